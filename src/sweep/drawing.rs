@@ -1,0 +1,52 @@
+//! What a study asks to have drawn from its results.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+/// The kinds of figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DrawingKind {
+    /// Displacements and velocities over time.
+    History,
+    /// Relative velocity over relative displacement, with the impact surface and section points.
+    PhasePortrait,
+    /// A section coordinate over an axis, with the progression speed below it.
+    Bifurcation,
+    /// One output over two axes.
+    Map,
+    /// Progression speed against an energy per cycle.
+    TradeOff,
+}
+
+/// One figure to draw.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Drawing {
+    /// Stem of the files to write.
+    pub name: String,
+    /// Kind of figure.
+    pub kind: DrawingKind,
+    /// Heading above the axes; none by default, as captions do that in a paper.
+    #[serde(default)]
+    pub title: Option<String>,
+    /// Axis along the abscissa; by default the first that is not fixed by `at`.
+    #[serde(default)]
+    pub x: Option<String>,
+    /// Axis along the ordinate (maps); by default the second that is not fixed by `at`.
+    #[serde(default)]
+    pub y: Option<String>,
+    /// Outputs drawn; the kind of figure has its own default.
+    #[serde(default)]
+    pub of: Vec<String>,
+    /// Where the other axes are held, in SI; the nearest grid value is taken, by default the first.
+    #[serde(default)]
+    pub at: BTreeMap<String, f64>,
+    /// Range of cycles shown by a history, counted from its start; all by default.
+    #[serde(default)]
+    pub cycles: Option<[f64; 2]>,
+    /// Width of the figure [mm]; by default one or two columns of a journal, as the kind needs.
+    #[serde(default)]
+    pub width_mm: Option<f64>,
+}
