@@ -1,5 +1,15 @@
 //! A bifurcation and basin mapper for the vibro-impact capsule.
+//!
+//! The modules are floors: each uses only those above it in this list, and each opens with a
+//! sentence saying what it does. A reader starts at `model`, which defines what is computed.
+
+pub mod lane;
+pub mod model;
+
+pub mod flow;
+
+pub mod sweep;
+
+pub mod store;
 
 pub mod figure;
-pub mod store;
-pub mod sweep;

@@ -1,0 +1,250 @@
+//! The vibro-impact capsule, its friction read in Filippov's sense.
+
+use crate::lane::elementary::not_finite;
+use crate::lane::{Lane, Mask, ORDER, Series, series};
+
+use super::resistance::Drag;
+use super::switched::{Locomotion, Switched, Zeros};
+use super::{Contact, Drive, EventKind, Jet, Parameter, Parameters, State, StickSlip};
+
+/// Guard of the contact, `r - delta` while closed and `delta - r` while open.
+const CONTACT: usize = 0;
+/// Guard of sliding, the speed; at rest, how far F is below the break-away force.
+const FORWARD: usize = 1;
+/// At rest, how far F is above minus the break-away force.
+const BACKWARD: usize = 2;
+
+/// The capsule with one set of parameters per lane.
+#[derive(Debug, Clone, Copy)]
+pub struct Capsule<L> {
+    k1: L,
+    c: L,
+    k2: L,
+    delta: L,
+    inverse_m1: L,
+    inverse_m2: L,
+    drive: Drive<L>,
+    drag: Drag<L>,
+}
+
+/// Which field acts in each lane.
+#[derive(Debug, Clone, Copy)]
+pub struct Mode<L: Lane> {
+    /// Whether the mass touches the stop.
+    closed: L::Mask,
+    /// Direction of sliding, +1 or -1; 0 at rest.
+    slip: L,
+}
+
+impl Capsule<f64> {
+    /// One capsule whose drive starts at `phase` [rad].
+    pub fn single(parameters: &Parameters, phase: f64) -> Self {
+        Capsule::new(|_| parameters, |_| phase)
+    }
+}
+
+impl<L: Lane> Capsule<L> {
+    /// The capsules of each lane's parameters and starting phase [rad], which share the first
+    /// lane's law of resistance.
+    pub fn new<'a>(
+        of: impl Fn(usize) -> &'a Parameters,
+        phase: impl Fn(usize) -> f64,
+    ) -> Self {
+        let lanes = |parameter: Parameter| L::from_fn(|lane| of(lane)[parameter]);
+        Capsule {
+            k1: lanes(Parameter::K1),
+            c: lanes(Parameter::C),
+            k2: lanes(Parameter::K2),
+            delta: lanes(Parameter::Delta),
+            inverse_m1: L::splat(1.0) / lanes(Parameter::M1),
+            inverse_m2: L::splat(1.0) / lanes(Parameter::M2),
+            drive: Drive::new(&of, phase),
+            drag: Drag::new(of(0).resistance, &of),
+        }
+    }
+
+    #[inline(always)]
+    fn contact_stiffness(&self, mode: &Mode<L>) -> L {
+        L::select(mode.closed, self.k2, L::splat(0.0))
+    }
+
+    /// The force of the mass on the capsule, F [N].
+    #[inline(always)]
+    fn force(&self, mode: &Mode<L>, state: &State<L>) -> L {
+        let contact = self.contact_stiffness(mode) * (state.r - self.delta);
+        self.k1 * state.r + contact + self.c * (state.y1 - state.y2)
+    }
+}
+
+impl<L: Lane> Switched<L> for Capsule<L> {
+    type State = State<L>;
+    type Mode = Mode<L>;
+    type Jet = Jet<L>;
+
+    const GUARDS: usize = 3;
+
+    fn start(&self, _time: L, state: &State<L>) -> Mode<L> {
+        let zero = L::splat(0.0);
+        let mut mode = Mode { closed: self.delta.lt(state.r), slip: zero };
+        let force = self.force(&mode, state);
+        let toward = |x: L| {
+            let forward = L::select(zero.lt(x), L::splat(1.0), zero);
+            L::select(x.lt(zero), L::splat(-1.0), forward)
+        };
+        let breaks_away = self.drag.break_away.lt(force.abs());
+        let from_rest = L::select(breaks_away, toward(force), zero);
+        mode.slip = L::select(state.y2.abs().le(zero), from_rest, toward(state.y2));
+        mode
+    }
+
+    #[inline(always)]
+    fn jet(&self, mode: &Mode<L>, time: L, state: &State<L>) -> Jet<L> {
+        let mut jet = Jet::zero();
+        let mut acceleration = series::zero();
+        let stiffness = self.k1 + self.contact_stiffness(mode);
+        let slides = L::splat(0.0).lt(mode.slip * mode.slip);
+        jet.cos = self.drive.cos(time);
+        (jet.r[0], jet.y1[0], jet.x2[0], jet.y2[0]) = (state.r, state.y1, state.x2, state.y2);
+        jet.force[0] = self.force(mode, state);
+        if slides.any() {
+            jet.decay[0] = self.drag.decay_start(state.y2);
+        }
+        for k in 0..ORDER {
+            let per = L::splat(series::INVERSE[k + 1]);
+            let relative = jet.y1[k] - jet.y2[k];
+            if k > 0 {
+                jet.force[k] = stiffness * jet.r[k] + self.c * relative;
+            }
+            let drive = self.drive.amplitude * jet.cos[k];
+            jet.r[k + 1] = relative * per;
+            jet.y1[k + 1] = (drive - jet.force[k]) * self.inverse_m1 * per;
+            if slides.any() {
+                let friction = self.drag.force_term(mode.slip, &jet.decay, &jet.y2, k);
+                let push = (jet.force[k] - friction) * self.inverse_m2;
+                acceleration[k] = L::select(slides, push, L::splat(0.0));
+                jet.y2[k + 1] = acceleration[k] * per;
+                jet.x2[k + 1] = jet.y2[k] * per;
+                jet.decay[k + 1] = self.drag.decay_term(mode.slip, &jet.decay, &acceleration, k);
+            }
+        }
+        jet.force[ORDER] =
+            stiffness * jet.r[ORDER] + self.c * (jet.y1[ORDER] - jet.y2[ORDER]);
+        jet
+    }
+
+    #[inline(always)]
+    fn pace<'a>(&self, jet: &'a Jet<L>) -> [&'a Series<L>; 2] {
+        [&jet.y1, &jet.y2]
+    }
+
+    #[inline(always)]
+    fn watched(&self, which: usize, mode: &Mode<L>) -> L::Mask {
+        match which {
+            BACKWARD => (mode.slip * mode.slip).lt(L::splat(0.5)),
+            _ => L::Mask::splat(true),
+        }
+    }
+
+    #[inline(always)]
+    fn guard(&self, which: usize, mode: &Mode<L>, jet: &Jet<L>) -> Series<L> {
+        let one = L::splat(1.0);
+        if which == CONTACT {
+            let side = L::select(mode.closed, one, -one);
+            let mut gap = jet.r.map(|a| side * a);
+            gap[0] = side * (jet.r[0] - self.delta);
+            return gap;
+        }
+        let side = if which == FORWARD { -one } else { one };
+        let resting = (mode.slip * mode.slip).lt(L::splat(0.5));
+        let mut guard = series::zero();
+        for k in 0..=ORDER {
+            guard[k] = L::select(resting, side * jet.force[k], mode.slip * jet.y2[k]);
+        }
+        guard[0] = guard[0] + L::select(resting, self.drag.break_away, L::splat(0.0));
+        guard
+    }
+
+    #[inline(always)]
+    fn at(&self, jet: &Jet<L>, h: L) -> State<L> {
+        jet.state(h)
+    }
+
+    #[inline(always)]
+    fn switch(
+        &self,
+        which: usize,
+        due: L::Mask,
+        mode: &mut Mode<L>,
+        state: &mut State<L>,
+        zeros: &mut Zeros<L>,
+        _time: L,
+    ) -> L {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        if which == CONTACT {
+            let code = L::select(
+                mode.closed,
+                EventKind::ContactOpened.code(),
+                EventKind::ContactClosed.code(),
+            );
+            mode.closed = (mode.closed & !due) | (!mode.closed & due);
+            state.r = L::select(due, self.delta, state.r);
+            zeros[CONTACT] = L::select(due, one, zeros[CONTACT]);
+            return L::select(due, code, zero);
+        }
+        let side = if which == FORWARD { one } else { -one };
+        let resting = (mode.slip * mode.slip).lt(L::splat(0.5));
+        let (leaves, stops) = (due & resting, due & !resting);
+        state.y2 = L::select(stops, zero, state.y2);
+        // One stored force decides between rest and reversal; friction cannot push the capsule on in
+        // the direction it was brought to rest from.
+        let against = -(mode.slip * self.force(mode, state));
+        let reverses = stops & self.drag.break_away.lt(against);
+        let sticks = stops & !reverses;
+        let onset = if which == FORWARD { EventKind::SlipForward } else { EventKind::SlipBackward };
+        mode.slip = L::select(leaves, side, mode.slip);
+        mode.slip = L::select(reverses, -mode.slip, L::select(sticks, zero, mode.slip));
+        zeros[FORWARD] = L::select(
+            leaves,
+            self.drag.onset_zeros(),
+            L::select(reverses, one, L::select(sticks, zero, zeros[FORWARD])),
+        );
+        let code = L::select(leaves, onset.code(), zero);
+        let code = L::select(reverses, EventKind::Reversal.code(), code);
+        L::select(sticks, EventKind::Stick.code(), code)
+    }
+
+    #[inline(always)]
+    fn lost(&self, state: &State<L>) -> L::Mask {
+        // Whatever goes wrong reaches the velocities through the forces.
+        not_finite(state.y1 + state.y2)
+    }
+}
+
+impl Locomotion for Capsule<f64> {
+    fn motion<'a>(&self, jet: &'a Jet<f64>) -> &'a Jet<f64> {
+        jet
+    }
+
+    fn friction(&self, mode: &Mode<f64>, jet: &Jet<f64>) -> Series<f64> {
+        if mode.slip == 0.0 {
+            return jet.force;
+        }
+        std::array::from_fn(|k| self.drag.force_term(mode.slip, &jet.decay, &jet.y2, k))
+    }
+
+    fn slip_rate(&self, _mode: &Mode<f64>, jet: &Jet<f64>) -> Series<f64> {
+        jet.y2
+    }
+
+    fn contact(&self, mode: &Mode<f64>) -> Contact {
+        if mode.closed { Contact::Closed } else { Contact::Open }
+    }
+
+    fn stick_slip(&self, mode: &Mode<f64>) -> StickSlip {
+        match mode.slip {
+            slip if slip > 0.0 => StickSlip::Forward,
+            slip if slip < 0.0 => StickSlip::Backward,
+            _ => StickSlip::Stick,
+        }
+    }
+}

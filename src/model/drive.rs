@@ -1,0 +1,47 @@
+//! The harmonic drive of the internal mass, p_d cos(omega t + phase).
+
+use crate::lane::{Lane, Series, elementary::sin_cos, series};
+
+use super::{Parameter, Parameters};
+
+/// Amplitude, frequency and phase at t = 0.
+#[derive(Debug, Clone, Copy)]
+pub struct Drive<L> {
+    /// Amplitude [N].
+    pub amplitude: L,
+    omega: L,
+    sin_phase: L,
+    cos_phase: L,
+}
+
+impl<L: Lane> Drive<L> {
+    /// The drive of each lane's parameters, started at each lane's phase [rad].
+    pub fn new<'a>(
+        of: impl Fn(usize) -> &'a Parameters,
+        phase: impl Fn(usize) -> f64,
+    ) -> Self {
+        let turn = 2.0 * std::f64::consts::PI;
+        let (sin_phase, cos_phase) = sin_cos(L::from_fn(|lane| phase(lane).rem_euclid(turn)));
+        Drive {
+            amplitude: L::from_fn(|lane| of(lane)[Parameter::Pd]),
+            omega: L::from_fn(|lane| of(lane)[Parameter::Omega]),
+            sin_phase,
+            cos_phase,
+        }
+    }
+
+    /// The series of `cos(omega t + phase)` from `time` since the start of the drive's cycle [s].
+    #[inline(always)]
+    pub fn cos(&self, time: L) -> Series<L> {
+        let (sin, cos) = sin_cos(self.omega * time);
+        let mut c = series::zero();
+        let mut s = sin * self.cos_phase + cos * self.sin_phase;
+        c[0] = cos * self.cos_phase - sin * self.sin_phase;
+        for k in 0..series::ORDER {
+            let rate = self.omega * L::splat(series::INVERSE[k + 1]);
+            c[k + 1] = -(rate * s);
+            s = rate * c[k];
+        }
+        c
+    }
+}

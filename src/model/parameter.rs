@@ -1,0 +1,223 @@
+//! The parameters of the capsule, by name, with units, meanings and what is allowed.
+
+use std::fmt;
+use std::ops::{Index, IndexMut};
+
+use super::{Resistance, Switching};
+
+/// A physical dimension that a parameter or coordinate can have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// Mass [kg].
+    Mass,
+    /// Stiffness [N/m].
+    Stiffness,
+    /// Viscous damping [N s/m].
+    Damping,
+    /// Quadratic drag [N s^2/m^2].
+    QuadraticDamping,
+    /// Length [m].
+    Length,
+    /// Force [N].
+    Force,
+    /// Angular frequency [rad/s].
+    AngularFrequency,
+    /// Velocity [m/s].
+    Velocity,
+    /// Acceleration [m/s^2].
+    Acceleration,
+    /// Angle [rad].
+    Angle,
+    /// A plain number.
+    Number,
+}
+
+impl Dimension {
+    /// The SI unit as written in tables and files.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Dimension::Mass => "kg",
+            Dimension::Stiffness => "N/m",
+            Dimension::Damping => "N s/m",
+            Dimension::QuadraticDamping => "N s2/m2",
+            Dimension::Length => "m",
+            Dimension::Force => "N",
+            Dimension::AngularFrequency => "rad/s",
+            Dimension::Velocity => "m/s",
+            Dimension::Acceleration => "m/s2",
+            Dimension::Angle => "rad",
+            Dimension::Number => "1",
+        }
+    }
+}
+
+/// What values a parameter may take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Allowed {
+    /// Any finite number.
+    Finite,
+    /// Finite and at least zero.
+    NonNegative,
+    /// Finite and above zero.
+    Positive,
+}
+
+impl Allowed {
+    /// Whether `value` may be used.
+    pub fn admits(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Allowed::Finite => true,
+                Allowed::NonNegative => value >= 0.0,
+                Allowed::Positive => value > 0.0,
+            }
+    }
+}
+
+impl fmt::Display for Allowed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Allowed::Finite => "a finite number",
+            Allowed::NonNegative => "a finite number, zero or above",
+            Allowed::Positive => "a finite number above zero",
+        })
+    }
+}
+
+macro_rules! parameters {
+    ($($variant:ident $symbol:literal $dimension:ident $allowed:ident $default:literal $meaning:literal;)*) => {
+        /// A parameter of the model.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Parameter {
+            $(#[doc = $meaning] $variant,)*
+        }
+
+        impl Parameter {
+            /// Every parameter, in the order of the paper's Table 1.
+            pub const ALL: &[Parameter] = &[$(Parameter::$variant,)*];
+
+            /// The symbol used in studies, on the command line and in files.
+            pub fn symbol(self) -> &'static str {
+                match self { $(Parameter::$variant => $symbol,)* }
+            }
+            /// Its dimension.
+            pub fn dimension(self) -> Dimension {
+                match self { $(Parameter::$variant => Dimension::$dimension,)* }
+            }
+            /// What values it may take.
+            pub fn allowed(self) -> Allowed {
+                match self { $(Parameter::$variant => Allowed::$allowed,)* }
+            }
+            /// What it is, in a phrase.
+            pub fn meaning(self) -> &'static str {
+                match self { $(Parameter::$variant => $meaning,)* }
+            }
+            fn default_value(self) -> f64 {
+                match self { $(Parameter::$variant => $default,)* }
+            }
+        }
+    };
+}
+
+// Table 1 of the paper; the four that it lets vary stand at the values of its Fig 5, and the one
+// friction coefficient that it gives is the static one, with half of it for the dynamic.
+parameters! {
+    M1 "m1" Mass Positive 0.11 "internal mass";
+    M2 "m2" Mass Positive 0.53 "mass of the capsule";
+    K1 "k1" Stiffness NonNegative 1420.0 "stiffness between mass and capsule";
+    C "c" Damping NonNegative 3.89 "damping between mass and capsule";
+    K2 "k2" Stiffness NonNegative 2420.0 "stiffness of the stop";
+    Delta "delta" Length Finite 0.0035 "gap between mass and stop";
+    Pd "p_d" Force NonNegative 4.0 "amplitude of the drive";
+    Omega "omega" AngularFrequency Positive 77.91 "frequency of the drive";
+    MuS "mu_s" Number NonNegative 0.66 "static friction coefficient";
+    MuD "mu_d" Number NonNegative 0.33 "dynamic friction coefficient";
+    Vs "v_s" Velocity Positive 0.3 "Stribeck velocity";
+    G "g" Acceleration NonNegative 9.81 "acceleration of gravity";
+    C1 "c1" Damping NonNegative 0.0 "linear drag of the medium";
+    C2 "c2" QuadraticDamping NonNegative 0.0 "quadratic drag of the medium";
+}
+
+impl Parameter {
+    /// The parameter with this symbol.
+    pub fn named(symbol: &str) -> Option<Parameter> {
+        Parameter::ALL.iter().copied().find(|parameter| parameter.symbol() == symbol)
+    }
+}
+
+/// A value for every parameter (SI), the law of resistance and the reading of the switching.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameters {
+    values: [f64; Parameter::ALL.len()],
+    /// Law of resistance to the capsule.
+    pub resistance: Resistance,
+    /// Reading of the switching between stick and slip.
+    pub switching: Switching,
+}
+
+impl Default for Parameters {
+    fn default() -> Self {
+        Parameters {
+            values: std::array::from_fn(|i| Parameter::ALL[i].default_value()),
+            resistance: Resistance::default(),
+            switching: Switching::default(),
+        }
+    }
+}
+
+impl Index<Parameter> for Parameters {
+    type Output = f64;
+    fn index(&self, parameter: Parameter) -> &f64 {
+        &self.values[parameter as usize]
+    }
+}
+
+impl IndexMut<Parameter> for Parameters {
+    fn index_mut(&mut self, parameter: Parameter) -> &mut f64 {
+        &mut self.values[parameter as usize]
+    }
+}
+
+/// A parameter whose value is not allowed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fault {
+    /// Which parameter.
+    pub parameter: Parameter,
+    /// The value it was given.
+    pub value: f64,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Fault { parameter, value } = self;
+        write!(
+            f,
+            "{} ({}) = {value} {}: must be {}",
+            parameter.symbol(),
+            parameter.meaning(),
+            parameter.dimension().unit(),
+            parameter.allowed()
+        )
+    }
+}
+
+impl Parameters {
+    /// Every value that is not allowed.
+    pub fn faults(&self) -> Vec<Fault> {
+        Parameter::ALL
+            .iter()
+            .map(|&parameter| Fault { parameter, value: self[parameter] })
+            .filter(|fault| !fault.parameter.allowed().admits(fault.value))
+            .collect()
+    }
+
+    /// Period of the drive, `2 pi / omega` [s].
+    pub fn drive_period(&self) -> f64 {
+        2.0 * std::f64::consts::PI / self[Parameter::Omega]
+    }
+
+    /// Normal load, `(m1 + m2) g` [N].
+    pub fn normal_load(&self) -> f64 {
+        (self[Parameter::M1] + self[Parameter::M2]) * self[Parameter::G]
+    }
+}

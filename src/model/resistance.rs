@@ -1,0 +1,133 @@
+//! What resists the capsule: dry friction by two laws, or a resistive medium.
+
+use serde::{Deserialize, Serialize};
+
+use crate::lane::{Lane, Series, elementary::exp_decay, series};
+
+use super::{Parameter, Parameters};
+
+/// The law of resistance to the capsule's motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Resistance {
+    /// `mu_d (1 + exp(-|y2|/v_s)) N` against the motion; the paper's law.
+    #[default]
+    CoulombStribeck,
+    /// `mu_d N` against the motion.
+    Coulomb,
+    /// `c1 y2 + c2 |y2| y2` against the motion; nothing sticks in a medium (paper, Fig 1b).
+    Medium,
+}
+
+/// How the friction switches between sticking and slipping.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Switching {
+    /// Friction is set-valued at rest: the capsule slips until it stops, and rests until broken away.
+    #[default]
+    Filippov,
+    /// Eq. (1) of the paper to the letter: the capsule freezes while |F| <= f_s, even at speed.
+    AsPrinted,
+}
+
+/// A law of resistance with its constants.
+#[derive(Debug, Clone, Copy)]
+pub struct Drag<L> {
+    /// The law.
+    pub law: Resistance,
+    /// `mu_d N`, zero in a medium [N].
+    pub dynamic: L,
+    /// Force needed to leave rest, `f_b` [N].
+    pub break_away: L,
+    /// `f_s = mu_s N`, zero in a medium [N].
+    pub static_limit: L,
+    /// Resistance at vanishing speed, `f_d(0+)` [N].
+    pub at_onset: L,
+    /// `1/v_s` [s/m].
+    inverse_stribeck: L,
+    linear: L,
+    quadratic: L,
+}
+
+impl<L: Lane> Drag<L> {
+    /// The law with the constants of each lane's parameters.
+    pub fn new<'a>(law: Resistance, of: impl Fn(usize) -> &'a Parameters) -> Self {
+        let lanes = |value: &dyn Fn(&Parameters) -> f64| L::from_fn(|lane| value(of(lane)));
+        let load = |p: &Parameters| (p[Parameter::M1] + p[Parameter::M2]) * p[Parameter::G];
+        let dynamic = move |p: &Parameters| p[Parameter::MuD] * load(p);
+        let static_limit = move |p: &Parameters| p[Parameter::MuS] * load(p);
+        let dry = law != Resistance::Medium;
+        let onset = match law {
+            Resistance::CoulombStribeck => 2.0,
+            Resistance::Coulomb => 1.0,
+            Resistance::Medium => 0.0,
+        };
+        let zero = L::splat(0.0);
+        Drag {
+            law,
+            dynamic: if dry { lanes(&dynamic) } else { zero },
+            static_limit: if dry { lanes(&static_limit) } else { zero },
+            at_onset: lanes(&|p| onset * dynamic(p)),
+            break_away: if dry {
+                lanes(&|p| static_limit(p).max(onset * dynamic(p)))
+            } else {
+                zero
+            },
+            inverse_stribeck: lanes(&|p| 1.0 / p[Parameter::Vs]),
+            linear: lanes(&|p| p[Parameter::C1]),
+            quadratic: lanes(&|p| p[Parameter::C2]),
+        }
+    }
+
+    /// How many leading coefficients of |y2| vanish when the capsule leaves rest at `f_b`.
+    ///
+    /// With a static limit above the dynamic friction the acceleration jumps (one); with none above
+    /// it, it starts from zero and y2 leaves zero with a double root (two).
+    #[inline(always)]
+    pub fn onset_zeros(&self) -> L {
+        L::select(self.at_onset.lt(self.break_away), L::splat(1.0), L::splat(2.0))
+    }
+
+    /// `exp(-|y2|/v_s)` at the start of a step; zero where the law has no such term.
+    #[inline(always)]
+    pub fn decay_start(&self, y2: L) -> L {
+        match self.law {
+            Resistance::CoulombStribeck => exp_decay(-(y2.abs() * self.inverse_stribeck)),
+            Resistance::Coulomb | Resistance::Medium => L::splat(0.0),
+        }
+    }
+
+    /// Coefficient `k` of the resisting force while slipping in direction `slip` (+1 or -1).
+    ///
+    /// `decay` is the series of exp(-|y2|/v_s), known up to `k` like that of `y2`.
+    #[inline(always)]
+    pub fn force_term(&self, slip: L, decay: &Series<L>, y2: &Series<L>, k: usize) -> L {
+        match self.law {
+            Resistance::CoulombStribeck | Resistance::Coulomb => {
+                let unit = if k == 0 { decay[0] + L::splat(1.0) } else { decay[k] };
+                slip * self.dynamic * unit
+            }
+            Resistance::Medium => {
+                self.linear * y2[k] + self.quadratic * (slip * series::product_term(y2, y2, k))
+            }
+        }
+    }
+
+    /// Coefficient `k + 1` of exp(-|y2|/v_s), from `e' = -(slip/v_s) e y2'`.
+    #[inline(always)]
+    pub fn decay_term(
+        &self,
+        slip: L,
+        decay: &Series<L>,
+        acceleration: &Series<L>,
+        k: usize,
+    ) -> L {
+        match self.law {
+            Resistance::CoulombStribeck => {
+                let product = series::product_term(decay, acceleration, k);
+                -(slip * self.inverse_stribeck * product) * L::splat(series::INVERSE[k + 1])
+            }
+            Resistance::Coulomb | Resistance::Medium => L::splat(0.0),
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! What the capsule's motion is made of: state, mode, event and the series of a step.
+
+use serde::Serialize;
+
+use crate::lane::{Lane, Series, series};
+
+/// Positions and velocities [m, m/s].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct State<L> {
+    /// Relative displacement of the mass, `x1 - x2` [m].
+    pub r: L,
+    /// Velocity of the mass [m/s].
+    pub y1: L,
+    /// Displacement of the capsule [m].
+    pub x2: L,
+    /// Velocity of the capsule [m/s].
+    pub y2: L,
+}
+
+impl<L: Lane> State<L> {
+    /// The state of each lane.
+    pub fn from_fn(mut state: impl FnMut(usize) -> State<f64>) -> Self {
+        State {
+            r: L::from_fn(|i| state(i).r),
+            y1: L::from_fn(|i| state(i).y1),
+            x2: L::from_fn(|i| state(i).x2),
+            y2: L::from_fn(|i| state(i).y2),
+        }
+    }
+}
+
+/// Whether the mass touches the stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Contact {
+    /// Apart.
+    Open,
+    /// Touching.
+    Closed,
+}
+
+/// Whether and where the capsule slides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StickSlip {
+    /// At rest on the ground.
+    Stick,
+    /// Sliding forward.
+    Forward,
+    /// Sliding backward.
+    Backward,
+}
+
+/// What happens where a mode ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EventKind {
+    /// The mass reaches the stop: an impact.
+    ContactClosed = 1,
+    /// The mass leaves the stop.
+    ContactOpened,
+    /// The capsule starts to slide forward from rest.
+    SlipForward,
+    /// The capsule starts to slide backward from rest.
+    SlipBackward,
+    /// The capsule comes to rest.
+    Stick,
+    /// The capsule turns round without resting.
+    Reversal,
+}
+
+impl EventKind {
+    /// The kind as a number that a lane can hold; zero stands for no event.
+    #[inline(always)]
+    pub fn code<L: Lane>(self) -> L {
+        L::splat(f64::from(self as u8))
+    }
+
+    /// The kind with this number, none for zero.
+    pub fn from_code(code: f64) -> Option<EventKind> {
+        use EventKind::{
+            ContactClosed, ContactOpened, Reversal, SlipBackward, SlipForward, Stick,
+        };
+        [ContactClosed, ContactOpened, SlipForward, SlipBackward, Stick, Reversal]
+            .into_iter()
+            .find(|&kind| f64::from(kind as u8) == code)
+    }
+}
+
+/// Taylor series of a step of the capsule, in the time since its start.
+#[derive(Debug, Clone)]
+pub struct Jet<L> {
+    /// Relative displacement [m].
+    pub r: Series<L>,
+    /// Velocity of the mass [m/s].
+    pub y1: Series<L>,
+    /// Displacement of the capsule [m].
+    pub x2: Series<L>,
+    /// Velocity of the capsule as a state [m/s].
+    pub y2: Series<L>,
+    /// Force of the mass on the capsule, F [N].
+    pub force: Series<L>,
+    /// `exp(-|y2|/v_s)`, or zero where the law of resistance has no such term [-].
+    pub decay: Series<L>,
+    /// `cos` of the phase of the drive [-].
+    pub cos: Series<L>,
+}
+
+impl<L: Lane> Jet<L> {
+    /// Zero everywhere.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        let zero = series::zero();
+        Jet { r: zero, y1: zero, x2: zero, y2: zero, force: zero, decay: zero, cos: zero }
+    }
+
+    /// The state `h` after the start of the step.
+    #[inline(always)]
+    pub fn state(&self, h: L) -> State<L> {
+        State {
+            r: series::value(&self.r, h),
+            y1: series::value(&self.y1, h),
+            x2: series::value(&self.x2, h),
+            y2: series::value(&self.y2, h),
+        }
+    }
+}

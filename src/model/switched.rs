@@ -1,0 +1,83 @@
+//! The seam between physics and integration: a system whose field switches where a guard falls
+//! through zero.
+
+use crate::lane::{Lane, Series};
+
+use super::{Contact, EventKind, Jet, State, StickSlip};
+
+/// The most guards a system may have.
+pub const MAX_GUARDS: usize = 4;
+
+/// How many leading coefficients of each guard are known to vanish.
+///
+/// A guard that has just fired starts at zero; dividing out the known power of time leaves a
+/// polynomial with the later roots only, and nothing needs to be offset.
+pub type Zeros<L> = [L; MAX_GUARDS];
+
+/// A system of ordinary differential equations with modes, guards and resets.
+///
+/// In each mode the field has a Taylor series of any order, and each guard is a series too, positive
+/// while the mode lasts. The integrator knows a system only through this trait.
+pub trait Switched<L: Lane> {
+    /// What the field acts on.
+    type State: Copy;
+    /// Which field acts.
+    type Mode: Copy;
+    /// The Taylor series of a step.
+    type Jet;
+
+    /// How many guards there are, at most [`MAX_GUARDS`].
+    const GUARDS: usize;
+
+    /// The mode a motion starts in; a guard that is due at once is then obeyed without an event.
+    fn start(&self, time: L, state: &Self::State) -> Self::Mode;
+
+    /// The series of the motion in `mode` from `state` at `time`.
+    fn jet(&self, mode: &Self::Mode, time: L, state: &Self::State) -> Self::Jet;
+
+    /// The series whose decay sets the length of a step.
+    fn pace<'a>(&self, jet: &'a Self::Jet) -> [&'a Series<L>; 2];
+
+    /// Whether guard `which` can end `mode`.
+    fn watched(&self, which: usize, mode: &Self::Mode) -> L::Mask;
+
+    /// Guard `which`: positive while `mode` lasts, ends it where it falls through zero.
+    fn guard(&self, which: usize, mode: &Self::Mode, jet: &Self::Jet) -> Series<L>;
+
+    /// The state `h` after the start of the step.
+    fn at(&self, jet: &Self::Jet, h: L) -> Self::State;
+
+    /// Obeys guard `which` where `due`: sets the next mode, moves the state onto the surface (or
+    /// resets it), says which guards of the next mode start at zero, and returns the kind of event
+    /// as a number, zero where none is due.
+    fn switch(
+        &self,
+        which: usize,
+        due: L::Mask,
+        mode: &mut Self::Mode,
+        state: &mut Self::State,
+        zeros: &mut Zeros<L>,
+        time: L,
+    ) -> L;
+
+    /// Where the state is not a finite number.
+    fn lost(&self, state: &Self::State) -> L::Mask;
+}
+
+/// A switched system that is a capsule, so that speed and energies can be told from its motion.
+pub trait Locomotion: Switched<f64, State = State<f64>> {
+    /// The motion in the series of a step.
+    fn motion<'a>(&self, jet: &'a Self::Jet) -> &'a Jet<f64>;
+    /// The friction force on the capsule, opposing its motion while it slides and F at rest [N].
+    fn friction(&self, mode: &Self::Mode, jet: &Self::Jet) -> Series<f64>;
+    /// The rate of x2, which the equation as printed lets differ from y2 [m/s].
+    fn slip_rate(&self, mode: &Self::Mode, jet: &Self::Jet) -> Series<f64>;
+    /// Whether the mass touches the stop.
+    fn contact(&self, mode: &Self::Mode) -> Contact;
+    /// Whether and where the capsule slides.
+    fn stick_slip(&self, mode: &Self::Mode) -> StickSlip;
+    /// The kind of an event that `switch` reported; none for zero.
+    fn event(&self, code: f64) -> Option<EventKind> {
+        EventKind::from_code(code)
+    }
+}
