@@ -8,6 +8,8 @@ pub mod model;
 
 pub mod flow;
 
+pub mod orbit;
+
 pub mod sweep;
 
 pub mod store;

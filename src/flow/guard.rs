@@ -167,6 +167,36 @@ fn root<L: Lane>(polynomial: &Series<L>, end: L, mask: L::Mask) -> L {
     t
 }
 
+/// Shows `found` each time in (0, length] at which the polynomial changes sign, and whether it falls.
+///
+/// Method: [`first_fall`] again and again, on the polynomial shifted to where it is known to, and
+/// turned over after each crossing.
+pub fn crossings(polynomial: &Series<f64>, length: f64, mut found: impl FnMut(f64, bool)) {
+    let mut rest = *polynomial;
+    let mut positive = rest.iter().find(|&&a| a != 0.0).is_none_or(|&a| a > 0.0);
+    if !positive {
+        rest = rest.map(|a| -a);
+    }
+    let mut start = 0.0;
+    // A polynomial has no more crossings than its degree; the rest are intervals without one.
+    for _ in 0..HALVINGS * ORDER {
+        let fall = first_fall(&rest, length - start, true);
+        start += fall.length;
+        if fall.falls {
+            found(start, positive);
+        }
+        if start >= length {
+            return;
+        }
+        rest = series::shifted(&rest, fall.length);
+        if fall.falls {
+            rest[0] = 0.0;
+            rest = rest.map(|a| -a);
+            positive = !positive;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -197,6 +227,21 @@ mod tests {
         let (a, b) = (0.3, 0.3 + 1e-6);
         let fall = fall_of(&[a * b, -(a + b), 1.0]).expect("falls");
         assert!((fall - a).abs() < 1e-10, "{fall}");
+    }
+
+    #[test]
+    fn finds_every_crossing_with_its_direction() {
+        // Chebyshev's T4 on [0, 1] has its roots at (1 - cos((2j - 1) pi / 8)) / 2.
+        let mut seen = Vec::new();
+        crossings(&guard(&[1.0, -32.0, 160.0, -256.0, 128.0]), 1.0, |t, falls| {
+            seen.push((t, falls));
+        });
+        assert_eq!(seen.len(), 4);
+        for (j, (t, falls)) in seen.into_iter().enumerate() {
+            let angle = (2 * j + 1) as f64 * std::f64::consts::PI / 8.0;
+            assert!((t - (1.0 - libm::cos(angle)) / 2.0).abs() < 1e-13);
+            assert_eq!(falls, j % 2 == 0);
+        }
     }
 
     #[test]

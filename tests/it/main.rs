@@ -1,1 +1,4 @@
-//! tests
+//! The tests of the whole: closed forms, invariants, references, and the program as its users run it.
+
+mod paper;
+mod reference;

@@ -1,0 +1,186 @@
+//! What a stretch of motion costs and yields: energies, counts, shares and margins.
+
+use crate::flow::Step;
+use crate::flow::guard::crossings;
+use crate::lane::{Series, series};
+use crate::model::{Contact, EventKind, Locomotion, Parameter, Parameters, StickSlip};
+
+/// A point of the impact section: where contact closes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    /// Time since the start of the drive cycle [s].
+    pub time: f64,
+    /// Velocity of the mass [m/s].
+    pub y1: f64,
+    /// Velocity of the capsule [m/s].
+    pub y2: f64,
+}
+
+/// Sums over the steps that it has seen.
+#[derive(Debug, Clone)]
+pub struct Account {
+    p_d: f64,
+    c: f64,
+    k2: f64,
+    delta: f64,
+    /// Time seen [s].
+    pub time: f64,
+    /// Work of the drive [J].
+    pub work_net: f64,
+    /// Its positive part [J].
+    pub work_positive: f64,
+    /// The integral of its magnitude [J].
+    pub work_absolute: f64,
+    /// Work of a drive that acts between mass and capsule [J].
+    pub work_actuator: f64,
+    /// Energy lost to the resistance of the ground [J].
+    pub friction_loss: f64,
+    /// Energy lost in the damper [J].
+    pub damper_loss: f64,
+    /// Integral of the friction force over time [N s].
+    pub friction_impulse: f64,
+    /// Time at rest [s].
+    pub stick_time: f64,
+    /// Largest contact force [N].
+    pub peak_contact_force: f64,
+    /// Least distance between a local maximum of r and the stop [m]; infinite while there is none.
+    pub grazing_margin: f64,
+    /// How often contact closed.
+    pub impacts: u64,
+    /// How often the capsule began to slide forward, by onset or by reversal.
+    pub forward_slips: u64,
+    /// How often the capsule began to slide backward.
+    pub backward_slips: u64,
+    /// How often it turned round without resting.
+    pub reversals: u64,
+    rate_of_r: f64,
+}
+
+impl Account {
+    /// Nothing seen yet.
+    pub fn new(parameters: &Parameters) -> Self {
+        Account {
+            p_d: parameters[Parameter::Pd],
+            c: parameters[Parameter::C],
+            k2: parameters[Parameter::K2],
+            delta: parameters[Parameter::Delta],
+            time: 0.0,
+            work_net: 0.0,
+            work_positive: 0.0,
+            work_absolute: 0.0,
+            work_actuator: 0.0,
+            friction_loss: 0.0,
+            damper_loss: 0.0,
+            friction_impulse: 0.0,
+            stick_time: 0.0,
+            peak_contact_force: 0.0,
+            grazing_margin: f64::INFINITY,
+            impacts: 0,
+            forward_slips: 0,
+            backward_slips: 0,
+            reversals: 0,
+            rate_of_r: 0.0,
+        }
+    }
+
+    /// Adds a step.
+    pub fn add<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
+        self.time += step.length;
+        if step.length > 0.0 {
+            self.add_energies(system, step);
+            self.add_extremes(system, step);
+        }
+        self.count(system, step);
+    }
+
+    fn add_energies<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
+        let h = step.length;
+        let jet = system.motion(&step.jet);
+        let power = series::product(&jet.cos, &jet.y1).map(|a| self.p_d * a);
+        let work = series::integral(&power, h);
+        self.work_net += work;
+        self.add_signed_work(&jet.cos, &jet.y1, &power, work, h);
+
+        let relative: Series<f64> = std::array::from_fn(|k| jet.y1[k] - jet.y2[k]);
+        self.damper_loss += self.c * series::integral(&series::product(&relative, &relative), h);
+        let friction = system.friction(&step.mode, &step.jet);
+        self.friction_impulse += series::integral(&friction, h);
+        if system.stick_slip(&step.mode) == StickSlip::Stick {
+            self.stick_time += h;
+            self.work_actuator += work;
+        } else {
+            let slip = system.slip_rate(&step.mode, &step.jet);
+            self.friction_loss += series::integral(&series::product(&friction, &slip), h);
+            let carried = self.p_d * series::integral(&series::product(&jet.cos, &slip), h);
+            self.work_actuator += work - carried;
+        }
+    }
+
+    /// Splits the work where the power changes sign.
+    fn add_signed_work(
+        &mut self,
+        cos: &Series<f64>,
+        y1: &Series<f64>,
+        power: &[f64],
+        work: f64,
+        h: f64,
+    ) {
+        let mut cuts = Vec::new();
+        crossings(cos, h, |t, _| cuts.push(t));
+        crossings(y1, h, |t, _| cuts.push(t));
+        cuts.sort_by(f64::total_cmp);
+        let mut before = 0.0;
+        let pieces = cuts.iter().map(|&t| series::integral(power, t)).chain([work]);
+        for until in pieces {
+            let piece = until - before;
+            self.work_positive += piece.max(0.0);
+            self.work_absolute += piece.abs();
+            before = until;
+        }
+    }
+
+    /// Looks at the local maxima of r, which hold the peak force and the margin to grazing.
+    fn add_extremes<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
+        let r = &system.motion(&step.jet).r;
+        let rate = series::derivative(r);
+        // The printed equation lets r turn with a corner, between two steps.
+        if self.rate_of_r > 0.0 && rate[0] < 0.0 {
+            self.meet_maximum(r[0]);
+        }
+        crossings(&rate, step.length, |t, falls| {
+            if falls {
+                self.meet_maximum(series::value(r, t));
+            }
+        });
+        self.rate_of_r = series::value(&rate, step.length);
+        if system.contact(&step.mode) == Contact::Closed {
+            self.meet_contact(r[0]);
+        }
+    }
+
+    fn meet_maximum(&mut self, r: f64) {
+        self.grazing_margin = self.grazing_margin.min((self.delta - r).abs());
+        self.meet_contact(r);
+    }
+
+    fn meet_contact(&mut self, r: f64) {
+        self.peak_contact_force = self.peak_contact_force.max(self.k2 * (r - self.delta));
+    }
+
+    fn count<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
+        match system.event(step.event) {
+            Some(EventKind::ContactClosed) => self.impacts += 1,
+            Some(EventKind::SlipForward) => self.forward_slips += 1,
+            Some(EventKind::SlipBackward) => self.backward_slips += 1,
+            Some(EventKind::Reversal) => {
+                self.reversals += 1;
+                if system.stick_slip(&step.mode) == StickSlip::Forward {
+                    self.backward_slips += 1;
+                } else {
+                    self.forward_slips += 1;
+                }
+            }
+            Some(EventKind::ContactOpened | EventKind::Stick) | None => {}
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! A case on its way, one drive cycle at a time.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::flow::{Breakdown, Motion, Step};
+use crate::model::{Locomotion, State};
+
+/// A cycle of so many steps is taken for a motion that cannot be followed.
+const STEPS_PER_CYCLE: usize = 200_000;
+
+/// A point of the stroboscopic section: r [m], y1 [m/s], y2 [m/s].
+pub type Section = [f64; 3];
+
+/// Why a case could not be followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Reason {
+    /// Events follow each other without time passing.
+    NoProgress,
+    /// The state is no longer a finite number.
+    NotFinite,
+    /// A single drive cycle takes too many steps.
+    TooManySteps,
+}
+
+/// Where and why a case failed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Failure {
+    /// Why.
+    pub reason: Reason,
+    /// Time since the start [s].
+    pub time: f64,
+    /// Where it was.
+    pub state: State<f64>,
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let State { r, y1, x2, y2 } = self.state;
+        let reason = match self.reason {
+            Reason::NoProgress => Breakdown::NoProgress.to_string(),
+            Reason::NotFinite => Breakdown::NotFinite.to_string(),
+            Reason::TooManySteps => format!("a drive cycle takes over {STEPS_PER_CYCLE} steps"),
+        };
+        write!(f, "{reason}, at t = {} s, r = {r} m, y1 = {y1} m/s, x2 = {x2} m, y2 = {y2} m/s", self.time)
+    }
+}
+
+/// A case on its way.
+pub struct Traveller<'a, S: Locomotion> {
+    system: &'a S,
+    motion: Motion<f64, S>,
+    drive_period: f64,
+    tolerance: f64,
+    /// Whole cycles since the start.
+    pub cycles: u64,
+}
+
+impl<'a, S: Locomotion> Traveller<'a, S> {
+    /// Sets out from `start` at t = 0; `drive_period` [s], relative local `tolerance`.
+    pub fn new(system: &'a S, start: State<f64>, drive_period: f64, tolerance: f64) -> Self {
+        let motion = Motion::new(system, 0.0, start);
+        Traveller { system, motion, drive_period, tolerance, cycles: 0 }
+    }
+
+    /// Where it is.
+    pub fn state(&self) -> State<f64> {
+        self.motion.state
+    }
+
+    /// The point of the section, when a cycle has just ended.
+    pub fn section(&self) -> Section {
+        let State { r, y1, y2, .. } = self.motion.state;
+        [r, y1, y2]
+    }
+
+    /// Goes on for one drive cycle and shows each step to `see`.
+    pub fn cycle(&mut self, mut see: impl FnMut(&Step<f64, S>)) -> Result<(), Failure> {
+        for _ in 0..STEPS_PER_CYCLE {
+            see(&self.motion.step(self.system, self.drive_period, self.tolerance));
+            if let Some(breakdown) = self.motion.breakdown(self.system, 0) {
+                return Err(self.failure(match breakdown {
+                    Breakdown::NoProgress => Reason::NoProgress,
+                    Breakdown::NotFinite => Reason::NotFinite,
+                }));
+            }
+            if self.motion.time >= self.drive_period {
+                self.motion.begin_cycle(true);
+                self.cycles += 1;
+                return Ok(());
+            }
+        }
+        Err(self.failure(Reason::TooManySteps))
+    }
+
+    fn failure(&self, reason: Reason) -> Failure {
+        let time = self.cycles as f64 * self.drive_period + self.motion.time;
+        Failure { reason, time, state: self.motion.state }
+    }
+}

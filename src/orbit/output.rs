@@ -1,0 +1,76 @@
+//! The numbers that sum up a case, with units and meanings.
+
+use std::ops::{Index, IndexMut};
+
+macro_rules! outputs {
+    ($($variant:ident $name:literal $unit:literal $meaning:literal;)*) => {
+        /// A number that sums up a case.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Output {
+            $(#[doc = $meaning] $variant,)*
+        }
+
+        impl Output {
+            /// Every output, in the order of files and tables.
+            pub const ALL: &[Output] = &[$(Output::$variant,)*];
+
+            /// The name used in studies and files.
+            pub fn name(self) -> &'static str {
+                match self { $(Output::$variant => $name,)* }
+            }
+            /// Its unit; "1" where it has none.
+            pub fn unit(self) -> &'static str {
+                match self { $(Output::$variant => $unit,)* }
+            }
+            /// What it is, in a phrase.
+            pub fn meaning(self) -> &'static str {
+                match self { $(Output::$variant => $meaning,)* }
+            }
+        }
+    };
+}
+
+outputs! {
+    ProgressionSpeed "progression_speed" "m/s" "average progression speed of the capsule";
+    ProgressionPerCycle "progression_per_cycle" "m" "progression of the capsule per drive cycle";
+    WorkNet "work_net" "J" "work of the drive per cycle";
+    WorkPositive "work_positive" "J" "positive work of the drive per cycle, nothing regenerated";
+    WorkAbsolute "work_absolute" "J" "magnitude of the work of the drive per cycle, both signs paid";
+    WorkActuator "work_actuator" "J" "work per cycle of a drive that acts between mass and capsule";
+    FrictionLoss "friction_loss" "J" "energy lost to the resistance of the ground per cycle";
+    DamperLoss "damper_loss" "J" "energy lost in the damper per cycle";
+    EnergyResidual "energy_residual" "1" "work_net less both losses, relative to work_absolute";
+    MomentumResidual "momentum_residual" "1" "mean friction force, relative to the drive and break-away forces";
+    CostOfTransport "cost_of_transport" "1" "work_positive over weight times progression";
+    ImpactsPerCycle "impacts_per_cycle" "1" "impacts per cycle";
+    ForwardSlips "forward_slips_per_cycle" "1" "episodes of forward sliding per cycle";
+    BackwardSlips "backward_slips_per_cycle" "1" "episodes of backward sliding per cycle";
+    Reversals "reversals_per_cycle" "1" "reversals of the capsule without rest per cycle";
+    StickShare "stick_share" "1" "share of time at which the capsule rests";
+    PeakContactForce "peak_contact_force" "N" "largest contact force";
+    GrazingMargin "grazing_margin" "m" "least distance between a local maximum of x1 - x2 and the stop";
+}
+
+/// A value for every output (SI).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outputs([f64; Output::ALL.len()]);
+
+impl Outputs {
+    /// Nothing known: NaN everywhere.
+    pub fn unknown() -> Self {
+        Outputs([f64::NAN; Output::ALL.len()])
+    }
+}
+
+impl Index<Output> for Outputs {
+    type Output = f64;
+    fn index(&self, output: Output) -> &f64 {
+        &self.0[output as usize]
+    }
+}
+
+impl IndexMut<Output> for Outputs {
+    fn index_mut(&mut self, output: Output) -> &mut f64 {
+        &mut self.0[output as usize]
+    }
+}

@@ -1,0 +1,260 @@
+//! What a case settles to: its outcome, its period and everything measured on the attractor.
+
+use serde::Serialize;
+
+use crate::model::{
+    Capsule, EventKind, Locomotion, Parameter, Parameters, PrintedCapsule, Resistance, State,
+    Switching,
+};
+
+use super::recurrence::Recurrence;
+use super::{
+    Account, Failure, History, HistorySpan, Impact, Output, Outputs, Section, Traveller,
+};
+
+/// What a case turned out to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// The section repeats after `period` cycles.
+    Periodic = 0,
+    /// Neighbouring motions part exponentially.
+    Chaotic,
+    /// Neither repeats nor parts.
+    QuasiPeriodic,
+    /// Not settled within the budget of cycles.
+    Undecided,
+    /// Could not be followed.
+    Failed,
+}
+
+impl Outcome {
+    /// Every outcome, in the order of their numbers.
+    pub const ALL: [Outcome; 5] = [
+        Outcome::Periodic,
+        Outcome::Chaotic,
+        Outcome::QuasiPeriodic,
+        Outcome::Undecided,
+        Outcome::Failed,
+    ];
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Outcome::Periodic => "periodic",
+            Outcome::Chaotic => "chaotic",
+            Outcome::QuasiPeriodic => "quasi-periodic",
+            Outcome::Undecided => "undecided",
+            Outcome::Failed => "failed",
+        }
+    }
+}
+
+/// How a case is followed and judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Protocol {
+    /// Relative local error of a step.
+    pub tolerance: f64,
+    /// How closely the section must repeat, relative to its size.
+    pub recurrence: f64,
+    /// Cycles after which a case that has not settled is undecided.
+    pub max_cycles: u64,
+    /// Longest period looked for [cycles].
+    pub max_period: usize,
+    /// Cycles over which an undecided case is measured.
+    pub measured_cycles: u64,
+    /// Section points kept at most.
+    pub points: usize,
+    /// Impacts kept at most.
+    pub impact_points: usize,
+    /// Time history to keep.
+    pub history: Option<HistorySpan>,
+}
+
+impl Default for Protocol {
+    fn default() -> Self {
+        Protocol {
+            tolerance: 1e-12,
+            recurrence: 1e-11,
+            max_cycles: 2000,
+            max_period: 32,
+            measured_cycles: 128,
+            points: 64,
+            impact_points: 64,
+            history: None,
+        }
+    }
+}
+
+/// What a case settled to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orbit {
+    /// What it turned out to be.
+    pub outcome: Outcome,
+    /// Its period [cycles]; zero unless periodic.
+    pub period: u64,
+    /// Cycles followed, measuring included.
+    pub cycles: u64,
+    /// Per-cycle sums and the like; NaN where the case failed.
+    pub outputs: Outputs,
+    /// Section points of the measured cycles, up to `Protocol::points`.
+    pub section: Vec<Section>,
+    /// Impacts of the measured cycles, up to `Protocol::impact_points`.
+    pub impacts: Vec<Impact>,
+    /// Samples of the motion, where the protocol asks for them.
+    pub history: Option<History>,
+    /// Where it was last.
+    pub end: State<f64>,
+    /// Why it could not be followed, if so.
+    pub failure: Option<Failure>,
+}
+
+/// Follows the capsule from `start`, the drive at `phase` [rad], until it settles, and measures it.
+pub fn settle(
+    parameters: &Parameters,
+    phase: f64,
+    start: State<f64>,
+    protocol: &Protocol,
+) -> Orbit {
+    match parameters.switching {
+        Switching::Filippov => {
+            settle_on(&Capsule::single(parameters, phase), parameters, start, protocol)
+        }
+        Switching::AsPrinted => {
+            settle_on(&PrintedCapsule::single(parameters, phase), parameters, start, protocol)
+        }
+    }
+}
+
+fn settle_on<S: Locomotion>(
+    system: &S,
+    parameters: &Parameters,
+    start: State<f64>,
+    protocol: &Protocol,
+) -> Orbit {
+    let mut traveller =
+        Traveller::new(system, start, parameters.drive_period(), protocol.tolerance);
+    let measured = find_period(&mut traveller, protocol).and_then(|period| {
+        let cycles = period.unwrap_or(protocol.measured_cycles.max(1));
+        let measures = measure(&mut traveller, system, parameters, cycles, protocol)?;
+        let history = match protocol.history {
+            None => None,
+            Some(span) => {
+                let settled = State { x2: 0.0, ..traveller.state() };
+                let from = if span.from_start { start } else { settled };
+                Some(History::sample(system, parameters, from, span, protocol.tolerance)?)
+            }
+        };
+        Ok((period, measures, history))
+    });
+    let (cycles, end) = (traveller.cycles, traveller.state());
+    match measured {
+        Ok((period, (outputs, section, impacts), history)) => Orbit {
+            outcome: if period.is_some() { Outcome::Periodic } else { Outcome::Undecided },
+            period: period.unwrap_or(0),
+            cycles,
+            outputs,
+            section,
+            impacts,
+            history,
+            end,
+            failure: None,
+        },
+        Err(failure) => Orbit {
+            outcome: Outcome::Failed,
+            period: 0,
+            cycles,
+            outputs: Outputs::unknown(),
+            section: Vec::new(),
+            impacts: Vec::new(),
+            history: None,
+            end,
+            failure: Some(failure),
+        },
+    }
+}
+
+/// Follows until the section repeats; none when the budget of cycles ends first.
+fn find_period<S: Locomotion>(
+    traveller: &mut Traveller<'_, S>,
+    protocol: &Protocol,
+) -> Result<Option<u64>, Failure> {
+    let mut recurrence = Recurrence::new(protocol.max_period, protocol.recurrence);
+    recurrence.meet(traveller.section());
+    while traveller.cycles < protocol.max_cycles {
+        traveller.cycle(|_| ())?;
+        if let Some(period) = recurrence.meet(traveller.section()) {
+            return Ok(Some(period as u64));
+        }
+    }
+    Ok(None)
+}
+
+type Measures = (Outputs, Vec<Section>, Vec<Impact>);
+
+fn measure<S: Locomotion>(
+    traveller: &mut Traveller<'_, S>,
+    system: &S,
+    parameters: &Parameters,
+    cycles: u64,
+    protocol: &Protocol,
+) -> Result<Measures, Failure> {
+    let mut account = Account::new(parameters);
+    let (mut section, mut impacts) = (Vec::new(), Vec::new());
+    let x2 = traveller.state().x2;
+    for _ in 0..cycles {
+        if section.len() < protocol.points {
+            section.push(traveller.section());
+        }
+        traveller.cycle(|step| {
+            account.add(system, step);
+            let closes = system.event(step.event) == Some(EventKind::ContactClosed);
+            if closes && impacts.len() < protocol.impact_points {
+                let State { y1, y2, .. } = system.at(&step.jet, step.length);
+                impacts.push(Impact { time: step.start + step.length, y1, y2 });
+            }
+        })?;
+    }
+    let progression = (traveller.state().x2 - x2) / cycles as f64;
+    Ok((outputs(&account, parameters, progression, cycles as f64), section, impacts))
+}
+
+/// The outputs per cycle, from the sums over `cycles` and the `progression` per cycle [m].
+fn outputs(account: &Account, parameters: &Parameters, progression: f64, cycles: f64) -> Outputs {
+    let mut outputs = Outputs::unknown();
+    let losses = account.friction_loss + account.damper_loss;
+    let break_away = match parameters.resistance {
+        Resistance::Medium => 0.0,
+        _ => parameters[Parameter::MuS] * parameters.normal_load(),
+    };
+    let force = parameters[Parameter::Pd] + break_away;
+    let ratio = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
+    let cost_of_transport = if progression == 0.0 {
+        f64::INFINITY
+    } else {
+        account.work_positive / cycles / (parameters.normal_load() * progression.abs())
+    };
+    for (output, value) in [
+        (Output::ProgressionSpeed, progression / parameters.drive_period()),
+        (Output::ProgressionPerCycle, progression),
+        (Output::WorkNet, account.work_net / cycles),
+        (Output::WorkPositive, account.work_positive / cycles),
+        (Output::WorkAbsolute, account.work_absolute / cycles),
+        (Output::WorkActuator, account.work_actuator / cycles),
+        (Output::FrictionLoss, account.friction_loss / cycles),
+        (Output::DamperLoss, account.damper_loss / cycles),
+        (Output::EnergyResidual, ratio(account.work_net - losses, account.work_absolute)),
+        (Output::MomentumResidual, ratio(account.friction_impulse / account.time, force)),
+        (Output::CostOfTransport, cost_of_transport),
+        (Output::ImpactsPerCycle, account.impacts as f64 / cycles),
+        (Output::ForwardSlips, account.forward_slips as f64 / cycles),
+        (Output::BackwardSlips, account.backward_slips as f64 / cycles),
+        (Output::Reversals, account.reversals as f64 / cycles),
+        (Output::StickShare, account.stick_time / account.time),
+        (Output::PeakContactForce, account.peak_contact_force),
+        (Output::GrazingMargin, account.grazing_margin),
+    ] {
+        outputs[output] = value;
+    }
+    outputs
+}

@@ -1,0 +1,134 @@
+//! One case in full: every section point, every event, and the sums since the start.
+
+use serde::Serialize;
+
+use crate::model::{
+    Capsule, EventKind, Locomotion, Parameters, PrintedCapsule, State, Switching,
+};
+
+use super::{Account, Failure, Traveller};
+
+/// State and sums at the end of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Sample {
+    /// Cycles since the start.
+    pub n: u64,
+    /// Time since the start [s].
+    pub t: f64,
+    /// Relative displacement [m].
+    pub r: f64,
+    /// Velocity of the mass [m/s].
+    pub y1: f64,
+    /// Displacement of the capsule [m].
+    pub x2: f64,
+    /// Velocity of the capsule [m/s].
+    pub y2: f64,
+    /// Work of the drive since the start [J].
+    pub work_net: f64,
+    /// Its positive part [J].
+    pub work_positive: f64,
+    /// The integral of its magnitude [J].
+    pub work_absolute: f64,
+    /// Work of a drive that acts between mass and capsule [J].
+    pub work_actuator: f64,
+    /// Energy lost to the resistance of the ground [J].
+    pub friction_loss: f64,
+    /// Energy lost in the damper [J].
+    pub damper_loss: f64,
+    /// Impacts since the start.
+    pub impacts: u64,
+}
+
+/// An event with its time since the start [s].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Event {
+    /// When [s].
+    pub t: f64,
+    /// What.
+    pub kind: EventKind,
+}
+
+/// A case followed from its start for a number of cycles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Simulation {
+    /// One sample per cycle, that at the start included.
+    pub section: Vec<Sample>,
+    /// Every event in order.
+    pub events: Vec<Event>,
+    /// Why it stopped early, if it did.
+    pub failure: Option<Failure>,
+}
+
+/// Follows the capsule from `start`, the drive at `phase` [rad], for `cycles` drive cycles.
+pub fn simulate(
+    parameters: &Parameters,
+    phase: f64,
+    start: State<f64>,
+    cycles: u64,
+    tolerance: f64,
+) -> Simulation {
+    match parameters.switching {
+        Switching::Filippov => {
+            let system = Capsule::single(parameters, phase);
+            simulate_on(&system, parameters, start, cycles, tolerance)
+        }
+        Switching::AsPrinted => {
+            let system = PrintedCapsule::single(parameters, phase);
+            simulate_on(&system, parameters, start, cycles, tolerance)
+        }
+    }
+}
+
+fn simulate_on<S: Locomotion>(
+    system: &S,
+    parameters: &Parameters,
+    start: State<f64>,
+    cycles: u64,
+    tolerance: f64,
+) -> Simulation {
+    let drive_period = parameters.drive_period();
+    let mut account = Account::new(parameters);
+    let mut traveller = Traveller::new(system, start, drive_period, tolerance);
+    let mut events = Vec::new();
+    let mut section = vec![sample(&traveller, &account, drive_period)];
+    let mut failure = None;
+    for n in 0..cycles {
+        let begun = n as f64 * drive_period;
+        let followed = traveller.cycle(|step| {
+            account.add(system, step);
+            if let Some(kind) = system.event(step.event) {
+                events.push(Event { t: begun + (step.start + step.length), kind });
+            }
+        });
+        if let Err(why) = followed {
+            failure = Some(why);
+            break;
+        }
+        section.push(sample(&traveller, &account, drive_period));
+    }
+    Simulation { section, events, failure }
+}
+
+fn sample<S: Locomotion>(
+    traveller: &Traveller<'_, S>,
+    account: &Account,
+    drive_period: f64,
+) -> Sample {
+    let State { r, y1, x2, y2 } = traveller.state();
+    let n = traveller.cycles;
+    Sample {
+        n,
+        t: n as f64 * drive_period,
+        r,
+        y1,
+        x2,
+        y2,
+        work_net: account.work_net,
+        work_positive: account.work_positive,
+        work_absolute: account.work_absolute,
+        work_actuator: account.work_actuator,
+        friction_loss: account.friction_loss,
+        damper_loss: account.damper_loss,
+        impacts: account.impacts,
+    }
+}

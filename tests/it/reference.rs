@@ -1,0 +1,64 @@
+//! The thirty reference trajectories, computed in 113-bit arithmetic by another code.
+
+use capsulemap::model::{Parameter, Parameters, State};
+use capsulemap::orbit::simulate;
+use serde_json::Value;
+
+fn number(value: &Value, key: &str) -> f64 {
+    value[key].as_f64().unwrap_or_else(|| panic!("{key} in {value}"))
+}
+
+#[test]
+fn every_reference_trajectory_is_reproduced() {
+    let text = include_str!("../data/trajectories.json");
+    let file: Value = serde_json::from_str(text).expect("the reference file is JSON");
+    let cases = file["cases"].as_array().expect("cases");
+    assert_eq!(cases.len(), 30);
+    let (mut worst_state, mut worst_event) = (0.0_f64, 0.0_f64);
+    for case in cases {
+        let id = &case["id"];
+        let mut parameters = Parameters::default();
+        for parameter in
+            [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta, Parameter::MuS, Parameter::MuD]
+        {
+            parameters[parameter] = number(case, parameter.symbol());
+        }
+        let of = |key| number(&case["start"], key);
+        let start = State { r: of("r"), y1: of("y1"), x2: of("x2"), y2: of("y2") };
+        let simulation = simulate(&parameters, 0.0, start, 20, 1e-12);
+        assert!(simulation.failure.is_none(), "case {id}");
+        for (sample, expected) in simulation.section.iter().zip(case["section"].as_array().unwrap()) {
+            for (key, value) in [
+                ("r", sample.r),
+                ("y1", sample.y1),
+                ("x2", sample.x2),
+                ("y2", sample.y2),
+                ("work_net", sample.work_net),
+                ("work_positive", sample.work_positive),
+                ("friction_loss", sample.friction_loss),
+                ("damper_loss", sample.damper_loss),
+            ] {
+                let error = (value - number(expected, key)).abs() / number(&case["scale"], key);
+                // A loss that is zero has the scale 1e-300: it must be met exactly.
+                assert!(error <= 1e-10, "case {id}, n = {}, {key}: {error:e}", sample.n);
+                worst_state = worst_state.max(error);
+            }
+            assert_eq!(Some(sample.impacts), expected["impacts"].as_u64(), "case {id}");
+        }
+        let events = case["events"].as_array().unwrap();
+        let kinds = |value: &Value| value["kind"].as_str().unwrap().to_owned();
+        let ours: Vec<String> = simulation
+            .events
+            .iter()
+            .map(|event| kinds(&serde_json::to_value(event).unwrap()))
+            .collect();
+        let theirs: Vec<String> = events.iter().map(kinds).collect();
+        assert_eq!(ours, theirs, "case {id}");
+        for (event, expected) in simulation.events.iter().zip(events) {
+            let error = (event.t - number(expected, "t")).abs();
+            assert!(error <= 1e-10, "case {id}: {event:?} is {error:e} s off");
+            worst_event = worst_event.max(error);
+        }
+    }
+    println!("worst: {worst_state:.1e} of the scales, {worst_event:.1e} s");
+}
