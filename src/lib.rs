@@ -15,3 +15,5 @@ pub mod sweep;
 pub mod store;
 
 pub mod figure;
+
+pub mod cli;

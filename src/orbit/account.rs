@@ -8,8 +8,8 @@ use crate::model::{Contact, EventKind, Locomotion, Parameter, Parameters, StickS
 /// A point of the impact section: where contact closes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact {
-    /// Time since the start of the drive cycle [s].
-    pub time: f64,
+    /// Phase of the drive since the section, 0 to 2 pi [rad].
+    pub phase: f64,
     /// Velocity of the mass [m/s].
     pub y1: f64,
     /// Velocity of the capsule [m/s].

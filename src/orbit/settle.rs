@@ -211,7 +211,8 @@ fn measure<S: Locomotion>(
             let closes = system.event(step.event) == Some(EventKind::ContactClosed);
             if closes && impacts.len() < protocol.impact_points {
                 let State { y1, y2, .. } = system.at(&step.jet, step.length);
-                impacts.push(Impact { time: step.start + step.length, y1, y2 });
+                let phase = parameters[Parameter::Omega] * (step.start + step.length);
+                impacts.push(Impact { phase, y1, y2 });
             }
         })?;
     }

@@ -2,11 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
-
 /// The kinds of figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DrawingKind {
     /// Displacements and velocities over time.
     History,
@@ -20,33 +17,36 @@ pub enum DrawingKind {
     TradeOff,
 }
 
+impl DrawingKind {
+    /// Each kind by its name in studies and on the command line.
+    pub const NAMES: [(&str, DrawingKind); 5] = [
+        ("history", DrawingKind::History),
+        ("phase-portrait", DrawingKind::PhasePortrait),
+        ("bifurcation", DrawingKind::Bifurcation),
+        ("map", DrawingKind::Map),
+        ("trade-off", DrawingKind::TradeOff),
+    ];
+}
+
 /// One figure to draw.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
     /// Stem of the files to write.
     pub name: String,
     /// Kind of figure.
     pub kind: DrawingKind,
     /// Heading above the axes; none by default, as captions do that in a paper.
-    #[serde(default)]
     pub title: Option<String>,
     /// Axis along the abscissa; by default the first that is not fixed by `at`.
-    #[serde(default)]
     pub x: Option<String>,
     /// Axis along the ordinate (maps); by default the second that is not fixed by `at`.
-    #[serde(default)]
     pub y: Option<String>,
     /// Outputs drawn; the kind of figure has its own default.
-    #[serde(default)]
     pub of: Vec<String>,
     /// Where the other axes are held, in SI; the nearest grid value is taken, by default the first.
-    #[serde(default)]
     pub at: BTreeMap<String, f64>,
     /// Range of cycles shown by a history, counted from its start; all by default.
-    #[serde(default)]
     pub cycles: Option<[f64; 2]>,
     /// Width of the figure [mm]; by default one or two columns of a journal, as the kind needs.
-    #[serde(default)]
     pub width_mm: Option<f64>,
 }

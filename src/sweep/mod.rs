@@ -1,4 +1,16 @@
-//! Repeated: turns a study into cases and cases into records.
+//! Repeated: turns a study into cases and cases into records, in parallel, in any order.
 
+pub mod axis;
+pub mod document;
 pub mod drawing;
+pub mod quantity;
+pub mod run;
+pub mod study;
+mod study_file;
+
+pub use axis::{Axis, Coordinate};
+pub use document::{Fault, Faults};
 pub use drawing::{Drawing, DrawingKind};
+pub use quantity::parse_quantity;
+pub use run::{Record, run};
+pub use study::{Case, Direction, Follow, Study};

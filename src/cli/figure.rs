@@ -1,0 +1,182 @@
+//! `capsulemap figure`: figures from a file of results.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::Failure;
+use crate::figure::{Format, draw};
+use crate::model::Dimension;
+use crate::store::{self, Dataset};
+use crate::sweep::document::unknown;
+use crate::sweep::{Coordinate, Drawing, DrawingKind, Study, parse_quantity};
+
+const EXAMPLES: &str = "\
+Examples:
+  capsulemap figure results/overview/overview.h5
+  capsulemap figure FILE.h5 --kind map --of progression_speed --x omega --y p_d --formats pdf
+  capsulemap figure FILE.h5 --kind bifurcation --at \"p_d=4 N\" --name at-4-newton";
+
+/// Draw the figures that the study asks for, or one of your own.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Figure {
+    /// The file of results.
+    file: PathBuf,
+    /// Kind of figure; without it, the figures of the study are drawn.
+    #[arg(long, value_enum)]
+    kind: Option<KindChoice>,
+    /// Outputs to draw.
+    #[arg(long, value_delimiter = ',', requires = "kind")]
+    of: Vec<String>,
+    /// Axis along the abscissa.
+    #[arg(long, requires = "kind")]
+    x: Option<String>,
+    /// Axis along the ordinate of a map.
+    #[arg(long, requires = "kind")]
+    y: Option<String>,
+    /// Where another axis is held; the nearest value is taken.
+    #[arg(long, value_name = "AXIS=VALUE", requires = "kind")]
+    at: Vec<String>,
+    /// Heading above the axes.
+    #[arg(long, requires = "kind")]
+    title: Option<String>,
+    /// Cycles that a history shows, as 0,5.
+    #[arg(long, value_delimiter = ',', num_args = 2, requires = "kind")]
+    cycles: Vec<f64>,
+    /// Width in mm.
+    #[arg(long, requires = "kind")]
+    width: Option<f64>,
+    /// Stem of the files; the kind of figure by default.
+    #[arg(long, requires = "kind")]
+    name: Option<String>,
+    /// Folder to write to; that of the file of results by default.
+    #[arg(long)]
+    folder: Option<PathBuf>,
+    /// File formats.
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "png,svg,pdf")]
+    formats: Vec<FormatChoice>,
+}
+
+/// Formats on the command line.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum FormatChoice {
+    /// Pixels.
+    Png,
+    /// Vectors for the web.
+    Svg,
+    /// Vectors for a paper.
+    Pdf,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum KindChoice {
+    History,
+    PhasePortrait,
+    Bifurcation,
+    Map,
+    TradeOff,
+}
+
+impl Figure {
+    /// Carries the command out.
+    pub fn run(&self) -> Result<(), Failure> {
+        let dataset = store::read(&self.file).map_err(Failure::request)?;
+        let here = self.file.parent().unwrap_or(Path::new("."));
+        let folder = self.folder.as_deref().unwrap_or(here);
+        let drawings = match self.kind {
+            Some(kind) => vec![self.drawing(kind)?],
+            None => studied(&dataset, &self.file)?,
+        };
+        draw_all(&dataset, &drawings, folder, &self.formats)
+    }
+
+    fn drawing(&self, kind: KindChoice) -> Result<Drawing, Failure> {
+        let kind = match kind {
+            KindChoice::History => DrawingKind::History,
+            KindChoice::PhasePortrait => DrawingKind::PhasePortrait,
+            KindChoice::Bifurcation => DrawingKind::Bifurcation,
+            KindChoice::Map => DrawingKind::Map,
+            KindChoice::TradeOff => DrawingKind::TradeOff,
+        };
+        let kind_name = || {
+            let found = DrawingKind::NAMES.iter().find(|(_, known)| *known == kind);
+            found.map_or("figure", |(name, _)| name).to_owned()
+        };
+        Ok(Drawing {
+            name: self.name.clone().unwrap_or_else(kind_name),
+            kind,
+            title: self.title.clone(),
+            x: self.x.clone(),
+            y: self.y.clone(),
+            of: self.of.clone(),
+            at: self.held()?,
+            cycles: <[f64; 2]>::try_from(self.cycles.as_slice()).ok(),
+            width_mm: self.width,
+        })
+    }
+
+    fn held(&self) -> Result<BTreeMap<String, f64>, Failure> {
+        let mut held = BTreeMap::new();
+        for text in &self.at {
+            let Some((name, value)) = text.split_once('=') else {
+                return Err(Failure::request(format!("--at {text}: expected AXIS=VALUE")));
+            };
+            let Some(coordinate) = Coordinate::all().find(|c| c.name() == name) else {
+                let names = Coordinate::all().map(Coordinate::name);
+                return Err(Failure::request(format!("--at: {}", unknown("axis", name, names))));
+            };
+            let dimension: Dimension = coordinate.dimension();
+            let plain = value.trim().parse::<f64>().map_err(|_| ());
+            let value = plain.or_else(|()| parse_quantity(value, dimension));
+            let value = value.map_err(|m| Failure::request(format!("--at {name}: {m}")))?;
+            held.insert(name.to_owned(), value);
+        }
+        Ok(held)
+    }
+}
+
+/// The figures that the study in the file asks for.
+fn studied(dataset: &Dataset, file: &Path) -> Result<Vec<Drawing>, Failure> {
+    let text = dataset.texts.get("study").map_or("", String::as_str);
+    let study = Study::parse(&format!("the study in {}", file.display()), text);
+    let drawings = study.map_err(Failure::request)?.drawings;
+    if drawings.is_empty() {
+        let message = format!("{}: its study asks for no figures; name a --kind", file.display());
+        return Err(Failure::request(message));
+    }
+    Ok(drawings)
+}
+
+/// Draws each figure and says where it went.
+pub fn draw_all(
+    dataset: &Dataset,
+    drawings: &[Drawing],
+    folder: &Path,
+    formats: &[FormatChoice],
+) -> Result<(), Failure> {
+    let formats: Vec<Format> = formats
+        .iter()
+        .map(|format| match format {
+            FormatChoice::Png => Format::Png,
+            FormatChoice::Svg => Format::Svg,
+            FormatChoice::Pdf => Format::Pdf,
+        })
+        .collect();
+    for drawing in drawings {
+        let paths = draw(dataset, drawing, folder, &formats).map_err(|error| {
+            if error.is_request() { Failure::request(error) } else { Failure::machine(error) }
+        })?;
+        let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+        eprintln!("{}", names.join(" "));
+    }
+    Ok(())
+}
+
+/// The name of a file without its folder and ending.
+pub fn file_stem(path: &Path) -> Result<String, Failure> {
+    let stem = path.file_stem().and_then(|stem| stem.to_str());
+    let missing = || Failure::request(format!("{}: names no file", path.display()));
+    stem.map(str::to_owned).ok_or_else(missing)
+}

@@ -1,0 +1,135 @@
+//! `capsulemap inspect`: what is in a file of results.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::{Map, Value, json};
+
+use super::{Failure, print};
+use crate::store::{self, Dataset, Values, Variable};
+
+const EXAMPLES: &str = "\
+Examples:
+  capsulemap inspect results/overview/overview.h5
+  capsulemap inspect results/overview/overview.h5 --json | jq .variables.progression_speed
+  capsulemap inspect results/overview/overview.h5 --study > again.toml";
+
+/// Say what is in a file of results.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Inspect {
+    /// The file of results.
+    file: PathBuf,
+    /// Print one JSON object.
+    #[arg(long, conflicts_with = "study")]
+    json: bool,
+    /// Print the study that the results came from.
+    #[arg(long)]
+    study: bool,
+}
+
+impl Inspect {
+    /// Carries the command out.
+    pub fn run(&self) -> Result<(), Failure> {
+        let dataset = store::read(&self.file).map_err(Failure::request)?;
+        if self.study {
+            print(dataset.texts.get("study").map_or("", String::as_str))
+        } else if self.json {
+            print(&format!("{:#}\n", describe(&dataset)))
+        } else {
+            print(&tell(&dataset))
+        }
+    }
+}
+
+/// Least and greatest value that is a number, and how many are not.
+fn range(values: &Values) -> (Option<[f64; 2]>, usize) {
+    let reals = values.to_real();
+    let mut finite = reals.iter().copied().filter(|value| value.is_finite());
+    let missing = reals.iter().filter(|value| value.is_nan()).count();
+    let first = finite.next();
+    let range = first.map(|first| {
+        finite.fold([first, first], |[low, high], value| [low.min(value), high.max(value)])
+    });
+    (range, missing)
+}
+
+fn describe(dataset: &Dataset) -> Value {
+    let one = |variable: &Variable| {
+        let (range, missing) = range(&variable.values);
+        json!({
+            "dimensions": variable.dimensions,
+            "shape": variable.values.shape(),
+            "unit": variable.unit,
+            "long_name": variable.long_name,
+            "range": range,
+            "missing": missing,
+        })
+    };
+    let coordinates: Map<String, Value> =
+        dataset.coordinates.iter().map(|(name, v)| (name.clone(), one(v))).collect();
+    let variables: Map<String, Value> =
+        dataset.variables.iter().map(|(name, v)| (name.clone(), one(v))).collect();
+    json!({
+        "attributes": dataset.attributes,
+        "coordinates": coordinates,
+        "variables": variables,
+        "outcomes": outcomes(dataset).into_iter().collect::<Map<_, _>>(),
+    })
+}
+
+/// How many cases came out how.
+fn outcomes(dataset: &Dataset) -> Vec<(String, Value)> {
+    let Some(Variable { values: Values::Integer(codes), flags, .. }) = dataset.variable("outcome")
+    else {
+        return Vec::new();
+    };
+    let count = |code: i64| codes.iter().filter(|&&found| found == code).count();
+    flags.iter().map(|(code, name)| (name.clone(), json!(count(*code)))).collect()
+}
+
+fn tell(dataset: &Dataset) -> String {
+    let mut text = String::new();
+    // Writing to a String cannot fail.
+    for (name, value) in &dataset.attributes {
+        let _ = writeln!(text, "{name}: {value}");
+    }
+    let counts: Vec<String> =
+        outcomes(dataset).iter().map(|(name, count)| format!("{count} {name}")).collect();
+    let _ = writeln!(text, "outcomes: {}", counts.join(", "));
+    let constant = |variable: &Variable| variable.dimensions.is_empty();
+    text.push_str("\ncoordinates\n");
+    for (name, variable) in &dataset.coordinates {
+        tell_variable(&mut text, name, variable);
+    }
+    text.push_str("\nvariables\n");
+    for (name, variable) in dataset.variables.iter().filter(|(_, v)| !constant(v)) {
+        tell_variable(&mut text, name, variable);
+    }
+    text.push_str("\nconstants\n");
+    for (name, variable) in dataset.variables.iter().filter(|(_, v)| constant(v)) {
+        tell_variable(&mut text, name, variable);
+    }
+    text
+}
+
+fn tell_variable(text: &mut String, name: &str, variable: &Variable) {
+    let shape: Vec<String> = variable.values.shape().iter().map(ToString::to_string).collect();
+    let (range, missing) = range(&variable.values);
+    let mut values = match range {
+        Some([low, high]) if low == high => format!("{low:.6}"),
+        Some([low, high]) => format!("{low:.6} .. {high:.6}"),
+        None => "no values".to_owned(),
+    };
+    if missing > 0 {
+        let _ = write!(values, " ({missing} missing)");
+    }
+    let unit = if variable.unit == "1" { "" } else { &variable.unit };
+    let _ = writeln!(
+        text,
+        "  {name:<24} {:<12} {values} {unit}  [{}]",
+        shape.join(" x "),
+        variable.long_name
+    );
+}

@@ -1,0 +1,83 @@
+//! Asked for: connects the floors and talks to the person.
+
+mod failure;
+mod figure;
+mod inspect;
+mod progress;
+mod simulate;
+mod sweep;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+
+use failure::Failure;
+
+const EXAMPLES: &str = "\
+Examples:
+  capsulemap simulate --omega \"77.91 rad/s\" --p-d \"4 N\" --k2 \"2.42 kN/m\" --delta \"3.5 mm\"
+  capsulemap sweep studies/overview.toml
+  capsulemap inspect results/overview/overview.h5
+  capsulemap figure results/overview/overview.h5 --kind map --of work_positive
+
+Exit codes: 0 done; 2 a mistake in what was asked; 3 a fault of the machine (disk, memory).";
+
+/// Bifurcation and basin mapper for the vibro-impact capsule.
+#[derive(Debug, Parser)]
+#[command(version, about, after_help = EXAMPLES, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Follow one case in full: section, events, and what it settles to.
+    Simulate(Box<simulate::Simulate>),
+    /// Compute a study: its cases over all cores, one HDF5 file, and its figures.
+    Sweep(sweep::Sweep),
+    /// Draw figures from a file of results.
+    Figure(figure::Figure),
+    /// Say what is in a file of results.
+    Inspect(inspect::Inspect),
+    /// Print the completions of a shell.
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+}
+
+/// Runs the program on the command line it was started with.
+pub fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Simulate(simulate) => simulate.run(),
+        Command::Sweep(sweep) => sweep.run(),
+        Command::Figure(figure) => figure.run(),
+        Command::Inspect(inspect) => inspect.run(),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "capsulemap", &mut script);
+            print(&String::from_utf8_lossy(&script))
+        }
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("capsulemap: {failure}");
+            failure.exit_code()
+        }
+    }
+}
+
+/// Prints to standard output; a reader that has gone away is no fault.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::machine(format!("cannot write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}

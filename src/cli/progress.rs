@@ -1,0 +1,64 @@
+//! Progress of a long run: a bar on a terminal, plain lines in a log.
+
+use std::io::IsTerminal;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Between two lines of a log at least.
+const LINE_INTERVAL: Duration = Duration::from_secs(10);
+
+/// Shows how many cases are done, how fast, and how long the rest will take.
+pub struct Progress {
+    total: usize,
+    begun: Instant,
+    bar: Option<ProgressBar>,
+    lines: Mutex<Lines>,
+}
+
+struct Lines {
+    done: usize,
+    next: Duration,
+}
+
+impl Progress {
+    /// Begins to watch `total` cases.
+    pub fn new(total: usize) -> Self {
+        let bar = std::io::stderr().is_terminal().then(|| {
+            let style = ProgressStyle::with_template(
+                "{wide_bar} {human_pos}/{human_len} cases, {per_sec}, {eta_precise} left",
+            )
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+            ProgressBar::new(total as u64).with_style(style)
+        });
+        let lines = Mutex::new(Lines { done: 0, next: LINE_INTERVAL });
+        Progress { total, begun: Instant::now(), bar, lines }
+    }
+
+    /// Notes that one more case is done.
+    pub fn step(&self) {
+        if let Some(bar) = &self.bar {
+            bar.inc(1);
+            return;
+        }
+        let Ok(mut lines) = self.lines.lock() else { return };
+        lines.done += 1;
+        let elapsed = self.begun.elapsed();
+        if elapsed >= lines.next {
+            lines.next = elapsed + LINE_INTERVAL;
+            let rate = lines.done as f64 / elapsed.as_secs_f64();
+            let left = (self.total - lines.done) as f64 / rate;
+            let (done, total) = (lines.done, self.total);
+            eprintln!("{done}/{total} cases, {rate:.0} cases/s, {left:.0} s left");
+        }
+    }
+
+    /// Ends the watch; returns the time it took.
+    pub fn finish(&self) -> Duration {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+        self.begun.elapsed()
+    }
+}

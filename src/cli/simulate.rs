@@ -1,0 +1,283 @@
+//! `capsulemap simulate`: one case in full.
+
+use std::fmt::Write;
+
+use clap::{Args, ValueEnum};
+use serde_json::{Map, Value, json};
+
+use super::{Failure, print};
+use crate::model::{Dimension, Parameter, Parameters, Resistance, State, Switching};
+use crate::orbit::{Orbit, Output, Protocol, Simulation, settle, simulate};
+use crate::sweep::{document::unknown, parse_quantity};
+
+const EXAMPLES: &str = "\
+Examples:
+  capsulemap simulate --omega \"20.73 rad/s\" --p-d \"4 N\" --k2 \"18.96 kN/m\" --delta \"1.5 mm\" --json
+  capsulemap simulate --set mu_s=0.4 --set mu_d=0.2 --start r=-2.5e-3,y2=0.1 --cycles 50
+  capsulemap simulate --friction-switching as-printed
+
+A number without a unit is in SI. What is not given is as in the paper's Table 1 and Fig 5.";
+
+/// Follow one case from its start, then on to what it settles to.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Simulate {
+    /// Frequency of the drive, as "77.91 rad/s" or "12.4 Hz".
+    #[arg(long, value_name = "QUANTITY")]
+    omega: Option<String>,
+    /// Amplitude of the drive, as "4 N".
+    #[arg(long, value_name = "QUANTITY")]
+    p_d: Option<String>,
+    /// Stiffness of the stop, as "2.42 kN/m".
+    #[arg(long, value_name = "QUANTITY")]
+    k2: Option<String>,
+    /// Gap between mass and stop, as "3.5 mm".
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
+    delta: Option<String>,
+    /// Any parameter (m1, m2, k1, c, k2, delta, p_d, omega, mu_s, mu_d, v_s, g, c1, c2).
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Start of the motion (r, y1, x2, y2); at rest by default.
+    #[arg(long, value_name = "NAME=VALUE,...", allow_hyphen_values = true)]
+    start: Option<String>,
+    /// Phase of the drive at t = 0, as "90 deg".
+    #[arg(long, value_name = "QUANTITY", default_value = "0", allow_hyphen_values = true)]
+    phase: String,
+    /// Drive cycles to follow in full.
+    #[arg(long, default_value_t = 20)]
+    cycles: u64,
+    /// Relative local error of a step.
+    #[arg(long, default_value_t = 1e-12)]
+    tolerance: f64,
+    /// Drive cycles within which the motion must settle.
+    #[arg(long, default_value_t = 2000)]
+    max_cycles: u64,
+    /// Reading of the switching between stick and slip.
+    #[arg(long, value_enum, default_value = "filippov")]
+    friction_switching: SwitchingChoice,
+    /// Law of resistance to the capsule.
+    #[arg(long, value_enum, default_value = "coulomb-stribeck")]
+    resistance: ResistanceChoice,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum SwitchingChoice {
+    Filippov,
+    AsPrinted,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ResistanceChoice {
+    CoulombStribeck,
+    Coulomb,
+    Medium,
+}
+
+/// A case as it was asked for.
+struct Request {
+    parameters: Parameters,
+    start: State<f64>,
+    phase: f64,
+}
+
+impl Simulate {
+    /// Carries the command out.
+    pub fn run(&self) -> Result<(), Failure> {
+        let Request { parameters, start, phase } = self.request()?;
+        let simulation = simulate(&parameters, phase, start, self.cycles, self.tolerance);
+        let protocol = Protocol {
+            tolerance: self.tolerance,
+            recurrence: (10.0 * self.tolerance).max(Protocol::default().recurrence),
+            max_cycles: self.max_cycles,
+            ..Protocol::default()
+        };
+        let orbit = settle(&parameters, phase, start, &protocol);
+        if self.json {
+            let object = json!({
+                "parameters": parameters_json(&parameters),
+                "section": simulation.section,
+                "events": simulation.events,
+                "failure": failure_json(&simulation),
+                "orbit": orbit_json(&orbit),
+            });
+            print(&format!("{object:#}\n"))
+        } else {
+            print(&summary(&simulation, &orbit))
+        }
+    }
+
+    fn request(&self) -> Result<Request, Failure> {
+        let mut faults = Vec::new();
+        let mut parameters = Parameters {
+            switching: match self.friction_switching {
+                SwitchingChoice::Filippov => Switching::Filippov,
+                SwitchingChoice::AsPrinted => Switching::AsPrinted,
+            },
+            resistance: match self.resistance {
+                ResistanceChoice::CoulombStribeck => Resistance::CoulombStribeck,
+                ResistanceChoice::Coulomb => Resistance::Coulomb,
+                ResistanceChoice::Medium => Resistance::Medium,
+            },
+            ..Parameters::default()
+        };
+        let named = [
+            ("--omega", Parameter::Omega, &self.omega),
+            ("--p-d", Parameter::Pd, &self.p_d),
+            ("--k2", Parameter::K2, &self.k2),
+            ("--delta", Parameter::Delta, &self.delta),
+        ];
+        for (option, parameter, text) in named {
+            if let Some(text) = text {
+                let value = quantity(option, text, parameter.dimension(), &mut faults);
+                parameters[parameter] = value;
+            }
+        }
+        let symbols = || Parameter::ALL.iter().map(|parameter| parameter.symbol());
+        for (name, text) in pairs("--set", self.set.iter().map(String::as_str), &mut faults) {
+            match Parameter::named(name) {
+                Some(parameter) => {
+                    let option = format!("--set {name}");
+                    let value = quantity(&option, text, parameter.dimension(), &mut faults);
+                    parameters[parameter] = value;
+                }
+                None => faults.push(format!("--set: {}", unknown("parameter", name, symbols()))),
+            }
+        }
+        let start = self.start(&mut faults);
+        let phase = quantity("--phase", &self.phase, Dimension::Angle, &mut faults);
+        if !(1e-15..=1e-3).contains(&self.tolerance) {
+            faults.push(format!("--tolerance {}: must lie between 1e-15 and 1e-3", self.tolerance));
+        }
+        if faults.is_empty() {
+            faults.extend(parameters.faults().iter().map(ToString::to_string));
+        }
+        if faults.is_empty() {
+            Ok(Request { parameters, start, phase })
+        } else {
+            Err(Failure::requests(&faults))
+        }
+    }
+
+    fn start(&self, faults: &mut Vec<String>) -> State<f64> {
+        let mut start = State::default();
+        let names = ["r", "y1", "x2", "y2"];
+        let parts = self.start.iter().flat_map(|text| text.split(','));
+        for (name, text) in pairs("--start", parts, faults) {
+            let (place, dimension) = match name {
+                "r" => (&mut start.r, Dimension::Length),
+                "y1" => (&mut start.y1, Dimension::Velocity),
+                "x2" => (&mut start.x2, Dimension::Length),
+                "y2" => (&mut start.y2, Dimension::Velocity),
+                _ => {
+                    let names = names.into_iter();
+                    faults.push(format!("--start: {}", unknown("coordinate", name, names)));
+                    continue;
+                }
+            };
+            *place = quantity(&format!("--start {name}"), text, dimension, faults);
+        }
+        start
+    }
+}
+
+/// The NAME=VALUE pairs among `texts`.
+fn pairs<'t>(
+    option: &str,
+    texts: impl Iterator<Item = &'t str>,
+    faults: &mut Vec<String>,
+) -> Vec<(&'t str, &'t str)> {
+    let mut found = Vec::new();
+    for text in texts {
+        match text.split_once('=') {
+            Some((name, value)) => found.push((name.trim(), value)),
+            None => faults.push(format!("{option} {text}: expected NAME=VALUE")),
+        }
+    }
+    found
+}
+
+/// A quantity in SI; a plain number is in SI already. Not finite is a fault too.
+fn quantity(option: &str, text: &str, dimension: Dimension, faults: &mut Vec<String>) -> f64 {
+    let value = match text.trim().parse::<f64>() {
+        Ok(value) => Ok(value),
+        Err(_) => parse_quantity(text, dimension),
+    };
+    match value {
+        Ok(value) if value.is_finite() => value,
+        Ok(value) => {
+            faults.push(format!("{option}: {value} is not a finite number"));
+            0.0
+        }
+        Err(message) => {
+            faults.push(format!("{option}: {message}"));
+            0.0
+        }
+    }
+}
+
+fn parameters_json(parameters: &Parameters) -> Value {
+    let mut object = Map::new();
+    for &parameter in Parameter::ALL {
+        object.insert(parameter.symbol().to_owned(), json!(parameters[parameter]));
+    }
+    object.insert("resistance".to_owned(), json!(parameters.resistance));
+    object.insert("friction_switching".to_owned(), json!(parameters.switching));
+    Value::Object(object)
+}
+
+fn failure_json(simulation: &Simulation) -> Value {
+    simulation.failure.map_or(Value::Null, |failure| json!(failure.to_string()))
+}
+
+fn orbit_json(orbit: &Orbit) -> Value {
+    let mut object = Map::new();
+    object.insert("outcome".to_owned(), json!(orbit.outcome));
+    object.insert("period".to_owned(), json!(orbit.period));
+    object.insert("cycles".to_owned(), json!(orbit.cycles));
+    for &output in Output::ALL {
+        object.insert(output.name().to_owned(), json!(orbit.outputs[output]));
+    }
+    let failure = orbit.failure.map(|failure| failure.to_string());
+    object.insert("failure".to_owned(), json!(failure));
+    Value::Object(object)
+}
+
+/// What a person wants to see first.
+fn summary(simulation: &Simulation, orbit: &Orbit) -> String {
+    let mut text = format!(
+        "{:>5} {:>12} {:>14} {:>14} {:>14} {:>14} {:>8}\n",
+        "cycle", "t [s]", "r [mm]", "y1 [m/s]", "x2 [mm]", "y2 [m/s]", "impacts"
+    );
+    for sample in &simulation.section {
+        let (r, x2) = (sample.r * 1e3, sample.x2 * 1e3);
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "{:>5} {:>12.6} {r:>14.9} {:>14.9} {x2:>14.9} {:>14.9} {:>8}",
+            sample.n, sample.t, sample.y1, sample.y2, sample.impacts
+        );
+    }
+    if let Some(failure) = simulation.failure {
+        let _ = writeln!(text, "failed: {failure}");
+    }
+    let _ = writeln!(text, "\nsettles to: {}, after {} cycles", verdict(orbit), orbit.cycles);
+    if let Some(failure) = orbit.failure {
+        let _ = writeln!(text, "  {failure}");
+        return text;
+    }
+    for &output in Output::ALL {
+        let unit = if output.unit() == "1" { "" } else { output.unit() };
+        let _ = writeln!(text, "  {:<26} {:>16.9e} {unit}", output.name(), orbit.outputs[output]);
+    }
+    text
+}
+
+fn verdict(orbit: &Orbit) -> String {
+    match orbit.period {
+        0 => orbit.outcome.name().to_owned(),
+        period => format!("{} ({period})", orbit.outcome.name()),
+    }
+}

@@ -1,0 +1,168 @@
+//! `capsulemap sweep`: a study, from its file to its results and figures.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
+
+use clap::Args;
+
+use super::figure::{FormatChoice, draw_all, file_stem};
+use super::progress::Progress;
+use super::{Failure, print};
+use crate::model::{Parameter, Resistance, Switching};
+use crate::orbit::Outcome;
+use crate::store::{self, Dataset};
+use crate::sweep::{Case, Record, Study, run};
+
+const EXAMPLES: &str = "\
+Examples:
+  capsulemap sweep studies/overview.toml
+  capsulemap sweep night.toml --output /data/night.h5 --threads 8
+  capsulemap sweep studies/fig5.toml --formats pdf";
+
+/// So many failed cases are named in the summary; the file names them all.
+const FAILURES_SHOWN: usize = 5;
+
+/// Compute a study.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Sweep {
+    /// The study, a TOML file.
+    study: PathBuf,
+    /// The file to write; results/NAME/NAME.h5 for a study NAME.toml by default.
+    #[arg(long, value_name = "FILE.h5")]
+    output: Option<PathBuf>,
+    /// Worker threads; one per core by default.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Replace a file of results that another study left under that name.
+    #[arg(long)]
+    overwrite: bool,
+    /// Do not draw the study's figures.
+    #[arg(long)]
+    no_figures: bool,
+    /// File formats of the figures.
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "png,svg,pdf")]
+    formats: Vec<FormatChoice>,
+}
+
+impl Sweep {
+    /// Carries the command out.
+    pub fn run(&self) -> Result<(), Failure> {
+        let name = self.study.display().to_string();
+        let text = std::fs::read_to_string(&self.study)
+            .map_err(|error| Failure::request(format!("{name}: cannot be read: {error}")))?;
+        let study = Study::parse(&name, &text).map_err(Failure::request)?;
+        let output = self.output_path()?;
+        let dataset = match self.finished(&output, &study)? {
+            Some(dataset) => dataset,
+            None => self.compute(&study, &output)?,
+        };
+        if !self.no_figures {
+            let folder = output.parent().unwrap_or(Path::new("."));
+            draw_all(&dataset, &study.drawings, folder, &self.formats)?;
+        }
+        Ok(())
+    }
+
+    fn output_path(&self) -> Result<PathBuf, Failure> {
+        let stem = file_stem(&self.study)?;
+        let default = || Path::new("results").join(&stem).join(format!("{stem}.h5"));
+        let output = self.output.clone().unwrap_or_else(default);
+        if output.is_dir() {
+            let message = format!("{}: is a folder; name a file", output.display());
+            return Err(Failure::request(message));
+        }
+        let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
+        if let Some(folder) = folder {
+            std::fs::create_dir_all(folder).map_err(|error| {
+                Failure::machine(format!("{}: cannot be made: {error}", folder.display()))
+            })?;
+        }
+        Ok(output)
+    }
+
+    /// The results, if the file holds those of this very study by this very program.
+    fn finished(&self, output: &Path, study: &Study) -> Result<Option<Dataset>, Failure> {
+        if !output.exists() || self.overwrite {
+            return Ok(None);
+        }
+        let shown = output.display();
+        let advice = "name another --output, or replace it with --overwrite";
+        let dataset = store::read(output)
+            .map_err(|error| Failure::request(format!("{error}\n{shown} is kept: {advice}")))?;
+        let now = store::provenance::attributes();
+        let same_program = ["source", "commit"]
+            .iter()
+            .all(|&key| dataset.attributes.get(key) == now.get(key));
+        if dataset.texts.get("study") == Some(&study.text) && same_program {
+            eprintln!("{shown}: already computed, by this program from this study");
+            return Ok(Some(dataset));
+        }
+        let what = if same_program { "study" } else { "version of the program or study" };
+        Err(Failure::request(format!("{shown}: holds results of another {what}; {advice}")))
+    }
+
+    fn compute(&self, study: &Study, output: &Path) -> Result<Dataset, Failure> {
+        let progress = Progress::new(study.cases());
+        let records = Mutex::new(Vec::with_capacity(study.cases()));
+        let stop = AtomicBool::new(false);
+        run(study, self.threads.map(usize::from), &stop, |record| {
+            progress.step();
+            records.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(record);
+        })
+        .map_err(Failure::machine)?;
+        let seconds = progress.finish().as_secs_f64();
+        let mut records = records.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+        records.sort_by_key(|record| record.index);
+        let dataset = store::dataset(study, &records);
+        store::write(&dataset, output).map_err(Failure::machine)?;
+        print(&summary(study, &records, output, seconds))?;
+        Ok(dataset)
+    }
+}
+
+/// How many cases came out how, and how to look at those that failed.
+fn summary(study: &Study, records: &[Record], output: &Path, seconds: f64) -> String {
+    let cycles: u64 = records.iter().map(|record| record.orbit.cycles).sum();
+    let mut text = format!(
+        "{}: {} cases, {cycles} cycles in {seconds:.1} s\n",
+        output.display(),
+        records.len()
+    );
+    for outcome in Outcome::ALL {
+        let count = records.iter().filter(|record| record.orbit.outcome == outcome).count();
+        if count > 0 {
+            // Writing to a String cannot fail.
+            let _ = writeln!(text, "  {:<14} {count}", outcome.name());
+        }
+    }
+    let failures =
+        records.iter().filter_map(|record| Some((record.index, record.orbit.failure?)));
+    for (index, failure) in failures.take(FAILURES_SHOWN) {
+        let _ = writeln!(text, "  case {index} failed: {failure}");
+        let _ = writeln!(text, "    replay: {}", replay(&study.case(index)));
+    }
+    text
+}
+
+/// The command that follows one case in full.
+fn replay(case: &Case) -> String {
+    let mut command = "capsulemap simulate".to_owned();
+    for &parameter in Parameter::ALL {
+        let _ = write!(command, " --set {}={}", parameter.symbol(), case.parameters[parameter]);
+    }
+    let start = case.start;
+    let _ = write!(command, " --start r={},y1={},y2={}", start.r, start.y1, start.y2);
+    let _ = write!(command, " --phase {}", case.phase);
+    if case.parameters.switching == Switching::AsPrinted {
+        command.push_str(" --friction-switching as-printed");
+    }
+    match case.parameters.resistance {
+        Resistance::CoulombStribeck => {}
+        Resistance::Coulomb => command.push_str(" --resistance coulomb"),
+        Resistance::Medium => command.push_str(" --resistance medium"),
+    }
+    command
+}

@@ -1,0 +1,262 @@
+//! Which variables a file of results has: a study and its records as a labelled dataset.
+
+use ndarray::{ArrayD, IxDyn};
+
+use crate::model::{Parameter, Resistance, State, Switching};
+use crate::orbit::{History, Impact, Orbit, Outcome};
+use crate::sweep::{Coordinate, Direction, Record, Study};
+
+use super::{Dataset, Values, Variable, provenance};
+
+/// The dataset of a finished study; `records` holds one record per case, in any order.
+///
+/// Dimensions: the axes of the study, slowest first, then `direction` where the attractor was followed
+/// both ways; after them `point`, `impact_point` or `history_time` for what each case has several of.
+pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
+    let table = Table::new(study, records);
+    let mut dataset = Dataset::default();
+    add_axes(&mut dataset, study);
+    add_constants(&mut dataset, study);
+    add_verdicts(&mut dataset, &table);
+    for &output in &study.outputs {
+        let values = table.reals(|orbit| orbit.outputs[output]);
+        let variable = table.variable(output.unit(), output.meaning(), values);
+        dataset.variables.insert(output.name().to_owned(), variable);
+    }
+    add_section(&mut dataset, &table);
+    add_impacts(&mut dataset, &table);
+    add_history(&mut dataset, &table);
+    dataset.attributes.insert("title".to_owned(), study.title.clone());
+    dataset.attributes.extend(provenance::attributes());
+    dataset.attributes.insert("friction_switching".to_owned(), switching(study).to_owned());
+    dataset.attributes.insert("resistance".to_owned(), resistance(study).to_owned());
+    dataset.texts.insert("study".to_owned(), study.text.clone());
+    dataset
+}
+
+fn switching(study: &Study) -> &'static str {
+    match study.base.switching {
+        Switching::Filippov => "filippov",
+        Switching::AsPrinted => "as-printed",
+    }
+}
+
+fn resistance(study: &Study) -> &'static str {
+    match study.base.resistance {
+        Resistance::CoulombStribeck => "coulomb-stribeck",
+        Resistance::Coulomb => "coulomb",
+        Resistance::Medium => "medium",
+    }
+}
+
+/// The records in the order of their cases, with the dimensions they fill.
+struct Table<'a> {
+    study: &'a Study,
+    orbits: Vec<Option<&'a Orbit>>,
+    dimensions: Vec<String>,
+    shape: Vec<usize>,
+}
+
+impl<'a> Table<'a> {
+    fn new(study: &'a Study, records: &'a [Record]) -> Self {
+        let mut orbits = vec![None; study.cases()];
+        for record in records {
+            orbits[record.index] = Some(&record.orbit);
+        }
+        let mut dimensions: Vec<String> =
+            study.axes.iter().map(|axis| axis.coordinate.name().to_owned()).collect();
+        if study.direction_axis().is_some() {
+            dimensions.push("direction".to_owned());
+        }
+        Table { study, orbits, dimensions, shape: study.shape() }
+    }
+
+    fn array<T: Clone>(&self, extra: Option<usize>, values: Vec<T>) -> ArrayD<T> {
+        let shape: Vec<usize> = self.shape.iter().copied().chain(extra).collect();
+        ArrayD::from_shape_vec(IxDyn(&shape), values).expect("one value per case and point")
+    }
+
+    /// One real per case; NaN for a case without a record.
+    fn reals(&self, value: impl Fn(&Orbit) -> f64) -> Values {
+        let values = self.orbits.iter().map(|orbit| orbit.map_or(f64::NAN, &value)).collect();
+        Values::Real(self.array(None, values))
+    }
+
+    /// One integer per case.
+    fn integers(&self, missing: i64, value: impl Fn(&Orbit) -> i64) -> Values {
+        let values = self.orbits.iter().map(|orbit| orbit.map_or(missing, &value)).collect();
+        Values::Integer(self.array(None, values))
+    }
+
+    /// Several reals per case, padded with NaN.
+    fn rows(&self, length: usize, value: impl Fn(&Orbit, usize) -> Option<f64>) -> Values {
+        let mut values = Vec::with_capacity(self.orbits.len() * length);
+        for orbit in &self.orbits {
+            let row = (0..length).map(|i| orbit.and_then(|orbit| value(orbit, i)));
+            values.extend(row.map(|value| value.unwrap_or(f64::NAN)));
+        }
+        Values::Real(self.array(Some(length), values))
+    }
+
+    fn variable(&self, unit: &str, long_name: &str, values: Values) -> Variable {
+        Variable {
+            dimensions: self.dimensions.clone(),
+            unit: unit.to_owned(),
+            long_name: long_name.to_owned(),
+            values,
+            flags: Vec::new(),
+        }
+    }
+
+    fn row_variable(&self, row: &str, unit: &str, long_name: &str, values: Values) -> Variable {
+        let mut variable = self.variable(unit, long_name, values);
+        variable.dimensions.push(row.to_owned());
+        variable
+    }
+}
+
+fn coordinate(name: &str, unit: &str, long_name: &str, values: Values) -> (String, Variable) {
+    let variable = Variable {
+        dimensions: vec![name.to_owned()],
+        unit: unit.to_owned(),
+        long_name: long_name.to_owned(),
+        values,
+        flags: Vec::new(),
+    };
+    (name.to_owned(), variable)
+}
+
+fn line(values: Vec<f64>) -> Values {
+    Values::Real(ArrayD::from_shape_vec(IxDyn(&[values.len()]), values).expect("a line of values"))
+}
+
+fn count(length: usize) -> Values {
+    Values::Integer(ArrayD::from_shape_fn(IxDyn(&[length]), |index| index[0] as i64))
+}
+
+fn add_axes(dataset: &mut Dataset, study: &Study) {
+    for axis in &study.axes {
+        let (name, unit) = (axis.coordinate.name(), axis.coordinate.dimension().unit());
+        let values = line(axis.values.clone());
+        dataset.coordinates.push(coordinate(name, unit, axis.coordinate.meaning(), values));
+    }
+    if let Some(directions) = study.direction_axis() {
+        let codes = directions.iter().map(|&direction| direction as i64).collect();
+        let values =
+            ArrayD::from_shape_vec(IxDyn(&[directions.len()]), codes).expect("a line of codes");
+        let (name, mut variable) = coordinate(
+            "direction",
+            "1",
+            "direction in which the attractor was followed",
+            Values::Integer(values),
+        );
+        variable.flags =
+            Direction::ALL.iter().map(|&d| (d as i64, d.name().to_owned())).collect();
+        dataset.coordinates.push((name, variable));
+    }
+}
+
+/// Everything that the axes leave constant, so that a file tells its whole case.
+fn add_constants(dataset: &mut Dataset, study: &Study) {
+    let State { r, y1, y2, .. } = study.start;
+    let parameters = Parameter::ALL.iter().map(|&p| (Coordinate::Parameter(p), study.base[p]));
+    let starts = [
+        (Coordinate::StartR, r),
+        (Coordinate::StartY1, y1),
+        (Coordinate::StartY2, y2),
+        (Coordinate::Phase, study.phase),
+    ];
+    for (constant, value) in parameters.chain(starts) {
+        if study.axes.iter().any(|axis| axis.coordinate == constant) {
+            continue;
+        }
+        let variable = Variable {
+            dimensions: Vec::new(),
+            unit: constant.dimension().unit().to_owned(),
+            long_name: constant.meaning().to_owned(),
+            values: Values::Real(ArrayD::from_elem(IxDyn(&[]), value)),
+            flags: Vec::new(),
+        };
+        dataset.variables.insert(constant.name().to_owned(), variable);
+    }
+}
+
+fn add_verdicts(dataset: &mut Dataset, table: &Table<'_>) {
+    let failed = Outcome::Failed as i64;
+    let mut outcome = table.variable(
+        "1",
+        "what the case turned out to be",
+        table.integers(failed, |orbit| orbit.outcome as i64),
+    );
+    outcome.flags = Outcome::ALL.iter().map(|&o| (o as i64, o.name().to_owned())).collect();
+    let periods = table.integers(0, |orbit| orbit.period as i64);
+    let period = table.variable("1", "period in drive cycles, 0 unless periodic", periods);
+    let cycles = table.integers(0, |orbit| orbit.cycles as i64);
+    let cycles = table.variable("1", "drive cycles followed, measuring included", cycles);
+    for (name, variable) in [("outcome", outcome), ("period", period), ("cycles", cycles)] {
+        dataset.variables.insert(name.to_owned(), variable);
+    }
+}
+
+fn add_section(dataset: &mut Dataset, table: &Table<'_>) {
+    let length = table.study.protocol.points;
+    if length == 0 {
+        return;
+    }
+    dataset.coordinates.push(coordinate("point", "1", "point of the section", count(length)));
+    for (i, (name, unit, meaning)) in [
+        ("section_r", "m", "relative displacement x1 - x2 at the stroboscopic section"),
+        ("section_y1", "m/s", "velocity of the mass at the stroboscopic section"),
+        ("section_y2", "m/s", "velocity of the capsule at the stroboscopic section"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let values = table.rows(length, |orbit, n| orbit.section.get(n).map(|point| point[i]));
+        let variable = table.row_variable("point", unit, meaning, values);
+        dataset.variables.insert(name.to_owned(), variable);
+    }
+}
+
+fn add_impacts(dataset: &mut Dataset, table: &Table<'_>) {
+    let length = table.study.protocol.impact_points;
+    if length == 0 {
+        return;
+    }
+    let name = "impact_point";
+    dataset.coordinates.push(coordinate(name, "1", "point of the impact section", count(length)));
+    let impact = |value: fn(&Impact) -> f64| {
+        table.rows(length, move |orbit, n| orbit.impacts.get(n).map(value))
+    };
+    for (name, unit, meaning, values) in [
+        ("impact_phase", "rad", "phase of the drive at the impact, since the section", impact(|i| i.phase)),
+        ("impact_y1", "m/s", "velocity of the mass at the impact", impact(|i| i.y1)),
+        ("impact_y2", "m/s", "velocity of the capsule at the impact", impact(|i| i.y2)),
+    ] {
+        let variable = table.row_variable("impact_point", unit, meaning, values);
+        dataset.variables.insert(name.to_owned(), variable);
+    }
+}
+
+fn add_history(dataset: &mut Dataset, table: &Table<'_>) {
+    let Some(span) = table.study.protocol.history else { return };
+    let name = "history_time";
+    let times =
+        (0..span.samples()).map(|i| i as f64 / f64::from(span.per_cycle)).collect::<Vec<f64>>();
+    dataset.coordinates.push(coordinate(name, "1", "time in drive cycles", line(times)));
+    let sampled = |value: fn(&History, usize) -> Option<f64>| {
+        table.rows(span.samples(), move |orbit, n| {
+            orbit.history.as_ref().and_then(|history| value(history, n))
+        })
+    };
+    for (name, unit, meaning, values) in [
+        ("history_r", "m", "relative displacement x1 - x2", sampled(|h, n| h.states.get(n).map(|s| s.r))),
+        ("history_y1", "m/s", "velocity of the mass", sampled(|h, n| h.states.get(n).map(|s| s.y1))),
+        ("history_x2", "m", "displacement of the capsule", sampled(|h, n| h.states.get(n).map(|s| s.x2))),
+        ("history_y2", "m/s", "velocity of the capsule", sampled(|h, n| h.states.get(n).map(|s| s.y2))),
+        ("history_drive", "N", "force of the drive", sampled(|h, n| h.drive.get(n).copied())),
+    ] {
+        let variable = table.row_variable("history_time", unit, meaning, values);
+        dataset.variables.insert(name.to_owned(), variable);
+    }
+}

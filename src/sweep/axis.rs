@@ -1,0 +1,120 @@
+//! An axis of a study: a parameter or a coordinate of the start, and the values it takes.
+
+use crate::model::{Allowed, Dimension, Parameter};
+
+/// What varies along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coordinate {
+    /// A parameter of the model.
+    Parameter(Parameter),
+    /// Relative displacement at the start [m].
+    StartR,
+    /// Velocity of the mass at the start [m/s].
+    StartY1,
+    /// Velocity of the capsule at the start [m/s].
+    StartY2,
+    /// Phase of the drive at the start and at the section [rad].
+    Phase,
+}
+
+impl Coordinate {
+    const STARTS: [Coordinate; 4] =
+        [Coordinate::StartR, Coordinate::StartY1, Coordinate::StartY2, Coordinate::Phase];
+
+    /// Everything that an axis may vary.
+    pub fn all() -> impl Iterator<Item = Coordinate> {
+        Parameter::ALL.iter().map(|&p| Coordinate::Parameter(p)).chain(Coordinate::STARTS)
+    }
+
+    /// The name used in studies and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Coordinate::Parameter(parameter) => parameter.symbol(),
+            Coordinate::StartR => "start_r",
+            Coordinate::StartY1 => "start_y1",
+            Coordinate::StartY2 => "start_y2",
+            Coordinate::Phase => "phase",
+        }
+    }
+
+    /// What it is, in a phrase.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Coordinate::Parameter(parameter) => parameter.meaning(),
+            Coordinate::StartR => "relative displacement at the start",
+            Coordinate::StartY1 => "velocity of the mass at the start",
+            Coordinate::StartY2 => "velocity of the capsule at the start",
+            Coordinate::Phase => "phase of the drive at the start and at the section",
+        }
+    }
+
+    /// Its dimension.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Coordinate::Parameter(parameter) => parameter.dimension(),
+            Coordinate::StartR => Dimension::Length,
+            Coordinate::StartY1 | Coordinate::StartY2 => Dimension::Velocity,
+            Coordinate::Phase => Dimension::Angle,
+        }
+    }
+
+    /// What values it may take.
+    pub fn allowed(self) -> Allowed {
+        match self {
+            Coordinate::Parameter(parameter) => parameter.allowed(),
+            _ => Allowed::Finite,
+        }
+    }
+}
+
+/// One axis with its values (SI).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// What varies.
+    pub coordinate: Coordinate,
+    /// The values, in order.
+    pub values: Vec<f64>,
+}
+
+/// `points` values from `from` to `to`, both included, each computed from its index.
+pub fn linear(from: f64, to: f64, points: usize) -> Vec<f64> {
+    spaced(from, to, points, |share| from + (to - from) * share)
+}
+
+/// `points` values in constant ratio from `from` to `to`, both included and above zero.
+///
+/// The logarithm and the exponential are those of the `libm` crate, the same on every machine.
+pub fn logarithmic(from: f64, to: f64, points: usize) -> Vec<f64> {
+    let octaves = libm::log2(to / from);
+    spaced(from, to, points, |share| from * libm::exp2(octaves * share))
+}
+
+fn spaced(from: f64, to: f64, points: usize, at: impl Fn(f64) -> f64) -> Vec<f64> {
+    let last = points.saturating_sub(1);
+    (0..points)
+        .map(|i| match i {
+            0 => from,
+            i if i == last => to,
+            i => at(i as f64 / last as f64),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spacing_meets_both_ends_and_the_rule_between() {
+        assert_eq!(linear(10.0, 100.0, 4), [10.0, 40.0, 70.0, 100.0]);
+        assert_eq!(linear(3.0, 9.0, 1), [3.0]);
+        let values = logarithmic(1e3, 1e5, 201);
+        assert_eq!((values[0], values[200]), (1e3, 1e5));
+        for (i, value) in values.iter().enumerate() {
+            let exact = 1e3 * libm::pow(10.0, i as f64 / 100.0);
+            assert!((value / exact - 1.0).abs() < 1e-14, "{i}: {value} {exact}");
+        }
+        let falling = logarithmic(8.0, 1.0, 4);
+        assert!((falling[1] - 4.0).abs() < 1e-14 && (falling[2] - 2.0).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,248 @@
+//! Reads a TOML document key by key and collects every fault with its line.
+
+use std::cell::RefCell;
+use std::fmt;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::model::Dimension;
+
+use super::quantity::{expectation, parse_quantity};
+
+/// One thing wrong in a document.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// Line, counted from 1; none where something is missing.
+    pub line: Option<usize>,
+    /// The key, as a path ("axes[2].from").
+    pub key: String,
+    /// What is wrong and what is allowed.
+    pub message: String,
+}
+
+/// Everything wrong in a document.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Faults {
+    /// The document's file.
+    pub file: String,
+    /// The faults, in order of lines.
+    pub faults: Vec<Fault>,
+}
+
+impl fmt::Display for Faults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let plural = if self.faults.len() == 1 { "fault" } else { "faults" };
+        write!(f, "{}: {} {plural}", self.file, self.faults.len())?;
+        for Fault { line, key, message } in &self.faults {
+            write!(f, "\n  ")?;
+            if let Some(line) = line {
+                write!(f, "line {line}: ")?;
+            }
+            if !key.is_empty() {
+                write!(f, "{key}: ")?;
+            }
+            write!(f, "{message}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Faults {}
+
+/// Where faults are collected while a document is read.
+#[derive(Debug)]
+pub struct Reader<'a> {
+    text: &'a str,
+    faults: RefCell<Vec<Fault>>,
+}
+
+impl<'a> Reader<'a> {
+    /// Nothing wrong yet.
+    pub fn new(text: &'a str) -> Self {
+        Reader { text, faults: RefCell::default() }
+    }
+
+    /// Notes a fault at a byte of the text, if it has a place.
+    pub fn fault(&self, at: Option<usize>, key: impl Into<String>, message: impl Into<String>) {
+        let line = at.map(|at| self.text[..at].matches('\n').count() + 1);
+        self.faults.borrow_mut().push(Fault { line, key: key.into(), message: message.into() });
+    }
+
+    /// The faults in order of lines.
+    pub fn faults(self, file: &str) -> Faults {
+        let mut faults = self.faults.into_inner();
+        faults.sort_by_key(|fault| fault.line);
+        Faults { file: file.to_owned(), faults }
+    }
+
+    /// An error if anything was wrong.
+    pub fn finish(self, file: &str) -> Result<(), Faults> {
+        let faults = self.faults(file);
+        if faults.faults.is_empty() { Ok(()) } else { Err(faults) }
+    }
+}
+
+/// A table of the document, with the keys that have been asked for.
+pub struct Table<'r, 'a> {
+    reader: &'r Reader<'a>,
+    path: String,
+    table: &'r DeTable<'a>,
+    asked: RefCell<Vec<String>>,
+}
+
+/// A value of the document with its place.
+#[derive(Clone)]
+pub struct Entry<'r, 'a> {
+    reader: &'r Reader<'a>,
+    /// The key, as a path.
+    pub key: String,
+    value: &'r Spanned<DeValue<'a>>,
+}
+
+impl<'r, 'a> Table<'r, 'a> {
+    /// A table under `path`.
+    pub fn new(reader: &'r Reader<'a>, path: &str, table: &'r DeTable<'a>) -> Self {
+        Table { reader, path: path.to_owned(), table, asked: RefCell::default() }
+    }
+
+    fn path_of(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// The value of `key`, if it is there.
+    pub fn entry(&self, key: &str) -> Option<Entry<'r, 'a>> {
+        self.asked.borrow_mut().push(key.to_owned());
+        let value = self.table.get(key)?;
+        Some(Entry { reader: self.reader, key: self.path_of(key), value })
+    }
+
+    /// Notes that `key` is missing.
+    pub fn missing(&self, key: &str, expected: &str) {
+        self.reader.fault(None, self.path_of(key), format!("missing; expected {expected}"));
+    }
+
+    /// The table under `key`.
+    pub fn table(&self, key: &str) -> Option<Table<'r, 'a>> {
+        self.entry(key)?.table()
+    }
+
+    /// Every key with its value.
+    pub fn entries(&self) -> Vec<(String, Entry<'r, 'a>)> {
+        let keys = self.table.keys().map(|key| key.get_ref().to_string());
+        keys.filter_map(|key| self.entry(&key).map(|entry| (key, entry))).collect()
+    }
+
+    /// Notes every key that nobody asked for.
+    pub fn finish(self) {
+        let asked = self.asked.borrow();
+        for (key, _) in self.table.iter() {
+            let name = key.get_ref();
+            if !asked.iter().any(|known| known == name) {
+                let message = unknown("key", name, asked.iter().map(String::as_str));
+                self.reader.fault(Some(key.span().start), self.path_of(name), message);
+            }
+        }
+    }
+}
+
+impl<'r, 'a> Entry<'r, 'a> {
+    /// Notes a fault of this value.
+    pub fn fault(&self, message: impl Into<String>) {
+        self.reader.fault(Some(self.value.span().start), self.key.clone(), message);
+    }
+
+    fn expected<T>(&self, found: Option<T>, what: &str) -> Option<T> {
+        if found.is_none() {
+            let kind = self.value.get_ref().type_str();
+            self.fault(format!("expected {what}, found {} {kind}", article(kind)));
+        }
+        found
+    }
+
+    /// The value as text.
+    pub fn text(&self) -> Option<&'r str> {
+        self.expected(self.value.get_ref().as_str(), "a text in quotes")
+    }
+
+    /// The value as a table.
+    pub fn table(&self) -> Option<Table<'r, 'a>> {
+        let table = self.expected(self.value.get_ref().as_table(), "a table")?;
+        Some(Table::new(self.reader, &self.key, table))
+    }
+
+    /// The value as a list.
+    pub fn list(&self) -> Vec<Entry<'r, 'a>> {
+        let list = self.expected(self.value.get_ref().as_array(), "a list").into_iter().flatten();
+        list.enumerate()
+            .map(|(i, value)| Entry {
+                reader: self.reader,
+                key: format!("{}[{}]", self.key, i + 1),
+                value,
+            })
+            .collect()
+    }
+
+    /// The value as a plain number.
+    fn number(&self) -> Option<f64> {
+        match self.value.get_ref() {
+            DeValue::Float(number) => number.as_str().parse().ok(),
+            DeValue::Integer(number) => {
+                i64::from_str_radix(number.as_str(), number.radix()).ok().map(|n| n as f64)
+            }
+            _ => None,
+        }
+    }
+
+    /// The value as a whole number of at least `least`.
+    pub fn whole(&self, least: u64) -> Option<u64> {
+        let whole = match self.value.get_ref() {
+            DeValue::Integer(number) => u64::from_str_radix(number.as_str(), number.radix()).ok(),
+            _ => None,
+        };
+        self.expected(whole.filter(|&n| n >= least), &format!("a whole number, {least} or above"))
+    }
+
+    /// The value as a quantity of `dimension`, in SI.
+    pub fn quantity(&self, dimension: Dimension) -> Option<f64> {
+        if let Some(number) = self.number() {
+            if dimension == Dimension::Number {
+                return Some(number);
+            }
+            self.fault(format!("{number} has no unit; expected {}", expectation(dimension)));
+            return None;
+        }
+        let what = format!("{} (as a text in quotes)", expectation(dimension));
+        let text = self.expected(self.value.get_ref().as_str(), &what)?;
+        parse_quantity(text, dimension).map_err(|message| self.fault(message)).ok()
+    }
+
+    /// The value as one of a few names.
+    pub fn one_of<T: Copy>(&self, what: &str, choices: &[(&str, T)]) -> Option<T> {
+        let text = self.text()?;
+        let found = choices.iter().find(|(name, _)| *name == text).map(|&(_, value)| value);
+        if found.is_none() {
+            self.fault(unknown(what, text, choices.iter().map(|&(name, _)| name)));
+        }
+        found
+    }
+}
+
+fn article(noun: &str) -> &'static str {
+    if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
+}
+
+/// A message about a name that is not known, with the nearest of those that are.
+pub fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str>) -> String {
+    let known: Vec<&str> = known.collect();
+    let nearest = known
+        .iter()
+        .map(|&candidate| (strsim::damerau_levenshtein(name, candidate), candidate))
+        .min()
+        .filter(|&(distance, _)| distance <= 1 + name.chars().count() / 3);
+    let hint = match nearest {
+        Some((_, candidate)) => format!("; did you mean \"{candidate}\"?"),
+        None => String::new(),
+    };
+    format!("unknown {what} \"{name}\"{hint} (allowed: {})", known.join(", "))
+}

@@ -1,0 +1,153 @@
+//! Quantities as people write them ("18.96 kN/m", "12.4 Hz"), turned into SI.
+
+use std::f64::consts::PI;
+
+use crate::model::Dimension;
+
+/// The units of a dimension with their size in SI, the commonest first.
+fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {
+    match dimension {
+        Dimension::Mass => &[("kg", 1.0), ("g", 1e-3), ("mg", 1e-6)],
+        Dimension::Stiffness => {
+            &[("N/m", 1.0), ("kN/m", 1e3), ("MN/m", 1e6), ("N/mm", 1e3), ("N/cm", 1e2)]
+        }
+        Dimension::Damping => &[("N s/m", 1.0), ("kg/s", 1.0), ("N s/mm", 1e3), ("kN s/m", 1e3)],
+        Dimension::QuadraticDamping => &[("N s2/m2", 1.0), ("kg/m", 1.0)],
+        Dimension::Length => &[("m", 1.0), ("mm", 1e-3), ("cm", 1e-2), ("um", 1e-6)],
+        Dimension::Force => &[("N", 1.0), ("mN", 1e-3), ("kN", 1e3)],
+        Dimension::AngularFrequency => &[
+            ("rad/s", 1.0),
+            ("Hz", 2.0 * PI),
+            ("kHz", 2e3 * PI),
+            ("rpm", PI / 30.0),
+            ("rad/sec", 1.0),
+        ],
+        Dimension::Velocity => &[("m/s", 1.0), ("mm/s", 1e-3), ("cm/s", 1e-2), ("um/s", 1e-6)],
+        Dimension::Acceleration => &[("m/s2", 1.0), ("mm/s2", 1e-3)],
+        Dimension::Angle => &[("rad", 1.0), ("deg", PI / 180.0)],
+        Dimension::Number => &[("", 1.0), ("%", 1e-2)],
+    }
+}
+
+/// What a dimension is called.
+fn name(dimension: Dimension) -> &'static str {
+    match dimension {
+        Dimension::Mass => "a mass",
+        Dimension::Stiffness => "a stiffness",
+        Dimension::Damping => "a damping",
+        Dimension::QuadraticDamping => "a quadratic damping",
+        Dimension::Length => "a length",
+        Dimension::Force => "a force",
+        Dimension::AngularFrequency => "a frequency",
+        Dimension::Velocity => "a velocity",
+        Dimension::Acceleration => "an acceleration",
+        Dimension::Angle => "an angle",
+        Dimension::Number => "a plain number",
+    }
+}
+
+const DIMENSIONS: [Dimension; 11] = [
+    Dimension::Mass,
+    Dimension::Stiffness,
+    Dimension::Damping,
+    Dimension::QuadraticDamping,
+    Dimension::Length,
+    Dimension::Force,
+    Dimension::AngularFrequency,
+    Dimension::Velocity,
+    Dimension::Acceleration,
+    Dimension::Angle,
+    Dimension::Number,
+];
+
+/// What is expected where a quantity of `dimension` stands, with its units.
+pub fn expectation(dimension: Dimension) -> String {
+    if dimension == Dimension::Number {
+        return "a plain number".to_owned();
+    }
+    let units: Vec<&str> = units(dimension).iter().map(|&(unit, _)| unit).collect();
+    format!("{} in {}", name(dimension), units.join(", "))
+}
+
+/// The value in SI of a quantity such as "18.96 kN/m"; the error says what is wrong and expected.
+///
+/// A missing unit is an error unless the dimension is a plain number. Blanks, `^`, `*` and the dot of
+/// a product do not matter; `µ` is `u`, and a raised 2 is 2.
+pub fn parse_quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
+    let (number, unit) = split(text);
+    let expected = expectation(dimension);
+    let Ok(value) = number.parse::<f64>() else {
+        return Err(format!("\"{text}\" does not begin with a number; expected {expected}"));
+    };
+    let unit = plain(unit);
+    let size_in = |dimension| {
+        units(dimension).iter().find(|(known, _)| plain(known) == unit).map(|&(_, size)| size)
+    };
+    if let Some(size) = size_in(dimension) {
+        return Ok(value * size);
+    }
+    let found = match DIMENSIONS.into_iter().find(|&other| size_in(other).is_some()) {
+        Some(Dimension::Number) if unit.is_empty() => "has no unit".to_owned(),
+        Some(other) => format!("is {}", name(other)),
+        None => format!("has the unknown unit \"{unit}\""),
+    };
+    Err(format!("\"{text}\" {found}; expected {expected}"))
+}
+
+/// The number at the head of `text`, and the rest.
+fn split(text: &str) -> (&str, &str) {
+    let text = text.trim();
+    let longest = (0..=text.len())
+        .rev()
+        .filter(|&end| text.is_char_boundary(end))
+        .find(|&end| text[..end].trim_end().parse::<f64>().is_ok())
+        .unwrap_or(0);
+    (text[..longest].trim_end(), &text[longest..])
+}
+
+/// A unit without what does not matter in it.
+fn plain(unit: &str) -> String {
+    unit.chars()
+        .filter(|c| !c.is_whitespace() && !"*^·⋅".contains(*c))
+        .map(|c| match c {
+            'µ' | 'μ' => 'u',
+            '²' => '2',
+            other => other,
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_what_people_write() {
+        for (text, dimension, value) in [
+            ("18.96 kN/m", Dimension::Stiffness, 18_960.0),
+            ("1.5mm", Dimension::Length, 0.0015),
+            ("77.91 rad/s", Dimension::AngularFrequency, 77.91),
+            ("-2e-3 m", Dimension::Length, -0.002),
+            ("4 N", Dimension::Force, 4.0),
+            ("9.81 m/s²", Dimension::Acceleration, 9.81),
+            ("3.89 N·s/m", Dimension::Damping, 3.89),
+            ("3.89 Ns/m", Dimension::Damping, 3.89),
+            ("12 µm", Dimension::Length, 12e-6),
+            ("0.66", Dimension::Number, 0.66),
+        ] {
+            let found = parse_quantity(text, dimension).expect(text);
+            assert!((found - value).abs() <= 1e-15 * value.abs(), "{text}: {found}");
+        }
+        let hertz = parse_quantity("12.4 Hz", Dimension::AngularFrequency).expect("hertz");
+        assert!((hertz - 77.911_497_809_028_96).abs() < 1e-12);
+    }
+
+    #[test]
+    fn says_what_is_wrong() {
+        let error = |text, dimension| parse_quantity(text, dimension).expect_err(text);
+        assert!(error("4 N", Dimension::Length).contains("is a force; expected a length in m, mm"));
+        assert!(error("4", Dimension::Force).contains("has no unit"));
+        assert!(error("4 furlongs", Dimension::Length).contains("unknown unit \"furlongs\""));
+        assert!(error("fast", Dimension::Velocity).contains("does not begin with a number"));
+    }
+}

@@ -1,0 +1,160 @@
+//! A study: what to compute, as a set of axes over one base case.
+
+use crate::model::{Parameters, State};
+use crate::orbit::{Output, Protocol};
+
+use super::{Axis, Coordinate, Drawing, document::Faults, study_file};
+
+/// The way along an axis in which each case starts where its neighbour settled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// From the first value to the last.
+    Upward = 0,
+    /// From the last value to the first.
+    Downward,
+}
+
+impl Direction {
+    /// Both, in the order of their numbers.
+    pub const ALL: [Direction; 2] = [Direction::Upward, Direction::Downward];
+
+    /// Its name in studies and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Direction::Upward => "upward",
+            Direction::Downward => "downward",
+        }
+    }
+}
+
+/// Following the attractor along an axis, which is how hysteresis is found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Follow {
+    /// Position of the axis in the study.
+    pub axis: usize,
+    /// In which directions; two of them make one more dimension, `direction`, the last.
+    pub directions: Vec<Direction>,
+}
+
+/// What to compute.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// Heading.
+    pub title: String,
+    /// The study as it was written.
+    pub text: String,
+    /// Values of the parameters that no axis varies.
+    pub base: Parameters,
+    /// Start of the cases, where no axis varies it.
+    pub start: State<f64>,
+    /// Phase of the drive at the start [rad].
+    pub phase: f64,
+    /// The axes, slowest first; none for a single case.
+    pub axes: Vec<Axis>,
+    /// Along which axis the attractor is followed, if any.
+    pub follow: Option<Follow>,
+    /// How each case is followed and judged.
+    pub protocol: Protocol,
+    /// The outputs to keep.
+    pub outputs: Vec<Output>,
+    /// The figures to draw.
+    pub drawings: Vec<Drawing>,
+}
+
+/// One case of a study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// Its parameters.
+    pub parameters: Parameters,
+    /// Where it starts, unless it follows a neighbour.
+    pub start: State<f64>,
+    /// Phase of the drive at the start [rad].
+    pub phase: f64,
+}
+
+impl Study {
+    /// Reads a study; every fault is told at once. `name` is the file's, for messages.
+    pub fn parse(name: &str, text: &str) -> Result<Study, Faults> {
+        study_file::read(name, text)
+    }
+
+    /// Number of values along each dimension of the results, slowest first.
+    pub fn shape(&self) -> Vec<usize> {
+        let mut shape: Vec<usize> = self.axes.iter().map(|axis| axis.values.len()).collect();
+        if let Some(directions) = self.direction_axis() {
+            shape.push(directions.len());
+        }
+        shape
+    }
+
+    /// The directions, where there are two and they make a dimension of the results.
+    pub fn direction_axis(&self) -> Option<&[Direction]> {
+        let follow = self.follow.as_ref()?;
+        (follow.directions.len() > 1).then_some(&follow.directions)
+    }
+
+    /// Number of cases.
+    pub fn cases(&self) -> usize {
+        self.shape().iter().product()
+    }
+
+    /// Case `index`, counted with the last dimension fastest.
+    pub fn case(&self, index: usize) -> Case {
+        let mut case =
+            Case { parameters: self.base.clone(), start: self.start, phase: self.phase };
+        for (axis, position) in self.axes.iter().zip(self.position(index)) {
+            let value = axis.values[position];
+            match axis.coordinate {
+                Coordinate::Parameter(parameter) => case.parameters[parameter] = value,
+                Coordinate::StartR => case.start.r = value,
+                Coordinate::StartY1 => case.start.y1 = value,
+                Coordinate::StartY2 => case.start.y2 = value,
+                Coordinate::Phase => case.phase = value,
+            }
+        }
+        case
+    }
+
+    /// The cases as chains, each to be run in order; a chain is one case where none is followed.
+    pub fn chains(&self) -> Vec<Vec<usize>> {
+        let Some(follow) = &self.follow else {
+            return (0..self.cases()).map(|index| vec![index]).collect();
+        };
+        let along = self.axes[follow.axis].values.len();
+        let step: usize = self.shape()[follow.axis + 1..].iter().product();
+        let mut chains = Vec::new();
+        for first in 0..self.cases() {
+            let position = self.position(first);
+            if position[follow.axis] != 0 {
+                continue;
+            }
+            let direction = match self.direction_axis() {
+                Some(directions) => directions[position[self.axes.len()]],
+                None => follow.directions[0],
+            };
+            let mut chain: Vec<usize> = (0..along).map(|i| first + i * step).collect();
+            if direction == Direction::Downward {
+                chain.reverse();
+            }
+            chains.push(chain);
+        }
+        chains
+    }
+
+    /// Position of case `index` along each dimension.
+    fn position(&self, index: usize) -> Vec<usize> {
+        let mut rest = index;
+        let mut position: Vec<usize> = self
+            .shape()
+            .iter()
+            .rev()
+            .map(|&length| {
+                let here = rest % length;
+                rest /= length;
+                here
+            })
+            .collect();
+        position.reverse();
+        position
+    }
+}

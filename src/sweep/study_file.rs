@@ -1,0 +1,331 @@
+//! The study file: which keys it has, what they mean and what is allowed.
+
+use std::collections::BTreeMap;
+
+use toml::de::DeTable;
+
+use crate::model::{Allowed, Dimension, Parameter, Parameters, Resistance, State, Switching};
+use crate::orbit::{HistorySpan, Output, Protocol};
+
+use super::axis::{linear, logarithmic};
+use super::document::{Entry, Faults, Reader, Table, unknown};
+use super::study::{Direction, Follow, Study};
+use super::{Axis, Coordinate, Drawing, DrawingKind};
+
+/// More cases than this are taken for a slip of the pen.
+const MOST_CASES: usize = 1_000_000_000;
+
+/// The four parameters that Table 1 of the paper leaves open: a study says what they are.
+const OPEN: [Parameter; 4] = [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta];
+
+/// Reads a study from the text of the file called `name`.
+pub(super) fn read(name: &str, text: &str) -> Result<Study, Faults> {
+    let reader = Reader::new(text);
+    let (document, errors) = DeTable::parse_recoverable(text);
+    for error in &errors {
+        reader.fault(error.span().map(|span| span.start), "", error.message());
+    }
+    if !errors.is_empty() {
+        // What follows a broken line cannot be judged.
+        return Err(reader.faults(name));
+    }
+    let top = Table::new(&reader, "", document.get_ref());
+    let title = top.entry("title").and_then(|e| e.text()).unwrap_or("").to_owned();
+    let axes = read_axes(&top);
+    let base = read_parameters(&top, &axes);
+    let (start, phase, follow) = read_start(&top, &axes);
+    let protocol = read_protocol(&top);
+    let outputs = read_outputs(&top);
+    let study = Study {
+        title,
+        text: text.to_owned(),
+        base,
+        start,
+        phase,
+        follow,
+        protocol,
+        outputs,
+        drawings: read_drawings(&top, &axes),
+        axes,
+    };
+    let cases = study.shape().iter().try_fold(1_usize, |product, &n| product.checked_mul(n));
+    if cases.is_none_or(|cases| cases > MOST_CASES) {
+        reader.fault(None, "axes", format!("more than {MOST_CASES} cases"));
+    }
+    top.finish();
+    reader.finish(name)?;
+    Ok(study)
+}
+
+fn read_parameters(top: &Table<'_, '_>, axes: &[Axis]) -> Parameters {
+    let mut parameters = Parameters::default();
+    let table = top.table("parameters");
+    let on_axis = |parameter| axes.iter().any(|a| a.coordinate == Coordinate::Parameter(parameter));
+    for &parameter in Parameter::ALL {
+        let entry = table.as_ref().and_then(|table| table.entry(parameter.symbol()));
+        match entry {
+            Some(entry) if on_axis(parameter) => entry.fault("is given here and on an axis"),
+            Some(entry) => {
+                let value = allowed_quantity(&entry, parameter.dimension(), parameter.allowed());
+                parameters[parameter] = value.unwrap_or(parameters[parameter]);
+            }
+            None if OPEN.contains(&parameter) && !on_axis(parameter) => {
+                let expected = format!("a value for the {} here or an axis", parameter.meaning());
+                top.missing(&format!("parameters.{}", parameter.symbol()), &expected);
+            }
+            None => {}
+        }
+    }
+    let Some(table) = table else { return parameters };
+    if let Some(entry) = table.entry("resistance") {
+        let laws = [
+            ("coulomb-stribeck", Resistance::CoulombStribeck),
+            ("coulomb", Resistance::Coulomb),
+            ("medium", Resistance::Medium),
+        ];
+        parameters.resistance = entry.one_of("resistance", &laws).unwrap_or_default();
+    }
+    if let Some(entry) = table.entry("friction_switching") {
+        let readings =
+            [("filippov", Switching::Filippov), ("as-printed", Switching::AsPrinted)];
+        parameters.switching = entry.one_of("reading", &readings).unwrap_or_default();
+    }
+    table.finish();
+    parameters
+}
+
+fn allowed_quantity(
+    entry: &Entry<'_, '_>,
+    dimension: Dimension,
+    allowed: Allowed,
+) -> Option<f64> {
+    let value = entry.quantity(dimension)?;
+    if !allowed.admits(value) {
+        entry.fault(format!("{value} {} must be {allowed}", dimension.unit()));
+        return None;
+    }
+    Some(value)
+}
+
+fn read_axes(top: &Table<'_, '_>) -> Vec<Axis> {
+    let mut axes: Vec<Axis> = Vec::new();
+    for entry in top.entry("axes").map(|entry| entry.list()).unwrap_or_default() {
+        let Some(table) = entry.table() else { continue };
+        let names: Vec<(&str, Coordinate)> =
+            Coordinate::all().map(|coordinate| (coordinate.name(), coordinate)).collect();
+        let name = table.entry("name");
+        if name.is_none() {
+            table.missing("name", "a parameter, start_r, start_y1, start_y2 or phase");
+        }
+        let coordinate = name.as_ref().and_then(|name| name.one_of("axis", &names));
+        let values = read_values(&table, coordinate);
+        table.finish();
+        let (Some(name), Some(coordinate), Some(values)) = (name, coordinate, values) else {
+            continue;
+        };
+        if axes.iter().any(|axis| axis.coordinate == coordinate) {
+            name.fault(format!("a second axis \"{}\"", coordinate.name()));
+            continue;
+        }
+        axes.push(Axis { coordinate, values });
+    }
+    axes
+}
+
+fn read_values(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<Vec<f64>> {
+    let quantity = |entry: &Entry<'_, '_>| {
+        let coordinate = coordinate?;
+        allowed_quantity(entry, coordinate.dimension(), coordinate.allowed())
+    };
+    let [values, from, to, points, spacing] =
+        ["values", "from", "to", "points", "spacing"].map(|key| table.entry(key));
+    if let Some(values) = values {
+        for extra in [from, to, points, spacing].into_iter().flatten() {
+            extra.fault("does not go with a list of values");
+        }
+        let list = values.list();
+        if list.is_empty() {
+            values.fault("expected at least one value");
+        }
+        let read: Vec<f64> = list.iter().filter_map(quantity).collect();
+        return (read.len() == list.len() && !read.is_empty()).then_some(read);
+    }
+    for (key, found) in [("from", &from), ("to", &to), ("points", &points)] {
+        if found.is_none() {
+            table.missing(key, "from, to and points, or a list of values");
+        }
+    }
+    let rules: [(&str, Spacing); 2] = [("linear", linear), ("logarithmic", logarithmic)];
+    let rule = match &spacing {
+        Some(entry) => entry.one_of("spacing", &rules),
+        None => Some(linear as Spacing),
+    };
+    let logarithmic = spacing.as_ref().is_some_and(|entry| entry.text() == Some("logarithmic"));
+    let bounds = [&from, &to].map(|bound| bound.as_ref().and_then(quantity));
+    let points = points.as_ref().and_then(|entry| entry.whole(1));
+    let ([Some(low), Some(high)], Some(points), Some(rule)) = (bounds, points, rule) else {
+        return None;
+    };
+    if logarithmic && !(low > 0.0 && high > 0.0) {
+        spacing?.fault("needs both ends above zero");
+        return None;
+    }
+    Some(rule(low, high, points as usize))
+}
+
+type Spacing = fn(f64, f64, usize) -> Vec<f64>;
+
+fn read_start(top: &Table<'_, '_>, axes: &[Axis]) -> (State<f64>, f64, Option<Follow>) {
+    let mut start = State::default();
+    let Some(table) = top.table("start") else { return (start, 0.0, None) };
+    let quantity = |key: &str, coordinate: Coordinate| {
+        let entry = table.entry(key)?;
+        if axes.iter().any(|axis| axis.coordinate == coordinate) {
+            entry.fault("is given here and on an axis");
+        }
+        allowed_quantity(&entry, coordinate.dimension(), Allowed::Finite)
+    };
+    start.r = quantity("r", Coordinate::StartR).unwrap_or(0.0);
+    start.y1 = quantity("y1", Coordinate::StartY1).unwrap_or(0.0);
+    start.y2 = quantity("y2", Coordinate::StartY2).unwrap_or(0.0);
+    let phase = quantity("phase", Coordinate::Phase).unwrap_or(0.0);
+    let follow = read_follow(&table, axes);
+    table.finish();
+    (start, phase, follow)
+}
+
+fn read_follow(table: &Table<'_, '_>, axes: &[Axis]) -> Option<Follow> {
+    let names = Direction::ALL.map(|direction| (direction.name(), direction));
+    let directions = table.entry("directions");
+    let Some(follow) = table.entry("follow") else {
+        if let Some(directions) = directions {
+            directions.fault("needs `follow`, the axis to go along");
+        }
+        return None;
+    };
+    let choices: Vec<(&str, usize)> =
+        axes.iter().enumerate().map(|(i, axis)| (axis.coordinate.name(), i)).collect();
+    let axis = follow.one_of("axis of this study", &choices)?;
+    if !matches!(axes[axis].coordinate, Coordinate::Parameter(_)) {
+        follow.fault("must be a parameter: a start is not followed but given");
+    }
+    let mut chosen = Vec::new();
+    for entry in directions.map(|entry| entry.list()).unwrap_or_default() {
+        match entry.one_of("direction", &names) {
+            Some(direction) if chosen.contains(&direction) => entry.fault("is given twice"),
+            Some(direction) => chosen.push(direction),
+            None => {}
+        }
+    }
+    if chosen.is_empty() {
+        chosen.push(Direction::Upward);
+    }
+    Some(Follow { axis, directions: chosen })
+}
+
+fn read_protocol(top: &Table<'_, '_>) -> Protocol {
+    let mut protocol = Protocol::default();
+    if let Some(table) = top.table("protocol") {
+        let between = |key: &str, value: &mut f64| {
+            let Some(entry) = table.entry(key) else { return };
+            match entry.quantity(Dimension::Number) {
+                Some(given) if (1e-15..=1e-3).contains(&given) => *value = given,
+                Some(given) => entry.fault(format!("{given} must lie between 1e-15 and 1e-3")),
+                None => {}
+            }
+        };
+        between("tolerance", &mut protocol.tolerance);
+        // The section cannot repeat more closely than the steps are.
+        protocol.recurrence = protocol.recurrence.max(10.0 * protocol.tolerance);
+        between("recurrence", &mut protocol.recurrence);
+        let whole = |key: &str, least: u64, value: u64| {
+            table.entry(key).and_then(|entry| entry.whole(least)).unwrap_or(value)
+        };
+        protocol.max_cycles = whole("max_cycles", 1, protocol.max_cycles);
+        protocol.max_period = whole("max_period", 1, protocol.max_period as u64) as usize;
+        protocol.measured_cycles = whole("measured_cycles", 1, protocol.measured_cycles);
+        protocol.points = whole("points", 0, protocol.points as u64) as usize;
+        protocol.impact_points = whole("impact_points", 0, protocol.impact_points as u64) as usize;
+        table.finish();
+    }
+    protocol.history = top.table("history").map(|table| {
+        let whole = |key: &str, value: u32| {
+            let found = table.entry(key).and_then(|entry| entry.whole(1));
+            found.map_or(value, |n| n.min(u64::from(u32::MAX)) as u32)
+        };
+        let (cycles, per_cycle) = (whole("cycles", 5), whole("samples_per_cycle", 400));
+        let begins = [("start", true), ("attractor", false)];
+        let from = table.entry("from").and_then(|entry| entry.one_of("beginning", &begins));
+        table.finish();
+        HistorySpan { cycles, per_cycle, from_start: from.unwrap_or(false) }
+    });
+    protocol
+}
+
+fn read_outputs(top: &Table<'_, '_>) -> Vec<Output> {
+    let Some(entry) = top.entry("outputs") else { return Output::ALL.to_vec() };
+    let names: Vec<(&str, Output)> =
+        Output::ALL.iter().map(|&output| (output.name(), output)).collect();
+    entry.list().iter().filter_map(|entry| entry.one_of("output", &names)).collect()
+}
+
+fn read_drawings(top: &Table<'_, '_>, axes: &[Axis]) -> Vec<Drawing> {
+    let entries = top.entry("figures").map(|entry| entry.list()).unwrap_or_default();
+    let tables = entries.iter().filter_map(Entry::table);
+    tables.filter_map(|table| read_drawing(&table, axes)).collect()
+}
+
+fn read_drawing(table: &Table<'_, '_>, axes: &[Axis]) -> Option<Drawing> {
+    let text = |key: &str| table.entry(key).and_then(|entry| entry.text()).map(str::to_owned);
+    let axis_names: Vec<(&str, &str)> =
+        axes.iter().map(|axis| (axis.coordinate.name(), axis.coordinate.name())).collect();
+    let axis = |key: &str| {
+        let name = table.entry(key)?.one_of("axis of this study", &axis_names)?;
+        Some(name.to_owned())
+    };
+    let name = text("name");
+    let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", &DrawingKind::NAMES));
+    for (key, found) in [("name", name.is_some()), ("kind", kind.is_some())] {
+        if !found && table.entry(key).is_none() {
+            table.missing(key, "a figure to have a name and a kind");
+        }
+    }
+    let of = table.entry("of").map(|entry| entry.list()).unwrap_or_default();
+    let drawing = Drawing {
+        name: name.unwrap_or_default(),
+        kind: kind.unwrap_or(DrawingKind::Map),
+        title: text("title"),
+        x: axis("x"),
+        y: axis("y"),
+        of: of.iter().filter_map(|e| e.text()).map(str::to_owned).collect(),
+        at: table.table("at").map(|at| read_at(&at, axes)).unwrap_or_default(),
+        cycles: table.entry("cycles").and_then(|entry| {
+            let ends: Vec<f64> =
+                entry.list().iter().filter_map(|e| e.quantity(Dimension::Number)).collect();
+            let range: Option<[f64; 2]> = ends.try_into().ok();
+            if range.is_none_or(|[from, to]| to <= from) {
+                entry.fault("expected two numbers of cycles, the lesser first");
+            }
+            range
+        }),
+        width_mm: table.entry("width").and_then(|e| e.quantity(Dimension::Length)).map(|w| w * 1e3),
+    };
+    Some(drawing)
+}
+
+fn read_at(table: &Table<'_, '_>, axes: &[Axis]) -> BTreeMap<String, f64> {
+    let mut at = BTreeMap::new();
+    for (name, entry) in table.entries() {
+        match axes.iter().find(|axis| axis.coordinate.name() == name) {
+            Some(axis) => {
+                let value = entry.quantity(axis.coordinate.dimension());
+                at.extend(value.map(|value| (name, value)));
+            }
+            None => {
+                let names = axes.iter().map(|axis| axis.coordinate.name());
+                entry.fault(unknown("axis of this study", &name, names));
+            }
+        }
+    }
+    at
+}
