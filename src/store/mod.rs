@@ -1,4 +1,16 @@
 //! Kept: keeps records and gives them back, with what made them.
 
 pub mod dataset;
+mod decode;
+mod difference;
+mod encode;
+mod error;
+mod faults;
+mod file;
+mod names;
+mod scale;
+
 pub use dataset::{Dataset, Values, Variable};
+pub use difference::difference;
+pub use error::StoreError;
+pub use file::{read, write};

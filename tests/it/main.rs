@@ -1,1 +1,4 @@
-//! tests
+//! The one test program: a module for each floor, and one for the house itself.
+
+mod house;
+mod store;
