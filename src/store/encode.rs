@@ -25,6 +25,11 @@ const GROWTH_BYTES: usize = 1 << 20;
 
 /// The bytes of the file that holds `dataset`; `path` only names it in messages.
 pub fn image(dataset: &Dataset, path: &Path) -> Result<Vec<u8>, StoreError> {
+    // HDF5 takes two files in memory of one name for the same file, so there is one at a time.
+    hdf5::sync::sync(|| lay_out(dataset, path))
+}
+
+fn lay_out(dataset: &Dataset, path: &Path) -> Result<Vec<u8>, StoreError> {
     let failed = |doing: String| move |said| StoreError::hdf5(path, doing, said);
     let file = blank().map_err(failed("starting a file in memory".into()))?;
     let mut scales = Vec::new();

@@ -39,6 +39,11 @@ pub enum StoreError {
         /// How that was seen.
         why: String,
     },
+    /// The checksum at the end of the file does not fit the file.
+    Damaged {
+        /// The file concerned.
+        path: PathBuf,
+    },
     /// What was written does not read back as it was; the new file was discarded.
     Unequal {
         /// The file that was to be written.
@@ -73,12 +78,18 @@ impl fmt::Display for StoreError {
             StoreError::Hdf5 { path, doing, said } => write!(
                 f,
                 "{}: {doing}: {said}; the file may be cut short or damaged: restore a copy or make \
-                 it again (on a network disk without locks, set HDF5_USE_FILE_LOCKING=FALSE)",
+                 it again (on a network disk without locks set HDF5_USE_FILE_LOCKING=FALSE)",
                 path.display()
             ),
             StoreError::Foreign { path, why } => write!(
                 f,
                 "{}: not a result of capsulemap: {why}; give a file that capsulemap wrote",
+                path.display()
+            ),
+            StoreError::Damaged { path } => write!(
+                f,
+                "{}: the file has changed since it was written, its checksum does not fit; restore \
+                 a copy or make it again",
                 path.display()
             ),
             StoreError::Unequal { path, difference } => write!(

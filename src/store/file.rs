@@ -1,12 +1,13 @@
 //! Puts a dataset on disk whole or not at all, and reads it back.
 
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Read, Seek, Write};
 use std::path::Path;
 
 use tempfile::NamedTempFile;
 
 use super::faults::faults;
+use super::seal::{self, Seal};
 use super::{Dataset, StoreError, decode, difference, encode};
 
 /// The first bytes of every HDF5 file.
@@ -28,12 +29,16 @@ pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
         _ => Path::new("."),
     };
     let mut file = temporary(path, folder).map_err(failed("starting a new file"))?;
-    let image = encode::image(dataset, path)?;
+    let mut image = encode::image(dataset, path)?;
+    seal::put(&mut image);
     file.write_all(&image).map_err(failed("writing"))?;
     drop(image);
     file.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
-    let kept = decode::dataset(file.path())?;
-    if let Some(difference) = difference(dataset, &kept) {
+    let unequal = match read(file.path()) {
+        Ok(kept) => difference(dataset, &kept),
+        Err(refused) => Some(refused.to_string()),
+    };
+    if let Some(difference) = unequal {
         return Err(StoreError::Unequal { path: path.to_owned(), difference });
     }
     file.persist(path).map_err(|refused| failed("giving the file its name")(refused.error))?;
@@ -43,14 +48,18 @@ pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
 /// The dataset in the file at `path`, exactly as it was written.
 pub fn read(path: &Path) -> Result<Dataset, StoreError> {
     let failed = |said| StoreError::system(path, "opening the file", said);
+    let mut file = File::open(path).map_err(failed)?;
     let mut start = Vec::new();
-    let file = File::open(path).map_err(failed)?;
-    file.take(SIGNATURE.len() as u64).read_to_end(&mut start).map_err(failed)?;
+    Read::by_ref(&mut file).take(SIGNATURE.len() as u64).read_to_end(&mut start).map_err(failed)?;
     if start != SIGNATURE {
         let why = "it is not an HDF5 file".to_owned();
         return Err(StoreError::Foreign { path: path.to_owned(), why });
     }
-    decode::dataset(path)
+    file.rewind().map_err(failed)?;
+    match seal::judge(file).map_err(failed)? {
+        Seal::Broken => Err(StoreError::Damaged { path: path.to_owned() }),
+        Seal::Whole | Seal::Absent => decode::dataset(path),
+    }
 }
 
 /// A new file beside `path`, hidden, removed again unless it gets its final name.

@@ -9,6 +9,7 @@ mod faults;
 mod file;
 mod names;
 mod scale;
+mod seal;
 
 pub use dataset::{Dataset, Values, Variable};
 pub use difference::difference;

@@ -26,7 +26,11 @@ pub fn declare(dataset: &hdf5::Dataset, name: &str) -> hdf5::Result<()> {
 }
 
 /// Names `scale` as the coordinate of `dataset` along `dimension`, slowest first.
-pub fn attach(dataset: &hdf5::Dataset, scale: &hdf5::Dataset, dimension: usize) -> hdf5::Result<()> {
+pub fn attach(
+    dataset: &hdf5::Dataset,
+    scale: &hdf5::Dataset,
+    dimension: usize,
+) -> hdf5::Result<()> {
     let dimension = c_uint::try_from(dimension).map_err(|error| error.to_string())?;
     // SAFETY: both identifiers live as long as the borrowed datasets; the library is entered by
     // one thread at a time.
@@ -45,6 +49,10 @@ pub fn image(file: &hdf5::File) -> hdf5::Result<Vec<u8>> {
         let length = usize::try_from(length).map_err(|_| "the file has no image")?;
         let mut bytes = vec![0_u8; length];
         let copied = H5Fget_file_image(file.id(), bytes.as_mut_ptr().cast(), length);
-        if usize::try_from(copied) == Ok(length) { Ok(bytes) } else { Err("the image is cut".into()) }
+        if usize::try_from(copied) == Ok(length) {
+            Ok(bytes)
+        } else {
+            Err("the image is cut".into())
+        }
     })
 }
