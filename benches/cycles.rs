@@ -1,1 +1,3 @@
+//! What a cycle costs.
+
 fn main() {}

@@ -1,5 +1,5 @@
 //! A bifurcation and basin mapper for the vibro-impact capsule.
 
-pub mod figure;
-pub mod store;
 pub mod sweep;
+pub mod store;
+pub mod figure;
