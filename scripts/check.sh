@@ -21,7 +21,7 @@ python_readers() {
     if ! command -v python3 >/dev/null; then
         echo "no python3 here: the tests with Python readers will be skipped"
     elif "$python" -c 'import h5py, netCDF4, h5netcdf, xarray' 2>/dev/null ||
-        { python3 -m venv "$place" && "$python" -m pip install -q "${readers[@]}"; } >"$log" 2>&1; then
+        { python3 -m venv "$place" && "$python" -m pip install -q --only-binary :all: "${readers[@]}"; } >"$log" 2>&1; then
         CAPSULEMAP_PYTHON=$PWD/$python
         export CAPSULEMAP_PYTHON
     else
