@@ -7,11 +7,13 @@ has() { command -v "$1" >/dev/null 2>&1; }
 
 has_compiler() { has cc || has gcc || has clang; }
 
-# The build asks pkg-config first; a library elsewhere is given by HDF5_DIR.
+# Where the build looks: a folder given by hand, pkg-config (Debian), the system's headers (Fedora),
+# Homebrew.
 has_hdf5() {
-    [ -n "${HDF5_DIR:-}" ] && return 0
-    has pkg-config || return 1
-    pkg-config --exists hdf5 || pkg-config --exists hdf5-serial
+    [ -n "${HDF5_DIR:-}" ] ||
+        { has pkg-config && pkg-config --exists hdf5; } ||
+        [ -e /usr/include/hdf5.h ] ||
+        { has brew && [ -e "$(brew --prefix)/include/hdf5.h" ]; }
 }
 
 complete() { has_compiler && has_hdf5; }
@@ -26,17 +28,19 @@ give_up() {
     exit 1
 }
 
-# Runs a command as root: directly, or through sudo where a person can be asked or need not be.
+# Runs a command as root, through sudo if need be; without a terminal sudo must not ask.
 as_root() {
     if [ "$(id -u)" -eq 0 ]; then
         "$@"
-    elif ! has sudo; then
-        give_up "'$*' needs root, and there is no sudo"
     elif [ -t 0 ]; then
         sudo "$@"
     else
         sudo -n "$@"
     fi
+}
+
+need_root() {
+    [ "$(id -u)" -eq 0 ] || has sudo || give_up "to install needs root, and there is no sudo"
 }
 
 apt_install() {
@@ -53,8 +57,10 @@ apt_try() {
 
 install_missing() {
     if has apt-get; then
+        need_root
         apt_install
     elif has dnf; then
+        need_root
         # RHEL and its kin keep HDF5 in the EPEL repository; Fedora has it at hand.
         as_root dnf install -y gcc pkgconf-pkg-config hdf5-devel
     elif has brew; then

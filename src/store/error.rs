@@ -77,8 +77,8 @@ impl fmt::Display for StoreError {
             }
             StoreError::Hdf5 { path, doing, said } => write!(
                 f,
-                "{}: {doing}: {said}; the file may be cut short or damaged: restore a copy or make \
-                 it again (on a network disk without locks set HDF5_USE_FILE_LOCKING=FALSE)",
+                "{}: {doing}: {said}; the file may be cut short, damaged or changed by another \
+                 program: restore a copy or make it again (on a network disk without locks set HDF5_USE_FILE_LOCKING=FALSE)",
                 path.display()
             ),
             StoreError::Foreign { path, why } => write!(
