@@ -13,7 +13,7 @@ const LARGEST_COMPRESSION: u64 = 1100;
 
 /// The dataset in the file at `path`.
 pub fn dataset(path: &Path) -> Result<Dataset, StoreError> {
-    let failed = |doing: String| move |said| StoreError::hdf5(path, doing, said);
+    let failed = |doing: String| move |said| StoreError::decoding(path, doing, said);
     let file = File::open(path).map_err(failed("opening the file".into()))?;
     check_format(&file, path)?;
     let mut dataset = Dataset::default();

@@ -30,7 +30,7 @@ pub fn image(dataset: &Dataset, path: &Path) -> Result<Vec<u8>, StoreError> {
 }
 
 fn lay_out(dataset: &Dataset, path: &Path) -> Result<Vec<u8>, StoreError> {
-    let failed = |doing: String| move |said| StoreError::hdf5(path, doing, said);
+    let failed = |doing: String| move |said| StoreError::encoding(path, doing, said);
     let file = blank().map_err(failed("starting a file in memory".into()))?;
     let mut scales = Vec::new();
     for (name, coordinate) in &dataset.coordinates {

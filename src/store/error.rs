@@ -23,8 +23,17 @@ pub enum StoreError {
         /// What the system said.
         said: io::Error,
     },
-    /// The HDF5 library refused, or the file is not laid out as this program lays it out.
-    Hdf5 {
+    /// The HDF5 library did not take the dataset.
+    Encoding {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// What was being done.
+        doing: String,
+        /// What the library said.
+        said: String,
+    },
+    /// The file is not laid out as this program lays it out, or is damaged.
+    Decoding {
         /// The file concerned.
         path: PathBuf,
         /// What was being done.
@@ -59,9 +68,16 @@ impl StoreError {
         StoreError::System { path: path.to_owned(), doing, said }
     }
 
-    /// A refusal of HDF5, with the file and the step.
-    pub(super) fn hdf5(path: &Path, doing: impl Into<String>, said: hdf5::Error) -> Self {
-        StoreError::Hdf5 { path: path.to_owned(), doing: doing.into(), said: said.to_string() }
+    /// A refusal of HDF5 to take something, with the file and the step.
+    pub(super) fn encoding(path: &Path, doing: impl Into<String>, said: hdf5::Error) -> Self {
+        let (doing, said) = (doing.into(), said.to_string());
+        StoreError::Encoding { path: path.to_owned(), doing, said }
+    }
+
+    /// A refusal of HDF5 to give something, with the file and the step.
+    pub(super) fn decoding(path: &Path, doing: impl Into<String>, said: hdf5::Error) -> Self {
+        let (doing, said) = (doing.into(), said.to_string());
+        StoreError::Decoding { path: path.to_owned(), doing, said }
     }
 }
 
@@ -75,7 +91,13 @@ impl fmt::Display for StoreError {
             StoreError::System { path, doing, said } => {
                 write!(f, "{}: {doing}: {said}; {}", path.display(), remedy(said.kind()))
             }
-            StoreError::Hdf5 { path, doing, said } => write!(
+            StoreError::Encoding { path, doing, said } => write!(
+                f,
+                "{}: {doing}: {said}; nothing was written: free some memory and run again, and \
+                 report it if it happens twice",
+                path.display()
+            ),
+            StoreError::Decoding { path, doing, said } => write!(
                 f,
                 "{}: {doing}: {said}; the file may be cut short, damaged or changed by another \
                  program: restore a copy or make it again (on a network disk without locks set HDF5_USE_FILE_LOCKING=FALSE)",
