@@ -1,4 +1,6 @@
 //! The tests of the whole: closed forms, invariants, references, and the program as its users run it.
 
+mod house;
 mod paper;
 mod reference;
+mod store;

@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# The one list of checks: what a person runs before handing in, and what .ci/run runs.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+# Readers of the result files, as tried; the tests that need them say so when they are skipped.
+readers=(h5py==3.16.0 netCDF4==1.7.5.1.post1 h5netcdf==1.8.2 xarray==2026.9.0 numpy==2.4.6)
+
+step() {
+    local name=$1 start=$SECONDS
+    shift
+    echo "== $name"
+    "$@" </dev/null || { echo "== $name: FAILED after $((SECONDS - start)) s" >&2; exit 1; }
+    echo "== $name: $((SECONDS - start)) s"
+}
+
+python_readers() {
+    local place=target/check-python log=target/check-python.log
+    mkdir -p target
+    local python=$place/bin/python
+    if ! command -v python3 >/dev/null; then
+        echo "no python3 here: the tests with Python readers will be skipped"
+    elif "$python" -c 'import h5py, netCDF4, h5netcdf, xarray' 2>/dev/null ||
+        { python3 -m venv "$place" && "$python" -m pip install -q --only-binary :all: "${readers[@]}"; } >"$log" 2>&1; then
+        CAPSULEMAP_PYTHON=$PWD/$python
+        export CAPSULEMAP_PYTHON
+    else
+        echo "pip could not install the Python readers (see $log): their tests will be skipped"
+    fi
+}
+
+readme_test() {
+    scripts/setup.sh && cargo test --release
+}
+
+documentation() {
+    RUSTDOCFLAGS="-D warnings" cargo doc --no-deps
+}
+
+step "what the machine needs" scripts/setup.sh
+step "formatting" cargo fmt --check
+step "Python readers" python_readers
+step "tests, as in the README" readme_test
+step "lints" cargo clippy --release --all-targets -- -D warnings
+step "documentation" documentation
+echo "== all checks passed in $SECONDS s"

@@ -1,0 +1,151 @@
+//! What can go wrong when a dataset is kept or read back, said so that a person can act on it.
+
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A dataset that could not be kept or read back.
+#[derive(Debug)]
+pub enum StoreError {
+    /// The dataset breaks a rule of the format; nothing was written.
+    Unfit {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// Every rule broken, one sentence each.
+        faults: Vec<String>,
+    },
+    /// The operating system refused.
+    System {
+        /// The file concerned.
+        path: PathBuf,
+        /// What was being done.
+        doing: &'static str,
+        /// What the system said.
+        said: io::Error,
+    },
+    /// The HDF5 library did not take the dataset.
+    Encoding {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// What was being done.
+        doing: String,
+        /// What the library said.
+        said: String,
+    },
+    /// The file is not laid out as this program lays it out, or is damaged.
+    Decoding {
+        /// The file concerned.
+        path: PathBuf,
+        /// What was being done.
+        doing: String,
+        /// What the library, or the reader, said.
+        said: String,
+    },
+    /// The file is whole as far as anyone can tell, but not one of this program.
+    Foreign {
+        /// The file concerned.
+        path: PathBuf,
+        /// How that was seen.
+        why: String,
+    },
+    /// The checksum at the end of the file does not fit the file.
+    Damaged {
+        /// The file concerned.
+        path: PathBuf,
+    },
+    /// What was written does not read back as it was; the new file was discarded.
+    Unequal {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// The first difference found.
+        difference: String,
+    },
+}
+
+impl StoreError {
+    /// A refusal of the system, with the file and the step.
+    pub(super) fn system(path: &Path, doing: &'static str, said: io::Error) -> Self {
+        StoreError::System { path: path.to_owned(), doing, said }
+    }
+
+    /// A refusal of HDF5 to take something, with the file and the step.
+    pub(super) fn encoding(path: &Path, doing: impl Into<String>, said: hdf5::Error) -> Self {
+        let (doing, said) = (doing.into(), said.to_string());
+        StoreError::Encoding { path: path.to_owned(), doing, said }
+    }
+
+    /// A refusal of HDF5 to give something, with the file and the step.
+    pub(super) fn decoding(path: &Path, doing: impl Into<String>, said: hdf5::Error) -> Self {
+        let (doing, said) = (doing.into(), said.to_string());
+        StoreError::Decoding { path: path.to_owned(), doing, said }
+    }
+}
+
+impl fmt::Display for StoreError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            StoreError::Unfit { path, faults } => {
+                write!(f, "{}: the dataset cannot be stored:", path.display())?;
+                faults.iter().try_for_each(|fault| write!(f, "\n  {fault}"))
+            }
+            StoreError::System { path, doing, said } => {
+                write!(f, "{}: {doing}: {said}; {}", path.display(), remedy(said.kind()))
+            }
+            StoreError::Encoding { path, doing, said } => write!(
+                f,
+                "{}: {doing}: {said}; nothing was written: free some memory and run again, and \
+                 report it if it happens twice",
+                path.display()
+            ),
+            StoreError::Decoding { path, doing, said } => write!(
+                f,
+                "{}: {doing}: {said}; the file may be cut short, damaged or changed by another \
+                 program: restore a copy or make it again (on a network disk without locks set HDF5_USE_FILE_LOCKING=FALSE)",
+                path.display()
+            ),
+            StoreError::Foreign { path, why } => write!(
+                f,
+                "{}: not a result of capsulemap: {why}; give a file that capsulemap wrote",
+                path.display()
+            ),
+            StoreError::Damaged { path } => write!(
+                f,
+                "{}: the file has changed since it was written, its checksum does not fit; restore \
+                 a copy or make it again",
+                path.display()
+            ),
+            StoreError::Unequal { path, difference } => write!(
+                f,
+                "{}: what was written does not read back the same: {difference}; the new file was \
+                 discarded and an older one kept: check the disk and run again",
+                path.display()
+            ),
+        }
+    }
+}
+
+impl std::error::Error for StoreError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            StoreError::System { said, .. } => Some(said),
+            _ => None,
+        }
+    }
+}
+
+/// What a person can do about a refusal of the system.
+fn remedy(kind: io::ErrorKind) -> &'static str {
+    match kind {
+        io::ErrorKind::NotFound => "check the path, and that its folder exists",
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "choose a place that you may use, or ask for the right to it"
+        }
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "free some space and run again; an older file under that name is untouched"
+        }
+        io::ErrorKind::IsADirectory | io::ErrorKind::DirectoryNotEmpty => {
+            "a folder has that name: choose another name"
+        }
+        _ => "check the disk and the path, then run again",
+    }
+}

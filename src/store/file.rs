@@ -1,0 +1,80 @@
+//! Puts a dataset on disk whole or not at all, and reads it back.
+
+use std::fs::File;
+use std::io::{self, Read, Seek, Write};
+use std::path::Path;
+
+use tempfile::NamedTempFile;
+
+use super::faults::faults;
+use super::seal::{self, Seal};
+use super::{Dataset, StoreError, decode, difference, encode};
+
+/// The first bytes of every HDF5 file.
+const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
+
+/// Keeps `dataset` in the file at `path`, replacing an older one only by a complete new one.
+///
+/// The bytes go to a temporary file in the same folder, are forced to the disk, read back and
+/// compared, and only then take the name `path`. After an error nothing is left behind and an
+/// older file is as it was; a reader that has the older one open keeps reading it.
+pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
+    let faults = faults(dataset);
+    if !faults.is_empty() {
+        return Err(StoreError::Unfit { path: path.to_owned(), faults });
+    }
+    let failed = |doing| move |said| StoreError::system(path, doing, said);
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut file = temporary(path, folder).map_err(failed("starting a new file"))?;
+    let mut image = encode::image(dataset, path)?;
+    seal::put(&mut image);
+    file.write_all(&image).map_err(failed("writing"))?;
+    drop(image);
+    file.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
+    let unequal = match read(file.path()) {
+        Ok(kept) => difference(dataset, &kept),
+        Err(refused) => Some(refused.to_string()),
+    };
+    if let Some(difference) = unequal {
+        return Err(StoreError::Unequal { path: path.to_owned(), difference });
+    }
+    file.persist(path).map_err(|refused| failed("giving the file its name")(refused.error))?;
+    sync_folder(folder).map_err(failed("forcing the folder to the disk"))
+}
+
+/// The dataset in the file at `path`, exactly as it was written.
+pub fn read(path: &Path) -> Result<Dataset, StoreError> {
+    let failed = |said| StoreError::system(path, "opening the file", said);
+    let mut file = File::open(path).map_err(failed)?;
+    let mut start = Vec::new();
+    Read::by_ref(&mut file).take(SIGNATURE.len() as u64).read_to_end(&mut start).map_err(failed)?;
+    if start != SIGNATURE {
+        let why = "it is not an HDF5 file".to_owned();
+        return Err(StoreError::Foreign { path: path.to_owned(), why });
+    }
+    file.rewind().map_err(failed)?;
+    match seal::judge(file).map_err(failed)? {
+        Seal::Broken => Err(StoreError::Damaged { path: path.to_owned() }),
+        Seal::Whole | Seal::Absent => decode::dataset(path),
+    }
+}
+
+/// A new file beside `path`, hidden, removed again unless it gets its final name.
+fn temporary(path: &Path, folder: &Path) -> io::Result<NamedTempFile> {
+    let name = path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
+    let prefix = format!(".{}.", name.to_string_lossy());
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix).suffix(".tmp");
+    #[cfg(unix)]
+    // Without this only its owner could read the result; the user's umask still applies.
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
+}
+
+/// A new name is safe only once the folder that lists it is on the disk.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
+}

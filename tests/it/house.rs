@@ -1,0 +1,307 @@
+//! The house rules, checked on the source as text: the order of the floors and what each may use.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The floors from the ground up; a floor uses only those before it.
+const FLOORS: [&str; 8] = ["lane", "model", "flow", "orbit", "sweep", "store", "figure", "cli"];
+
+/// Crates that one floor alone may use.
+const RESERVED: [(&str, &[&str]); 4] = [
+    ("sweep", &["rayon", "toml"]),
+    ("store", &["hdf5", "hdf5_sys"]),
+    (
+        "figure",
+        &[
+            "plotters",
+            "plotters_svg",
+            "resvg",
+            "krilla",
+            "krilla_svg",
+            "colorous",
+            "typst_assets",
+            "png",
+        ],
+    ),
+    ("cli", &["clap", "clap_complete", "indicatif"]),
+];
+
+/// The one file that calls a foreign library directly.
+const UNSAFE_ALLOWED: &str = "src/store/scale.rs";
+
+const LONGEST_FILE: usize = 400;
+
+/// A file of the repository: its path from the root, its text, and its text without comments and
+/// the contents of strings.
+struct Source {
+    path: String,
+    text: String,
+    code: String,
+}
+
+impl Source {
+    fn new(path: &str, text: &str) -> Self {
+        Source { path: path.into(), text: text.into(), code: code_only(text) }
+    }
+
+    /// The floor that the file belongs to; `None` for `lib.rs`, `main.rs`, tests and benches.
+    fn floor(&self) -> Option<&str> {
+        let inside = self.path.strip_prefix("src/")?;
+        let first = inside.split('/').next()?;
+        let name = first.strip_suffix(".rs").unwrap_or(first);
+        FLOORS.contains(&name).then_some(name)
+    }
+}
+
+fn sources(folders: &[&str]) -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut paths = Vec::new();
+    for folder in folders {
+        collect(&root.join(folder), &mut paths);
+    }
+    let read = |path: PathBuf| {
+        let text = fs::read_to_string(&path).expect("a source file can be read");
+        let inside = path.strip_prefix(root).expect("it lies in the repository");
+        Source::new(&inside.to_string_lossy().replace('\\', "/"), &text)
+    };
+    paths.into_iter().map(read).collect()
+}
+
+fn collect(folder: &Path, paths: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).into_iter().flatten() {
+        let path = entry.expect("an entry of a folder").path();
+        if path.is_dir() {
+            collect(&path, paths);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            paths.push(path);
+        }
+    }
+}
+
+/// `text` with comments and the contents of strings left out.
+fn code_only(text: &str) -> String {
+    let mut code = String::new();
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let skipped = if rest.starts_with("//") {
+            rest.find('\n').unwrap_or(rest.len())
+        } else if rest.starts_with("/*") {
+            rest.find("*/").map_or(rest.len(), |end| end + 2)
+        } else {
+            string_length(rest)
+        };
+        let taken = if skipped > 0 { skipped } else { first.len_utf8() };
+        code.push_str(if skipped > 0 { " " } else { &rest[..taken] });
+        rest = &rest[taken..];
+    }
+    code
+}
+
+/// The length of the string or character literal that `text` begins with, or 0.
+fn string_length(text: &str) -> usize {
+    let hashes = text.strip_prefix('r').map_or(0, |t| t.len() - t.trim_start_matches('#').len());
+    if text.starts_with('r') && text[1 + hashes..].starts_with('"') {
+        let open = hashes + 2;
+        let close = format!("\"{}", "#".repeat(hashes));
+        return text[open..].find(&close).map_or(text.len(), |end| open + end + close.len());
+    }
+    if text.starts_with("'\"'") {
+        return 3;
+    }
+    if text.starts_with("'\\") {
+        return text[3..].find('\'').map_or(text.len(), |end| 4 + end);
+    }
+    if !text.starts_with('"') {
+        return 0;
+    }
+    let mut escaped = false;
+    for (place, character) in text.char_indices().skip(1) {
+        match character {
+            _ if escaped => escaped = false,
+            '\\' => escaped = true,
+            '"' => return place + 1,
+            _ => {}
+        }
+    }
+    text.len()
+}
+
+/// Every word of `code` with the text before and after it.
+fn words(code: &str) -> impl Iterator<Item = (&str, &str, &str)> {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let starts = code.char_indices().filter(move |(place, c)| {
+        is_word(*c) && !code[..*place].chars().next_back().is_some_and(is_word)
+    });
+    starts.map(move |(start, _)| {
+        let length = code[start..].find(|c| !is_word(c)).unwrap_or(code.len() - start);
+        (&code[..start], &code[start..start + length], &code[start + length..])
+    })
+}
+
+/// Floors that `code` names as `crate::floor` or inside `crate::{...}`.
+fn floors_used(code: &str) -> Vec<&str> {
+    let mut used = Vec::new();
+    for (_, _, after) in words(code).filter(|(_, word, _)| *word == "crate") {
+        let Some(path) = after.trim_start().strip_prefix("::").map(str::trim_start) else {
+            continue;
+        };
+        let named = match path.strip_prefix('{') {
+            Some(group) => group[..group.find(';').unwrap_or(group.len())].split(',').collect(),
+            None => vec![path],
+        };
+        used.extend(
+            named.into_iter().filter_map(|name| words(name).next()).map(|(_, name, _)| name),
+        );
+    }
+    used.retain(|name| FLOORS.contains(name));
+    used
+}
+
+fn floor_faults(source: &Source) -> Vec<String> {
+    let height = |name: &str| FLOORS.iter().position(|floor| *floor == name);
+    let Some(floor) = source.floor() else { return Vec::new() };
+    let used = floors_used(&source.code).into_iter();
+    used.filter(|name| height(name) > height(floor))
+        .map(|name| format!("{}: {floor} uses {name}, a floor above it", source.path))
+        .collect()
+}
+
+fn crate_faults(source: &Source) -> Vec<String> {
+    let mut faults = Vec::new();
+    for (before, word, after) in words(&source.code) {
+        let is_path = after.starts_with("::") && !before.ends_with("::");
+        let is_import = before.ends_with("use ") || before.ends_with("extern crate ");
+        let owner = RESERVED.iter().find(|(_, crates)| crates.contains(&word));
+        if let Some((owner, _)) = owner
+            && (is_path || is_import)
+            && source.floor() != Some(owner)
+        {
+            faults.push(format!("{}: the crate {word} belongs to {owner}", source.path));
+        }
+    }
+    faults
+}
+
+fn form_faults(source: &Source) -> Vec<String> {
+    let mut faults = Vec::new();
+    let opening: Vec<&str> = source.text.lines().map_while(|l| l.strip_prefix("//! ")).collect();
+    if !opening.last().is_some_and(|line| line.ends_with('.')) {
+        faults.push(format!("{}: does not open with a `//!` sentence", source.path));
+    }
+    let lines = source.text.lines().count();
+    if lines > LONGEST_FILE {
+        faults.push(format!("{}: {lines} lines, more than {LONGEST_FILE}", source.path));
+    }
+    if source.path != UNSAFE_ALLOWED && words(&source.code).any(|(_, word, _)| word == "unsafe") {
+        faults.push(format!("{}: unsafe outside {UNSAFE_ALLOWED}", source.path));
+    }
+    faults
+}
+
+/// The modules that a file declares, in its order.
+fn modules(code: &str) -> Vec<&str> {
+    let after_mod = words(code).filter(|(_, word, _)| *word == "mod");
+    after_mod.filter_map(|(_, _, after)| words(after).next()).map(|(_, name, _)| name).collect()
+}
+
+fn order_faults(code: &str, present: &[&str]) -> Vec<String> {
+    let right: Vec<&str> = FLOORS.into_iter().filter(|floor| present.contains(floor)).collect();
+    let found = modules(code);
+    if found == right {
+        return Vec::new();
+    }
+    vec![format!("src/lib.rs declares {found:?} instead of {right:?}")]
+}
+
+fn assert_clean(faults: Vec<String>) {
+    assert!(faults.is_empty(), "the house rules are broken:\n{}", faults.join("\n"));
+}
+
+#[test]
+fn the_floors_are_declared_from_the_ground_up() {
+    let all = sources(&["src"]);
+    let library = all.iter().find(|source| source.path == "src/lib.rs").expect("src/lib.rs");
+    let present: Vec<&str> = all.iter().filter_map(Source::floor).collect();
+    assert_clean(order_faults(&library.code, &present));
+}
+
+#[test]
+fn a_floor_uses_only_floors_below() {
+    assert_clean(sources(&["src"]).iter().flat_map(floor_faults).collect());
+}
+
+#[test]
+fn crates_stay_on_their_floor() {
+    assert_clean(sources(&["src"]).iter().flat_map(crate_faults).collect());
+}
+
+#[test]
+fn files_open_with_a_sentence_and_stay_short_and_safe() {
+    let all = sources(&["src", "tests", "benches"]);
+    assert!(all.len() > 5, "the source was not found");
+    assert_clean(all.iter().flat_map(form_faults).collect());
+}
+
+#[test]
+fn a_floor_that_looks_up_is_seen() {
+    for code in [
+        "use crate::figure::Style;",
+        "use crate::{model, figure::{a, b}};",
+        "fn f() { crate :: cli::run() }",
+    ] {
+        assert_eq!(floor_faults(&Source::new("src/store/a.rs", code)).len(), 1, "{code}");
+    }
+    for code in [
+        "use crate::{model::A, store};",
+        "// use crate::figure;",
+        "let a = \"crate::figure\";",
+        "use crate::figures;",
+    ] {
+        assert_clean(floor_faults(&Source::new("src/store/a.rs", code)));
+    }
+}
+
+#[test]
+fn a_crate_on_the_wrong_floor_is_seen() {
+    let cases = [
+        ("src/cli/run.rs", "use rayon::prelude::*;"),
+        ("src/figure/a.rs", "let file = hdf5::File::open(path);"),
+        ("src/sweep/a.rs", "use png;"),
+        ("src/main.rs", "use clap::Parser;"),
+        ("src/orbit.rs", "#[derive(clap::Parser)] struct A;"),
+    ];
+    for (path, code) in cases {
+        assert_eq!(crate_faults(&Source::new(path, code)).len(), 1, "{path}: {code}");
+    }
+    let fine = [
+        ("src/figure/a.rs", "use png::Encoder;"),
+        ("src/cli/a.rs", "crate::figure::png::write()"),
+        ("src/cli/a.rs", "let toml = 3; let a = r#\"hdf5::\"#; // rayon::spawn"),
+    ];
+    for (path, code) in fine {
+        assert_clean(crate_faults(&Source::new(path, code)));
+    }
+}
+
+#[test]
+fn bad_form_is_seen() {
+    let long = format!("//! A sentence.\n{}", "\n".repeat(LONGEST_FILE));
+    for text in ["fn f() {}", "//! no stop\n", "//! A sentence.\nunsafe fn f() {}", &long] {
+        assert_eq!(form_faults(&Source::new("src/model/a.rs", text)).len(), 1, "{text}");
+    }
+    let fine =
+        "//! A sentence.\n#![deny(unsafe_code)]\n// unsafe\nlet a = '\"'; let b = \"unsafe\";";
+    assert_clean(form_faults(&Source::new("src/model/a.rs", fine)));
+    let foreign = "//! A sentence.\nunsafe fn f() {}";
+    assert_clean(form_faults(&Source::new(UNSAFE_ALLOWED, foreign)));
+}
+
+#[test]
+fn a_wrong_order_of_floors_is_seen() {
+    let present = ["store", "model", "cli"];
+    assert_clean(order_faults("pub mod model; pub mod store; pub mod cli;", &present));
+    for code in ["pub mod store; pub mod model; pub mod cli;", "pub mod model; pub mod store;"] {
+        assert_eq!(order_faults(code, &present).len(), 1, "{code}");
+    }
+    assert_eq!(order_faults("mod model; mod util; mod store; mod cli;", &present).len(), 1);
+}
