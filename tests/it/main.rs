@@ -1,1 +1,3 @@
-//! tests
+//! The tests of the program, one module per floor.
+
+mod figure;

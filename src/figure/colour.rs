@@ -1,0 +1,120 @@
+//! From numbers to colours, and the bar that tells the numbers back.
+
+use plotters::style::RGBColor;
+
+use super::axis::{Along, Axis, AxisRequest};
+use super::canvas::{Anchor, Canvas, Reading, Rect, Stroke};
+use super::panel::label_rows;
+use super::quantity::Quantity;
+use super::raster::Raster;
+use super::scale::{Scale, Spacing, finite_range};
+use super::style::{
+    FRAME_WIDTH, INK, LABEL_GAP, LABEL_SIZE, MAJOR_LENGTH, MINOR_LENGTH, MINOR_WIDTH, SMALL_SIZE,
+    TICK_GAP,
+};
+use super::text::Text;
+
+/// Distance between a frame and its bar [pt].
+const BAR_GAP: f64 = 6.0;
+/// Width of the bar [pt].
+const BAR_WIDTH: f64 = 8.0;
+/// Ratio above which positive values are told apart by their logarithm.
+const MANY_DECADES: f64 = 1000.0;
+
+/// A scale of colours with its bar.
+pub struct Colours {
+    /// Range of the bar.
+    scale: Scale,
+    /// Largest magnitude, where zero is the middle of the colours.
+    centred: Option<f64>,
+    quantity: Quantity,
+}
+
+impl Colours {
+    /// The colours for `values`: centred on zero where both signs occur.
+    pub fn for_values(values: &[f64], quantity: Quantity) -> Colours {
+        let range = finite_range(values.iter().copied());
+        let (low, high) = range.unwrap_or((0.0, 1.0));
+        let decades = low > 0.0 && high / low > MANY_DECADES;
+        let scale = match decades {
+            true => Scale { spacing: Spacing::Log, low, high },
+            false => Scale::around(values.iter().copied(), 0.0),
+        };
+        let centred = (low < 0.0 && high > 0.0).then(|| high.max(-low));
+        Colours { scale, centred, quantity }
+    }
+
+    /// The colours for the values of an axis.
+    pub fn for_axis(values: &[f64], quantity: Quantity) -> Colours {
+        Colours { scale: Scale::of_axis(values), centred: None, quantity }
+    }
+
+    /// The colour of a finite `value`.
+    pub fn of(&self, value: f64) -> RGBColor {
+        let colour = match self.centred {
+            // Red for forward, blue for backward.
+            Some(most) => colorous::RED_BLUE.eval_continuous(0.5 - 0.5 * value / most),
+            None => colorous::VIRIDIS.eval_continuous(self.scale.share(value).clamp(0.0, 1.0)),
+        };
+        RGBColor(colour.r, colour.g, colour.b)
+    }
+
+    fn axis(&self, height: f64) -> Axis {
+        let request = AxisRequest::new(self.quantity.clone(), self.scale);
+        Axis::new(&request, Along::Up, height)
+    }
+
+    /// Room that the bar takes beside a frame of `height` [pt].
+    pub fn room(&self, height: f64) -> f64 {
+        let axis = self.axis(height);
+        let lines = label_rows(&axis, height) as f64;
+        let label = LABEL_GAP + (1.15 * lines - 0.1) * LABEL_SIZE;
+        BAR_GAP + BAR_WIDTH + TICK_GAP + axis.widest + label
+    }
+
+    /// Draws the bar beside `frame`.
+    pub fn draw_bar(&self, canvas: &mut Canvas, frame: Rect) {
+        let left = frame.right + BAR_GAP;
+        let bar = Rect { left, right: left + BAR_WIDTH, ..frame };
+        let steps = 512usize;
+        let row = |share: f64| (share * steps as f64) as usize;
+        let colour = |_, row: usize| {
+            Some(self.of(self.scale.value(1.0 - (row as f64 + 0.5) / steps as f64)))
+        };
+        canvas.image(bar, &Raster::cells(bar, |_| 0, row, colour));
+        canvas.frame(bar, Stroke::solid(INK, FRAME_WIDTH));
+        let axis = self.axis(frame.height());
+        let place = |value: f64| bar.bottom - axis.scale.share(value) * bar.height();
+        let tick = |value: f64, length: f64| {
+            ((bar.right, place(value)), (bar.right + length, place(value)))
+        };
+        let major: Vec<_> =
+            axis.ticks.major.iter().map(|it| tick(it.value, MAJOR_LENGTH - 1.0)).collect();
+        canvas.segments(&major, Stroke::solid(INK, FRAME_WIDTH));
+        let minor: Vec<_> =
+            axis.ticks.minor.iter().map(|value| tick(*value, MINOR_LENGTH - 0.6)).collect();
+        canvas.segments(&minor, Stroke::solid(INK, MINOR_WIDTH));
+        let numbers = bar.right + TICK_GAP + 1.5;
+        for tick in &axis.ticks.major {
+            let at = (numbers, place(tick.value) + 0.32 * SMALL_SIZE);
+            canvas.text(&Text::markup(&tick.label), at, SMALL_SIZE, Anchor::Start);
+        }
+        draw_label(canvas, &axis, frame, numbers + axis.widest + LABEL_GAP);
+    }
+}
+
+/// The label of a bar, its letters right of `left`.
+fn draw_label(canvas: &mut Canvas, axis: &Axis, frame: Rect, left: f64) {
+    let middle = (frame.top + frame.bottom) / 2.0;
+    let mut set = |text: &Text, line: f64| {
+        let at = (left + (0.75 + 1.15 * line) * LABEL_SIZE, middle);
+        canvas.label(text, at, LABEL_SIZE, Anchor::Middle, Reading::Upward, INK);
+    };
+    match label_rows(axis, frame.height()) {
+        1 => set(&axis.label, 0.0),
+        _ => {
+            set(&axis.label_lines.0, 0.0);
+            set(&axis.label_lines.1, 1.0);
+        }
+    }
+}

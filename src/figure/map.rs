@@ -1,0 +1,203 @@
+//! One output over two axes, in colours.
+
+use plotters::style::RGBColor;
+
+use super::axis::AxisRequest;
+use super::canvas::Drawn;
+use super::category::Kinds;
+use super::colour::Colours;
+use super::error::FigureError;
+use super::outcome::Outcomes;
+use super::page::{PageRequest, PanelRequest};
+use super::panel::{Header, Mark, Panel, Pointing};
+use super::raster::Raster;
+use super::scale::{Scale, Spacing};
+use super::style::{INFINITE, ONE_COLUMN};
+use super::text::Text;
+use super::view::View;
+
+/// The output shown, unless another is asked for.
+const OUTPUT: &str = "progression_speed";
+/// Height of the frame [pt].
+const HEIGHT: f64 = 158.0;
+
+/// How the cells are coloured.
+enum Paint {
+    Numbers(Colours, Vec<f64>),
+    Kinds(Kinds),
+}
+
+impl Paint {
+    /// The colour of a case; none where it has no value.
+    fn colour(&self, case: usize) -> Option<RGBColor> {
+        match self {
+            Paint::Numbers(_, values) if values[case].is_infinite() => Some(INFINITE),
+            Paint::Numbers(_, values) if values[case].is_nan() => None,
+            Paint::Numbers(colours, values) => Some(colours.of(values[case])),
+            Paint::Kinds(kinds) => kinds.colour(case),
+        }
+    }
+
+    /// The entries that the colour bar does not explain.
+    fn legend(&self) -> Vec<(Mark, Text)> {
+        let Paint::Numbers(_, values) = self else { return Vec::new() };
+        let mut legend = Vec::new();
+        if values.iter().any(|value| value.is_infinite()) {
+            legend.push((Mark::Patch(INFINITE), Text::plain("infinite")));
+        }
+        if values.iter().any(|value| value.is_nan()) {
+            legend.push((Mark::Hatched, Text::plain("no value")));
+        }
+        legend
+    }
+}
+
+/// The cells along one axis: their places in the results, from the smallest value to the largest.
+struct Cells {
+    order: Vec<usize>,
+    /// Where each cell but the last ends, as a share of the axis.
+    ends: Vec<f64>,
+    scale: Scale,
+}
+
+impl Cells {
+    /// Cells around `values`, each as far as half way to its neighbours.
+    fn around(values: &[f64]) -> Cells {
+        let mut order: Vec<usize> = (0..values.len()).collect();
+        order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+        let sorted: Vec<f64> = order.iter().map(|index| values[*index]).collect();
+        let inner = Scale::of_axis(&sorted);
+        let scale = match sorted.as_slice() {
+            [first, second, .., before, last] => outer(inner, *first, *second, *before, *last),
+            [first, last] => outer(inner, *first, *last, *first, *last),
+            [first, second, last] => outer(inner, *first, *second, *second, *last),
+            _ => inner,
+        };
+        let middle = |pair: &[f64]| (scale.share(pair[0]) + scale.share(pair[1])) / 2.0;
+        Cells { order, ends: sorted.windows(2).map(middle).collect(), scale }
+    }
+
+    /// The place in the results of the cell at `share` of the axis.
+    fn at(&self, share: f64) -> usize {
+        self.order[self.ends.partition_point(|end| *end < share)]
+    }
+}
+
+/// `inner` and half a cell more at both ends.
+fn outer(inner: Scale, first: f64, second: f64, before: f64, last: f64) -> Scale {
+    if inner.low == inner.high || first == last {
+        return inner;
+    }
+    match inner.spacing {
+        Spacing::Linear => Scale {
+            low: first - (second - first) / 2.0,
+            high: last + (last - before) / 2.0,
+            ..inner
+        },
+        Spacing::Log => Scale {
+            low: first / (second / first).sqrt(),
+            high: last * (last / before).sqrt(),
+            ..inner
+        },
+    }
+}
+
+/// Draws the map that `view` asks for.
+pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let (x_name, y_name) = axes(view)?;
+    let output = match view.drawing.of.as_slice() {
+        [] => OUTPUT.to_string(),
+        [one] => one.clone(),
+        several => {
+            let why = format!("a map shows one output, and `of` names {}", several.join(", "));
+            return Err(view.unfit(why));
+        }
+    };
+    let free = [y_name, x_name];
+    let cells = |name: &str| -> Result<Cells, FigureError> {
+        let factor = view.quantity(name).factor;
+        let values: Vec<f64> = view.axis_values(name)?.iter().map(|it| it * factor).collect();
+        if values.is_empty() {
+            return Err(view.unfit(format!("axis `{name}` has no values")));
+        }
+        Ok(Cells::around(&values))
+    };
+    let (x, y) = (cells(x_name)?, cells(y_name)?);
+    let paint = paint(view, &output, &free, x.order.len() * y.order.len())?;
+    let room = match &paint {
+        Paint::Numbers(colours, _) => colours.room(HEIGHT),
+        Paint::Kinds(kinds) => kinds.room(),
+    };
+    let panel = PanelRequest {
+        x: AxisRequest::new(view.quantity(x_name), x.scale),
+        y: AxisRequest::new(view.quantity(y_name), y.scale),
+        header: Header { legend: paint.legend(), ..Header::default() },
+    };
+    let page = PageRequest {
+        title: view.drawing.title.clone(),
+        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
+        heights: vec![HEIGHT],
+        rows: vec![vec![panel]],
+        right_room: room,
+        pointing: Pointing::Outward,
+    };
+    let (mut canvas, panels) = page.lay_out();
+    for panel in panels.iter().flatten() {
+        let raster = raster(panel, &x, &y, &paint);
+        canvas.image(panel.frame, &raster);
+        panel.finish(&mut canvas);
+        match &paint {
+            Paint::Numbers(colours, _) => colours.draw_bar(&mut canvas, panel.frame),
+            Paint::Kinds(kinds) => kinds.draw_legend(&mut canvas, panel.frame),
+        }
+    }
+    Ok(canvas.finish(&super::about(view, &[output], &[x_name, y_name])))
+}
+
+/// The axes along the abscissa and the ordinate.
+fn axes<'a>(view: &View<'a>) -> Result<(&'a str, &'a str), FigureError> {
+    let free = super::drawable_axes(view);
+    let named = |name: &Option<String>| {
+        name.as_ref().and_then(|name| view.axes().into_iter().find(|axis| axis == name))
+    };
+    let (x, y) = (named(&view.drawing.x), named(&view.drawing.y));
+    let x = x.or_else(|| free.iter().copied().find(|name| Some(*name) != y));
+    let y = y.or_else(|| free.iter().copied().find(|name| Some(*name) != x));
+    match (x, y) {
+        (Some(x), Some(y)) if x != y => Ok((x, y)),
+        (Some(x), Some(_)) => Err(view.unfit(format!("`{x}` cannot be both axes of a map"))),
+        _ => Err(view.unfit(format!(
+            "a map needs two axes that `at` does not hold, and there is {}",
+            if free.is_empty() { "none".to_string() } else { format!("only {}", free.join(", ")) }
+        ))),
+    }
+}
+
+fn paint(view: &View<'_>, output: &str, free: &[&str], cases: usize) -> Result<Paint, FigureError> {
+    let mut values: Vec<f64> = view.shown(output, free)?.into_iter().collect();
+    if values.len() != cases {
+        let why = format!("`{output}` has several values per case, and a map shows one");
+        return Err(view.unfit(why));
+    }
+    if output == "period" || !view.flags(output).is_empty() {
+        return Ok(Paint::Kinds(Kinds::of(view, output, free)?));
+    }
+    let outcomes = Outcomes::over(view, free)?;
+    for (case, value) in values.iter_mut().enumerate() {
+        if outcomes.failed(case) {
+            *value = f64::NAN;
+        }
+    }
+    Ok(Paint::Numbers(Colours::for_values(&values, view.quantity(output)), values))
+}
+
+/// The cells of the map as pixels over the panel.
+fn raster(panel: &Panel, x: &Cells, y: &Cells, paint: &Paint) -> Raster {
+    let columns = x.order.len();
+    Raster::cells(
+        panel.frame,
+        |share| x.at(share),
+        |share| y.at(1.0 - share),
+        |column, row| paint.colour(row * columns + column),
+    )
+}

@@ -1,0 +1,160 @@
+//! Progression speed against the energy that a cycle takes, and the best of both.
+
+use super::axis::AxisRequest;
+use super::canvas::{Drawn, Stroke};
+use super::cloud;
+use super::colour::Colours;
+use super::error::FigureError;
+use super::outcome::Outcomes;
+use super::page::{PageRequest, PanelRequest};
+use super::panel::{Header, Mark, Pointing};
+use super::scale::{Scale, finite_range};
+use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, MINOR_WIDTH, ONE_COLUMN, VERMILION};
+use super::text::Text;
+use super::view::View;
+
+/// The energy shown, unless another is asked for.
+const ENERGY: &str = "work_positive";
+/// The speed shown.
+const SPEED: &str = "progression_speed";
+/// Height of the frame [pt].
+const HEIGHT: f64 = 158.0;
+/// Ratio above which energies are shown by their logarithm.
+const MANY_DECADES: f64 = 200.0;
+
+/// A case with both outputs, and its place among the cases.
+struct Case {
+    energy: f64,
+    speed: f64,
+    place: usize,
+}
+
+/// Draws the trade-off that `view` asks for.
+pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let energy = match view.drawing.of.as_slice() {
+        [] => ENERGY.to_string(),
+        [one] => one.clone(),
+        several => {
+            let why = format!("a trade-off has one energy, and `of` names {}", several.join(", "));
+            return Err(view.unfit(why));
+        }
+    };
+    let free = view.free_axes();
+    let cases = cases(view, &energy, &free)?;
+    let hue = hue(view, &free)?;
+    let page = request(view, &cases, &energy, hue.as_ref().map(|(colours, _)| colours));
+    let (mut canvas, panels) = page.lay_out();
+    for panel in panels.iter().flatten() {
+        if panel.y.scale.low * panel.y.scale.high < 0.0 {
+            let zero = [(panel.x.scale.low, 0.0), (panel.x.scale.high, 0.0)];
+            panel.curve(&mut canvas, &zero, Stroke::solid(FAINT_INK, MINOR_WIDTH));
+        }
+        let dot = |case: &Case| {
+            let colour = hue.as_ref().map_or(BLUE, |(colours, of)| colours.of(of[case.place]));
+            ((case.energy, case.speed), colour)
+        };
+        let dots: Vec<_> = cases.iter().map(dot).collect();
+        let radius = 1.4 * cloud::radius(dots.len());
+        cloud::draw(&mut canvas, panel, &dots, radius);
+        panel.curve(&mut canvas, &stairs(&front(&cases)), Stroke::solid(VERMILION, CURVE_WIDTH));
+        if let Some((colours, _)) = &hue {
+            colours.draw_bar(&mut canvas, panel.frame);
+        }
+        panel.finish(&mut canvas);
+    }
+    Ok(canvas.finish(&super::about(view, &[SPEED.to_string(), energy], &free)))
+}
+
+/// The periodic cases with finite outputs.
+fn cases(view: &View<'_>, energy: &str, free: &[&str]) -> Result<Vec<Case>, FigureError> {
+    let (energies, speeds) = (view.shown(energy, free)?, view.shown(SPEED, free)?);
+    if energies.len() != speeds.len() {
+        return Err(view.unfit(format!("`{energy}` does not have one value per case")));
+    }
+    let outcomes = Outcomes::over(view, free)?;
+    let case = |(place, (energy, speed)): (usize, (&f64, &f64))| Case {
+        energy: *energy,
+        speed: *speed,
+        place,
+    };
+    let all = energies.iter().zip(&speeds).enumerate().map(case);
+    let kept = |case: &Case| {
+        case.energy.is_finite() && case.speed.is_finite() && outcomes.periodic(case.place)
+    };
+    Ok(all.filter(kept).collect())
+}
+
+/// The colours of an axis, and the axis' value for each case.
+fn hue(view: &View<'_>, free: &[&str]) -> Result<Option<(Colours, Vec<f64>)>, FigureError> {
+    let wanted = view.drawing.x.as_deref();
+    let long = |name: &&&str| view.coordinate_values(name).len() > 1;
+    let Some(name) = wanted.or_else(|| free.iter().find(long).copied()) else {
+        return Ok(None);
+    };
+    let quantity = view.quantity(name);
+    let factor = quantity.factor;
+    let values: Vec<f64> = view.axis_values(name)?.iter().map(|value| value * factor).collect();
+    let of_case = view.parameter(name, free)?.iter().map(|value| value * factor).collect();
+    Ok(Some((Colours::for_axis(&values, quantity), of_case)))
+}
+
+fn request(
+    view: &View<'_>,
+    cases: &[Case],
+    energy: &str,
+    colours: Option<&Colours>,
+) -> PageRequest {
+    let energies = || cases.iter().map(|case| case.energy);
+    let (low, high) = finite_range(energies()).unwrap_or((0.0, 1.0));
+    let x = match low > 0.0 && high / low > MANY_DECADES {
+        true => Scale::log_around(energies(), 0.04),
+        false => Scale::around(energies(), 0.04),
+    };
+    let y = Scale::around(cases.iter().map(|case| case.speed), 0.06);
+    let legend = match cases.len() {
+        0 => Vec::new(),
+        _ => {
+            let line = Mark::Line(Stroke::solid(VERMILION, CURVE_WIDTH));
+            vec![(line, Text::plain("fastest for the least energy"))]
+        }
+    };
+    let note = cases.is_empty().then(|| Text::plain("no periodic case"));
+    let panel = PanelRequest {
+        x: AxisRequest::new(view.quantity(energy), x),
+        y: AxisRequest::new(view.quantity(SPEED), y),
+        header: Header { letter: None, note, legend },
+    };
+    PageRequest {
+        title: view.drawing.title.clone(),
+        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
+        heights: vec![HEIGHT],
+        rows: vec![vec![panel]],
+        right_room: colours.map_or(0.0, |colours| colours.room(HEIGHT)),
+        pointing: Pointing::Inward,
+    }
+}
+
+/// The Pareto front: cases that no other beats in speed without taking more energy.
+fn front(cases: &[Case]) -> Vec<(f64, f64)> {
+    let mut order: Vec<&Case> = cases.iter().collect();
+    order.sort_by(|a, b| a.energy.total_cmp(&b.energy).then_with(|| b.speed.total_cmp(&a.speed)));
+    let mut front: Vec<(f64, f64)> = Vec::new();
+    for case in order {
+        if front.last().is_none_or(|(_, speed)| case.speed > *speed) {
+            front.push((case.energy, case.speed));
+        }
+    }
+    front
+}
+
+/// The front as stairs: up to the next case, the last one stays the best.
+fn stairs(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut line = Vec::new();
+    for (at, (energy, speed)) in front.iter().enumerate() {
+        if at > 0 {
+            line.push((*energy, front[at - 1].1));
+        }
+        line.push((*energy, *speed));
+    }
+    line
+}
