@@ -15,6 +15,9 @@ pub enum Along {
     Up,
 }
 
+/// Ratio of positive values above which their logarithm is shown.
+pub const MANY_DECADES: f64 = 1000.0;
+
 /// What an axis is to show.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisRequest {
@@ -22,8 +25,8 @@ pub struct AxisRequest {
     pub quantity: Quantity,
     /// The values shown, in the units of the figure.
     pub scale: Scale,
-    /// Whether only whole numbers make sense.
-    pub whole: bool,
+    /// Whether there are values to show at all.
+    pub empty: bool,
     /// Whether it carries a label.
     pub labelled: bool,
     /// Whether its marks carry numbers.
@@ -33,7 +36,15 @@ pub struct AxisRequest {
 impl AxisRequest {
     /// An axis with label and numbers.
     pub fn new(quantity: Quantity, scale: Scale) -> AxisRequest {
-        AxisRequest { quantity, scale, whole: false, labelled: true, numbered: true }
+        AxisRequest { quantity, scale, empty: false, labelled: true, numbered: true }
+    }
+
+    /// An axis around `values`, without marks where none of them is finite; logarithmic where they
+    /// span many decades.
+    pub fn around(quantity: Quantity, values: &[f64], margin: f64) -> AxisRequest {
+        let empty = !values.iter().any(|value| value.is_finite());
+        let scale = Scale::fitting(values, margin, MANY_DECADES);
+        AxisRequest { empty, numbered: !empty, ..AxisRequest::new(quantity, scale) }
     }
 }
 
@@ -48,6 +59,8 @@ pub struct Axis {
     pub label: Text,
     /// The label in two lines, for where it is longer than the axis.
     pub label_lines: (Text, Text),
+    /// Whether there are no values to show.
+    pub empty: bool,
     /// Width of the widest number [pt].
     pub widest: f64,
     /// Whether it carries a label.
@@ -59,7 +72,10 @@ pub struct Axis {
 impl Axis {
     /// The axis of `request` over `length` [pt].
     pub fn new(request: &AxisRequest, along: Along, length: f64) -> Axis {
-        let ticks = choose(request, along, length);
+        let ticks = match request.empty {
+            true => Ticks::default(),
+            false => choose(request, along, length),
+        };
         let widest = ticks.major.iter().map(|tick| label_width(&tick.label)).fold(0.0, f64::max);
         let quantity = &request.quantity;
         let (name, unit) = quantity.label_parts(&ticks.offset, ticks.exponent);
@@ -72,6 +88,7 @@ impl Axis {
             ticks,
             label,
             label_lines: (name, unit),
+            empty: request.empty,
             widest,
             labelled: request.labelled,
             numbered: request.numbered,
@@ -86,10 +103,15 @@ fn choose(request: &AxisRequest, along: Along, length: f64) -> Ticks {
         Spacing::Log => (1..=40).map(|every| log_ticks(scale, every)).collect(),
         Spacing::Linear => {
             let start = ((scale.high - scale.low).log10().floor() as i32) - 2;
-            let start = if request.whole { start.max(0) } else { start };
-            (start..start + 5)
+            let start = if request.quantity.whole { start.max(0) } else { start };
+            let mut candidates: Vec<_> = (start..start + 5)
                 .flat_map(|power| [1, 2, 5].map(|digit| linear_ticks(scale, digit, power)))
-                .collect()
+                .collect();
+            if request.quantity.whole {
+                let whole = |value: &f64| (value - value.round()).abs() < 1e-6;
+                candidates.iter_mut().for_each(|ticks| ticks.minor.retain(whole));
+            }
+            candidates
         }
     };
     let roomy = candidates.iter().find(|ticks| has_room(ticks, scale, along, length));

@@ -3,14 +3,14 @@
 use plotters::style::RGBColor;
 
 use super::axis::AxisRequest;
-use super::canvas::{Drawn, Stroke};
+use super::canvas::Drawn;
 use super::cloud::{self, Dot};
 use super::error::FigureError;
 use super::outcome::Outcomes;
 use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::{Header, Mark, Pointing};
 use super::scale::{Scale, Spacing};
-use super::style::{BLUE, FAINT_INK, INK, MINOR_WIDTH, ONE_COLUMN, VERMILION};
+use super::style::{BLUE, INK, ONE_COLUMN, VERMILION};
 use super::text::Text;
 use super::view::View;
 
@@ -54,11 +54,9 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let page = request(view, &outputs, &clouds, AxisRequest::new(quantity, span(&values)));
     let page = PageRequest { rows: with_legend(page.rows, &branches), ..page };
     let (mut canvas, panels) = page.lay_out();
-    for (panel, cloud) in panels.iter().flatten().zip(&clouds) {
-        if panel.y.scale.spacing == Spacing::Linear && panel.y.scale.low * panel.y.scale.high < 0.0
-        {
-            let zero = [(panel.x.scale.low, 0.0), (panel.x.scale.high, 0.0)];
-            panel.curve(&mut canvas, &zero, Stroke::solid(FAINT_INK, MINOR_WIDTH));
+    for (panel, (cloud, output)) in panels.iter().flatten().zip(clouds.iter().zip(&outputs)) {
+        if !has_points(view, output) {
+            panel.mark_zero(&mut canvas);
         }
         let radius = cloud::radius(cloud.iter().map(Vec::len).sum());
         for (dots, branch) in cloud.iter().zip(&branches) {
@@ -129,6 +127,13 @@ fn points(
     Ok(branches.iter().map(of_branch).collect())
 }
 
+/// Whether an output has several values per case.
+fn has_points(view: &View<'_>, output: &str) -> bool {
+    let axes = view.axes();
+    let is_inner = |name: &String| !axes.contains(&name.as_str());
+    view.dataset.variable(output).is_some_and(|variable| variable.dimensions.iter().any(is_inner))
+}
+
 fn request(
     view: &View<'_>,
     outputs: &[String],
@@ -138,16 +143,13 @@ fn request(
     let mut rows = Vec::new();
     let mut heights = Vec::new();
     for (index, (output, cloud)) in outputs.iter().zip(clouds).enumerate() {
-        let values = cloud.iter().flatten().map(|((_, y), _)| *y);
-        let y = AxisRequest::new(view.quantity(output), Scale::around(values, 0.06));
+        let values: Vec<f64> = cloud.iter().flatten().map(|((_, y), _)| *y).collect();
+        let y = AxisRequest::around(view.quantity(output), &values, 0.06);
         let last = index + 1 == outputs.len();
         let x = AxisRequest { labelled: last, numbered: last, ..abscissa.clone() };
         let header = Header { letter: letter(index, outputs.len()), ..Header::default() };
         rows.push(vec![PanelRequest { x, y, header }]);
-        let inner = view.dataset.variable(output).is_some_and(|variable| {
-            variable.dimensions.iter().any(|name| name == "point" || name == "impact_point")
-        });
-        heights.push(if inner { SECTION_HEIGHT } else { OUTPUT_HEIGHT });
+        heights.push(if has_points(view, output) { SECTION_HEIGHT } else { OUTPUT_HEIGHT });
     }
     PageRequest {
         title: view.drawing.title.clone(),

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use base64::Engine as _;
 use plotters::coord::Shift;
 use plotters::prelude::{
-    Circle, Color, DrawingArea, DrawingAreaErrorKind, IntoDrawingArea, PathElement, Polygon,
-    Rectangle, SVGBackend, ShapeStyle,
+    Circle, Color, DrawingArea, DrawingAreaErrorKind, IntoDrawingArea, PathElement, Rectangle,
+    SVGBackend, ShapeStyle,
 };
 use plotters::style::RGBColor;
 
@@ -175,15 +175,10 @@ impl Canvas {
         });
     }
 
-    /// A filled polygon.
-    pub fn polygon(&mut self, corners: &[Point], colour: RGBColor) {
-        let corners: Vec<_> = corners.iter().copied().map(fine).collect();
-        self.layer("", |area| area.draw(&Polygon::new(corners, colour.filled())));
-    }
-
     /// A filled rectangle.
     pub fn fill(&mut self, rect: Rect, colour: RGBColor) {
-        self.rectangle(rect, colour.filled());
+        let (from, to) = (fine((rect.left, rect.top)), fine((rect.right, rect.bottom)));
+        self.layer("", |area| area.draw(&Rectangle::new([from, to], colour.filled())));
     }
 
     /// The sides of a rectangle.
@@ -193,11 +188,6 @@ impl Canvas {
         let (from, to) = (fine((rect.left, rect.top)), fine((rect.right, rect.bottom)));
         let style = outline(stroke.colour, stroke.width);
         self.layer(&attributes, |area| area.draw(&Rectangle::new([from, to], style)));
-    }
-
-    fn rectangle(&mut self, rect: Rect, style: ShapeStyle) {
-        let (from, to) = (fine((rect.left, rect.top)), fine((rect.right, rect.bottom)));
-        self.layer("", |area| area.draw(&Rectangle::new([from, to], style)));
     }
 
     /// A raster stretched over `rect`; cells keep their edges, clouds may be smoothed.

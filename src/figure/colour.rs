@@ -2,12 +2,12 @@
 
 use plotters::style::RGBColor;
 
-use super::axis::{Along, Axis, AxisRequest};
+use super::axis::{Along, Axis, AxisRequest, MANY_DECADES};
 use super::canvas::{Anchor, Canvas, Reading, Rect, Stroke};
 use super::panel::label_rows;
 use super::quantity::Quantity;
 use super::raster::Raster;
-use super::scale::{Scale, Spacing, finite_range};
+use super::scale::{Scale, finite_range};
 use super::style::{
     FRAME_WIDTH, INK, LABEL_GAP, LABEL_SIZE, MAJOR_LENGTH, MINOR_LENGTH, MINOR_WIDTH, SMALL_SIZE,
     TICK_GAP,
@@ -18,8 +18,6 @@ use super::text::Text;
 const BAR_GAP: f64 = 6.0;
 /// Width of the bar [pt].
 const BAR_WIDTH: f64 = 8.0;
-/// Ratio above which positive values are told apart by their logarithm.
-const MANY_DECADES: f64 = 1000.0;
 
 /// A scale of colours with its bar.
 pub struct Colours {
@@ -31,17 +29,13 @@ pub struct Colours {
 }
 
 impl Colours {
-    /// The colours for `values`: centred on zero where both signs occur.
-    pub fn for_values(values: &[f64], quantity: Quantity) -> Colours {
-        let range = finite_range(values.iter().copied());
-        let (low, high) = range.unwrap_or((0.0, 1.0));
-        let decades = low > 0.0 && high / low > MANY_DECADES;
-        let scale = match decades {
-            true => Scale { spacing: Spacing::Log, low, high },
-            false => Scale::around(values.iter().copied(), 0.0),
-        };
+    /// The colours for `values`: centred on zero where both signs occur,
+    /// and none where no value is finite.
+    pub fn for_values(values: &[f64], quantity: Quantity) -> Option<Colours> {
+        let (low, high) = finite_range(values.iter().copied())?;
+        let scale = Scale::fitting(values, 0.0, MANY_DECADES);
         let centred = (low < 0.0 && high > 0.0).then(|| high.max(-low));
-        Colours { scale, centred, quantity }
+        Some(Colours { scale, centred, quantity })
     }
 
     /// The colours for the values of an axis.

@@ -1,13 +1,13 @@
 //! Displacements and velocities over time, as stacked panels or one panel per value of an axis.
 
 use super::axis::AxisRequest;
-use super::canvas::{Anchor, Canvas, Drawn, Stroke};
+use super::canvas::{Canvas, Drawn, Stroke};
 use super::error::FigureError;
 use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::{Header, Mark, Panel, Pointing};
 use super::scale::Scale;
 use super::style::{
-    BLUE, CURVE_WIDTH, FAINT_INK, ONE_COLUMN, REFERENCE_WIDTH, SMALL_SIZE, TWO_COLUMNS, VERMILION,
+    BLUE, CURVE_WIDTH, FAINT_INK, ONE_COLUMN, REFERENCE_WIDTH, TWO_COLUMNS, VERMILION,
 };
 use super::text::Text;
 use super::view::View;
@@ -18,6 +18,8 @@ const PANELS: [&str; 3] = ["history_x2", "history_r", "velocities"];
 const MOST_CASES: usize = 12;
 /// Height of a frame [pt].
 const HEIGHT: f64 = 82.0;
+/// The line at the gap between mass and plate.
+const GAP_LINE: Stroke = Stroke { colour: FAINT_INK, width: REFERENCE_WIDTH, dashed: true };
 
 /// One curve of a panel.
 struct Curve {
@@ -197,8 +199,8 @@ fn request(
         y.labelled = column == 0;
         y.numbered = column == 0 || !shared;
         let note = notes.as_ref().map(|notes| notes[cell.case].clone());
-        let legend = if cell.curves.len() > 1 { legend(view, cell) } else { Vec::new() };
-        let header = Header { letter: letter(index, cells.len()), note, legend };
+        let header =
+            Header { letter: letter(index, cells.len()), note, legend: legend(view, cell) };
         let panel = PanelRequest { x, y, header };
         match rows.last_mut() {
             Some(row) if column > 0 => row.push(panel),
@@ -219,16 +221,17 @@ fn request(
 fn legend(view: &View<'_>, cell: &Cell) -> Vec<(Mark, Text)> {
     let entry =
         |curve: &Curve| (Mark::Line(curve.stroke), view.quantity(curve.variable).short_name());
-    cell.curves.iter().map(entry).collect()
+    match (cell.gap, cell.curves.len()) {
+        (Some(_), _) => vec![(Mark::Line(GAP_LINE), view.quantity("delta").short_name())],
+        (None, 1) => Vec::new(),
+        _ => cell.curves.iter().map(entry).collect(),
+    }
 }
 
 fn draw_cell(canvas: &mut Canvas, panel: &Panel, cell: &Cell) {
     if let Some(gap) = cell.gap {
         let ends = [(panel.x.scale.low, gap), (panel.x.scale.high, gap)];
-        panel.curve(canvas, &ends, Stroke::dashed(FAINT_INK, REFERENCE_WIDTH));
-        let (_, y) = panel.place(panel.x.scale.low, gap);
-        let place = (panel.frame.right + 3.0, y + 0.3 * SMALL_SIZE);
-        canvas.text(&Text::markup("*δ*"), place, SMALL_SIZE, Anchor::Start);
+        panel.curve(canvas, &ends, GAP_LINE);
     }
     for curve in &cell.curves {
         panel.curve(canvas, &curve.points, curve.stroke);

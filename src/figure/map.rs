@@ -23,7 +23,7 @@ const HEIGHT: f64 = 158.0;
 
 /// How the cells are coloured.
 enum Paint {
-    Numbers(Colours, Vec<f64>),
+    Numbers(Option<Colours>, Vec<f64>),
     Kinds(Kinds),
 }
 
@@ -33,7 +33,7 @@ impl Paint {
         match self {
             Paint::Numbers(_, values) if values[case].is_infinite() => Some(INFINITE),
             Paint::Numbers(_, values) if values[case].is_nan() => None,
-            Paint::Numbers(colours, values) => Some(colours.of(values[case])),
+            Paint::Numbers(colours, values) => colours.as_ref().map(|it| it.of(values[case])),
             Paint::Kinds(kinds) => kinds.colour(case),
         }
     }
@@ -125,7 +125,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (x, y) = (cells(x_name)?, cells(y_name)?);
     let paint = paint(view, &output, &free, x.order.len() * y.order.len())?;
     let room = match &paint {
-        Paint::Numbers(colours, _) => colours.room(HEIGHT),
+        Paint::Numbers(colours, _) => colours.as_ref().map_or(0.0, |it| it.room(HEIGHT)),
         Paint::Kinds(kinds) => kinds.room(),
     };
     let panel = PanelRequest {
@@ -147,7 +147,8 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         canvas.image(panel.frame, &raster);
         panel.finish(&mut canvas);
         match &paint {
-            Paint::Numbers(colours, _) => colours.draw_bar(&mut canvas, panel.frame),
+            Paint::Numbers(Some(colours), _) => colours.draw_bar(&mut canvas, panel.frame),
+            Paint::Numbers(None, _) => {}
             Paint::Kinds(kinds) => kinds.draw_legend(&mut canvas, panel.frame),
         }
     }

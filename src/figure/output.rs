@@ -73,11 +73,18 @@ impl Figure<'_> {
     fn outlined(&self, tree: &Tree) -> String {
         let options = WriteOptions { coordinates_precision: 3, ..WriteOptions::default() };
         let svg = tree.to_string(&options);
-        let about = format!("<title>{}</title><desc>{}</desc>", self.name, escape(self.about));
-        match svg.split_once('>') {
-            Some((start, rest)) => format!("{start}>\n    {about}{rest}"),
-            None => svg,
-        }
+        let shapes = svg.split_once('>').map_or("", |(_, shapes)| shapes);
+        let (width, height) = (tree.size().width(), tree.size().height());
+        // A start of our own: with the size in points, and a view box so that it can be scaled.
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" \
+             xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{:.2}pt\" height=\"{:.2}pt\" \
+             viewBox=\"0 0 {width} {height}\">\n    <title>{}</title>\n    <desc>{}</desc>{shapes}",
+            width * 0.75,
+            height * 0.75,
+            escape(self.name),
+            escape(self.about)
+        )
     }
 
     fn png(&self, tree: &Tree) -> Result<Vec<u8>, FigureError> {

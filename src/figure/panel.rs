@@ -5,9 +5,10 @@ use plotters::style::RGBColor;
 use super::axis::Axis;
 use super::canvas::{Anchor, Canvas, Point, Reading, Rect, Stroke};
 use super::raster::Raster;
+use super::scale::Spacing;
 use super::style::{
-    CURVE_WIDTH, FRAME_WIDTH, INK, LABEL_GAP, LABEL_SIZE, MAJOR_LENGTH, MINOR_LENGTH, MINOR_WIDTH,
-    SMALL_SIZE, TICK_GAP,
+    CURVE_WIDTH, FAINT_INK, FRAME_WIDTH, INK, LABEL_GAP, LABEL_SIZE, MAJOR_LENGTH, MINOR_LENGTH,
+    MINOR_WIDTH, SMALL_SIZE, TICK_GAP,
 };
 use super::text::Text;
 
@@ -98,8 +99,22 @@ impl Panel {
         });
     }
 
+    /// A thin line at zero, where both signs occur along the ordinate.
+    pub fn mark_zero(&self, canvas: &mut Canvas) {
+        if self.y.scale.spacing == Spacing::Linear && self.y.scale.low * self.y.scale.high < 0.0 {
+            let zero = [(self.x.scale.low, 0.0), (self.x.scale.high, 0.0)];
+            self.curve(canvas, &zero, Stroke::solid(FAINT_INK, MINOR_WIDTH));
+        }
+    }
+
     /// The frame, ticks, numbers, labels and header, over the data.
     pub fn finish(&self, canvas: &mut Canvas) {
+        if self.x.empty || self.y.empty {
+            let middle = (self.frame.left + self.frame.right) / 2.0;
+            let centre = (middle, (self.frame.top + self.frame.bottom) / 2.0);
+            let text = Text::plain("no finite values");
+            canvas.label(&text, centre, SMALL_SIZE, Anchor::Middle, Reading::Across, FAINT_INK);
+        }
         self.draw_ticks(canvas);
         canvas.frame(self.frame, Stroke::solid(INK, FRAME_WIDTH));
         self.draw_numbers(canvas);

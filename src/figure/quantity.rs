@@ -2,7 +2,7 @@
 
 use super::text::Text;
 use super::ticks::{power_of_ten, short};
-use crate::store::dataset::{Dataset, Variable};
+use crate::store::dataset::{Dataset, Values, Variable};
 
 /// A quantity as figures show it.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +15,8 @@ pub struct Quantity {
     unit: String,
     /// Value shown per value stored.
     pub factor: f64,
+    /// Whether it counts, so that only whole numbers make sense.
+    pub whole: bool,
 }
 
 /// Stored name, words, symbol, unit shown, value shown per value in SI.
@@ -83,14 +85,16 @@ impl Quantity {
     /// The quantity called `name`, described by `dataset` where the table does not know it.
     pub fn named(name: &str, dataset: &Dataset) -> Quantity {
         let stored = dataset.variable(name).or_else(|| dataset.coordinate(name));
-        match (row(name), stored) {
-            (Some((_, words, symbol, unit, factor)), _) => Quantity {
+        let whole = stored.is_some_and(|it| matches!(it.values, Values::Integer(_)));
+        match row(name) {
+            Some((_, words, symbol, unit, factor)) => Quantity {
                 name: Text::plain(words),
                 symbol: symbol.to_string(),
                 unit: unit.to_string(),
                 factor: *factor,
+                whole,
             },
-            (None, stored) => Quantity::as_stored(name, stored),
+            None => Quantity { whole, ..Quantity::as_stored(name, stored) },
         }
     }
 
@@ -104,6 +108,7 @@ impl Quantity {
             symbol: String::new(),
             unit: if unit == "1" { String::new() } else { raised(unit) },
             factor: 1.0,
+            whole: false,
         }
     }
 

@@ -45,9 +45,21 @@ impl Scale {
         }
     }
 
+    /// The range of the finite `values`, logarithmic where they are positive and their largest is
+    /// more than `ratio` times their smallest.
+    pub fn fitting(values: &[f64], margin: f64, ratio: f64) -> Scale {
+        match finite_range(values.iter().copied()) {
+            Some((low, high)) if low > 0.0 && high / low > ratio => {
+                Scale::log_around(values.iter().copied(), margin)
+            }
+            _ => Scale::around(values.iter().copied(), margin),
+        }
+    }
+
     /// A logarithmic scale over the positive `values`.
     pub fn log_around(values: impl IntoIterator<Item = f64>, margin: f64) -> Scale {
-        let logs = values.into_iter().filter(|value| *value > 0.0).map(f64::log10);
+        let logs =
+            values.into_iter().filter(|value| *value > 0.0 && value.is_finite()).map(f64::log10);
         let scale = Scale::around(logs, margin);
         Scale { spacing: Spacing::Log, low: 10f64.powf(scale.low), high: 10f64.powf(scale.high) }
     }

@@ -60,8 +60,6 @@ pub const FAINT_INK: RGBColor = RGBColor(90, 90, 90);
 pub const BLUE: RGBColor = RGBColor(0, 114, 178);
 /// Second colour of curves (vermilion).
 pub const VERMILION: RGBColor = RGBColor(213, 94, 0);
-/// Third colour, for marks on curves (reddish purple).
-pub const PURPLE: RGBColor = RGBColor(170, 51, 119);
 /// Shading of the side of the impact surface where the spring is compressed.
 pub const CONTACT: RGBColor = RGBColor(236, 236, 236);
 /// Cells without a value.

@@ -78,6 +78,9 @@ pub fn log_ticks(scale: &Scale, every: i32) -> Ticks {
             let plain = few && matches!(digit, 1 | 2 | 5);
             let round = digit == 1 && decade.rem_euclid(every) == 0;
             match (round, plain) {
+                (true, false) if low > -2.5 && high < 3.5 => {
+                    ticks.major.push(Tick { value, label: short(value) });
+                }
                 (true, false) => ticks.major.push(Tick { value, label: power_of_ten(decade) }),
                 (_, true) => ticks.major.push(Tick { value, label: short(value) }),
                 _ => ticks.minor.push(value),
@@ -89,11 +92,7 @@ pub fn log_ticks(scale: &Scale, every: i32) -> Ticks {
 
 /// 10 to the power `exponent`, as markup.
 pub fn power_of_ten(exponent: i32) -> String {
-    match exponent {
-        0 => "1".to_string(),
-        1 => "10".to_string(),
-        _ => format!("10^{{{}}}", exponent.to_string().replace('-', "\u{2212}")),
-    }
+    format!("10^{{{}}}", exponent.to_string().replace('-', "\u{2212}"))
 }
 
 /// `value` with a fixed number of decimals and a true minus sign.

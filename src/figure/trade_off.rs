@@ -8,8 +8,8 @@ use super::error::FigureError;
 use super::outcome::Outcomes;
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Header, Mark, Pointing};
-use super::scale::{Scale, finite_range};
-use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, MINOR_WIDTH, ONE_COLUMN, VERMILION};
+use super::scale::Scale;
+use super::style::{BLUE, CURVE_WIDTH, ONE_COLUMN, VERMILION};
 use super::text::Text;
 use super::view::View;
 
@@ -19,8 +19,6 @@ const ENERGY: &str = "work_positive";
 const SPEED: &str = "progression_speed";
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
-/// Ratio above which energies are shown by their logarithm.
-const MANY_DECADES: f64 = 200.0;
 
 /// A case with both outputs, and its place among the cases.
 struct Case {
@@ -45,10 +43,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let page = request(view, &cases, &energy, hue.as_ref().map(|(colours, _)| colours));
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
-        if panel.y.scale.low * panel.y.scale.high < 0.0 {
-            let zero = [(panel.x.scale.low, 0.0), (panel.x.scale.high, 0.0)];
-            panel.curve(&mut canvas, &zero, Stroke::solid(FAINT_INK, MINOR_WIDTH));
-        }
+        panel.mark_zero(&mut canvas);
         let dot = |case: &Case| {
             let colour = hue.as_ref().map_or(BLUE, |(colours, of)| colours.of(of[case.place]));
             ((case.energy, case.speed), colour)
@@ -104,25 +99,24 @@ fn request(
     energy: &str,
     colours: Option<&Colours>,
 ) -> PageRequest {
-    let energies = || cases.iter().map(|case| case.energy);
-    let (low, high) = finite_range(energies()).unwrap_or((0.0, 1.0));
-    let x = match low > 0.0 && high / low > MANY_DECADES {
-        true => Scale::log_around(energies(), 0.04),
-        false => Scale::around(energies(), 0.04),
-    };
-    let y = Scale::around(cases.iter().map(|case| case.speed), 0.06);
+    let energies: Vec<f64> = cases.iter().map(|case| case.energy).collect();
+    let speeds: Vec<f64> = cases.iter().map(|case| case.speed).collect();
     let legend = match cases.len() {
-        0 => Vec::new(),
+        0 | 1 => Vec::new(),
         _ => {
             let line = Mark::Line(Stroke::solid(VERMILION, CURVE_WIDTH));
-            vec![(line, Text::plain("fastest for the least energy"))]
+            vec![(line, Text::plain("Pareto front"))]
         }
     };
-    let note = cases.is_empty().then(|| Text::plain("no periodic case"));
+    // Speeds differ in sign and stay linear, so that standing still keeps its place.
+    let y = AxisRequest {
+        scale: Scale::around(speeds.iter().copied(), 0.06),
+        ..AxisRequest::around(view.quantity(SPEED), &speeds, 0.06)
+    };
     let panel = PanelRequest {
-        x: AxisRequest::new(view.quantity(energy), x),
-        y: AxisRequest::new(view.quantity(SPEED), y),
-        header: Header { letter: None, note, legend },
+        x: AxisRequest::around(view.quantity(energy), &energies, 0.04),
+        y,
+        header: Header { legend, ..Header::default() },
     };
     PageRequest {
         title: view.drawing.title.clone(),
@@ -134,9 +128,11 @@ fn request(
     }
 }
 
-/// The Pareto front: cases that no other beats in speed without taking more energy.
+/// The Pareto front: cases that no other beats in speed without taking more energy. Where any
+/// case moves forward, those that do not are no gain at any price.
 fn front(cases: &[Case]) -> Vec<(f64, f64)> {
-    let mut order: Vec<&Case> = cases.iter().collect();
+    let forward = cases.iter().any(|case| case.speed > 0.0);
+    let mut order: Vec<&Case> = cases.iter().filter(|case| case.speed > 0.0 || !forward).collect();
     order.sort_by(|a, b| a.energy.total_cmp(&b.energy).then_with(|| b.speed.total_cmp(&a.speed)));
     let mut front: Vec<(f64, f64)> = Vec::new();
     for case in order {
