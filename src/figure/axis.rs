@@ -2,7 +2,7 @@
 
 use super::quantity::Quantity;
 use super::scale::{Scale, Spacing};
-use super::style::SMALL_SIZE;
+use super::style::{LABEL_SIZE, LINE_HEIGHT, SMALL_SIZE};
 use super::text::Text;
 use super::ticks::{Ticks, linear_ticks, log_ticks};
 
@@ -55,16 +55,12 @@ pub struct Axis {
     pub scale: Scale,
     /// Marks and numbers.
     pub ticks: Ticks,
-    /// The label.
-    pub label: Text,
-    /// The label in two lines, for where it is longer than the axis.
-    pub label_lines: (Text, Text),
+    /// The lines of the label; none without one.
+    pub label: Vec<Text>,
     /// Whether there are no values to show.
     pub empty: bool,
     /// Width of the widest number [pt].
     pub widest: f64,
-    /// Whether it carries a label.
-    pub labelled: bool,
     /// Whether its marks carry numbers.
     pub numbered: bool,
 }
@@ -77,22 +73,25 @@ impl Axis {
             false => choose(request, along, length),
         };
         let widest = ticks.major.iter().map(|tick| label_width(&tick.label)).fold(0.0, f64::max);
-        let quantity = &request.quantity;
-        let (name, unit) = quantity.label_parts(&ticks.offset, ticks.exponent);
-        let label = match unit.content().is_empty() {
-            true => name.clone(),
-            false => name.clone().then(Text::plain(" ")).then(unit.clone()),
+        let room = length + 6.0;
+        let label = match request.labelled {
+            true => request.quantity.label(&ticks.offset, ticks.exponent),
+            false => Text::default(),
         };
+        let label = label.wrapped(room, LABEL_SIZE);
         Axis {
             scale: request.scale,
             ticks,
             label,
-            label_lines: (name, unit),
             empty: request.empty,
             widest,
-            labelled: request.labelled,
             numbered: request.numbered,
         }
+    }
+
+    /// Room that the lines of the label take [pt].
+    pub fn label_room(&self) -> f64 {
+        self.label.len() as f64 * LINE_HEIGHT * LABEL_SIZE
     }
 }
 

@@ -101,26 +101,28 @@ fn branches(view: &View<'_>, x_name: &str) -> Vec<Branch> {
 fn points(
     view: &View<'_>,
     output: &str,
-    x: &[f64],
+    x_values: &[f64],
     free: &[&str],
     branches: &[Branch],
 ) -> Result<Vec<Vec<Dot>>, FigureError> {
     let array = view.shown(output, free)?;
     let outcomes = Outcomes::over(view, free)?;
     let directions = if free.len() > 1 { array.shape()[1] } else { 1 };
-    let cases = x.len() * directions;
+    let cases = x_values.len() * directions;
     let per_case = if cases == 0 { 0 } else { array.len() / cases };
     let values: Vec<f64> = array.iter().copied().collect();
     let of_branch = |branch: &Branch| {
         let mut dots = Vec::new();
-        for (at, x) in x.iter().enumerate() {
+        for (at, x) in x_values.iter().enumerate() {
             let case = at * directions + branch.index;
             if outcomes.failed(case) {
                 continue;
             }
             let shown = &values[case * per_case..(case + 1) * per_case];
-            let finite = shown.iter().filter(|value| value.is_finite());
-            dots.extend(finite.map(|value| ((*x, *value), branch.colour)));
+            let finite: Vec<f64> = shown.iter().copied().filter(|it| it.is_finite()).collect();
+            let crowding = (finite.len() * x_values.len()) as f64;
+            let dot = |y| Dot { at: (*x, y), colour: branch.colour, crowding };
+            dots.extend(finite.into_iter().map(dot));
         }
         dots
     };
@@ -143,7 +145,7 @@ fn request(
     let mut rows = Vec::new();
     let mut heights = Vec::new();
     for (index, (output, cloud)) in outputs.iter().zip(clouds).enumerate() {
-        let values: Vec<f64> = cloud.iter().flatten().map(|((_, y), _)| *y).collect();
+        let values: Vec<f64> = cloud.iter().flatten().map(|dot| dot.at.1).collect();
         let y = AxisRequest::around(view.quantity(output), &values, 0.06);
         let last = index + 1 == outputs.len();
         let x = AxisRequest { labelled: last, numbered: last, ..abscissa.clone() };

@@ -7,8 +7,15 @@ use super::panel::Panel;
 use super::raster::Raster;
 use super::style::CLOUD_LIMIT;
 
-/// A point with its colour, in the units of the panel's axes.
-pub type Dot = ((f64, f64), RGBColor);
+/// A point in the units of the panel's axes.
+pub struct Dot {
+    /// Where it stands.
+    pub at: (f64, f64),
+    /// Its colour.
+    pub colour: RGBColor,
+    /// Dots that the panel would hold if all of it were as crowded as here.
+    pub crowding: f64,
+}
 
 /// The radius at which `count` points can be seen and told apart [pt].
 pub fn radius(count: usize) -> f64 {
@@ -20,25 +27,26 @@ pub fn radius(count: usize) -> f64 {
     }
 }
 
+/// Transmittance of the paper where dots are crowded: dark, but with room for structure.
+const SHINE_THROUGH: f64 = 0.3;
+
 /// Draws the points of `dots` that lie on `panel`, the later over the earlier.
 pub fn draw(canvas: &mut Canvas, panel: &Panel, dots: &[Dot], radius: f64) {
-    let on_panel = |((x, y), _): &&Dot| panel.x.scale.holds(*x) && panel.y.scale.holds(*y);
-    let placed: Vec<(Point, RGBColor)> = dots
-        .iter()
-        .filter(on_panel)
-        .map(|((x, y), colour)| (panel.place(*x, *y), *colour))
-        .collect();
-    if placed.len() <= CLOUD_LIMIT {
-        canvas.discs(&placed, radius);
+    let on_panel = |dot: &&Dot| panel.x.scale.holds(dot.at.0) && panel.y.scale.holds(dot.at.1);
+    let placed = dots.iter().filter(on_panel).map(|dot| (panel.place(dot.at.0, dot.at.1), dot));
+    if dots.len() <= CLOUD_LIMIT {
+        let discs: Vec<(Point, RGBColor)> = placed.map(|(at, dot)| (at, dot.colour)).collect();
+        canvas.discs(&discs, radius);
         return;
     }
     let frame = panel.frame;
-    // The more the points overlap, the more of those below must shine through to show density.
-    let cover = placed.len() as f64 * std::f64::consts::PI * radius * radius;
-    let opacity = (frame.width() * frame.height() / cover).sqrt().clamp(0.2, 1.0);
+    let area = std::f64::consts::PI * radius * radius;
     let mut raster = Raster::over(frame);
-    for ((x, y), colour) in placed {
-        raster.disc((x - frame.left, y - frame.top), radius, colour, opacity);
+    for ((x, y), dot) in placed {
+        // Crowded dots let those below shine through and show density; lone ones stay dark.
+        let crowding = (dot.crowding * area / (frame.width() * frame.height())).max(1e-6);
+        let opacity = (1.0 - SHINE_THROUGH.powf(1.0 / crowding)).max(0.02);
+        raster.disc((x - frame.left, y - frame.top), radius, dot.colour, opacity);
     }
     canvas.image(frame, &raster);
 }

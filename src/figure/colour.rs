@@ -3,19 +3,20 @@
 use plotters::style::RGBColor;
 
 use super::axis::{Along, Axis, AxisRequest, MANY_DECADES};
-use super::canvas::{Anchor, Canvas, Reading, Rect, Stroke};
-use super::panel::label_rows;
+use super::canvas::{Anchor, Canvas, Rect, Stroke};
+use super::panel::draw_upward;
 use super::quantity::Quantity;
 use super::raster::Raster;
 use super::scale::{Scale, finite_range};
 use super::style::{
     FRAME_WIDTH, INK, LABEL_GAP, LABEL_SIZE, MAJOR_LENGTH, MINOR_LENGTH, MINOR_WIDTH, SMALL_SIZE,
-    TICK_GAP,
 };
 use super::text::Text;
 
 /// Distance between a frame and its bar [pt].
 const BAR_GAP: f64 = 6.0;
+/// Distance between the bar and its numbers [pt].
+const NUMBER_GAP: f64 = 5.0;
 /// Width of the bar [pt].
 const BAR_WIDTH: f64 = 8.0;
 
@@ -61,9 +62,7 @@ impl Colours {
     /// Room that the bar takes beside a frame of `height` [pt].
     pub fn room(&self, height: f64) -> f64 {
         let axis = self.axis(height);
-        let lines = label_rows(&axis, height) as f64;
-        let label = LABEL_GAP + (1.15 * lines - 0.1) * LABEL_SIZE;
-        BAR_GAP + BAR_WIDTH + TICK_GAP + axis.widest + label
+        BAR_GAP + BAR_WIDTH + NUMBER_GAP + axis.widest + LABEL_GAP + axis.label_room() + 1.0
     }
 
     /// Draws the bar beside `frame`.
@@ -88,27 +87,12 @@ impl Colours {
         let minor: Vec<_> =
             axis.ticks.minor.iter().map(|value| tick(*value, MINOR_LENGTH - 0.6)).collect();
         canvas.segments(&minor, Stroke::solid(INK, MINOR_WIDTH));
-        let numbers = bar.right + TICK_GAP + 1.5;
+        let numbers = bar.right + NUMBER_GAP;
         for tick in &axis.ticks.major {
             let at = (numbers, place(tick.value) + 0.32 * SMALL_SIZE);
             canvas.text(&Text::markup(&tick.label), at, SMALL_SIZE, Anchor::Start);
         }
-        draw_label(canvas, &axis, frame, numbers + axis.widest + LABEL_GAP);
-    }
-}
-
-/// The label of a bar, its letters right of `left`.
-fn draw_label(canvas: &mut Canvas, axis: &Axis, frame: Rect, left: f64) {
-    let middle = (frame.top + frame.bottom) / 2.0;
-    let mut set = |text: &Text, line: f64| {
-        let at = (left + (0.75 + 1.15 * line) * LABEL_SIZE, middle);
-        canvas.label(text, at, LABEL_SIZE, Anchor::Middle, Reading::Upward, INK);
-    };
-    match label_rows(axis, frame.height()) {
-        1 => set(&axis.label, 0.0),
-        _ => {
-            set(&axis.label_lines.0, 0.0);
-            set(&axis.label_lines.1, 1.0);
-        }
+        let first = numbers + axis.widest + LABEL_GAP + 0.75 * LABEL_SIZE;
+        draw_upward(canvas, &axis, frame, first);
     }
 }

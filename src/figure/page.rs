@@ -2,11 +2,11 @@
 
 use super::axis::{Along, Axis, AxisRequest};
 use super::canvas::{Anchor, Canvas, Rect};
-use super::panel::{Header, Panel, Pointing, label_rows, tick_room};
+use super::panel::{Header, Panel, Pointing, tick_room};
 use super::style::{
-    BORDER, HEADER, LABEL_GAP, LABEL_SIZE, PANEL_GAP, POINTS_PER_MM, SMALL_SIZE, TITLE_SIZE, WIDTHS,
+    BORDER, LABEL_GAP, LABEL_SIZE, PANEL_GAP, POINTS_PER_MM, SMALL_SIZE, TITLE_SIZE, WIDTHS,
 };
-use super::text::{Text, wrap};
+use super::text::Text;
 
 /// What a panel is to show.
 pub struct PanelRequest {
@@ -34,6 +34,17 @@ pub struct PageRequest {
     pub pointing: Pointing,
 }
 
+/// Room left of a column of frames [pt].
+#[derive(Clone, Default)]
+struct LeftRoom {
+    /// For ticks and numbers, up to the baseline of the label.
+    numbers: f64,
+    /// For the lines of the label above that baseline.
+    label: f64,
+}
+
+/// Distance between lines of the heading [pt].
+const TITLE_LINE: f64 = 1.25 * TITLE_SIZE;
 /// Room for a label, from its baseline to the border [pt].
 const DESCENT: f64 = 0.28 * LABEL_SIZE;
 
@@ -45,66 +56,59 @@ impl PageRequest {
         let title = self.title_lines(width);
         let lefts = self.left_rooms(columns);
         let ends = self.right_ends();
-        let taken: f64 = lefts.iter().sum::<f64>() + PANEL_GAP * (columns - 1) as f64;
+        let taken: f64 = lefts.iter().map(|room| room.numbers + room.label).sum::<f64>()
+            + PANEL_GAP * (columns - 1) as f64;
         let inner = width - 2.0 * BORDER - taken - self.right_room - ends;
         let frame_width = (inner / columns as f64).max(20.0);
-        let mut top = BORDER + title.len() as f64 * 1.25 * TITLE_SIZE;
+        let mut top = BORDER + title.len() as f64 * TITLE_LINE;
         let mut panels = Vec::new();
         for (row, height) in std::mem::take(&mut self.rows).into_iter().zip(&self.heights) {
-            let above = if row.iter().any(has_header) { HEADER } else { 0.5 * SMALL_SIZE };
-            let below = row.iter().map(|request| self.bottom_room(request)).fold(0.0, f64::max);
+            let above = row.iter().map(|it| it.header.room(frame_width)).fold(0.0, f64::max);
+            let mut below: f64 = 0.0;
             let mut left = BORDER;
             let mut placed = Vec::new();
-            for (column, request) in row.into_iter().enumerate() {
-                left += lefts[column];
-                let frame = Rect {
-                    left,
-                    top: top + above,
-                    right: left + frame_width,
-                    bottom: top + above + height,
-                };
-                placed.push(self.place(request, frame));
-                left += frame_width + PANEL_GAP;
+            for (request, room) in row.into_iter().zip(&lefts) {
+                left += room.numbers + room.label;
+                let (right, top) = (left + frame_width, top + above);
+                let frame = Rect { left, top, right, bottom: top + height };
+                let panel = self.place(request, frame, room.numbers);
+                below = below.max(self.bottom_room(&panel));
+                placed.push(panel);
+                left = right + PANEL_GAP;
             }
             panels.push(placed);
             top += above + height + below;
         }
         let mut canvas = Canvas::new(width, top + BORDER - 1.0);
         for (line, words) in title.iter().enumerate() {
-            let baseline = BORDER + (line as f64 + 0.8) * 1.25 * TITLE_SIZE;
-            let text = Text::plain(words);
-            canvas.text(&text, (width / 2.0, baseline), TITLE_SIZE, Anchor::Middle);
+            let baseline = BORDER + (line as f64 + 0.8) * TITLE_LINE;
+            canvas.text(words, (width / 2.0, baseline), TITLE_SIZE, Anchor::Middle);
         }
         (canvas, panels)
     }
 
-    fn title_lines(&self, width: f64) -> Vec<String> {
-        let words = self.title.as_deref().unwrap_or("");
-        wrap(words, width - 2.0 * BORDER, TITLE_SIZE)
+    fn title_lines(&self, width: f64) -> Vec<Text> {
+        let title = Text::plain(self.title.as_deref().unwrap_or(""));
+        title.wrapped(width - 2.0 * BORDER, TITLE_SIZE)
     }
 
-    /// Room for numbers and labels left of each column.
-    fn left_rooms(&self, columns: usize) -> Vec<f64> {
-        let mut rooms = vec![0.0; columns];
+    /// Room left of each column.
+    fn left_rooms(&self, columns: usize) -> Vec<LeftRoom> {
+        let mut rooms = vec![LeftRoom::default(); columns];
         for (row, height) in self.rows.iter().zip(&self.heights) {
             for (room, request) in rooms.iter_mut().zip(row) {
-                *room = f64::max(*room, self.left_room(request, *height));
+                let axis = Axis::new(&request.y, Along::Up, *height);
+                room.numbers = room.numbers.max(self.numbers_room(&axis));
+                room.label = room.label.max(axis.label_room() - DESCENT);
             }
         }
         rooms
     }
 
-    fn left_room(&self, request: &PanelRequest, height: f64) -> f64 {
-        let axis = Axis::new(&request.y, Along::Up, height);
-        let lines = label_rows(&axis, height) as f64;
-        let label = if axis.labelled { (1.15 * lines - 0.15) * LABEL_SIZE } else { 0.0 };
-        self.label_distance(&axis) + label * 0.8
-    }
-
-    /// Distance between a frame and the baseline of its ordinate's label.
-    fn label_distance(&self, axis: &Axis) -> f64 {
+    /// Distance between a frame and the nearest baseline of its ordinate's label.
+    fn numbers_room(&self, axis: &Axis) -> f64 {
         let numbers = if axis.numbered { axis.widest + LABEL_GAP } else { 0.0 };
-        tick_room(self.pointing) + numbers + if axis.labelled { DESCENT } else { 0.0 }
+        tick_room(self.pointing) + numbers + if axis.label.is_empty() { 0.0 } else { DESCENT }
     }
 
     /// Room for the part of the last number that reaches beyond the frame.
@@ -117,27 +121,21 @@ impl PageRequest {
         if self.right_room > 0.0 { 0.0 } else { last.map(half).fold(2.0, f64::max) }
     }
 
-    fn bottom_room(&self, request: &PanelRequest) -> f64 {
-        let numbers = if request.x.numbered { SMALL_SIZE } else { 0.0 };
-        let label = if request.x.labelled { LABEL_GAP + LABEL_SIZE } else { 0.0 };
-        match (request.x.numbered, request.x.labelled) {
-            (false, false) => 0.0,
-            _ => tick_room(self.pointing) + numbers + label + 1.0,
+    fn bottom_room(&self, panel: &Panel) -> f64 {
+        let numbers = if panel.x.numbered { SMALL_SIZE } else { 0.0 };
+        let gap = if panel.x.label.is_empty() { 0.0 } else { LABEL_GAP };
+        match panel.x.numbered || !panel.x.label.is_empty() {
+            false => 0.0,
+            true => tick_room(self.pointing) + numbers + gap + panel.x.label_room(),
         }
     }
 
-    fn place(&self, request: PanelRequest, frame: Rect) -> Panel {
+    fn place(&self, request: PanelRequest, frame: Rect, label_distance: f64) -> Panel {
         let x = Axis::new(&request.x, Along::Across, frame.width());
         let y = Axis::new(&request.y, Along::Up, frame.height());
-        let label_distance = self.label_distance(&y);
         let PanelRequest { header, .. } = request;
         Panel { frame, x, y, label_distance, pointing: self.pointing, header }
     }
-}
-
-fn has_header(request: &PanelRequest) -> bool {
-    let Header { letter, note, legend } = &request.header;
-    letter.is_some() || note.is_some() || !legend.is_empty()
 }
 
 /// The letter of panel number `index`, where there are `count` of them.

@@ -7,8 +7,8 @@ use super::canvas::{Anchor, Canvas, Point, Reading, Rect, Stroke};
 use super::raster::Raster;
 use super::scale::Spacing;
 use super::style::{
-    CURVE_WIDTH, FAINT_INK, FRAME_WIDTH, INK, LABEL_GAP, LABEL_SIZE, MAJOR_LENGTH, MINOR_LENGTH,
-    MINOR_WIDTH, SMALL_SIZE, TICK_GAP,
+    CURVE_WIDTH, FAINT_INK, FRAME_WIDTH, HEADER, INK, LABEL_GAP, LABEL_SIZE, LINE_HEIGHT,
+    MAJOR_LENGTH, MINOR_LENGTH, MINOR_WIDTH, SMALL_SIZE, TICK_GAP,
 };
 use super::text::Text;
 
@@ -36,6 +36,9 @@ pub enum Mark {
     Hatched,
 }
 
+/// A mark of a legend and what it means.
+pub type Entry = (Mark, Text);
+
 /// What stands above a panel.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Header {
@@ -44,7 +47,7 @@ pub struct Header {
     /// Where its axes are held.
     pub note: Option<Text>,
     /// What its marks mean.
-    pub legend: Vec<(Mark, Text)>,
+    pub legend: Vec<Entry>,
 }
 
 /// A panel with its place on the page.
@@ -67,6 +70,8 @@ pub struct Panel {
 const MARK_WIDTH: f64 = 13.0;
 /// Distance between a mark and its words [pt].
 const MARK_GAP: f64 = 3.0;
+/// Distance between lines of a header [pt].
+const HEADER_LINE: f64 = 10.5;
 /// Distance between entries of a legend [pt].
 const ENTRY_GAP: f64 = 9.0;
 
@@ -101,7 +106,9 @@ impl Panel {
 
     /// A thin line at zero, where both signs occur along the ordinate.
     pub fn mark_zero(&self, canvas: &mut Canvas) {
-        if self.y.scale.spacing == Spacing::Linear && self.y.scale.low * self.y.scale.high < 0.0 {
+        // The margin alone does not make values of both signs.
+        let inside = (0.06..0.94).contains(&self.y.scale.share(0.0));
+        if self.y.scale.spacing == Spacing::Linear && inside && !self.y.empty {
             let zero = [(self.x.scale.low, 0.0), (self.x.scale.high, 0.0)];
             self.curve(canvas, &zero, Stroke::solid(FAINT_INK, MINOR_WIDTH));
         }
@@ -181,34 +188,40 @@ impl Panel {
     }
 
     fn draw_labels(&self, canvas: &mut Canvas) {
-        if self.x.labelled {
-            let middle = (self.frame.left + self.frame.right) / 2.0;
-            let numbers = if self.x.numbered { SMALL_SIZE + LABEL_GAP } else { 0.0 };
-            let baseline = self.frame.bottom + self.tick_room() + numbers + 0.75 * LABEL_SIZE;
-            canvas.text(&self.x.label, (middle, baseline), LABEL_SIZE, Anchor::Middle);
+        let middle = (self.frame.left + self.frame.right) / 2.0;
+        let numbers = if self.x.numbered { SMALL_SIZE + LABEL_GAP } else { 0.0 };
+        let mut baseline = self.frame.bottom + self.tick_room() + numbers + 0.75 * LABEL_SIZE;
+        for line in &self.x.label {
+            canvas.text(line, (middle, baseline), LABEL_SIZE, Anchor::Middle);
+            baseline += LINE_HEIGHT * LABEL_SIZE;
         }
-        if self.y.labelled {
-            draw_upward(canvas, &self.y, self.frame, self.frame.left - self.label_distance);
-        }
+        let lines = self.y.label.len().max(1) as f64 - 1.0;
+        let first = self.frame.left - self.label_distance - lines * LINE_HEIGHT * LABEL_SIZE;
+        draw_upward(canvas, &self.y, self.frame, first);
     }
 
     fn draw_header(&self, canvas: &mut Canvas) {
         let baseline = self.frame.top - 4.0;
         let mut left = self.frame.left;
         if let Some(letter) = self.header.letter {
-            let text = Text::bold(&format!("({letter})"));
+            let text = letter_text(letter);
             canvas.text(&text, (left, baseline), LABEL_SIZE, Anchor::Start);
             left += text.width(LABEL_SIZE) + 5.0;
         }
         if let Some(note) = &self.header.note {
             canvas.text(note, (left, baseline), SMALL_SIZE, Anchor::Start);
         }
-        let mut at = self.frame.right - legend_width(&self.header.legend);
-        for (mark, words) in &self.header.legend {
-            draw_mark(canvas, *mark, (at, baseline - 0.3 * SMALL_SIZE));
-            at += MARK_WIDTH + MARK_GAP;
-            canvas.text(words, (at, baseline), SMALL_SIZE, Anchor::Start);
-            at += words.width(SMALL_SIZE) + ENTRY_GAP;
+        for (line, entries) in
+            self.header.legend_lines(self.frame.width()).into_iter().rev().enumerate()
+        {
+            let mut at = self.frame.right - legend_width(entries);
+            let baseline = baseline - line as f64 * HEADER_LINE;
+            for (mark, words) in entries {
+                draw_mark(canvas, *mark, (at, baseline - 0.3 * SMALL_SIZE));
+                at += MARK_WIDTH + MARK_GAP;
+                canvas.text(words, (at, baseline), SMALL_SIZE, Anchor::Start);
+                at += words.width(SMALL_SIZE) + ENTRY_GAP;
+            }
         }
     }
 }
@@ -221,29 +234,58 @@ pub fn tick_room(pointing: Pointing) -> f64 {
     }
 }
 
-/// The label of an upright axis, its last baseline at `x`; in two lines where it is too long.
-pub fn draw_upward(canvas: &mut Canvas, axis: &Axis, frame: Rect, x: f64) {
+/// The lines of an upright axis' label beside `frame`, the first with its baseline at `first`.
+pub fn draw_upward(canvas: &mut Canvas, axis: &Axis, frame: Rect, first: f64) {
     let middle = (frame.top + frame.bottom) / 2.0;
-    let mut set = |text: &Text, x: f64| {
-        canvas.label(text, (x, middle), LABEL_SIZE, Anchor::Middle, Reading::Upward, INK);
-    };
-    match label_rows(axis, frame.height()) {
-        1 => set(&axis.label, x),
-        _ => {
-            set(&axis.label_lines.0, x - 1.15 * LABEL_SIZE);
-            set(&axis.label_lines.1, x);
-        }
+    for (line, text) in axis.label.iter().enumerate() {
+        let at = (first + line as f64 * LINE_HEIGHT * LABEL_SIZE, middle);
+        canvas.label(text, at, LABEL_SIZE, Anchor::Middle, Reading::Upward, INK);
     }
 }
 
-/// How many lines the label of an upright axis of `length` [pt] takes.
-pub fn label_rows(axis: &Axis, length: f64) -> usize {
-    let fits = axis.label.width(LABEL_SIZE) <= length + 6.0;
-    if fits || axis.label_lines.1.content().is_empty() { 1 } else { 2 }
+impl Header {
+    /// Width of the panel letter and the note [pt].
+    fn left_width(&self) -> f64 {
+        let letter = self.letter.map_or(0.0, |letter| letter_text(letter).width(LABEL_SIZE) + 5.0);
+        letter + self.note.as_ref().map_or(0.0, |note| note.width(SMALL_SIZE) + ENTRY_GAP)
+    }
+
+    /// The legend in lines that fit `width` [pt], the lowest last; it shares its line with letter
+    /// and note where there is room for all, and else stands above them.
+    fn legend_lines(&self, width: f64) -> Vec<&[Entry]> {
+        if self.left_width() + legend_width(&self.legend) <= width {
+            return vec![&self.legend];
+        }
+        let mut lines = Vec::new();
+        let mut rest = self.legend.as_slice();
+        while !rest.is_empty() {
+            let fits = |count: &usize| legend_width(&rest[..*count]) <= width;
+            let count = (1..=rest.len()).rev().find(fits).unwrap_or(1);
+            lines.push(&rest[..count]);
+            rest = &rest[count..];
+        }
+        if self.left_width() > 0.0 {
+            lines.push(&[]);
+        }
+        lines
+    }
+
+    /// Room above a frame of `width` [pt].
+    pub fn room(&self, width: f64) -> f64 {
+        if self.left_width() == 0.0 && self.legend.is_empty() {
+            return 0.5 * SMALL_SIZE;
+        }
+        HEADER + (self.legend_lines(width).len() - 1) as f64 * HEADER_LINE
+    }
+}
+
+/// The text of a panel letter.
+fn letter_text(letter: char) -> Text {
+    Text::bold(&format!("({letter})"))
 }
 
 /// Width of a legend in a row [pt].
-pub fn legend_width(legend: &[(Mark, Text)]) -> f64 {
+fn legend_width(legend: &[Entry]) -> f64 {
     let entries: f64 = legend.iter().map(|(_, words)| words.width(SMALL_SIZE)).sum();
     let count = legend.len() as f64;
     entries + count * (MARK_WIDTH + MARK_GAP) + (count - 1.0).max(0.0) * ENTRY_GAP
@@ -273,14 +315,21 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
     }
 }
 
-/// `places` without those too close to the last to be told apart in print.
+/// `places` with at most four points in each column narrower than print can show: where the path
+/// enters it and leaves it, and its highest and lowest point.
 fn thinned(places: &[Point]) -> Vec<Point> {
-    let mut kept: Vec<Point> = Vec::with_capacity(places.len());
-    for (index, place) in places.iter().enumerate() {
-        let far = kept.last().is_none_or(|last| (place.0 - last.0).hypot(place.1 - last.1) > 0.06);
-        if far || index + 1 == places.len() {
-            kept.push(*place);
-        }
+    let column = |place: &Point| (place.0 / 0.1).floor();
+    let mut kept = Vec::new();
+    for group in places.chunk_by(|a, b| column(a) == column(b)) {
+        let by_height = |a: &&usize, b: &&usize| group[**a].1.total_cmp(&group[**b].1);
+        let indices: Vec<usize> = (0..group.len()).collect();
+        let ends = [0, group.len() - 1];
+        let extremes = [indices.iter().min_by(by_height), indices.iter().max_by(by_height)];
+        let mut chosen: Vec<usize> =
+            ends.into_iter().chain(extremes.into_iter().flatten().copied()).collect();
+        chosen.sort_unstable();
+        chosen.dedup();
+        kept.extend(chosen.into_iter().map(|index| group[index]));
     }
     kept
 }

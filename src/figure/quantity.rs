@@ -112,23 +112,26 @@ impl Quantity {
         }
     }
 
-    /// The label's words and its unit in brackets, when `offset` is taken from the numbers and
-    /// they count powers of ten.
-    pub fn label_parts(&self, offset: &str, exponent: i32) -> (Text, Text) {
-        let space = if self.name.content().is_empty() || self.symbol.is_empty() { "" } else { " " };
+    /// The label with its unit in brackets, when `offset` is taken from the numbers and they count
+    /// powers of ten. It may be broken at its spaces; symbols and units hold none that break.
+    pub fn label(&self, offset: &str, exponent: i32) -> Text {
         let minus = match offset.strip_prefix('\u{2212}') {
             _ if offset.is_empty() => String::new(),
             Some(positive) => format!(" + {positive}"),
             None => format!(" − {offset}"),
         };
-        let symbol = Text::markup(&format!("{space}{}{minus}", self.symbol));
+        let symbol = format!("{}{minus}", self.symbol);
         let unit = match (exponent, self.unit.as_str()) {
             (0, "") => String::new(),
             (0, unit) => format!("({unit})"),
             (_, "") => format!("({})", power_of_ten(exponent)),
             (_, unit) => format!("({} {unit})", power_of_ten(exponent)),
         };
-        (self.name.clone().then(symbol), Text::markup(&unit))
+        let parts = [symbol, unit].map(|part| Text::markup(&part.replace(' ', "\u{a0}")));
+        parts.into_iter().fold(self.name.clone(), |label, part| {
+            let joint = if label.is_empty() || part.is_empty() { "" } else { " " };
+            label.then(Text::plain(joint)).then(part)
+        })
     }
 
     /// The short form for legends: the symbol, or the words where there is none.

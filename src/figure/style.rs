@@ -25,6 +25,9 @@ pub const LABEL_SIZE: f64 = 9.0;
 /// Size of tick labels, notes and legends [pt].
 pub const SMALL_SIZE: f64 = 8.0;
 
+/// Distance between lines relative to the size of their text.
+pub const LINE_HEIGHT: f64 = 1.15;
+
 /// Width of frames and ticks [pt].
 pub const FRAME_WIDTH: f64 = 0.6;
 /// Width of minor ticks [pt].
@@ -45,7 +48,7 @@ pub const TICK_GAP: f64 = 3.5;
 /// Distance between tick labels and the axis label [pt].
 pub const LABEL_GAP: f64 = 3.0;
 /// Room above a frame for the panel letter, a note and the legend [pt].
-pub const HEADER: f64 = 12.5;
+pub const HEADER: f64 = 14.0;
 /// Distance between panels of a grid [pt].
 pub const PANEL_GAP: f64 = 9.0;
 

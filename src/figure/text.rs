@@ -94,10 +94,42 @@ impl Text {
         self
     }
 
+    /// The label broken at its spaces into lines no wider than `width` at `size` [pt]; a word that
+    /// is wider stands alone.
+    pub fn wrapped(&self, width: f64, size: f64) -> Vec<Text> {
+        let mut words = vec![Text::default()];
+        for run in &self.runs {
+            for (at, piece) in run.content.split(' ').enumerate() {
+                if at > 0 {
+                    words.push(Text::default());
+                }
+                let word = words.last_mut().filter(|_| !piece.is_empty());
+                word.into_iter().for_each(|word| {
+                    word.runs.push(Run { content: piece.to_string(), ..run.clone() });
+                });
+            }
+        }
+        let mut lines: Vec<Text> = Vec::new();
+        for word in words.into_iter().filter(|word| !word.runs.is_empty()) {
+            let longer =
+                lines.last().map(|line| line.clone().then(Text::plain(" ")).then(word.clone()));
+            match (lines.last_mut(), longer) {
+                (Some(line), Some(longer)) if longer.width(size) <= width => *line = longer,
+                _ => lines.push(word),
+            }
+        }
+        lines
+    }
+
     /// Width at `size` [pt].
     pub fn width(&self, size: f64) -> f64 {
         let one = |run: &Run| font::width(run.face, &run.content) * run.script.size();
         self.runs.iter().map(one).sum::<f64>() * size
+    }
+
+    /// Whether there is nothing to set.
+    pub fn is_empty(&self) -> bool {
+        self.runs.iter().all(|run| run.content.is_empty())
     }
 
     /// A character that the font lacks, if there is one.
@@ -139,19 +171,4 @@ impl Text {
 /// The characters that XML reserves, written as entities.
 pub fn escape(content: &str) -> String {
     content.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-/// `words` broken into lines no wider than `width` at `size` [pt].
-pub fn wrap(words: &str, width: f64, size: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in words.split_whitespace() {
-        let longer = lines.last().map(|line| format!("{line} {word}"));
-        match (lines.last_mut(), longer) {
-            (Some(line), Some(longer)) if Text::plain(&longer).width(size) <= width => {
-                *line = longer;
-            }
-            _ => lines.push(word.to_string()),
-        }
-    }
-    lines
 }

@@ -38,11 +38,16 @@ pub fn linear_ticks(scale: &Scale, digit: i64, power: i32) -> Ticks {
     let minor_parts = if digit == 2 { 4 } else { 5 };
     // A number with more than five digits that change little: the common part moves to the label.
     let span = 10f64.powi((scale.high - scale.low).log10().floor() as i32 + 1);
-    let base =
-        if size > 2e4 * (scale.high - scale.low) { (scale.low / span).floor() * span } else { 0.0 };
-    let largest = scale.low.abs().max(scale.high.abs()).min((scale.high - base).abs().max(step));
+    let base = if size > 2e4 * (scale.high - scale.low) {
+        ((scale.low + scale.high) / 2.0 / span).round() * span
+    } else {
+        0.0
+    };
+    let largest = (scale.low - base).abs().max((scale.high - base).abs());
     let magnitude = largest.log10().floor() as i32;
-    let exponent = if (-3..=4).contains(&magnitude) { 0 } else { magnitude.div_euclid(3) * 3 };
+    // Powers of ten go to the label where the numbers would be long without.
+    let short = (-3..=4).contains(&magnitude) && power >= -4;
+    let exponent = if short { 0 } else { magnitude.div_euclid(3) * 3 };
     let decimals = (exponent - power).max(0) as usize;
     let major = multiples(scale, step)
         .into_iter()
@@ -60,7 +65,7 @@ pub fn linear_ticks(scale: &Scale, digit: i64, power: i32) -> Ticks {
         .map(|count| count as f64 * minor_step)
         .collect();
     let offset_decimals = (-(span.log10().round() as i32)).max(0) as usize;
-    let offset = if base == 0.0 { String::new() } else { number(base, offset_decimals) };
+    let offset = if base == 0.0 { String::new() } else { trimmed(&number(base, offset_decimals)) };
     Ticks { major, minor, exponent, offset }
 }
 

@@ -2,7 +2,7 @@
 
 use super::axis::AxisRequest;
 use super::canvas::{Drawn, Stroke};
-use super::cloud;
+use super::cloud::{self, Dot};
 use super::colour::Colours;
 use super::error::FigureError;
 use super::outcome::Outcomes;
@@ -46,12 +46,15 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         panel.mark_zero(&mut canvas);
         let dot = |case: &Case| {
             let colour = hue.as_ref().map_or(BLUE, |(colours, of)| colours.of(of[case.place]));
-            ((case.energy, case.speed), colour)
+            Dot { at: (case.energy, case.speed), colour, crowding: cases.len() as f64 }
         };
         let dots: Vec<_> = cases.iter().map(dot).collect();
         let radius = 1.4 * cloud::radius(dots.len());
         cloud::draw(&mut canvas, panel, &dots, radius);
-        panel.curve(&mut canvas, &stairs(&front(&cases)), Stroke::solid(VERMILION, CURVE_WIDTH));
+        if cases.len() > 1 {
+            let line = stairs(&front(&cases));
+            panel.curve(&mut canvas, &line, Stroke::solid(VERMILION, CURVE_WIDTH));
+        }
         if let Some((colours, _)) = &hue {
             colours.draw_bar(&mut canvas, panel.frame);
         }
