@@ -21,7 +21,7 @@ pub struct Dot {
 pub fn radius(count: usize) -> f64 {
     match count {
         0..=60 => 1.6,
-        61..=400 => 1.0,
+        61..=400 => 0.9,
         401..=2500 => 0.6,
         _ => 0.38,
     }

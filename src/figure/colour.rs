@@ -35,7 +35,9 @@ impl Colours {
     pub fn for_values(values: &[f64], quantity: Quantity) -> Option<Colours> {
         let (low, high) = finite_range(values.iter().copied())?;
         let scale = Scale::fitting(values, 0.0, MANY_DECADES);
-        let centred = (low < 0.0 && high > 0.0).then(|| high.max(-low));
+        // A trace of the other sign, as rounding leaves it, does not count.
+        let most = high.max(-low);
+        let centred = (low < -1e-3 * most && high > 1e-3 * most).then_some(most);
         Some(Colours { scale, centred, quantity })
     }
 

@@ -9,7 +9,7 @@ use super::outcome::Outcomes;
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Header, Mark, Pointing};
 use super::scale::Scale;
-use super::style::{BLUE, CURVE_WIDTH, ONE_COLUMN, VERMILION};
+use super::style::{BLUE, CURVE_WIDTH, INK, ONE_COLUMN, VERMILION};
 use super::text::Text;
 use super::view::View;
 
@@ -17,6 +17,8 @@ use super::view::View;
 const ENERGY: &str = "work_positive";
 /// The speed shown.
 const SPEED: &str = "progression_speed";
+/// Radius of the ring around the fastest case [pt].
+const BEST_RADIUS: f64 = 3.0;
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
 
@@ -40,7 +42,9 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let free = view.free_axes();
     let cases = cases(view, &energy, &free)?;
     let hue = hue(view, &free)?;
-    let page = request(view, &cases, &energy, hue.as_ref().map(|(colours, _)| colours));
+    let fastest = fastest(view, &cases, &free)?;
+    let colours = hue.as_ref().map(|(colours, _)| colours);
+    let page = request(view, &cases, &energy, colours, fastest.as_ref());
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         panel.mark_zero(&mut canvas);
@@ -54,6 +58,10 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         if cases.len() > 1 {
             let line = stairs(&front(&cases));
             panel.curve(&mut canvas, &line, Stroke::solid(VERMILION, CURVE_WIDTH));
+        }
+        if let Some((at, _)) = &fastest {
+            let place = panel.place(cases[*at].energy, cases[*at].speed);
+            canvas.rings(&[place], BEST_RADIUS, Stroke::solid(INK, CURVE_WIDTH));
         }
         if let Some((colours, _)) = &hue {
             colours.draw_bar(&mut canvas, panel.frame);
@@ -82,6 +90,28 @@ fn cases(view: &View<'_>, energy: &str, free: &[&str]) -> Result<Vec<Case>, Figu
     Ok(all.filter(kept).collect())
 }
 
+/// The case with the greatest speed, and where it stands along the axes.
+fn fastest(
+    view: &View<'_>,
+    cases: &[Case],
+    free: &[&str],
+) -> Result<Option<(usize, Text)>, FigureError> {
+    let faster = |a: &usize, b: &usize| cases[*a].speed.total_cmp(&cases[*b].speed);
+    let Some(at) = (0..cases.len()).max_by(faster).filter(|_| cases.len() > 1) else {
+        return Ok(None);
+    };
+    let mut words = Text::plain("fastest: ");
+    let mut joint = "";
+    for name in free.iter().filter(|name| view.coordinate_values(name).len() > 1) {
+        let values = view.parameter(name, free)?;
+        if let Some(value) = values.iter().nth(cases[at].place) {
+            words = words.then(Text::plain(joint)).then(view.quantity(name).note(*value));
+            joint = ", ";
+        }
+    }
+    Ok(Some((at, words)))
+}
+
 /// The colours of an axis, and the axis' value for each case.
 fn hue(view: &View<'_>, free: &[&str]) -> Result<Option<(Colours, Vec<f64>)>, FigureError> {
     let wanted = view.drawing.x.as_deref();
@@ -101,6 +131,7 @@ fn request(
     cases: &[Case],
     energy: &str,
     colours: Option<&Colours>,
+    fastest: Option<&(usize, Text)>,
 ) -> PageRequest {
     let energies: Vec<f64> = cases.iter().map(|case| case.energy).collect();
     let speeds: Vec<f64> = cases.iter().map(|case| case.speed).collect();
@@ -108,7 +139,9 @@ fn request(
         0 | 1 => Vec::new(),
         _ => {
             let line = Mark::Line(Stroke::solid(VERMILION, CURVE_WIDTH));
-            vec![(line, Text::plain("Pareto front"))]
+            let mut legend = vec![(line, Text::plain("Pareto front"))];
+            legend.extend(fastest.map(|(_, words)| (Mark::Ring(INK, BEST_RADIUS), words.clone())));
+            legend
         }
     };
     // Speeds differ in sign and stay linear, so that standing still keeps its place.
