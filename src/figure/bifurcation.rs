@@ -6,9 +6,10 @@ use super::axis::AxisRequest;
 use super::canvas::Drawn;
 use super::cloud::{self, Dot};
 use super::error::FigureError;
+use super::header::{Header, Mark};
 use super::outcome::Outcomes;
 use super::page::{PageRequest, PanelRequest, letter};
-use super::panel::{Header, Mark, Pointing};
+use super::panel::Pointing;
 use super::scale::{Scale, Spacing};
 use super::style::{BLUE, INK, ONE_COLUMN, VERMILION};
 use super::text::Text;
@@ -109,7 +110,7 @@ fn points(
     let outcomes = Outcomes::over(view, free)?;
     let directions = if free.len() > 1 { array.shape()[1] } else { 1 };
     let cases = x_values.len() * directions;
-    let per_case = if cases == 0 { 0 } else { array.len() / cases };
+    let per_case = array.len().checked_div(cases).unwrap_or(0);
     let values: Vec<f64> = array.iter().copied().collect();
     let of_branch = |branch: &Branch| {
         let mut dots = Vec::new();

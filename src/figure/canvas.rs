@@ -202,11 +202,11 @@ impl Canvas {
         let rendering = if raster.smooth { "auto" } else { "pixelated" };
         let (left, top) = fine((rect.left, rect.top));
         let (right, bottom) = fine((rect.right, rect.bottom));
-        let _ = write!(
+        let _ = writeln!(
             self.body,
             "<image x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\" \
              preserveAspectRatio=\"none\" style=\"image-rendering:{rendering}\" \
-             href=\"data:image/png;base64,{}\"/>\n",
+             href=\"data:image/png;base64,{}\"/>",
             right - left,
             bottom - top,
             base64::engine::general_purpose::STANDARD.encode(bytes)
@@ -218,10 +218,10 @@ impl Canvas {
         self.clips += 1;
         let (left, top) = fine((rect.left, rect.top));
         let (right, bottom) = fine((rect.right, rect.bottom));
-        let _ = write!(
+        let _ = writeln!(
             self.body,
             "<clipPath id=\"clip{0}\"><rect x=\"{left}\" y=\"{top}\" width=\"{1}\" \
-             height=\"{2}\"/></clipPath>\n<g clip-path=\"url(#clip{0})\">\n",
+             height=\"{2}\"/></clipPath>\n<g clip-path=\"url(#clip{0})\">",
             self.clips,
             right - left,
             bottom - top
@@ -259,11 +259,11 @@ impl Canvas {
             Reading::Upward => format!(" transform=\"rotate(-90 {x} {y})\""),
         };
         let RGBColor(red, green, blue) = colour;
-        let _ = write!(
+        let _ = writeln!(
             self.body,
             "<text x=\"{x}\" y=\"{y}\" font-family=\"{FAMILY}\" font-size=\"{}\" \
              text-anchor=\"{anchor}\" fill=\"#{red:02x}{green:02x}{blue:02x}\" \
-             xml:space=\"preserve\"{turn}>{}</text>\n",
+             xml:space=\"preserve\"{turn}>{}</text>",
             size * FINE,
             text.spans(size * FINE)
         );

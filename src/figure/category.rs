@@ -4,8 +4,8 @@ use plotters::style::RGBColor;
 
 use super::canvas::{Anchor, Canvas, Rect};
 use super::error::FigureError;
+use super::header::{Mark, draw_mark};
 use super::outcome::Outcomes;
-use super::panel::{Mark, draw_mark};
 use super::style::{CHAOTIC, LONG_PERIOD, PERIODS, QUASI_PERIODIC, SMALL_SIZE, UNDECIDED};
 use super::text::Text;
 use super::view::View;

@@ -3,8 +3,9 @@
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::error::FigureError;
+use super::header::{Header, Mark};
 use super::page::{PageRequest, PanelRequest, letter};
-use super::panel::{Header, Mark, Panel, Pointing};
+use super::panel::{Panel, Pointing};
 use super::scale::Scale;
 use super::style::{
     BLUE, CURVE_WIDTH, FAINT_INK, ONE_COLUMN, REFERENCE_WIDTH, TWO_COLUMNS, VERMILION,
@@ -81,7 +82,7 @@ fn case_axis<'a>(view: &View<'a>) -> Result<Option<&'a str>, FigureError> {
     let long = |name: &&str| view.coordinate_values(name).len() > 1;
     let axis = match wanted {
         Some(name) => free.iter().copied().find(|axis| *axis == name),
-        None => free.iter().copied().find(|name| long(&name)),
+        None => free.iter().copied().find(long),
     };
     let Some(name) = axis else { return Ok(None) };
     let count = view.coordinate_values(name).len();
@@ -181,23 +182,9 @@ fn request(
     notes: Option<Vec<Text>>,
 ) -> PageRequest {
     let mut rows: Vec<Vec<PanelRequest>> = Vec::new();
-    let single = cases == 1;
     for (index, cell) in cells.iter().enumerate() {
-        let scales = ordinates(cells, &cell.output);
-        let shared = scales.windows(2).all(|pair| pair[0] == pair[1]);
         let column = cell.case % columns;
-        let times = cell.curves[0].points.iter().map(|(time, _)| *time);
-        let mut x = AxisRequest::new(view.quantity("time"), Scale::around(times, 0.0));
-        // Stacked panels of one case share their time; different cases last differently long.
-        let lowest = match single {
-            true => index + 1 == cells.len(),
-            false => cells.get(index + columns).is_none(),
-        };
-        x.labelled = lowest;
-        x.numbered = lowest || !single;
-        let mut y = AxisRequest::new(view.quantity(&cell.output), scales[cell.case]);
-        y.labelled = column == 0;
-        y.numbered = column == 0 || !shared;
+        let (x, y) = axes(view, cells, index, columns, cases);
         let note = notes.as_ref().map(|notes| notes[cell.case].clone());
         let header =
             Header { letter: letter(index, cells.len()), note, legend: legend(view, cell) };
@@ -216,6 +203,29 @@ fn request(
         right_room: 0.0,
         pointing: Pointing::Inward,
     }
+}
+
+/// Abscissa and ordinate of one of `cells`, with numbers and labels only where they are needed.
+fn axes(
+    view: &View<'_>,
+    cells: &[Cell],
+    index: usize,
+    columns: usize,
+    cases: usize,
+) -> (AxisRequest, AxisRequest) {
+    let cell = &cells[index];
+    let times = cell.curves[0].points.iter().map(|(time, _)| *time);
+    let mut x = AxisRequest::new(view.quantity("time"), Scale::around(times, 0.0));
+    // Stacked panels of one case share their time; different cases last differently long.
+    x.labelled = cells.get(index + columns).is_none();
+    x.numbered = x.labelled || cases > 1;
+    let scales = ordinates(cells, &cell.output);
+    let shared = scales.windows(2).all(|pair| pair[0] == pair[1]);
+    let leftmost = cell.case.is_multiple_of(columns);
+    let mut y = AxisRequest::new(view.quantity(&cell.output), scales[cell.case]);
+    y.labelled = leftmost;
+    y.numbered = leftmost || !shared;
+    (x, y)
 }
 
 fn legend(view: &View<'_>, cell: &Cell) -> Vec<(Mark, Text)> {

@@ -3,15 +3,16 @@
 use plotters::style::RGBColor;
 
 use super::axis::AxisRequest;
-use super::canvas::Drawn;
+use super::canvas::{Canvas, Drawn};
 use super::category::Kinds;
+use super::cells::Cells;
 use super::colour::Colours;
 use super::error::FigureError;
+use super::header::{Header, Mark};
 use super::outcome::Outcomes;
 use super::page::{PageRequest, PanelRequest};
-use super::panel::{Header, Mark, Panel, Pointing};
+use super::panel::{Panel, Pointing};
 use super::raster::Raster;
-use super::scale::{Scale, Spacing};
 use super::style::{INFINITE, ONE_COLUMN};
 use super::text::Text;
 use super::view::View;
@@ -38,6 +39,23 @@ impl Paint {
         }
     }
 
+    /// Room beside the frame for the bar or the list of kinds [pt].
+    fn room(&self) -> f64 {
+        match self {
+            Paint::Numbers(colours, _) => colours.as_ref().map_or(0.0, |it| it.room(HEIGHT)),
+            Paint::Kinds(kinds) => kinds.room(),
+        }
+    }
+
+    /// Draws the bar or the list of kinds beside `panel`.
+    fn explain(&self, canvas: &mut Canvas, panel: &Panel) {
+        match self {
+            Paint::Numbers(Some(colours), _) => colours.draw_bar(canvas, panel.frame),
+            Paint::Numbers(None, _) => {}
+            Paint::Kinds(kinds) => kinds.draw_legend(canvas, panel.frame),
+        }
+    }
+
     /// The entries that the colour bar does not explain.
     fn legend(&self) -> Vec<(Mark, Text)> {
         let Paint::Numbers(_, values) = self else { return Vec::new() };
@@ -52,56 +70,6 @@ impl Paint {
     }
 }
 
-/// The cells along one axis: their places in the results, from the smallest value to the largest.
-struct Cells {
-    order: Vec<usize>,
-    /// Where each cell but the last ends, as a share of the axis.
-    ends: Vec<f64>,
-    scale: Scale,
-}
-
-impl Cells {
-    /// Cells around `values`, each as far as half way to its neighbours.
-    fn around(values: &[f64]) -> Cells {
-        let mut order: Vec<usize> = (0..values.len()).collect();
-        order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-        let sorted: Vec<f64> = order.iter().map(|index| values[*index]).collect();
-        let inner = Scale::of_axis(&sorted);
-        let scale = match sorted.as_slice() {
-            [first, second, .., before, last] => outer(inner, *first, *second, *before, *last),
-            [first, last] => outer(inner, *first, *last, *first, *last),
-            [first, second, last] => outer(inner, *first, *second, *second, *last),
-            _ => inner,
-        };
-        let middle = |pair: &[f64]| (scale.share(pair[0]) + scale.share(pair[1])) / 2.0;
-        Cells { order, ends: sorted.windows(2).map(middle).collect(), scale }
-    }
-
-    /// The place in the results of the cell at `share` of the axis.
-    fn at(&self, share: f64) -> usize {
-        self.order[self.ends.partition_point(|end| *end < share)]
-    }
-}
-
-/// `inner` and half a cell more at both ends.
-fn outer(inner: Scale, first: f64, second: f64, before: f64, last: f64) -> Scale {
-    if inner.low == inner.high || first == last {
-        return inner;
-    }
-    match inner.spacing {
-        Spacing::Linear => Scale {
-            low: first - (second - first) / 2.0,
-            high: last + (last - before) / 2.0,
-            ..inner
-        },
-        Spacing::Log => Scale {
-            low: first / (second / first).sqrt(),
-            high: last * (last / before).sqrt(),
-            ..inner
-        },
-    }
-}
-
 /// Draws the map that `view` asks for.
 pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (x_name, y_name) = axes(view)?;
@@ -113,21 +81,8 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             return Err(view.unfit(why));
         }
     };
-    let free = [y_name, x_name];
-    let cells = |name: &str| -> Result<Cells, FigureError> {
-        let factor = view.quantity(name).factor;
-        let values: Vec<f64> = view.axis_values(name)?.iter().map(|it| it * factor).collect();
-        if values.is_empty() {
-            return Err(view.unfit(format!("axis `{name}` has no values")));
-        }
-        Ok(Cells::around(&values))
-    };
-    let (x, y) = (cells(x_name)?, cells(y_name)?);
-    let paint = paint(view, &output, &free, x.order.len() * y.order.len())?;
-    let room = match &paint {
-        Paint::Numbers(colours, _) => colours.as_ref().map_or(0.0, |it| it.room(HEIGHT)),
-        Paint::Kinds(kinds) => kinds.room(),
-    };
+    let (x, y) = (cells(view, x_name)?, cells(view, y_name)?);
+    let paint = paint(view, &output, &[y_name, x_name], x.count() * y.count())?;
     let panel = PanelRequest {
         x: AxisRequest::new(view.quantity(x_name), x.scale),
         y: AxisRequest::new(view.quantity(y_name), y.scale),
@@ -138,21 +93,26 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
         heights: vec![HEIGHT],
         rows: vec![vec![panel]],
-        right_room: room,
+        right_room: paint.room(),
         pointing: Pointing::Outward,
     };
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
-        let raster = raster(panel, &x, &y, &paint);
-        canvas.image(panel.frame, &raster);
+        canvas.image(panel.frame, &raster(panel, &x, &y, &paint));
         panel.finish(&mut canvas);
-        match &paint {
-            Paint::Numbers(Some(colours), _) => colours.draw_bar(&mut canvas, panel.frame),
-            Paint::Numbers(None, _) => {}
-            Paint::Kinds(kinds) => kinds.draw_legend(&mut canvas, panel.frame),
-        }
+        paint.explain(&mut canvas, panel);
     }
     Ok(canvas.finish(&super::about(view, &[output], &[x_name, y_name])))
+}
+
+/// The cells along the axis called `name`.
+fn cells(view: &View<'_>, name: &str) -> Result<Cells, FigureError> {
+    let factor = view.quantity(name).factor;
+    let values: Vec<f64> = view.axis_values(name)?.iter().map(|value| value * factor).collect();
+    match values.is_empty() {
+        true => Err(view.unfit(format!("axis `{name}` has no values"))),
+        false => Ok(Cells::around(&values)),
+    }
 }
 
 /// The axes along the abscissa and the ordinate.
@@ -194,7 +154,7 @@ fn paint(view: &View<'_>, output: &str, free: &[&str], cases: usize) -> Result<P
 
 /// The cells of the map as pixels over the panel.
 fn raster(panel: &Panel, x: &Cells, y: &Cells, paint: &Paint) -> Raster {
-    let columns = x.order.len();
+    let columns = x.count();
     Raster::cells(
         panel.frame,
         |share| x.at(share),

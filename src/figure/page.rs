@@ -2,7 +2,8 @@
 
 use super::axis::{Along, Axis, AxisRequest};
 use super::canvas::{Anchor, Canvas, Rect};
-use super::panel::{Header, Panel, Pointing, tick_room};
+use super::header::Header;
+use super::panel::{Panel, Pointing, tick_room};
 use super::style::{
     BORDER, LABEL_GAP, LABEL_SIZE, PANEL_GAP, POINTS_PER_MM, SMALL_SIZE, TITLE_SIZE, WIDTHS,
 };

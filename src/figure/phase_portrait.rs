@@ -3,8 +3,9 @@
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn, Rect, Stroke};
 use super::error::FigureError;
+use super::header::{Header, Mark};
 use super::page::{PageRequest, PanelRequest};
-use super::panel::{Header, Mark, Panel, Pointing};
+use super::panel::{Panel, Pointing};
 use super::scale::Scale;
 use super::style::{
     BLUE, CONTACT, CURVE_WIDTH, FAINT_INK, INK, ONE_COLUMN, REFERENCE_WIDTH, VERMILION,
