@@ -44,7 +44,8 @@ fn follow(parameters: &Parameters) -> u64 {
 fn main() {
     let grid: Vec<Parameters> = (0..32 * 32)
         .map(|i| {
-            let along = |index: i32, from: f64, to: f64| from + (to - from) * f64::from(index) / 31.0;
+            let along =
+                |index: i32, from: f64, to: f64| from + (to - from) * f64::from(index) / 31.0;
             parameters(18_960.0, along(i % 32, 10.0, 100.0), along(i / 32, 1.0, 6.0), 0.0015)
         })
         .collect();

@@ -3,9 +3,6 @@
 //! The modules are floors, and each uses only those before it in this list; each opens with a sentence
 //! saying what it does. A reader starts at `model`, which defines what is computed.
 
-#[rustfmt::skip]
-mod floors {}
-
 pub mod lane;
 pub mod model;
 pub mod flow;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::Failure;
-use crate::figure::{Format, draw};
+use crate::figure::{FigureError, Format, draw};
 use crate::model::Dimension;
 use crate::store::{self, Dataset};
 use crate::sweep::document::unknown;
@@ -165,8 +165,9 @@ pub fn draw_all(
         })
         .collect();
     for drawing in drawings {
-        let paths = draw(dataset, drawing, folder, &formats).map_err(|error| {
-            if error.is_request() { Failure::request(error) } else { Failure::machine(error) }
+        let paths = draw(dataset, drawing, folder, &formats).map_err(|error| match error {
+            FigureError::Missing { .. } | FigureError::Unfit { .. } => Failure::request(error),
+            _ => Failure::machine(error),
         })?;
         let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
         eprintln!("{}", names.join(" "));

@@ -93,9 +93,8 @@ impl Sweep {
         let dataset = store::read(output)
             .map_err(|error| Failure::request(format!("{error}\n{shown} is kept: {advice}")))?;
         let now = store::provenance::attributes();
-        let same_program = ["source", "commit"]
-            .iter()
-            .all(|&key| dataset.attributes.get(key) == now.get(key));
+        let same_program =
+            ["source", "commit"].iter().all(|&key| dataset.attributes.get(key) == now.get(key));
         if dataset.texts.get("study") == Some(&study.text) && same_program {
             eprintln!("{shown}: already computed, by this program from this study");
             return Ok(Some(dataset));
@@ -138,8 +137,7 @@ fn summary(study: &Study, records: &[Record], output: &Path, seconds: f64) -> St
             let _ = writeln!(text, "  {:<14} {count}", outcome.name());
         }
     }
-    let failures =
-        records.iter().filter_map(|record| Some((record.index, record.orbit.failure?)));
+    let failures = records.iter().filter_map(|record| Some((record.index, record.orbit.failure?)));
     for (index, failure) in failures.take(FAILURES_SHOWN) {
         let _ = writeln!(text, "  case {index} failed: {failure}");
         let _ = writeln!(text, "    replay: {}", replay(&study.case(index)));

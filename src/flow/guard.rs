@@ -128,11 +128,7 @@ impl<L: Lane> Sums<L> {
         let minimum = root(&falling, h, minimum_inside);
         let magnitude = guard[0].abs() + (g1 * minimum).abs() + (g2 * minimum * minimum).abs();
         let rounding = magnitude * L::splat(4.0 * f64::EPSILON);
-        (
-            decided,
-            L::select(minimum_inside, minimum, h),
-            L::select(minimum_inside, rounding, zero),
-        )
+        (decided, L::select(minimum_inside, minimum, h), L::select(minimum_inside, rounding, zero))
     }
 }
 

@@ -54,8 +54,7 @@ pub fn sin_cos<L: Lane>(x: L) -> (L, L) {
     let q = (x * L::splat(FRAC_2_PI) + L::splat(ROUNDER)) - L::splat(ROUNDER);
     let s = ((x - q * L::splat(PARTS[0])) - q * L::splat(PARTS[1])) - q * L::splat(PARTS[2]);
     let square = s * s;
-    let (mut sine, mut cosine) =
-        (L::splat(INVERSE_FACTORIAL[17]), L::splat(INVERSE_FACTORIAL[16]));
+    let (mut sine, mut cosine) = (L::splat(INVERSE_FACTORIAL[17]), L::splat(INVERSE_FACTORIAL[16]));
     for k in (0..8).rev() {
         sine = L::splat(INVERSE_FACTORIAL[2 * k + 1]) - square * sine;
         cosine = L::splat(INVERSE_FACTORIAL[2 * k]) - square * cosine;
@@ -63,8 +62,7 @@ pub fn sin_cos<L: Lane>(x: L) -> (L, L) {
     sine = s * sine;
     let is = |quarter: f64| (q - L::splat(quarter)).abs().lt(L::splat(0.5));
     let swapped = is(1.0) | is(3.0) | is(5.0);
-    let (first, second) =
-        (L::select(swapped, cosine, sine), L::select(swapped, sine, cosine));
+    let (first, second) = (L::select(swapped, cosine, sine), L::select(swapped, sine, cosine));
     let sine_negative = is(2.0) | is(3.0);
     let cosine_negative = is(1.0) | is(2.0) | is(5.0);
     (L::select(sine_negative, -first, first), L::select(cosine_negative, -second, second))

@@ -46,10 +46,7 @@ impl Capsule<f64> {
 impl<L: Lane> Capsule<L> {
     /// The capsules of each lane's parameters and starting phase [rad], which share the first
     /// lane's law of resistance.
-    pub fn new<'a>(
-        of: impl Fn(usize) -> &'a Parameters,
-        phase: impl Fn(usize) -> f64,
-    ) -> Self {
+    pub fn new<'a>(of: impl Fn(usize) -> &'a Parameters, phase: impl Fn(usize) -> f64) -> Self {
         let lanes = |parameter: Parameter| L::from_fn(|lane| of(lane)[parameter]);
         Capsule {
             k1: lanes(Parameter::K1),
@@ -127,8 +124,7 @@ impl<L: Lane> Switched<L> for Capsule<L> {
                 jet.decay[k + 1] = self.drag.decay_term(mode.slip, &jet.decay, &acceleration, k);
             }
         }
-        jet.force[ORDER] =
-            stiffness * jet.r[ORDER] + self.c * (jet.y1[ORDER] - jet.y2[ORDER]);
+        jet.force[ORDER] = stiffness * jet.r[ORDER] + self.c * (jet.y1[ORDER] - jet.y2[ORDER]);
         jet
     }
 

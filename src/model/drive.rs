@@ -16,10 +16,7 @@ pub struct Drive<L> {
 
 impl<L: Lane> Drive<L> {
     /// The drive of each lane's parameters, started at each lane's phase [rad].
-    pub fn new<'a>(
-        of: impl Fn(usize) -> &'a Parameters,
-        phase: impl Fn(usize) -> f64,
-    ) -> Self {
+    pub fn new<'a>(of: impl Fn(usize) -> &'a Parameters, phase: impl Fn(usize) -> f64) -> Self {
         let turn = 2.0 * std::f64::consts::PI;
         let (sin_phase, cos_phase) = sin_cos(L::from_fn(|lane| phase(lane).rem_euclid(turn)));
         Drive {

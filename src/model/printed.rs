@@ -311,7 +311,9 @@ impl PrintedCapsule {
                 limit_reached(self.on_limit(mode.closed, state, side, time), side, 1.0)
             }
             (1, Motion::Held { side }) => limit_reached(Motion::Frozen, side, 1.0),
-            (_, Motion::Held { side }) => (Motion::Moving { slip: side, side }, [0.0, 2.0, 0.0, 0.0]),
+            (_, Motion::Held { side }) => {
+                (Motion::Moving { slip: side, side }, [0.0, 2.0, 0.0, 0.0])
+            }
             (1, Motion::Creeping { side, .. }) => limit_reached(Motion::Frozen, side, 2.0),
             (2, Motion::Creeping { slip, side }) => {
                 limit_reached(Motion::Moving { slip, side }, side, 2.0)

@@ -115,13 +115,7 @@ impl<L: Lane> Drag<L> {
 
     /// Coefficient `k + 1` of exp(-|y2|/v_s), from `e' = -(slip/v_s) e y2'`.
     #[inline(always)]
-    pub fn decay_term(
-        &self,
-        slip: L,
-        decay: &Series<L>,
-        acceleration: &Series<L>,
-        k: usize,
-    ) -> L {
+    pub fn decay_term(&self, slip: L, decay: &Series<L>, acceleration: &Series<L>, k: usize) -> L {
         match self.law {
             Resistance::CoulombStribeck => {
                 let product = series::product_term(decay, acceleration, k);

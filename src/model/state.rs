@@ -76,9 +76,7 @@ impl EventKind {
 
     /// The kind with this number, none for zero.
     pub fn from_code(code: f64) -> Option<EventKind> {
-        use EventKind::{
-            ContactClosed, ContactOpened, Reversal, SlipBackward, SlipForward, Stick,
-        };
+        use EventKind::{ContactClosed, ContactOpened, Reversal, SlipBackward, SlipForward, Stick};
         [ContactClosed, ContactOpened, SlipForward, SlipBackward, Stick, Reversal]
             .into_iter()
             .find(|&kind| f64::from(kind as u8) == code)

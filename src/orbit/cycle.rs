@@ -44,7 +44,11 @@ impl fmt::Display for Failure {
             Reason::NotFinite => Breakdown::NotFinite.to_string(),
             Reason::TooManySteps => format!("a drive cycle takes over {STEPS_PER_CYCLE} steps"),
         };
-        write!(f, "{reason}, at t = {} s, r = {r} m, y1 = {y1} m/s, x2 = {x2} m, y2 = {y2} m/s", self.time)
+        write!(
+            f,
+            "{reason}, at t = {} s, r = {r} m, y1 = {y1} m/s, x2 = {x2} m, y2 = {y2} m/s",
+            self.time
+        )
     }
 }
 

@@ -8,9 +8,7 @@ use crate::model::{
 };
 
 use super::recurrence::Recurrence;
-use super::{
-    Account, Failure, History, HistorySpan, Impact, Output, Outputs, Section, Traveller,
-};
+use super::{Account, Failure, History, HistorySpan, Impact, Output, Outputs, Section, Traveller};
 
 /// What a case turned out to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

@@ -2,9 +2,7 @@
 
 use serde::Serialize;
 
-use crate::model::{
-    Capsule, EventKind, Locomotion, Parameters, PrintedCapsule, State, Switching,
-};
+use crate::model::{Capsule, EventKind, Locomotion, Parameters, PrintedCapsule, State, Switching};
 
 use super::{Account, Failure, Traveller};
 

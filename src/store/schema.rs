@@ -150,8 +150,7 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
             "direction in which the attractor was followed",
             Values::Integer(values),
         );
-        variable.flags =
-            Direction::ALL.iter().map(|&d| (d as i64, d.name().to_owned())).collect();
+        variable.flags = Direction::ALL.iter().map(|&d| (d as i64, d.name().to_owned())).collect();
         dataset.coordinates.push((name, variable));
     }
 }
@@ -229,7 +228,12 @@ fn add_impacts(dataset: &mut Dataset, table: &Table<'_>) {
         table.rows(length, move |orbit, n| orbit.impacts.get(n).map(value))
     };
     for (name, unit, meaning, values) in [
-        ("impact_phase", "rad", "phase of the drive at the impact, since the section", impact(|i| i.phase)),
+        (
+            "impact_phase",
+            "rad",
+            "phase of the drive at the impact, since the section",
+            impact(|i| i.phase),
+        ),
         ("impact_y1", "m/s", "velocity of the mass at the impact", impact(|i| i.y1)),
         ("impact_y2", "m/s", "velocity of the capsule at the impact", impact(|i| i.y2)),
     ] {
@@ -250,10 +254,30 @@ fn add_history(dataset: &mut Dataset, table: &Table<'_>) {
         })
     };
     for (name, unit, meaning, values) in [
-        ("history_r", "m", "relative displacement x1 - x2", sampled(|h, n| h.states.get(n).map(|s| s.r))),
-        ("history_y1", "m/s", "velocity of the mass", sampled(|h, n| h.states.get(n).map(|s| s.y1))),
-        ("history_x2", "m", "displacement of the capsule", sampled(|h, n| h.states.get(n).map(|s| s.x2))),
-        ("history_y2", "m/s", "velocity of the capsule", sampled(|h, n| h.states.get(n).map(|s| s.y2))),
+        (
+            "history_r",
+            "m",
+            "relative displacement x1 - x2",
+            sampled(|h, n| h.states.get(n).map(|s| s.r)),
+        ),
+        (
+            "history_y1",
+            "m/s",
+            "velocity of the mass",
+            sampled(|h, n| h.states.get(n).map(|s| s.y1)),
+        ),
+        (
+            "history_x2",
+            "m",
+            "displacement of the capsule",
+            sampled(|h, n| h.states.get(n).map(|s| s.x2)),
+        ),
+        (
+            "history_y2",
+            "m/s",
+            "velocity of the capsule",
+            sampled(|h, n| h.states.get(n).map(|s| s.y2)),
+        ),
         ("history_drive", "N", "force of the drive", sampled(|h, n| h.drive.get(n).copied())),
     ] {
         let variable = table.row_variable("history_time", unit, meaning, values);

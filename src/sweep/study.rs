@@ -100,8 +100,7 @@ impl Study {
 
     /// Case `index`, counted with the last dimension fastest.
     pub fn case(&self, index: usize) -> Case {
-        let mut case =
-            Case { parameters: self.base.clone(), start: self.start, phase: self.phase };
+        let mut case = Case { parameters: self.base.clone(), start: self.start, phase: self.phase };
         for (axis, position) in self.axes.iter().zip(self.position(index)) {
             let value = axis.values[position];
             match axis.coordinate {

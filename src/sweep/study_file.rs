@@ -86,19 +86,14 @@ fn read_parameters(top: &Table<'_, '_>, axes: &[Axis]) -> Parameters {
         parameters.resistance = entry.one_of("resistance", &laws).unwrap_or_default();
     }
     if let Some(entry) = table.entry("friction_switching") {
-        let readings =
-            [("filippov", Switching::Filippov), ("as-printed", Switching::AsPrinted)];
+        let readings = [("filippov", Switching::Filippov), ("as-printed", Switching::AsPrinted)];
         parameters.switching = entry.one_of("reading", &readings).unwrap_or_default();
     }
     table.finish();
     parameters
 }
 
-fn allowed_quantity(
-    entry: &Entry<'_, '_>,
-    dimension: Dimension,
-    allowed: Allowed,
-) -> Option<f64> {
+fn allowed_quantity(entry: &Entry<'_, '_>, dimension: Dimension, allowed: Allowed) -> Option<f64> {
     let value = entry.quantity(dimension)?;
     if !allowed.admits(value) {
         entry.fault(format!("{value} {} must be {allowed}", dimension.unit()));

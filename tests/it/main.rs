@@ -1,5 +1,6 @@
 //! The tests of the whole: closed forms, invariants, references, and the program as its users run it.
 
+mod figure;
 mod house;
 mod paper;
 mod reference;

@@ -18,16 +18,22 @@ fn every_reference_trajectory_is_reproduced() {
     for case in cases {
         let id = &case["id"];
         let mut parameters = Parameters::default();
-        for parameter in
-            [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta, Parameter::MuS, Parameter::MuD]
-        {
+        for parameter in [
+            Parameter::Omega,
+            Parameter::Pd,
+            Parameter::K2,
+            Parameter::Delta,
+            Parameter::MuS,
+            Parameter::MuD,
+        ] {
             parameters[parameter] = number(case, parameter.symbol());
         }
         let of = |key| number(&case["start"], key);
         let start = State { r: of("r"), y1: of("y1"), x2: of("x2"), y2: of("y2") };
         let simulation = simulate(&parameters, 0.0, start, 20, 1e-12);
         assert!(simulation.failure.is_none(), "case {id}");
-        for (sample, expected) in simulation.section.iter().zip(case["section"].as_array().unwrap()) {
+        for (sample, expected) in simulation.section.iter().zip(case["section"].as_array().unwrap())
+        {
             for (key, value) in [
                 ("r", sample.r),
                 ("y1", sample.y1),

@@ -1,0 +1,143 @@
+//! An axis of a panel: its scale, its label and as many numbers as there is room for.
+
+use super::quantity::Quantity;
+use super::scale::{Scale, Spacing};
+use super::style::{LABEL_SIZE, LINE_HEIGHT, SMALL_SIZE};
+use super::text::Text;
+use super::ticks::{Ticks, linear_ticks, log_ticks};
+
+/// The direction an axis runs in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Along {
+    /// Along the width of the page.
+    Across,
+    /// Along its height.
+    Up,
+}
+
+/// Ratio of positive values above which their logarithm is shown.
+pub const MANY_DECADES: f64 = 1000.0;
+
+/// What an axis is to show.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisRequest {
+    /// What is measured along it.
+    pub quantity: Quantity,
+    /// The values shown, in the units of the figure.
+    pub scale: Scale,
+    /// Whether there are values to show at all.
+    pub empty: bool,
+    /// Whether it carries a label.
+    pub labelled: bool,
+    /// Whether its marks carry numbers.
+    pub numbered: bool,
+}
+
+impl AxisRequest {
+    /// An axis with label and numbers.
+    pub fn new(quantity: Quantity, scale: Scale) -> AxisRequest {
+        AxisRequest { quantity, scale, empty: false, labelled: true, numbered: true }
+    }
+
+    /// An axis around `values`, without marks where none of them is finite; logarithmic where they
+    /// span many decades.
+    pub fn around(quantity: Quantity, values: &[f64], margin: f64) -> AxisRequest {
+        let empty = !values.iter().any(|value| value.is_finite());
+        let scale = Scale::fitting(values, margin, MANY_DECADES);
+        AxisRequest { empty, numbered: !empty, ..AxisRequest::new(quantity, scale) }
+    }
+}
+
+/// An axis with its marks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// From values to places.
+    pub scale: Scale,
+    /// Marks and numbers.
+    pub ticks: Ticks,
+    /// The lines of the label; none without one.
+    pub label: Vec<Text>,
+    /// Whether there are no values to show.
+    pub empty: bool,
+    /// Width of the widest number [pt].
+    pub widest: f64,
+    /// Whether its marks carry numbers.
+    pub numbered: bool,
+}
+
+impl Axis {
+    /// The axis of `request` over `length` [pt].
+    pub fn new(request: &AxisRequest, along: Along, length: f64) -> Axis {
+        let ticks = match request.empty {
+            true => Ticks::default(),
+            false => choose(request, along, length),
+        };
+        let widest = ticks.major.iter().map(|tick| label_width(&tick.label)).fold(0.0, f64::max);
+        let room = length + 6.0;
+        let label = match request.labelled {
+            true => request.quantity.label(&ticks.offset, ticks.exponent),
+            false => Text::default(),
+        };
+        let label = label.wrapped(room, LABEL_SIZE);
+        Axis {
+            scale: request.scale,
+            ticks,
+            label,
+            empty: request.empty,
+            widest,
+            numbered: request.numbered,
+        }
+    }
+
+    /// Room that the lines of the label take [pt].
+    pub fn label_room(&self) -> f64 {
+        self.label.len() as f64 * LINE_HEIGHT * LABEL_SIZE
+    }
+}
+
+/// The densest marks whose numbers do not touch; two at least, where the range has them.
+fn choose(request: &AxisRequest, along: Along, length: f64) -> Ticks {
+    let scale = &request.scale;
+    let candidates: Vec<Ticks> = match scale.spacing {
+        Spacing::Log => (1..=40).map(|every| log_ticks(scale, every)).collect(),
+        Spacing::Linear => {
+            let start = ((scale.high - scale.low).log10().floor() as i32) - 2;
+            let start = if request.quantity.whole { start.max(0) } else { start };
+            let mut candidates: Vec<_> = (start..start + 5)
+                .flat_map(|power| [1, 2, 5].map(|digit| linear_ticks(scale, digit, power)))
+                .collect();
+            if request.quantity.whole {
+                let whole = |value: &f64| (value - value.round()).abs() < 1e-6;
+                candidates.iter_mut().for_each(|ticks| ticks.minor.retain(whole));
+            }
+            candidates
+        }
+    };
+    let roomy = candidates.iter().find(|ticks| has_room(ticks, scale, along, length));
+    match roomy {
+        Some(ticks) if ticks.major.len() >= 2 => ticks.clone(),
+        // Rather two numbers close together than an axis that cannot be read.
+        _ => candidates.iter().rev().find(|t| t.major.len() >= 2).unwrap_or(&candidates[0]).clone(),
+    }
+}
+
+/// Whether the numbers stand clear of each other, and are not more than an eye wants.
+fn has_room(ticks: &Ticks, scale: &Scale, along: Along, length: f64) -> bool {
+    let half = |label: &str| match along {
+        Along::Across => label_width(label) / 2.0 + 5.0,
+        Along::Up => SMALL_SIZE * 0.95,
+    };
+    let most = match along {
+        Along::Across => 9,
+        Along::Up => 7,
+    };
+    let clear = ticks.major.windows(2).all(|pair| {
+        let distance = (scale.share(pair[1].value) - scale.share(pair[0].value)) * length;
+        distance >= half(&pair[0].label) + half(&pair[1].label)
+    });
+    clear && ticks.major.len() <= most
+}
+
+fn label_width(label: &str) -> f64 {
+    Text::markup(label).width(SMALL_SIZE)
+}

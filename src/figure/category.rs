@@ -1,0 +1,136 @@
+//! Cases sorted into kinds, each with a name and a colour: outcomes and periods.
+
+use plotters::style::RGBColor;
+
+use super::canvas::{Anchor, Canvas, Rect};
+use super::error::FigureError;
+use super::header::{Mark, draw_mark};
+use super::outcome::Outcomes;
+use super::style::{CHAOTIC, LONG_PERIOD, PERIODS, QUASI_PERIODIC, SMALL_SIZE, UNDECIDED};
+use super::text::Text;
+use super::view::View;
+
+/// Distance between a frame and the legend [pt].
+const LEGEND_GAP: f64 = 7.0;
+/// Distance between lines of the legend [pt].
+const LINE: f64 = 11.5;
+/// Width of a mark and the gap after it [pt].
+const MARK: f64 = 16.0;
+
+/// A kind of case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kind {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its colour; none where the case has no result.
+    pub colour: Option<RGBColor>,
+}
+
+/// The kind of every case, as places in a list of those that occur.
+pub struct Kinds {
+    /// The kinds that occur, in the order of the legend.
+    pub kinds: Vec<Kind>,
+    /// Heading of the legend.
+    heading: Text,
+    /// The kind of each case.
+    of_case: Vec<usize>,
+}
+
+impl Kinds {
+    /// Sorts the cases by the variable `name`, which holds periods or has named values.
+    pub fn of(view: &View<'_>, name: &str, free: &[&str]) -> Result<Kinds, FigureError> {
+        let codes = view.take(name, free)?;
+        let outcomes = Outcomes::over(view, free)?;
+        let flags = view.flags(name);
+        // Each case with its place in the legend.
+        let kinds: Vec<(usize, Kind)> = codes
+            .iter()
+            .enumerate()
+            .map(|(case, code)| match name {
+                "period" => by_period(*code, outcomes.name(case)),
+                _ => by_flag(*code, flags),
+            })
+            .collect();
+        let mut present: Vec<(usize, Kind)> = Vec::new();
+        for (rank, kind) in &kinds {
+            if !present.iter().any(|(_, other)| other == kind) {
+                present.push((*rank, kind.clone()));
+            }
+        }
+        present.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| a.1.name.cmp(&b.1.name)));
+        let place = |kind: &Kind| present.iter().position(|(_, it)| it == kind).unwrap_or(0);
+        let of_case = kinds.iter().map(|(_, kind)| place(kind)).collect();
+        let kinds = present.into_iter().map(|(_, kind)| kind).collect();
+        Ok(Kinds { kinds, heading: view.quantity(name).short_name(), of_case })
+    }
+
+    /// The colour of a case.
+    pub fn colour(&self, case: usize) -> Option<RGBColor> {
+        self.of_case.get(case).and_then(|place| self.kinds[*place].colour)
+    }
+
+    /// Room that the legend takes beside a frame [pt].
+    pub fn room(&self) -> f64 {
+        let widths = self.kinds.iter().map(|kind| Text::plain(&kind.name).width(SMALL_SIZE) + MARK);
+        LEGEND_GAP + widths.fold(self.heading.width(SMALL_SIZE), f64::max) + 2.0
+    }
+
+    /// Draws the legend beside `frame`.
+    pub fn draw_legend(&self, canvas: &mut Canvas, frame: Rect) {
+        let left = frame.right + LEGEND_GAP;
+        let mut baseline = frame.top + 0.7 * SMALL_SIZE;
+        canvas.text(&self.heading, (left, baseline), SMALL_SIZE, Anchor::Start);
+        for kind in &self.kinds {
+            baseline += LINE;
+            let mark = kind.colour.map_or(Mark::Hatched, Mark::Patch);
+            draw_mark(canvas, mark, (left - 1.0, baseline - 0.3 * SMALL_SIZE));
+            let at = (left - 1.0 + MARK, baseline);
+            canvas.text(&Text::plain(&kind.name), at, SMALL_SIZE, Anchor::Start);
+        }
+    }
+}
+
+/// The kind of a named outcome and its place in the legend, after those of the periods.
+fn by_name(name: &str) -> Option<(usize, Kind)> {
+    let (rank, colour) = match name {
+        "periodic" => (0, Some(PERIODS[0])),
+        "quasi-periodic" => (20, Some(QUASI_PERIODIC)),
+        "chaotic" => (21, Some(CHAOTIC)),
+        "undecided" => (22, Some(UNDECIDED)),
+        "failed" => (23, None),
+        _ => return None,
+    };
+    Some((rank, Kind { name: name.to_string(), colour }))
+}
+
+fn no_value() -> (usize, Kind) {
+    (99, Kind { name: "no value".to_string(), colour: None })
+}
+
+fn by_period(period: f64, outcome: Option<&str>) -> (usize, Kind) {
+    if let Some(found) = outcome.filter(|name| *name != "periodic").and_then(by_name) {
+        return found;
+    }
+    match period {
+        period if period >= 1.0 => {
+            let place = period as usize;
+            let kind = |name: String, colour| Kind { name, colour: Some(colour) };
+            match PERIODS.get(place - 1) {
+                Some(colour) => (place, kind(place.to_string(), *colour)),
+                None => (9, kind(format!("{} or more", PERIODS.len() + 1), LONG_PERIOD)),
+            }
+        }
+        _ => no_value(),
+    }
+}
+
+fn by_flag(code: f64, flags: &[(i64, String)]) -> (usize, Kind) {
+    let Some(place) = flags.iter().position(|(value, _)| *value as f64 == code) else {
+        return no_value();
+    };
+    let name = &flags[place].1;
+    by_name(name).unwrap_or_else(|| {
+        let colour = PERIODS[place % PERIODS.len()];
+        (place, Kind { name: name.clone(), colour: Some(colour) })
+    })
+}

@@ -1,0 +1,52 @@
+//! Points of a diagram: vector discs where they are few, pixels where they are many.
+
+use plotters::style::RGBColor;
+
+use super::canvas::{Canvas, Point};
+use super::panel::Panel;
+use super::raster::Raster;
+use super::style::CLOUD_LIMIT;
+
+/// A point in the units of the panel's axes.
+pub struct Dot {
+    /// Where it stands.
+    pub at: (f64, f64),
+    /// Its colour.
+    pub colour: RGBColor,
+    /// Dots that the panel would hold if all of it were as crowded as here.
+    pub crowding: f64,
+}
+
+/// The radius at which `count` points can be seen and told apart [pt].
+pub fn radius(count: usize) -> f64 {
+    match count {
+        0..=60 => 1.6,
+        61..=400 => 0.9,
+        401..=2500 => 0.6,
+        _ => 0.38,
+    }
+}
+
+/// Transmittance of the paper where dots are crowded: dark, but with room for structure.
+const SHINE_THROUGH: f64 = 0.3;
+
+/// Draws the points of `dots` that lie on `panel`, the later over the earlier.
+pub fn draw(canvas: &mut Canvas, panel: &Panel, dots: &[Dot], radius: f64) {
+    let on_panel = |dot: &&Dot| panel.x.scale.holds(dot.at.0) && panel.y.scale.holds(dot.at.1);
+    let placed = dots.iter().filter(on_panel).map(|dot| (panel.place(dot.at.0, dot.at.1), dot));
+    if dots.len() <= CLOUD_LIMIT {
+        let discs: Vec<(Point, RGBColor)> = placed.map(|(at, dot)| (at, dot.colour)).collect();
+        canvas.discs(&discs, radius);
+        return;
+    }
+    let frame = panel.frame;
+    let area = std::f64::consts::PI * radius * radius;
+    let mut raster = Raster::over(frame);
+    for ((x, y), dot) in placed {
+        // Crowded dots let those below shine through and show density; lone ones stay dark.
+        let crowding = (dot.crowding * area / (frame.width() * frame.height())).max(1e-6);
+        let opacity = (1.0 - SHINE_THROUGH.powf(1.0 / crowding)).max(0.02);
+        raster.disc((x - frame.left, y - frame.top), radius, dot.colour, opacity);
+    }
+    canvas.image(frame, &raster);
+}

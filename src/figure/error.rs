@@ -1,0 +1,101 @@
+//! What can go wrong when a figure is drawn.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// Why a figure could not be drawn.
+#[derive(Debug)]
+pub enum FigureError {
+    /// The figure needs a variable or an axis that the results do not hold.
+    Missing {
+        /// Name of the figure.
+        figure: String,
+        /// "variable" or "axis".
+        what: &'static str,
+        /// The name that was asked for.
+        name: String,
+        /// The names there are.
+        present: Vec<String>,
+    },
+    /// What was asked for does not fit the results or the kind of figure.
+    Unfit {
+        /// Name of the figure.
+        figure: String,
+        /// What does not fit, and what would.
+        why: String,
+    },
+    /// A label holds a character that the embedded font cannot draw.
+    Glyph {
+        /// Name of the figure.
+        figure: String,
+        /// The character.
+        character: char,
+        /// The label it stands in.
+        label: String,
+    },
+    /// The drawing could not be turned into a file format.
+    Render {
+        /// Name of the figure.
+        figure: String,
+        /// What the renderer said.
+        why: String,
+    },
+    /// A file could not be written.
+    Write {
+        /// Name of the figure.
+        figure: String,
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+}
+
+/// The name among `present` that looks most like `name`, if any is close.
+fn closest<'a>(name: &str, present: &'a [String]) -> Option<&'a String> {
+    present
+        .iter()
+        .map(|other| (strsim::jaro_winkler(name, other), other))
+        .filter(|(likeness, _)| *likeness > 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, other)| other)
+}
+
+impl fmt::Display for FigureError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            FigureError::Missing { figure, what, name, present } => {
+                write!(f, "figure `{figure}`: the results hold no {what} `{name}`")?;
+                if let Some(other) = closest(name, present) {
+                    write!(f, "; did you mean `{other}`?")?;
+                }
+                match present.is_empty() {
+                    true => write!(f, " (there is none)"),
+                    false => write!(f, " (there is: {})", present.join(", ")),
+                }
+            }
+            FigureError::Unfit { figure, why } => write!(f, "figure `{figure}`: {why}"),
+            FigureError::Glyph { figure, character, label } => write!(
+                f,
+                "figure `{figure}`: the font has no character `{character}` (U+{:04X}) for the \
+                 label \"{label}\"",
+                u32::from(*character)
+            ),
+            FigureError::Render { figure, why } => {
+                write!(f, "figure `{figure}`: the drawing could not be rendered: {why}")
+            }
+            FigureError::Write { figure, path, source } => {
+                write!(f, "figure `{figure}`: cannot write {}: {source}", path.display())
+            }
+        }
+    }
+}
+
+impl std::error::Error for FigureError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            FigureError::Write { source, .. } => Some(source),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! What stands above a panel: its letter, a note, and the legend.
+
+use plotters::style::RGBColor;
+
+use super::canvas::{Anchor, Canvas, Point, Rect, Stroke};
+use super::raster::Raster;
+use super::style::{CURVE_WIDTH, HEADER, INK, LABEL_SIZE, MINOR_WIDTH, SMALL_SIZE};
+use super::text::Text;
+
+/// What stands for a series in a legend.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Mark {
+    /// A line.
+    Line(Stroke),
+    /// A disc.
+    Disc(RGBColor, f64),
+    /// A ring.
+    Ring(RGBColor, f64),
+    /// An area.
+    Patch(RGBColor),
+    /// The area without values.
+    Hatched,
+}
+
+/// A mark of a legend and what it means.
+pub type Entry = (Mark, Text);
+
+/// What stands above a panel.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Header {
+    /// Which panel it is, if there are several.
+    pub letter: Option<char>,
+    /// Where its axes are held.
+    pub note: Option<Text>,
+    /// What its marks mean.
+    pub legend: Vec<Entry>,
+}
+
+/// Width of a mark in a legend [pt].
+const MARK_WIDTH: f64 = 13.0;
+/// Distance between a mark and its words [pt].
+const MARK_GAP: f64 = 3.0;
+/// Distance between lines of a header [pt].
+const HEADER_LINE: f64 = 10.5;
+/// Distance between entries of a legend [pt].
+const ENTRY_GAP: f64 = 9.0;
+
+impl Header {
+    /// Draws the header above `frame`.
+    pub fn draw(&self, canvas: &mut Canvas, frame: Rect) {
+        let baseline = frame.top - 4.0;
+        let mut left = frame.left;
+        if let Some(letter) = self.letter {
+            let text = letter_text(letter);
+            canvas.text(&text, (left, baseline), LABEL_SIZE, Anchor::Start);
+            left += text.width(LABEL_SIZE) + 5.0;
+        }
+        if let Some(note) = &self.note {
+            canvas.text(note, (left, baseline), SMALL_SIZE, Anchor::Start);
+        }
+        for (line, entries) in self.legend_lines(frame.width()).into_iter().rev().enumerate() {
+            let mut at = frame.right - legend_width(entries);
+            let baseline = baseline - line as f64 * HEADER_LINE;
+            for (mark, words) in entries {
+                draw_mark(canvas, *mark, (at, baseline - 0.3 * SMALL_SIZE));
+                at += MARK_WIDTH + MARK_GAP;
+                canvas.text(words, (at, baseline), SMALL_SIZE, Anchor::Start);
+                at += words.width(SMALL_SIZE) + ENTRY_GAP;
+            }
+        }
+    }
+
+    /// Width of the panel letter and the note [pt].
+    fn left_width(&self) -> f64 {
+        let letter = self.letter.map_or(0.0, |letter| letter_text(letter).width(LABEL_SIZE) + 5.0);
+        letter + self.note.as_ref().map_or(0.0, |note| note.width(SMALL_SIZE) + ENTRY_GAP)
+    }
+
+    /// The legend in lines that fit `width` [pt], the lowest last; it shares its line with letter
+    /// and note where there is room for all, and else stands above them.
+    fn legend_lines(&self, width: f64) -> Vec<&[Entry]> {
+        if self.left_width() + legend_width(&self.legend) <= width {
+            return vec![&self.legend];
+        }
+        let mut lines = Vec::new();
+        let mut rest = self.legend.as_slice();
+        while !rest.is_empty() {
+            let fits = |count: &usize| legend_width(&rest[..*count]) <= width;
+            let count = (1..=rest.len()).rev().find(fits).unwrap_or(1);
+            lines.push(&rest[..count]);
+            rest = &rest[count..];
+        }
+        if self.left_width() > 0.0 {
+            lines.push(&[]);
+        }
+        lines
+    }
+
+    /// Room above a frame of `width` [pt].
+    pub fn room(&self, width: f64) -> f64 {
+        if self.left_width() == 0.0 && self.legend.is_empty() {
+            return 0.5 * SMALL_SIZE;
+        }
+        HEADER + (self.legend_lines(width).len() - 1) as f64 * HEADER_LINE
+    }
+}
+
+/// The text of a panel letter.
+fn letter_text(letter: char) -> Text {
+    Text::bold(&format!("({letter})"))
+}
+
+/// Width of a legend in a row [pt].
+fn legend_width(legend: &[Entry]) -> f64 {
+    let entries: f64 = legend.iter().map(|(_, words)| words.width(SMALL_SIZE)).sum();
+    let count = legend.len() as f64;
+    entries + count * (MARK_WIDTH + MARK_GAP) + (count - 1.0).max(0.0) * ENTRY_GAP
+}
+
+/// A mark of a legend, from its left end at the height of its middle.
+pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
+    let (left, middle) = at;
+    let centre = (left + MARK_WIDTH / 2.0, middle);
+    let patch = Rect {
+        left: left + 1.0,
+        top: middle - 3.3,
+        right: left + MARK_WIDTH - 1.0,
+        bottom: middle + 3.3,
+    };
+    match mark {
+        Mark::Line(stroke) => canvas.line(&[at, (left + MARK_WIDTH, middle)], stroke),
+        Mark::Disc(colour, radius) => canvas.discs(&[(centre, colour)], radius),
+        Mark::Ring(colour, radius) => {
+            canvas.rings(&[centre], radius, Stroke::solid(colour, CURVE_WIDTH));
+        }
+        Mark::Patch(colour) => canvas.fill(patch, colour),
+        Mark::Hatched => canvas.image(patch, &Raster::cells(patch, |_| 0, |_| 0, |_, _| None)),
+    }
+    if matches!(mark, Mark::Patch(_) | Mark::Hatched) {
+        canvas.frame(patch, Stroke::solid(INK, MINOR_WIDTH));
+    }
+}

@@ -1,0 +1,250 @@
+//! Displacements and velocities over time, as stacked panels or one panel per value of an axis.
+
+use super::axis::AxisRequest;
+use super::canvas::{Canvas, Drawn, Stroke};
+use super::error::FigureError;
+use super::header::{Header, Mark};
+use super::page::{PageRequest, PanelRequest, letter};
+use super::panel::{Panel, Pointing};
+use super::scale::Scale;
+use super::style::{
+    BLUE, CURVE_WIDTH, FAINT_INK, ONE_COLUMN, REFERENCE_WIDTH, TWO_COLUMNS, VERMILION,
+};
+use super::text::Text;
+use super::view::View;
+
+/// Panels of a history, unless others are asked for.
+const PANELS: [&str; 3] = ["history_x2", "history_r", "velocities"];
+/// Cases that one page has room for.
+const MOST_CASES: usize = 12;
+/// Height of a frame [pt].
+const HEIGHT: f64 = 82.0;
+/// The line at the gap between mass and plate.
+const GAP_LINE: Stroke = Stroke { colour: FAINT_INK, width: REFERENCE_WIDTH, dashed: true };
+
+/// One curve of a panel.
+struct Curve {
+    /// Name of its variable.
+    variable: &'static str,
+    /// Values over time.
+    points: Vec<(f64, f64)>,
+    /// Colour and width.
+    stroke: Stroke,
+}
+
+/// One panel: a quantity of one case.
+struct Cell {
+    output: String,
+    case: usize,
+    curves: Vec<Curve>,
+    /// Gap between mass and plate, where the panel shows the relative displacement.
+    gap: Option<f64>,
+}
+
+/// Draws the history that `view` asks for.
+pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let axis = case_axis(view)?;
+    let free: Vec<&str> = axis.into_iter().collect();
+    let values = axis.map_or(Ok(vec![f64::NAN]), |name| view.axis_values(name))?;
+    let outputs: Vec<String> = match (view.drawing.of.is_empty(), axis) {
+        (false, _) => view.drawing.of.clone(),
+        (true, None) => PANELS.map(String::from).to_vec(),
+        (true, Some(_)) => vec![PANELS[0].to_string()],
+    };
+    let mut cells = Vec::new();
+    for output in &outputs {
+        for case in 0..values.len() {
+            cells.push(cell(view, output, case, &free)?);
+        }
+    }
+    // Several quantities of one case stand below each other; several cases beside each other.
+    let columns = match (values.len(), outputs.len()) {
+        (1, _) => 1,
+        (2 | 4, 1) => 2,
+        (cases, 1) => cases.min(3),
+        (cases, _) => cases.min(4),
+    };
+    let notes = axis.map(|name| {
+        values.iter().map(|value| view.quantity(name).note(*value)).collect::<Vec<_>>()
+    });
+    let page = request(view, &cells, columns, values.len(), notes);
+    let (mut canvas, panels) = page.lay_out();
+    for (panel, cell) in panels.iter().flatten().zip(&cells) {
+        draw_cell(&mut canvas, panel, cell);
+    }
+    Ok(canvas.finish(&super::about(view, &outputs, &free)))
+}
+
+/// The axis whose every value gets a panel.
+fn case_axis<'a>(view: &View<'a>) -> Result<Option<&'a str>, FigureError> {
+    let free = view.free_axes();
+    let wanted = view.drawing.x.as_deref();
+    let long = |name: &&str| view.coordinate_values(name).len() > 1;
+    let axis = match wanted {
+        Some(name) => free.iter().copied().find(|axis| *axis == name),
+        None => free.iter().copied().find(long),
+    };
+    let Some(name) = axis else { return Ok(None) };
+    let count = view.coordinate_values(name).len();
+    if count > MOST_CASES {
+        return Err(view.unfit(format!(
+            "axis `{name}` has {count} values, more than the {MOST_CASES} panels a history has \
+             room for: hold it at one of them with `at`"
+        )));
+    }
+    Ok(Some(name))
+}
+
+/// The variables of an output, with their colours.
+fn curves_of(view: &View<'_>, output: &str) -> Result<Vec<(&'static str, Stroke)>, FigureError> {
+    let blue = Stroke::solid(BLUE, CURVE_WIDTH);
+    let red = Stroke::solid(VERMILION, CURVE_WIDTH);
+    Ok(match output {
+        "history_x2" => vec![("history_x2", blue)],
+        "history_r" => vec![("history_r", blue)],
+        "history_y1" => vec![("history_y1", blue)],
+        "history_y2" => vec![("history_y2", red)],
+        "history_drive" => vec![("history_drive", blue)],
+        "velocities" => vec![("history_y1", blue), ("history_y2", red)],
+        other => {
+            return Err(view.unfit(format!(
+                "a history cannot show `{other}`; it can show history_x2, history_r, velocities, \
+                 history_y1, history_y2 and history_drive"
+            )));
+        }
+    })
+}
+
+/// Time of each sample [s] and its cycle, for one case.
+fn times(view: &View<'_>, case: usize, free: &[&str]) -> Result<Vec<(f64, f64)>, FigureError> {
+    let cycles = view.coordinate_values("history_time");
+    if cycles.is_empty() {
+        return Err(view.unfit("the results hold no time histories (no `history_time`)"));
+    }
+    let omega = view.parameter("omega", free)?;
+    let omega = omega.iter().nth(case).copied().unwrap_or(f64::NAN);
+    Ok(cycles.iter().map(|cycle| (cycle * std::f64::consts::TAU / omega, *cycle)).collect())
+}
+
+fn cell(view: &View<'_>, output: &str, case: usize, free: &[&str]) -> Result<Cell, FigureError> {
+    let times = times(view, case, free)?;
+    let [first, last] = view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    let shown = |cycle: f64| (first - 1e-9..=last + 1e-9).contains(&cycle);
+    let mut curves = Vec::new();
+    for (variable, stroke) in curves_of(view, output)? {
+        let values = view.shown(variable, free)?;
+        let samples = values.iter().skip(case * times.len()).take(times.len());
+        let points: Vec<_> = times
+            .iter()
+            .zip(samples)
+            .filter(|((_, cycle), _)| shown(*cycle))
+            .map(|((time, _), value)| (*time, *value))
+            .collect();
+        if points.is_empty() {
+            let why = format!("no sample of the history lies in cycles {first} to {last}");
+            return Err(view.unfit(why));
+        }
+        curves.push(Curve { variable, points, stroke });
+    }
+    let gap = match output {
+        "history_r" => {
+            let factor = view.quantity("delta").factor;
+            let gaps = view.parameter("delta", free).ok();
+            gaps.and_then(|gaps| gaps.iter().nth(case).map(|gap| gap * factor))
+        }
+        _ => None,
+    };
+    Ok(Cell { output: output.to_string(), case, curves, gap })
+}
+
+/// The ordinates of the cells that show `output`: the same for all unless one would be lost in it.
+fn ordinates(cells: &[Cell], output: &str) -> Vec<Scale> {
+    let ours: Vec<&Cell> = cells.iter().filter(|cell| cell.output == output).collect();
+    let values = |cell: &Cell| {
+        let curves = cell.curves.iter().flat_map(|curve| curve.points.iter().map(|(_, y)| *y));
+        curves.chain(cell.gap).collect::<Vec<_>>()
+    };
+    let own: Vec<Scale> = ours.iter().map(|cell| Scale::around(values(cell), 0.06)).collect();
+    let common = Scale::around(ours.iter().flat_map(|cell| values(cell)), 0.06);
+    let largest = own.iter().map(|scale| scale.high - scale.low).fold(0.0, f64::max);
+    match common.high - common.low <= 2.0 * largest {
+        true => vec![common; ours.len()],
+        false => own,
+    }
+}
+
+/// The page for `cells`, which come output by output.
+fn request(
+    view: &View<'_>,
+    cells: &[Cell],
+    columns: usize,
+    cases: usize,
+    notes: Option<Vec<Text>>,
+) -> PageRequest {
+    let mut rows: Vec<Vec<PanelRequest>> = Vec::new();
+    for (index, cell) in cells.iter().enumerate() {
+        let column = cell.case % columns;
+        let (x, y) = axes(view, cells, index, columns, cases);
+        let note = notes.as_ref().map(|notes| notes[cell.case].clone());
+        let header =
+            Header { letter: letter(index, cells.len()), note, legend: legend(view, cell) };
+        let panel = PanelRequest { x, y, header };
+        match rows.last_mut() {
+            Some(row) if column > 0 => row.push(panel),
+            _ => rows.push(vec![panel]),
+        }
+    }
+    let width = if columns > 1 { TWO_COLUMNS } else { ONE_COLUMN };
+    PageRequest {
+        title: view.drawing.title.clone(),
+        width_mm: view.drawing.width_mm.unwrap_or(width),
+        heights: vec![HEIGHT; rows.len()],
+        rows,
+        right_room: 0.0,
+        pointing: Pointing::Inward,
+    }
+}
+
+/// Abscissa and ordinate of one of `cells`, with numbers and labels only where they are needed.
+fn axes(
+    view: &View<'_>,
+    cells: &[Cell],
+    index: usize,
+    columns: usize,
+    cases: usize,
+) -> (AxisRequest, AxisRequest) {
+    let cell = &cells[index];
+    let times = cell.curves[0].points.iter().map(|(time, _)| *time);
+    let mut x = AxisRequest::new(view.quantity("time"), Scale::around(times, 0.0));
+    // Stacked panels of one case share their time; different cases last differently long.
+    x.labelled = cells.get(index + columns).is_none();
+    x.numbered = x.labelled || cases > 1;
+    let scales = ordinates(cells, &cell.output);
+    let shared = scales.windows(2).all(|pair| pair[0] == pair[1]);
+    let leftmost = cell.case.is_multiple_of(columns);
+    let mut y = AxisRequest::new(view.quantity(&cell.output), scales[cell.case]);
+    y.labelled = leftmost;
+    y.numbered = leftmost || !shared;
+    (x, y)
+}
+
+fn legend(view: &View<'_>, cell: &Cell) -> Vec<(Mark, Text)> {
+    let entry =
+        |curve: &Curve| (Mark::Line(curve.stroke), view.quantity(curve.variable).short_name());
+    match (cell.gap, cell.curves.len()) {
+        (Some(_), _) => vec![(Mark::Line(GAP_LINE), view.quantity("delta").short_name())],
+        (None, 1) => Vec::new(),
+        _ => cell.curves.iter().map(entry).collect(),
+    }
+}
+
+fn draw_cell(canvas: &mut Canvas, panel: &Panel, cell: &Cell) {
+    if let Some(gap) = cell.gap {
+        let ends = [(panel.x.scale.low, gap), (panel.x.scale.high, gap)];
+        panel.curve(canvas, &ends, GAP_LINE);
+    }
+    for curve in &cell.curves {
+        panel.curve(canvas, &curve.points, curve.stroke);
+    }
+    panel.finish(canvas);
+}

@@ -1,0 +1,164 @@
+//! One output over two axes, in colours.
+
+use plotters::style::RGBColor;
+
+use super::axis::AxisRequest;
+use super::canvas::{Canvas, Drawn};
+use super::category::Kinds;
+use super::cells::Cells;
+use super::colour::Colours;
+use super::error::FigureError;
+use super::header::{Header, Mark};
+use super::outcome::Outcomes;
+use super::page::{PageRequest, PanelRequest};
+use super::panel::{Panel, Pointing};
+use super::raster::Raster;
+use super::style::{INFINITE, ONE_COLUMN};
+use super::text::Text;
+use super::view::View;
+
+/// The output shown, unless another is asked for.
+const OUTPUT: &str = "progression_speed";
+/// Height of the frame [pt].
+const HEIGHT: f64 = 158.0;
+
+/// How the cells are coloured.
+enum Paint {
+    Numbers(Option<Colours>, Vec<f64>),
+    Kinds(Kinds),
+}
+
+impl Paint {
+    /// The colour of a case; none where it has no value.
+    fn colour(&self, case: usize) -> Option<RGBColor> {
+        match self {
+            Paint::Numbers(_, values) if values[case].is_infinite() => Some(INFINITE),
+            Paint::Numbers(_, values) if values[case].is_nan() => None,
+            Paint::Numbers(colours, values) => colours.as_ref().map(|it| it.of(values[case])),
+            Paint::Kinds(kinds) => kinds.colour(case),
+        }
+    }
+
+    /// Room beside the frame for the bar or the list of kinds [pt].
+    fn room(&self) -> f64 {
+        match self {
+            Paint::Numbers(colours, _) => colours.as_ref().map_or(0.0, |it| it.room(HEIGHT)),
+            Paint::Kinds(kinds) => kinds.room(),
+        }
+    }
+
+    /// Draws the bar or the list of kinds beside `panel`.
+    fn explain(&self, canvas: &mut Canvas, panel: &Panel) {
+        match self {
+            Paint::Numbers(Some(colours), _) => colours.draw_bar(canvas, panel.frame),
+            Paint::Numbers(None, _) => {}
+            Paint::Kinds(kinds) => kinds.draw_legend(canvas, panel.frame),
+        }
+    }
+
+    /// The entries that the colour bar does not explain.
+    fn legend(&self) -> Vec<(Mark, Text)> {
+        let Paint::Numbers(_, values) = self else { return Vec::new() };
+        let mut legend = Vec::new();
+        if values.iter().any(|value| value.is_infinite()) {
+            legend.push((Mark::Patch(INFINITE), Text::plain("infinite")));
+        }
+        if values.iter().any(|value| value.is_nan()) {
+            legend.push((Mark::Hatched, Text::plain("no value")));
+        }
+        legend
+    }
+}
+
+/// Draws the map that `view` asks for.
+pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let (x_name, y_name) = axes(view)?;
+    let output = match view.drawing.of.as_slice() {
+        [] => OUTPUT.to_string(),
+        [one] => one.clone(),
+        several => {
+            let why = format!("a map shows one output, and `of` names {}", several.join(", "));
+            return Err(view.unfit(why));
+        }
+    };
+    let (x, y) = (cells(view, x_name)?, cells(view, y_name)?);
+    let paint = paint(view, &output, &[y_name, x_name], x.count() * y.count())?;
+    let panel = PanelRequest {
+        x: AxisRequest::new(view.quantity(x_name), x.scale),
+        y: AxisRequest::new(view.quantity(y_name), y.scale),
+        header: Header { legend: paint.legend(), ..Header::default() },
+    };
+    let page = PageRequest {
+        title: view.drawing.title.clone(),
+        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
+        heights: vec![HEIGHT],
+        rows: vec![vec![panel]],
+        right_room: paint.room(),
+        pointing: Pointing::Outward,
+    };
+    let (mut canvas, panels) = page.lay_out();
+    for panel in panels.iter().flatten() {
+        canvas.image(panel.frame, &raster(panel, &x, &y, &paint));
+        panel.finish(&mut canvas);
+        paint.explain(&mut canvas, panel);
+    }
+    Ok(canvas.finish(&super::about(view, &[output], &[x_name, y_name])))
+}
+
+/// The cells along the axis called `name`.
+fn cells(view: &View<'_>, name: &str) -> Result<Cells, FigureError> {
+    let factor = view.quantity(name).factor;
+    let values: Vec<f64> = view.axis_values(name)?.iter().map(|value| value * factor).collect();
+    match values.is_empty() {
+        true => Err(view.unfit(format!("axis `{name}` has no values"))),
+        false => Ok(Cells::around(&values)),
+    }
+}
+
+/// The axes along the abscissa and the ordinate.
+fn axes<'a>(view: &View<'a>) -> Result<(&'a str, &'a str), FigureError> {
+    let free = super::drawable_axes(view);
+    let named = |name: &Option<String>| {
+        name.as_ref().and_then(|name| view.axes().into_iter().find(|axis| axis == name))
+    };
+    let (x, y) = (named(&view.drawing.x), named(&view.drawing.y));
+    let x = x.or_else(|| free.iter().copied().find(|name| Some(*name) != y));
+    let y = y.or_else(|| free.iter().copied().find(|name| Some(*name) != x));
+    match (x, y) {
+        (Some(x), Some(y)) if x != y => Ok((x, y)),
+        (Some(x), Some(_)) => Err(view.unfit(format!("`{x}` cannot be both axes of a map"))),
+        _ => Err(view.unfit(format!(
+            "a map needs two axes that `at` does not hold, and there is {}",
+            if free.is_empty() { "none".to_string() } else { format!("only {}", free.join(", ")) }
+        ))),
+    }
+}
+
+fn paint(view: &View<'_>, output: &str, free: &[&str], cases: usize) -> Result<Paint, FigureError> {
+    let mut values: Vec<f64> = view.shown(output, free)?.into_iter().collect();
+    if values.len() != cases {
+        let why = format!("`{output}` has several values per case, and a map shows one");
+        return Err(view.unfit(why));
+    }
+    if output == "period" || !view.flags(output).is_empty() {
+        return Ok(Paint::Kinds(Kinds::of(view, output, free)?));
+    }
+    let outcomes = Outcomes::over(view, free)?;
+    for (case, value) in values.iter_mut().enumerate() {
+        if outcomes.failed(case) {
+            *value = f64::NAN;
+        }
+    }
+    Ok(Paint::Numbers(Colours::for_values(&values, view.quantity(output)), values))
+}
+
+/// The cells of the map as pixels over the panel.
+fn raster(panel: &Panel, x: &Cells, y: &Cells, paint: &Paint) -> Raster {
+    let columns = x.count();
+    Raster::cells(
+        panel.frame,
+        |share| x.at(share),
+        |share| y.at(1.0 - share),
+        |column, row| paint.colour(row * columns + column),
+    )
+}

@@ -1,0 +1,160 @@
+//! From a drawing to files: SVG with outlined text, PNG and PDF, each complete or absent.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use krilla::Document;
+use krilla::geom::Size;
+use krilla::metadata::Metadata;
+use krilla::page::PageSettings;
+use krilla_svg::{SurfaceExt, SvgSettings};
+use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::usvg::{Options, Tree, WriteOptions};
+
+use super::error::FigureError;
+use super::font;
+use super::style::{FAMILY, PNG_DPI};
+use super::text::escape;
+
+/// A file format for figures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Pixels, for screens and slides.
+    Png,
+    /// Vectors, for the web and for editing.
+    Svg,
+    /// Vectors, for papers.
+    Pdf,
+}
+
+impl Format {
+    /// The ending of file names.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Format::Png => "png",
+            Format::Svg => "svg",
+            Format::Pdf => "pdf",
+        }
+    }
+}
+
+/// A figure ready to be written.
+pub struct Figure<'a> {
+    /// Its name, the stem of its files.
+    pub name: &'a str,
+    /// What it shows.
+    pub about: &'a str,
+    /// The drawing.
+    pub svg: &'a str,
+}
+
+impl Figure<'_> {
+    /// Writes the figure into `folder` in each of `formats`; says which files came out.
+    pub fn write(&self, folder: &Path, formats: &[Format]) -> Result<Vec<PathBuf>, FigureError> {
+        let options =
+            Options { fontdb: font::database(), font_family: FAMILY.into(), ..Options::default() };
+        let tree = Tree::from_str(self.svg, &options).map_err(|e| self.render(e.to_string()))?;
+        fs::create_dir_all(folder).map_err(|source| self.failed(folder, source))?;
+        let mut paths = Vec::new();
+        for format in formats {
+            let bytes = match format {
+                Format::Png => self.png(&tree)?,
+                Format::Svg => self.outlined(&tree).into_bytes(),
+                Format::Pdf => self.pdf(&tree)?,
+            };
+            let path = folder.join(format!("{}.{}", self.name, format.extension()));
+            self.replace(&path, &bytes)?;
+            paths.push(path);
+        }
+        Ok(paths)
+    }
+
+    /// The drawing with its text as outlines, so that it looks the same without our fonts.
+    fn outlined(&self, tree: &Tree) -> String {
+        let options = WriteOptions { coordinates_precision: 3, ..WriteOptions::default() };
+        let svg = tree.to_string(&options);
+        let shapes = svg.split_once('>').map_or("", |(_, shapes)| shapes);
+        let (width, height) = (tree.size().width(), tree.size().height());
+        // A start of our own: with the size in points, and a view box so that it can be scaled.
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" \
+             xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{:.2}pt\" height=\"{:.2}pt\" \
+             viewBox=\"0 0 {width} {height}\">\n    <title>{}</title>\n    <desc>{}</desc>{shapes}",
+            width * 0.75,
+            height * 0.75,
+            escape(self.name),
+            escape(self.about)
+        )
+    }
+
+    fn png(&self, tree: &Tree) -> Result<Vec<u8>, FigureError> {
+        // A length of 96 in the tree is an inch.
+        let scale = (PNG_DPI / 96.0) as f32;
+        let pixels = |length: f32| (length * scale).round() as u32;
+        let pixmap = Pixmap::new(pixels(tree.size().width()), pixels(tree.size().height()));
+        let mut pixmap = pixmap.ok_or_else(|| self.render("it is too large".to_string()))?;
+        pixmap.fill(Color::WHITE);
+        resvg::render(tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+        let pixels: Vec<u8> =
+            pixmap.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+        encode(pixmap.width(), pixmap.height(), &pixels, self.about)
+            .map_err(|error| self.render(error.to_string()))
+    }
+
+    fn pdf(&self, tree: &Tree) -> Result<Vec<u8>, FigureError> {
+        // A point is 1/72 inch, a length in the tree 1/96.
+        let (width, height) = (tree.size().width() * 0.75, tree.size().height() * 0.75);
+        let empty = || self.render("it has no size".to_string());
+        let settings = PageSettings::from_wh(width, height).ok_or_else(empty)?;
+        let size = Size::from_wh(width, height).ok_or_else(empty)?;
+        let mut document = Document::new();
+        document.set_metadata(
+            Metadata::new().title(self.name.to_string()).description(self.about.to_string()),
+        );
+        let mut page = document.start_page_with(settings);
+        let mut surface = page.surface();
+        let drawn = surface.draw_svg(tree, size, SvgSettings::default());
+        surface.finish();
+        page.finish();
+        drawn.ok_or_else(|| self.render("a shape has no form in PDF".to_string()))?;
+        document.finish().map_err(|error| self.render(format!("{error:?}")))
+    }
+
+    /// Puts `bytes` at `path` in one step, so that no reader meets half a file.
+    fn replace(&self, path: &Path, bytes: &[u8]) -> Result<(), FigureError> {
+        let partial = path.with_extension(format!("{}.part", std::process::id()));
+        let written = fs::write(&partial, bytes).and_then(|()| fs::rename(&partial, path));
+        written.map_err(|source| {
+            // The first fault is the one to report; what is left of the file may be gone already.
+            let _ = fs::remove_file(&partial);
+            self.failed(path, source)
+        })
+    }
+
+    fn render(&self, why: String) -> FigureError {
+        FigureError::Render { figure: self.name.to_string(), why }
+    }
+
+    fn failed(&self, path: &Path, source: std::io::Error) -> FigureError {
+        FigureError::Write { figure: self.name.to_string(), path: path.to_path_buf(), source }
+    }
+}
+
+/// An RGB image as PNG with its resolution and a description.
+fn encode(width: u32, height: u32, rgb: &[u8], about: &str) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let per_metre = (PNG_DPI / 0.0254).round() as u32;
+    encoder.set_pixel_dims(Some(png::PixelDimensions {
+        xppu: per_metre,
+        yppu: per_metre,
+        unit: png::Unit::Meter,
+    }));
+    encoder.add_itxt_chunk("Description".to_string(), about.to_string())?;
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(rgb)?;
+    writer.finish()?;
+    Ok(bytes)
+}

@@ -1,0 +1,129 @@
+//! Relative velocity over relative displacement, with the impact surface and the section points.
+
+use super::axis::AxisRequest;
+use super::canvas::{Canvas, Drawn, Rect, Stroke};
+use super::error::FigureError;
+use super::header::{Header, Mark};
+use super::page::{PageRequest, PanelRequest};
+use super::panel::{Panel, Pointing};
+use super::scale::Scale;
+use super::style::{
+    BLUE, CONTACT, CURVE_WIDTH, FAINT_INK, INK, ONE_COLUMN, REFERENCE_WIDTH, VERMILION,
+};
+use super::text::Text;
+use super::view::View;
+
+/// Height of the frame [pt].
+const HEIGHT: f64 = 165.0;
+/// Radius of section points [pt].
+const SECTION_RADIUS: f64 = 2.2;
+/// Radius of impact points [pt].
+const IMPACT_RADIUS: f64 = 2.2;
+
+/// What a portrait shows, in the units of its axes.
+struct Portrait {
+    orbit: Vec<(f64, f64)>,
+    sections: Vec<(f64, f64)>,
+    impacts: Vec<(f64, f64)>,
+    gap: Option<f64>,
+}
+
+/// Draws the phase portrait that `view` asks for.
+pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let portrait = portrait(view)?;
+    let all = || portrait.orbit.iter().chain(&portrait.sections).chain(&portrait.impacts);
+    let x = Scale::around(all().map(|point| point.0).chain(portrait.gap), 0.06);
+    let y = Scale::around(all().map(|point| point.1), 0.06);
+    let panel = PanelRequest {
+        x: AxisRequest::new(view.quantity("history_r"), x),
+        y: AxisRequest::new(view.quantity("relative_velocity"), y),
+        header: Header { letter: None, note: None, legend: legend(&portrait) },
+    };
+    let page = PageRequest {
+        title: view.drawing.title.clone(),
+        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
+        heights: vec![HEIGHT],
+        rows: vec![vec![panel]],
+        right_room: 0.0,
+        pointing: Pointing::Inward,
+    };
+    let (mut canvas, panels) = page.lay_out();
+    for panel in panels.iter().flatten() {
+        draw_portrait(&mut canvas, panel, &portrait);
+    }
+    Ok(canvas.finish(&super::about(view, &["history_r".to_string()], &[])))
+}
+
+fn portrait(view: &View<'_>) -> Result<Portrait, FigureError> {
+    let cycles = view.coordinate_values("history_time");
+    if cycles.is_empty() {
+        return Err(view.unfit("the results hold no time histories (no `history_time`)"));
+    }
+    let [first, last] = view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    let r = view.shown("history_r", &[])?;
+    let (y1, y2) = (view.take("history_y1", &[])?, view.take("history_y2", &[])?);
+    let orbit: Vec<_> = cycles
+        .iter()
+        .zip(r.iter().zip(y1.iter().zip(&y2)))
+        .filter(|(cycle, _)| (first - 1e-9..=last + 1e-9).contains(*cycle))
+        .map(|(_, (r, (y1, y2)))| (*r, y1 - y2))
+        .collect();
+    if orbit.is_empty() {
+        return Err(view.unfit(format!("no sample lies in cycles {first} to {last}")));
+    }
+    let factor = view.quantity("delta").factor;
+    let gap = view.parameter("delta", &[]).ok().and_then(|gap| gap.first().map(|it| it * factor));
+    let sections = match view.dataset.variable("section_r") {
+        Some(_) => {
+            relative(view, "section_y1", "section_y2", view.shown("section_r", &[])?.iter())?
+        }
+        None => Vec::new(),
+    };
+    let impacts = match (view.dataset.variable("impact_y1"), gap) {
+        (Some(_), Some(gap)) => relative(view, "impact_y1", "impact_y2", std::iter::repeat(&gap))?,
+        _ => Vec::new(),
+    };
+    Ok(Portrait { orbit, sections, impacts, gap })
+}
+
+/// Points of given displacement and the difference of two velocities, without the padding.
+fn relative<'a>(
+    view: &View<'_>,
+    y1: &str,
+    y2: &str,
+    r: impl Iterator<Item = &'a f64>,
+) -> Result<Vec<(f64, f64)>, FigureError> {
+    let (y1, y2) = (view.take(y1, &[])?, view.take(y2, &[])?);
+    let points = r.zip(y1.iter().zip(&y2)).map(|(r, (y1, y2))| (*r, y1 - y2));
+    Ok(points.filter(|(r, velocity)| r.is_finite() && velocity.is_finite()).collect())
+}
+
+fn legend(portrait: &Portrait) -> Vec<(Mark, Text)> {
+    let mut legend = Vec::new();
+    if !portrait.sections.is_empty() {
+        legend.push((Mark::Disc(INK, SECTION_RADIUS), Text::plain("stroboscopic")));
+    }
+    if !portrait.impacts.is_empty() {
+        legend.push((Mark::Ring(VERMILION, IMPACT_RADIUS), Text::plain("impact")));
+    }
+    if portrait.gap.is_some() {
+        legend.push((Mark::Patch(CONTACT), Text::plain("contact")));
+    }
+    legend
+}
+
+fn draw_portrait(canvas: &mut Canvas, panel: &Panel, portrait: &Portrait) {
+    if let Some(gap) = portrait.gap {
+        let (surface, _) = panel.place(gap, panel.y.scale.low);
+        canvas.fill(Rect { left: surface, ..panel.frame }, CONTACT);
+        let ends = [(gap, panel.y.scale.low), (gap, panel.y.scale.high)];
+        panel.curve(canvas, &ends, Stroke::dashed(FAINT_INK, REFERENCE_WIDTH));
+    }
+    panel.curve(canvas, &portrait.orbit, Stroke::solid(BLUE, CURVE_WIDTH));
+    let rings = Stroke::solid(VERMILION, CURVE_WIDTH);
+    canvas.rings(&panel.places(&portrait.impacts), IMPACT_RADIUS, rings);
+    let sections: Vec<_> =
+        panel.places(&portrait.sections).into_iter().map(|at| (at, INK)).collect();
+    canvas.discs(&sections, SECTION_RADIUS);
+    panel.finish(canvas);
+}

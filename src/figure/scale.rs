@@ -1,0 +1,105 @@
+//! From a value to its place along an axis.
+
+/// How values are spread along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spacing {
+    /// Equal differences take equal lengths.
+    Linear,
+    /// Equal ratios take equal lengths.
+    Log,
+}
+
+/// The range of an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// How values are spread.
+    pub spacing: Spacing,
+    /// Smallest value shown.
+    pub low: f64,
+    /// Largest value shown.
+    pub high: f64,
+}
+
+impl Scale {
+    /// The range of the finite `values`, widened by the share `margin` on both sides; a range
+    /// without extent is widened so that its value stands in the middle.
+    pub fn around(values: impl IntoIterator<Item = f64>, margin: f64) -> Scale {
+        let (low, high) = finite_range(values).unwrap_or((0.0, 1.0));
+        let size = low.abs().max(high.abs());
+        // Differences below rounding are no extent.
+        let flat = high - low <= 1e-12 * size || high - low < f64::MIN_POSITIVE / f64::EPSILON;
+        let pad = match (flat, size > 0.0) {
+            (true, true) => 0.1 * size,
+            (true, false) => 1.0,
+            _ => margin * (high - low),
+        };
+        Scale { spacing: Spacing::Linear, low: low - pad, high: high + pad }
+    }
+
+    /// The scale of an axis' own `values`: logarithmic where they are spaced so.
+    pub fn of_axis(values: &[f64]) -> Scale {
+        let scale = Scale::around(values.iter().copied(), 0.0);
+        match log_spaced(values) {
+            true => Scale { spacing: Spacing::Log, ..scale },
+            false => scale,
+        }
+    }
+
+    /// The range of the finite `values`, logarithmic where they are positive and their largest is
+    /// more than `ratio` times their smallest.
+    pub fn fitting(values: &[f64], margin: f64, ratio: f64) -> Scale {
+        match finite_range(values.iter().copied()) {
+            Some((low, high)) if low > 0.0 && high / low > ratio => {
+                Scale::log_around(values.iter().copied(), margin)
+            }
+            _ => Scale::around(values.iter().copied(), margin),
+        }
+    }
+
+    /// A logarithmic scale over the positive `values`.
+    pub fn log_around(values: impl IntoIterator<Item = f64>, margin: f64) -> Scale {
+        let logs =
+            values.into_iter().filter(|value| *value > 0.0 && value.is_finite()).map(f64::log10);
+        let scale = Scale::around(logs, margin);
+        Scale { spacing: Spacing::Log, low: 10f64.powf(scale.low), high: 10f64.powf(scale.high) }
+    }
+
+    /// Where `value` stands, as a share of the axis from its low end.
+    pub fn share(&self, value: f64) -> f64 {
+        match self.spacing {
+            Spacing::Linear => (value - self.low) / (self.high - self.low),
+            Spacing::Log => (value / self.low).ln() / (self.high / self.low).ln(),
+        }
+    }
+
+    /// The value at `share` of the axis.
+    pub fn value(&self, share: f64) -> f64 {
+        match self.spacing {
+            Spacing::Linear => self.low + share * (self.high - self.low),
+            Spacing::Log => self.low * (self.high / self.low).powf(share),
+        }
+    }
+
+    /// Whether `value` lies on the axis, its ends included up to rounding.
+    pub fn holds(&self, value: f64) -> bool {
+        (-1e-9..=1.0 + 1e-9).contains(&self.share(value))
+    }
+}
+
+/// The smallest and largest of the finite `values`.
+pub fn finite_range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
+    values.into_iter().filter(|value| value.is_finite()).fold(None, |range, value| match range {
+        None => Some((value, value)),
+        Some((low, high)) => Some((f64::min(low, value), f64::max(high, value))),
+    })
+}
+
+/// Whether `values` (three at least) grow by a constant factor and not by a constant step.
+fn log_spaced(values: &[f64]) -> bool {
+    if values.len() < 3 || values.iter().any(|value| !value.is_finite() || *value <= 0.0) {
+        return false;
+    }
+    let first = values[1] / values[0];
+    let even = |pair: &[f64]| (pair[1] / pair[0] / first - 1.0).abs() < 1e-6;
+    (first - 1.0).abs() > 1e-3 && values.windows(2).all(even)
+}

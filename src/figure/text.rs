@@ -1,0 +1,174 @@
+//! Labels with italic symbols, subscripts and superscripts, from a short markup.
+
+use std::fmt::Write as _;
+
+use super::font::{self, Face};
+
+/// Size of sub- and superscripts relative to the text.
+const SCRIPT_SIZE: f64 = 0.7;
+
+/// Where a run stands relative to the line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Script {
+    Line,
+    Sub,
+    Super,
+}
+
+impl Script {
+    /// Shift down from the line, in sizes of the text.
+    fn shift(self) -> f64 {
+        match self {
+            Script::Line => 0.0,
+            Script::Sub => 0.18,
+            Script::Super => -0.36,
+        }
+    }
+
+    /// Size relative to the text.
+    fn size(self) -> f64 {
+        if self == Script::Line { 1.0 } else { SCRIPT_SIZE }
+    }
+}
+
+/// Characters in one face and position.
+#[derive(Debug, Clone, PartialEq)]
+struct Run {
+    content: String,
+    face: Face,
+    script: Script,
+}
+
+/// A label ready to be set.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Text {
+    runs: Vec<Run>,
+}
+
+impl Text {
+    /// The label written as `*x*_{1} (10^{-3} mm)`: stars for italics, braces for scripts.
+    pub fn markup(source: &str) -> Text {
+        let mut text = Text::default();
+        let (mut face, mut script) = (Face::Regular, Script::Line);
+        let mut characters = source.chars().peekable();
+        while let Some(character) = characters.next() {
+            let opens = characters.peek() == Some(&'{');
+            match character {
+                '*' if face == Face::Italic => face = Face::Regular,
+                '*' => face = Face::Italic,
+                '_' | '^' if opens => {
+                    characters.next();
+                    script = if character == '_' { Script::Sub } else { Script::Super };
+                }
+                '}' if script != Script::Line => script = Script::Line,
+                other => text.push(other, face, script),
+            }
+        }
+        text
+    }
+
+    /// The label exactly as given, without markup.
+    pub fn plain(source: &str) -> Text {
+        Text::set(source, Face::Regular)
+    }
+
+    /// The label exactly as given, in bold.
+    pub fn bold(source: &str) -> Text {
+        Text::set(source, Face::Bold)
+    }
+
+    fn set(source: &str, face: Face) -> Text {
+        Text { runs: vec![Run { content: source.to_string(), face, script: Script::Line }] }
+    }
+
+    fn push(&mut self, character: char, face: Face, script: Script) {
+        match self.runs.last_mut() {
+            Some(run) if run.face == face && run.script == script => run.content.push(character),
+            _ => self.runs.push(Run { content: character.to_string(), face, script }),
+        }
+    }
+
+    /// This label followed by `other`.
+    pub fn then(mut self, other: Text) -> Text {
+        self.runs.extend(other.runs);
+        self
+    }
+
+    /// The label broken at its spaces into lines no wider than `width` at `size` [pt]; a word that
+    /// is wider stands alone.
+    pub fn wrapped(&self, width: f64, size: f64) -> Vec<Text> {
+        let mut words = vec![Text::default()];
+        for run in &self.runs {
+            for (at, piece) in run.content.split(' ').enumerate() {
+                if at > 0 {
+                    words.push(Text::default());
+                }
+                let word = words.last_mut().filter(|_| !piece.is_empty());
+                word.into_iter().for_each(|word| {
+                    word.runs.push(Run { content: piece.to_string(), ..run.clone() });
+                });
+            }
+        }
+        let mut lines: Vec<Text> = Vec::new();
+        for word in words.into_iter().filter(|word| !word.runs.is_empty()) {
+            let longer =
+                lines.last().map(|line| line.clone().then(Text::plain(" ")).then(word.clone()));
+            match (lines.last_mut(), longer) {
+                (Some(line), Some(longer)) if longer.width(size) <= width => *line = longer,
+                _ => lines.push(word),
+            }
+        }
+        lines
+    }
+
+    /// Width at `size` [pt].
+    pub fn width(&self, size: f64) -> f64 {
+        let one = |run: &Run| font::width(run.face, &run.content) * run.script.size();
+        self.runs.iter().map(one).sum::<f64>() * size
+    }
+
+    /// Whether there is nothing to set.
+    pub fn is_empty(&self) -> bool {
+        self.runs.iter().all(|run| run.content.is_empty())
+    }
+
+    /// A character that the font lacks, if there is one.
+    pub fn missing_glyph(&self) -> Option<char> {
+        let lacks = |run: &Run| run.content.chars().find(|c| !font::has_glyph(run.face, *c));
+        self.runs.iter().find_map(lacks)
+    }
+
+    /// The characters alone.
+    pub fn content(&self) -> String {
+        self.runs.iter().map(|run| run.content.as_str()).collect()
+    }
+
+    /// The label as spans of an SVG text of `size`, in the units of the drawing.
+    pub fn spans(&self, size: f64) -> String {
+        let mut svg = String::new();
+        let mut shift = 0.0;
+        for run in &self.runs {
+            svg.push_str("<tspan");
+            let wanted = run.script.shift() * size;
+            if wanted != shift {
+                let _ = write!(svg, " dy=\"{:.1}\"", wanted - shift);
+                shift = wanted;
+            }
+            if run.script != Script::Line {
+                let _ = write!(svg, " font-size=\"{:.1}\"", size * SCRIPT_SIZE);
+            }
+            match run.face {
+                Face::Regular => {}
+                Face::Italic => svg.push_str(" font-style=\"italic\""),
+                Face::Bold => svg.push_str(" font-weight=\"bold\""),
+            }
+            let _ = write!(svg, ">{}</tspan>", escape(&run.content));
+        }
+        svg
+    }
+}
+
+/// The characters that XML reserves, written as entities.
+pub fn escape(content: &str) -> String {
+    content.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,130 @@
+//! The round numbers that are marked along an axis, and how numbers are written.
+
+use super::scale::Scale;
+
+/// A mark with a number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tick {
+    /// Where it stands.
+    pub value: f64,
+    /// The number, as markup; empty where there is no room for one.
+    pub label: String,
+}
+
+/// The marks of an axis, and what its numbers leave out.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ticks {
+    /// Marks with numbers.
+    pub major: Vec<Tick>,
+    /// Values of the small marks between them.
+    pub minor: Vec<f64>,
+    /// Power of ten that multiplies the numbers.
+    pub exponent: i32,
+    /// Value that is subtracted from the numbers, as text; empty if none is.
+    pub offset: String,
+}
+
+/// Whole multiples of `step` on the scale.
+fn multiples(scale: &Scale, step: f64) -> Vec<i64> {
+    let first = (scale.low / step - 1e-6).ceil() as i64;
+    let last = (scale.high / step + 1e-6).floor() as i64;
+    (first..=last).collect()
+}
+
+/// Linear marks whose numbers are `digit` times 10^`power` apart.
+pub fn linear_ticks(scale: &Scale, digit: i64, power: i32) -> Ticks {
+    let step = digit as f64 * 10f64.powi(power);
+    let size = scale.low.abs().max(scale.high.abs());
+    let minor_parts = if digit == 2 { 4 } else { 5 };
+    // A number with more than five digits that change little: the common part moves to the label.
+    let span = 10f64.powi((scale.high - scale.low).log10().floor() as i32 + 1);
+    let base = if size > 2e4 * (scale.high - scale.low) {
+        ((scale.low + scale.high) / 2.0 / span).round() * span
+    } else {
+        0.0
+    };
+    let largest = (scale.low - base).abs().max((scale.high - base).abs());
+    let magnitude = largest.log10().floor() as i32;
+    // Powers of ten go to the label where the numbers would be long without.
+    let short = (-3..=4).contains(&magnitude) && power >= -4;
+    let exponent = if short { 0 } else { magnitude.div_euclid(3) * 3 };
+    let decimals = (exponent - power).max(0) as usize;
+    let major = multiples(scale, step)
+        .into_iter()
+        .map(|count| {
+            // From whole numbers, so that no rounding of the step adds up.
+            let value = (count * digit) as f64 * 10f64.powi(power);
+            let shown = (value - base) * 10f64.powi(-exponent);
+            Tick { value, label: number(shown, decimals) }
+        })
+        .collect();
+    let minor_step = step / f64::from(minor_parts);
+    let minor = multiples(scale, minor_step)
+        .into_iter()
+        .filter(|count| count % i64::from(minor_parts) != 0)
+        .map(|count| count as f64 * minor_step)
+        .collect();
+    let offset_decimals = (-(span.log10().round() as i32)).max(0) as usize;
+    let offset = if base == 0.0 { String::new() } else { trimmed(&number(base, offset_decimals)) };
+    Ticks { major, minor, exponent, offset }
+}
+
+/// Logarithmic marks: every `every` decades, and between decades where there are few of them.
+pub fn log_ticks(scale: &Scale, every: i32) -> Ticks {
+    let (low, high) = (scale.low.log10(), scale.high.log10());
+    let mut ticks = Ticks::default();
+    let few = (high + 1e-9).floor() - (low - 1e-9).ceil() < 1.0;
+    for decade in low.floor() as i32..=high.ceil() as i32 {
+        for digit in 1..10 {
+            let value = f64::from(digit) * 10f64.powi(decade);
+            if !scale.holds(value) {
+                continue;
+            }
+            let plain = few && matches!(digit, 1 | 2 | 5);
+            let round = digit == 1 && decade.rem_euclid(every) == 0;
+            match (round, plain) {
+                (true, false) if low > -2.5 && high < 3.5 => {
+                    ticks.major.push(Tick { value, label: short(value) });
+                }
+                (true, false) => ticks.major.push(Tick { value, label: power_of_ten(decade) }),
+                (_, true) => ticks.major.push(Tick { value, label: short(value) }),
+                _ => ticks.minor.push(value),
+            }
+        }
+    }
+    ticks
+}
+
+/// 10 to the power `exponent`, as markup.
+pub fn power_of_ten(exponent: i32) -> String {
+    format!("10^{{{}}}", exponent.to_string().replace('-', "\u{2212}"))
+}
+
+/// `value` with a fixed number of decimals and a true minus sign.
+pub fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let is_zero = text.chars().all(|c| matches!(c, '0' | '.' | '-'));
+    let digits = text.trim_start_matches('-');
+    if text.starts_with('-') && !is_zero { format!("\u{2212}{digits}") } else { digits.to_string() }
+}
+
+/// `value` in its shortest form with at most five digits, as markup.
+pub fn short(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let magnitude = value.abs().log10().floor() as i32;
+    if !(-4..=5).contains(&magnitude) {
+        let mantissa = trimmed(&number(value / 10f64.powi(magnitude), 4));
+        return format!("{mantissa} × {}", power_of_ten(magnitude));
+    }
+    trimmed(&number(value, (4 - magnitude).max(0) as usize))
+}
+
+/// A decimal number without the zeros at its end.
+fn trimmed(number: &str) -> String {
+    match number.contains('.') {
+        true => number.trim_end_matches('0').trim_end_matches('.').to_string(),
+        false => number.to_string(),
+    }
+}

@@ -1,0 +1,193 @@
+//! Progression speed against the energy that a cycle takes, and the best of both.
+
+use super::axis::AxisRequest;
+use super::canvas::{Drawn, Stroke};
+use super::cloud::{self, Dot};
+use super::colour::Colours;
+use super::error::FigureError;
+use super::header::{Header, Mark};
+use super::outcome::Outcomes;
+use super::page::{PageRequest, PanelRequest};
+use super::panel::Pointing;
+use super::scale::Scale;
+use super::style::{BLUE, CURVE_WIDTH, INK, ONE_COLUMN, VERMILION};
+use super::text::Text;
+use super::view::View;
+
+/// The energy shown, unless another is asked for.
+const ENERGY: &str = "work_positive";
+/// The speed shown.
+const SPEED: &str = "progression_speed";
+/// Radius of the ring around the fastest case [pt].
+const BEST_RADIUS: f64 = 3.0;
+/// Height of the frame [pt].
+const HEIGHT: f64 = 158.0;
+
+/// A case with both outputs, and its place among the cases.
+struct Case {
+    energy: f64,
+    speed: f64,
+    place: usize,
+}
+
+/// Draws the trade-off that `view` asks for.
+pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let energy = match view.drawing.of.as_slice() {
+        [] => ENERGY.to_string(),
+        [one] => one.clone(),
+        several => {
+            let why = format!("a trade-off has one energy, and `of` names {}", several.join(", "));
+            return Err(view.unfit(why));
+        }
+    };
+    let free = view.free_axes();
+    let cases = cases(view, &energy, &free)?;
+    let hue = hue(view, &free)?;
+    let fastest = fastest(view, &cases, &free)?;
+    let colours = hue.as_ref().map(|(colours, _)| colours);
+    let page = request(view, &cases, &energy, colours, fastest.as_ref());
+    let (mut canvas, panels) = page.lay_out();
+    for panel in panels.iter().flatten() {
+        panel.mark_zero(&mut canvas);
+        let dot = |case: &Case| {
+            let colour = hue.as_ref().map_or(BLUE, |(colours, of)| colours.of(of[case.place]));
+            Dot { at: (case.energy, case.speed), colour, crowding: cases.len() as f64 }
+        };
+        let dots: Vec<_> = cases.iter().map(dot).collect();
+        let radius = 1.4 * cloud::radius(dots.len());
+        cloud::draw(&mut canvas, panel, &dots, radius);
+        if cases.len() > 1 {
+            let line = stairs(&front(&cases));
+            panel.curve(&mut canvas, &line, Stroke::solid(VERMILION, CURVE_WIDTH));
+        }
+        if let Some((at, _)) = &fastest {
+            let place = panel.place(cases[*at].energy, cases[*at].speed);
+            canvas.rings(&[place], BEST_RADIUS, Stroke::solid(INK, CURVE_WIDTH));
+        }
+        if let Some((colours, _)) = &hue {
+            colours.draw_bar(&mut canvas, panel.frame);
+        }
+        panel.finish(&mut canvas);
+    }
+    Ok(canvas.finish(&super::about(view, &[SPEED.to_string(), energy], &free)))
+}
+
+/// The periodic cases with finite outputs.
+fn cases(view: &View<'_>, energy: &str, free: &[&str]) -> Result<Vec<Case>, FigureError> {
+    let (energies, speeds) = (view.shown(energy, free)?, view.shown(SPEED, free)?);
+    if energies.len() != speeds.len() {
+        return Err(view.unfit(format!("`{energy}` does not have one value per case")));
+    }
+    let outcomes = Outcomes::over(view, free)?;
+    let case = |(place, (energy, speed)): (usize, (&f64, &f64))| Case {
+        energy: *energy,
+        speed: *speed,
+        place,
+    };
+    let all = energies.iter().zip(&speeds).enumerate().map(case);
+    let kept = |case: &Case| {
+        case.energy.is_finite() && case.speed.is_finite() && outcomes.periodic(case.place)
+    };
+    Ok(all.filter(kept).collect())
+}
+
+/// The case with the greatest speed, and where it stands along the axes.
+fn fastest(
+    view: &View<'_>,
+    cases: &[Case],
+    free: &[&str],
+) -> Result<Option<(usize, Text)>, FigureError> {
+    let faster = |a: &usize, b: &usize| cases[*a].speed.total_cmp(&cases[*b].speed);
+    let Some(at) = (0..cases.len()).max_by(faster).filter(|_| cases.len() > 1) else {
+        return Ok(None);
+    };
+    let mut words = Text::plain("fastest: ");
+    let mut joint = "";
+    for name in free.iter().filter(|name| view.coordinate_values(name).len() > 1) {
+        let values = view.parameter(name, free)?;
+        if let Some(value) = values.iter().nth(cases[at].place) {
+            words = words.then(Text::plain(joint)).then(view.quantity(name).note(*value));
+            joint = ", ";
+        }
+    }
+    Ok(Some((at, words)))
+}
+
+/// The colours of an axis, and the axis' value for each case.
+fn hue(view: &View<'_>, free: &[&str]) -> Result<Option<(Colours, Vec<f64>)>, FigureError> {
+    let wanted = view.drawing.x.as_deref();
+    let long = |name: &&&str| view.coordinate_values(name).len() > 1;
+    let Some(name) = wanted.or_else(|| free.iter().find(long).copied()) else {
+        return Ok(None);
+    };
+    let quantity = view.quantity(name);
+    let factor = quantity.factor;
+    let values: Vec<f64> = view.axis_values(name)?.iter().map(|value| value * factor).collect();
+    let of_case = view.parameter(name, free)?.iter().map(|value| value * factor).collect();
+    Ok(Some((Colours::for_axis(&values, quantity), of_case)))
+}
+
+fn request(
+    view: &View<'_>,
+    cases: &[Case],
+    energy: &str,
+    colours: Option<&Colours>,
+    fastest: Option<&(usize, Text)>,
+) -> PageRequest {
+    let energies: Vec<f64> = cases.iter().map(|case| case.energy).collect();
+    let speeds: Vec<f64> = cases.iter().map(|case| case.speed).collect();
+    let legend = match cases.len() {
+        0 | 1 => Vec::new(),
+        _ => {
+            let line = Mark::Line(Stroke::solid(VERMILION, CURVE_WIDTH));
+            let mut legend = vec![(line, Text::plain("Pareto front"))];
+            legend.extend(fastest.map(|(_, words)| (Mark::Ring(INK, BEST_RADIUS), words.clone())));
+            legend
+        }
+    };
+    // Speeds differ in sign and stay linear, so that standing still keeps its place.
+    let y = AxisRequest {
+        scale: Scale::around(speeds.iter().copied(), 0.06),
+        ..AxisRequest::around(view.quantity(SPEED), &speeds, 0.06)
+    };
+    let panel = PanelRequest {
+        x: AxisRequest::around(view.quantity(energy), &energies, 0.04),
+        y,
+        header: Header { legend, ..Header::default() },
+    };
+    PageRequest {
+        title: view.drawing.title.clone(),
+        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
+        heights: vec![HEIGHT],
+        rows: vec![vec![panel]],
+        right_room: colours.map_or(0.0, |colours| colours.room(HEIGHT)),
+        pointing: Pointing::Inward,
+    }
+}
+
+/// The Pareto front: cases that no other beats in speed without taking more energy. Where any
+/// case moves forward, those that do not are no gain at any price.
+fn front(cases: &[Case]) -> Vec<(f64, f64)> {
+    let forward = cases.iter().any(|case| case.speed > 0.0);
+    let mut order: Vec<&Case> = cases.iter().filter(|case| case.speed > 0.0 || !forward).collect();
+    order.sort_by(|a, b| a.energy.total_cmp(&b.energy).then_with(|| b.speed.total_cmp(&a.speed)));
+    let mut front: Vec<(f64, f64)> = Vec::new();
+    for case in order {
+        if front.last().is_none_or(|(_, speed)| case.speed > *speed) {
+            front.push((case.energy, case.speed));
+        }
+    }
+    front
+}
+
+/// The front as stairs: up to the next case, the last one stays the best.
+fn stairs(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut line = Vec::new();
+    for (at, (energy, speed)) in front.iter().enumerate() {
+        if at > 0 {
+            line.push((*energy, front[at - 1].1));
+        }
+        line.push((*energy, *speed));
+    }
+    line
+}

@@ -1,0 +1,199 @@
+//! The part of the results that one figure shows: which axes are free and where the others are held.
+
+use ndarray::{ArrayD, Axis, IxDyn};
+
+use super::error::FigureError;
+use super::quantity::Quantity;
+use crate::store::dataset::{Dataset, Variable};
+use crate::sweep::Drawing;
+
+/// Dimensions within a case, which are not axes of the study.
+const INNER: [&str; 3] = ["point", "impact_point", "history_time"];
+
+/// The results as one figure sees them.
+pub struct View<'a> {
+    /// The results.
+    pub dataset: &'a Dataset,
+    /// The request.
+    pub drawing: &'a Drawing,
+    /// Index at which each axis named by `at` is held.
+    held: Vec<(String, usize)>,
+}
+
+impl<'a> View<'a> {
+    /// Checks the axes that `drawing` names against `dataset`.
+    pub fn new(dataset: &'a Dataset, drawing: &'a Drawing) -> Result<View<'a>, FigureError> {
+        let mut view = View { dataset, drawing, held: Vec::new() };
+        for name in drawing.x.iter().chain(&drawing.y) {
+            view.check_axis(name)?;
+            if drawing.at.contains_key(name) {
+                return Err(view.unfit(format!("the axis `{name}` is both drawn and held by `at`")));
+            }
+        }
+        for (name, wanted) in &drawing.at {
+            let values = view.axis_values(name)?;
+            let away = |index: &usize| (values[*index] - wanted).abs();
+            let nearest = (0..values.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
+            let index = nearest.ok_or_else(|| view.unfit(format!("axis `{name}` is empty")))?;
+            view.held.push((name.clone(), index));
+        }
+        Ok(view)
+    }
+
+    /// The fault that the request does not fit.
+    pub fn unfit(&self, why: impl Into<String>) -> FigureError {
+        FigureError::Unfit { figure: self.drawing.name.clone(), why: why.into() }
+    }
+
+    /// Names of the study's axes, in its order.
+    pub fn axes(&self) -> Vec<&'a str> {
+        let names = self.dataset.coordinates.iter().map(|(name, _)| name.as_str());
+        names.filter(|name| !INNER.contains(name)).collect()
+    }
+
+    /// Names of the axes that `at` does not hold.
+    pub fn free_axes(&self) -> Vec<&'a str> {
+        let is_held = |name: &str| self.held.iter().any(|(other, _)| other == name);
+        self.axes().into_iter().filter(|name| !is_held(name)).collect()
+    }
+
+    fn check_axis(&self, name: &str) -> Result<(), FigureError> {
+        let axes = self.axes();
+        if axes.contains(&name) {
+            return Ok(());
+        }
+        if self.dataset.variable(name).is_some() {
+            let known = if axes.is_empty() { "none".to_string() } else { axes.join(", ") };
+            let why = format!("`{name}` is not an axis of this study (its axes: {known})");
+            return Err(self.unfit(why));
+        }
+        let present = axes.iter().map(|axis| axis.to_string()).collect();
+        Err(self.missing("axis", name, present))
+    }
+
+    fn missing(&self, what: &'static str, name: &str, present: Vec<String>) -> FigureError {
+        let (figure, name) = (self.drawing.name.clone(), name.to_string());
+        FigureError::Missing { figure, what, name, present }
+    }
+
+    /// The values of a study's axis, in SI.
+    pub fn axis_values(&self, name: &str) -> Result<Vec<f64>, FigureError> {
+        self.check_axis(name)?;
+        Ok(self.coordinate_values(name))
+    }
+
+    /// The values of any coordinate; none if there is no such coordinate.
+    pub fn coordinate_values(&self, name: &str) -> Vec<f64> {
+        let stored = self.dataset.coordinate(name);
+        stored.map_or(Vec::new(), |variable| variable.values.to_real().into_iter().collect())
+    }
+
+    /// The variable called `name`.
+    pub fn variable(&self, name: &str) -> Result<&'a Variable, FigureError> {
+        self.dataset.variable(name).ok_or_else(|| {
+            self.missing("variable", name, self.dataset.variables.keys().cloned().collect())
+        })
+    }
+
+    /// The numbers of a variable over the axes `free`, in that order, then over its inner
+    /// dimensions; every other axis is where `at` holds it, or at its first value.
+    pub fn take<'n>(&'n self, name: &str, free: &[&'n str]) -> Result<ArrayD<f64>, FigureError> {
+        let variable = self.variable(name)?;
+        let mut array = variable.values.to_real();
+        let mut left: Vec<&str> = variable.dimensions.iter().map(String::as_str).collect();
+        if array.ndim() != left.len() {
+            return Err(self.unfit(format!("variable `{name}` does not have its dimensions")));
+        }
+        for dimension in &variable.dimensions {
+            if free.contains(&dimension.as_str()) || INNER.contains(&dimension.as_str()) {
+                continue;
+            }
+            let held = self.held.iter().find(|(axis, _)| axis == dimension);
+            let index = held.map_or(0, |(_, index)| *index);
+            let at = left.iter().position(|axis| axis == dimension).unwrap_or(0);
+            if index >= array.shape()[at] {
+                return Err(self.unfit(format!("variable `{name}` is empty along `{dimension}`")));
+            }
+            array = array.index_axis_move(Axis(at), index);
+            left.remove(at);
+        }
+        self.arrange(name, array, left, free)
+    }
+
+    /// Puts the axes `free` first, repeating the numbers along those the variable does not have.
+    fn arrange<'n>(
+        &self,
+        name: &str,
+        mut array: ArrayD<f64>,
+        mut left: Vec<&'n str>,
+        free: &[&'n str],
+    ) -> Result<ArrayD<f64>, FigureError> {
+        for axis in free.iter().rev().filter(|axis| !left.contains(axis)).collect::<Vec<_>>() {
+            left.insert(0, axis);
+            array = array.insert_axis(Axis(0));
+        }
+        let (ours, inner): (Vec<usize>, Vec<usize>) =
+            (0..left.len()).partition(|at| free.contains(&left[*at]));
+        let mut order = Vec::new();
+        order.extend(free.iter().filter_map(|axis| left.iter().position(|it| it == axis)));
+        debug_assert_eq!(order.len(), ours.len());
+        order.extend(inner);
+        let array = array.permuted_axes(IxDyn(&order));
+        let mut shape: Vec<usize> = array.shape().to_vec();
+        for (at, axis) in free.iter().enumerate() {
+            shape[at] = self.coordinate_values(axis).len();
+        }
+        let whole = array.broadcast(IxDyn(&shape)).map(|view| view.to_owned());
+        whole.ok_or_else(|| self.unfit(format!("variable `{name}` does not fit its coordinates")))
+    }
+
+    /// The numbers of a variable in the units of the figure.
+    pub fn shown(&self, name: &str, free: &[&str]) -> Result<ArrayD<f64>, FigureError> {
+        let factor = self.quantity(name).factor;
+        Ok(self.take(name, free)?.mapv_into(|value| value * factor))
+    }
+
+    /// How figures show the quantity called `name`.
+    pub fn quantity(&self, name: &str) -> Quantity {
+        Quantity::named(name, self.dataset)
+    }
+
+    /// A parameter over the axis `free`, in SI: the axis of that name, or the variable.
+    pub fn parameter<'n>(
+        &self,
+        name: &'n str,
+        free: &[&'n str],
+    ) -> Result<ArrayD<f64>, FigureError> {
+        let axes = self.axes();
+        if !axes.contains(&name) {
+            return self.take(name, free);
+        }
+        let values = self.coordinate_values(name);
+        if free.contains(&name) {
+            let array = ArrayD::from_shape_vec(IxDyn(&[values.len()]), values)
+                .map_err(|error| self.unfit(error.to_string()))?;
+            return self.arrange(name, array, vec![name], free);
+        }
+        let held = self.held.iter().find(|(axis, _)| axis == name).map_or(0, |(_, at)| *at);
+        let value = values.get(held).copied().unwrap_or(f64::NAN);
+        self.arrange(name, ArrayD::from_elem(IxDyn(&[]), value), Vec::new(), free)
+    }
+
+    /// Where the axes other than `free` are held, as "name = value unit".
+    pub fn held_note(&self, free: &[&str]) -> String {
+        let mut notes = Vec::new();
+        for name in self.axes().into_iter().filter(|name| !free.contains(name)) {
+            let held = self.held.iter().find(|(axis, _)| axis == name).map_or(0, |(_, at)| *at);
+            if let Some(value) = self.coordinate_values(name).get(held) {
+                let unit = self.dataset.coordinate(name).map_or("", |it| it.unit.as_str());
+                notes.push(format!("{name} = {value} {}", if unit == "1" { "" } else { unit }));
+            }
+        }
+        notes.join(", ")
+    }
+
+    /// The name and meaning of each category of an integer variable.
+    pub fn flags(&self, name: &str) -> &'a [(i64, String)] {
+        self.dataset.variable(name).map_or(&[], |variable| &variable.flags)
+    }
+}
