@@ -111,17 +111,15 @@ impl Simulate {
 
     fn request(&self) -> Result<Request, Failure> {
         let mut faults = Vec::new();
-        let mut parameters = Parameters {
-            switching: match self.friction_switching {
-                SwitchingChoice::Filippov => Switching::Filippov,
-                SwitchingChoice::AsPrinted => Switching::AsPrinted,
-            },
-            resistance: match self.resistance {
-                ResistanceChoice::CoulombStribeck => Resistance::CoulombStribeck,
-                ResistanceChoice::Coulomb => Resistance::Coulomb,
-                ResistanceChoice::Medium => Resistance::Medium,
-            },
-            ..Parameters::default()
+        let mut parameters = Parameters::default();
+        parameters.switching = match self.friction_switching {
+            SwitchingChoice::Filippov => Switching::Filippov,
+            SwitchingChoice::AsPrinted => Switching::AsPrinted,
+        };
+        parameters.resistance = match self.resistance {
+            ResistanceChoice::CoulombStribeck => Resistance::CoulombStribeck,
+            ResistanceChoice::Coulomb => Resistance::Coulomb,
+            ResistanceChoice::Medium => Resistance::Medium,
         };
         let named = [
             ("--omega", Parameter::Omega, &self.omega),
