@@ -7,7 +7,7 @@ use crate::model::{
     Switching,
 };
 
-use super::recurrence::Recurrence;
+use super::recurrence::{Recurrence, Settled};
 use super::{Account, Failure, History, HistorySpan, Impact, Output, Outputs, Section, Traveller};
 
 /// What a case turned out to be.
@@ -132,9 +132,17 @@ fn settle_on<S: Locomotion>(
 ) -> Orbit {
     let mut traveller =
         Traveller::new(system, start, parameters.drive_period(), protocol.tolerance);
-    let measured = find_period(&mut traveller, protocol).and_then(|period| {
-        let cycles = period.unwrap_or(protocol.measured_cycles.max(1));
-        let measures = measure(&mut traveller, system, parameters, cycles, protocol)?;
+    let omega = parameters[Parameter::Omega];
+    let measured = find_period(&mut traveller, omega, protocol).and_then(|settled| {
+        let period = settled.map(|settled| settled.period as u64);
+        let cycles = match settled {
+            Some(settled) => settled.repeats_after as u64,
+            None => protocol.measured_cycles,
+        };
+        let mut measures = measure(&mut traveller, system, parameters, cycles, protocol)?;
+        if let Some(period) = period {
+            measures.1.truncate(period as usize);
+        }
         let history = match protocol.history {
             None => None,
             Some(span) => {
@@ -175,14 +183,15 @@ fn settle_on<S: Locomotion>(
 /// Follows until the section repeats; none when the budget of cycles ends first.
 fn find_period<S: Locomotion>(
     traveller: &mut Traveller<'_, S>,
+    omega: f64,
     protocol: &Protocol,
-) -> Result<Option<u64>, Failure> {
-    let mut recurrence = Recurrence::new(protocol.max_period, protocol.recurrence);
+) -> Result<Option<Settled>, Failure> {
+    let mut recurrence = Recurrence::new(protocol.max_period, protocol.recurrence, omega);
     recurrence.meet(traveller.section());
     while traveller.cycles < protocol.max_cycles {
         traveller.cycle(|_| ())?;
-        if let Some(period) = recurrence.meet(traveller.section()) {
-            return Ok(Some(period as u64));
+        if let Some(settled) = recurrence.meet(traveller.section()) {
+            return Ok(Some(settled));
         }
     }
     Ok(None)
