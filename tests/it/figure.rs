@@ -261,6 +261,9 @@ fn awkward_results_are_drawn() {
     let of = vec!["work_positive".to_string(), "period".to_string()];
     requests.push((cube, Drawing { of, ..drawing("uneven", DrawingKind::Bifurcation) }));
 
+    let at = BTreeMap::from([("direction".to_string(), 1.0)]);
+    let down = Drawing { at, ..drawing("downward", DrawingKind::Bifurcation) };
+    requests.push((cascade(120, 8, true), down));
     for (dataset, request) in &requests {
         draw(dataset, request, &folder, &ALL)
             .unwrap_or_else(|error| panic!("{}: {error}", request.name));
