@@ -88,7 +88,7 @@ fn branches(view: &View<'_>, x_name: &str) -> Vec<Branch> {
     }
     let codes = view.coordinate_values(DIRECTION);
     let flags = view.dataset.coordinate(DIRECTION).map_or(&[][..], |it| &it.flags);
-    let looks = [(BLUE, 1.5), (VERMILION, 0.85)];
+    let looks = [(BLUE, 1.7), (VERMILION, 0.75)];
     let branch = |(index, (colour, size)): (usize, (RGBColor, f64))| {
         let code = codes[index] as i64;
         let flag = flags.iter().find(|(value, _)| *value == code);
