@@ -43,7 +43,8 @@ fn stuck_capsule_is_a_forced_linear_oscillator() {
         // r = R cos(wt - phi), with tan phi = c w / (k1 - m1 w^2).
         let [r, y1, y2] = orbit.section[0];
         assert!(relative(r.hypot(y1 / omega), amplitude) < 1e-10, "{omega}");
-        let phi = (p[Parameter::C] * omega).atan2(p[Parameter::K1] - p[Parameter::M1] * omega * omega);
+        let phi =
+            (p[Parameter::C] * omega).atan2(p[Parameter::K1] - p[Parameter::M1] * omega * omega);
         assert!((r - amplitude * phi.cos()).abs() < 1e-10 * amplitude);
         assert_eq!(y2, 0.0);
         let work = PI * p[Parameter::C] * omega * amplitude * amplitude;

@@ -2,8 +2,12 @@
 
 mod belt;
 mod closed_forms;
+mod edges;
 mod figure;
 mod house;
+mod invariants;
+mod lanes;
+mod oscillators;
 mod paper;
 mod reference;
 mod store;
