@@ -9,5 +9,6 @@ mod invariants;
 mod lanes;
 mod oscillators;
 mod paper;
+mod readme;
 mod reference;
 mod store;
