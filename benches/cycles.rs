@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use capsulemap::model::{Capsule, Parameter, Parameters, State};
-use capsulemap::orbit::Traveller;
+use capsulemap::orbit::Trajectory;
 
 const CYCLES: u64 = 100;
 const TOLERANCE: f64 = 1e-12;
@@ -31,13 +31,13 @@ fn parameters(k2: f64, omega: f64, p_d: f64, delta: f64) -> Parameters {
 /// Follows one case; returns the number of steps.
 fn follow(parameters: &Parameters) -> u64 {
     let system = Capsule::single(parameters, 0.0);
-    let mut traveller =
-        Traveller::new(&system, State::default(), parameters.drive_period(), TOLERANCE);
+    let mut trajectory =
+        Trajectory::new(&system, State::default(), parameters.drive_period(), TOLERANCE);
     let mut steps = 0;
     for _ in 0..CYCLES {
-        traveller.cycle(|_| steps += 1).expect("the case can be followed");
+        trajectory.cycle(|_| steps += 1).expect("the case can be followed");
     }
-    black_box(traveller.state());
+    black_box(trajectory.state());
     steps
 }
 

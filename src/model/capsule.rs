@@ -56,7 +56,7 @@ impl<L: Lane> Capsule<L> {
             inverse_m1: L::splat(1.0) / lanes(Parameter::M1),
             inverse_m2: L::splat(1.0) / lanes(Parameter::M2),
             drive: Drive::new(&of, phase),
-            drag: Drag::new(of(0).resistance, &of),
+            drag: Drag::new(&of),
         }
     }
 

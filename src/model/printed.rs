@@ -28,7 +28,7 @@ pub struct PrintedCapsule {
 
 /// Which field acts on the capsule; `side` is the sign of F, `slip` that of y2.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Motion {
+enum Regime {
     /// H = 0: x2 and y2 stand still, y2 not necessarily at zero. Guards 1, 2: f_s - F, f_s + F.
     Frozen,
     /// H = 1. Guards 1, 2: the speed, |F| - f_s.
@@ -43,7 +43,7 @@ enum Motion {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrintedMode {
     closed: bool,
-    motion: Motion,
+    regime: Regime,
 }
 
 impl PrintedCapsule {
@@ -57,7 +57,7 @@ impl PrintedCapsule {
             m1: parameters[Parameter::M1],
             m2: parameters[Parameter::M2],
             drive: Drive::new(|_| parameters, |_| phase),
-            drag: Drag::new(parameters.resistance, |_| parameters),
+            drag: Drag::new(|_| parameters),
         }
     }
 
@@ -72,7 +72,7 @@ impl PrintedCapsule {
 
     /// What follows on |F| = f_s, from the rates of |F| in the frozen and in the moving field, and how
     /// many leading coefficients of the guards of that motion vanish.
-    fn on_limit(&self, closed: bool, state: &State<f64>, side: f64, time: f64) -> Motion {
+    fn on_limit(&self, closed: bool, state: &State<f64>, side: f64, time: f64) -> Regime {
         let limit = side * self.drag.static_limit;
         let at_rest = state.y2 == 0.0;
         let slip = if at_rest { side } else { state.y2.signum() };
@@ -80,10 +80,10 @@ impl PrintedCapsule {
         let push = self.drive.amplitude * self.drive.cos(time)[0] - limit;
         let frozen_rate = side * (stiffness * state.y1 + self.c * push / self.m1);
         if frozen_rate <= 0.0 {
-            return Motion::Frozen;
+            return Regime::Frozen;
         }
         if at_rest && self.drag.static_limit < self.drag.at_onset {
-            return Motion::Held { side };
+            return Regime::Held { side };
         }
         let (mut decay, mut y2) = (series::zero(), series::zero());
         (decay[0], y2[0]) = (self.drag.decay_start(state.y2), state.y2);
@@ -91,22 +91,22 @@ impl PrintedCapsule {
         let acceleration = (limit - friction) / self.m2;
         let moving_rate = frozen_rate - side * (stiffness * state.y2 + self.c * acceleration);
         if moving_rate < 0.0 {
-            Motion::Creeping { slip, side }
+            Regime::Creeping { slip, side }
         } else {
-            Motion::Moving { slip, side }
+            Regime::Moving { slip, side }
         }
     }
 
     /// Which guards of `motion` start at zero when it begins on |F| = f_s, and with what power.
-    fn zeros_on_limit(&self, motion: Motion, side: f64, at_rest: bool, power: f64) -> Zeros<f64> {
-        match motion {
-            Motion::Frozen if side > 0.0 => [0.0, power, 0.0, 0.0],
-            Motion::Frozen => [0.0, 0.0, power, 0.0],
-            Motion::Held { .. } => [0.0, power, 0.0, 0.0],
-            Motion::Moving { .. } if at_rest => [0.0, self.drag.onset_zeros(), power, 0.0],
-            Motion::Moving { .. } => [0.0, 0.0, power, 0.0],
-            Motion::Creeping { .. } if at_rest => [0.0, 0.0, 0.0, 1.0],
-            Motion::Creeping { .. } => [0.0; 4],
+    fn zeros_on_limit(&self, regime: Regime, side: f64, at_rest: bool, power: f64) -> Zeros<f64> {
+        match regime {
+            Regime::Frozen if side > 0.0 => [0.0, power, 0.0, 0.0],
+            Regime::Frozen => [0.0, 0.0, power, 0.0],
+            Regime::Held { .. } => [0.0, power, 0.0, 0.0],
+            Regime::Moving { .. } if at_rest => [0.0, self.drag.onset_zeros(), power, 0.0],
+            Regime::Moving { .. } => [0.0, 0.0, power, 0.0],
+            Regime::Creeping { .. } if at_rest => [0.0, 0.0, 0.0, 1.0],
+            Regime::Creeping { .. } => [0.0; 4],
         }
     }
 
@@ -183,16 +183,16 @@ impl Switched<f64> for PrintedCapsule {
         let closed = state.r > self.delta;
         let force = self.force(closed, state);
         let side = force.signum();
-        let motion = if force.abs() <= self.drag.static_limit {
-            Motion::Frozen
+        let regime = if force.abs() <= self.drag.static_limit {
+            Regime::Frozen
         } else if state.y2 != 0.0 {
-            Motion::Moving { slip: state.y2.signum(), side }
+            Regime::Moving { slip: state.y2.signum(), side }
         } else if force.abs() > self.drag.at_onset {
-            Motion::Moving { slip: side, side }
+            Regime::Moving { slip: side, side }
         } else {
-            Motion::Held { side }
+            Regime::Held { side }
         };
-        PrintedMode { closed, motion }
+        PrintedMode { closed, regime }
     }
 
     fn jet(&self, mode: &PrintedMode, time: f64, state: &State<f64>) -> PrintedJet {
@@ -202,10 +202,10 @@ impl Switched<f64> for PrintedCapsule {
         (jet.r[0], jet.y1[0], jet.x2[0], jet.y2[0]) = (state.r, state.y1, state.x2, state.y2);
         jet.force[0] = self.force(mode.closed, state);
         jet.decay[0] = self.drag.decay_start(state.y2);
-        match mode.motion {
-            Motion::Frozen | Motion::Held { .. } => self.glide(&mut jet, mode.closed, None),
-            Motion::Moving { slip, .. } => self.glide(&mut jet, mode.closed, Some(slip)),
-            Motion::Creeping { slip, side } => {
+        match mode.regime {
+            Regime::Frozen | Regime::Held { .. } => self.glide(&mut jet, mode.closed, None),
+            Regime::Moving { slip, .. } => self.glide(&mut jet, mode.closed, Some(slip)),
+            Regime::Creeping { slip, side } => {
                 share = self.creep(&mut jet, mode.closed, slip, side);
             }
         }
@@ -217,7 +217,7 @@ impl Switched<f64> for PrintedCapsule {
     }
 
     fn watched(&self, which: usize, mode: &PrintedMode) -> bool {
-        which < 3 || matches!(mode.motion, Motion::Creeping { .. })
+        which < 3 || matches!(mode.regime, Regime::Creeping { .. })
     }
 
     fn guard(&self, which: usize, mode: &PrintedMode, jet: &PrintedJet) -> Series<f64> {
@@ -228,22 +228,22 @@ impl Switched<f64> for PrintedCapsule {
             guard
         };
         let (limit, onset) = (self.drag.static_limit, self.drag.at_onset);
-        match (which, mode.motion) {
+        match (which, mode.regime) {
             (CONTACT, _) => {
                 let side = if mode.closed { 1.0 } else { -1.0 };
                 let mut gap = line(0.0, side, r);
                 gap[0] = side * (r[0] - self.delta);
                 gap
             }
-            (1, Motion::Frozen) => line(limit, -1.0, force),
-            (_, Motion::Frozen) => line(limit, 1.0, force),
-            (1, Motion::Moving { slip, .. }) => line(0.0, slip, y2),
-            (_, Motion::Moving { side, .. }) => line(-limit, side, force),
-            (1, Motion::Held { side }) => line(-limit, side, force),
-            (_, Motion::Held { side }) => line(onset, -side, force),
-            (1, Motion::Creeping { .. }) => line(0.0, 1.0, share),
-            (2, Motion::Creeping { .. }) => line(1.0, -1.0, share),
-            (_, Motion::Creeping { slip, .. }) => line(0.0, slip, y2),
+            (1, Regime::Frozen) => line(limit, -1.0, force),
+            (_, Regime::Frozen) => line(limit, 1.0, force),
+            (1, Regime::Moving { slip, .. }) => line(0.0, slip, y2),
+            (_, Regime::Moving { side, .. }) => line(-limit, side, force),
+            (1, Regime::Held { side }) => line(-limit, side, force),
+            (_, Regime::Held { side }) => line(onset, -side, force),
+            (1, Regime::Creeping { .. }) => line(0.0, 1.0, share),
+            (2, Regime::Creeping { .. }) => line(1.0, -1.0, share),
+            (_, Regime::Creeping { slip, .. }) => line(0.0, slip, y2),
         }
     }
 
@@ -263,13 +263,13 @@ impl Switched<f64> for PrintedCapsule {
         if !due {
             return 0.0;
         }
-        let before = mode.motion;
+        let before = mode.regime;
         if which == CONTACT {
             mode.closed = !mode.closed;
             state.r = self.delta;
-            if let Motion::Creeping { side, .. } = before {
-                mode.motion = self.on_limit(mode.closed, state, side, time);
-                *zeros = self.zeros_on_limit(mode.motion, side, state.y2 == 0.0, 1.0);
+            if let Regime::Creeping { side, .. } = before {
+                mode.regime = self.on_limit(mode.closed, state, side, time);
+                *zeros = self.zeros_on_limit(mode.regime, side, state.y2 == 0.0, 1.0);
             }
             zeros[CONTACT] = 1.0;
             return if mode.closed {
@@ -279,7 +279,7 @@ impl Switched<f64> for PrintedCapsule {
             };
         }
         self.switch_motion(which, mode, state, zeros, time);
-        event_between(before, mode.motion).map_or(0.0, EventKind::code)
+        event_between(before, mode.regime).map_or(0.0, EventKind::code)
     }
 
     fn lost(&self, state: &State<f64>) -> bool {
@@ -298,39 +298,39 @@ impl PrintedCapsule {
         time: f64,
     ) {
         let contact_zero = zeros[CONTACT];
-        let before = mode.motion;
-        let limit_reached = |motion: Motion, side: f64, power: f64| {
-            (motion, self.zeros_on_limit(motion, side, state.y2 == 0.0, power))
+        let before = mode.regime;
+        let limit_reached = |regime: Regime, side: f64, power: f64| {
+            (regime, self.zeros_on_limit(regime, side, state.y2 == 0.0, power))
         };
-        (mode.motion, *zeros) = match (which, before) {
-            (_, Motion::Frozen) => {
+        (mode.regime, *zeros) = match (which, before) {
+            (_, Regime::Frozen) => {
                 let side = if which == 1 { 1.0 } else { -1.0 };
                 limit_reached(self.on_limit(mode.closed, state, side, time), side, 1.0)
             }
-            (2, Motion::Moving { side, .. }) => {
+            (2, Regime::Moving { side, .. }) => {
                 limit_reached(self.on_limit(mode.closed, state, side, time), side, 1.0)
             }
-            (1, Motion::Held { side }) => limit_reached(Motion::Frozen, side, 1.0),
-            (_, Motion::Held { side }) => {
-                (Motion::Moving { slip: side, side }, [0.0, 2.0, 0.0, 0.0])
+            (1, Regime::Held { side }) => limit_reached(Regime::Frozen, side, 1.0),
+            (_, Regime::Held { side }) => {
+                (Regime::Moving { slip: side, side }, [0.0, 2.0, 0.0, 0.0])
             }
-            (1, Motion::Creeping { side, .. }) => limit_reached(Motion::Frozen, side, 2.0),
-            (2, Motion::Creeping { slip, side }) => {
-                limit_reached(Motion::Moving { slip, side }, side, 2.0)
+            (1, Regime::Creeping { side, .. }) => limit_reached(Regime::Frozen, side, 2.0),
+            (2, Regime::Creeping { slip, side }) => {
+                limit_reached(Regime::Moving { slip, side }, side, 2.0)
             }
-            (_, Motion::Moving { side, .. }) => {
+            (_, Regime::Moving { side, .. }) => {
                 state.y2 = 0.0;
                 let force = self.force(mode.closed, state).abs();
                 if force > self.drag.at_onset {
-                    (Motion::Moving { slip: side, side }, [0.0, 1.0, 0.0, 0.0])
+                    (Regime::Moving { slip: side, side }, [0.0, 1.0, 0.0, 0.0])
                 } else {
-                    (Motion::Held { side }, [0.0; 4])
+                    (Regime::Held { side }, [0.0; 4])
                 }
             }
-            (_, Motion::Creeping { side, .. }) => {
+            (_, Regime::Creeping { side, .. }) => {
                 state.y2 = 0.0;
-                let motion = self.on_limit(mode.closed, state, side, time);
-                (motion, self.zeros_on_limit(motion, side, true, 1.0))
+                let regime = self.on_limit(mode.closed, state, side, time);
+                (regime, self.zeros_on_limit(regime, side, true, 1.0))
             }
         };
         zeros[CONTACT] = contact_zero;
@@ -338,10 +338,10 @@ impl PrintedCapsule {
 }
 
 /// The event that a change of motion amounts to.
-fn event_between(before: Motion, after: Motion) -> Option<EventKind> {
-    let slip_of = |motion| match motion {
-        Motion::Moving { slip, .. } | Motion::Creeping { slip, .. } => Some(slip),
-        Motion::Frozen | Motion::Held { .. } => None,
+fn event_between(before: Regime, after: Regime) -> Option<EventKind> {
+    let slip_of = |regime| match regime {
+        Regime::Moving { slip, .. } | Regime::Creeping { slip, .. } => Some(slip),
+        Regime::Frozen | Regime::Held { .. } => None,
     };
     match (slip_of(before), slip_of(after)) {
         (None, Some(slip)) if slip > 0.0 => Some(EventKind::SlipForward),
@@ -372,9 +372,9 @@ impl Locomotion for PrintedCapsule {
     }
 
     fn stick_slip(&self, mode: &PrintedMode) -> StickSlip {
-        match mode.motion {
-            Motion::Frozen | Motion::Held { .. } => StickSlip::Stick,
-            Motion::Moving { slip, .. } | Motion::Creeping { slip, .. } if slip > 0.0 => {
+        match mode.regime {
+            Regime::Frozen | Regime::Held { .. } => StickSlip::Stick,
+            Regime::Moving { slip, .. } | Regime::Creeping { slip, .. } if slip > 0.0 => {
                 StickSlip::Forward
             }
             _ => StickSlip::Backward,

@@ -35,8 +35,8 @@ pub enum Switching {
 pub struct Drag<L> {
     /// The law.
     pub law: Resistance,
-    /// `mu_d N`, zero in a medium [N].
-    pub dynamic: L,
+    /// `mu_d N`; a medium has no use for it [N].
+    dynamic: L,
     /// Force needed to leave rest, `f_b` [N].
     pub break_away: L,
     /// `f_s = mu_s N`, zero in a medium [N].
@@ -50,29 +50,15 @@ pub struct Drag<L> {
 }
 
 impl<L: Lane> Drag<L> {
-    /// The law with the constants of each lane's parameters.
-    pub fn new<'a>(law: Resistance, of: impl Fn(usize) -> &'a Parameters) -> Self {
+    /// The first lane's law, with the constants of each lane's parameters.
+    pub fn new<'a>(of: impl Fn(usize) -> &'a Parameters) -> Self {
         let lanes = |value: &dyn Fn(&Parameters) -> f64| L::from_fn(|lane| value(of(lane)));
-        let load = |p: &Parameters| (p[Parameter::M1] + p[Parameter::M2]) * p[Parameter::G];
-        let dynamic = move |p: &Parameters| p[Parameter::MuD] * load(p);
-        let static_limit = move |p: &Parameters| p[Parameter::MuS] * load(p);
-        let dry = law != Resistance::Medium;
-        let onset = match law {
-            Resistance::CoulombStribeck => 2.0,
-            Resistance::Coulomb => 1.0,
-            Resistance::Medium => 0.0,
-        };
-        let zero = L::splat(0.0);
         Drag {
-            law,
-            dynamic: if dry { lanes(&dynamic) } else { zero },
-            static_limit: if dry { lanes(&static_limit) } else { zero },
-            at_onset: lanes(&|p| onset * dynamic(p)),
-            break_away: if dry {
-                lanes(&|p| static_limit(p).max(onset * dynamic(p)))
-            } else {
-                zero
-            },
+            law: of(0).resistance,
+            dynamic: lanes(&|p| p[Parameter::MuD] * p.normal_load()),
+            static_limit: lanes(&Parameters::static_limit),
+            at_onset: lanes(&Parameters::friction_at_onset),
+            break_away: lanes(&Parameters::break_away),
             inverse_stribeck: lanes(&|p| 1.0 / p[Parameter::Vs]),
             linear: lanes(&|p| p[Parameter::C1]),
             quadratic: lanes(&|p| p[Parameter::C2]),

@@ -53,7 +53,7 @@ impl fmt::Display for Failure {
 }
 
 /// A case on its way.
-pub struct Traveller<'a, S: Locomotion> {
+pub struct Trajectory<'a, S: Locomotion> {
     system: &'a S,
     motion: Motion<f64, S>,
     drive_period: f64,
@@ -62,11 +62,11 @@ pub struct Traveller<'a, S: Locomotion> {
     pub cycles: u64,
 }
 
-impl<'a, S: Locomotion> Traveller<'a, S> {
+impl<'a, S: Locomotion> Trajectory<'a, S> {
     /// Sets out from `start` at t = 0; `drive_period` [s], relative local `tolerance`.
     pub fn new(system: &'a S, start: State<f64>, drive_period: f64, tolerance: f64) -> Self {
         let motion = Motion::new(system, 0.0, start);
-        Traveller { system, motion, drive_period, tolerance, cycles: 0 }
+        Trajectory { system, motion, drive_period, tolerance, cycles: 0 }
     }
 
     /// Where it is.

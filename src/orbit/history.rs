@@ -3,7 +3,7 @@
 use crate::lane::series;
 use crate::model::{Locomotion, Parameter, Parameters, State};
 
-use super::{Failure, Traveller};
+use super::{Failure, Trajectory};
 
 /// What to sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,11 +44,11 @@ impl History {
         let drive_period = parameters.drive_period();
         let between = drive_period / f64::from(span.per_cycle);
         let p_d = parameters[Parameter::Pd];
-        let mut traveller = Traveller::new(system, start, drive_period, tolerance);
+        let mut trajectory = Trajectory::new(system, start, drive_period, tolerance);
         let mut history = History::default();
         for _ in 0..span.cycles {
             let mut next = 0;
-            traveller.cycle(|step| {
+            trajectory.cycle(|step| {
                 let jet = system.motion(&step.jet);
                 let end = step.start + step.length;
                 while next < span.per_cycle && f64::from(next) * between <= end {
@@ -59,7 +59,7 @@ impl History {
                 }
             })?;
         }
-        history.states.push(traveller.state());
+        history.states.push(trajectory.state());
         history.drive.extend(history.drive.first().copied());
         Ok(history)
     }

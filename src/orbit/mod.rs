@@ -9,7 +9,7 @@ pub mod settle;
 pub mod simulate;
 
 pub use account::{Account, Impact};
-pub use cycle::{Failure, Reason, Section, Traveller};
+pub use cycle::{Failure, Reason, Section, Trajectory};
 pub use history::{History, HistorySpan};
 pub use output::{Output, Outputs};
 pub use settle::{Orbit, Outcome, Protocol, settle};

@@ -3,12 +3,11 @@
 use serde::Serialize;
 
 use crate::model::{
-    Capsule, EventKind, Locomotion, Parameter, Parameters, PrintedCapsule, Resistance, State,
-    Switching,
+    Capsule, EventKind, Locomotion, Parameter, Parameters, PrintedCapsule, State, Switching,
 };
 
 use super::recurrence::{Recurrence, Settled};
-use super::{Account, Failure, History, HistorySpan, Impact, Output, Outputs, Section, Traveller};
+use super::{Account, Failure, History, HistorySpan, Impact, Output, Outputs, Section, Trajectory};
 
 /// What a case turned out to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -130,30 +129,30 @@ fn settle_on<S: Locomotion>(
     start: State<f64>,
     protocol: &Protocol,
 ) -> Orbit {
-    let mut traveller =
-        Traveller::new(system, start, parameters.drive_period(), protocol.tolerance);
+    let mut trajectory =
+        Trajectory::new(system, start, parameters.drive_period(), protocol.tolerance);
     let omega = parameters[Parameter::Omega];
-    let measured = find_period(&mut traveller, omega, protocol).and_then(|settled| {
+    let measured = find_period(&mut trajectory, omega, protocol).and_then(|settled| {
         let period = settled.map(|settled| settled.period as u64);
         let cycles = match settled {
             Some(settled) => settled.repeats_after as u64,
             None => protocol.measured_cycles,
         };
-        let mut measures = measure(&mut traveller, system, parameters, cycles, protocol)?;
+        let mut measures = measure(&mut trajectory, system, parameters, cycles, protocol)?;
         if let Some(period) = period {
             measures.1.truncate(period as usize);
         }
         let history = match protocol.history {
             None => None,
             Some(span) => {
-                let settled = State { x2: 0.0, ..traveller.state() };
+                let settled = State { x2: 0.0, ..trajectory.state() };
                 let from = if span.from_start { start } else { settled };
                 Some(History::sample(system, parameters, from, span, protocol.tolerance)?)
             }
         };
         Ok((period, measures, history))
     });
-    let (cycles, end) = (traveller.cycles, traveller.state());
+    let (cycles, end) = (trajectory.cycles, trajectory.state());
     match measured {
         Ok((period, (outputs, section, impacts), history)) => Orbit {
             outcome: if period.is_some() { Outcome::Periodic } else { Outcome::Undecided },
@@ -182,15 +181,15 @@ fn settle_on<S: Locomotion>(
 
 /// Follows until the section repeats; none when the budget of cycles ends first.
 fn find_period<S: Locomotion>(
-    traveller: &mut Traveller<'_, S>,
+    trajectory: &mut Trajectory<'_, S>,
     omega: f64,
     protocol: &Protocol,
 ) -> Result<Option<Settled>, Failure> {
     let mut recurrence = Recurrence::new(protocol.max_period, protocol.recurrence, omega);
-    recurrence.meet(traveller.section());
-    while traveller.cycles < protocol.max_cycles {
-        traveller.cycle(|_| ())?;
-        if let Some(settled) = recurrence.meet(traveller.section()) {
+    recurrence.meet(trajectory.section());
+    while trajectory.cycles < protocol.max_cycles {
+        trajectory.cycle(|_| ())?;
+        if let Some(settled) = recurrence.meet(trajectory.section()) {
             return Ok(Some(settled));
         }
     }
@@ -200,7 +199,7 @@ fn find_period<S: Locomotion>(
 type Measures = (Outputs, Vec<Section>, Vec<Impact>);
 
 fn measure<S: Locomotion>(
-    traveller: &mut Traveller<'_, S>,
+    trajectory: &mut Trajectory<'_, S>,
     system: &S,
     parameters: &Parameters,
     cycles: u64,
@@ -208,12 +207,12 @@ fn measure<S: Locomotion>(
 ) -> Result<Measures, Failure> {
     let mut account = Account::new(parameters);
     let (mut section, mut impacts) = (Vec::new(), Vec::new());
-    let x2 = traveller.state().x2;
+    let x2 = trajectory.state().x2;
     for _ in 0..cycles {
         if section.len() < protocol.points {
-            section.push(traveller.section());
+            section.push(trajectory.section());
         }
-        traveller.cycle(|step| {
+        trajectory.cycle(|step| {
             account.add(system, step);
             let closes = system.event(step.event) == Some(EventKind::ContactClosed);
             if closes && impacts.len() < protocol.impact_points {
@@ -223,7 +222,7 @@ fn measure<S: Locomotion>(
             }
         })?;
     }
-    let progression = (traveller.state().x2 - x2) / cycles as f64;
+    let progression = (trajectory.state().x2 - x2) / cycles as f64;
     Ok((outputs(&account, parameters, progression, cycles as f64), section, impacts))
 }
 
@@ -231,11 +230,7 @@ fn measure<S: Locomotion>(
 fn outputs(account: &Account, parameters: &Parameters, progression: f64, cycles: f64) -> Outputs {
     let mut outputs = Outputs::unknown();
     let losses = account.friction_loss + account.damper_loss;
-    let break_away = match parameters.resistance {
-        Resistance::Medium => 0.0,
-        _ => parameters[Parameter::MuS] * parameters.normal_load(),
-    };
-    let force = parameters[Parameter::Pd] + break_away;
+    let force = parameters[Parameter::Pd] + parameters.break_away();
     let ratio = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
     let cost_of_transport = if progression == 0.0 {
         f64::INFINITY

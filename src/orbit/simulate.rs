@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::model::{Capsule, EventKind, Locomotion, Parameters, PrintedCapsule, State, Switching};
 
-use super::{Account, Failure, Traveller};
+use super::{Account, Failure, Trajectory};
 
 /// State and sums at the end of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -86,13 +86,13 @@ fn simulate_on<S: Locomotion>(
 ) -> Simulation {
     let drive_period = parameters.drive_period();
     let mut account = Account::new(parameters);
-    let mut traveller = Traveller::new(system, start, drive_period, tolerance);
+    let mut trajectory = Trajectory::new(system, start, drive_period, tolerance);
     let mut events = Vec::new();
-    let mut section = vec![sample(&traveller, &account, drive_period)];
+    let mut section = vec![sample(&trajectory, &account, drive_period)];
     let mut failure = None;
     for n in 0..cycles {
         let begun = n as f64 * drive_period;
-        let followed = traveller.cycle(|step| {
+        let followed = trajectory.cycle(|step| {
             account.add(system, step);
             if let Some(kind) = system.event(step.event) {
                 events.push(Event { t: begun + (step.start + step.length), kind });
@@ -102,18 +102,18 @@ fn simulate_on<S: Locomotion>(
             failure = Some(why);
             break;
         }
-        section.push(sample(&traveller, &account, drive_period));
+        section.push(sample(&trajectory, &account, drive_period));
     }
     Simulation { section, events, failure }
 }
 
 fn sample<S: Locomotion>(
-    traveller: &Traveller<'_, S>,
+    trajectory: &Trajectory<'_, S>,
     account: &Account,
     drive_period: f64,
 ) -> Sample {
-    let State { r, y1, x2, y2 } = traveller.state();
-    let n = traveller.cycles;
+    let State { r, y1, x2, y2 } = trajectory.state();
+    let n = trajectory.cycles;
     Sample {
         n,
         t: n as f64 * drive_period,

@@ -4,7 +4,7 @@ use capsulemap::lane::series;
 use capsulemap::model::{
     Capsule, Contact, Locomotion, Parameter, Parameters, State, StickSlip, Switching,
 };
-use capsulemap::orbit::{Account, Outcome, Protocol, Traveller, settle, simulate};
+use capsulemap::orbit::{Account, Outcome, Protocol, Trajectory, settle, simulate};
 use proptest::prelude::*;
 
 /// Parameters over the ranges that the program is used in.
@@ -46,14 +46,14 @@ proptest! {
     #[test]
     fn energy_and_momentum_balance(p in parameters(), start in start()) {
         let system = Capsule::single(&p, 0.0);
-        let mut traveller = Traveller::new(&system, start, p.drive_period(), 1e-12);
+        let mut trajectory = Trajectory::new(&system, start, p.drive_period(), 1e-12);
         let mut account = Account::new(&p);
         let mut largest = stored_energy(&p, &start);
         for _ in 0..20 {
-            traveller.cycle(|step| account.add(&system, step)).expect("it can be followed");
-            largest = largest.max(stored_energy(&p, &traveller.state()));
+            trajectory.cycle(|step| account.add(&system, step)).expect("it can be followed");
+            largest = largest.max(stored_energy(&p, &trajectory.state()));
         }
-        let end = traveller.state();
+        let end = trajectory.state();
         let stored = stored_energy(&p, &end) - stored_energy(&p, &start);
         let spent = account.friction_loss + account.damper_loss;
         let turnover = account.work_absolute + spent + largest;
@@ -71,11 +71,11 @@ proptest! {
     #[test]
     fn no_guard_has_the_wrong_sign_between_events(p in parameters(), start in start()) {
         let system = Capsule::single(&p, 0.0);
-        let mut traveller = Traveller::new(&system, start, p.drive_period(), 1e-12);
+        let mut trajectory = Trajectory::new(&system, start, p.drive_period(), 1e-12);
         let limit = p[Parameter::MuS].max(2.0 * p[Parameter::MuD]) * p.normal_load();
         for _ in 0..20 {
             let mut wrong = None;
-            traveller.cycle(|step| {
+            trajectory.cycle(|step| {
                 for i in 0..=16 {
                     let h = step.length * f64::from(i) / 16.0;
                     let state = step.jet.state(h);
@@ -131,9 +131,9 @@ proptest! {
         let system = Capsule::single(&p, share * turn);
         let late = Capsule::single(&p, share * turn + turn);
         let follow = |system: &Capsule<f64>| {
-            let mut traveller = Traveller::new(system, State::default(), p.drive_period(), 1e-12);
-            traveller.cycle(|_| ()).expect("it can be followed");
-            traveller.state()
+            let mut trajectory = Trajectory::new(system, State::default(), p.drive_period(), 1e-12);
+            trajectory.cycle(|_| ()).expect("it can be followed");
+            trajectory.state()
         };
         let (a, b) = (follow(&system), follow(&late));
         prop_assert!((a.r - b.r).abs() <= 1e-12 && (a.y1 - b.y1).abs() <= 1e-10);
