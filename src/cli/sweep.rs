@@ -59,7 +59,7 @@ impl Sweep {
             Some(dataset) => dataset,
             None => {
                 if !self.no_figures {
-                    rehearse(&study, folder)?;
+                    rehearse(&study)?;
                 }
                 prepare(folder)?;
                 self.compute(&study, &output)?
@@ -87,8 +87,9 @@ impl Sweep {
         let stem = file_stem(&self.study)?;
         let default = || Path::new("results").join(&stem).join(format!("{stem}.h5"));
         let output = self.output.clone().unwrap_or_else(default);
-        if output.is_dir() {
-            let message = format!("{}: is a folder; name a file", output.display());
+        if output.exists() && !output.is_file() {
+            let what = if output.is_dir() { "a folder" } else { "not a plain file" };
+            let message = format!("{}: is {what}; name a file", output.display());
             return Err(Failure::request(message));
         }
         let same = |path: &Path| std::fs::canonicalize(path).ok();
@@ -140,7 +141,7 @@ impl Sweep {
 
 /// Draws the figures from results without a single case, so that a mistake in one of them is told
 /// before a long run and not after it.
-fn rehearse(study: &Study, folder: &Path) -> Result<(), Failure> {
+fn rehearse(study: &Study) -> Result<(), Failure> {
     if study.drawings.is_empty() {
         return Ok(());
     }
@@ -148,7 +149,7 @@ fn rehearse(study: &Study, folder: &Path) -> Result<(), Failure> {
     small.protocol.points = small.protocol.points.min(1);
     small.protocol.impact_points = small.protocol.impact_points.min(1);
     // In no format at all, nothing is written.
-    draw_all(&store::dataset(&small, &[]), &study.drawings, folder, &[])
+    draw_all(&store::dataset(&small, &[]), &study.drawings, Path::new("."), &[])
 }
 
 /// Makes the folder of the results, and sees that a file can be written there before a long run.

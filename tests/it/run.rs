@@ -1,0 +1,1 @@
+//! The joined run: from a study to its file and figures.
