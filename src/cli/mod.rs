@@ -26,6 +26,12 @@ Examples:
 
 Exit codes: 0 done; 2 a mistake in what was asked; 3 a fault of the machine (disk, memory).";
 
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  capsulemap completions bash > ~/.local/share/bash-completion/completions/capsulemap
+  capsulemap completions zsh > ~/.zfunc/_capsulemap
+  capsulemap completions fish > ~/.config/fish/completions/capsulemap.fish";
+
 /// Bifurcation and basin mapper for the vibro-impact capsule.
 #[derive(Debug, Parser)]
 #[command(version, about, after_help = EXAMPLES, max_term_width = 100)]
@@ -45,6 +51,7 @@ enum Command {
     /// Say what is in a file of results.
     Inspect(inspect::Inspect),
     /// Print the completions of a shell.
+    #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
         /// The shell.
         shell: Shell,

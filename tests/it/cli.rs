@@ -143,10 +143,10 @@ fn plain_numbers_are_in_si_and_every_parameter_can_be_set() {
 
 #[test]
 fn the_orbit_is_that_of_the_library_bit_for_bit() {
-    let told = fig5(&["--cycles", "0"]);
+    let told = simulate(&["--cycles", "0"]).done();
     let orbit = settle(&Parameters::default(), 0.0, State::default(), &Protocol::default());
     for &output in Output::ALL {
-        let printed = number(&told["orbit"][output.name()]);
+        let printed = told.printed(output.name());
         assert_eq!(printed.to_bits(), orbit.outputs[output].to_bits(), "{}", output.name());
     }
 }
