@@ -3,8 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use capsulemap::orbit::Output;
+use capsulemap::model::{Parameter, State};
+use capsulemap::orbit::{Output, settle};
 use capsulemap::store::{self, Dataset, Values, Variable};
+use capsulemap::sweep::Study;
 use serde_json::Value;
 
 use super::program::{Desk, FIG5};
@@ -129,6 +131,7 @@ fn any_number_of_threads_gives_the_same_file() {
 fn following_begins_where_the_neighbour_settled() {
     let desk = Desk::new();
     desk.put("rich.toml", RICH);
+    let study = Study::parse("rich.toml", RICH).expect("a study");
     let plain = RICH.split("[start]").next().expect("the head");
     desk.put("plain.toml", plain);
     for study in ["rich.toml", "plain.toml"] {
@@ -145,8 +148,20 @@ fn following_begins_where_the_neighbour_settled() {
             assert_eq!(alone[[first, p_d]].to_bits(), followed.to_bits());
         }
     }
-    let cycles = |dataset: &Dataset| dataset.variables["cycles"].values.to_real();
-    assert_ne!(cycles(&followed)[[1, 0, 0]], cycles(&fresh)[[1, 0]]);
+    let parameters = |omega: f64| {
+        let mut parameters = study.base.clone();
+        parameters[Parameter::Omega] = omega;
+        parameters[Parameter::Pd] = study.axes[1].values[1];
+        parameters
+    };
+    // The last case of the middle row: twice on from where the neighbour was left.
+    let mut start = State::default();
+    for (i, &omega) in study.axes[0].values.iter().enumerate() {
+        let orbit = settle(&parameters(omega), 0.0, start, &study.protocol);
+        start = State { x2: 0.0, ..orbit.end };
+        let expected = orbit.outputs[Output::ProgressionSpeed];
+        assert_eq!(speed(&followed)[[i, 1, 0]].to_bits(), expected.to_bits());
+    }
     let direction = followed.coordinate("direction").expect("directions");
     assert_eq!(direction.flags, [(0, "upward".to_owned()), (1, "downward".to_owned())]);
 }
@@ -291,7 +306,7 @@ fn figures_of_ones_own_come_from_the_file_alone() {
     figure(&["--kind", "map", "--x", "omga"]).refused(&["`omga`", "did you mean `omega`?"]);
     figure(&["--kind", "map", "--at", "omga=3", "--at", "p_d=3 mm", "--at", "p_d", "--at", "k2=1"])
         .refused(&[
-            "--at: unknown axis of these results \"omga\"; did you mean \"omega\"? (allowed: omega,",
+            "--at: unknown axis of these results \"omga\"; did you mean \"omega\"? (allowed: p_d, omega)",
             "--at p_d: \"3 mm\" is a length; expected a force",
             "--at p_d: expected AXIS=VALUE",
             "--at: unknown axis of these results \"k2\"",
