@@ -125,7 +125,7 @@ fn choose(request: &AxisRequest, along: Along, length: f64) -> Ticks {
 fn has_room(ticks: &Ticks, scale: &Scale, along: Along, length: f64) -> bool {
     let half = |label: &str| match along {
         Along::Across => label_width(label) / 2.0 + 5.0,
-        Along::Up => SMALL_SIZE * 0.95,
+        Along::Up => SMALL_SIZE * 0.8,
     };
     let most = match along {
         Along::Across => 9,

@@ -52,7 +52,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         .iter()
         .map(|output| points(view, output, &values, &free, &branches))
         .collect::<Result<Vec<_>, _>>()?;
-    let page = request(view, &outputs, &clouds, AxisRequest::new(quantity, span(&values)));
+    let page = request(view, &outputs, &clouds, AxisRequest::new(quantity, span(&values)), &free);
     let page = PageRequest { rows: with_legend(page.rows, &branches), ..page };
     let (mut canvas, panels) = page.lay_out();
     for (panel, (cloud, output)) in panels.iter().flatten().zip(clouds.iter().zip(&outputs)) {
@@ -88,7 +88,7 @@ fn branches(view: &View<'_>, x_name: &str) -> Vec<Branch> {
     }
     let codes = view.coordinate_values(DIRECTION);
     let flags = view.dataset.coordinate(DIRECTION).map_or(&[][..], |it| &it.flags);
-    let looks = [(BLUE, 1.5), (VERMILION, 0.85)];
+    let looks = [(BLUE, 1.7), (VERMILION, 0.75)];
     let branch = |(index, (colour, size)): (usize, (RGBColor, f64))| {
         let code = codes[index] as i64;
         let flag = flags.iter().find(|(value, _)| *value == code);
@@ -142,6 +142,7 @@ fn request(
     outputs: &[String],
     clouds: &[Vec<Vec<Dot>>],
     abscissa: AxisRequest,
+    free: &[&str],
 ) -> PageRequest {
     let mut rows = Vec::new();
     let mut heights = Vec::new();
@@ -150,7 +151,8 @@ fn request(
         let y = AxisRequest::around(view.quantity(output), &values, 0.06);
         let last = index + 1 == outputs.len();
         let x = AxisRequest { labelled: last, numbered: last, ..abscissa.clone() };
-        let header = Header { letter: letter(index, outputs.len()), ..Header::default() };
+        let note = if index == 0 { view.held_note(free) } else { None };
+        let header = Header { letter: letter(index, outputs.len()), note, legend: Vec::new() };
         rows.push(vec![PanelRequest { x, y, header }]);
         heights.push(if has_points(view, output) { SECTION_HEIGHT } else { OUTPUT_HEIGHT });
     }

@@ -58,8 +58,10 @@ impl Header {
         if let Some(note) = &self.note {
             canvas.text(note, (left, baseline), SMALL_SIZE, Anchor::Start);
         }
-        for (line, entries) in self.legend_lines(frame.width()).into_iter().rev().enumerate() {
-            let mut at = frame.right - legend_width(entries);
+        let lines = self.legend_lines(frame.width());
+        let several = lines.len() > 1;
+        for (line, entries) in lines.into_iter().rev().enumerate() {
+            let mut at = if several { frame.left } else { frame.right - legend_width(entries) };
             let baseline = baseline - line as f64 * HEADER_LINE;
             for (mark, words) in entries {
                 draw_mark(canvas, *mark, (at, baseline - 0.3 * SMALL_SIZE));

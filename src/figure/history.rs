@@ -64,10 +64,14 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         (cases, 1) => cases.min(3),
         (cases, _) => cases.min(4),
     };
-    let notes = axis.map(|name| {
-        values.iter().map(|value| view.quantity(name).note(*value)).collect::<Vec<_>>()
+    let others = view.held_note(&free).filter(|note| !note.is_empty());
+    let notes = (0..values.len()).map(|index| {
+        let own = axis.map(|name| view.value_note(name, index));
+        let both = own.into_iter().chain(others.clone());
+        both.reduce(|note, next| note.then(Text::plain(", ")).then(next))
     });
-    let page = request(view, &cells, columns, values.len(), notes);
+    let notes: Vec<Option<Text>> = notes.collect();
+    let page = request(view, &cells, columns, values.len(), &notes);
     let (mut canvas, panels) = page.lay_out();
     for (panel, cell) in panels.iter().flatten().zip(&cells) {
         draw_cell(&mut canvas, panel, cell);
@@ -179,13 +183,13 @@ fn request(
     cells: &[Cell],
     columns: usize,
     cases: usize,
-    notes: Option<Vec<Text>>,
+    notes: &[Option<Text>],
 ) -> PageRequest {
     let mut rows: Vec<Vec<PanelRequest>> = Vec::new();
     for (index, cell) in cells.iter().enumerate() {
         let column = cell.case % columns;
         let (x, y) = axes(view, cells, index, columns, cases);
-        let note = notes.as_ref().map(|notes| notes[cell.case].clone());
+        let note = notes[cell.case].clone();
         let header =
             Header { letter: letter(index, cells.len()), note, legend: legend(view, cell) };
         let panel = PanelRequest { x, y, header };

@@ -86,7 +86,11 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let panel = PanelRequest {
         x: AxisRequest::new(view.quantity(x_name), x.scale),
         y: AxisRequest::new(view.quantity(y_name), y.scale),
-        header: Header { legend: paint.legend(), ..Header::default() },
+        header: Header {
+            note: view.held_note(&[x_name, y_name]),
+            legend: paint.legend(),
+            ..Header::default()
+        },
     };
     let page = PageRequest {
         title: view.drawing.title.clone(),

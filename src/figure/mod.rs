@@ -98,7 +98,7 @@ fn abscissa<'a>(view: &View<'a>) -> Result<&'a str, FigureError> {
 /// What a figure shows, in a sentence kept inside its files.
 fn about(view: &View<'_>, outputs: &[String], free: &[&str]) -> String {
     let over = if free.is_empty() { String::new() } else { format!(" over {}", free.join(", ")) };
-    let held = view.held_note(free);
+    let held = view.held_record(free);
     let at = if held.is_empty() { String::new() } else { format!(" at {held}") };
     format!("{}{over}{at}", outputs.join(", "))
 }

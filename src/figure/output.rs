@@ -13,7 +13,7 @@ use resvg::usvg::{Options, Tree, WriteOptions};
 
 use super::error::FigureError;
 use super::font;
-use super::style::{FAMILY, PNG_DPI};
+use super::style::{DPI, FAMILY};
 use super::text::escape;
 
 /// A file format for figures.
@@ -89,7 +89,7 @@ impl Figure<'_> {
 
     fn png(&self, tree: &Tree) -> Result<Vec<u8>, FigureError> {
         // A length of 96 in the tree is an inch.
-        let scale = (PNG_DPI / 96.0) as f32;
+        let scale = (DPI / 96.0) as f32;
         let pixels = |length: f32| (length * scale).round() as u32;
         let pixmap = Pixmap::new(pixels(tree.size().width()), pixels(tree.size().height()));
         let mut pixmap = pixmap.ok_or_else(|| self.render("it is too large".to_string()))?;
@@ -146,7 +146,7 @@ fn encode(width: u32, height: u32, rgb: &[u8], about: &str) -> Result<Vec<u8>, p
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    let per_metre = (PNG_DPI / 0.0254).round() as u32;
+    let per_metre = (DPI / 0.0254).round() as u32;
     encoder.set_pixel_dims(Some(png::PixelDimensions {
         xppu: per_metre,
         yppu: per_metre,

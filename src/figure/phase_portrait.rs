@@ -37,7 +37,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let panel = PanelRequest {
         x: AxisRequest::new(view.quantity("history_r"), x),
         y: AxisRequest::new(view.quantity("relative_velocity"), y),
-        header: Header { letter: None, note: None, legend: legend(&portrait) },
+        header: Header { letter: None, note: view.held_note(&[]), legend: legend(&portrait) },
     };
     let page = PageRequest {
         title: view.drawing.title.clone(),

@@ -3,7 +3,7 @@
 use plotters::style::RGBColor;
 
 use super::canvas::{Point, Rect};
-use super::style::{HATCH, MISSING, RASTER_DPI};
+use super::style::{DPI, HATCH, MISSING};
 
 /// Pixels with opacity, over a rectangle of the page.
 pub struct Raster {
@@ -17,7 +17,7 @@ pub struct Raster {
 impl Raster {
     /// A transparent raster of the size of `rect`, to be drawn over it.
     pub fn over(rect: Rect) -> Raster {
-        let count = |points: f64| ((points / 72.0 * RASTER_DPI).round() as usize).max(1);
+        let count = |points: f64| ((points / 72.0 * DPI).round() as usize).max(1);
         let (width, height) = (count(rect.width()), count(rect.height()));
         Raster { smooth: true, width, height, pixels: vec![[255, 255, 255, 0]; width * height] }
     }
@@ -46,7 +46,7 @@ impl Raster {
 
     /// A disc whose centre lies at `centre` [pt from the upper left corner], laid over what is there.
     pub fn disc(&mut self, centre: Point, radius: f64, colour: RGBColor, opacity: f64) {
-        let scale = RASTER_DPI / 72.0;
+        let scale = DPI / 72.0;
         let (x, y, radius) = (centre.0 * scale, centre.1 * scale, radius * scale);
         let span = |at: f64, end: usize| {
             let first = (at - radius - 1.0).floor().max(0.0) as usize;

@@ -6,10 +6,9 @@ use plotters::style::RGBColor;
 pub const FAMILY: &str = "Libertinus Serif";
 /// Points in a millimetre.
 pub const POINTS_PER_MM: f64 = 72.0 / 25.4;
-/// Resolution of PNG files [dots per inch].
-pub const PNG_DPI: f64 = 400.0;
-/// Resolution of rasters embedded in vector figures [dots per inch].
-pub const RASTER_DPI: f64 = 600.0;
+/// Resolution of PNG files, and of the rasters inside figures, so that no pixel is lost between
+/// them [dots per inch].
+pub const DPI: f64 = 600.0;
 
 /// One column of a journal [mm].
 pub const ONE_COLUMN: f64 = 88.0;

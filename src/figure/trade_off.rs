@@ -43,7 +43,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let free = view.free_axes();
     let cases = cases(view, &energy, &free)?;
     let hue = hue(view, &free)?;
-    let fastest = fastest(view, &cases, &free)?;
+    let fastest = fastest(view, &cases, &free);
     let colours = hue.as_ref().map(|(colours, _)| colours);
     let page = request(view, &cases, &energy, colours, fastest.as_ref());
     let (mut canvas, panels) = page.lay_out();
@@ -92,25 +92,17 @@ fn cases(view: &View<'_>, energy: &str, free: &[&str]) -> Result<Vec<Case>, Figu
 }
 
 /// The case with the greatest speed, and where it stands along the axes.
-fn fastest(
-    view: &View<'_>,
-    cases: &[Case],
-    free: &[&str],
-) -> Result<Option<(usize, Text)>, FigureError> {
+fn fastest(view: &View<'_>, cases: &[Case], free: &[&str]) -> Option<(usize, Text)> {
     let faster = |a: &usize, b: &usize| cases[*a].speed.total_cmp(&cases[*b].speed);
-    let Some(at) = (0..cases.len()).max_by(faster).filter(|_| cases.len() > 1) else {
-        return Ok(None);
-    };
+    let at = (0..cases.len()).max_by(faster).filter(|_| cases.len() > 1)?;
     let mut words = Text::plain("fastest: ");
     let mut joint = "";
     for name in free.iter().filter(|name| view.coordinate_values(name).len() > 1) {
-        let values = view.parameter(name, free)?;
-        if let Some(value) = values.iter().nth(cases[at].place) {
-            words = words.then(Text::plain(joint)).then(view.quantity(name).note(*value));
-            joint = ", ";
-        }
+        let place = view.place_along(name, free, cases[at].place);
+        words = words.then(Text::plain(joint)).then(view.value_note(name, place));
+        joint = ", ";
     }
-    Ok(Some((at, words)))
+    Some((at, words))
 }
 
 /// The colours of an axis, and the axis' value for each case.

@@ -4,6 +4,7 @@ use ndarray::{ArrayD, Axis, IxDyn};
 
 use super::error::FigureError;
 use super::quantity::Quantity;
+use super::text::Text;
 use crate::store::dataset::{Dataset, Variable};
 use crate::sweep::Drawing;
 
@@ -108,8 +109,7 @@ impl<'a> View<'a> {
             if free.contains(&dimension.as_str()) || INNER.contains(&dimension.as_str()) {
                 continue;
             }
-            let held = self.held.iter().find(|(axis, _)| axis == dimension);
-            let index = held.map_or(0, |(_, index)| *index);
+            let index = self.held_index(dimension);
             let at = left.iter().position(|axis| axis == dimension).unwrap_or(0);
             if index >= array.shape()[at] {
                 return Err(self.unfit(format!("variable `{name}` is empty along `{dimension}`")));
@@ -132,12 +132,9 @@ impl<'a> View<'a> {
             left.insert(0, axis);
             array = array.insert_axis(Axis(0));
         }
-        let (ours, inner): (Vec<usize>, Vec<usize>) =
-            (0..left.len()).partition(|at| free.contains(&left[*at]));
-        let mut order = Vec::new();
-        order.extend(free.iter().filter_map(|axis| left.iter().position(|it| it == axis)));
-        debug_assert_eq!(order.len(), ours.len());
-        order.extend(inner);
+        let mut order: Vec<usize> =
+            free.iter().filter_map(|axis| left.iter().position(|it| it == axis)).collect();
+        order.extend((0..left.len()).filter(|at| !free.contains(&left[*at])));
         let array = array.permuted_axes(IxDyn(&order));
         let mut shape: Vec<usize> = array.shape().to_vec();
         for (at, axis) in free.iter().enumerate() {
@@ -174,22 +171,52 @@ impl<'a> View<'a> {
                 .map_err(|error| self.unfit(error.to_string()))?;
             return self.arrange(name, array, vec![name], free);
         }
-        let held = self.held.iter().find(|(axis, _)| axis == name).map_or(0, |(_, at)| *at);
-        let value = values.get(held).copied().unwrap_or(f64::NAN);
+        let value = values.get(self.held_index(name)).copied().unwrap_or(f64::NAN);
         self.arrange(name, ArrayD::from_elem(IxDyn(&[]), value), Vec::new(), free)
     }
 
+    /// Index at which an axis that is not drawn is held.
+    fn held_index(&self, name: &str) -> usize {
+        self.held.iter().find(|(axis, _)| axis == name).map_or(0, |(_, index)| *index)
+    }
+
     /// Where the axes other than `free` are held, as "name = value unit".
-    pub fn held_note(&self, free: &[&str]) -> String {
+    pub fn held_record(&self, free: &[&str]) -> String {
         let mut notes = Vec::new();
         for name in self.axes().into_iter().filter(|name| !free.contains(name)) {
-            let held = self.held.iter().find(|(axis, _)| axis == name).map_or(0, |(_, at)| *at);
-            if let Some(value) = self.coordinate_values(name).get(held) {
+            if let Some(value) = self.coordinate_values(name).get(self.held_index(name)) {
                 let unit = self.dataset.coordinate(name).map_or("", |it| it.unit.as_str());
                 notes.push(format!("{name} = {value} {}", if unit == "1" { "" } else { unit }));
             }
         }
         notes.join(", ")
+    }
+
+    /// The part of the study that a figure shows, for those of its axes that have several values
+    /// and are not among `free`.
+    pub fn held_note(&self, free: &[&str]) -> Option<Text> {
+        let several = |name: &&str| self.coordinate_values(name).len() > 1;
+        let ours = self.axes().into_iter().filter(|name| !free.contains(name)).filter(several);
+        ours.map(|name| self.value_note(name, self.held_index(name)))
+            .reduce(|note, next| note.then(Text::plain(", ")).then(next))
+    }
+
+    /// The index along `axis` of case number `case` over the axes `free`.
+    pub fn place_along(&self, axis: &str, free: &[&str], case: usize) -> usize {
+        let later = free.iter().skip_while(|name| **name != axis).skip(1);
+        let stride: usize = later.map(|name| self.coordinate_values(name).len()).product();
+        let length = self.coordinate_values(axis).len();
+        (case / stride.max(1)) % length.max(1)
+    }
+
+    /// A value of an axis, as "symbol = value unit" or by its name where values have names.
+    pub fn value_note(&self, axis: &str, index: usize) -> Text {
+        let value = self.coordinate_values(axis).get(index).copied().unwrap_or(f64::NAN);
+        let flags = self.dataset.coordinate(axis).map_or(&[][..], |it| &it.flags);
+        match flags.iter().find(|(code, _)| *code as f64 == value) {
+            Some((_, name)) => Text::plain(name),
+            None => self.quantity(axis).note(value),
+        }
     }
 
     /// The name and meaning of each category of an integer variable.

@@ -261,6 +261,9 @@ fn awkward_results_are_drawn() {
     let of = vec!["work_positive".to_string(), "period".to_string()];
     requests.push((cube, Drawing { of, ..drawing("uneven", DrawingKind::Bifurcation) }));
 
+    let at = BTreeMap::from([("direction".to_string(), 1.0)]);
+    let down = Drawing { at, ..drawing("downward", DrawingKind::Bifurcation) };
+    requests.push((cascade(120, 8, true), down));
     for (dataset, request) in &requests {
         draw(dataset, request, &folder, &ALL)
             .unwrap_or_else(|error| panic!("{}: {error}", request.name));
@@ -307,4 +310,53 @@ fn axes_are_held_at_the_nearest_value() {
     assert!(held(1e4) == held(1.01e4));
     assert!(held(1e4) != held(5e4));
     assert!(held(1e4).contains("progression_speed over omega at k2 = 10000 N/m"));
+}
+
+#[test]
+fn an_svg_needs_no_fonts_to_show_what_the_png_shows() {
+    use resvg::{tiny_skia, usvg};
+    let request = Drawing { title: Some("Heading".into()), ..drawing("alike", DrawingKind::Map) };
+    let paths = draw(&plane(30, 20), &request, &folder("alike"), &ALL).unwrap();
+    let svg = fs::read_to_string(&paths[1]).unwrap();
+    // These options know no fonts at all.
+    let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).unwrap();
+    let png = tiny_skia::Pixmap::load_png(&paths[0]).unwrap();
+    let mut shown = tiny_skia::Pixmap::new(png.width(), png.height()).unwrap();
+    // The resolution of the PNG over that of lengths in an SVG.
+    let scale = 600.0 / 96.0;
+    let transform = tiny_skia::Transform::from_scale(scale, scale);
+    resvg::render(&tree, transform, &mut shown.as_mut());
+    let far = |(a, b): (&u8, &u8)| a.abs_diff(*b) > 60;
+    let different = png.data().iter().zip(shown.data()).filter(|pair| far(*pair)).count();
+    assert!(different * 500 < png.data().len(), "{different} of {}", png.data().len());
+}
+
+#[test]
+fn a_pdf_embeds_its_fonts_and_no_time() {
+    let request = Drawing { title: Some("Heading".into()), ..drawing("fonts", DrawingKind::Map) };
+    let paths = draw(&plane(9, 7), &request, &folder("fonts"), &[Format::Pdf]).unwrap();
+    let pdf = fs::read(&paths[0]).unwrap();
+    let holds = |words: &[u8]| pdf.windows(words.len()).any(|window| window == words);
+    assert!(holds(b"LibertinusSerif-Regular") && holds(b"LibertinusSerif-Italic"));
+    assert!(!holds(b"CreationDate") && !holds(b"ModDate"));
+}
+
+#[test]
+fn the_font_can_draw_the_label_of_every_quantity() {
+    let parameters = "omega p_d k1 k2 delta m1 m2 c mu_s mu_d v_s g c1 c2 start_r start_y1 start_y2 \
+                      phase";
+    let outputs = "progression_speed progression_per_cycle work_net work_positive work_absolute \
+                   work_actuator friction_loss damper_loss energy_residual momentum_residual \
+                   cost_of_transport impacts_per_cycle forward_slips_per_cycle \
+                   backward_slips_per_cycle reversals_per_cycle stick_share peak_contact_force \
+                   grazing_margin section_r section_y1 section_y2 impact_phase impact_y1 impact_y2";
+    for parameter in parameters.split_whitespace() {
+        let mut made = Made::default().coordinate(parameter, "1", steps(1.0, 2.0, 4));
+        for output in outputs.split_whitespace() {
+            made = made.real(output, &[parameter], |index| index[0] as f64);
+        }
+        let of = outputs.split_whitespace().map(String::from).collect();
+        let request = Drawing { of, ..drawing(parameter, DrawingKind::Bifurcation) };
+        draw(&made.0, &request, &folder("labels"), &[Format::Svg]).unwrap();
+    }
 }

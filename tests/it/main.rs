@@ -1,10 +1,17 @@
 //! The tests of the whole: closed forms, invariants, references, and the program as its users run it.
 
+mod belt;
 mod cli;
+mod closed_forms;
+mod edges;
 mod figure;
 mod house;
+mod invariants;
+mod lanes;
+mod oscillators;
 mod paper;
 mod program;
+mod readme;
 mod reference;
 mod run;
 mod store;

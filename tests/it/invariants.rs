@@ -1,0 +1,164 @@
+//! What must hold for every motion, over random parameters and starts.
+
+use capsulemap::lane::series;
+use capsulemap::model::{
+    Capsule, Contact, Locomotion, Parameter, Parameters, State, StickSlip, Switching,
+};
+use capsulemap::orbit::{Account, Outcome, Protocol, Traveller, settle, simulate};
+use proptest::prelude::*;
+
+/// Parameters over the ranges that the program is used in.
+fn parameters() -> impl Strategy<Value = Parameters> {
+    let ranges = (5.0..200.0, 0.0..10.0, 0.0..1e5, 0.0..6e-3, 0.0..1.0, 0.01..10.0, 0.0..1.2);
+    ranges.prop_map(|(omega, p_d, k2, delta, mu_d, v_s, mu_s)| {
+        let mut parameters = Parameters::default();
+        for (parameter, value) in [
+            (Parameter::Omega, omega),
+            (Parameter::Pd, p_d),
+            (Parameter::K2, k2),
+            (Parameter::Delta, delta),
+            (Parameter::MuD, mu_d),
+            (Parameter::Vs, v_s),
+            (Parameter::MuS, mu_s),
+        ] {
+            parameters[parameter] = value;
+        }
+        parameters
+    })
+}
+
+fn start() -> impl Strategy<Value = State<f64>> {
+    let moving = (-5e-3..5e-3, -0.3..0.3, -0.2..0.2);
+    prop_oneof![Just(State::default()), moving.prop_map(|(r, y1, y2)| State { r, y1, x2: 0.0, y2 }),]
+}
+
+fn stored_energy(p: &Parameters, state: &State<f64>) -> f64 {
+    let contact = (state.r - p[Parameter::Delta]).max(0.0);
+    0.5 * (p[Parameter::M1] * state.y1 * state.y1
+        + p[Parameter::M2] * state.y2 * state.y2
+        + p[Parameter::K1] * state.r * state.r
+        + p[Parameter::K2] * contact * contact)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
+
+    #[test]
+    fn energy_and_momentum_balance(p in parameters(), start in start()) {
+        let system = Capsule::single(&p, 0.0);
+        let mut traveller = Traveller::new(&system, start, p.drive_period(), 1e-12);
+        let mut account = Account::new(&p);
+        let mut largest = stored_energy(&p, &start);
+        for _ in 0..20 {
+            traveller.cycle(|step| account.add(&system, step)).expect("it can be followed");
+            largest = largest.max(stored_energy(&p, &traveller.state()));
+        }
+        let end = traveller.state();
+        let stored = stored_energy(&p, &end) - stored_energy(&p, &start);
+        let spent = account.friction_loss + account.damper_loss;
+        let turnover = account.work_absolute + spent + largest;
+        let energy = account.work_net - spent - stored;
+        prop_assert!(energy.abs() <= 1e-11 * turnover, "energy {energy:e} of {turnover:e}");
+        prop_assert!(account.friction_loss >= 0.0 && account.damper_loss >= 0.0);
+        prop_assert!(account.work_positive >= account.work_net.max(0.0) - 1e-15);
+        // The drive's impulse over whole cycles is zero.
+        let momentum = |state: &State<f64>| p[Parameter::M1] * state.y1 + p[Parameter::M2] * state.y2;
+        let lost = momentum(&start) - momentum(&end) - account.friction_impulse;
+        let force = p[Parameter::Pd] + p[Parameter::MuS].max(2.0 * p[Parameter::MuD]) * p.normal_load();
+        prop_assert!(lost.abs() <= 1e-11 * (force * account.time), "momentum {lost:e}");
+    }
+
+    #[test]
+    fn no_guard_has_the_wrong_sign_between_events(p in parameters(), start in start()) {
+        let system = Capsule::single(&p, 0.0);
+        let mut traveller = Traveller::new(&system, start, p.drive_period(), 1e-12);
+        let limit = p[Parameter::MuS].max(2.0 * p[Parameter::MuD]) * p.normal_load();
+        for _ in 0..20 {
+            let mut wrong = None;
+            traveller.cycle(|step| {
+                for i in 0..=16 {
+                    let h = step.length * f64::from(i) / 16.0;
+                    let state = step.jet.state(h);
+                    let force = series::value(&step.jet.force, h);
+                    let gap = state.r - p[Parameter::Delta];
+                    let fine = match system.contact(&step.mode) {
+                        Contact::Closed => gap >= -1e-15,
+                        Contact::Open => gap <= 1e-15,
+                    } && match system.stick_slip(&step.mode) {
+                        StickSlip::Forward => state.y2 >= -1e-14,
+                        StickSlip::Backward => state.y2 <= 1e-14,
+                        StickSlip::Stick => state.y2 == 0.0 && force.abs() <= limit * (1.0 + 1e-12) + 1e-13,
+                    };
+                    if !fine {
+                        wrong = Some((step.start + h, state, force, limit));
+                    }
+                }
+            }).expect("it can be followed");
+            prop_assert!(wrong.is_none(), "{wrong:?}");
+        }
+    }
+
+    #[test]
+    fn a_shift_of_x2_changes_nothing_but_x2(p in parameters(), start in start(), shift in -1.0..1.0) {
+        let here = simulate(&p, 0.0, start, 10, 1e-12);
+        let there = simulate(&p, 0.0, State { x2: shift, ..start }, 10, 1e-12);
+        prop_assert_eq!(&here.events, &there.events);
+        for (a, b) in here.section.iter().zip(&there.section) {
+            prop_assert!((b.x2 - a.x2 - shift).abs() <= 1e-14);
+            let back = capsulemap::orbit::Sample { x2: a.x2, ..*b };
+            prop_assert_eq!(*a, back);
+        }
+    }
+
+    #[test]
+    fn a_shift_by_a_period_changes_nothing(p in parameters(), start in start()) {
+        // Ten cycles in one go, or five and then five from where they ended.
+        let whole = simulate(&p, 0.0, start, 10, 1e-12);
+        let middle = whole.section[5];
+        let state = State { r: middle.r, y1: middle.y1, x2: middle.x2, y2: middle.y2 };
+        let rest = simulate(&p, 0.0, state, 5, 1e-12);
+        for (a, b) in whole.section[5..].iter().zip(&rest.section) {
+            // A mode that is told anew at a section may differ by a guard's rounding, no more.
+            prop_assert!((a.r - b.r).abs() < 1e-9 && (a.y1 - b.y1).abs() < 1e-7);
+        }
+    }
+
+    #[test]
+    fn the_phase_of_the_start_is_the_time_of_the_start(p in parameters(), share in 0.05..0.95) {
+        // A case from rest under a drive that starts late is the same case, seen later.
+        let turn = 2.0 * std::f64::consts::PI;
+        let simulation = simulate(&p, share * turn, State::default(), 1, 1e-12);
+        let system = Capsule::single(&p, share * turn);
+        let late = Capsule::single(&p, share * turn + turn);
+        let follow = |system: &Capsule<f64>| {
+            let mut traveller = Traveller::new(system, State::default(), p.drive_period(), 1e-12);
+            traveller.cycle(|_| ()).expect("it can be followed");
+            traveller.state()
+        };
+        let (a, b) = (follow(&system), follow(&late));
+        prop_assert!((a.r - b.r).abs() <= 1e-12 && (a.y1 - b.y1).abs() <= 1e-10);
+        prop_assert_eq!(simulation.section[1].r, a.r);
+    }
+
+    #[test]
+    fn the_equation_as_printed_neither_hangs_nor_panics(p in parameters(), start in start()) {
+        let mut p = p;
+        p.switching = Switching::AsPrinted;
+        let simulation = simulate(&p, 0.0, start, 20, 1e-12);
+        prop_assert!(simulation.failure.is_none(), "{:?}", simulation.failure);
+    }
+}
+
+#[test]
+fn one_coefficient_for_both_frictions_comes_to_an_end() {
+    // Typing Table 1's single mu into both makes the rule "leave rest above f_s" chatter for ever.
+    for omega in [20.73, 46.0, 77.91, 150.0] {
+        for p_d in [0.5, 4.0, 10.0, 30.0] {
+            let mut p = Parameters::default();
+            (p[Parameter::MuS], p[Parameter::MuD]) = (0.66, 0.66);
+            (p[Parameter::Omega], p[Parameter::Pd]) = (omega, p_d);
+            let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
+            assert_ne!(orbit.outcome, Outcome::Failed, "{omega} {p_d}: {:?}", orbit.failure);
+        }
+    }
+}

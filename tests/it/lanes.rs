@@ -1,0 +1,101 @@
+//! The same source serves one case or many side by side, to the same bits.
+
+use capsulemap::flow::Motion;
+use capsulemap::lane::{Lane, Mask, Wide};
+use capsulemap::model::{Capsule, Parameter, Parameters, State};
+
+const CYCLES: usize = 10;
+
+/// Cases with every mode among them, whose events fall at different times.
+fn cases(count: usize) -> Vec<(Parameters, State<f64>)> {
+    (0..count)
+        .map(|i| {
+            let mut p = Parameters::default();
+            let share = i as f64 / count as f64;
+            p[Parameter::Omega] = 15.0 + 120.0 * share;
+            p[Parameter::Pd] = 1.0 + ((7 * i) % 11) as f64 * 0.6;
+            p[Parameter::K2] = 1e3 + ((5 * i) % 13) as f64 * 6e3;
+            p[Parameter::Delta] = ((3 * i) % 7) as f64 * 6e-4;
+            p[Parameter::MuS] = 0.3 + 0.5 * share;
+            let y2 = if i % 3 == 0 { 0.05 } else { 0.0 };
+            (p, State { r: -1e-3 * share, y1: 0.1 * share, x2: 0.0, y2 })
+        })
+        .collect()
+}
+
+/// The state at the end of each cycle and the time of each event, as bits.
+fn alone(p: &Parameters, start: State<f64>) -> (Vec<[u64; 4]>, Vec<u64>) {
+    let system = Capsule::single(p, 0.0);
+    let mut motion = Motion::new(&system, 0.0, start);
+    let (mut states, mut events) = (Vec::new(), Vec::new());
+    while states.len() < CYCLES {
+        let step = motion.step(&system, p.drive_period(), 1e-12);
+        if step.event != 0.0 {
+            events.push(motion.time.to_bits());
+        }
+        if motion.time >= p.drive_period() {
+            motion.begin_cycle(true);
+            states.push(bits(&motion.state));
+        }
+    }
+    (states, events)
+}
+
+fn bits(state: &State<f64>) -> [u64; 4] {
+    [state.r, state.y1, state.x2, state.y2].map(f64::to_bits)
+}
+
+/// The same, `N` cases side by side, each lane with its own time, step and mode.
+fn together<const N: usize>(cases: &[(Parameters, State<f64>)]) -> Vec<(Vec<[u64; 4]>, Vec<u64>)> {
+    let system = Capsule::<Wide<N>>::new(|lane| &cases[lane].0, |_| 0.0);
+    let start = State::from_fn(|lane| cases[lane].1);
+    let periods = Wide::<N>::from_fn(|lane| cases[lane].0.drive_period());
+    let mut motion = Motion::new(&system, Wide::splat(0.0), start);
+    let mut found = vec![(Vec::new(), Vec::new()); N];
+    while found.iter().any(|(states, _)| states.len() < CYCLES) {
+        let step = motion.step(&system, periods, 1e-12);
+        let ended = periods.le(motion.time);
+        for (lane, (states, events)) in found.iter_mut().enumerate() {
+            if states.len() == CYCLES {
+                continue;
+            }
+            if step.event.lane(lane) != 0.0 {
+                events.push(motion.time.lane(lane).to_bits());
+            }
+            if ended.0[lane] {
+                let State { r, y1, x2, y2 } = motion.state;
+                let state = State {
+                    r: r.lane(lane),
+                    y1: y1.lane(lane),
+                    x2: x2.lane(lane),
+                    y2: y2.lane(lane),
+                };
+                states.push(bits(&state));
+            }
+        }
+        if ended.any() {
+            motion.begin_cycle(ended);
+        }
+    }
+    found
+}
+
+#[test]
+fn a_case_has_the_same_bits_alone_and_among_others() {
+    let cases = cases(48);
+    let expected: Vec<_> = cases.iter().map(|(p, start)| alone(p, *start)).collect();
+    assert!(expected.iter().filter(|(_, events)| events.len() > 10).count() > 30);
+    for (group, expected) in cases.chunks(8).zip(expected.chunks(8)) {
+        assert_eq!(together::<8>(group), expected);
+    }
+    for (group, expected) in cases.chunks(3).zip(expected.chunks(3)) {
+        assert_eq!(together::<3>(group), expected);
+    }
+    // In another order, beside other neighbours.
+    let backward: Vec<_> = cases.iter().rev().cloned().collect();
+    for (group, expected) in backward.chunks(16).zip(expected.rchunks(16)) {
+        let mut found = together::<16>(group);
+        found.reverse();
+        assert_eq!(found, expected);
+    }
+}

@@ -1,0 +1,146 @@
+//! What the README claims is run: its commands, its study and its Python.
+
+use std::path::Path;
+use std::process::Command;
+
+use capsulemap::store;
+use capsulemap::sweep::Study;
+
+const README: &str = include_str!("../../README.md");
+
+/// The blocks of the README in `language`.
+fn blocks(language: &str) -> Vec<&'static str> {
+    let fence = format!("```{language}\n");
+    README
+        .split(&fence)
+        .skip(1)
+        .map(|rest| rest.split("```").next().expect("a block has an end").trim_end())
+        .collect()
+}
+
+/// Runs the program of this build in `folder`; returns its standard output.
+fn capsulemap(arguments: &[&str], folder: &Path) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_capsulemap"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the program starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// A folder with the studies, as in a clone.
+fn clone() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let studies = folder.path().join("studies");
+    std::fs::create_dir(&studies).expect("a folder");
+    for entry in std::fs::read_dir("studies").expect("the studies") {
+        let path = entry.expect("an entry").path();
+        std::fs::copy(&path, studies.join(path.file_name().expect("a name"))).expect("a copy");
+    }
+    folder
+}
+
+#[test]
+fn the_main_job_leaves_a_file_and_its_figures() {
+    let command = blocks("sh")[0];
+    assert_eq!(
+        command,
+        "scripts/setup.sh && cargo run --release -- sweep studies/overview.toml"
+    );
+    let folder = clone();
+    let summary = capsulemap(&["sweep", "studies/overview.toml"], folder.path());
+    assert!(summary.contains("34221 cases"), "{summary}");
+    assert!(README.contains("34 221 cases"));
+    let results = folder.path().join("results/overview");
+    for figure in ["bifurcation", "speed", "period", "trade-off"] {
+        for ending in ["png", "svg", "pdf"] {
+            assert!(results.join(format!("{figure}.{ending}")).is_file(), "{figure}.{ending}");
+        }
+    }
+    let dataset = store::read(&results.join("overview.h5")).expect("results");
+    assert_eq!(dataset.coordinates[0].0, "p_d");
+}
+
+#[test]
+fn the_tests_are_run_as_the_readme_says() {
+    let check = std::fs::read_to_string("scripts/check.sh").expect("the list of checks");
+    assert!(check.contains(blocks("sh")[1]));
+}
+
+#[test]
+fn the_case_of_the_readme_is_the_one_of_fig_6() {
+    let words: Vec<String> = split(blocks("sh")[2]);
+    let words: Vec<&str> = words.iter().skip(1).map(String::as_str).collect();
+    let printed = capsulemap(&words, Path::new("."));
+    let object: serde_json::Value = serde_json::from_str(&printed).expect("JSON");
+    let speed = object["orbit"]["progression_speed"].as_f64().expect("a speed");
+    assert_eq!(format!("{:.6}", speed * 1e3), "0.255748");
+}
+
+/// A command line as a shell would split it, quotes being all that it has.
+fn split(line: &str) -> Vec<String> {
+    let parts = line.split('"').enumerate();
+    parts
+        .flat_map(|(i, part)| match i % 2 {
+            0 => part.split_whitespace().map(str::to_owned).collect(),
+            _ => vec![part.to_owned()],
+        })
+        .collect()
+}
+
+#[test]
+fn the_study_of_the_readme_shows_hysteresis() {
+    let kept = std::fs::read_to_string("studies/hysteresis.toml").expect("the study");
+    let shown = Study::parse("README.md", blocks("toml")[0]).expect("a study");
+    let kept = Study::parse("studies/hysteresis.toml", &kept).expect("a study");
+    assert_eq!(Study { text: String::new(), ..shown }, Study { text: String::new(), ..kept });
+
+    let folder = clone();
+    capsulemap(&["sweep", "studies/hysteresis.toml", "--formats", "png"], folder.path());
+    let dataset = store::read(&folder.path().join("results/hysteresis/hysteresis.h5"));
+    let dataset = dataset.expect("results");
+    let omega = dataset.coordinate("omega").expect("the axis").values.to_real();
+    let speed = dataset.variable("progression_speed").expect("the speed").values.to_real();
+    for (i, omega) in omega.iter().enumerate() {
+        let (up, down) = (speed[[i, 0]], speed[[i, 1]]);
+        match omega {
+            151.5..163.5 => assert!(up > 0.06 && down == 0.0, "{omega}: {up} {down}"),
+            125.0..150.5 => assert!((up - down).abs() < 1e-4 && up > 0.0, "{omega}: {up} {down}"),
+            165.0.. => assert_eq!((up, down), (0.0, 0.0), "{omega}"),
+            _ => {}
+        }
+    }
+    let fastest = speed.iter().copied().fold(0.0, f64::max);
+    assert_eq!(format!("{:.0}", fastest * 1e3), "73");
+    read_in_python(folder.path());
+}
+
+/// Runs the README's Python where a Python with the readers is at hand.
+fn read_in_python(folder: &Path) {
+    let Ok(python) = std::env::var("CAPSULEMAP_PYTHON") else {
+        println!("SKIPPED: the README's Python (CAPSULEMAP_PYTHON names no Python with xarray)");
+        return;
+    };
+    let output = Command::new(python)
+        .args(["-c", blocks("python")[0]])
+        .current_dir(folder)
+        .output()
+        .expect("python starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let printed = String::from_utf8(output.stdout).expect("text");
+    let speeds: Vec<f64> = printed
+        .trim_matches(|c: char| "[]\n ".contains(c))
+        .split_whitespace()
+        .map(|word| word.parse().expect("a number"))
+        .collect();
+    assert!(speeds[0] > 0.06 && speeds[1] == 0.0, "{printed}");
+}
+
+#[test]
+fn the_table_of_the_readme_is_the_tested_one() {
+    let tested = include_str!("paper.rs");
+    for digits in ["10.298005", "25.39085", "0.008345", "1.119443", "0.528927", "3.575601"] {
+        assert!(README.contains(digits) && tested.contains(digits), "{digits}");
+    }
+}
