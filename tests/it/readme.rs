@@ -44,10 +44,7 @@ fn clone() -> tempfile::TempDir {
 #[test]
 fn the_main_job_leaves_a_file_and_its_figures() {
     let command = blocks("sh")[0];
-    assert_eq!(
-        command,
-        "scripts/setup.sh && cargo run --release -- sweep studies/overview.toml"
-    );
+    assert_eq!(command, "scripts/setup.sh && cargo run --release -- sweep studies/overview.toml");
     let folder = clone();
     let summary = capsulemap(&["sweep", "studies/overview.toml"], folder.path());
     assert!(summary.contains("34221 cases"), "{summary}");
@@ -105,9 +102,9 @@ fn the_study_of_the_readme_shows_hysteresis() {
     for (i, omega) in omega.iter().enumerate() {
         let (up, down) = (speed[[i, 0]], speed[[i, 1]]);
         match omega {
-            151.5..163.5 => assert!(up > 0.06 && down == 0.0, "{omega}: {up} {down}"),
+            151.5..163.5 => assert!(up > 0.06 && down.abs() < 1e-10, "{omega}: {up} {down}"),
             125.0..150.5 => assert!((up - down).abs() < 1e-4 && up > 0.0, "{omega}: {up} {down}"),
-            165.0.. => assert_eq!((up, down), (0.0, 0.0), "{omega}"),
+            165.0.. => assert!(up.abs().max(down.abs()) < 1e-10, "{omega}: {up} {down}"),
             _ => {}
         }
     }
@@ -134,7 +131,18 @@ fn read_in_python(folder: &Path) {
         .split_whitespace()
         .map(|word| word.parse().expect("a number"))
         .collect();
-    assert!(speeds[0] > 0.06 && speeds[1] == 0.0, "{printed}");
+    assert!(speeds[0] > 0.06 && speeds[1].abs() < 1e-10, "{printed}");
+}
+
+#[test]
+fn every_study_that_is_kept_can_be_read() {
+    for entry in std::fs::read_dir("studies").expect("the studies") {
+        let path = entry.expect("an entry").path();
+        let text = std::fs::read_to_string(&path).expect("text");
+        let study = Study::parse(&path.display().to_string(), &text);
+        let study = study.unwrap_or_else(|faults| panic!("{faults}"));
+        assert!(!study.title.is_empty() && !study.drawings.is_empty(), "{}", path.display());
+    }
 }
 
 #[test]
