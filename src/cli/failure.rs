@@ -26,6 +26,13 @@ impl Failure {
         Failure { message: message.to_string(), code: 3 }
     }
 
+    /// Several failures told together; none if there are none. A fault of the machine outweighs.
+    pub fn all(failures: Vec<Failure>) -> Option<Self> {
+        let code = failures.iter().map(|failure| failure.code).max()?;
+        let messages: Vec<String> = failures.into_iter().map(|failure| failure.message).collect();
+        Some(Failure { code, ..Failure::requests(&messages) })
+    }
+
     /// The program's exit code.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(self.code)

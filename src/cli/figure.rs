@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::Failure;
+use super::{Failure, plain_or_quantity, tell};
 use crate::figure::{FigureError, Format, draw};
-use crate::model::Dimension;
 use crate::store::{self, Dataset};
 use crate::sweep::document::unknown;
-use crate::sweep::{Coordinate, Drawing, DrawingKind, Study, parse_quantity};
+use crate::sweep::{Coordinate, Drawing, DrawingKind, Study};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -86,13 +85,13 @@ impl Figure {
         let here = self.file.parent().unwrap_or(Path::new("."));
         let folder = self.folder.as_deref().unwrap_or(here);
         let drawings = match self.kind {
-            Some(kind) => vec![self.drawing(kind)?],
+            Some(kind) => vec![self.drawing(kind, &dataset)?],
             None => studied(&dataset, &self.file)?,
         };
         draw_all(&dataset, &drawings, folder, &self.formats)
     }
 
-    fn drawing(&self, kind: KindChoice) -> Result<Drawing, Failure> {
+    fn drawing(&self, kind: KindChoice, dataset: &Dataset) -> Result<Drawing, Failure> {
         let kind = match kind {
             KindChoice::History => DrawingKind::History,
             KindChoice::PhasePortrait => DrawingKind::PhasePortrait,
@@ -111,29 +110,38 @@ impl Figure {
             x: self.x.clone(),
             y: self.y.clone(),
             of: self.of.clone(),
-            at: self.held()?,
+            at: self.held(dataset)?,
             cycles: <[f64; 2]>::try_from(self.cycles.as_slice()).ok(),
             width_mm: self.width,
         })
     }
 
-    fn held(&self) -> Result<BTreeMap<String, f64>, Failure> {
+    fn held(&self, dataset: &Dataset) -> Result<BTreeMap<String, f64>, Failure> {
+        let axes: Vec<Coordinate> =
+            Coordinate::all().filter(|axis| dataset.coordinate(axis.name()).is_some()).collect();
         let mut held = BTreeMap::new();
+        let mut faults = Vec::new();
         for text in &self.at {
             let Some((name, value)) = text.split_once('=') else {
-                return Err(Failure::request(format!("--at {text}: expected AXIS=VALUE")));
+                faults.push(format!("--at {text}: expected AXIS=VALUE"));
+                continue;
             };
-            let Some(coordinate) = Coordinate::all().find(|c| c.name() == name) else {
-                let names = Coordinate::all().map(Coordinate::name);
-                return Err(Failure::request(format!("--at: {}", unknown("axis", name, names))));
+            let name = name.trim();
+            let Some(axis) = axes.iter().find(|axis| axis.name() == name) else {
+                let names = axes.iter().map(|axis| axis.name());
+                faults.push(format!("--at: {}", unknown("axis of these results", name, names)));
+                continue;
             };
-            let dimension: Dimension = coordinate.dimension();
-            let plain = value.trim().parse::<f64>().map_err(|_| ());
-            let value = plain.or_else(|()| parse_quantity(value, dimension));
-            let value = value.map_err(|m| Failure::request(format!("--at {name}: {m}")))?;
-            held.insert(name.to_owned(), value);
+            match plain_or_quantity(value, axis.dimension()) {
+                Err(message) => faults.push(format!("--at {name}: {message}")),
+                Ok(value) => {
+                    if held.insert(name.to_owned(), value).is_some() {
+                        faults.push(format!("--at {name}: is given twice"));
+                    }
+                }
+            }
         }
-        Ok(held)
+        if faults.is_empty() { Ok(held) } else { Err(Failure::requests(&faults)) }
     }
 }
 
@@ -149,7 +157,7 @@ fn studied(dataset: &Dataset, file: &Path) -> Result<Vec<Drawing>, Failure> {
     Ok(drawings)
 }
 
-/// Draws each figure and says where it went.
+/// Draws each figure and says where it went; one that cannot be drawn does not keep the others.
 pub fn draw_all(
     dataset: &Dataset,
     drawings: &[Drawing],
@@ -164,15 +172,28 @@ pub fn draw_all(
             FormatChoice::Pdf => Format::Pdf,
         })
         .collect();
+    let mut failures = Vec::new();
     for drawing in drawings {
-        let paths = draw(dataset, drawing, folder, &formats).map_err(|error| match error {
-            FigureError::Missing { .. } | FigureError::Unfit { .. } => Failure::request(error),
-            _ => Failure::machine(error),
-        })?;
-        let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
-        eprintln!("{}", names.join(" "));
+        match draw(dataset, drawing, folder, &formats) {
+            Ok(paths) if paths.is_empty() => {}
+            Ok(paths) => {
+                let names: Vec<String> =
+                    paths.iter().map(|path| path.display().to_string()).collect();
+                tell(&names.join(" "));
+            }
+            Err(error) => failures.push(failure(error)),
+        }
     }
-    Ok(())
+    Failure::all(failures).map_or(Ok(()), Err)
+}
+
+fn failure(error: FigureError) -> Failure {
+    match error {
+        FigureError::Missing { .. } | FigureError::Unfit { .. } | FigureError::Glyph { .. } => {
+            Failure::request(error)
+        }
+        FigureError::Render { .. } | FigureError::Write { .. } => Failure::machine(error),
+    }
 }
 
 /// The name of a file without its folder and ending.

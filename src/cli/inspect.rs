@@ -118,8 +118,8 @@ fn tell_variable(text: &mut String, name: &str, variable: &Variable) {
     let shape: Vec<String> = variable.values.shape().iter().map(ToString::to_string).collect();
     let (range, missing) = range(&variable.values);
     let mut values = match range {
-        Some([low, high]) if low == high => format!("{low:.6}"),
-        Some([low, high]) => format!("{low:.6} .. {high:.6}"),
+        Some([low, high]) if low == high => short(low),
+        Some([low, high]) => format!("{} .. {}", short(low), short(high)),
         None => "no values".to_owned(),
     };
     if missing > 0 {
@@ -132,4 +132,14 @@ fn tell_variable(text: &mut String, name: &str, variable: &Variable) {
         shape.join(" x "),
         variable.long_name
     );
+}
+
+/// A number with seven digits that matter, however small or large.
+fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        let text = format!("{value:.6}");
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        format!("{value:.6e}")
+    }
 }

@@ -13,6 +13,8 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
+use crate::model::Dimension;
+use crate::sweep::parse_quantity;
 use failure::Failure;
 
 const EXAMPLES: &str = "\
@@ -23,6 +25,12 @@ Examples:
   capsulemap figure results/overview/overview.h5 --kind map --of work_positive
 
 Exit codes: 0 done; 2 a mistake in what was asked; 3 a fault of the machine (disk, memory).";
+
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  capsulemap completions bash > ~/.local/share/bash-completion/completions/capsulemap
+  capsulemap completions zsh > ~/.zfunc/_capsulemap
+  capsulemap completions fish > ~/.config/fish/completions/capsulemap.fish";
 
 /// Bifurcation and basin mapper for the vibro-impact capsule.
 #[derive(Debug, Parser)]
@@ -43,6 +51,7 @@ enum Command {
     /// Say what is in a file of results.
     Inspect(inspect::Inspect),
     /// Print the completions of a shell.
+    #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
         /// The shell.
         shell: Shell,
@@ -65,10 +74,16 @@ pub fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("capsulemap: {failure}");
+            tell(&format!("capsulemap: {failure}"));
             failure.exit_code()
         }
     }
+}
+
+/// Tells the person a line; a night's work does not stop because nobody listens any more.
+fn tell(line: &str) {
+    // There is nowhere left to report that the line could not be written.
+    let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
 /// Prints to standard output; a reader that has gone away is no fault.
@@ -80,4 +95,11 @@ fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// A quantity on the command line, in SI; a plain number is in SI already, and none is infinite.
+fn plain_or_quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
+    let plain = text.trim().parse::<f64>();
+    let value = plain.or_else(|_| parse_quantity(text, dimension))?;
+    if value.is_finite() { Ok(value) } else { Err(format!("{value} is not a finite number")) }
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Between two lines of a log at least.
+/// Between two lines of a log at least; the first comes with the first case.
 const LINE_INTERVAL: Duration = Duration::from_secs(10);
 
 /// Shows how many cases are done, how fast, and how long the rest will take.
@@ -32,7 +32,7 @@ impl Progress {
             .unwrap_or_else(|_| ProgressStyle::default_bar());
             ProgressBar::new(total as u64).with_style(style)
         });
-        let lines = Mutex::new(Lines { done: 0, next: LINE_INTERVAL });
+        let lines = Mutex::new(Lines { done: 0, next: Duration::ZERO });
         Progress { total, begun: Instant::now(), bar, lines }
     }
 
@@ -50,7 +50,7 @@ impl Progress {
             let rate = lines.done as f64 / elapsed.as_secs_f64();
             let left = (self.total - lines.done) as f64 / rate;
             let (done, total) = (lines.done, self.total);
-            eprintln!("{done}/{total} cases, {rate:.0} cases/s, {left:.0} s left");
+            super::tell(&format!("{done}/{total} cases, {rate:.3} cases/s, {left:.0} s left"));
         }
     }
 

@@ -5,10 +5,10 @@ use std::fmt::Write;
 use clap::{Args, ValueEnum};
 use serde_json::{Map, Value, json};
 
-use super::{Failure, print};
+use super::{Failure, plain_or_quantity, print};
 use crate::model::{Dimension, Parameter, Parameters, Resistance, State, Switching};
 use crate::orbit::{Orbit, Output, Protocol, Simulation, settle, simulate};
-use crate::sweep::{document::unknown, parse_quantity};
+use crate::sweep::document::unknown;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -127,31 +127,30 @@ impl Simulate {
             ("--k2", Parameter::K2, &self.k2),
             ("--delta", Parameter::Delta, &self.delta),
         ];
+        let mut given = Vec::new();
         for (option, parameter, text) in named {
-            if let Some(text) = text {
-                let value = quantity(option, text, parameter.dimension(), &mut faults);
-                parameters[parameter] = value;
-            }
+            given.extend(text.as_ref().map(|text| (option.to_owned(), parameter, text.as_str())));
         }
         let symbols = || Parameter::ALL.iter().map(|parameter| parameter.symbol());
         for (name, text) in pairs("--set", self.set.iter().map(String::as_str), &mut faults) {
             match Parameter::named(name) {
-                Some(parameter) => {
-                    let option = format!("--set {name}");
-                    let value = quantity(&option, text, parameter.dimension(), &mut faults);
-                    parameters[parameter] = value;
-                }
+                Some(parameter) => given.push((format!("--set {name}"), parameter, text)),
                 None => faults.push(format!("--set: {}", unknown("parameter", name, symbols()))),
             }
         }
+        for (i, (option, parameter, text)) in given.iter().enumerate() {
+            if given[..i].iter().any(|(_, other, _)| other == parameter) {
+                faults.push(format!("{option}: {} is given twice", parameter.symbol()));
+            }
+            let value = quantity(option, text, parameter.dimension(), &mut faults);
+            parameters[*parameter] = value.unwrap_or(parameters[*parameter]);
+        }
         let start = self.start(&mut faults);
-        let phase = quantity("--phase", &self.phase, Dimension::Angle, &mut faults);
+        let phase = quantity("--phase", &self.phase, Dimension::Angle, &mut faults).unwrap_or(0.0);
         if !(1e-15..=1e-3).contains(&self.tolerance) {
             faults.push(format!("--tolerance {}: must lie between 1e-15 and 1e-3", self.tolerance));
         }
-        if faults.is_empty() {
-            faults.extend(parameters.faults().iter().map(ToString::to_string));
-        }
+        faults.extend(parameters.faults().iter().map(ToString::to_string));
         if faults.is_empty() {
             Ok(Request { parameters, start, phase })
         } else {
@@ -163,6 +162,7 @@ impl Simulate {
         let mut start = State::default();
         let names = ["r", "y1", "x2", "y2"];
         let parts = self.start.iter().flat_map(|text| text.split(','));
+        let mut given = Vec::new();
         for (name, text) in pairs("--start", parts, faults) {
             let (place, dimension) = match name {
                 "r" => (&mut start.r, Dimension::Length),
@@ -175,7 +175,12 @@ impl Simulate {
                     continue;
                 }
             };
-            *place = quantity(&format!("--start {name}"), text, dimension, faults);
+            if given.contains(&name) {
+                faults.push(format!("--start: {name} is given twice"));
+            }
+            given.push(name);
+            let value = quantity(&format!("--start {name}"), text, dimension, faults);
+            *place = value.unwrap_or(0.0);
         }
         start
     }
@@ -197,23 +202,15 @@ fn pairs<'t>(
     found
 }
 
-/// A quantity in SI; a plain number is in SI already. Not finite is a fault too.
-fn quantity(option: &str, text: &str, dimension: Dimension, faults: &mut Vec<String>) -> f64 {
-    let value = match text.trim().parse::<f64>() {
-        Ok(value) => Ok(value),
-        Err(_) => parse_quantity(text, dimension),
-    };
-    match value {
-        Ok(value) if value.is_finite() => value,
-        Ok(value) => {
-            faults.push(format!("{option}: {value} is not a finite number"));
-            0.0
-        }
-        Err(message) => {
-            faults.push(format!("{option}: {message}"));
-            0.0
-        }
-    }
+/// The quantity that an option was given; a fault is noted and gives none.
+fn quantity(
+    option: &str,
+    text: &str,
+    dimension: Dimension,
+    faults: &mut Vec<String>,
+) -> Option<f64> {
+    let fault = |message| faults.push(format!("{option}: {message}"));
+    plain_or_quantity(text, dimension).map_err(fault).ok()
 }
 
 fn parameters_json(parameters: &Parameters) -> Value {

@@ -9,9 +9,9 @@ use clap::Args;
 
 use super::figure::{FormatChoice, draw_all, file_stem};
 use super::progress::Progress;
-use super::{Failure, print};
-use crate::model::{Parameter, Resistance, Switching};
-use crate::orbit::Outcome;
+use super::{Failure, print, tell};
+use crate::model::{Parameter, Resistance, State, Switching};
+use crate::orbit::{Outcome, Protocol};
 use crate::store::{self, Dataset};
 use crate::sweep::{Case, Record, Study, run};
 
@@ -51,34 +51,51 @@ impl Sweep {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let name = self.study.display().to_string();
-        let text = std::fs::read_to_string(&self.study)
-            .map_err(|error| Failure::request(format!("{name}: cannot be read: {error}")))?;
-        let study = Study::parse(&name, &text).map_err(Failure::request)?;
+        let study = Study::parse(&name, &self.text()?).map_err(Failure::request)?;
         let output = self.output_path()?;
+        let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new("."));
         let dataset = match self.finished(&output, &study)? {
             Some(dataset) => dataset,
-            None => self.compute(&study, &output)?,
+            None => {
+                if !self.no_figures {
+                    rehearse(&study)?;
+                }
+                prepare(folder)?;
+                self.compute(&study, &output)?
+            }
         };
         if !self.no_figures {
-            let folder = output.parent().unwrap_or(Path::new("."));
             draw_all(&dataset, &study.drawings, folder, &self.formats)?;
         }
         Ok(())
+    }
+
+    /// The text of the study file.
+    fn text(&self) -> Result<String, Failure> {
+        let name = self.study.display();
+        let bytes = std::fs::read(&self.study)
+            .map_err(|error| Failure::request(format!("{name}: cannot be read: {error}")))?;
+        String::from_utf8(bytes).map_err(|error| {
+            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = valid.iter().filter(|&&byte| byte == b'\n').count() + 1;
+            Failure::request(format!("{name}: line {line}: is not text in UTF-8"))
+        })
     }
 
     fn output_path(&self) -> Result<PathBuf, Failure> {
         let stem = file_stem(&self.study)?;
         let default = || Path::new("results").join(&stem).join(format!("{stem}.h5"));
         let output = self.output.clone().unwrap_or_else(default);
-        if output.is_dir() {
-            let message = format!("{}: is a folder; name a file", output.display());
+        if output.exists() && !output.is_file() {
+            let what = if output.is_dir() { "a folder" } else { "not a plain file" };
+            let message = format!("{}: is {what}; name a file", output.display());
             return Err(Failure::request(message));
         }
-        let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
-        if let Some(folder) = folder {
-            std::fs::create_dir_all(folder).map_err(|error| {
-                Failure::machine(format!("{}: cannot be made: {error}", folder.display()))
-            })?;
+        let same = |path: &Path| std::fs::canonicalize(path).ok();
+        if same(&output).is_some_and(|output| Some(output) == same(&self.study)) {
+            let message = format!("{}: is the study itself; name another file", output.display());
+            return Err(Failure::request(message));
         }
         Ok(output)
     }
@@ -96,7 +113,7 @@ impl Sweep {
         let same_program =
             ["source", "commit"].iter().all(|&key| dataset.attributes.get(key) == now.get(key));
         if dataset.texts.get("study") == Some(&study.text) && same_program {
-            eprintln!("{shown}: already computed, by this program from this study");
+            tell(&format!("{shown}: already computed, by this program from this study"));
             return Ok(Some(dataset));
         }
         let what = if same_program { "study" } else { "version of the program or study" };
@@ -122,14 +139,42 @@ impl Sweep {
     }
 }
 
+/// Draws the figures from results without a single case, so that a mistake in one of them is told
+/// before a long run and not after it.
+fn rehearse(study: &Study) -> Result<(), Failure> {
+    if study.drawings.is_empty() {
+        return Ok(());
+    }
+    let mut small = study.clone();
+    small.protocol.points = small.protocol.points.min(1);
+    small.protocol.impact_points = small.protocol.impact_points.min(1);
+    // In no format at all, nothing is written.
+    draw_all(&store::dataset(&small, &[]), &study.drawings, Path::new("."), &[])
+}
+
+/// Makes the folder of the results, and sees that a file can be written there before a long run.
+fn prepare(folder: &Path) -> Result<(), Failure> {
+    let shown = folder.display();
+    let file = folder.ancestors().find(|ancestor| ancestor.is_file());
+    if let Some(file) = file {
+        return Err(Failure::request(format!(
+            "{shown}: {} is a file, not a folder; name another --output",
+            file.display()
+        )));
+    }
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::machine(format!("{shown}: cannot be made: {error}")))?;
+    tempfile::tempfile_in(folder).map(drop).map_err(|error| {
+        Failure::machine(format!("{shown}: no file can be written there: {error}"))
+    })
+}
+
 /// How many cases came out how, and how to look at those that failed.
 fn summary(study: &Study, records: &[Record], output: &Path, seconds: f64) -> String {
     let cycles: u64 = records.iter().map(|record| record.orbit.cycles).sum();
-    let mut text = format!(
-        "{}: {} cases, {cycles} cycles in {seconds:.1} s\n",
-        output.display(),
-        records.len()
-    );
+    let shown = output.display();
+    let (count, plural) = (records.len(), if records.len() == 1 { "" } else { "s" });
+    let mut text = format!("{shown}: {count} case{plural}, {cycles} cycles in {seconds:.1} s\n");
     for outcome in Outcome::ALL {
         let count = records.iter().filter(|record| record.orbit.outcome == outcome).count();
         if count > 0 {
@@ -140,13 +185,34 @@ fn summary(study: &Study, records: &[Record], output: &Path, seconds: f64) -> St
     let failures = records.iter().filter_map(|record| Some((record.index, record.orbit.failure?)));
     for (index, failure) in failures.take(FAILURES_SHOWN) {
         let _ = writeln!(text, "  case {index} failed: {failure}");
-        let _ = writeln!(text, "    replay: {}", replay(&study.case(index)));
+        let case = Case { start: start(study, records, index), ..study.case(index) };
+        let _ = writeln!(text, "    replay: {}", replay(&case, &study.protocol));
     }
     text
 }
 
+/// Where a case began: where its neighbour settled, if it followed one; `records` are in order.
+fn start(study: &Study, records: &[Record], index: usize) -> State<f64> {
+    let own = study.case(index).start;
+    if study.follow.is_none() {
+        return own;
+    }
+    let chains = study.chains();
+    let chain = chains.iter().find(|chain| chain.contains(&index));
+    let before = chain.and_then(|chain| {
+        let place = chain.iter().position(|&other| other == index)?;
+        records.get(chain[place.checked_sub(1)?])
+    });
+    match before {
+        Some(Record { orbit, .. }) if orbit.outcome != Outcome::Failed => {
+            State { x2: own.x2, ..orbit.end }
+        }
+        _ => own,
+    }
+}
+
 /// The command that follows one case in full.
-fn replay(case: &Case) -> String {
+fn replay(case: &Case, protocol: &Protocol) -> String {
     let mut command = "capsulemap simulate".to_owned();
     for &parameter in Parameter::ALL {
         let _ = write!(command, " --set {}={}", parameter.symbol(), case.parameters[parameter]);
@@ -154,6 +220,13 @@ fn replay(case: &Case) -> String {
     let start = case.start;
     let _ = write!(command, " --start r={},y1={},y2={}", start.r, start.y1, start.y2);
     let _ = write!(command, " --phase {}", case.phase);
+    let usual = Protocol::default();
+    if protocol.tolerance != usual.tolerance {
+        let _ = write!(command, " --tolerance {}", protocol.tolerance);
+    }
+    if protocol.max_cycles != usual.max_cycles {
+        let _ = write!(command, " --max-cycles {}", protocol.max_cycles);
+    }
     if case.parameters.switching == Switching::AsPrinted {
         command.push_str(" --friction-switching as-printed");
     }

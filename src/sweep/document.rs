@@ -69,6 +69,19 @@ impl<'a> Reader<'a> {
         self.faults.borrow_mut().push(Fault { line, key: key.into(), message: message.into() });
     }
 
+    /// Notes a fault of the syntax with the line it stands in, the first of each line only.
+    pub fn syntax(&self, error: &toml::de::Error) {
+        let at = error.span().map(|span| span.start.min(self.text.len()));
+        let line = at.and_then(|at| self.text.get(..at)).map(|before| before.matches('\n').count());
+        let told = |fault: &Fault| fault.line == line.map(|line| line + 1);
+        if self.faults.borrow().iter().any(told) {
+            return;
+        }
+        let found = line.and_then(|line| self.text.lines().nth(line)).map_or("", str::trim);
+        let found = if found.is_empty() { String::new() } else { format!(", in: {found}") };
+        self.fault(at, "", format!("{}{found}", error.message()));
+    }
+
     /// The faults in order of lines.
     pub fn faults(self, file: &str) -> Faults {
         let mut faults = self.faults.into_inner();
@@ -87,6 +100,8 @@ impl<'a> Reader<'a> {
 pub struct Table<'r, 'a> {
     reader: &'r Reader<'a>,
     path: String,
+    /// Where it begins; none for the whole document.
+    place: Option<usize>,
     table: &'r DeTable<'a>,
     asked: RefCell<Vec<String>>,
 }
@@ -101,9 +116,9 @@ pub struct Entry<'r, 'a> {
 }
 
 impl<'r, 'a> Table<'r, 'a> {
-    /// A table under `path`.
-    pub fn new(reader: &'r Reader<'a>, path: &str, table: &'r DeTable<'a>) -> Self {
-        Table { reader, path: path.to_owned(), table, asked: RefCell::default() }
+    /// The whole document as a table.
+    pub fn new(reader: &'r Reader<'a>, table: &'r DeTable<'a>) -> Self {
+        Table { reader, path: String::new(), place: None, table, asked: RefCell::default() }
     }
 
     fn path_of(&self, key: &str) -> String {
@@ -119,7 +134,8 @@ impl<'r, 'a> Table<'r, 'a> {
 
     /// Notes that `key` is missing.
     pub fn missing(&self, key: &str, expected: &str) {
-        self.reader.fault(None, self.path_of(key), format!("missing; expected {expected}"));
+        let message = format!("missing; expected {expected}");
+        self.reader.fault(self.place, self.path_of(key), message);
     }
 
     /// The table under `key`.
@@ -168,7 +184,13 @@ impl<'r, 'a> Entry<'r, 'a> {
     /// The value as a table.
     pub fn table(&self) -> Option<Table<'r, 'a>> {
         let table = self.expected(self.value.get_ref().as_table(), "a table")?;
-        Some(Table::new(self.reader, &self.key, table))
+        Some(Table {
+            reader: self.reader,
+            path: self.key.clone(),
+            place: Some(self.value.span().start),
+            table,
+            asked: RefCell::default(),
+        })
     }
 
     /// The value as a list.
@@ -194,13 +216,19 @@ impl<'r, 'a> Entry<'r, 'a> {
         }
     }
 
-    /// The value as a whole number of at least `least`.
-    pub fn whole(&self, least: u64) -> Option<u64> {
-        let whole = match self.value.get_ref() {
-            DeValue::Integer(number) => u64::from_str_radix(number.as_str(), number.radix()).ok(),
-            _ => None,
+    /// The value as a whole number from `least` to `most`.
+    pub fn whole(&self, least: u64, most: u64) -> Option<u64> {
+        let upper = if most == u64::MAX { "or above".to_owned() } else { format!("to {most}") };
+        let what = format!("a whole number, {least} {upper}");
+        let DeValue::Integer(number) = self.value.get_ref() else {
+            return self.expected(None, &what);
         };
-        self.expected(whole.filter(|&n| n >= least), &format!("a whole number, {least} or above"))
+        let whole = u64::from_str_radix(number.as_str(), number.radix()).ok();
+        let whole = whole.filter(|n| (least..=most).contains(n));
+        if whole.is_none() {
+            self.fault(format!("expected {what}, found {}", number.as_str()));
+        }
+        whole
     }
 
     /// The value as a quantity of `dimension`, in SI.

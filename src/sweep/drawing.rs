@@ -2,6 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use crate::orbit::Output;
+
+/// What there is for each case besides the outputs.
+const VERDICTS: [&str; 3] = ["outcome", "period", "cycles"];
+/// What there is for each point of the sections.
+const POINTS: [&str; 6] =
+    ["section_r", "section_y1", "section_y2", "impact_phase", "impact_y1", "impact_y2"];
+/// What a history shows.
+const HISTORIES: [&str; 6] =
+    ["history_x2", "history_r", "velocities", "history_y1", "history_y2", "history_drive"];
+
 /// The kinds of figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DrawingKind {
@@ -26,6 +37,18 @@ impl DrawingKind {
         ("map", DrawingKind::Map),
         ("trade-off", DrawingKind::TradeOff),
     ];
+
+    /// What a figure of this kind can show of a study that keeps `outputs`.
+    pub fn can_show(self, outputs: &[Output]) -> Vec<&'static str> {
+        let kept = outputs.iter().map(|output| output.name());
+        match self {
+            DrawingKind::History => HISTORIES.to_vec(),
+            DrawingKind::PhasePortrait => Vec::new(),
+            DrawingKind::Bifurcation => kept.chain(VERDICTS).chain(POINTS).collect(),
+            DrawingKind::Map => kept.chain(VERDICTS).collect(),
+            DrawingKind::TradeOff => kept.collect(),
+        }
+    }
 }
 
 /// One figure to draw.

@@ -3,6 +3,7 @@
 pub mod axis;
 pub mod document;
 pub mod drawing;
+mod drawing_file;
 pub mod quantity;
 pub mod run;
 pub mod study;

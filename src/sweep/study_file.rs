@@ -1,6 +1,6 @@
 //! The study file: which keys it has, what they mean and what is allowed.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use toml::de::DeTable;
 
@@ -8,12 +8,22 @@ use crate::model::{Allowed, Dimension, Parameter, Parameters, Resistance, State,
 use crate::orbit::{HistorySpan, Output, Protocol};
 
 use super::axis::{linear, logarithmic};
-use super::document::{Entry, Faults, Reader, Table, unknown};
+use super::document::{Entry, Faults, Reader, Table};
+use super::drawing_file::read_drawings;
 use super::study::{Direction, Follow, Study};
-use super::{Axis, Coordinate, Drawing, DrawingKind};
+use super::{Axis, Coordinate};
 
-/// More cases than this are taken for a slip of the pen.
-const MOST_CASES: usize = 1_000_000_000;
+/// More values on an axis than this are taken for a slip of the pen.
+const MOST_VALUES: u64 = 10_000_000;
+
+/// More numbers in the results than this (32 GB) are too, rather than found out after a night.
+const MOST_NUMBERS: usize = 4_000_000_000;
+
+/// Most points kept of a case, cycles of its history and samples of a cycle.
+const MOST_POINTS: u64 = 1_000_000;
+
+/// Longest period that can be looked for, as every section point within it is remembered.
+const LONGEST_PERIOD: u64 = 100_000;
 
 /// The four parameters that Table 1 of the paper leaves open: a study says what they are.
 const OPEN: [Parameter; 4] = [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta];
@@ -22,15 +32,13 @@ const OPEN: [Parameter; 4] = [Parameter::Omega, Parameter::Pd, Parameter::K2, Pa
 pub(super) fn read(name: &str, text: &str) -> Result<Study, Faults> {
     let reader = Reader::new(text);
     let (document, errors) = DeTable::parse_recoverable(text);
-    for error in &errors {
-        reader.fault(error.span().map(|span| span.start), "", error.message());
-    }
     if !errors.is_empty() {
         // What follows a broken line cannot be judged.
+        errors.iter().for_each(|error| reader.syntax(error));
         return Err(reader.faults(name));
     }
-    let top = Table::new(&reader, "", document.get_ref());
-    let title = top.entry("title").and_then(|e| e.text()).unwrap_or("").to_owned();
+    let top = Table::new(&reader, document.get_ref());
+    let title = read_title(&top);
     let axes = read_axes(&top);
     let base = read_parameters(&top, &axes);
     let (start, phase, follow) = read_start(&top, &axes);
@@ -44,17 +52,39 @@ pub(super) fn read(name: &str, text: &str) -> Result<Study, Faults> {
         phase,
         follow,
         protocol,
+        drawings: read_drawings(&top, &axes, &outputs),
         outputs,
-        drawings: read_drawings(&top, &axes),
         axes,
     };
-    let cases = study.shape().iter().try_fold(1_usize, |product, &n| product.checked_mul(n));
-    if cases.is_none_or(|cases| cases > MOST_CASES) {
-        reader.fault(None, "axes", format!("more than {MOST_CASES} cases"));
-    }
+    check_size(&reader, &study);
     top.finish();
     reader.finish(name)?;
     Ok(study)
+}
+
+fn read_title(top: &Table<'_, '_>) -> String {
+    let Some(entry) = top.entry("title") else { return String::new() };
+    let title = entry.text().unwrap_or("");
+    if title.contains(char::is_control) {
+        entry.fault("must be one line without control characters");
+    }
+    title.to_owned()
+}
+
+/// Refuses a study whose results no machine could hold.
+fn check_size(reader: &Reader<'_>, study: &Study) {
+    let protocol = &study.protocol;
+    let samples = protocol.history.map_or(0, |span| span.samples());
+    let each = study.outputs.len() + 3 * (protocol.points + protocol.impact_points) + 5 * samples;
+    let numbers = study.shape().into_iter().try_fold(each.max(1), usize::checked_mul);
+    if numbers.is_none_or(|numbers| numbers > MOST_NUMBERS) {
+        let cases = study.shape().iter().map(|&length| length as f64).product::<f64>();
+        let message = format!(
+            "{cases} cases with {each} numbers each are too many; {MOST_NUMBERS} numbers are \
+             allowed (fewer values on the axes, section points, impact points or samples)"
+        );
+        reader.fault(None, "axes", message);
+    }
 }
 
 fn read_parameters(top: &Table<'_, '_>, axes: &[Axis]) -> Parameters {
@@ -96,7 +126,9 @@ fn read_parameters(top: &Table<'_, '_>, axes: &[Axis]) -> Parameters {
 fn allowed_quantity(entry: &Entry<'_, '_>, dimension: Dimension, allowed: Allowed) -> Option<f64> {
     let value = entry.quantity(dimension)?;
     if !allowed.admits(value) {
-        entry.fault(format!("{value} {} must be {allowed}", dimension.unit()));
+        let unit = Some(dimension.unit()).filter(|&unit| unit != "1");
+        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        entry.fault(format!("{value}{unit} must be {allowed}"));
         return None;
     }
     Some(value)
@@ -115,14 +147,13 @@ fn read_axes(top: &Table<'_, '_>) -> Vec<Axis> {
         let coordinate = name.as_ref().and_then(|name| name.one_of("axis", &names));
         let values = read_values(&table, coordinate);
         table.finish();
-        let (Some(name), Some(coordinate), Some(values)) = (name, coordinate, values) else {
-            continue;
-        };
+        let (Some(name), Some(coordinate)) = (name, coordinate) else { continue };
         if axes.iter().any(|axis| axis.coordinate == coordinate) {
             name.fault(format!("a second axis \"{}\"", coordinate.name()));
             continue;
         }
-        axes.push(Axis { coordinate, values });
+        // With faulty values too: what else names this axis is not at fault.
+        axes.push(Axis { coordinate, values: values.unwrap_or_default() });
     }
     axes
 }
@@ -142,8 +173,7 @@ fn read_values(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<
         if list.is_empty() {
             values.fault("expected at least one value");
         }
-        let read: Vec<f64> = list.iter().filter_map(quantity).collect();
-        return (read.len() == list.len() && !read.is_empty()).then_some(read);
+        return Some(distinct(&list, quantity));
     }
     for (key, found) in [("from", &from), ("to", &to), ("points", &points)] {
         if found.is_none() {
@@ -157,7 +187,7 @@ fn read_values(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<
     };
     let logarithmic = spacing.as_ref().is_some_and(|entry| entry.text() == Some("logarithmic"));
     let bounds = [&from, &to].map(|bound| bound.as_ref().and_then(quantity));
-    let points = points.as_ref().and_then(|entry| entry.whole(1));
+    let points = points.as_ref().and_then(|entry| entry.whole(1, MOST_VALUES));
     let ([Some(low), Some(high)], Some(points), Some(rule)) = (bounds, points, rule) else {
         return None;
     };
@@ -165,7 +195,29 @@ fn read_values(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<
         spacing?.fault("needs both ends above zero");
         return None;
     }
+    if low == high && points > 1 {
+        to?.fault("is the same as `from`");
+        return None;
+    }
     Some(rule(low, high, points as usize))
+}
+
+/// The values of a list; one that stands there twice is a fault.
+fn distinct<'r, 'a>(
+    list: &[Entry<'r, 'a>],
+    quantity: impl Fn(&Entry<'r, 'a>) -> Option<f64>,
+) -> Vec<f64> {
+    let mut values = Vec::with_capacity(list.len());
+    let mut seen = BTreeSet::new();
+    for entry in list {
+        match quantity(entry) {
+            // Adding zero makes -0 and 0 the same.
+            Some(value) if !seen.insert((value + 0.0).to_bits()) => entry.fault("is given twice"),
+            Some(value) => values.push(value),
+            None => {}
+        }
+    }
+    values
 }
 
 type Spacing = fn(f64, f64, usize) -> Vec<f64>;
@@ -233,20 +285,26 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
         // The section cannot repeat more closely than the steps are.
         protocol.recurrence = protocol.recurrence.max(10.0 * protocol.tolerance);
         between("recurrence", &mut protocol.recurrence);
-        let whole = |key: &str, least: u64, value: u64| {
-            table.entry(key).and_then(|entry| entry.whole(least)).unwrap_or(value)
+        let whole = |key: &str, least: u64, most: u64, value: &mut u64| {
+            let found = table.entry(key).and_then(|entry| entry.whole(least, most));
+            *value = found.unwrap_or(*value);
         };
-        protocol.max_cycles = whole("max_cycles", 1, protocol.max_cycles);
-        protocol.max_period = whole("max_period", 1, protocol.max_period as u64) as usize;
-        protocol.measured_cycles = whole("measured_cycles", 1, protocol.measured_cycles);
-        protocol.points = whole("points", 0, protocol.points as u64) as usize;
-        protocol.impact_points = whole("impact_points", 0, protocol.impact_points as u64) as usize;
+        whole("max_cycles", 1, u64::MAX, &mut protocol.max_cycles);
+        whole("measured_cycles", 1, u64::MAX, &mut protocol.measured_cycles);
+        let size = |key: &str, least: u64, most: u64, value: &mut usize| {
+            let mut found = *value as u64;
+            whole(key, least, most, &mut found);
+            *value = found as usize;
+        };
+        size("max_period", 1, LONGEST_PERIOD, &mut protocol.max_period);
+        size("points", 0, MOST_POINTS, &mut protocol.points);
+        size("impact_points", 0, MOST_POINTS, &mut protocol.impact_points);
         table.finish();
     }
     protocol.history = top.table("history").map(|table| {
         let whole = |key: &str, value: u32| {
-            let found = table.entry(key).and_then(|entry| entry.whole(1));
-            found.map_or(value, |n| n.min(u64::from(u32::MAX)) as u32)
+            let found = table.entry(key).and_then(|entry| entry.whole(1, MOST_POINTS));
+            found.map_or(value, |n| n as u32)
         };
         let (cycles, per_cycle) = (whole("cycles", 5), whole("samples_per_cycle", 400));
         let begins = [("start", true), ("attractor", false)];
@@ -262,65 +320,4 @@ fn read_outputs(top: &Table<'_, '_>) -> Vec<Output> {
     let names: Vec<(&str, Output)> =
         Output::ALL.iter().map(|&output| (output.name(), output)).collect();
     entry.list().iter().filter_map(|entry| entry.one_of("output", &names)).collect()
-}
-
-fn read_drawings(top: &Table<'_, '_>, axes: &[Axis]) -> Vec<Drawing> {
-    let entries = top.entry("figures").map(|entry| entry.list()).unwrap_or_default();
-    let tables = entries.iter().filter_map(Entry::table);
-    tables.filter_map(|table| read_drawing(&table, axes)).collect()
-}
-
-fn read_drawing(table: &Table<'_, '_>, axes: &[Axis]) -> Option<Drawing> {
-    let text = |key: &str| table.entry(key).and_then(|entry| entry.text()).map(str::to_owned);
-    let axis_names: Vec<(&str, &str)> =
-        axes.iter().map(|axis| (axis.coordinate.name(), axis.coordinate.name())).collect();
-    let axis = |key: &str| {
-        let name = table.entry(key)?.one_of("axis of this study", &axis_names)?;
-        Some(name.to_owned())
-    };
-    let name = text("name");
-    let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", &DrawingKind::NAMES));
-    for (key, found) in [("name", name.is_some()), ("kind", kind.is_some())] {
-        if !found && table.entry(key).is_none() {
-            table.missing(key, "a figure to have a name and a kind");
-        }
-    }
-    let of = table.entry("of").map(|entry| entry.list()).unwrap_or_default();
-    let drawing = Drawing {
-        name: name.unwrap_or_default(),
-        kind: kind.unwrap_or(DrawingKind::Map),
-        title: text("title"),
-        x: axis("x"),
-        y: axis("y"),
-        of: of.iter().filter_map(|e| e.text()).map(str::to_owned).collect(),
-        at: table.table("at").map(|at| read_at(&at, axes)).unwrap_or_default(),
-        cycles: table.entry("cycles").and_then(|entry| {
-            let ends: Vec<f64> =
-                entry.list().iter().filter_map(|e| e.quantity(Dimension::Number)).collect();
-            let range: Option<[f64; 2]> = ends.try_into().ok();
-            if range.is_none_or(|[from, to]| to <= from) {
-                entry.fault("expected two numbers of cycles, the lesser first");
-            }
-            range
-        }),
-        width_mm: table.entry("width").and_then(|e| e.quantity(Dimension::Length)).map(|w| w * 1e3),
-    };
-    Some(drawing)
-}
-
-fn read_at(table: &Table<'_, '_>, axes: &[Axis]) -> BTreeMap<String, f64> {
-    let mut at = BTreeMap::new();
-    for (name, entry) in table.entries() {
-        match axes.iter().find(|axis| axis.coordinate.name() == name) {
-            Some(axis) => {
-                let value = entry.quantity(axis.coordinate.dimension());
-                at.extend(value.map(|value| (name, value)));
-            }
-            None => {
-                let names = axes.iter().map(|axis| axis.coordinate.name());
-                entry.fault(unknown("axis of this study", &name, names));
-            }
-        }
-    }
-    at
 }

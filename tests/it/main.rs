@@ -1,6 +1,7 @@
 //! The tests of the whole: closed forms, invariants, references, and the program as its users run it.
 
 mod belt;
+mod cli;
 mod closed_forms;
 mod edges;
 mod figure;
@@ -9,6 +10,9 @@ mod invariants;
 mod lanes;
 mod oscillators;
 mod paper;
+mod program;
 mod readme;
 mod reference;
+mod run;
 mod store;
+mod study;

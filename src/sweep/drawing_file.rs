@@ -1,0 +1,121 @@
+//! The figures of a study file: which keys they have, what they mean and what is allowed.
+
+use std::collections::BTreeMap;
+
+use crate::model::Dimension;
+use crate::orbit::Output;
+
+use super::document::{Entry, Table, unknown};
+use super::{Axis, Drawing, DrawingKind};
+
+/// Longest name of a figure [bytes]; with an ending it still is a file name everywhere.
+const LONGEST_NAME: usize = 200;
+
+/// The figures of a study with `axes` that keeps `outputs`.
+pub(super) fn read_drawings(
+    top: &Table<'_, '_>,
+    axes: &[Axis],
+    outputs: &[Output],
+) -> Vec<Drawing> {
+    let entries = top.entry("figures").map(|entry| entry.list()).unwrap_or_default();
+    let mut drawings: Vec<Drawing> = Vec::new();
+    for table in entries.iter().filter_map(Entry::table) {
+        let drawing = read_drawing(&table, axes, outputs);
+        let alike = |other: &Drawing| other.name.eq_ignore_ascii_case(&drawing.name);
+        if let Some(name) = table.entry("name").filter(|_| drawings.iter().any(alike)) {
+            // Not even in capitals: some disks take such names for one.
+            name.fault(format!("a second figure \"{}\"", drawing.name));
+        }
+        table.finish();
+        drawings.push(drawing);
+    }
+    drawings
+}
+
+fn read_drawing(table: &Table<'_, '_>, axes: &[Axis], outputs: &[Output]) -> Drawing {
+    let axis_names: Vec<(&str, &str)> =
+        axes.iter().map(|axis| (axis.coordinate.name(), axis.coordinate.name())).collect();
+    let axis = |key: &str| {
+        let name = table.entry(key)?.one_of("axis of this study", &axis_names)?;
+        Some(name.to_owned())
+    };
+    let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", &DrawingKind::NAMES));
+    for key in ["name", "kind"] {
+        if table.entry(key).is_none() {
+            table.missing(key, "a figure to have a name and a kind");
+        }
+    }
+    Drawing {
+        name: table.entry("name").and_then(|entry| read_name(&entry)).unwrap_or_default(),
+        kind: kind.unwrap_or(DrawingKind::Map),
+        title: table.entry("title").and_then(|entry| entry.text()).map(str::to_owned),
+        x: axis("x"),
+        y: axis("y"),
+        of: table.entry("of").map(|of| read_of(&of, kind, outputs)).unwrap_or_default(),
+        at: table.table("at").map(|at| read_at(&at, axes)).unwrap_or_default(),
+        cycles: table.entry("cycles").and_then(|entry| read_cycles(&entry)),
+        width_mm: table.entry("width").and_then(|e| e.quantity(Dimension::Length)).map(|w| w * 1e3),
+    }
+}
+
+/// A name that can stand before the ending of a file.
+fn read_name(entry: &Entry<'_, '_>) -> Option<String> {
+    let name = entry.text()?;
+    let is_stem = !name.trim().is_empty()
+        && !name.starts_with('.')
+        && !name.contains(['/', '\\'])
+        && !name.contains(char::is_control)
+        && name.len() <= LONGEST_NAME;
+    if !is_stem {
+        entry.fault(format!(
+            "\"{}\" cannot name a file; expected 1 to {LONGEST_NAME} bytes, not beginning with a \
+             dot, without slashes and control characters",
+            name.escape_debug()
+        ));
+    }
+    Some(name.to_owned())
+}
+
+/// The names of what is drawn, those that the kind of figure can show.
+fn read_of(of: &Entry<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output]) -> Vec<String> {
+    let list = of.list();
+    let Some(kind) = kind else { return Vec::new() };
+    if kind == DrawingKind::PhasePortrait {
+        of.fault("does not go with a phase portrait");
+        return Vec::new();
+    }
+    if matches!(kind, DrawingKind::Map | DrawingKind::TradeOff) && list.len() > 1 {
+        of.fault(format!("expected one output for this kind of figure, found {}", list.len()));
+    }
+    let names: Vec<(&str, &str)> =
+        kind.can_show(outputs).into_iter().map(|name| (name, name)).collect();
+    let known = |entry: &Entry<'_, '_>| entry.one_of("output for this kind of figure", &names);
+    list.iter().filter_map(known).map(str::to_owned).collect()
+}
+
+fn read_cycles(entry: &Entry<'_, '_>) -> Option<[f64; 2]> {
+    let ends: Vec<f64> =
+        entry.list().iter().filter_map(|end| end.quantity(Dimension::Number)).collect();
+    let range = <[f64; 2]>::try_from(ends).ok().filter(|[from, to]| from < to);
+    if range.is_none() {
+        entry.fault("expected two numbers of cycles, the lesser first");
+    }
+    range
+}
+
+fn read_at(table: &Table<'_, '_>, axes: &[Axis]) -> BTreeMap<String, f64> {
+    let mut at = BTreeMap::new();
+    for (name, entry) in table.entries() {
+        match axes.iter().find(|axis| axis.coordinate.name() == name) {
+            Some(axis) => {
+                let value = entry.quantity(axis.coordinate.dimension());
+                at.extend(value.map(|value| (name, value)));
+            }
+            None => {
+                let names = axes.iter().map(|axis| axis.coordinate.name());
+                entry.fault(unknown("axis of this study", &name, names));
+            }
+        }
+    }
+    at
+}

@@ -1,0 +1,134 @@
+//! The program as its users run it: the real binary, in a folder of its own.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// The paper's Fig 5 as the beginning of a study.
+pub const FIG5: &str = "\
+[parameters]
+omega = \"77.91 rad/s\"
+p_d = \"4 N\"
+k2 = \"2.42 kN/m\"
+delta = \"3.5 mm\"
+";
+
+/// An empty folder to run the program in.
+pub struct Desk {
+    folder: TempDir,
+}
+
+/// What came of a run.
+pub struct Ran {
+    /// Exit code.
+    pub code: i32,
+    /// Standard output.
+    pub out: String,
+    /// Standard error.
+    pub err: String,
+}
+
+impl Desk {
+    /// A new, empty one.
+    pub fn new() -> Self {
+        Desk { folder: TempDir::new().expect("a folder for the test") }
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// A path in the folder.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder().join(name)
+    }
+
+    /// Puts a file there.
+    pub fn put(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        fs::write(self.path(name), bytes).expect("a file of the test");
+    }
+
+    /// The program, to be started with `arguments` in the folder.
+    pub fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_capsulemap"));
+        command.args(arguments).current_dir(self.folder()).stdin(Stdio::null());
+        command
+    }
+
+    /// Runs the program to its end.
+    pub fn run(&self, arguments: &[&str]) -> Ran {
+        Ran::from(self.command(arguments).output().expect("the program starts"))
+    }
+
+    /// Runs the program with its output in `shell` words: `$0` is the program.
+    pub fn shell(&self, script: &str) -> Ran {
+        let mut bash = Command::new("bash");
+        bash.args(["-c", script, env!("CARGO_BIN_EXE_capsulemap")]);
+        Ran::from(bash.current_dir(self.folder()).output().expect("bash starts"))
+    }
+
+    /// Every file and folder below, in order.
+    pub fn files(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let mut folders = vec![self.folder().to_owned()];
+        while let Some(folder) = folders.pop() {
+            for entry in fs::read_dir(&folder).expect("a folder can be listed") {
+                let path = entry.expect("an entry of a folder").path();
+                let inside = path.strip_prefix(self.folder()).expect("it lies below");
+                found.push(inside.to_string_lossy().into_owned());
+                if path.is_dir() {
+                    folders.push(path);
+                }
+            }
+        }
+        found.sort();
+        found
+    }
+}
+
+impl Ran {
+    fn from(output: Output) -> Self {
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
+        Ran {
+            code: output.status.code().expect("the program was not killed"),
+            out: text(output.stdout),
+            err: text(output.stderr),
+        }
+    }
+
+    /// The same, sure that the exit code was zero.
+    pub fn done(self) -> Self {
+        assert_eq!(self.code, 0, "{}", self.err);
+        self
+    }
+
+    /// The one JSON object on standard output.
+    pub fn json(&self) -> Value {
+        assert_eq!(self.code, 0, "{}", self.err);
+        serde_json::from_str(&self.out).expect("one JSON object")
+    }
+
+    /// Sure that a person's mistake was told, each of `parts` named, and nothing else printed.
+    pub fn refused(&self, parts: &[&str]) {
+        assert_eq!((self.code, self.out.as_str()), (2, ""), "{}", self.err);
+        for part in parts {
+            assert!(self.err.contains(part), "{part:?} is missing from:\n{}", self.err);
+        }
+        assert!(!self.err.contains("panicked"), "{}", self.err);
+    }
+
+    /// A number of the orbit that `simulate --json` printed, to the last bit, which the parser of
+    /// JSON used here rounds; infinite or not a number is null there.
+    pub fn printed(&self, key: &str) -> f64 {
+        let orbit = self.out.split("\"orbit\": {").nth(1).expect("an orbit");
+        let rest = orbit.split(&format!("\"{key}\": ")).nth(1).expect(key);
+        match rest.split([',', '\n']).next() {
+            Some("null") => f64::NAN,
+            text => text.and_then(|text| text.parse().ok()).expect("a number"),
+        }
+    }
+}

@@ -1,0 +1,378 @@
+//! The joined run: from a study to its file and figures.
+
+use std::fs;
+use std::path::Path;
+
+use capsulemap::model::{Parameter, State};
+use capsulemap::orbit::{Output, settle};
+use capsulemap::store::{self, Dataset, Values, Variable};
+use capsulemap::sweep::Study;
+use serde_json::Value;
+
+use super::program::{Desk, FIG5};
+
+/// Two axes of a few cases, followed both ways, with every kind of figure and all they can show.
+const RICH: &str = r#"title = "All there is"
+[parameters]
+k2 = "18.96 kN/m"
+delta = "1.5 mm"
+[[axes]]
+name = "omega"
+values = ["70 rad/s", "20.73 rad/s", "77.91 rad/s"]
+[[axes]]
+name = "p_d"
+from = "2 N"
+to = "8 N"
+points = 3
+spacing = "logarithmic"
+[start]
+follow = "omega"
+directions = ["upward", "downward"]
+[history]
+cycles = 2
+samples_per_cycle = 20
+"#;
+
+/// Figures of `RICH`: name, kind, what it shows and where.
+fn rich_figures() -> String {
+    let outputs: Vec<String> =
+        Output::ALL.iter().map(|output| format!("\"{}\"", output.name())).collect();
+    let outputs = outputs.join(", ");
+    let mut text = String::new();
+    let mut figure = |name: &str, kind: &str, more: &str| {
+        text += &format!("[[figures]]\nname = \"{name}\"\nkind = \"{kind}\"\n{more}\n");
+    };
+    let histories = "\"history_x2\", \"history_r\", \"velocities\", \"history_y1\", \"history_y2\", \"history_drive\"";
+    figure("h", "history", &format!("of = [{histories}]\nat = {{ p_d = \"4 N\" }}"));
+    figure("p", "phase-portrait", "cycles = [0, 1]");
+    figure("b", "bifurcation", &format!("of = [{outputs}]\nx = \"p_d\""));
+    let points = "\"section_r\", \"section_y1\", \"section_y2\", \"impact_phase\", \"impact_y1\", \"impact_y2\", \"period\", \"outcome\", \"cycles\"";
+    figure("points", "bifurcation", &format!("of = [{points}]"));
+    for name in ["period", "outcome", "cycles", "cost_of_transport"] {
+        figure(name, "map", &format!("of = [\"{name}\"]\ntitle = \"Map of {name}\""));
+    }
+    figure("t", "trade-off", "of = [\"work_net\"]");
+    text
+}
+
+fn bits(variable: &Variable) -> Vec<u64> {
+    variable.values.to_real().iter().map(|value| value.to_bits()).collect()
+}
+
+/// The dataset in a file as it compares with another: without when it was made.
+fn timeless(path: &Path) -> Dataset {
+    let mut dataset = store::read(path).expect("a result");
+    dataset.attributes.remove("created").expect("a time");
+    dataset
+}
+
+fn codes(dataset: &Dataset, name: &str) -> Vec<i64> {
+    match &dataset.variable(name).expect(name).values {
+        Values::Integer(codes) => codes.iter().copied().collect(),
+        Values::Real(_) => panic!("{name} is not of integers"),
+    }
+}
+
+#[test]
+fn a_sweep_writes_what_simulate_says_bit_for_bit() {
+    let desk = Desk::new();
+    let frequencies = ["77.91", "20.73", "46"];
+    let study = FIG5.replace("omega = \"77.91 rad/s\"\n", "")
+        + "[[axes]]\nname = \"omega\"\nvalues = [\"77.91 rad/s\", \"20.73 rad/s\", \"46 rad/s\"]\n\
+           [[axes]]\nname = \"start_r\"\nvalues = [\"0 mm\", \"-2 mm\"]\n";
+    desk.put("two.toml", study);
+    desk.run(&["sweep", "two.toml"]).done();
+    let dataset = store::read(&desk.path("results/two/two.h5")).expect("a result");
+    let shape = dataset.variable("outcome").map(|variable| variable.values.shape().to_vec());
+    assert_eq!(shape, Some(vec![3, 2]));
+    for (i, omega) in frequencies.iter().enumerate() {
+        for (j, start) in ["r=0", "r=-2mm"].iter().enumerate() {
+            let told = desk
+                .run(&["simulate", "--omega", omega, "--start", start, "--cycles", "0", "--json"])
+                .done();
+            for &output in Output::ALL {
+                let kept = dataset.variable(output.name()).expect("it").values.to_real()[[i, j]];
+                let said = told.printed(output.name());
+                let alike = kept.to_bits() == said.to_bits() || said.is_nan() && !kept.is_finite();
+                assert!(alike, "{} at {omega} {start}: {kept:e} {said:e}", output.name());
+            }
+            assert_eq!(codes(&dataset, "period")[2 * i + j], told.json()["orbit"]["period"]);
+            assert_eq!(codes(&dataset, "cycles")[2 * i + j], told.json()["orbit"]["cycles"]);
+        }
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_file() {
+    let desk = Desk::new();
+    desk.put("rich.toml", RICH);
+    for threads in ["1", "2", "7"] {
+        let output = format!("{threads}.h5");
+        desk.run(&["sweep", "rich.toml", "--threads", threads, "--output", &output]).done();
+    }
+    let one = timeless(&desk.path("1.h5"));
+    let bytes = fs::read(desk.path("1.h5")).expect("a result");
+    for other in ["2.h5", "7.h5"] {
+        let several = timeless(&desk.path(other));
+        assert_eq!(store::difference(&one, &several), None);
+        let names = |dataset: &Dataset| dataset.variables.keys().cloned().collect::<Vec<_>>();
+        assert_eq!(names(&one), names(&several));
+        assert!(one.variables.iter().all(|(name, it)| bits(it) == bits(&several.variables[name])));
+        // What is left are the digits of the time and the four bytes of the checksum.
+        let again = fs::read(desk.path(other)).expect("a result");
+        assert_eq!(bytes.len(), again.len());
+        let apart = bytes.iter().zip(&again).filter(|(a, b)| a != b).count();
+        assert!(apart <= 20 + 4, "{apart} bytes differ");
+    }
+    desk.run(&["sweep", "rich.toml", "--threads", "0"]).refused(&["--threads"]);
+}
+
+#[test]
+fn following_begins_where_the_neighbour_settled() {
+    let desk = Desk::new();
+    desk.put("rich.toml", RICH);
+    let study = Study::parse("rich.toml", RICH).expect("a study");
+    let plain = RICH.split("[start]").next().expect("the head");
+    desk.put("plain.toml", plain);
+    for study in ["rich.toml", "plain.toml"] {
+        desk.run(&["sweep", study, "--no-figures"]).done();
+    }
+    let followed = store::read(&desk.path("results/rich/rich.h5")).expect("a result");
+    let fresh = store::read(&desk.path("results/plain/plain.h5")).expect("a result");
+    let speed = |dataset: &Dataset| dataset.variables["progression_speed"].values.to_real();
+    assert_eq!(speed(&followed).shape(), [3, 3, 2]);
+    for p_d in 0..3 {
+        for (first, direction) in [(0, 0), (2, 1)] {
+            let (alone, followed) = (speed(&fresh), speed(&followed));
+            let followed = followed[[first, p_d, direction]];
+            assert_eq!(alone[[first, p_d]].to_bits(), followed.to_bits());
+        }
+    }
+    let parameters = |omega: f64| {
+        let mut parameters = study.base.clone();
+        parameters[Parameter::Omega] = omega;
+        parameters[Parameter::Pd] = study.axes[1].values[1];
+        parameters
+    };
+    // The last case of the middle row: twice on from where the neighbour was left.
+    let mut start = State::default();
+    for (i, &omega) in study.axes[0].values.iter().enumerate() {
+        let orbit = settle(&parameters(omega), 0.0, start, &study.protocol);
+        start = State { x2: 0.0, ..orbit.end };
+        let expected = orbit.outputs[Output::ProgressionSpeed];
+        assert_eq!(speed(&followed)[[i, 1, 0]].to_bits(), expected.to_bits());
+    }
+    let direction = followed.coordinate("direction").expect("directions");
+    assert_eq!(direction.flags, [(0, "upward".to_owned()), (1, "downward".to_owned())]);
+}
+
+#[test]
+fn every_figure_that_a_study_may_ask_for_can_be_drawn() {
+    let desk = Desk::new();
+    desk.put("rich.toml", RICH.to_owned() + &rich_figures());
+    let told = desk.run(&["sweep", "rich.toml", "--formats", "svg"]).done();
+    let names = ["h", "p", "b", "points", "period", "outcome", "cycles", "cost_of_transport", "t"];
+    for name in names {
+        let path = format!("results/rich/{name}.svg");
+        assert!(desk.path(&path).is_file() && told.err.contains(&path), "{}", told.err);
+    }
+    // The file alone suffices to draw them again.
+    let moved = Desk::new();
+    fs::copy(desk.path("results/rich/rich.h5"), moved.path("a.h5")).expect("a copy");
+    moved.run(&["figure", "a.h5", "--folder", "there", "--formats", "svg,png"]).done();
+    assert_eq!(moved.files().len(), 2 + 2 * names.len());
+    let svg = |desk: &Desk, path: &str| fs::read(desk.path(path)).expect("a figure");
+    assert_eq!(svg(&desk, "results/rich/t.svg"), svg(&moved, "there/t.svg"));
+}
+
+#[test]
+fn a_figure_that_cannot_be_drawn_is_told_before_the_run() {
+    let desk = Desk::new();
+    let figure = |more: &str| format!("{FIG5}[[figures]]\nname = \"a\"\n{more}\n");
+    desk.put("history.toml", figure("kind = \"history\""));
+    desk.put("map.toml", figure("kind = \"map\""));
+    desk.put("glyph.toml", RICH.to_owned() + "[[figures]]\nname=\"a\"\nkind=\"map\"\ntitle=\"漢\"");
+    let before = desk.files();
+    desk.run(&["sweep", "history.toml"]).refused(&["figure `a`: the results hold no time hist"]);
+    desk.run(&["sweep", "map.toml"]).refused(&["figure `a`: a map needs two axes"]);
+    desk.run(&["sweep", "glyph.toml"]).refused(&["figure `a`", "漢"]);
+    assert_eq!(desk.files(), before);
+    desk.run(&["sweep", "history.toml", "--no-figures"]).done();
+}
+
+#[test]
+fn one_figure_that_fails_does_not_keep_the_others() {
+    let desk = Desk::new();
+    desk.put("rich.toml", RICH.to_owned() + &rich_figures());
+    fs::create_dir_all(desk.path("results/rich/p.svg/in-the-way")).expect("a folder in the way");
+    let told = desk.run(&["sweep", "rich.toml", "--formats", "svg"]);
+    assert_eq!(told.code, 3, "{}", told.err);
+    assert!(told.err.contains("capsulemap: figure `p`: cannot write"), "{}", told.err);
+    let drawn = desk.files().iter().filter(|name| name.ends_with(".svg")).count();
+    assert_eq!(drawn, 9);
+    assert!(desk.files().iter().all(|name| !name.ends_with(".part")), "{:?}", desk.files());
+}
+
+#[test]
+fn results_are_not_overwritten_unasked() {
+    let desk = Desk::new();
+    desk.put("a.toml", FIG5);
+    desk.put("b.toml", FIG5.replace("77.91", "46"));
+    desk.run(&["sweep", "a.toml", "--output", "r.h5"]).done();
+    let first = fs::read(desk.path("r.h5")).expect("a result");
+    let again = desk.run(&["sweep", "a.toml", "--output", "r.h5"]).done();
+    assert!(again.err.contains("r.h5: already computed") && again.out.is_empty(), "{}", again.err);
+    desk.run(&["sweep", "b.toml", "--output", "r.h5"])
+        .refused(&["r.h5: holds results of another study", "--overwrite"]);
+    desk.put("other.h5", "not a result");
+    desk.run(&["sweep", "b.toml", "--output", "other.h5"]).refused(&["other.h5 is kept"]);
+    assert_eq!(fs::read(desk.path("r.h5")).expect("a result"), first);
+    desk.run(&["sweep", "b.toml", "--output", "r.h5", "--overwrite"]).done();
+    assert_ne!(fs::read(desk.path("r.h5")).expect("a result"), first);
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_told_and_leaves_nothing() {
+    let desk = Desk::new();
+    desk.put("a.toml", FIG5);
+    fs::create_dir(desk.path("folder.h5")).expect("a folder in the way");
+    let before = desk.files();
+    let sweep = |output: &str| desk.run(&["sweep", "a.toml", "--overwrite", "--output", output]);
+    sweep("folder.h5").refused(&["folder.h5: is a folder; name a file"]);
+    sweep("a.toml").refused(&["a.toml: is the study itself"]);
+    sweep("a.toml/b/c.h5").refused(&["a.toml is a file, not a folder"]);
+    if cfg!(target_os = "linux") {
+        sweep("/dev/null").refused(&["/dev/null: is not a plain file"]);
+        let told = sweep("/proc/here.h5");
+        assert_eq!((told.code, told.out.as_str()), (3, ""), "{}", told.err);
+        // A file that may not grow stands for a full disk.
+        let script = "trap '' XFSZ; ulimit -f 4; exec \"$0\" sweep a.toml";
+        let told = desk.shell(script);
+        assert_eq!((told.code, told.out.as_str()), (3, ""), "{}", told.err);
+        assert!(told.err.contains("a.h5: writing: File too large"), "{}", told.err);
+        assert!(desk.path("results/a").is_dir());
+        fs::remove_dir(desk.path("results/a")).expect("nothing is left in it");
+        fs::remove_dir(desk.path("results")).expect("nothing is left in it");
+    }
+    assert_eq!(desk.files(), before);
+}
+
+#[test]
+fn a_case_that_fails_is_a_record_and_can_be_replayed() {
+    let desk = Desk::new();
+    let axis = "[[axes]]\nname = \"start_r\"\nvalues = [\"0 m\", \"1e300 m\", \"1 mm\"]\n";
+    desk.put("a.toml", FIG5.to_owned() + axis + "[protocol]\ntolerance = 1e-10\n");
+    let told = desk.run(&["sweep", "a.toml"]).done();
+    let dataset = store::read(&desk.path("results/a/a.h5")).expect("a result");
+    assert_eq!(codes(&dataset, "outcome"), [0, 4, 0]);
+    let speeds = dataset.variables["progression_speed"].values.to_real();
+    assert!(speeds[[0]].is_finite() && speeds[[1]].is_nan() && speeds[[2]].is_finite());
+    assert!(told.out.contains("3 cases") && told.out.contains("failed         1"), "{}", told.out);
+    let replay = told.out.split("replay: capsulemap ").nth(1).expect("how to replay").trim();
+    assert!(replay.contains("--tolerance 0.0000000001"), "{replay}");
+    let again = desk.shell(&format!("\"$0\" {replay} --json")).json();
+    assert_eq!(again["orbit"]["outcome"], "failed");
+    assert!(told.out.contains(again["orbit"]["failure"].as_str().expect("why")), "{}", told.out);
+}
+
+#[test]
+fn a_log_of_a_run_holds_plain_lines() {
+    let desk = Desk::new();
+    desk.put("rich.toml", RICH);
+    let told = desk.run(&["sweep", "rich.toml"]).done();
+    let first = told.err.lines().next().expect("a line of progress");
+    assert!(first.starts_with("1/18 cases, ") && first.ends_with(" s left"), "{first}");
+    assert!(!told.err.contains(['\u{1b}', '\r']) && !told.out.contains(['\u{1b}', '\r']));
+    assert!(told.out.starts_with("results/rich/rich.h5: 18 cases, "), "{}", told.out);
+}
+
+#[test]
+fn figures_of_ones_own_come_from_the_file_alone() {
+    let desk = Desk::new();
+    desk.put("rich.toml", RICH);
+    desk.run(&["sweep", "rich.toml", "--output", "r.h5"]).done();
+    let figure = |more: &[&str]| desk.run(&[&["figure", "r.h5"], more].concat());
+    figure(&["--kind", "bifurcation", "--at", "p_d=3.9 N", "--name", "at-4", "--formats", "pdf"])
+        .done();
+    figure(&["--kind", "map", "--of", "work_net", "--width", "120", "--folder", "x"]).done();
+    for path in ["at-4.pdf", "x/map.png", "x/map.svg", "x/map.pdf"] {
+        assert!(desk.path(path).is_file(), "{path}");
+    }
+    let before = desk.files();
+    figure(&[]).refused(&["r.h5: its study asks for no figures; name a --kind"]);
+    figure(&["--kind", "mapp"]).refused(&["mapp", "map"]);
+    figure(&["--of", "work_net"]).refused(&["--kind"]);
+    figure(&["--kind", "map", "--of", "work_nett"]).refused(&["did you mean `work_net`?"]);
+    figure(&["--kind", "map", "--x", "omga"]).refused(&["`omga`", "did you mean `omega`?"]);
+    figure(&["--kind", "map", "--at", "omga=3", "--at", "p_d=3 mm", "--at", "p_d", "--at", "k2=1"])
+        .refused(&[
+            "--at: unknown axis of these results \"omga\"; did you mean \"omega\"? (allowed: p_d, omega)",
+            "--at p_d: \"3 mm\" is a length; expected a force",
+            "--at p_d: expected AXIS=VALUE",
+            "--at: unknown axis of these results \"k2\"",
+        ]);
+    figure(&["--kind", "map", "--at", "p_d=4"]).refused(&["a map needs two axes"]);
+    figure(&["--kind", "map", "--name", "../x"]).refused(&["stem of a file name"]);
+    figure(&["--kind", "map", "--width", "3"]).refused(&["40 to 1000 mm"]);
+    figure(&["--kind", "map", "--title", "漢"]).refused(&["漢"]);
+    figure(&["--kind", "history", "--cycles", "5,3"]).refused(&["cycles"]);
+    assert_eq!(desk.files(), before);
+}
+
+#[test]
+fn files_that_are_no_results_are_told_apart() {
+    let desk = Desk::new();
+    desk.put("a.toml", FIG5);
+    desk.run(&["sweep", "a.toml", "--output", "a.h5"]).done();
+    let whole = fs::read(desk.path("a.h5")).expect("a result");
+    desk.put("cut.h5", &whole[..whole.len() / 2]);
+    let mut changed = whole.clone();
+    changed[whole.len() / 2] ^= 1;
+    desk.put("changed.h5", changed);
+    desk.put("empty.h5", "");
+    for command in ["inspect", "figure"] {
+        let told = |file: &str| desk.run(&[command, file]);
+        told("a.toml").refused(&["a.toml: not a result of capsulemap: it is not an HDF5 file"]);
+        told("empty.h5").refused(&["empty.h5: not a result"]);
+        told("cut.h5").refused(&["cut.h5", "cut short"]);
+        told("changed.h5").refused(&["changed.h5: the file has changed since it was written"]);
+        told("absent.h5").refused(&["absent.h5", "No such file"]);
+        told(".").refused(&["folder"]);
+    }
+}
+
+#[test]
+fn inspect_tells_what_is_in_a_file() {
+    let desk = Desk::new();
+    // As an editor elsewhere writes it: a mark at the beginning, other ends of lines, none at last.
+    let study = format!("\u{feff}# µ\n{}", RICH.trim_end()).replace('\n', "\r\n");
+    desk.put("rich.toml", &study);
+    desk.run(&["sweep", "rich.toml", "--output", "r.h5"]).done();
+    let told = desk.run(&["inspect", "r.h5"]).done().out;
+    for part in ["title: All there is", "18 periodic, 0 chaotic", "source: capsulemap", "3 x 3 x 2"]
+    {
+        assert!(told.contains(part), "{part} is missing from:\n{told}");
+    }
+    let object = desk.run(&["inspect", "r.h5", "--json"]).json();
+    assert_eq!(object["outcomes"]["periodic"], 18);
+    assert_eq!(object["attributes"]["title"], "All there is");
+    let speed = &object["variables"]["progression_speed"];
+    assert_eq!(speed["dimensions"], Value::from(vec!["omega", "p_d", "direction"]));
+    assert_eq!((&speed["unit"], &speed["missing"]), (&Value::from("m/s"), &Value::from(0)));
+    assert_eq!(object["coordinates"]["omega"]["range"], Value::from(vec![20.73, 77.91]));
+    let back = desk.run(&["inspect", "r.h5", "--study"]).done().out;
+    assert_eq!(back, study);
+    desk.run(&["inspect", "r.h5", "--study", "--json"]).refused(&["--json"]);
+}
+
+#[test]
+fn a_study_needs_no_title() {
+    let desk = Desk::new();
+    for (name, title) in [("none", ""), ("empty", "title = \"\"\n"), ("some", "title = \"µ\"\n")] {
+        desk.put("a.toml", title.to_owned() + FIG5);
+        let output = format!("{name}.h5");
+        desk.run(&["sweep", "a.toml", "--output", &output]).done();
+        let told = desk.run(&["inspect", &output, "--json"]).json();
+        assert_eq!(told["attributes"]["title"], if name == "some" { "µ" } else { "" });
+    }
+}
