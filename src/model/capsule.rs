@@ -152,10 +152,8 @@ impl<L: Lane> Switched<L> for Capsule<L> {
         }
         let side = if which == FORWARD { -one } else { one };
         let resting = (mode.slip * mode.slip).lt(L::splat(0.5));
-        let mut guard = series::zero();
-        for k in 0..=ORDER {
-            guard[k] = L::select(resting, side * jet.force[k], mode.slip * jet.y2[k]);
-        }
+        let mut guard: Series<L> =
+            std::array::from_fn(|k| L::select(resting, side * jet.force[k], mode.slip * jet.y2[k]));
         guard[0] = guard[0] + L::select(resting, self.drag.break_away, L::splat(0.0));
         guard
     }

@@ -190,14 +190,12 @@ pub struct Fault {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Fault { parameter, value } = self;
-        write!(
-            f,
-            "{} ({}) = {value} {}: must be {}",
-            parameter.symbol(),
-            parameter.meaning(),
-            parameter.dimension().unit(),
-            parameter.allowed()
-        )
+        let (symbol, meaning) = (parameter.symbol(), parameter.meaning());
+        let unit = match parameter.dimension() {
+            Dimension::Number => String::new(),
+            dimension => format!(" {}", dimension.unit()),
+        };
+        write!(f, "{symbol} ({meaning}) = {value}{unit}: must be {}", parameter.allowed())
     }
 }
 
