@@ -1,5 +1,6 @@
 //! Tells the program which commit it was built from, for the provenance of its results.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::process::Command;
 
 fn main() {
@@ -9,8 +10,15 @@ fn main() {
         output.status.success().then(|| text.trim().to_owned())
     };
     let commit = git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
-    let changed = git(&["status", "--porcelain", "--untracked-files=no"]);
-    let mark = if changed.is_some_and(|lines| !lines.is_empty()) { "+changes" } else { "" };
+    // Two builds with different uncommitted changes are two programs.
+    let mark = match git(&["diff", "HEAD"]) {
+        Some(changes) if !changes.is_empty() => {
+            let mut hasher = DefaultHasher::new();
+            changes.hash(&mut hasher);
+            format!("+changes.{:016x}", hasher.finish())
+        }
+        _ => String::new(),
+    };
     println!("cargo:rustc-env=CAPSULEMAP_COMMIT={commit}{mark}");
     for watched in [".git/HEAD", ".git/logs/HEAD", "src", "Cargo.lock"] {
         println!("cargo:rerun-if-changed={watched}");

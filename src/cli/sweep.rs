@@ -3,14 +3,13 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
 
 use clap::Args;
 
 use super::figure::{FormatChoice, draw_all, file_stem};
 use super::progress::Progress;
 use super::{Failure, print, tell};
-use crate::model::{Parameter, Resistance, State, Switching};
+use crate::model::{Parameter, Resistance, Switching};
 use crate::orbit::{Outcome, Protocol};
 use crate::store::{self, Dataset};
 use crate::sweep::{Case, Record, Study, run};
@@ -123,8 +122,7 @@ impl Sweep {
     fn compute(&self, study: &Study, output: &Path) -> Result<Dataset, Failure> {
         let progress = Progress::new(study.cases());
         let records = Mutex::new(Vec::with_capacity(study.cases()));
-        let stop = AtomicBool::new(false);
-        run(study, self.threads.map(usize::from), &stop, |record| {
+        run(study, self.threads.map(usize::from), |record| {
             progress.step();
             records.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(record);
         })
@@ -182,33 +180,13 @@ fn summary(study: &Study, records: &[Record], output: &Path, seconds: f64) -> St
             let _ = writeln!(text, "  {:<14} {count}", outcome.name());
         }
     }
-    let failures = records.iter().filter_map(|record| Some((record.index, record.orbit.failure?)));
-    for (index, failure) in failures.take(FAILURES_SHOWN) {
+    let failures = records.iter().filter_map(|record| Some((record, record.orbit.failure?)));
+    for (&Record { index, start, .. }, failure) in failures.take(FAILURES_SHOWN) {
         let _ = writeln!(text, "  case {index} failed: {failure}");
-        let case = Case { start: start(study, records, index), ..study.case(index) };
+        let case = Case { start, ..study.case(index) };
         let _ = writeln!(text, "    replay: {}", replay(&case, &study.protocol));
     }
     text
-}
-
-/// Where a case began: where its neighbour settled, if it followed one; `records` are in order.
-fn start(study: &Study, records: &[Record], index: usize) -> State<f64> {
-    let own = study.case(index).start;
-    if study.follow.is_none() {
-        return own;
-    }
-    let chains = study.chains();
-    let chain = chains.iter().find(|chain| chain.contains(&index));
-    let before = chain.and_then(|chain| {
-        let place = chain.iter().position(|&other| other == index)?;
-        records.get(chain[place.checked_sub(1)?])
-    });
-    match before {
-        Some(Record { orbit, .. }) if orbit.outcome != Outcome::Failed => {
-            State { x2: own.x2, ..orbit.end }
-        }
-        _ => own,
-    }
 }
 
 /// The command that follows one case in full.

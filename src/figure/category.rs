@@ -2,8 +2,9 @@
 
 use plotters::style::RGBColor;
 
-use super::canvas::{Anchor, Canvas, Rect};
+use super::canvas::{Anchor, Canvas};
 use super::error::FigureError;
+use super::geometry::Rect;
 use super::header::{Mark, draw_mark};
 use super::outcome::Outcomes;
 use super::style::{CHAOTIC, LONG_PERIOD, PERIODS, QUASI_PERIODIC, SMALL_SIZE, UNDECIDED};

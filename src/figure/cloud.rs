@@ -2,7 +2,8 @@
 
 use plotters::style::RGBColor;
 
-use super::canvas::{Canvas, Point};
+use super::canvas::Canvas;
+use super::geometry::Point;
 use super::panel::Panel;
 use super::raster::Raster;
 use super::style::CLOUD_LIMIT;

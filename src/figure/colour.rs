@@ -3,7 +3,8 @@
 use plotters::style::RGBColor;
 
 use super::axis::{Along, Axis, AxisRequest, MANY_DECADES};
-use super::canvas::{Anchor, Canvas, Rect, Stroke};
+use super::canvas::{Anchor, Canvas, Stroke};
+use super::geometry::Rect;
 use super::panel::draw_upward;
 use super::quantity::Quantity;
 use super::raster::Raster;

@@ -2,7 +2,8 @@
 
 use plotters::style::RGBColor;
 
-use super::canvas::{Anchor, Canvas, Point, Rect, Stroke};
+use super::canvas::{Anchor, Canvas, Stroke};
+use super::geometry::{Point, Rect};
 use super::raster::Raster;
 use super::style::{CURVE_WIDTH, HEADER, INK, LABEL_SIZE, MINOR_WIDTH, SMALL_SIZE};
 use super::text::Text;

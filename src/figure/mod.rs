@@ -9,6 +9,7 @@ mod cloud;
 mod colour;
 mod error;
 mod font;
+mod geometry;
 mod header;
 mod history;
 mod map;

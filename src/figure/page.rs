@@ -1,7 +1,8 @@
 //! The page of a figure: panels in rows and columns, with exactly the room their labels need.
 
 use super::axis::{Along, Axis, AxisRequest};
-use super::canvas::{Anchor, Canvas, Rect};
+use super::canvas::{Anchor, Canvas};
+use super::geometry::Rect;
 use super::header::Header;
 use super::panel::{Panel, Pointing, tick_room};
 use super::style::{

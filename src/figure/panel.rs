@@ -1,7 +1,8 @@
 //! A panel: a frame with ticks, numbers and labels, and what stands above it.
 
 use super::axis::Axis;
-use super::canvas::{Anchor, Canvas, Point, Reading, Rect, Stroke};
+use super::canvas::{Anchor, Canvas, Reading, Stroke};
+use super::geometry::{Point, Rect};
 use super::header::Header;
 use super::scale::Spacing;
 use super::style::{

@@ -1,8 +1,9 @@
 //! Relative velocity over relative displacement, with the impact surface and the section points.
 
 use super::axis::AxisRequest;
-use super::canvas::{Canvas, Drawn, Rect, Stroke};
+use super::canvas::{Canvas, Drawn, Stroke};
 use super::error::FigureError;
+use super::geometry::Rect;
 use super::header::{Header, Mark};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};

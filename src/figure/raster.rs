@@ -2,7 +2,7 @@
 
 use plotters::style::RGBColor;
 
-use super::canvas::{Point, Rect};
+use super::geometry::{Point, Rect};
 use super::style::{DPI, HATCH, MISSING};
 
 /// Pixels with opacity, over a rectangle of the page.

@@ -1,5 +1,7 @@
 //! What a stretch of motion costs and yields: energies, counts, shares and margins.
 
+use serde::Serialize;
+
 use crate::flow::Step;
 use crate::flow::guard::crossings;
 use crate::lane::{Series, series};
@@ -16,15 +18,9 @@ pub struct Impact {
     pub y2: f64,
 }
 
-/// Sums over the steps that it has seen.
-#[derive(Debug, Clone)]
-pub struct Account {
-    p_d: f64,
-    c: f64,
-    k2: f64,
-    delta: f64,
-    /// Time seen [s].
-    pub time: f64,
+/// Energies, summed since a start [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Energies {
     /// Work of the drive [J].
     pub work_net: f64,
     /// Its positive part [J].
@@ -37,6 +33,19 @@ pub struct Account {
     pub friction_loss: f64,
     /// Energy lost in the damper [J].
     pub damper_loss: f64,
+}
+
+/// Sums over the steps that it has seen.
+#[derive(Debug, Clone)]
+pub struct Account {
+    p_d: f64,
+    c: f64,
+    k2: f64,
+    delta: f64,
+    /// Time seen [s].
+    pub time: f64,
+    /// Work of the drive and losses.
+    pub energies: Energies,
     /// Integral of the friction force over time [N s].
     pub friction_impulse: f64,
     /// Time at rest [s].
@@ -65,12 +74,7 @@ impl Account {
             k2: parameters[Parameter::K2],
             delta: parameters[Parameter::Delta],
             time: 0.0,
-            work_net: 0.0,
-            work_positive: 0.0,
-            work_absolute: 0.0,
-            work_actuator: 0.0,
-            friction_loss: 0.0,
-            damper_loss: 0.0,
+            energies: Energies::default(),
             friction_impulse: 0.0,
             stick_time: 0.0,
             peak_contact_force: 0.0,
@@ -98,21 +102,22 @@ impl Account {
         let jet = system.motion(&step.jet);
         let power = series::product(&jet.cos, &jet.y1).map(|a| self.p_d * a);
         let work = series::integral(&power, h);
-        self.work_net += work;
+        self.energies.work_net += work;
         self.add_signed_work(&jet.cos, &jet.y1, &power, work, h);
 
         let relative: Series<f64> = std::array::from_fn(|k| jet.y1[k] - jet.y2[k]);
-        self.damper_loss += self.c * series::integral(&series::product(&relative, &relative), h);
+        self.energies.damper_loss +=
+            self.c * series::integral(&series::product(&relative, &relative), h);
         let friction = system.friction(&step.mode, &step.jet);
         self.friction_impulse += series::integral(&friction, h);
         if system.stick_slip(&step.mode) == StickSlip::Stick {
             self.stick_time += h;
-            self.work_actuator += work;
+            self.energies.work_actuator += work;
         } else {
             let slip = system.slip_rate(&step.mode, &step.jet);
-            self.friction_loss += series::integral(&series::product(&friction, &slip), h);
+            self.energies.friction_loss += series::integral(&series::product(&friction, &slip), h);
             let carried = self.p_d * series::integral(&series::product(&jet.cos, &slip), h);
-            self.work_actuator += work - carried;
+            self.energies.work_actuator += work - carried;
         }
     }
 
@@ -133,8 +138,8 @@ impl Account {
         let pieces = cuts.iter().map(|&t| series::integral(power, t)).chain([work]);
         for until in pieces {
             let piece = until - before;
-            self.work_positive += piece.max(0.0);
-            self.work_absolute += piece.abs();
+            self.energies.work_positive += piece.max(0.0);
+            self.energies.work_absolute += piece.abs();
             before = until;
         }
     }

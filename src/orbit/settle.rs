@@ -229,24 +229,25 @@ fn measure<S: Locomotion>(
 /// The outputs per cycle, from the sums over `cycles` and the `progression` per cycle [m].
 fn outputs(account: &Account, parameters: &Parameters, progression: f64, cycles: f64) -> Outputs {
     let mut outputs = Outputs::unknown();
-    let losses = account.friction_loss + account.damper_loss;
+    let energies = account.energies;
+    let losses = energies.friction_loss + energies.damper_loss;
     let force = parameters[Parameter::Pd] + parameters.break_away();
     let ratio = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
     let cost_of_transport = if progression == 0.0 {
         f64::INFINITY
     } else {
-        account.work_positive / cycles / (parameters.normal_load() * progression.abs())
+        energies.work_positive / cycles / (parameters.normal_load() * progression.abs())
     };
     for (output, value) in [
         (Output::ProgressionSpeed, progression / parameters.drive_period()),
         (Output::ProgressionPerCycle, progression),
-        (Output::WorkNet, account.work_net / cycles),
-        (Output::WorkPositive, account.work_positive / cycles),
-        (Output::WorkAbsolute, account.work_absolute / cycles),
-        (Output::WorkActuator, account.work_actuator / cycles),
-        (Output::FrictionLoss, account.friction_loss / cycles),
-        (Output::DamperLoss, account.damper_loss / cycles),
-        (Output::EnergyResidual, ratio(account.work_net - losses, account.work_absolute)),
+        (Output::WorkNet, energies.work_net / cycles),
+        (Output::WorkPositive, energies.work_positive / cycles),
+        (Output::WorkAbsolute, energies.work_absolute / cycles),
+        (Output::WorkActuator, energies.work_actuator / cycles),
+        (Output::FrictionLoss, energies.friction_loss / cycles),
+        (Output::DamperLoss, energies.damper_loss / cycles),
+        (Output::EnergyResidual, ratio(energies.work_net - losses, energies.work_absolute)),
         (Output::MomentumResidual, ratio(account.friction_impulse / account.time, force)),
         (Output::CostOfTransport, cost_of_transport),
         (Output::ImpactsPerCycle, account.impacts as f64 / cycles),

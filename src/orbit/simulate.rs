@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::model::{Capsule, EventKind, Locomotion, Parameters, PrintedCapsule, State, Switching};
 
-use super::{Account, Failure, Trajectory};
+use super::{Account, Energies, Failure, Trajectory};
 
 /// State and sums at the end of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -21,18 +21,9 @@ pub struct Sample {
     pub x2: f64,
     /// Velocity of the capsule [m/s].
     pub y2: f64,
-    /// Work of the drive since the start [J].
-    pub work_net: f64,
-    /// Its positive part [J].
-    pub work_positive: f64,
-    /// The integral of its magnitude [J].
-    pub work_absolute: f64,
-    /// Work of a drive that acts between mass and capsule [J].
-    pub work_actuator: f64,
-    /// Energy lost to the resistance of the ground [J].
-    pub friction_loss: f64,
-    /// Energy lost in the damper [J].
-    pub damper_loss: f64,
+    /// Work of the drive and losses since the start.
+    #[serde(flatten)]
+    pub energies: Energies,
     /// Impacts since the start.
     pub impacts: u64,
 }
@@ -121,12 +112,7 @@ fn sample<S: Locomotion>(
         y1,
         x2,
         y2,
-        work_net: account.work_net,
-        work_positive: account.work_positive,
-        work_absolute: account.work_absolute,
-        work_actuator: account.work_actuator,
-        friction_loss: account.friction_loss,
-        damper_loss: account.damper_loss,
+        energies: account.energies,
         impacts: account.impacts,
     }
 }

@@ -1,7 +1,5 @@
 //! The parallel run: chains of cases over all cores, in any order, to the same records.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use rayon::prelude::*;
 
 use crate::model::State;
@@ -14,19 +12,20 @@ use super::Study;
 pub struct Record {
     /// Index of the case in its study.
     pub index: usize,
+    /// Where it started: as the study says, or where its neighbour settled.
+    pub start: State<f64>,
     /// What it settled to.
     pub orbit: Orbit,
 }
 
 /// Runs every case of `study` on `threads` threads (all cores for none) and hands each record to
-/// `keep`, which is called from any thread and in any order; returns early once `stop` is set.
+/// `keep`, which is called from any thread and in any order.
 ///
 /// The records do not depend on the number of threads, nor on the order: a case depends on its own
 /// parameters and start, or on its predecessor in its chain, alone.
 pub fn run(
     study: &Study,
     threads: Option<usize>,
-    stop: &AtomicBool,
     keep: impl Fn(Record) + Sync,
 ) -> Result<(), RunError> {
     let mut builder = rayon::ThreadPoolBuilder::new();
@@ -36,18 +35,15 @@ pub fn run(
     let pool = builder.build().map_err(|error| RunError(error.to_string()))?;
     pool.install(|| {
         study.chains().into_par_iter().with_max_len(1).for_each(|chain| {
-            run_chain(study, &chain, stop, &keep);
+            run_chain(study, &chain, &keep);
         });
     });
     Ok(())
 }
 
-fn run_chain(study: &Study, chain: &[usize], stop: &AtomicBool, keep: &impl Fn(Record)) {
+fn run_chain(study: &Study, chain: &[usize], keep: &impl Fn(Record)) {
     let mut settled = None;
     for &index in chain {
-        if stop.load(Ordering::Relaxed) {
-            return;
-        }
         let case = study.case(index);
         let start = settled.unwrap_or(case.start);
         let orbit = settle(&case.parameters, case.phase, start, &study.protocol);
@@ -56,7 +52,7 @@ fn run_chain(study: &Study, chain: &[usize], stop: &AtomicBool, keep: &impl Fn(R
             let usable = orbit.outcome != Outcome::Failed;
             settled = usable.then_some(State { x2: case.start.x2, ..orbit.end });
         }
-        keep(Record { index, orbit });
+        keep(Record { index, start, orbit });
     }
 }
 

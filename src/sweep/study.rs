@@ -3,7 +3,7 @@
 use crate::model::{Parameters, State};
 use crate::orbit::{Output, Protocol};
 
-use super::{Axis, Coordinate, Drawing, document::Faults, study_file};
+use super::{Axis, Coordinate, Drawing};
 
 /// The way along an axis in which each case starts where its neighbour settled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,11 +73,6 @@ pub struct Case {
 }
 
 impl Study {
-    /// Reads a study; every fault is told at once. `name` is the file's, for messages.
-    pub fn parse(name: &str, text: &str) -> Result<Study, Faults> {
-        study_file::read(name, text)
-    }
-
     /// Number of values along each dimension of the results, slowest first.
     pub fn shape(&self) -> Vec<usize> {
         let mut shape: Vec<usize> = self.axes.iter().map(|axis| axis.values.len()).collect();

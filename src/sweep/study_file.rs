@@ -28,38 +28,40 @@ const LONGEST_PERIOD: u64 = 100_000;
 /// The four parameters that Table 1 of the paper leaves open: a study says what they are.
 const OPEN: [Parameter; 4] = [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta];
 
-/// Reads a study from the text of the file called `name`.
-pub(super) fn read(name: &str, text: &str) -> Result<Study, Faults> {
-    let reader = Reader::new(text);
-    let (document, errors) = DeTable::parse_recoverable(text);
-    if !errors.is_empty() {
-        // What follows a broken line cannot be judged.
-        errors.iter().for_each(|error| reader.syntax(error));
-        return Err(reader.faults(name));
+impl Study {
+    /// Reads a study from its text; every fault is told at once. `name` is the file's, for messages.
+    pub fn parse(name: &str, text: &str) -> Result<Study, Faults> {
+        let reader = Reader::new(text);
+        let (document, errors) = DeTable::parse_recoverable(text);
+        if !errors.is_empty() {
+            // What follows a broken line cannot be judged.
+            errors.iter().for_each(|error| reader.syntax(error));
+            return Err(reader.faults(name));
+        }
+        let top = Table::new(&reader, document.get_ref());
+        let title = read_title(&top);
+        let axes = read_axes(&top);
+        let base = read_parameters(&top, &axes);
+        let (start, phase, follow) = read_start(&top, &axes);
+        let protocol = read_protocol(&top);
+        let outputs = read_outputs(&top);
+        let study = Study {
+            title,
+            text: text.to_owned(),
+            base,
+            start,
+            phase,
+            follow,
+            protocol,
+            drawings: read_drawings(&top, &axes, &outputs),
+            outputs,
+            axes,
+        };
+        check_size(&reader, &study);
+        top.finish();
+        reader.finish(name)?;
+        Ok(study)
     }
-    let top = Table::new(&reader, document.get_ref());
-    let title = read_title(&top);
-    let axes = read_axes(&top);
-    let base = read_parameters(&top, &axes);
-    let (start, phase, follow) = read_start(&top, &axes);
-    let protocol = read_protocol(&top);
-    let outputs = read_outputs(&top);
-    let study = Study {
-        title,
-        text: text.to_owned(),
-        base,
-        start,
-        phase,
-        follow,
-        protocol,
-        drawings: read_drawings(&top, &axes, &outputs),
-        outputs,
-        axes,
-    };
-    check_size(&reader, &study);
-    top.finish();
-    reader.finish(name)?;
-    Ok(study)
 }
 
 fn read_title(top: &Table<'_, '_>) -> String {

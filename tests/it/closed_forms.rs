@@ -152,7 +152,7 @@ fn free_coulomb_decay_steps_by_twice_friction_over_stiffness() {
     assert!((end.x2 + 0.03).abs() < 1e-10 && end.y2 == 0.0, "{end:?}");
     // What the spring lost, friction took.
     let lost = (1.03_f64.powi(2) - 0.03_f64.powi(2)) / 2.0;
-    assert!(relative(end.friction_loss, lost) < 1e-10);
+    assert!(relative(end.energies.friction_loss, lost) < 1e-10);
 }
 
 #[test]

@@ -55,12 +55,13 @@ proptest! {
         }
         let end = trajectory.state();
         let stored = stored_energy(&p, &end) - stored_energy(&p, &start);
-        let spent = account.friction_loss + account.damper_loss;
-        let turnover = account.work_absolute + spent + largest;
-        let energy = account.work_net - spent - stored;
+        let energies = account.energies;
+        let spent = energies.friction_loss + energies.damper_loss;
+        let turnover = energies.work_absolute + spent + largest;
+        let energy = energies.work_net - spent - stored;
         prop_assert!(energy.abs() <= 1e-11 * turnover, "energy {energy:e} of {turnover:e}");
-        prop_assert!(account.friction_loss >= 0.0 && account.damper_loss >= 0.0);
-        prop_assert!(account.work_positive >= account.work_net.max(0.0) - 1e-15);
+        prop_assert!(energies.friction_loss >= 0.0 && energies.damper_loss >= 0.0);
+        prop_assert!(energies.work_positive >= energies.work_net.max(0.0) - 1e-15);
         // The drive's impulse over whole cycles is zero.
         let momentum = |state: &State<f64>| p[Parameter::M1] * state.y1 + p[Parameter::M2] * state.y2;
         let lost = momentum(&start) - momentum(&end) - account.friction_impulse;

@@ -39,10 +39,10 @@ fn every_reference_trajectory_is_reproduced() {
                 ("y1", sample.y1),
                 ("x2", sample.x2),
                 ("y2", sample.y2),
-                ("work_net", sample.work_net),
-                ("work_positive", sample.work_positive),
-                ("friction_loss", sample.friction_loss),
-                ("damper_loss", sample.damper_loss),
+                ("work_net", sample.energies.work_net),
+                ("work_positive", sample.energies.work_positive),
+                ("friction_loss", sample.energies.friction_loss),
+                ("damper_loss", sample.energies.damper_loss),
             ] {
                 let error = (value - number(expected, key)).abs() / number(&case["scale"], key);
                 // A loss that is zero has the scale 1e-300: it must be met exactly.
