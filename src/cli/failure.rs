@@ -33,6 +33,11 @@ impl Failure {
         Some(Failure { code, ..Failure::requests(&messages) })
     }
 
+    /// The same, told of the file it concerns.
+    pub fn within(self, file: &str) -> Self {
+        Failure { message: format!("{file}: {}", self.message), ..self }
+    }
+
     /// The program's exit code.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(self.code)

@@ -42,12 +42,12 @@ pub struct Figure {
     #[arg(long, requires = "kind")]
     title: Option<String>,
     /// Cycles that a history shows, as 0,5.
-    #[arg(long, value_delimiter = ',', num_args = 2, requires = "kind")]
+    #[arg(long, value_name = "FROM,TO", value_delimiter = ',', requires = "kind")]
     cycles: Vec<f64>,
     /// Width in mm.
     #[arg(long, requires = "kind")]
     width: Option<f64>,
-    /// Stem of the files; the kind of figure by default.
+    /// Stem of the files; the kind of figure and what it shows by default.
     #[arg(long, requires = "kind")]
     name: Option<String>,
     /// Folder to write to; that of the file of results by default.
@@ -99,21 +99,39 @@ impl Figure {
             KindChoice::Map => DrawingKind::Map,
             KindChoice::TradeOff => DrawingKind::TradeOff,
         };
-        let kind_name = || {
-            let found = DrawingKind::NAMES.iter().find(|(_, known)| *known == kind);
-            found.map_or("figure", |(name, _)| name).to_owned()
-        };
         Ok(Drawing {
-            name: self.name.clone().unwrap_or_else(kind_name),
+            name: self.name.clone().unwrap_or_else(|| self.free_name(kind, dataset)),
             kind,
             title: self.title.clone(),
             x: self.x.clone(),
             y: self.y.clone(),
             of: self.of.clone(),
             at: self.held(dataset)?,
-            cycles: <[f64; 2]>::try_from(self.cycles.as_slice()).ok(),
+            cycles: self.cycles()?,
             width_mm: self.width,
         })
+    }
+
+    /// The kind and what is drawn, told apart from the figures of the study.
+    fn free_name(&self, kind: DrawingKind, dataset: &Dataset) -> String {
+        let found = DrawingKind::NAMES.iter().find(|(_, known)| *known == kind);
+        let kind = found.map_or("figure", |(name, _)| name);
+        let parts = std::iter::once(kind).chain(self.of.iter().map(String::as_str));
+        let name = parts.collect::<Vec<_>>().join("-");
+        let studied = studied(dataset, &self.file).unwrap_or_default();
+        if studied.iter().any(|drawing| drawing.name == name) {
+            format!("{name}-own")
+        } else {
+            name
+        }
+    }
+
+    fn cycles(&self) -> Result<Option<[f64; 2]>, Failure> {
+        match self.cycles[..] {
+            [] => Ok(None),
+            [from, to] if from < to => Ok(Some([from, to])),
+            _ => Err(Failure::request("--cycles: expected two numbers, the lesser first, as 0,5")),
+        }
     }
 
     fn held(&self, dataset: &Dataset) -> Result<BTreeMap<String, f64>, Failure> {

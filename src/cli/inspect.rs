@@ -79,14 +79,18 @@ fn describe(dataset: &Dataset) -> Value {
     })
 }
 
-/// How many cases came out how.
+/// How many cases came out how; what did not occur is left out.
 fn outcomes(dataset: &Dataset) -> Vec<(String, Value)> {
     let Some(Variable { values: Values::Integer(codes), flags, .. }) = dataset.variable("outcome")
     else {
         return Vec::new();
     };
     let count = |code: i64| codes.iter().filter(|&&found| found == code).count();
-    flags.iter().map(|(code, name)| (name.clone(), json!(count(*code)))).collect()
+    let counts = flags.iter().map(|(code, name)| (name, count(*code)));
+    counts
+        .filter(|&(_, count)| count > 0)
+        .map(|(name, count)| (name.clone(), json!(count)))
+        .collect()
 }
 
 fn tell(dataset: &Dataset) -> String {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use clap::{Args, ValueEnum};
 use serde_json::{Map, Value, json};
 
-use super::{Failure, plain_or_quantity, print};
+use super::{Failure, plain_or_quantity, print, tell};
 use crate::model::{Dimension, Parameter, Parameters, Resistance, State, Switching};
 use crate::orbit::{Orbit, Output, Protocol, Simulation, settle, simulate};
 use crate::sweep::document::unknown;
@@ -23,18 +23,19 @@ A number without a unit is in SI. What is not given is as in the paper's Table 1
 #[command(after_help = EXAMPLES)]
 pub struct Simulate {
     /// Frequency of the drive, as "77.91 rad/s" or "12.4 Hz".
-    #[arg(long, value_name = "QUANTITY")]
+    #[arg(long, value_name = "QUANTITY", allow_negative_numbers = true)]
     omega: Option<String>,
     /// Amplitude of the drive, as "4 N".
-    #[arg(long, value_name = "QUANTITY")]
+    #[arg(long, value_name = "QUANTITY", allow_negative_numbers = true)]
     p_d: Option<String>,
     /// Stiffness of the stop, as "2.42 kN/m".
-    #[arg(long, value_name = "QUANTITY")]
+    #[arg(long, value_name = "QUANTITY", allow_negative_numbers = true)]
     k2: Option<String>,
     /// Gap between mass and stop, as "3.5 mm".
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     delta: Option<String>,
-    /// Any parameter (m1, m2, k1, c, k2, delta, p_d, omega, mu_s, mu_d, v_s, g, c1, c2).
+    /// Any parameter (m1, m2, k1, c, k2, delta, p_d, omega, mu_s, mu_d, v_s, g, c1, c2); the capsule leaves
+    /// rest at the force max(mu_s, 2 mu_d) (m1 + m2) g.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Start of the motion (r, y1, x2, y2); at rest by default.
@@ -47,9 +48,9 @@ pub struct Simulate {
     #[arg(long, default_value_t = 20)]
     cycles: u64,
     /// Relative local error of a step.
-    #[arg(long, default_value_t = 1e-12)]
+    #[arg(long, default_value = "1e-12")]
     tolerance: f64,
-    /// Drive cycles within which the motion must settle.
+    /// Drive cycles within which the motion must settle; if it does not, 128 more are measured.
     #[arg(long, default_value_t = 2000)]
     max_cycles: u64,
     /// Reading of the switching between stick and slip.
@@ -87,6 +88,10 @@ impl Simulate {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let Request { parameters, start, phase } = self.request()?;
+        if parameters.static_limit() < parameters.friction_at_onset() {
+            let force = parameters.break_away();
+            tell(&format!("note: mu_s is below the friction at onset; rest ends at {force} N"));
+        }
         let simulation = simulate(&parameters, phase, start, self.cycles, self.tolerance);
         let protocol = Protocol {
             tolerance: self.tolerance,
@@ -105,7 +110,7 @@ impl Simulate {
             });
             print(&format!("{object:#}\n"))
         } else {
-            print(&summary(&simulation, &orbit))
+            print(&summary(&parameters, &simulation, &orbit))
         }
     }
 
@@ -241,10 +246,21 @@ fn orbit_json(orbit: &Orbit) -> Value {
 }
 
 /// What a person wants to see first.
-fn summary(simulation: &Simulation, orbit: &Orbit) -> String {
+fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> String {
+    let given: Vec<String> = Parameter::ALL
+        .iter()
+        .map(|&parameter| format!("{} = {}", parameter.symbol(), parameters[parameter]))
+        .collect();
     let mut text = format!(
-        "{:>5} {:>12} {:>14} {:>14} {:>14} {:>14} {:>8}\n",
-        "cycle", "t [s]", "r [mm]", "y1 [m/s]", "x2 [mm]", "y2 [m/s]", "impacts"
+        "{} (SI)\n\n{:>5} {:>12} {:>14} {:>14} {:>14} {:>14} {:>8}\n",
+        given.join(", "),
+        "cycle",
+        "t [s]",
+        "r [mm]",
+        "y1 [m/s]",
+        "x2 [mm]",
+        "y2 [m/s]",
+        "impacts"
     );
     for sample in &simulation.section {
         let (r, x2) = (sample.r * 1e3, sample.x2 * 1e3);
@@ -255,6 +271,7 @@ fn summary(simulation: &Simulation, orbit: &Orbit) -> String {
             sample.n, sample.t, sample.y1, sample.y2, sample.impacts
         );
     }
+    let _ = writeln!(text, "{} events; --json lists them", simulation.events.len());
     if let Some(failure) = simulation.failure {
         let _ = writeln!(text, "failed: {failure}");
     }

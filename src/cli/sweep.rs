@@ -58,7 +58,7 @@ impl Sweep {
             Some(dataset) => dataset,
             None => {
                 if !self.no_figures {
-                    rehearse(&study)?;
+                    rehearse(&study).map_err(|failure| failure.within(&name))?;
                 }
                 prepare(folder)?;
                 self.compute(&study, &output)?

@@ -1,4 +1,5 @@
-//! Several numbers side by side, each treated exactly as an `f64` alone would be.
+//! Several numbers side by side, each treated exactly as an `f64` alone would be: the form that a vector of
+//! cases runs the same source in. Sweeps run one case at a time so far; the tests hold the bits of both equal.
 
 use std::array;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};

@@ -8,7 +8,7 @@ use super::Section;
 const EXACT: f64 = 1e-2;
 /// Points of an orbit closer together than so many recurrence tolerances are taken for one: the
 /// rounding of a step, carried through weakly damped cycles, makes such orbits of its own.
-const RESOLUTION: f64 = 100.0;
+pub const RESOLUTION: f64 = 100.0;
 /// A motion below this share of the largest one seen is measured against that largest one.
 const FADED: f64 = 1e-3;
 
@@ -99,12 +99,11 @@ impl Recurrence {
         ratio < 1.0 && now * ratio / (1.0 - ratio) <= self.tolerance
     }
 
-    /// The velocity that distances are measured against [m/s]: that of the motion lately, in which a
-    /// displacement r counts as omega r, so that a section where r or y1 passes zero has a size too.
+    /// The velocity that distances are measured against: the size of the motion lately [m/s].
     fn scale(&mut self, point: &Section) -> f64 {
-        let size = |[r, y1, y2]: &Section| (self.omega * r.abs()).max(y1.abs()).max(y2.abs());
-        self.largest = self.largest.max(size(point));
-        let recent = self.points.iter().rev().take(self.longest).map(size);
+        self.largest = self.largest.max(size(self.omega, point));
+        let recent = self.points.iter().rev().take(self.longest);
+        let recent = recent.map(|point| size(self.omega, point));
         recent.fold(FADED * self.largest, f64::max)
     }
 
@@ -115,6 +114,12 @@ impl Recurrence {
         let difference = r.max((a[1] - b[1]).abs()).max((a[2] - b[2]).abs());
         if difference == 0.0 { 0.0 } else { difference / scale }
     }
+}
+
+/// Size of the motion at a section point [m/s]; a displacement r counts as omega r, so that a section
+/// where y1 passes zero has a size too.
+pub fn size(omega: f64, [r, y1, y2]: &Section) -> f64 {
+    (omega * r.abs()).max(y1.abs()).max(y2.abs())
 }
 
 #[cfg(test)]

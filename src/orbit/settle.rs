@@ -6,7 +6,7 @@ use crate::model::{
     Capsule, EventKind, Locomotion, Parameter, Parameters, PrintedCapsule, State, Switching,
 };
 
-use super::recurrence::{Recurrence, Settled};
+use super::recurrence::{RESOLUTION, Recurrence, Settled, size};
 use super::{Account, Failure, History, HistorySpan, Impact, Output, Outputs, Section, Trajectory};
 
 /// What a case turned out to be.
@@ -208,7 +208,9 @@ fn measure<S: Locomotion>(
     let mut account = Account::new(parameters);
     let (mut section, mut impacts) = (Vec::new(), Vec::new());
     let x2 = trajectory.state().x2;
+    let mut speed: f64 = 0.0;
     for _ in 0..cycles {
+        speed = speed.max(size(parameters[Parameter::Omega], &trajectory.section()));
         if section.len() < protocol.points {
             section.push(trajectory.section());
         }
@@ -223,20 +225,29 @@ fn measure<S: Locomotion>(
         })?;
     }
     let progression = (trajectory.state().x2 - x2) / cycles as f64;
-    Ok((outputs(&account, parameters, progression, cycles as f64), section, impacts))
+    let resolved = RESOLUTION * protocol.recurrence * speed * parameters.drive_period();
+    let moves = progression.abs() > resolved;
+    Ok((outputs(&account, parameters, progression, moves, cycles as f64), section, impacts))
 }
 
-/// The outputs per cycle, from the sums over `cycles` and the `progression` per cycle [m].
-fn outputs(account: &Account, parameters: &Parameters, progression: f64, cycles: f64) -> Outputs {
+/// The outputs per cycle, from the sums over `cycles` and the `progression` per cycle [m], which is
+/// rounding unless the capsule `moves`.
+fn outputs(
+    account: &Account,
+    parameters: &Parameters,
+    progression: f64,
+    moves: bool,
+    cycles: f64,
+) -> Outputs {
     let mut outputs = Outputs::unknown();
     let energies = account.energies;
     let losses = energies.friction_loss + energies.damper_loss;
     let force = parameters[Parameter::Pd] + parameters.break_away();
     let ratio = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
-    let cost_of_transport = if progression == 0.0 {
-        f64::INFINITY
-    } else {
+    let cost_of_transport = if moves {
         energies.work_positive / cycles / (parameters.normal_load() * progression.abs())
+    } else {
+        f64::INFINITY
     };
     for (output, value) in [
         (Output::ProgressionSpeed, progression / parameters.drive_period()),

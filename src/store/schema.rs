@@ -28,10 +28,24 @@ pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
     add_history(&mut dataset, &table);
     dataset.attributes.insert("title".to_owned(), study.title.clone());
     dataset.attributes.extend(provenance::attributes());
+    dataset.attributes.extend(protocol(study));
     dataset.attributes.insert("friction_switching".to_owned(), switching(study).to_owned());
     dataset.attributes.insert("resistance".to_owned(), resistance(study).to_owned());
     dataset.texts.insert("study".to_owned(), study.text.clone());
     dataset
+}
+
+/// How the cases were followed, so that the file tells it even where the study left it to the program.
+fn protocol(study: &Study) -> [(String, String); 5] {
+    let protocol = &study.protocol;
+    [
+        ("tolerance", format!("{:e}", protocol.tolerance)),
+        ("recurrence", format!("{:e}", protocol.recurrence)),
+        ("max_cycles", protocol.max_cycles.to_string()),
+        ("max_period", protocol.max_period.to_string()),
+        ("measured_cycles", protocol.measured_cycles.to_string()),
+    ]
+    .map(|(key, value)| (format!("protocol_{key}"), value))
 }
 
 fn switching(study: &Study) -> &'static str {

@@ -127,7 +127,10 @@ impl<'r, 'a> Table<'r, 'a> {
 
     /// The value of `key`, if it is there.
     pub fn entry(&self, key: &str) -> Option<Entry<'r, 'a>> {
-        self.asked.borrow_mut().push(key.to_owned());
+        let mut asked = self.asked.borrow_mut();
+        if !asked.iter().any(|known| known == key) {
+            asked.push(key.to_owned());
+        }
         let value = self.table.get(key)?;
         Some(Entry { reader: self.reader, key: self.path_of(key), value })
     }
@@ -263,6 +266,9 @@ fn article(noun: &str) -> &'static str {
 /// A message about a name that is not known, with the nearest of those that are.
 pub fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str>) -> String {
     let known: Vec<&str> = known.collect();
+    if known.is_empty() {
+        return format!("unknown {what} \"{name}\" (there is none)");
+    }
     let nearest = known
         .iter()
         .map(|&candidate| (strsim::damerau_levenshtein(name, candidate), candidate))

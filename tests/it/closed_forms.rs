@@ -241,3 +241,12 @@ fn without_a_stop_the_capsule_does_not_drift() {
         }
     }
 }
+
+#[test]
+fn what_only_shakes_has_no_finite_cost_of_transport() {
+    // Slipping to and fro without a stop: the rounding of the progression is no progress.
+    let p = stuck(90.0, 6.0);
+    let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
+    assert!(orbit.outputs[Output::StickShare] < 1.0);
+    assert!(orbit.outputs[Output::CostOfTransport].is_infinite());
+}

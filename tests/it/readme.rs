@@ -138,10 +138,38 @@ fn read_in_python(folder: &Path) {
 fn every_study_that_is_kept_can_be_read() {
     for entry in std::fs::read_dir("studies").expect("the studies") {
         let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|ending| ending != "toml") {
+            continue;
+        }
         let text = std::fs::read_to_string(&path).expect("text");
         let study = Study::parse(&path.display().to_string(), &text);
         let study = study.unwrap_or_else(|faults| panic!("{faults}"));
         assert!(!study.title.is_empty() && !study.drawings.is_empty(), "{}", path.display());
+    }
+}
+
+#[test]
+fn the_reference_of_studies_names_every_parameter_and_output() {
+    use capsulemap::model::Parameter;
+    use capsulemap::orbit::{Output, Protocol};
+    let reference = include_str!("../../studies/README.md");
+    let parameters = Parameter::ALL.iter().map(|parameter| parameter.symbol());
+    for name in parameters.chain(Output::ALL.iter().map(|output| output.name())) {
+        assert!(reference.contains(&format!("`{name}`")), "{name}");
+    }
+    for output in Output::ALL {
+        let row = reference.lines().find(|line| line.contains(&format!("| `{}`", output.name())));
+        let known = row.is_some_and(|row| row.contains(&format!("| {} |", output.unit())));
+        assert!(known || output.name().starts_with("backward"), "{}", output.name());
+    }
+    let Protocol { max_cycles, max_period, measured_cycles, .. } = Protocol::default();
+    for (key, value) in [
+        ("max_cycles", max_cycles),
+        ("max_period", max_period as u64),
+        ("measured_cycles", measured_cycles),
+    ] {
+        let row = reference.lines().find(|line| line.starts_with(&format!("| `{key}`")));
+        assert!(row.is_some_and(|row| row.ends_with(&format!("| {value} |"))), "{key}");
     }
 }
 

@@ -295,7 +295,7 @@ fn figures_of_ones_own_come_from_the_file_alone() {
     figure(&["--kind", "bifurcation", "--at", "p_d=3.9 N", "--name", "at-4", "--formats", "pdf"])
         .done();
     figure(&["--kind", "map", "--of", "work_net", "--width", "120", "--folder", "x"]).done();
-    for path in ["at-4.pdf", "x/map.png", "x/map.svg", "x/map.pdf"] {
+    for path in ["at-4.pdf", "x/map-work_net.png", "x/map-work_net.svg", "x/map-work_net.pdf"] {
         assert!(desk.path(path).is_file(), "{path}");
     }
     let before = desk.files();
@@ -349,7 +349,8 @@ fn inspect_tells_what_is_in_a_file() {
     desk.put("rich.toml", &study);
     desk.run(&["sweep", "rich.toml", "--output", "r.h5"]).done();
     let told = desk.run(&["inspect", "r.h5"]).done().out;
-    for part in ["title: All there is", "18 periodic, 0 chaotic", "source: capsulemap", "3 x 3 x 2"]
+    for part in
+        ["title: All there is", "outcomes: 18 periodic\n", "source: capsulemap", "3 x 3 x 2"]
     {
         assert!(told.contains(part), "{part} is missing from:\n{told}");
     }
