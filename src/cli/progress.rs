@@ -50,7 +50,10 @@ impl Progress {
             let rate = lines.done as f64 / elapsed.as_secs_f64();
             let left = (self.total - lines.done) as f64 / rate;
             let (done, total) = (lines.done, self.total);
-            super::tell(&format!("{done}/{total} cases, {rate:.3} cases/s, {left:.0} s left"));
+            let decimals = if rate < 10.0 { 2 } else { 0 };
+            super::tell(&format!(
+                "{done}/{total} cases, {rate:.decimals$} cases/s, {left:.0} s left"
+            ));
         }
     }
 

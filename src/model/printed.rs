@@ -70,8 +70,7 @@ impl PrintedCapsule {
         self.k1 * state.r + contact + self.c * (state.y1 - state.y2)
     }
 
-    /// What follows on |F| = f_s, from the rates of |F| in the frozen and in the moving field, and how
-    /// many leading coefficients of the guards of that motion vanish.
+    /// What follows on |F| = f_s, from the rates of |F| in the frozen and in the moving field.
     fn on_limit(&self, closed: bool, state: &State<f64>, side: f64, time: f64) -> Regime {
         let limit = side * self.drag.static_limit;
         let at_rest = state.y2 == 0.0;
