@@ -16,16 +16,12 @@ const TOLERANCE: f64 = 1e-12;
 const REPETITIONS: usize = 5;
 
 fn parameters(k2: f64, omega: f64, p_d: f64, delta: f64) -> Parameters {
-    let mut parameters = Parameters::default();
-    for (parameter, value) in [
+    Parameters::with(&[
         (Parameter::K2, k2),
         (Parameter::Omega, omega),
         (Parameter::Pd, p_d),
         (Parameter::Delta, delta),
-    ] {
-        parameters[parameter] = value;
-    }
-    parameters
+    ])
 }
 
 /// Follows one case; returns the number of steps.

@@ -200,6 +200,15 @@ impl fmt::Display for Fault {
 }
 
 impl Parameters {
+    /// The defaults, with these values (SI) in place of theirs.
+    pub fn with(values: &[(Parameter, f64)]) -> Self {
+        let mut parameters = Parameters::default();
+        for &(parameter, value) in values {
+            parameters[parameter] = value;
+        }
+        parameters
+    }
+
     /// Every value that is not allowed.
     pub fn faults(&self) -> Vec<Fault> {
         Parameter::ALL

@@ -11,8 +11,7 @@ const STARTS: usize = 2000;
 
 /// The belt's oscillator, with a section every half second.
 fn belt(switching: Switching) -> Parameters {
-    let mut p = Parameters::default();
-    for (parameter, value) in [
+    let mut p = Parameters::with(&[
         (Parameter::M1, 1e12),
         (Parameter::M2, 1.0),
         (Parameter::K1, 1.0),
@@ -22,9 +21,7 @@ fn belt(switching: Switching) -> Parameters {
         (Parameter::Pd, 0.0),
         (Parameter::Vs, 0.5),
         (Parameter::Omega, 4.0 * PI),
-    ] {
-        p[parameter] = value;
-    }
+    ]);
     p[Parameter::MuD] = 0.5 / p.normal_load();
     p[Parameter::MuS] = 1.0 / p.normal_load();
     p.switching = switching;

@@ -7,17 +7,9 @@ use capsulemap::orbit::{Outcome, Output, Protocol, settle, simulate};
 
 const TOLERANCE: f64 = 1e-12;
 
-fn with(values: &[(Parameter, f64)]) -> Parameters {
-    let mut parameters = Parameters::default();
-    for &(parameter, value) in values {
-        parameters[parameter] = value;
-    }
-    parameters
-}
-
 /// Parameters under which the capsule sticks and the mass stays clear of the stop.
 fn stuck(omega: f64, p_d: f64) -> Parameters {
-    with(&[(Parameter::Omega, omega), (Parameter::Pd, p_d), (Parameter::Delta, 1.0)])
+    Parameters::with(&[(Parameter::Omega, omega), (Parameter::Pd, p_d), (Parameter::Delta, 1.0)])
 }
 
 /// Impedance Z and the response of F, sqrt(k1^2 + c^2 w^2).
@@ -115,7 +107,7 @@ fn quiet_start(p: &Parameters) -> State<f64> {
 
 /// A block of mass 1 on a spring k = 1 to a wall that hardly moves, sliding on plain dry friction.
 fn block(friction: f64) -> Parameters {
-    let mut p = with(&[
+    let mut p = Parameters::with(&[
         (Parameter::M1, 1e12),
         (Parameter::M2, 1.0),
         (Parameter::K1, 1.0),
@@ -158,7 +150,7 @@ fn free_coulomb_decay_steps_by_twice_friction_over_stiffness() {
 #[test]
 fn coasting_stops_when_the_stribeck_law_says() {
     let (v_s, mu_d) = (0.3, 0.33);
-    let p = with(&[
+    let p = Parameters::with(&[
         (Parameter::M1, 1e-12),
         (Parameter::K1, 0.0),
         (Parameter::C, 0.0),
@@ -179,7 +171,7 @@ fn coasting_stops_when_the_stribeck_law_says() {
 #[test]
 fn coasting_in_a_medium_follows_the_drag() {
     let coast = |c1: f64, c2: f64| {
-        let mut p = with(&[
+        let mut p = Parameters::with(&[
             (Parameter::M1, 1e-12),
             (Parameter::M2, 0.5),
             (Parameter::K1, 0.0),

@@ -5,14 +5,6 @@ use capsulemap::model::{
 };
 use capsulemap::orbit::{Event, Outcome, Output, Protocol, settle, simulate};
 
-fn with(values: &[(Parameter, f64)]) -> Parameters {
-    let mut parameters = Parameters::default();
-    for &(parameter, value) in values {
-        parameters[parameter] = value;
-    }
-    parameters
-}
-
 fn kinds(p: &Parameters, start: State<f64>, cycles: u64) -> Vec<EventKind> {
     let simulation = simulate(p, 0.0, start, cycles, 1e-12);
     assert!(simulation.failure.is_none(), "{:?}", simulation.failure);
@@ -28,13 +20,13 @@ fn modes(p: &Parameters, start: State<f64>) -> (Contact, StickSlip) {
 
 #[test]
 fn a_start_on_the_stop_goes_where_it_is_heading() {
-    let p = with(&[(Parameter::Delta, 1e-3)]);
+    let p = Parameters::with(&[(Parameter::Delta, 1e-3)]);
     let at_stop = |y1: f64| State { r: 1e-3, y1, ..State::default() };
     assert_eq!(modes(&p, at_stop(0.1)).0, Contact::Closed);
     assert_eq!(modes(&p, at_stop(-0.1)).0, Contact::Open);
     // At rest on the stop the force decides: the drive outweighs the spring, or it does not.
     assert_eq!(modes(&p, at_stop(0.0)).0, Contact::Closed);
-    let weak = with(&[(Parameter::Delta, 1e-3), (Parameter::Pd, 1.0)]);
+    let weak = Parameters::with(&[(Parameter::Delta, 1e-3), (Parameter::Pd, 1.0)]);
     assert_eq!(modes(&weak, at_stop(0.0)).0, Contact::Open);
     // The mode at the start is no event: of the one that leads away from the stop, none is told at t = 0.
     for y1 in [-0.1, 0.0, 0.1] {
@@ -65,7 +57,7 @@ fn a_start_at_the_break_away_force_slips_or_stays() {
 
 #[test]
 fn a_start_at_speed_zero_beyond_the_limit_slides_at_once() {
-    let p = with(&[(Parameter::K2, 0.0)]);
+    let p = Parameters::with(&[(Parameter::K2, 0.0)]);
     let stretched = |r: f64| State { r, ..State::default() };
     assert_eq!(modes(&p, stretched(4e-3)).1, StickSlip::Forward);
     assert_eq!(modes(&p, stretched(-4e-3)).1, StickSlip::Backward);
@@ -77,7 +69,7 @@ fn a_tangency_is_no_contact() {
     // Nothing but the drive acts on a mass of 1 kg: y1 = 1 - 2 sin t, r = t - 2 (1 - cos t), which is highest
     // where sin t = 1/2, at pi/6, for the first time.
     let contacts = |delta: f64| {
-        let p = with(&[
+        let p = Parameters::with(&[
             (Parameter::K1, 0.0),
             (Parameter::C, 0.0),
             (Parameter::M1, 1.0),
@@ -111,7 +103,7 @@ fn simultaneous_events_are_both_obeyed() {
         (Parameter::MuS, mu_d),
         (Parameter::MuD, mu_d),
     ];
-    let mut p = with(&base);
+    let mut p = Parameters::with(&base);
     p.resistance = capsulemap::model::Resistance::Coulomb;
     let deceleration = mu_d * p.normal_load() / p[Parameter::M2];
     let stop = v0 / deceleration;
@@ -129,7 +121,7 @@ fn simultaneous_events_are_both_obeyed() {
 
 #[test]
 fn without_a_gap_contact_starts_and_ends_at_zero() {
-    let p = with(&[(Parameter::Delta, 0.0)]);
+    let p = Parameters::with(&[(Parameter::Delta, 0.0)]);
     assert_eq!(modes(&p, State::default()).0, Contact::Closed, "the drive pushes forward");
     let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
     assert_eq!(orbit.outcome, Outcome::Periodic);
@@ -146,8 +138,8 @@ fn without_a_gap_contact_starts_and_ends_at_zero() {
 
 #[test]
 fn a_stop_without_stiffness_is_as_none() {
-    let hollow = with(&[(Parameter::K2, 0.0), (Parameter::Pd, 6.0)]);
-    let absent = with(&[(Parameter::Delta, 10.0), (Parameter::Pd, 6.0)]);
+    let hollow = Parameters::with(&[(Parameter::K2, 0.0), (Parameter::Pd, 6.0)]);
+    let absent = Parameters::with(&[(Parameter::Delta, 10.0), (Parameter::Pd, 6.0)]);
     let [hollow, absent] =
         [hollow, absent].map(|p| settle(&p, 0.0, State::default(), &Protocol::default()));
     assert!(hollow.outputs[Output::ImpactsPerCycle] > 0.0, "it passes the plate all the same");
@@ -160,7 +152,7 @@ fn a_stop_without_stiffness_is_as_none() {
 
 #[test]
 fn without_a_drive_everything_comes_to_rest() {
-    let p = with(&[(Parameter::Pd, 0.0)]);
+    let p = Parameters::with(&[(Parameter::Pd, 0.0)]);
     let still = settle(&p, 0.0, State::default(), &Protocol::default());
     assert_eq!((still.outcome, still.period), (Outcome::Periodic, 1));
     for output in [Output::ProgressionSpeed, Output::WorkNet, Output::EnergyResidual] {
@@ -176,13 +168,14 @@ fn without_a_drive_everything_comes_to_rest() {
 
 #[test]
 fn everything_at_zero_on_the_stop_stays_there() {
-    let p = with(&[(Parameter::Pd, 0.0), (Parameter::Delta, 0.0)]);
+    let p = Parameters::with(&[(Parameter::Pd, 0.0), (Parameter::Delta, 0.0)]);
     assert!(kinds(&p, State::default(), 20).is_empty());
 }
 
 #[test]
 fn a_start_in_contact_is_pushed_apart() {
-    let p = with(&[(Parameter::Delta, -1e-3), (Parameter::Pd, 0.0), (Parameter::MuS, 5.0)]);
+    let p =
+        Parameters::with(&[(Parameter::Delta, -1e-3), (Parameter::Pd, 0.0), (Parameter::MuS, 5.0)]);
     assert_eq!(modes(&p, State::default()).0, Contact::Closed);
     let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
     assert_eq!(orbit.outcome, Outcome::Periodic);
@@ -193,7 +186,7 @@ fn a_start_in_contact_is_pushed_apart() {
 
 #[test]
 fn a_capsule_that_never_moves_is_periodic_at_speed_zero() {
-    let p = with(&[(Parameter::Pd, 0.5)]);
+    let p = Parameters::with(&[(Parameter::Pd, 0.5)]);
     let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
     assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
     assert_eq!(orbit.outputs[Output::ProgressionPerCycle], 0.0);

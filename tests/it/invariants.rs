@@ -12,8 +12,7 @@ use proptest::test_runner::RngSeed;
 fn parameters() -> impl Strategy<Value = Parameters> {
     let ranges = (5.0..200.0, 0.0..10.0, 0.0..1e5, 0.0..6e-3, 0.0..1.0, 0.01..10.0, 0.0..1.2);
     ranges.prop_map(|(omega, p_d, k2, delta, mu_d, v_s, mu_s)| {
-        let mut parameters = Parameters::default();
-        for (parameter, value) in [
+        Parameters::with(&[
             (Parameter::Omega, omega),
             (Parameter::Pd, p_d),
             (Parameter::K2, k2),
@@ -21,10 +20,7 @@ fn parameters() -> impl Strategy<Value = Parameters> {
             (Parameter::MuD, mu_d),
             (Parameter::Vs, v_s),
             (Parameter::MuS, mu_s),
-        ] {
-            parameters[parameter] = value;
-        }
-        parameters
+        ])
     })
 }
 
