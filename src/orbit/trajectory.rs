@@ -18,11 +18,20 @@ pub type Section = [f64; 3];
 #[serde(rename_all = "kebab-case")]
 pub enum Reason {
     /// Events follow each other without time passing.
-    NoProgress,
+    NoProgress = 1,
     /// The state is no longer a finite number.
     NotFinite,
     /// A single drive cycle takes too many steps.
     TooManySteps,
+}
+
+impl Reason {
+    /// Every reason with its name in files.
+    pub const NAMES: [(Reason, &str); 3] = [
+        (Reason::NoProgress, "no-progress"),
+        (Reason::NotFinite, "not-finite"),
+        (Reason::TooManySteps, "too-many-steps"),
+    ];
 }
 
 /// Where and why a case failed.

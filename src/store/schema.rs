@@ -3,7 +3,7 @@
 use ndarray::{ArrayD, IxDyn};
 
 use crate::model::{Parameter, Resistance, State, Switching};
-use crate::orbit::{History, Impact, Orbit, Outcome};
+use crate::orbit::{History, Impact, Orbit, Outcome, Reason};
 use crate::sweep::{Coordinate, Direction, Record, Study};
 
 use super::{Dataset, Values, Variable, provenance};
@@ -209,6 +209,19 @@ fn add_verdicts(dataset: &mut Dataset, table: &Table<'_>) {
     for (name, variable) in [("outcome", outcome), ("period", period), ("cycles", cycles)] {
         dataset.variables.insert(name.to_owned(), variable);
     }
+    add_failures(dataset, table);
+}
+
+/// Why and when a case could not be followed on.
+fn add_failures(dataset: &mut Dataset, table: &Table<'_>) {
+    let reasons = table.integers(0, |orbit| orbit.failure.map_or(0, |why| why.reason as i64));
+    let mut reason = table.variable("1", "why the case could not be followed", reasons);
+    let names = Reason::NAMES.map(|(reason, name)| (reason as i64, name.to_owned()));
+    reason.flags = std::iter::once((0, "none".to_owned())).chain(names).collect();
+    let times = table.reals(|orbit| orbit.failure.map_or(f64::NAN, |why| why.time));
+    let time = table.variable("s", "time at which the case could not be followed on", times);
+    dataset.variables.insert("failure_reason".to_owned(), reason);
+    dataset.variables.insert("failure_time".to_owned(), time);
 }
 
 fn add_section(dataset: &mut Dataset, table: &Table<'_>) {

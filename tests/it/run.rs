@@ -265,6 +265,9 @@ fn a_case_that_fails_is_a_record_and_can_be_replayed() {
     let told = desk.run(&["sweep", "a.toml"]).done();
     let dataset = store::read(&desk.path("results/a/a.h5")).expect("a result");
     assert_eq!(codes(&dataset, "outcome"), [0, 4, 0]);
+    assert_eq!(codes(&dataset, "failure_reason"), [0, 2, 0]);
+    let failed_at = dataset.variables["failure_time"].values.to_real();
+    assert!(failed_at[[0]].is_nan() && failed_at[[1]] >= 0.0);
     let speeds = dataset.variables["progression_speed"].values.to_real();
     assert!(speeds[[0]].is_finite() && speeds[[1]].is_nan() && speeds[[2]].is_finite());
     assert!(told.out.contains("3 cases") && told.out.contains("failed         1"), "{}", told.out);
