@@ -269,11 +269,14 @@ pub fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str>)
     if known.is_empty() {
         return format!("unknown {what} \"{name}\" (there is none)");
     }
+    let likely = |candidate: &str| candidate.starts_with(name) && !name.is_empty();
     let nearest = known
         .iter()
         .map(|&candidate| (strsim::damerau_levenshtein(name, candidate), candidate))
-        .min()
-        .filter(|&(distance, _)| distance <= 1 + name.chars().count() / 3);
+        .min_by_key(|&(distance, candidate)| (!likely(candidate), distance))
+        .filter(|&(distance, candidate)| {
+            likely(candidate) || distance <= 1 + name.chars().count() / 3
+        });
     let hint = match nearest {
         Some((_, candidate)) => format!("; did you mean \"{candidate}\"?"),
         None => String::new(),
