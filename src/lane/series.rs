@@ -61,7 +61,7 @@ pub fn product_term<L: Lane>(a: &Series<L>, b: &Series<L>, k: usize) -> L {
 /// Coefficients of the product of two series.
 pub type Product<L> = [L; 2 * ORDER + 1];
 
-/// The whole product of two series: cut at the degree of its factors, it would lose five digits.
+/// The whole product of two series: cut at the degree of its factors, it would cost energies two digits.
 #[inline(always)]
 pub fn product<L: Lane>(a: &Series<L>, b: &Series<L>) -> Product<L> {
     let mut result = [L::splat(0.0); 2 * ORDER + 1];
