@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::{Failure, plain_or_quantity, tell};
+use super::{Failure, named, plain_or_quantity, tell};
 use crate::figure::{FigureError, Format, draw};
 use crate::store::{self, Dataset};
 use crate::sweep::document::unknown;
@@ -24,8 +24,8 @@ pub struct Figure {
     /// The file of results.
     file: PathBuf,
     /// Kind of figure; without it, the figures of the study are drawn.
-    #[arg(long, value_enum)]
-    kind: Option<KindChoice>,
+    #[arg(long, value_parser = named(&DrawingKind::NAMES))]
+    kind: Option<DrawingKind>,
     /// Outputs to draw.
     #[arg(long, value_delimiter = ',', requires = "kind")]
     of: Vec<String>,
@@ -69,15 +69,6 @@ pub enum FormatChoice {
     Pdf,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum KindChoice {
-    History,
-    PhasePortrait,
-    Bifurcation,
-    Map,
-    TradeOff,
-}
-
 impl Figure {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
@@ -91,14 +82,7 @@ impl Figure {
         draw_all(&dataset, &drawings, folder, &self.formats)
     }
 
-    fn drawing(&self, kind: KindChoice, dataset: &Dataset) -> Result<Drawing, Failure> {
-        let kind = match kind {
-            KindChoice::History => DrawingKind::History,
-            KindChoice::PhasePortrait => DrawingKind::PhasePortrait,
-            KindChoice::Bifurcation => DrawingKind::Bifurcation,
-            KindChoice::Map => DrawingKind::Map,
-            KindChoice::TradeOff => DrawingKind::TradeOff,
-        };
+    fn drawing(&self, kind: DrawingKind, dataset: &Dataset) -> Result<Drawing, Failure> {
         Ok(Drawing {
             name: self.name.clone().unwrap_or_else(|| self.free_name(kind, dataset)),
             kind,
@@ -114,9 +98,7 @@ impl Figure {
 
     /// The kind and what is drawn, told apart from the figures of the study.
     fn free_name(&self, kind: DrawingKind, dataset: &Dataset) -> String {
-        let found = DrawingKind::NAMES.iter().find(|(_, known)| *known == kind);
-        let kind = found.map_or("figure", |(name, _)| name);
-        let parts = std::iter::once(kind).chain(self.of.iter().map(String::as_str));
+        let parts = std::iter::once(kind.name()).chain(self.of.iter().map(String::as_str));
         let name = parts.collect::<Vec<_>>().join("-");
         let studied = studied(dataset, &self.file).unwrap_or_default();
         if studied.iter().any(|drawing| drawing.name == name) {

@@ -10,6 +10,7 @@ mod sweep;
 use std::io::Write;
 use std::process::ExitCode;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
@@ -84,6 +85,15 @@ pub fn main() -> ExitCode {
 fn tell(line: &str) {
     // There is nowhere left to report that the line could not be written.
     let _ = writeln!(std::io::stderr().lock(), "{line}");
+}
+
+/// Reads one of a few names, which the help then lists.
+fn named<T: Copy + Send + Sync + 'static>(
+    names: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    let find = |given: &str| names.iter().find(|(name, _)| *name == given).map(|&(_, value)| value);
+    PossibleValuesParser::new(names.iter().map(|&(name, _)| name))
+        .map(move |given| find(&given).expect("only known names get here"))
 }
 
 /// Prints to standard output; a reader that has gone away is no fault.

@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde_json::{Map, Value, json};
 
-use super::{Failure, plain_or_quantity, print, tell};
+use super::{Failure, named, plain_or_quantity, print, tell};
 use crate::model::{Dimension, Parameter, Parameters, Resistance, State, Switching};
 use crate::orbit::{Orbit, Output, Protocol, Simulation, settle, simulate};
 use crate::sweep::document::unknown;
@@ -54,27 +54,14 @@ pub struct Simulate {
     #[arg(long, default_value_t = 2000)]
     max_cycles: u64,
     /// Reading of the switching between stick and slip.
-    #[arg(long, value_enum, default_value = "filippov")]
-    friction_switching: SwitchingChoice,
+    #[arg(long, value_parser = named(&Switching::NAMES), default_value = "filippov")]
+    friction_switching: Switching,
     /// Law of resistance to the capsule.
-    #[arg(long, value_enum, default_value = "coulomb-stribeck")]
-    resistance: ResistanceChoice,
+    #[arg(long, value_parser = named(&Resistance::NAMES), default_value = "coulomb-stribeck")]
+    resistance: Resistance,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum SwitchingChoice {
-    Filippov,
-    AsPrinted,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum ResistanceChoice {
-    CoulombStribeck,
-    Coulomb,
-    Medium,
 }
 
 /// A case as it was asked for.
@@ -93,12 +80,8 @@ impl Simulate {
             tell(&format!("note: mu_s is below the friction at onset; rest ends at {force} N"));
         }
         let simulation = simulate(&parameters, phase, start, self.cycles, self.tolerance);
-        let protocol = Protocol {
-            tolerance: self.tolerance,
-            recurrence: (10.0 * self.tolerance).max(Protocol::default().recurrence),
-            max_cycles: self.max_cycles,
-            ..Protocol::default()
-        };
+        let protocol =
+            Protocol { max_cycles: self.max_cycles, ..Protocol::with_tolerance(self.tolerance) };
         let orbit = settle(&parameters, phase, start, &protocol);
         if self.json {
             let object = json!({
@@ -117,23 +100,16 @@ impl Simulate {
     fn request(&self) -> Result<Request, Failure> {
         let mut faults = Vec::new();
         let mut parameters = Parameters::default();
-        parameters.switching = match self.friction_switching {
-            SwitchingChoice::Filippov => Switching::Filippov,
-            SwitchingChoice::AsPrinted => Switching::AsPrinted,
-        };
-        parameters.resistance = match self.resistance {
-            ResistanceChoice::CoulombStribeck => Resistance::CoulombStribeck,
-            ResistanceChoice::Coulomb => Resistance::Coulomb,
-            ResistanceChoice::Medium => Resistance::Medium,
-        };
-        let named = [
+        parameters.switching = self.friction_switching;
+        parameters.resistance = self.resistance;
+        let own = [
             ("--omega", Parameter::Omega, &self.omega),
             ("--p-d", Parameter::Pd, &self.p_d),
             ("--k2", Parameter::K2, &self.k2),
             ("--delta", Parameter::Delta, &self.delta),
         ];
         let mut given = Vec::new();
-        for (option, parameter, text) in named {
+        for (option, parameter, text) in own {
             given.extend(text.as_ref().map(|text| (option.to_owned(), parameter, text.as_str())));
         }
         let symbols = || Parameter::ALL.iter().map(|parameter| parameter.symbol());
@@ -152,7 +128,7 @@ impl Simulate {
         }
         let start = self.start(&mut faults);
         let phase = quantity("--phase", &self.phase, Dimension::Angle, &mut faults).unwrap_or(0.0);
-        if !(1e-15..=1e-3).contains(&self.tolerance) {
+        if !Protocol::TOLERANCES.contains(&self.tolerance) {
             faults.push(format!("--tolerance {}: must lie between 1e-15 and 1e-3", self.tolerance));
         }
         faults.extend(parameters.faults().iter().map(ToString::to_string));
@@ -223,8 +199,8 @@ fn parameters_json(parameters: &Parameters) -> Value {
     for &parameter in Parameter::ALL {
         object.insert(parameter.symbol().to_owned(), json!(parameters[parameter]));
     }
-    object.insert("resistance".to_owned(), json!(parameters.resistance));
-    object.insert("friction_switching".to_owned(), json!(parameters.switching));
+    object.insert("resistance".to_owned(), json!(parameters.resistance.name()));
+    object.insert("friction_switching".to_owned(), json!(parameters.switching.name()));
     Value::Object(object)
 }
 

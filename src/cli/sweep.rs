@@ -9,7 +9,7 @@ use clap::Args;
 use super::figure::{FormatChoice, draw_all, file_stem};
 use super::progress::Progress;
 use super::{Failure, print, tell};
-use crate::model::{Parameter, Resistance, Switching};
+use crate::model::{Parameter, Parameters, Resistance, Switching};
 use crate::orbit::{Outcome, Protocol};
 use crate::store::{self, Dataset};
 use crate::sweep::{Case, Record, Study, run};
@@ -205,13 +205,12 @@ fn replay(case: &Case, protocol: &Protocol) -> String {
     if protocol.max_cycles != usual.max_cycles {
         let _ = write!(command, " --max-cycles {}", protocol.max_cycles);
     }
-    if case.parameters.switching == Switching::AsPrinted {
-        command.push_str(" --friction-switching as-printed");
+    let Parameters { switching, resistance, .. } = case.parameters;
+    if switching != Switching::default() {
+        let _ = write!(command, " --friction-switching {}", switching.name());
     }
-    match case.parameters.resistance {
-        Resistance::CoulombStribeck => {}
-        Resistance::Coulomb => command.push_str(" --resistance coulomb"),
-        Resistance::Medium => command.push_str(" --resistance medium"),
+    if resistance != Resistance::default() {
+        let _ = write!(command, " --resistance {}", resistance.name());
     }
     command
 }

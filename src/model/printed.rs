@@ -96,7 +96,7 @@ impl PrintedCapsule {
         }
     }
 
-    /// Which guards of `motion` start at zero when it begins on |F| = f_s, and with what power.
+    /// Which guards of `regime` start at zero when it begins on |F| = f_s, and with what power.
     fn zeros_on_limit(&self, regime: Regime, side: f64, at_rest: bool, power: f64) -> Zeros<f64> {
         match regime {
             Regime::Frozen if side > 0.0 => [0.0, power, 0.0, 0.0],

@@ -1,14 +1,11 @@
 //! What resists the capsule: dry friction by two laws, or a resistive medium.
 
-use serde::{Deserialize, Serialize};
-
 use crate::lane::{Lane, Series, elementary::exp_decay, series};
 
 use super::{Parameter, Parameters};
 
 /// The law of resistance to the capsule's motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Resistance {
     /// `mu_d (1 + exp(-|y2|/v_s)) N` against the motion; the paper's law.
     #[default]
@@ -19,15 +16,39 @@ pub enum Resistance {
     Medium,
 }
 
+impl Resistance {
+    /// Every law by its name in studies, files and on the command line, in the order of declaration.
+    pub const NAMES: [(&str, Resistance); 3] = [
+        ("coulomb-stribeck", Resistance::CoulombStribeck),
+        ("coulomb", Resistance::Coulomb),
+        ("medium", Resistance::Medium),
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Resistance::NAMES[self as usize].0
+    }
+}
+
 /// How the friction switches between sticking and slipping.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Switching {
     /// Friction is set-valued at rest: the capsule slips until it stops, and rests until broken away.
     #[default]
     Filippov,
     /// Eq. (1) of the paper to the letter: the capsule freezes while |F| <= f_s, even at speed.
     AsPrinted,
+}
+
+impl Switching {
+    /// Every reading by its name in studies, files and on the command line, in the order of declaration.
+    pub const NAMES: [(&str, Switching); 2] =
+        [("filippov", Switching::Filippov), ("as-printed", Switching::AsPrinted)];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Switching::NAMES[self as usize].0
+    }
 }
 
 /// A law of resistance with its constants.

@@ -1,5 +1,7 @@
 //! What a case settles to: its outcome, its period and everything measured on the attractor.
 
+use std::ops::RangeInclusive;
+
 use serde::Serialize;
 
 use crate::model::{
@@ -83,6 +85,17 @@ impl Default for Protocol {
     }
 }
 
+impl Protocol {
+    /// What a tolerance and a recurrence may be.
+    pub const TOLERANCES: RangeInclusive<f64> = 1e-15..=1e-3;
+
+    /// The usual protocol at another tolerance: the section cannot repeat more closely than the steps are.
+    pub fn with_tolerance(tolerance: f64) -> Self {
+        let usual = Protocol::default();
+        Protocol { tolerance, recurrence: usual.recurrence.max(10.0 * tolerance), ..usual }
+    }
+}
+
 /// What a case settled to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orbit {
@@ -134,14 +147,7 @@ fn settle_on<S: Locomotion>(
     let omega = parameters[Parameter::Omega];
     let measured = find_period(&mut trajectory, omega, protocol).and_then(|settled| {
         let period = settled.map(|settled| settled.period as u64);
-        let cycles = match settled {
-            Some(settled) => settled.repeats_after as u64,
-            None => protocol.measured_cycles,
-        };
-        let mut measures = measure(&mut trajectory, system, parameters, cycles, protocol)?;
-        if let Some(period) = period {
-            measures.1.truncate(period as usize);
-        }
+        let measures = measure(&mut trajectory, system, parameters, settled, protocol)?;
         let history = match protocol.history {
             None => None,
             Some(span) => {
@@ -202,16 +208,20 @@ fn measure<S: Locomotion>(
     trajectory: &mut Trajectory<'_, S>,
     system: &S,
     parameters: &Parameters,
-    cycles: u64,
+    settled: Option<Settled>,
     protocol: &Protocol,
 ) -> Result<Measures, Failure> {
+    let (cycles, points) = match settled {
+        Some(settled) => (settled.repeats_after as u64, settled.period.min(protocol.points)),
+        None => (protocol.measured_cycles, protocol.points),
+    };
     let mut account = Account::new(parameters);
     let (mut section, mut impacts) = (Vec::new(), Vec::new());
     let x2 = trajectory.state().x2;
     let mut speed: f64 = 0.0;
     for _ in 0..cycles {
         speed = speed.max(size(parameters[Parameter::Omega], &trajectory.section()));
-        if section.len() < protocol.points {
+        if section.len() < points {
             section.push(trajectory.section());
         }
         trajectory.cycle(|step| {

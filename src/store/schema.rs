@@ -2,7 +2,7 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::model::{Parameter, Resistance, State, Switching};
+use crate::model::{Parameter, State};
 use crate::orbit::{History, Impact, Orbit, Outcome, Reason};
 use crate::sweep::{Coordinate, Direction, Record, Study};
 
@@ -29,8 +29,10 @@ pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
     dataset.attributes.insert("title".to_owned(), study.title.clone());
     dataset.attributes.extend(provenance::attributes());
     dataset.attributes.extend(protocol(study));
-    dataset.attributes.insert("friction_switching".to_owned(), switching(study).to_owned());
-    dataset.attributes.insert("resistance".to_owned(), resistance(study).to_owned());
+    dataset
+        .attributes
+        .insert("friction_switching".to_owned(), study.base.switching.name().to_owned());
+    dataset.attributes.insert("resistance".to_owned(), study.base.resistance.name().to_owned());
     dataset.texts.insert("study".to_owned(), study.text.clone());
     dataset
 }
@@ -46,21 +48,6 @@ fn protocol(study: &Study) -> [(String, String); 5] {
         ("measured_cycles", protocol.measured_cycles.to_string()),
     ]
     .map(|(key, value)| (format!("protocol_{key}"), value))
-}
-
-fn switching(study: &Study) -> &'static str {
-    match study.base.switching {
-        Switching::Filippov => "filippov",
-        Switching::AsPrinted => "as-printed",
-    }
-}
-
-fn resistance(study: &Study) -> &'static str {
-    match study.base.resistance {
-        Resistance::CoulombStribeck => "coulomb-stribeck",
-        Resistance::Coulomb => "coulomb",
-        Resistance::Medium => "medium",
-    }
 }
 
 /// The records in the order of their cases, with the dimensions they fill.
@@ -122,10 +109,18 @@ impl<'a> Table<'a> {
         }
     }
 
-    fn row_variable(&self, row: &str, unit: &str, long_name: &str, values: Values) -> Variable {
-        let mut variable = self.variable(unit, long_name, values);
-        variable.dimensions.push(row.to_owned());
-        variable
+    /// Adds variables of which each case has a row along the dimension `row`.
+    fn add_rows<'n>(
+        &self,
+        dataset: &mut Dataset,
+        row: &str,
+        rows: impl IntoIterator<Item = (&'n str, &'n str, &'n str, Values)>,
+    ) {
+        for (name, unit, long_name, values) in rows {
+            let mut variable = self.variable(unit, long_name, values);
+            variable.dimensions.push(row.to_owned());
+            dataset.variables.insert(name.to_owned(), variable);
+        }
     }
 }
 
@@ -230,18 +225,22 @@ fn add_section(dataset: &mut Dataset, table: &Table<'_>) {
         return;
     }
     dataset.coordinates.push(coordinate("point", "1", "point of the section", count(length)));
-    for (i, (name, unit, meaning)) in [
-        ("section_r", "m", "relative displacement x1 - x2 at the stroboscopic section"),
-        ("section_y1", "m/s", "velocity of the mass at the stroboscopic section"),
-        ("section_y2", "m/s", "velocity of the capsule at the stroboscopic section"),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        let values = table.rows(length, |orbit, n| orbit.section.get(n).map(|point| point[i]));
-        let variable = table.row_variable("point", unit, meaning, values);
-        dataset.variables.insert(name.to_owned(), variable);
-    }
+    let along =
+        |i: usize| table.rows(length, move |orbit, n| orbit.section.get(n).map(|point| point[i]));
+    table.add_rows(
+        dataset,
+        "point",
+        [
+            (
+                "section_r",
+                "m",
+                "relative displacement x1 - x2 at the stroboscopic section",
+                along(0),
+            ),
+            ("section_y1", "m/s", "velocity of the mass at the stroboscopic section", along(1)),
+            ("section_y2", "m/s", "velocity of the capsule at the stroboscopic section", along(2)),
+        ],
+    );
 }
 
 fn add_impacts(dataset: &mut Dataset, table: &Table<'_>) {
@@ -254,7 +253,7 @@ fn add_impacts(dataset: &mut Dataset, table: &Table<'_>) {
     let impact = |value: fn(&Impact) -> f64| {
         table.rows(length, move |orbit, n| orbit.impacts.get(n).map(value))
     };
-    for (name, unit, meaning, values) in [
+    let rows = [
         (
             "impact_phase",
             "rad",
@@ -263,10 +262,8 @@ fn add_impacts(dataset: &mut Dataset, table: &Table<'_>) {
         ),
         ("impact_y1", "m/s", "velocity of the mass at the impact", impact(|i| i.y1)),
         ("impact_y2", "m/s", "velocity of the capsule at the impact", impact(|i| i.y2)),
-    ] {
-        let variable = table.row_variable("impact_point", unit, meaning, values);
-        dataset.variables.insert(name.to_owned(), variable);
-    }
+    ];
+    table.add_rows(dataset, name, rows);
 }
 
 fn add_history(dataset: &mut Dataset, table: &Table<'_>) {
@@ -280,7 +277,7 @@ fn add_history(dataset: &mut Dataset, table: &Table<'_>) {
             orbit.history.as_ref().and_then(|history| value(history, n))
         })
     };
-    for (name, unit, meaning, values) in [
+    let rows = [
         (
             "history_r",
             "m",
@@ -306,8 +303,6 @@ fn add_history(dataset: &mut Dataset, table: &Table<'_>) {
             sampled(|h, n| h.states.get(n).map(|s| s.y2)),
         ),
         ("history_drive", "N", "force of the drive", sampled(|h, n| h.drive.get(n).copied())),
-    ] {
-        let variable = table.row_variable("history_time", unit, meaning, values);
-        dataset.variables.insert(name.to_owned(), variable);
-    }
+    ];
+    table.add_rows(dataset, name, rows);
 }

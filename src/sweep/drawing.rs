@@ -29,7 +29,7 @@ pub enum DrawingKind {
 }
 
 impl DrawingKind {
-    /// Each kind by its name in studies and on the command line.
+    /// Each kind by its name in studies and on the command line, in the order of declaration.
     pub const NAMES: [(&str, DrawingKind); 5] = [
         ("history", DrawingKind::History),
         ("phase-portrait", DrawingKind::PhasePortrait),
@@ -37,6 +37,11 @@ impl DrawingKind {
         ("map", DrawingKind::Map),
         ("trade-off", DrawingKind::TradeOff),
     ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        DrawingKind::NAMES[self as usize].0
+    }
 
     /// What a figure of this kind can show of a study that keeps `outputs`.
     pub fn can_show(self, outputs: &[Output]) -> Vec<&'static str> {

@@ -110,16 +110,10 @@ fn read_parameters(top: &Table<'_, '_>, axes: &[Axis]) -> Parameters {
     }
     let Some(table) = table else { return parameters };
     if let Some(entry) = table.entry("resistance") {
-        let laws = [
-            ("coulomb-stribeck", Resistance::CoulombStribeck),
-            ("coulomb", Resistance::Coulomb),
-            ("medium", Resistance::Medium),
-        ];
-        parameters.resistance = entry.one_of("resistance", &laws).unwrap_or_default();
+        parameters.resistance = entry.one_of("resistance", &Resistance::NAMES).unwrap_or_default();
     }
     if let Some(entry) = table.entry("friction_switching") {
-        let readings = [("filippov", Switching::Filippov), ("as-printed", Switching::AsPrinted)];
-        parameters.switching = entry.one_of("reading", &readings).unwrap_or_default();
+        parameters.switching = entry.one_of("reading", &Switching::NAMES).unwrap_or_default();
     }
     table.finish();
     parameters
@@ -278,14 +272,13 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
         let between = |key: &str, value: &mut f64| {
             let Some(entry) = table.entry(key) else { return };
             match entry.quantity(Dimension::Number) {
-                Some(given) if (1e-15..=1e-3).contains(&given) => *value = given,
+                Some(given) if Protocol::TOLERANCES.contains(&given) => *value = given,
                 Some(given) => entry.fault(format!("{given} must lie between 1e-15 and 1e-3")),
                 None => {}
             }
         };
         between("tolerance", &mut protocol.tolerance);
-        // The section cannot repeat more closely than the steps are.
-        protocol.recurrence = protocol.recurrence.max(10.0 * protocol.tolerance);
+        protocol = Protocol::with_tolerance(protocol.tolerance);
         between("recurrence", &mut protocol.recurrence);
         let whole = |key: &str, least: u64, most: u64, value: &mut u64| {
             let found = table.entry(key).and_then(|entry| entry.whole(least, most));
