@@ -4,8 +4,10 @@ use crate::lane::{Lane, Mask, ORDER, Series, series};
 
 /// A polynomial is halved at most this often before it is taken to be flat.
 const HALVINGS: usize = 60;
-/// Bracketed Newton steps to a root; bisection alone would need 53.
+/// Steps to a root; bisection alone would need 53.
 const REFINEMENTS: usize = 80;
+/// A step of third order this short, relative to the interval and to the bend, is the last one.
+const NEAR: f64 = 3e-6;
 
 /// What was found on a step.
 #[derive(Debug, Clone, Copy)]
@@ -20,21 +22,21 @@ pub struct Fall<L: Lane> {
 ///
 /// Method: on [0, h] the polynomial is positive if its quadratic part exceeds the sum of the
 /// magnitudes of the rest; else, if its first or its second derivative provably keeps its sign, the
-/// sign at the end (or at the one minimum) tells whether there is exactly one first fall, which Newton
-/// steps inside a bracket then find to rounding; else h is halved. A guard at or below zero at the
+/// signs of value and slope at the end tell whether there is one fall, none, or a dip that may reach
+/// zero, and [`first_root`] finds it to rounding; else h is halved. A guard at or below zero at the
 /// start falls there if it is falling, and counts as zero if it is rising. Guarantee: between 0 and
 /// the returned length the polynomial has no other fall; a minimum below zero by no more than the
-/// rounding of the polynomial is a tangency, not a fall.
+/// rounding of the polynomial is a tangency, not a fall. `guard` is left divided by the power of time
+/// that vanishes with it.
 #[inline(always)]
-pub fn first_fall<L: Lane>(guard: &Series<L>, length: L, watched: L::Mask) -> Fall<L> {
+pub fn first_fall<L: Lane>(guard: &mut Series<L>, length: L, watched: L::Mask) -> Fall<L> {
     let zero = L::splat(0.0);
-    let mut guard = *guard;
     for _ in 0..3 {
         let at_zero = watched & guard[0].le(zero) & zero.le(guard[1]);
         if !at_zero.any() {
             break;
         }
-        divide_by_time(&mut guard, at_zero);
+        divide_by_time(guard, at_zero);
     }
     let due_now = watched & (guard[0].lt(zero) | (guard[0].le(zero) & guard[1].lt(zero)));
     let mut h = L::select(due_now, zero, length);
@@ -44,21 +46,35 @@ pub fn first_fall<L: Lane>(guard: &Series<L>, length: L, watched: L::Mask) -> Fa
         if !open.any() {
             break;
         }
-        let sums = Sums::new(&guard, h);
-        open = open & !sums.quadratic_part_positive(&guard, h);
+        let sums = Sums::new(guard, h);
+        open = open & !sums.quadratic_part_positive(guard, h);
         if !open.any() {
             break;
         }
-        let (decided, end, margin) = sums.candidate(&guard, h, open);
-        let below = open & decided & series::value(&guard, end).lt(-margin);
-        if below.any() {
-            h = L::select(below, root(&guard, end, below), h);
-            falls = falls | below;
+        let (monotone, bent_one_way) = sums.keep_their_signs(guard, h);
+        let decided = open & (monotone | bent_one_way);
+        let (value, slope) = series::value_and_slope(guard, h);
+        let crosses = decided & value.lt(zero);
+        let dips = decided
+            & !(crosses | monotone)
+            & zero.lt(guard[2])
+            & guard[1].lt(zero)
+            & zero.lt(slope);
+        if (crosses | dips).any() {
+            let (root, found) = first_root(guard, h, value, crosses, dips);
+            h = L::select(found, root, h);
+            falls = falls | found;
         }
         open = open & !decided;
         h = L::select(open, h * L::splat(0.5), h);
     }
     Fall { length: h, falls }
+}
+
+/// Where `guard` provably stays positive on [0, length], or just after 0 if it starts from zero.
+#[inline(always)]
+pub fn stays_positive<L: Lane>(guard: &Series<L>, length: L) -> L::Mask {
+    Sums::new(guard, length).quadratic_part_positive(guard, length)
 }
 
 /// Divides the polynomial by time where `mask`, dropping its constant term.
@@ -108,59 +124,76 @@ impl<L: Lane> Sums<L> {
         self.value.lt(ends) & (!vertex_inside | vertex_clear)
     }
 
-    /// Whether the guard's course on [0, h] is decided, the one point whose sign tells whether it
-    /// falls, and the rounding that a minimum must exceed.
+    /// Whether the first and whether the second derivative keeps its sign on [0, h].
     #[inline(always)]
-    fn candidate(&self, guard: &Series<L>, h: L, open: L::Mask) -> (L::Mask, L, L) {
-        let zero = L::splat(0.0);
-        let two = L::splat(2.0);
+    fn keep_their_signs(&self, guard: &Series<L>, h: L) -> (L::Mask, L::Mask) {
         let [_, g1, g2, ..] = *guard;
-        let monotone = (self.slope + (two * g2 * h).abs()).le(g1.abs());
-        let bent_one_way = self.curvature.le((two * g2).abs());
-        let decided = monotone | bent_one_way;
-        let slope_at_end = series::value_and_slope(guard, h).1;
-        let minimum_inside =
-            decided & !monotone & zero.lt(g2) & g1.lt(zero) & zero.lt(slope_at_end) & open;
-        if !minimum_inside.any() {
-            return (decided, h, zero);
-        }
-        let falling = series::derivative(guard).map(|a| -a);
-        let minimum = root(&falling, h, minimum_inside);
-        let magnitude = guard[0].abs() + (g1 * minimum).abs() + (g2 * minimum * minimum).abs();
-        let rounding = magnitude * L::splat(4.0 * f64::EPSILON);
-        (decided, L::select(minimum_inside, minimum, h), L::select(minimum_inside, rounding, zero))
+        let g2 = L::splat(2.0) * g2;
+        let monotone = (self.slope + (g2 * h).abs()).le(g1.abs());
+        (monotone, self.curvature.le(g2.abs()))
     }
 }
 
-/// Where the polynomial falls through zero in (0, end], for the lanes of `mask`.
+/// The first root in (0, end] of a polynomial that is positive just after 0, and where there is one.
 ///
-/// Assumes that it is positive just after 0, negative at `end`, and changes sign once. Newton steps,
-/// replaced by bisection where they leave the bracket; a lane that has converged is frozen, so that
-/// its bits do not depend on its neighbours. Error: the rounding of the polynomial over its slope.
+/// A lane either `crosses`, with one change of sign and `value` < 0 at `end`, or `dips`, convex and positive
+/// at `end` with its minimum between. Method: Halley's steps towards a crossing, from where the
+/// chord meets zero, replaced by bisection where they leave the bracket; Newton's into a dip from the left,
+/// which cannot pass a root of a convex polynomial, so that a rising slope means that there is none.
+/// A lane that has converged is frozen, so that its bits do not depend on its neighbours. Error: the
+/// rounding of the polynomial over its slope.
 #[inline(always)]
-fn root<L: Lane>(polynomial: &Series<L>, end: L, mask: L::Mask) -> L {
+fn first_root<L: Lane>(
+    polynomial: &Series<L>,
+    end: L,
+    value: L,
+    crosses: L::Mask,
+    dips: L::Mask,
+) -> (L, L::Mask) {
     let zero = L::splat(0.0);
     let half = L::splat(0.5);
     let resolution = end * L::splat(f64::EPSILON);
+    let near = L::splat(NEAR);
+    let near_end = end * near;
+    let [g0, g1, g2, ..] = *polynomial;
     let (mut low, mut high) = (zero, end);
-    let mut t = end * half;
-    let mut open = mask;
+    let mut t = L::select(crosses, end * (g0 / (g0 - value)), zero);
+    let mut open = crosses | dips;
+    let mut found = crosses;
     for _ in 0..REFINEMENTS {
-        let (value, slope) = series::value_and_slope(polynomial, t);
+        let (value, slope, curvature) = series::value_slope_curvature(polynomial, t);
         let beyond = value.le(zero);
-        high = L::select(open & beyond, t, high);
-        low = L::select(open & !beyond, t, low);
-        let newton = t - value / slope;
-        let inside = low.le(newton) & newton.le(high);
-        let next = L::select(inside, newton, low + (high - low) * half);
-        let settled = (next - t).abs().le(resolution);
+        high = L::select(crosses & beyond, t, high);
+        low = L::select(crosses & !beyond, t, low);
+        let bend = L::select(crosses, half * value * curvature, zero);
+        let next = t - value * slope / (slope * slope - bend);
+        let inside = low.le(next) & next.le(high);
+        let middle = low + (high - low) * half;
+        let next = L::select(crosses & !inside, middle, next);
+        let move_by = (next - t).abs();
+        // What the next step would move: Halley's error is of third order, Newton's of second.
+        let bent = curvature.abs() * move_by;
+        let cubed = crosses & inside & move_by.le(near_end) & bent.le(slope.abs() * near);
+        let squared = dips & (bent * move_by).le(slope.abs() * resolution);
+        let settled = move_by.le(resolution) | cubed | squared;
+        if dips.any() {
+            // A dip no deeper than the rounding of its value is a tangency.
+            let misses = dips & (zero.le(slope) | high.lt(next));
+            let magnitude = g0.abs() + (g1 * t).abs() + (g2 * t * t).abs();
+            let margin = magnitude * L::splat(4.0 * f64::EPSILON);
+            let deep = ((value + margin) * curvature).lt(half * slope * slope);
+            let ends = open & dips & (misses | settled | beyond);
+            found = found | (ends & deep & !misses);
+            t = L::select(ends & settled & !beyond, next, t);
+            open = open & !ends;
+        }
         t = L::select(open, next, t);
         open = open & !settled;
         if !open.any() {
             break;
         }
     }
-    t
+    (t, found)
 }
 
 /// Shows `found` each time in (0, length] at which the polynomial changes sign, and whether it falls.
@@ -176,7 +209,7 @@ pub fn crossings(polynomial: &Series<f64>, length: f64, mut found: impl FnMut(f6
     let mut start = 0.0;
     // A polynomial has no more crossings than its degree; the rest are intervals without one.
     for _ in 0..HALVINGS * ORDER {
-        let fall = first_fall(&rest, length - start, true);
+        let fall = first_fall(&mut rest.clone(), length - start, true);
         start += fall.length;
         if fall.falls {
             found(start, positive);
@@ -205,7 +238,7 @@ mod tests {
     fn fall_of(coefficients: &[f64]) -> Option<f64> {
         let (mut polynomial, mut start) = (guard(coefficients), 0.0);
         loop {
-            let fall = first_fall(&polynomial, 1.0 - start, true);
+            let fall = first_fall(&mut polynomial.clone(), 1.0 - start, true);
             if fall.falls {
                 return Some(start + fall.length);
             }

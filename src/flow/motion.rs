@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use crate::lane::{Lane, Mask};
+use crate::lane::{Lane, Mask, ORDER, Series, SideBySide, series};
 use crate::model::switched::{MAX_GUARDS, Switched, Zeros};
 
-use super::guard::{divide_by_time, first_fall};
+use super::guard::{divide_by_time, first_fall, stays_positive};
 use super::pace::longest_step;
 
 /// So many steps in a row may pass without getting anywhere: simultaneous events need a few.
@@ -26,7 +26,7 @@ pub struct Motion<L: Lane, S: Switched<L>> {
     idle: L,
 }
 
-/// One step that was taken.
+/// One step that was taken; the next is written over it, so that nothing large is moved or cleared.
 #[derive(Debug, Clone)]
 pub struct Step<L: Lane, S: Switched<L>> {
     /// Time at its start since the start of the cycle [s].
@@ -39,6 +39,23 @@ pub struct Step<L: Lane, S: Switched<L>> {
     pub jet: S::Jet,
     /// The event at its end, as `Switched::switch` numbers it; zero for none.
     pub event: L,
+    guards: [Series<L>; MAX_GUARDS],
+    chosen: Series<L>,
+}
+
+impl<L: Lane, S: Switched<L>> Default for Step<L, S> {
+    fn default() -> Self {
+        let zero = L::splat(0.0);
+        Step {
+            start: zero,
+            length: zero,
+            mode: S::Mode::default(),
+            jet: S::Jet::default(),
+            event: zero,
+            guards: [series::zero(); MAX_GUARDS],
+            chosen: series::zero(),
+        }
+    }
 }
 
 /// Why a motion cannot go on.
@@ -67,36 +84,37 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let zero = L::splat(0.0);
         let mode = system.start(time, &state);
         let mut motion = Motion { time, state, mode, zeros: [zero; MAX_GUARDS], idle: zero };
+        let mut step = Step::default();
         for _ in 0..MAX_GUARDS {
-            let jet = system.jet(&motion.mode, time, &motion.state);
-            motion.locate(system, &jet, zero).switch(system, &mut motion);
+            system.expand(&motion.mode, time, &motion.state, &mut step.jet);
+            motion.locate(system, &mut step, zero).switch(system, &mut motion);
         }
         motion
     }
 
-    /// Takes one step, at most to `until`, and obeys the guard that ends it.
+    /// Takes one step, at most to `until`, obeys the guard that ends it, and describes it in `step`.
     ///
     /// The local error is below `tolerance` relative to the motion during the step; an event ends the
     /// step where its guard falls through zero, to rounding.
     #[inline(always)]
-    pub fn step(&mut self, system: &S, until: L, tolerance: f64) -> Step<L, S> {
-        let jet = system.jet(&self.mode, self.time, &self.state);
+    pub fn step(&mut self, system: &S, until: L, tolerance: f64, step: &mut Step<L, S>) {
+        system.expand(&self.mode, self.time, &self.state, &mut step.jet);
         let left = until - self.time;
-        let [first, second] = system.pace(&jet);
+        let [first, second] = system.pace(&step.jet);
         let allowed = longest_step(first, tolerance).min(longest_step(second, tolerance));
-        let end = self.locate(system, &jet, allowed.min(left));
+        let end = self.locate(system, step, allowed.min(left));
 
-        let (start, mode, length) = (self.time, self.mode, end.length);
-        self.state = system.at(&jet, length);
-        self.time = L::select(left.le(length), until, start + length);
+        let length = end.length;
+        (step.start, step.mode, step.length) = (self.time, self.mode, length);
+        self.state = system.at(&step.jet, length);
+        self.time = L::select(left.le(length), until, self.time + length);
         let passed = L::splat(0.0).lt(length);
         for zeros in &mut self.zeros {
             *zeros = L::select(passed, L::splat(0.0), *zeros);
         }
         let idles = length.le(until * L::splat(STANDSTILL)) & length.lt(left);
         self.idle = L::select(idles, self.idle + L::splat(1.0), L::splat(0.0));
-        let event = end.switch(system, self);
-        Step { start, length, mode, jet, event }
+        step.event = end.switch(system, self);
     }
 
     /// Starts the next cycle where `mask`: time counts from zero again.
@@ -105,45 +123,115 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         self.time = L::select(mask, L::splat(0.0), self.time);
     }
 
-    /// What keeps `lane` from going on, if anything.
+    /// Where a motion cannot go on; [`Motion::breakdown`] tells why.
     #[inline(always)]
-    pub fn breakdown(&self, system: &S, lane: usize) -> Option<Breakdown> {
-        let stuck = L::splat(PATIENCE).lt(self.idle);
-        let lost = system.lost(&self.state);
-        if !(stuck | lost).any() {
-            return None;
-        }
-        let marked = |mask| L::select(mask, L::splat(1.0), L::splat(0.0)).lane(lane) > 0.0;
-        if marked(lost) {
+    pub fn broken(&self, system: &S) -> L::Mask {
+        L::splat(PATIENCE).lt(self.idle) | system.lost(&self.state)
+    }
+
+    /// What keeps the motion in lane `index` from going on, if anything.
+    #[inline(always)]
+    pub fn breakdown(&self, system: &S, index: usize) -> Option<Breakdown> {
+        if system.lost(&self.state).lane(index) {
             return Some(Breakdown::NotFinite);
         }
-        marked(stuck).then_some(Breakdown::NoProgress)
+        L::splat(PATIENCE).lt(self.idle).lane(index).then_some(Breakdown::NoProgress)
     }
 
     /// The first guard to fall within `length`.
+    ///
+    /// Most guards cannot fall and are told at once; the others are decided in turn, each lane its own,
+    /// so that lanes whose events differ share the search for a root.
     #[inline(always)]
-    fn locate(&self, system: &S, jet: &S::Jet, length: L) -> StepEnd<L> {
+    fn locate(&self, system: &S, step: &mut Step<L, S>, length: L) -> StepEnd<L> {
         let none = L::splat(-1.0);
         let mut end = StepEnd { length, guard: none };
+        let mut open = [L::Mask::splat(false); MAX_GUARDS];
         for which in 0..S::GUARDS {
             let watched = system.watched(which, &self.mode);
             if !watched.any() {
                 continue;
             }
-            let mut guard = system.guard(which, &self.mode, jet);
+            let guard = &mut step.guards[which];
+            system.guard(which, &self.mode, &step.jet, guard);
             for vanished in [0.5, 1.5] {
                 let drop = L::splat(vanished).lt(self.zeros[which]);
                 if drop.any() {
-                    divide_by_time(&mut guard, drop);
+                    divide_by_time(guard, drop);
                 }
             }
-            let fall = first_fall(&guard, end.length, watched);
+            open[which] = watched & !stays_positive(guard, length);
+        }
+        loop {
+            let mut chosen = none;
+            for which in (0..S::GUARDS).rev() {
+                chosen = L::select(open[which], L::splat(which as f64), chosen);
+            }
+            let takes_part = none.lt(chosen);
+            if !takes_part.any() {
+                return end;
+            }
+            for k in 0..=ORDER {
+                let mut term = step.guards[0][k];
+                for which in 1..S::GUARDS {
+                    let taken = L::splat(which as f64).le(chosen);
+                    term = L::select(taken, step.guards[which][k], term);
+                }
+                step.chosen[k] = term;
+            }
+            let fall = first_fall(&mut step.chosen, end.length, takes_part);
             let sooner = fall.length.lt(end.length);
             end.guard = L::select(sooner, none, end.guard);
-            end.guard = L::select(fall.falls, L::splat(which as f64), end.guard);
+            end.guard = L::select(fall.falls, chosen, end.guard);
             end.length = fall.length;
+            for (which, open) in open.iter_mut().enumerate() {
+                *open = *open & chosen.lt(L::splat(which as f64));
+            }
         }
-        end
+    }
+}
+
+impl<L, S> Motion<L, S>
+where
+    L: Lane,
+    S: Switched<L, State: SideBySide, Mode: SideBySide>,
+{
+    /// Puts the motion of `one` into lane `index`.
+    #[inline(always)]
+    pub fn put<O>(&mut self, index: usize, one: &Motion<f64, O>)
+    where
+        O: Switched<
+                f64,
+                State = <S::State as SideBySide>::One,
+                Mode = <S::Mode as SideBySide>::One,
+            >,
+    {
+        self.time = self.time.with_lane(index, one.time);
+        self.state.put(index, &one.state);
+        self.mode.put(index, &one.mode);
+        for (zeros, &of_one) in self.zeros.iter_mut().zip(&one.zeros) {
+            *zeros = zeros.with_lane(index, of_one);
+        }
+        self.idle = self.idle.with_lane(index, one.idle);
+    }
+
+    /// The motion of lane `index` by itself.
+    #[inline(always)]
+    pub fn lane<O>(&self, index: usize) -> Motion<f64, O>
+    where
+        O: Switched<
+                f64,
+                State = <S::State as SideBySide>::One,
+                Mode = <S::Mode as SideBySide>::One,
+            >,
+    {
+        Motion {
+            time: self.time.lane(index),
+            state: self.state.lane(index),
+            mode: self.mode.lane(index),
+            zeros: self.zeros.map(|zeros| zeros.lane(index)),
+            idle: self.idle.lane(index),
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! How long a step may be: where the last terms of its series fall below the tolerance.
 
-use crate::lane::{Lane, ORDER, Series};
+use crate::lane::{Lane, ORDER, Series, series};
 
 /// The longest step whose last two terms stay below `tolerance` times the series itself.
 ///
@@ -10,16 +10,21 @@ use crate::lane::{Lane, ORDER, Series};
 /// Infinite where the last terms vanish.
 #[inline(always)]
 pub fn longest_step<L: Lane>(series: &Series<L>, tolerance: f64) -> L {
+    let log_tolerance = L::splat(tolerance.rough_log());
+    let mut firsts = [L::splat(0.0); 3];
+    for j in 0..3 {
+        firsts[j] = series[j].abs().rough_log() + log_tolerance;
+    }
     let mut longest = L::splat(f64::INFINITY);
     for last in [ORDER - 1, ORDER] {
         let tail = series[last].abs();
-        let mut h = L::splat(0.0);
-        for (first, term) in series.iter().enumerate().take(3) {
-            let ratio = L::splat(tolerance) * term.abs() / tail;
-            h = h.max(ratio.rough_root((last - first) as f64));
+        let log_tail = tail.rough_log();
+        let mut log = L::splat(-1000.0);
+        for (j, &first) in firsts.iter().enumerate() {
+            log = log.max((first - log_tail) * L::splat(series::INVERSE[last - j]));
         }
         let vanishes = tail.le(L::splat(f64::MIN_POSITIVE));
-        longest = longest.min(L::select(vanishes, L::splat(f64::INFINITY), h));
+        longest = longest.min(L::select(vanishes, L::splat(f64::INFINITY), log.rough_exp()));
     }
     longest
 }

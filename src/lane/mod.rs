@@ -4,22 +4,96 @@
 //! square roots occur, which IEEE 754 rounds the same way on every machine, and no
 //! multiply-add is fused; so a case has the same bits alone, among others, and anywhere.
 
+pub mod dispatch;
 pub mod elementary;
+mod pair;
 pub mod series;
 mod wide;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
+pub use dispatch::{Instructions, Work};
+pub use pair::Pair;
 pub use series::{ORDER, Series};
-pub use wide::{Wide, WideMask};
+pub use wide::Wide;
+
+/// Added to a whole number of 0..2^52, this leaves it in the low bits of the sum.
+const WHOLE: f64 = 4_503_599_627_370_496.0;
+/// The upper half of the bits of 1.0, where the piecewise linear logarithm is zero.
+const LOG_ONE: f64 = 0x3FF0_0000 as f64;
+/// How much the upper half of the bits grows when a number doubles.
+const LOG_UNIT: f64 = 0x0010_0000 as f64;
 
 /// A truth value per lane.
 pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+    /// How many there are, at most 64.
+    const WIDTH: usize;
+    /// The truths from bits, that of lane 0 the lowest.
+    fn from_bits(bits: u64) -> Self;
+    /// The truths as bits.
+    fn bits(self) -> u64;
     /// The same truth in every lane.
-    fn splat(value: bool) -> Self;
+    #[inline(always)]
+    fn splat(value: bool) -> Self {
+        Self::from_bits(if value { u64::MAX } else { 0 })
+    }
+    /// The truth in lane `index`.
+    #[inline(always)]
+    fn lane(self, index: usize) -> bool {
+        self.bits() >> index & 1 != 0
+    }
+    /// The same truths but for lane `index`.
+    #[inline(always)]
+    fn with_lane(self, index: usize, value: bool) -> Self {
+        let others = self.bits() & !(1 << index);
+        Self::from_bits(others | u64::from(value) << index)
+    }
     /// Whether any lane is true.
-    fn any(self) -> bool;
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.bits() != 0
+    }
 }
+
+/// What lanes hold side by side, one of `One` in each.
+pub trait SideBySide {
+    /// What a single lane holds.
+    type One;
+    /// What lane `index` holds.
+    fn lane(&self, index: usize) -> Self::One;
+    /// Puts `one` into lane `index`; the others keep theirs.
+    fn put(&mut self, index: usize, one: &Self::One);
+}
+
+/// Implements [`SideBySide`] for a struct over lanes: its numbers and masks, and its structs over lanes.
+macro_rules! side_by_side {
+    ($name:ident { $($number:ident),* } $(with { $($part:ident),* })? $(alike { $($alike:ident),* })?) => {
+        impl<L: $crate::lane::Lane> $crate::lane::SideBySide for $name<L> {
+            type One = $name<f64>;
+            #[inline(always)]
+            fn lane(&self, index: usize) -> $name<f64> {
+                #[allow(unused_imports)]
+                use $crate::lane::{Lane, Mask};
+                $name {
+                    $($number: self.$number.lane(index),)*
+                    $($($part: self.$part.lane(index),)*)?
+                    $($($alike: self.$alike,)*)?
+                }
+            }
+            #[inline(always)]
+            fn put(&mut self, index: usize, one: &$name<f64>) {
+                #[allow(unused_imports)]
+                use $crate::lane::{Lane, Mask};
+                $(self.$number = self.$number.with_lane(index, one.$number);)*
+                $($(self.$part.put(index, &one.$part);)*)?
+                $($(self.$alike = one.$alike;)*)?
+            }
+        }
+    };
+}
+pub(crate) use side_by_side;
 
 /// A number per lane.
 pub trait Lane:
@@ -39,6 +113,8 @@ pub trait Lane:
     fn from_fn(value: impl FnMut(usize) -> f64) -> Self;
     /// The number in lane `index`.
     fn lane(self, index: usize) -> f64;
+    /// The same numbers but for lane `index`.
+    fn with_lane(self, index: usize, value: f64) -> Self;
     /// `yes` where the mask is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// Whether `self < other`, by lane.
@@ -49,18 +125,17 @@ pub trait Lane:
     fn abs(self) -> Self;
     /// Two to the power of `self`, which holds a whole number in -1022..=1023.
     fn exp2_whole(self) -> Self;
-    /// The root of the given degree of a positive number, within 7 % for degree 14 and above.
+    /// Logarithm to base 2 of a positive number, within 0.09.
     ///
-    /// Method: the binary exponent and the leading bits of the fraction, read together as a
-    /// piecewise linear logarithm, are divided by the degree. It serves step lengths, where a few
-    /// percent do not matter but equal bits on every machine do.
-    fn rough_root(self, degree: f64) -> Self;
+    /// Method: the binary exponent and the leading bits of the fraction, read together as a number, which
+    /// makes a piecewise linear logarithm. It serves step lengths, where a few percent do not matter
+    /// but equal bits on every machine do. Zero counts as 2^-1023.
+    fn rough_log(self) -> Self;
+    /// The inverse of `rough_log`, for numbers in -1022..=1023; to 20 bits of the fraction.
+    fn rough_exp(self) -> Self;
 
     /// The same number in every lane.
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self::from_fn(|_| value)
-    }
+    fn splat(value: f64) -> Self;
     /// The lesser of two numbers; `self` when either is NaN.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
@@ -74,13 +149,15 @@ pub trait Lane:
 }
 
 impl Mask for bool {
+    const WIDTH: usize = 1;
+
     #[inline(always)]
-    fn splat(value: bool) -> bool {
-        value
+    fn from_bits(bits: u64) -> bool {
+        bits & 1 != 0
     }
     #[inline(always)]
-    fn any(self) -> bool {
-        self
+    fn bits(self) -> u64 {
+        u64::from(self)
     }
 }
 
@@ -93,8 +170,16 @@ impl Lane for f64 {
         value(0)
     }
     #[inline(always)]
+    fn splat(value: f64) -> f64 {
+        value
+    }
+    #[inline(always)]
     fn lane(self, _index: usize) -> f64 {
         self
+    }
+    #[inline(always)]
+    fn with_lane(self, _index: usize, value: f64) -> f64 {
+        value
     }
     #[inline(always)]
     fn select(mask: bool, yes: f64, no: f64) -> f64 {
@@ -114,13 +199,15 @@ impl Lane for f64 {
     }
     #[inline(always)]
     fn exp2_whole(self) -> f64 {
-        f64::from_bits(((self as i64 + 1023) as u64) << 52)
+        f64::from_bits((self + (WHOLE + 1023.0)).to_bits() << 52)
     }
     #[inline(always)]
-    fn rough_root(self, degree: f64) -> f64 {
-        // The upper half of the bits of 1.0, where the piecewise linear logarithm is zero.
-        const LOG_ONE: f64 = 0x3FF0_0000 as f64;
-        let log = f64::from((self.to_bits() >> 32) as i32) - LOG_ONE;
-        f64::from_bits(((log / degree + LOG_ONE) as i64 as u64) << 32)
+    fn rough_log(self) -> f64 {
+        let bits = (self.to_bits() >> 32) | WHOLE.to_bits();
+        (f64::from_bits(bits) - (WHOLE + LOG_ONE)) * (1.0 / LOG_UNIT)
+    }
+    #[inline(always)]
+    fn rough_exp(self) -> f64 {
+        f64::from_bits((self * LOG_UNIT + (WHOLE + LOG_ONE)).to_bits() << 32)
     }
 }

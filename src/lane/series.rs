@@ -28,18 +28,34 @@ pub fn zero<L: Lane>() -> Series<L> {
 /// The polynomial at time `h`.
 #[inline(always)]
 pub fn value<L: Lane>(series: &Series<L>, h: L) -> L {
-    series.iter().rev().skip(1).fold(series[ORDER], |sum, &a| sum * h + a)
+    let mut sum = series[ORDER];
+    for k in (0..ORDER).rev() {
+        sum = sum * h + series[k];
+    }
+    sum
 }
 
 /// The polynomial and its derivative at time `h`.
 #[inline(always)]
 pub fn value_and_slope<L: Lane>(series: &Series<L>, h: L) -> (L, L) {
     let (mut sum, mut slope) = (series[ORDER], L::splat(0.0));
-    for &a in series.iter().rev().skip(1) {
+    for k in (0..ORDER).rev() {
         slope = slope * h + sum;
-        sum = sum * h + a;
+        sum = sum * h + series[k];
     }
     (sum, slope)
+}
+
+/// The polynomial and its first two derivatives at time `h`.
+#[inline(always)]
+pub fn value_slope_curvature<L: Lane>(series: &Series<L>, h: L) -> (L, L, L) {
+    let (mut sum, mut slope, mut half) = (series[ORDER], L::splat(0.0), L::splat(0.0));
+    for k in (0..ORDER).rev() {
+        half = half * h + slope;
+        slope = slope * h + sum;
+        sum = sum * h + series[k];
+    }
+    (sum, slope, half + half)
 }
 
 /// The derivative, as a series.
@@ -55,7 +71,11 @@ pub fn derivative<L: Lane>(series: &Series<L>) -> Series<L> {
 /// Coefficient `k` of the product of two series.
 #[inline(always)]
 pub fn product_term<L: Lane>(a: &Series<L>, b: &Series<L>, k: usize) -> L {
-    (1..=k).fold(a[0] * b[k], |sum, j| sum + a[j] * b[k - j])
+    let mut sum = a[0] * b[k];
+    for j in 1..=k {
+        sum = sum + a[j] * b[k - j];
+    }
+    sum
 }
 
 /// Coefficients of the product of two series.

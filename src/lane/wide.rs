@@ -1,96 +1,144 @@
-//! Several numbers side by side, each treated exactly as an `f64` alone would be: the form that a vector of
-//! cases runs the same source in. Sweeps run one case at a time so far; the tests hold the bits of both equal.
+//! Several vectors side by side, so that the operations of one fill the waits of another.
 
-use std::array;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::{Lane, Mask};
 
-/// `N` numbers.
+/// `M` groups of lanes, or of their truth values, each treated exactly as it would be alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(align(64))]
-pub struct Wide<const N: usize>(pub [f64; N]);
+pub struct Wide<L, const M: usize>(pub [L; M]);
 
-/// `N` truth values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct WideMask<const N: usize>(pub [bool; N]);
-
-macro_rules! by_lane {
-    ($type:ident, $($trait:ident $name:ident),*) => {$(
-        impl<const N: usize> $trait for $type<N> {
+macro_rules! by_group {
+    ($bound:ident, $($trait:ident $name:ident),*) => {$(
+        impl<L: $bound, const M: usize> $trait for Wide<L, M> {
             type Output = Self;
             #[inline(always)]
-            fn $name(self, other: Self) -> Self {
-                Self(array::from_fn(|i| self.0[i].$name(other.0[i])))
+            fn $name(mut self, other: Self) -> Self {
+                for i in 0..M {
+                    self.0[i] = self.0[i].$name(other.0[i]);
+                }
+                self
             }
         }
     )*};
 }
 
-by_lane!(Wide, Add add, Sub sub, Mul mul, Div div);
-by_lane!(WideMask, BitAnd bitand, BitOr bitor);
+by_group!(Lane, Add add, Sub sub, Mul mul, Div div);
+by_group!(Mask, BitAnd bitand, BitOr bitor);
 
-impl<const N: usize> Neg for Wide<N> {
+impl<L: Lane, const M: usize> Neg for Wide<L, M> {
     type Output = Self;
     #[inline(always)]
-    fn neg(self) -> Self {
-        Self(array::from_fn(|i| -self.0[i]))
+    fn neg(mut self) -> Self {
+        for i in 0..M {
+            self.0[i] = -self.0[i];
+        }
+        self
     }
 }
 
-impl<const N: usize> Not for WideMask<N> {
+impl<K: Mask, const M: usize> Not for Wide<K, M> {
     type Output = Self;
     #[inline(always)]
-    fn not(self) -> Self {
-        Self(array::from_fn(|i| !self.0[i]))
+    fn not(mut self) -> Self {
+        for i in 0..M {
+            self.0[i] = !self.0[i];
+        }
+        self
     }
 }
 
-impl<const N: usize> Mask for WideMask<N> {
+impl<K: Mask, const M: usize> Mask for Wide<K, M> {
+    const WIDTH: usize = M * K::WIDTH;
+
     #[inline(always)]
-    fn splat(value: bool) -> Self {
-        Self([value; N])
+    fn from_bits(bits: u64) -> Self {
+        let mut groups = [K::splat(false); M];
+        for (i, group) in groups.iter_mut().enumerate() {
+            *group = K::from_bits(bits >> (i * K::WIDTH));
+        }
+        Wide(groups)
     }
     #[inline(always)]
-    fn any(self) -> bool {
-        self.0.iter().any(|&lane| lane)
+    fn bits(self) -> u64 {
+        let mut bits = 0;
+        for i in 0..M {
+            bits |= self.0[i].bits() << (i * K::WIDTH);
+        }
+        bits
     }
 }
 
-impl<const N: usize> Lane for Wide<N> {
-    type Mask = WideMask<N>;
-    const WIDTH: usize = N;
+macro_rules! each {
+    ($self:ident, $of:expr) => {{
+        let mut result = $self;
+        for i in 0..M {
+            result.0[i] = $of(i);
+        }
+        result
+    }};
+}
+
+impl<L: Lane, const M: usize> Lane for Wide<L, M> {
+    type Mask = Wide<L::Mask, M>;
+    const WIDTH: usize = M * L::WIDTH;
 
     #[inline(always)]
-    fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
-        Self(array::from_fn(value))
+    fn splat(value: f64) -> Self {
+        Wide([L::splat(value); M])
+    }
+    #[inline(always)]
+    fn from_fn(mut value: impl FnMut(usize) -> f64) -> Self {
+        let mut result = Self::splat(0.0);
+        for i in 0..M {
+            result.0[i] = L::from_fn(|lane| value(i * L::WIDTH + lane));
+        }
+        result
     }
     #[inline(always)]
     fn lane(self, index: usize) -> f64 {
-        self.0[index]
+        self.0[index / L::WIDTH].lane(index % L::WIDTH)
     }
     #[inline(always)]
-    fn select(mask: WideMask<N>, yes: Self, no: Self) -> Self {
-        Self(array::from_fn(|i| if mask.0[i] { yes.0[i] } else { no.0[i] }))
+    fn with_lane(mut self, index: usize, value: f64) -> Self {
+        let group = &mut self.0[index / L::WIDTH];
+        *group = group.with_lane(index % L::WIDTH, value);
+        self
     }
     #[inline(always)]
-    fn lt(self, other: Self) -> WideMask<N> {
-        WideMask(array::from_fn(|i| self.0[i] < other.0[i]))
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        each!(yes, |i: usize| L::select(mask.0[i], yes.0[i], no.0[i]))
     }
     #[inline(always)]
-    fn le(self, other: Self) -> WideMask<N> {
-        WideMask(array::from_fn(|i| self.0[i] <= other.0[i]))
+    fn lt(self, other: Self) -> Self::Mask {
+        let mut mask = Self::Mask::splat(false);
+        for i in 0..M {
+            mask.0[i] = self.0[i].lt(other.0[i]);
+        }
+        mask
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> Self::Mask {
+        let mut mask = Self::Mask::splat(false);
+        for i in 0..M {
+            mask.0[i] = self.0[i].le(other.0[i]);
+        }
+        mask
     }
     #[inline(always)]
     fn abs(self) -> Self {
-        Self(array::from_fn(|i| self.0[i].abs()))
+        each!(self, |i: usize| self.0[i].abs())
     }
     #[inline(always)]
     fn exp2_whole(self) -> Self {
-        Self(array::from_fn(|i| self.0[i].exp2_whole()))
+        each!(self, |i: usize| self.0[i].exp2_whole())
     }
     #[inline(always)]
-    fn rough_root(self, degree: f64) -> Self {
-        Self(array::from_fn(|i| self.0[i].rough_root(degree)))
+    fn rough_log(self) -> Self {
+        each!(self, |i: usize| self.0[i].rough_log())
+    }
+    #[inline(always)]
+    fn rough_exp(self) -> Self {
+        each!(self, |i: usize| self.0[i].rough_exp())
     }
 }

@@ -1,7 +1,7 @@
 //! The vibro-impact capsule, its friction read in Filippov's sense.
 
 use crate::lane::elementary::not_finite;
-use crate::lane::{Lane, Mask, ORDER, Series, series};
+use crate::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 
 use super::resistance::Drag;
 use super::switched::{Locomotion, Switched, Zeros};
@@ -27,6 +27,8 @@ pub struct Capsule<L> {
     drag: Drag<L>,
 }
 
+side_by_side!(Capsule { k1, c, k2, delta, inverse_m1, inverse_m2 } with { drive, drag });
+
 /// Which field acts in each lane.
 #[derive(Debug, Clone, Copy)]
 pub struct Mode<L: Lane> {
@@ -34,6 +36,14 @@ pub struct Mode<L: Lane> {
     closed: L::Mask,
     /// Direction of sliding, +1 or -1; 0 at rest.
     slip: L,
+}
+
+side_by_side!(Mode { closed, slip });
+
+impl<L: Lane> Default for Mode<L> {
+    fn default() -> Self {
+        Mode { closed: L::Mask::splat(false), slip: L::splat(0.0) }
+    }
 }
 
 impl Capsule<f64> {
@@ -95,17 +105,15 @@ impl<L: Lane> Switched<L> for Capsule<L> {
     }
 
     #[inline(always)]
-    fn jet(&self, mode: &Mode<L>, time: L, state: &State<L>) -> Jet<L> {
-        let mut jet = Jet::zero();
-        let mut acceleration = series::zero();
+    fn expand(&self, mode: &Mode<L>, time: L, state: &State<L>, jet: &mut Jet<L>) {
+        let zero = L::splat(0.0);
         let stiffness = self.k1 + self.contact_stiffness(mode);
-        let slides = L::splat(0.0).lt(mode.slip * mode.slip);
-        jet.cos = self.drive.cos(time);
+        let slides = zero.lt(mode.slip * mode.slip);
+        let any_slides = slides.any();
+        self.drive.cos(time, &mut jet.cos);
         (jet.r[0], jet.y1[0], jet.x2[0], jet.y2[0]) = (state.r, state.y1, state.x2, state.y2);
         jet.force[0] = self.force(mode, state);
-        if slides.any() {
-            jet.decay[0] = self.drag.decay_start(state.y2);
-        }
+        jet.decay[0] = if any_slides { self.drag.decay_start(state.y2) } else { zero };
         for k in 0..ORDER {
             let per = L::splat(series::INVERSE[k + 1]);
             let relative = jet.y1[k] - jet.y2[k];
@@ -115,17 +123,20 @@ impl<L: Lane> Switched<L> for Capsule<L> {
             let drive = self.drive.amplitude * jet.cos[k];
             jet.r[k + 1] = relative * per;
             jet.y1[k + 1] = (drive - jet.force[k]) * self.inverse_m1 * per;
-            if slides.any() {
+            if any_slides {
                 let friction = self.drag.force_term(mode.slip, &jet.decay, &jet.y2, k);
                 let push = (jet.force[k] - friction) * self.inverse_m2;
-                acceleration[k] = L::select(slides, push, L::splat(0.0));
-                jet.y2[k + 1] = acceleration[k] * per;
+                jet.acceleration[k] = L::select(slides, push, zero);
+                jet.y2[k + 1] = jet.acceleration[k] * per;
                 jet.x2[k + 1] = jet.y2[k] * per;
-                jet.decay[k + 1] = self.drag.decay_term(mode.slip, &jet.decay, &acceleration, k);
+                jet.decay[k + 1] =
+                    self.drag.decay_term(mode.slip, &jet.decay, &jet.acceleration, k);
+            } else {
+                jet.acceleration[k] = zero;
+                (jet.y2[k + 1], jet.x2[k + 1], jet.decay[k + 1]) = (zero, zero, zero);
             }
         }
         jet.force[ORDER] = stiffness * jet.r[ORDER] + self.c * (jet.y1[ORDER] - jet.y2[ORDER]);
-        jet
     }
 
     #[inline(always)]
@@ -142,20 +153,22 @@ impl<L: Lane> Switched<L> for Capsule<L> {
     }
 
     #[inline(always)]
-    fn guard(&self, which: usize, mode: &Mode<L>, jet: &Jet<L>) -> Series<L> {
+    fn guard(&self, which: usize, mode: &Mode<L>, jet: &Jet<L>, guard: &mut Series<L>) {
         let one = L::splat(1.0);
         if which == CONTACT {
             let side = L::select(mode.closed, one, -one);
-            let mut gap = jet.r.map(|a| side * a);
-            gap[0] = side * (jet.r[0] - self.delta);
-            return gap;
+            guard[0] = side * (jet.r[0] - self.delta);
+            for k in 1..=ORDER {
+                guard[k] = side * jet.r[k];
+            }
+            return;
         }
         let side = if which == FORWARD { -one } else { one };
         let resting = (mode.slip * mode.slip).lt(L::splat(0.5));
-        let mut guard: Series<L> =
-            std::array::from_fn(|k| L::select(resting, side * jet.force[k], mode.slip * jet.y2[k]));
+        for k in 0..=ORDER {
+            guard[k] = L::select(resting, side * jet.force[k], mode.slip * jet.y2[k]);
+        }
         guard[0] = guard[0] + L::select(resting, self.drag.break_away, L::splat(0.0));
-        guard
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! The harmonic drive of the internal mass, p_d cos(omega t + phase).
 
-use crate::lane::{Lane, Series, elementary::sin_cos, series};
+use crate::lane::{Lane, Series, elementary::sin_cos, series, side_by_side};
 
 use super::{Parameter, Parameters};
 
@@ -13,6 +13,8 @@ pub struct Drive<L> {
     sin_phase: L,
     cos_phase: L,
 }
+
+side_by_side!(Drive { amplitude, omega, sin_phase, cos_phase });
 
 impl<L: Lane> Drive<L> {
     /// The drive of each lane's parameters, started at each lane's phase [rad].
@@ -27,11 +29,10 @@ impl<L: Lane> Drive<L> {
         }
     }
 
-    /// The series of `cos(omega t + phase)` from `time` since the start of the drive's cycle [s].
+    /// Writes the series of `cos(omega t + phase)` from `time` since the start of the drive's cycle [s].
     #[inline(always)]
-    pub fn cos(&self, time: L) -> Series<L> {
+    pub fn cos(&self, time: L, c: &mut Series<L>) {
         let (sin, cos) = sin_cos(self.omega * time);
-        let mut c = series::zero();
         let mut s = sin * self.cos_phase + cos * self.sin_phase;
         c[0] = cos * self.cos_phase - sin * self.sin_phase;
         for k in 0..series::ORDER {
@@ -39,6 +40,5 @@ impl<L: Lane> Drive<L> {
             c[k + 1] = -(rate * s);
             s = rate * c[k];
         }
-        c
     }
 }

@@ -27,9 +27,10 @@ pub struct PrintedCapsule {
 }
 
 /// Which field acts on the capsule; `side` is the sign of F, `slip` that of y2.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 enum Regime {
     /// H = 0: x2 and y2 stand still, y2 not necessarily at zero. Guards 1, 2: f_s - F, f_s + F.
+    #[default]
     Frozen,
     /// H = 1. Guards 1, 2: the speed, |F| - f_s.
     Moving { slip: f64, side: f64 },
@@ -40,7 +41,7 @@ enum Regime {
 }
 
 /// The mode of the capsule as printed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PrintedMode {
     closed: bool,
     regime: Regime,
@@ -76,7 +77,9 @@ impl PrintedCapsule {
         let at_rest = state.y2 == 0.0;
         let slip = if at_rest { side } else { state.y2.signum() };
         let stiffness = self.stiffness(closed);
-        let push = self.drive.amplitude * self.drive.cos(time)[0] - limit;
+        let mut cos = series::zero();
+        self.drive.cos(time, &mut cos);
+        let push = self.drive.amplitude * cos[0] - limit;
         let frozen_rate = side * (stiffness * state.y1 + self.c * push / self.m1);
         if frozen_rate <= 0.0 {
             return Regime::Frozen;
@@ -114,7 +117,6 @@ impl PrintedCapsule {
         let stiffness = self.stiffness(closed);
         let mut share = series::zero();
         let mut full = series::zero(); // acceleration of the moving field
-        let mut acceleration = series::zero();
         let mut excess = series::zero(); // frozen minus moving rate of F
         jet.force[0] = side * self.drag.static_limit;
         for k in 0..ORDER {
@@ -126,13 +128,13 @@ impl PrintedCapsule {
             let frozen_rate = stiffness * jet.y1[k] + self.c * push;
             let known: f64 = (1..=k).map(|j| excess[j] * share[k - j]).sum();
             share[k] = (frozen_rate - known) / excess[0];
-            acceleration[k] = series::product_term(&share, &full, k);
+            jet.acceleration[k] = series::product_term(&share, &full, k);
             let advance = series::product_term(&share, &jet.y2, k);
             jet.y1[k + 1] = push * per;
-            jet.y2[k + 1] = acceleration[k] * per;
+            jet.y2[k + 1] = jet.acceleration[k] * per;
             jet.x2[k + 1] = advance * per;
             jet.r[k + 1] = (jet.y1[k] - advance) * per;
-            jet.decay[k + 1] = self.drag.decay_term(slip, &jet.decay, &acceleration, k);
+            jet.decay[k + 1] = self.drag.decay_term(slip, &jet.decay, &jet.acceleration, k);
         }
         share
     }
@@ -140,7 +142,6 @@ impl PrintedCapsule {
     /// The series where H is 0 (no `slip`) or 1.
     fn glide(&self, jet: &mut Jet<f64>, closed: bool, slip: Option<f64>) {
         let stiffness = self.stiffness(closed);
-        let mut acceleration = series::zero();
         for k in 0..ORDER {
             let per = series::INVERSE[k + 1];
             if k > 0 {
@@ -151,11 +152,11 @@ impl PrintedCapsule {
             jet.r[k + 1] = jet.y1[k] * per;
             if let Some(slip) = slip {
                 let friction = self.drag.force_term(slip, &jet.decay, &jet.y2, k);
-                acceleration[k] = (jet.force[k] - friction) / self.m2;
-                jet.y2[k + 1] = acceleration[k] * per;
+                jet.acceleration[k] = (jet.force[k] - friction) / self.m2;
+                jet.y2[k + 1] = jet.acceleration[k] * per;
                 jet.x2[k + 1] = jet.y2[k] * per;
                 jet.r[k + 1] = (jet.y1[k] - jet.y2[k]) * per;
-                jet.decay[k + 1] = self.drag.decay_term(slip, &jet.decay, &acceleration, k);
+                jet.decay[k + 1] = self.drag.decay_term(slip, &jet.decay, &jet.acceleration, k);
             }
         }
         jet.force[ORDER] = stiffness * jet.r[ORDER] + self.c * (jet.y1[ORDER] - jet.y2[ORDER]);
@@ -163,7 +164,7 @@ impl PrintedCapsule {
 }
 
 /// The series of a step of the printed equation.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct PrintedJet {
     /// The motion.
     pub motion: Jet<f64>,
@@ -194,21 +195,20 @@ impl Switched<f64> for PrintedCapsule {
         PrintedMode { closed, regime }
     }
 
-    fn jet(&self, mode: &PrintedMode, time: f64, state: &State<f64>) -> PrintedJet {
-        let mut jet = Jet::zero();
-        let mut share = series::zero();
-        jet.cos = self.drive.cos(time);
+    fn expand(&self, mode: &PrintedMode, time: f64, state: &State<f64>, whole: &mut PrintedJet) {
+        *whole = PrintedJet::default();
+        let PrintedJet { motion: jet, share } = whole;
+        self.drive.cos(time, &mut jet.cos);
         (jet.r[0], jet.y1[0], jet.x2[0], jet.y2[0]) = (state.r, state.y1, state.x2, state.y2);
         jet.force[0] = self.force(mode.closed, state);
         jet.decay[0] = self.drag.decay_start(state.y2);
         match mode.regime {
-            Regime::Frozen | Regime::Held { .. } => self.glide(&mut jet, mode.closed, None),
-            Regime::Moving { slip, .. } => self.glide(&mut jet, mode.closed, Some(slip)),
+            Regime::Frozen | Regime::Held { .. } => self.glide(jet, mode.closed, None),
+            Regime::Moving { slip, .. } => self.glide(jet, mode.closed, Some(slip)),
             Regime::Creeping { slip, side } => {
-                share = self.creep(&mut jet, mode.closed, slip, side);
+                *share = self.creep(jet, mode.closed, slip, side);
             }
         }
-        PrintedJet { motion: jet, share }
     }
 
     fn pace<'a>(&self, jet: &'a PrintedJet) -> [&'a Series<f64>; 2] {
@@ -219,7 +219,7 @@ impl Switched<f64> for PrintedCapsule {
         which < 3 || matches!(mode.regime, Regime::Creeping { .. })
     }
 
-    fn guard(&self, which: usize, mode: &PrintedMode, jet: &PrintedJet) -> Series<f64> {
+    fn guard(&self, which: usize, mode: &PrintedMode, jet: &PrintedJet, guard: &mut Series<f64>) {
         let PrintedJet { motion: Jet { r, y2, force, .. }, share } = jet;
         let line = |constant: f64, factor: f64, series: &Series<f64>| {
             let mut guard = series.map(|a| factor * a);
@@ -227,7 +227,7 @@ impl Switched<f64> for PrintedCapsule {
             guard
         };
         let (limit, onset) = (self.drag.static_limit, self.drag.at_onset);
-        match (which, mode.regime) {
+        *guard = match (which, mode.regime) {
             (CONTACT, _) => {
                 let side = if mode.closed { 1.0 } else { -1.0 };
                 let mut gap = line(0.0, side, r);
@@ -243,7 +243,7 @@ impl Switched<f64> for PrintedCapsule {
             (1, Regime::Creeping { .. }) => line(0.0, 1.0, share),
             (2, Regime::Creeping { .. }) => line(1.0, -1.0, share),
             (_, Regime::Creeping { slip, .. }) => line(0.0, slip, y2),
-        }
+        };
     }
 
     fn at(&self, jet: &PrintedJet, h: f64) -> State<f64> {

@@ -1,6 +1,6 @@
 //! What resists the capsule: dry friction by two laws, or a resistive medium.
 
-use crate::lane::{Lane, Series, elementary::exp_decay, series};
+use crate::lane::{Lane, Series, elementary::exp_decay, series, side_by_side};
 
 use super::{Parameter, Parameters};
 
@@ -69,6 +69,11 @@ pub struct Drag<L> {
     linear: L,
     quadratic: L,
 }
+
+// Lanes share one law: the constants differ.
+side_by_side!(Drag {
+    dynamic, break_away, static_limit, at_onset, inverse_stribeck, linear, quadratic
+} alike { law });
 
 impl<L: Lane> Drag<L> {
     /// The first lane's law, with the constants of each lane's parameters.

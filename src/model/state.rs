@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::lane::{Lane, Series, series};
+use crate::lane::{Lane, Series, series, side_by_side};
 
 /// Positions and velocities [m, m/s].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -16,6 +16,8 @@ pub struct State<L> {
     /// Velocity of the capsule [m/s].
     pub y2: L,
 }
+
+side_by_side!(State { r, y1, x2, y2 });
 
 impl<L: Lane> State<L> {
     /// The state of each lane.
@@ -100,16 +102,28 @@ pub struct Jet<L> {
     pub decay: Series<L>,
     /// `cos` of the phase of the drive [-].
     pub cos: Series<L>,
+    /// Acceleration of the capsule, known to one order less [m/s^2].
+    pub acceleration: Series<L>,
+}
+
+impl<L: Lane> Default for Jet<L> {
+    #[inline(always)]
+    fn default() -> Self {
+        let zero = series::zero();
+        Jet {
+            r: zero,
+            y1: zero,
+            x2: zero,
+            y2: zero,
+            force: zero,
+            decay: zero,
+            cos: zero,
+            acceleration: zero,
+        }
+    }
 }
 
 impl<L: Lane> Jet<L> {
-    /// Zero everywhere.
-    #[inline(always)]
-    pub fn zero() -> Self {
-        let zero = series::zero();
-        Jet { r: zero, y1: zero, x2: zero, y2: zero, force: zero, decay: zero, cos: zero }
-    }
-
     /// The state `h` after the start of the step.
     #[inline(always)]
     pub fn state(&self, h: L) -> State<L> {

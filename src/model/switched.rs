@@ -22,9 +22,9 @@ pub trait Switched<L: Lane> {
     /// What the field acts on.
     type State: Copy;
     /// Which field acts.
-    type Mode: Copy;
+    type Mode: Copy + Default;
     /// The Taylor series of a step.
-    type Jet;
+    type Jet: Default;
 
     /// How many guards there are, at most [`MAX_GUARDS`].
     const GUARDS: usize;
@@ -32,8 +32,8 @@ pub trait Switched<L: Lane> {
     /// The mode a motion starts in; a guard that is due at once is then obeyed without an event.
     fn start(&self, time: L, state: &Self::State) -> Self::Mode;
 
-    /// The series of the motion in `mode` from `state` at `time`.
-    fn jet(&self, mode: &Self::Mode, time: L, state: &Self::State) -> Self::Jet;
+    /// Writes the series of the motion in `mode` from `state` at `time` into `jet`, all of it.
+    fn expand(&self, mode: &Self::Mode, time: L, state: &Self::State, jet: &mut Self::Jet);
 
     /// The series whose decay sets the length of a step.
     fn pace<'a>(&self, jet: &'a Self::Jet) -> [&'a Series<L>; 2];
@@ -41,8 +41,8 @@ pub trait Switched<L: Lane> {
     /// Whether guard `which` can end `mode`.
     fn watched(&self, which: usize, mode: &Self::Mode) -> L::Mask;
 
-    /// Guard `which`: positive while `mode` lasts, ends it where it falls through zero.
-    fn guard(&self, which: usize, mode: &Self::Mode, jet: &Self::Jet) -> Series<L>;
+    /// Writes guard `which` into `guard`: positive while `mode` lasts, ends it where it falls through zero.
+    fn guard(&self, which: usize, mode: &Self::Mode, jet: &Self::Jet, guard: &mut Series<L>);
 
     /// The state `h` after the start of the step.
     fn at(&self, jet: &Self::Jet, h: L) -> Self::State;

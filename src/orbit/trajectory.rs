@@ -65,6 +65,7 @@ impl fmt::Display for Failure {
 pub struct Trajectory<'a, S: Locomotion> {
     system: &'a S,
     motion: Motion<f64, S>,
+    step: Step<f64, S>,
     drive_period: f64,
     tolerance: f64,
     /// Whole cycles since the start.
@@ -75,7 +76,7 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
     /// Sets out from `start` at t = 0; `drive_period` [s], relative local `tolerance`.
     pub fn new(system: &'a S, start: State<f64>, drive_period: f64, tolerance: f64) -> Self {
         let motion = Motion::new(system, 0.0, start);
-        Trajectory { system, motion, drive_period, tolerance, cycles: 0 }
+        Trajectory { system, motion, step: Step::default(), drive_period, tolerance, cycles: 0 }
     }
 
     /// Where it is.
@@ -92,7 +93,8 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
     /// Goes on for one drive cycle and shows each step to `see`.
     pub fn cycle(&mut self, mut see: impl FnMut(&Step<f64, S>)) -> Result<(), Failure> {
         for _ in 0..STEPS_PER_CYCLE {
-            see(&self.motion.step(self.system, self.drive_period, self.tolerance));
+            self.motion.step(self.system, self.drive_period, self.tolerance, &mut self.step);
+            see(&self.step);
             if let Some(breakdown) = self.motion.breakdown(self.system, 0) {
                 return Err(self.failure(match breakdown {
                     Breakdown::NoProgress => Reason::NoProgress,

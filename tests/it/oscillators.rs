@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::flow::{Breakdown, Motion};
+use capsulemap::flow::{Breakdown, Motion, Step};
 use capsulemap::lane::{ORDER, Series, elementary::sin_cos, series};
 use capsulemap::model::{Switched, Zeros};
 
@@ -21,6 +21,7 @@ struct Point {
     v: f64,
 }
 
+#[derive(Default)]
 struct PointJet {
     x: Series<f64>,
     v: Series<f64>,
@@ -34,13 +35,12 @@ impl Switched<f64> for Impact {
 
     fn start(&self, _time: f64, _state: &Point) {}
 
-    fn jet(&self, _mode: &(), time: f64, state: &Point) -> PointJet {
+    fn expand(&self, _mode: &(), time: f64, state: &Point, jet: &mut PointJet) {
         let turn = 2.0 * PI;
         let (mut s, mut c) = sin_cos((self.omega * time).rem_euclid(turn));
         if self.omega == 0.0 {
             c = 0.0;
         }
-        let mut jet = PointJet { x: series::zero(), v: series::zero() };
         (jet.x[0], jet.v[0]) = (state.x, state.v);
         for k in 0..ORDER {
             let per = 1.0 / (k + 1) as f64;
@@ -49,7 +49,6 @@ impl Switched<f64> for Impact {
             jet.v[k + 1] = (c + weight - self.k * jet.x[k]) * per;
             (c, s) = (-self.omega * s * per, self.omega * c * per);
         }
-        jet
     }
 
     fn pace<'a>(&self, jet: &'a PointJet) -> [&'a Series<f64>; 2] {
@@ -60,10 +59,9 @@ impl Switched<f64> for Impact {
         true
     }
 
-    fn guard(&self, _which: usize, _mode: &(), jet: &PointJet) -> Series<f64> {
-        let mut gap = jet.x.map(|a| -a);
+    fn guard(&self, _which: usize, _mode: &(), jet: &PointJet, gap: &mut Series<f64>) {
+        *gap = jet.x.map(|a| -a);
         gap[0] = self.stop - jet.x[0];
-        gap
     }
 
     fn at(&self, jet: &PointJet, h: f64) -> Point {
@@ -96,10 +94,11 @@ fn a_bouncing_ball_never_falls_through_the_floor() {
     // Drop from 1 m under 10 m/s^2 onto x = 0 (the guard is the height -x): the speed halves each time.
     let ball = Impact { k: 0.0, omega: 0.0, gravity: 10.0, stop: 0.0, restitution: 0.5 };
     let mut motion = Motion::new(&ball, 0.0, Point { x: -1.0, v: 0.0 });
+    let mut step = Step::default();
     let fall = (2.0_f64 / 10.0).sqrt();
     let (mut bounces, mut breakdown) = (Vec::new(), None);
     while motion.time < 10.0 && breakdown.is_none() {
-        let step = motion.step(&ball, 10.0, 1e-12);
+        motion.step(&ball, 10.0, 1e-12, &mut step);
         for i in 0..=8 {
             let height = -ball.at(&step.jet, step.length * f64::from(i) / 8.0).x;
             assert!(height >= -1e-15, "{height:e} at {}", step.start);
@@ -141,12 +140,10 @@ fn a_rigid_impact_oscillator_repeats_its_closed_form() {
     let stop = amplitude * phi.cos() + a;
     let oscillator = Impact { k: 1.0, omega, gravity: 0.0, stop, restitution };
     let mut motion = Motion::new(&oscillator, phi / omega, Point { x: stop, v });
-    let step = loop {
-        let step = motion.step(&oscillator, 100.0, 1e-13);
-        if step.event != 0.0 {
-            break step;
-        }
-    };
+    let mut step = Step::default();
+    while step.event == 0.0 {
+        motion.step(&oscillator, 100.0, 1e-13, &mut step);
+    }
     let elapsed = step.start + step.length - phi / omega;
     assert!((elapsed - period).abs() < 1e-11, "{elapsed} {period}");
     assert!((motion.state.v - v).abs() < 1e-11 && motion.state.x == stop, "{:?}", motion.state);

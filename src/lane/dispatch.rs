@@ -1,0 +1,84 @@
+//! Which vectors a piece of work runs on: chosen when the program runs, from what the processor has.
+
+#[cfg(target_arch = "x86_64")]
+use super::x86;
+use super::{Lane, Wide, pair::Pair};
+
+/// A piece of work that is written once for lanes of any kind.
+///
+/// `run` and everything that it calls on lanes must be `#[inline(always)]`: only what is inlined is compiled
+/// for the instructions at hand.
+pub trait Work {
+    /// What it yields.
+    type Output;
+    /// Does it on lanes of the kind `L`.
+    fn run<L: Lane>(self) -> Self::Output;
+}
+
+/// The instructions that lanes are moved by. The bits of a result do not depend on them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Instructions {
+    /// One case at a time.
+    Scalar,
+    /// What every processor of this architecture has: SSE2 or NEON, two numbers an instruction.
+    Baseline,
+    /// Four numbers an instruction, on x86-64.
+    Avx2,
+    /// Eight numbers an instruction, on x86-64.
+    Avx512,
+}
+
+impl Instructions {
+    /// All by their names on the command line, in the order of declaration.
+    pub const NAMES: [(&str, Instructions); 4] = [
+        ("scalar", Instructions::Scalar),
+        (if cfg!(target_arch = "aarch64") { "neon" } else { "sse2" }, Instructions::Baseline),
+        ("avx2", Instructions::Avx2),
+        ("avx512", Instructions::Avx512),
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Instructions::NAMES[self as usize].0
+    }
+
+    /// Those that this processor has, the narrowest first.
+    pub fn available() -> impl DoubleEndedIterator<Item = Instructions> {
+        Instructions::NAMES.into_iter().map(|(_, it)| it).filter(|it| it.is_available())
+    }
+
+    /// The widest that this processor has.
+    pub fn widest() -> Instructions {
+        Instructions::available().next_back().unwrap_or(Instructions::Scalar)
+    }
+
+    /// Whether this processor has them.
+    pub fn is_available(self) -> bool {
+        match self {
+            Instructions::Scalar | Instructions::Baseline => true,
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => x86::has_avx2(),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => x86::has_avx512(),
+            #[cfg(not(target_arch = "x86_64"))]
+            Instructions::Avx2 | Instructions::Avx512 => false,
+        }
+    }
+
+    /// Does `work` by these instructions.
+    ///
+    /// # Panics
+    /// Where the processor does not have them.
+    pub fn run<W: Work>(self, work: W) -> W::Output {
+        match self {
+            Instructions::Scalar => work.run::<f64>(),
+            Instructions::Baseline => work.run::<Wide<Pair, 2>>(),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => x86::with_avx2(work).expect("the processor has AVX2"),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => x86::with_avx512(work).expect("the processor has AVX-512"),
+            #[cfg(not(target_arch = "x86_64"))]
+            Instructions::Avx2 | Instructions::Avx512 => panic!("the processor has no {self:?}"),
+        }
+    }
+}
