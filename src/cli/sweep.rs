@@ -5,14 +5,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use clap::Args;
+use clap::builder::PossibleValuesParser;
 
 use super::figure::{FormatChoice, draw_all, file_stem};
 use super::progress::Progress;
 use super::{Failure, print, tell};
+use crate::lane::Instructions;
 use crate::model::{Parameter, Parameters, Resistance, Switching};
-use crate::orbit::{Outcome, Protocol};
+use crate::orbit::{Case, Outcome, Protocol};
 use crate::store::{self, Dataset};
-use crate::sweep::{Case, Record, Study, run};
+use crate::sweep::{Machine, Record, Study, run};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -35,6 +37,10 @@ pub struct Sweep {
     /// Worker threads; one per core by default.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+    /// Instructions to compute by; the widest that the processor has by default. Results do not depend
+    /// on them.
+    #[arg(long, value_parser = PossibleValuesParser::new(Instructions::NAMES.map(|(name, _)| name)))]
+    instructions: Option<String>,
     /// Replace a file of results that another study left under that name.
     #[arg(long)]
     overwrite: bool,
@@ -49,6 +55,7 @@ pub struct Sweep {
 impl Sweep {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
+        let machine = self.machine()?;
         let name = self.study.display().to_string();
         let study = Study::parse(&name, &self.text()?).map_err(Failure::request)?;
         let output = self.output_path()?;
@@ -61,7 +68,7 @@ impl Sweep {
                     rehearse(&study).map_err(|failure| failure.within(&name))?;
                 }
                 prepare(folder)?;
-                self.compute(&study, &output)?
+                self.compute(&study, machine, &output)?
             }
         };
         if !self.no_figures {
@@ -119,10 +126,29 @@ impl Sweep {
         Err(Failure::request(format!("{shown}: holds results of another {what}; {advice}")))
     }
 
-    fn compute(&self, study: &Study, output: &Path) -> Result<Dataset, Failure> {
+    /// What to run on, as far as this machine has it.
+    fn machine(&self) -> Result<Machine, Failure> {
+        let mut machine = Machine { threads: self.threads.map(usize::from), ..Machine::default() };
+        for (name, instructions) in Instructions::NAMES {
+            if self.instructions.as_deref() == Some(name) {
+                machine.instructions = instructions;
+            }
+        }
+        if machine.instructions.is_available() {
+            return Ok(machine);
+        }
+        let available: Vec<_> = Instructions::available().map(Instructions::name).collect();
+        Err(Failure::request(format!(
+            "--instructions: this processor has no {} (allowed here: {})",
+            machine.instructions.name(),
+            available.join(", ")
+        )))
+    }
+
+    fn compute(&self, study: &Study, machine: Machine, output: &Path) -> Result<Dataset, Failure> {
         let progress = Progress::new(study.cases());
         let records = Mutex::new(Vec::with_capacity(study.cases()));
-        run(study, self.threads.map(usize::from), |record| {
+        run(study, machine, |record| {
             progress.step();
             records.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(record);
         })

@@ -196,6 +196,25 @@ where
     L: Lane,
     S: Switched<L, State: SideBySide, Mode: SideBySide>,
 {
+    /// The motion of `one` in every lane.
+    #[inline(always)]
+    pub fn splat<O>(one: &Motion<f64, O>) -> Self
+    where
+        O: Switched<
+                f64,
+                State = <S::State as SideBySide>::One,
+                Mode = <S::Mode as SideBySide>::One,
+            >,
+    {
+        Motion {
+            time: L::splat(one.time),
+            state: SideBySide::splat(&one.state),
+            mode: SideBySide::splat(&one.mode),
+            zeros: one.zeros.map(L::splat),
+            idle: L::splat(one.idle),
+        }
+    }
+
     /// Puts the motion of `one` into lane `index`.
     #[inline(always)]
     pub fn put<O>(&mut self, index: usize, one: &Motion<f64, O>)

@@ -61,32 +61,48 @@ pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output
 pub trait SideBySide {
     /// What a single lane holds.
     type One;
+    /// The same in every lane.
+    fn splat(one: &Self::One) -> Self;
     /// What lane `index` holds.
     fn lane(&self, index: usize) -> Self::One;
     /// Puts `one` into lane `index`; the others keep theirs.
     fn put(&mut self, index: usize, one: &Self::One);
 }
 
-/// Implements [`SideBySide`] for a struct over lanes: its numbers and masks, and its structs over lanes.
+/// Implements [`SideBySide`] for a struct over lanes: its numbers, its masks, its structs over lanes, and
+/// what all lanes have alike.
 macro_rules! side_by_side {
-    ($name:ident { $($number:ident),* } $(with { $($part:ident),* })? $(alike { $($alike:ident),* })?) => {
+    (
+        $name:ident { $($number:ident),* }
+        $(masks { $($mask:ident),* })?
+        $(with { $($part:ident),* })?
+        $(alike { $($alike:ident),* })?
+    ) => {
         impl<L: $crate::lane::Lane> $crate::lane::SideBySide for $name<L> {
             type One = $name<f64>;
+
+            #[inline(always)]
+            fn splat(one: &$name<f64>) -> Self {
+                $name {
+                    $($number: L::splat(one.$number),)*
+                    $($($mask: L::Mask::splat(one.$mask),)*)?
+                    $($($part: $crate::lane::SideBySide::splat(&one.$part),)*)?
+                    $($($alike: one.$alike,)*)?
+                }
+            }
             #[inline(always)]
             fn lane(&self, index: usize) -> $name<f64> {
-                #[allow(unused_imports)]
-                use $crate::lane::{Lane, Mask};
                 $name {
                     $($number: self.$number.lane(index),)*
+                    $($($mask: self.$mask.lane(index),)*)?
                     $($($part: self.$part.lane(index),)*)?
                     $($($alike: self.$alike,)*)?
                 }
             }
             #[inline(always)]
             fn put(&mut self, index: usize, one: &$name<f64>) {
-                #[allow(unused_imports)]
-                use $crate::lane::{Lane, Mask};
                 $(self.$number = self.$number.with_lane(index, one.$number);)*
+                $($(self.$mask = self.$mask.with_lane(index, one.$mask);)*)?
                 $($(self.$part.put(index, &one.$part);)*)?
                 $($(self.$alike = one.$alike;)*)?
             }

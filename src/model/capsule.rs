@@ -38,7 +38,7 @@ pub struct Mode<L: Lane> {
     slip: L,
 }
 
-side_by_side!(Mode { closed, slip });
+side_by_side!(Mode { slip } masks { closed });
 
 impl<L: Lane> Default for Mode<L> {
     fn default() -> Self {

@@ -2,15 +2,18 @@
 
 pub mod account;
 pub mod history;
+mod measure;
 pub mod output;
 pub mod recurrence;
 pub mod settle;
+pub mod side_by_side;
 pub mod simulate;
 pub mod trajectory;
 
 pub use account::{Account, Energies, Impact};
 pub use history::{History, HistorySpan};
 pub use output::{Output, Outputs};
-pub use settle::{Orbit, Outcome, Protocol, settle};
+pub use settle::{Case, Orbit, Outcome, Protocol, settle};
+pub use side_by_side::{Queue, Underway, settle_side_by_side};
 pub use simulate::{Event, Sample, Simulation, simulate};
 pub use trajectory::{Failure, Reason, Section, Trajectory};

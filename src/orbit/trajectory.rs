@@ -8,7 +8,7 @@ use crate::flow::{Breakdown, Motion, Step};
 use crate::model::{Locomotion, State};
 
 /// A cycle of so many steps is taken for a motion that cannot be followed.
-const STEPS_PER_CYCLE: usize = 200_000;
+pub(super) const STEPS_PER_CYCLE: u64 = 200_000;
 
 /// A point of the stroboscopic section: r [m], y1 [m/s], y2 [m/s].
 pub type Section = [f64; 3];
@@ -70,13 +70,36 @@ pub struct Trajectory<'a, S: Locomotion> {
     tolerance: f64,
     /// Whole cycles since the start.
     pub cycles: u64,
+    /// Steps taken in the cycle so far.
+    steps: u64,
+}
+
+/// The point of the section of a state at the end of a cycle.
+pub fn section(state: &State<f64>) -> Section {
+    [state.r, state.y1, state.y2]
 }
 
 impl<'a, S: Locomotion> Trajectory<'a, S> {
     /// Sets out from `start` at t = 0; `drive_period` [s], relative local `tolerance`.
     pub fn new(system: &'a S, start: State<f64>, drive_period: f64, tolerance: f64) -> Self {
         let motion = Motion::new(system, 0.0, start);
-        Trajectory { system, motion, step: Step::default(), drive_period, tolerance, cycles: 0 }
+        Trajectory::resume(system, motion, [0, 0], drive_period, tolerance)
+    }
+
+    /// Goes on with a `motion` under way for so many whole cycles and steps of the next.
+    pub fn resume(
+        system: &'a S,
+        motion: Motion<f64, S>,
+        [cycles, steps]: [u64; 2],
+        drive_period: f64,
+        tolerance: f64,
+    ) -> Self {
+        Trajectory { system, motion, step: Step::default(), drive_period, tolerance, cycles, steps }
+    }
+
+    /// The system that moves.
+    pub fn system(&self) -> &'a S {
+        self.system
     }
 
     /// Where it is.
@@ -86,28 +109,39 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
 
     /// The point of the section, when a cycle has just ended.
     pub fn section(&self) -> Section {
-        let State { r, y1, y2, .. } = self.motion.state;
-        [r, y1, y2]
+        section(&self.motion.state)
     }
 
-    /// Goes on for one drive cycle and shows each step to `see`.
+    /// Goes on to the end of the drive cycle and shows each step to `see`.
     pub fn cycle(&mut self, mut see: impl FnMut(&Step<f64, S>)) -> Result<(), Failure> {
-        for _ in 0..STEPS_PER_CYCLE {
+        loop {
             self.motion.step(self.system, self.drive_period, self.tolerance, &mut self.step);
+            self.steps += 1;
             see(&self.step);
-            if let Some(breakdown) = self.motion.breakdown(self.system, 0) {
-                return Err(self.failure(match breakdown {
-                    Breakdown::NoProgress => Reason::NoProgress,
-                    Breakdown::NotFinite => Reason::NotFinite,
-                }));
-            }
-            if self.motion.time >= self.drive_period {
-                self.motion.begin_cycle(true);
-                self.cycles += 1;
+            if self.look()? {
                 return Ok(());
             }
         }
-        Err(self.failure(Reason::TooManySteps))
+    }
+
+    /// Looks where the last step has led: whether to the end of a cycle, and if not, what is in the way.
+    pub fn look(&mut self) -> Result<bool, Failure> {
+        if let Some(breakdown) = self.motion.breakdown(self.system, 0) {
+            return Err(self.failure(match breakdown {
+                Breakdown::NoProgress => Reason::NoProgress,
+                Breakdown::NotFinite => Reason::NotFinite,
+            }));
+        }
+        if self.motion.time >= self.drive_period {
+            self.motion.begin_cycle(true);
+            self.cycles += 1;
+            self.steps = 0;
+            return Ok(true);
+        }
+        if self.steps >= STEPS_PER_CYCLE {
+            return Err(self.failure(Reason::TooManySteps));
+        }
+        Ok(false)
     }
 
     fn failure(&self, reason: Reason) -> Failure {

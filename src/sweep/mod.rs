@@ -13,5 +13,5 @@ pub use axis::{Axis, Coordinate};
 pub use document::{Fault, Faults};
 pub use drawing::{Drawing, DrawingKind};
 pub use quantity::parse_quantity;
-pub use run::{Record, run};
-pub use study::{Case, Direction, Follow, Study};
+pub use run::{Machine, Record, run};
+pub use study::{Direction, Follow, Study};

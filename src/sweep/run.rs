@@ -1,11 +1,14 @@
 //! The parallel run: chains of cases over all cores, in any order, to the same records.
 
-use rayon::prelude::*;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::model::State;
-use crate::orbit::{Orbit, Outcome, settle};
+use crate::lane::Instructions;
+use crate::model::{State, Switching};
+use crate::orbit::{Case, Orbit, Outcome, Queue, Underway, settle, settle_side_by_side};
 
 use super::Study;
+use super::study::Chain;
 
 /// What came of one case.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,41 +21,121 @@ pub struct Record {
     pub orbit: Orbit,
 }
 
-/// Runs every case of `study` on `threads` threads (all cores for none) and hands each record to
-/// `keep`, which is called from any thread and in any order.
+/// What a study is run on; its records do not depend on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Machine {
+    /// Number of threads; all cores for none.
+    pub threads: Option<usize>,
+    /// By which each thread moves its cases.
+    pub instructions: Instructions,
+}
+
+impl Default for Machine {
+    fn default() -> Self {
+        Machine { threads: None, instructions: Instructions::widest() }
+    }
+}
+
+/// Runs every case of `study` on `machine` and hands each record to `keep`, which is called from any
+/// thread and in any order.
 ///
-/// The records do not depend on the number of threads, nor on the order: a case depends on its own
-/// parameters and start, or on its predecessor in its chain, alone.
-pub fn run(
-    study: &Study,
-    threads: Option<usize>,
-    keep: impl Fn(Record) + Sync,
-) -> Result<(), RunError> {
+/// Every thread fills its lanes from one queue of chains until it is empty; the last cases, too few to fill
+/// a vector, are shared out among the threads one by one. A case depends on its own parameters and start,
+/// or on its predecessor in its chain, alone.
+pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Result<(), RunError> {
     let mut builder = rayon::ThreadPoolBuilder::new();
-    if let Some(threads) = threads {
+    if let Some(threads) = machine.threads {
         builder = builder.num_threads(threads);
     }
     let pool = builder.build().map_err(|error| RunError(error.to_string()))?;
-    pool.install(|| {
-        study.chains().into_par_iter().with_max_len(1).for_each(|chain| {
-            run_chain(study, &chain, &keep);
-        });
+    let taken = AtomicUsize::new(0);
+    let last_cases = Mutex::new(Vec::new());
+    pool.broadcast(|_| {
+        let mut worker = Worker { study, taken: &taken, keep: &keep };
+        match study.base.switching {
+            Switching::AsPrinted => worker.settle_one_by_one(),
+            Switching::Filippov => {
+                let instructions = machine.instructions;
+                let last = settle_side_by_side(instructions, &study.protocol, &mut worker);
+                let lock = || last_cases.lock().expect("no thread has panicked");
+                lock().extend(last);
+                loop {
+                    // In a statement of its own, so that the lock is free again.
+                    let case = lock().pop();
+                    let Some(case) = case else { break };
+                    worker.finish_chain(case);
+                }
+            }
+        }
     });
     Ok(())
 }
 
-fn run_chain(study: &Study, chain: &[usize], keep: &impl Fn(Record)) {
-    let mut settled = None;
-    for &index in chain {
-        let case = study.case(index);
-        let start = settled.unwrap_or(case.start);
-        let orbit = settle(&case.parameters, case.phase, start, &study.protocol);
-        if study.follow.is_some() {
-            // After a failure the next case starts afresh.
-            let usable = orbit.outcome != Outcome::Failed;
-            settled = usable.then_some(State { x2: case.start.x2, ..orbit.end });
+/// A case of a chain: its index and start, and those that follow it.
+struct Link {
+    index: usize,
+    start: State<f64>,
+    rest: Chain,
+}
+
+/// A thread with its part of the queue.
+struct Worker<'a, K> {
+    study: &'a Study,
+    /// Chains that have been taken by any thread.
+    taken: &'a AtomicUsize,
+    keep: &'a K,
+}
+
+impl<K: Fn(Record)> Queue for Worker<'_, K> {
+    type Name = Link;
+
+    fn next(&mut self, done: Option<(Link, Orbit)>) -> Option<(Link, Case)> {
+        done.and_then(|(link, orbit)| self.follow(link, orbit)).or_else(|| self.take())
+    }
+}
+
+impl<K: Fn(Record)> Worker<'_, K> {
+    /// The first case of the next chain.
+    fn take(&self) -> Option<(Link, Case)> {
+        let number = self.taken.fetch_add(1, Ordering::Relaxed);
+        if number >= self.study.chains() {
+            return None;
         }
-        keep(Record { index, start, orbit });
+        self.depart(self.study.chain(number), None)
+    }
+
+    /// Keeps the record of a case and yields the next of its chain.
+    fn follow(&self, Link { index, start, rest }: Link, orbit: Orbit) -> Option<(Link, Case)> {
+        // After a failure the next case starts afresh.
+        let settled = (orbit.outcome != Outcome::Failed).then_some(orbit.end);
+        (self.keep)(Record { index, start, orbit });
+        self.depart(rest, settled)
+    }
+
+    fn depart(&self, mut chain: Chain, from: Option<State<f64>>) -> Option<(Link, Case)> {
+        let index = chain.next()?;
+        let mut case = self.study.case(index);
+        if let Some(from) = from {
+            case.start = State { x2: case.start.x2, ..from };
+        }
+        Some((Link { index, start: case.start, rest: chain }, case))
+    }
+
+    /// Settles a case by itself, and all that follow it.
+    fn finish_chain(&self, case: Underway<Link>) {
+        let protocol = &self.study.protocol;
+        let (mut link, mut orbit) = case.finish(protocol);
+        while let Some((next, case)) = self.follow(link, orbit) {
+            (link, orbit) = Underway::new(next, case, protocol).finish(protocol);
+        }
+    }
+
+    fn settle_one_by_one(&mut self) {
+        let mut case = self.next(None);
+        while let Some((link, Case { parameters, start, phase })) = case {
+            let orbit = settle(&parameters, phase, start, &self.study.protocol);
+            case = self.next(Some((link, orbit)));
+        }
     }
 }
 

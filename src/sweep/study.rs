@@ -1,7 +1,7 @@
 //! A study: what to compute, as a set of axes over one base case.
 
 use crate::model::{Parameters, State};
-use crate::orbit::{Output, Protocol};
+use crate::orbit::{Case, Output, Protocol};
 
 use super::{Axis, Coordinate, Drawing};
 
@@ -61,15 +61,23 @@ pub struct Study {
     pub drawings: Vec<Drawing>,
 }
 
-/// One case of a study.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Case {
-    /// Its parameters.
-    pub parameters: Parameters,
-    /// Where it starts, unless it follows a neighbour.
-    pub start: State<f64>,
-    /// Phase of the drive at the start [rad].
-    pub phase: f64,
+/// Indices of cases, each of which starts where the one before has settled.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Chain {
+    first: usize,
+    step: isize,
+    left: usize,
+}
+
+impl Iterator for Chain {
+    type Item = usize;
+
+    fn next(&mut self) -> Option<usize> {
+        self.left = self.left.checked_sub(1)?;
+        let index = self.first;
+        self.first = index.wrapping_add_signed(self.step);
+        Some(index)
+    }
 }
 
 impl Study {
@@ -93,7 +101,7 @@ impl Study {
         self.shape().iter().product()
     }
 
-    /// Case `index`, counted with the last dimension fastest.
+    /// Case `index` with the start that the study gives it, counted with the last dimension fastest.
     pub fn case(&self, index: usize) -> Case {
         let mut case = Case { parameters: self.base.clone(), start: self.start, phase: self.phase };
         for (axis, position) in self.axes.iter().zip(self.position(index)) {
@@ -109,30 +117,34 @@ impl Study {
         case
     }
 
-    /// The cases as chains, each to be run in order; a chain is one case where none is followed.
-    pub fn chains(&self) -> Vec<Vec<usize>> {
-        let Some(follow) = &self.follow else {
-            return (0..self.cases()).map(|index| vec![index]).collect();
-        };
-        let along = self.axes[follow.axis].values.len();
-        let step: usize = self.shape()[follow.axis + 1..].iter().product();
-        let mut chains = Vec::new();
-        for first in 0..self.cases() {
-            let position = self.position(first);
-            if position[follow.axis] != 0 {
-                continue;
-            }
-            let direction = match self.direction_axis() {
-                Some(directions) => directions[position[self.axes.len()]],
-                None => follow.directions[0],
-            };
-            let mut chain: Vec<usize> = (0..along).map(|i| first + i * step).collect();
-            if direction == Direction::Downward {
-                chain.reverse();
-            }
-            chains.push(chain);
+    /// Number of chains, which can be run in any order.
+    pub fn chains(&self) -> usize {
+        match &self.follow {
+            None => self.cases(),
+            Some(follow) => self.cases() / self.axes[follow.axis].values.len(),
         }
-        chains
+    }
+
+    /// The cases of chain `number`, to be run in order; a chain is one case where none is followed.
+    pub fn chain(&self, number: usize) -> Chain {
+        let Some(follow) = &self.follow else {
+            return Chain { first: number, step: 0, left: 1 };
+        };
+        let length = self.axes[follow.axis].values.len();
+        let stride: usize = self.shape()[follow.axis + 1..].iter().product();
+        let first = number / stride * stride * length + number % stride;
+        let direction = match self.direction_axis() {
+            Some(directions) => directions[number % directions.len()],
+            None => follow.directions[0],
+        };
+        match direction {
+            Direction::Upward => Chain { first, step: stride as isize, left: length },
+            Direction::Downward => Chain {
+                first: first + (length - 1) * stride,
+                step: -(stride as isize),
+                left: length,
+            },
+        }
     }
 
     /// Position of case `index` along each dimension.

@@ -1,0 +1,286 @@
+//! Many cases side by side in the lanes of one thread, each lane refilled the moment its case settles.
+
+use crate::flow::{Motion, Step};
+use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
+use crate::model::{Capsule, Parameter, Parameters, Resistance, State};
+
+use super::measure::conclude;
+use super::recurrence::{Recurrence, Settled};
+use super::settle::find_period;
+use super::trajectory::{STEPS_PER_CYCLE, section};
+use super::{Case, Failure, Orbit, Protocol, Trajectory};
+
+/// What a case has settled to, if it has, or why it could not be followed.
+type Found = Result<Option<Settled>, Failure>;
+
+/// With no more than one lane in so many at work, cases are followed faster one by one.
+const WORTHWHILE: usize = 4;
+
+/// A case between its departure and its settling, under the name that its owner knows it by.
+#[derive(Clone)]
+pub struct Underway<T> {
+    name: T,
+    case: Case,
+    system: Capsule<f64>,
+    motion: Motion<f64, Capsule<f64>>,
+    recurrence: Recurrence,
+    cycles: u64,
+    /// Steps taken in the cycle so far.
+    steps: u64,
+}
+
+impl<T> Underway<T> {
+    /// A case about to depart.
+    pub fn new(name: T, case: Case, protocol: &Protocol) -> Self {
+        let Case { parameters, phase, start } = &case;
+        let omega = parameters[Parameter::Omega];
+        let mut recurrence = Recurrence::new(protocol.max_period, protocol.recurrence, omega);
+        let system = Capsule::single(parameters, *phase);
+        let motion = Motion::new(&system, 0.0, *start);
+        recurrence.meet(section(&motion.state));
+        Underway { name, case, system, motion, recurrence, cycles: 0, steps: 0 }
+    }
+
+    /// Follows the case by itself until it settles, and measures it.
+    pub fn finish(self, protocol: &Protocol) -> (T, Orbit) {
+        self.conclude(protocol, |trajectory, recurrence| {
+            find_period(trajectory, recurrence, protocol)
+        })
+    }
+
+    /// Measures the case, going on from where it is with what it is found to have settled to.
+    fn conclude(
+        mut self,
+        protocol: &Protocol,
+        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Recurrence) -> Found,
+    ) -> (T, Orbit) {
+        let Case { parameters, start, .. } = &self.case;
+        let mut trajectory = Trajectory::resume(
+            &self.system,
+            self.motion,
+            [self.cycles, self.steps],
+            parameters.drive_period(),
+            protocol.tolerance,
+        );
+        let settled = found(&mut trajectory, &mut self.recurrence);
+        (self.name, conclude(&mut trajectory, parameters, *start, settled, protocol))
+    }
+}
+
+/// Where cases come from and where they go when they have settled.
+pub trait Queue {
+    /// What a case is known by.
+    type Name;
+    /// Takes the case that has been `done`, if one has, and yields one to follow in its place.
+    fn next(&mut self, done: Option<(Self::Name, Orbit)>) -> Option<(Self::Name, Case)>;
+}
+
+/// Settles the cases of `queue`, which share one law of resistance, as many at a time as there are lanes,
+/// until there are no more.
+///
+/// The orbits have the bits that [`super::settle`] gives, whatever the instructions. Returns the last few
+/// cases unfinished, each to be finished by itself and on any thread.
+pub fn settle_side_by_side<Q: Queue>(
+    instructions: Instructions,
+    protocol: &Protocol,
+    queue: &mut Q,
+) -> Vec<Underway<Q::Name>> {
+    instructions.run(Settling { protocol, queue })
+}
+
+struct Settling<'a, Q> {
+    protocol: &'a Protocol,
+    queue: &'a mut Q,
+}
+
+impl<Q: Queue> Work for Settling<'_, Q> {
+    type Output = Vec<Underway<Q::Name>>;
+
+    #[inline(always)]
+    fn run<L: Lane>(mut self) -> Vec<Underway<Q::Name>> {
+        let cases: Vec<_> = (0..L::WIDTH).map(|_| self.next(None)).collect();
+        let Some(first) = cases.iter().flatten().next() else {
+            return Vec::new();
+        };
+        let mut convoy = Convoy::<L, Q>::new(first.case.parameters.resistance, self);
+        for (lane, case) in cases.into_iter().enumerate() {
+            convoy.seat(lane, case);
+        }
+        let mut step = Step::default();
+        while convoy.occupied.count_ones() as usize * WORTHWHILE > L::WIDTH {
+            convoy.advance(&mut step);
+            convoy.attend();
+        }
+        convoy.unfinished()
+    }
+}
+
+impl<Q: Queue> Settling<'_, Q> {
+    fn next(&mut self, done: Option<(Q::Name, Orbit)>) -> Option<Underway<Q::Name>> {
+        let (name, case) = self.queue.next(done)?;
+        Some(Underway::new(name, case, self.protocol))
+    }
+}
+
+/// The lanes and who is in them.
+struct Convoy<'a, L: Lane, Q: Queue> {
+    cases: Settling<'a, Q>,
+    /// What moves to no purpose in an empty lane.
+    spare: Underway<()>,
+    system: Capsule<L>,
+    motion: Motion<L, Capsule<L>>,
+    drive_periods: L,
+    seats: Vec<Option<Underway<Q::Name>>>,
+    /// The lanes with a case, as bits.
+    occupied: u64,
+    /// Steps taken, and how many had been when the cycle of each lane began.
+    steps: u64,
+    cycle_began: Vec<u64>,
+    /// No cycle has taken too many steps before so many are taken.
+    deadline: u64,
+}
+
+impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
+    /// Empty lanes, in which a capsule with the usual parameters moves.
+    fn new(resistance: Resistance, cases: Settling<'a, Q>) -> Self {
+        let mut parameters = Parameters::default();
+        parameters.resistance = resistance;
+        let case = Case { parameters, phase: 0.0, start: State::default() };
+        let spare = Underway::new((), case, cases.protocol);
+        Convoy {
+            cases,
+            motion: Motion::splat(&spare.motion),
+            system: Capsule::splat(&spare.system),
+            drive_periods: L::splat(spare.case.parameters.drive_period()),
+            spare,
+            seats: (0..L::WIDTH).map(|_| None).collect(),
+            occupied: 0,
+            steps: 0,
+            cycle_began: vec![0; L::WIDTH],
+            deadline: STEPS_PER_CYCLE,
+        }
+    }
+
+    /// Moves every lane by a step.
+    #[inline(always)]
+    fn advance(&mut self, step: &mut Step<L, Capsule<L>>) {
+        let tolerance = self.cases.protocol.tolerance;
+        self.motion.step(&self.system, self.drive_periods, tolerance, step);
+        self.steps += 1;
+    }
+
+    /// Looks after the lanes whose case cannot go on or whose cycle has ended.
+    #[inline(always)]
+    fn attend(&mut self) {
+        let mut broken = self.motion.broken(&self.system).bits() & self.occupied;
+        let ended = self.drive_periods.le(self.motion.time);
+        let mut at_end = ended.bits() & self.occupied & !broken;
+        while let Some(lane) = take_lowest(&mut broken) {
+            self.give_up(lane);
+        }
+        if ended.any() {
+            self.motion.begin_cycle(ended);
+        }
+        while let Some(lane) = take_lowest(&mut at_end) {
+            let state = self.motion.state.lane(lane);
+            self.end_cycle(lane, &state);
+        }
+        if self.steps >= self.deadline {
+            self.give_up_the_slow();
+        }
+    }
+
+    /// Takes note of the section point that the case in `lane` has reached.
+    fn end_cycle(&mut self, lane: usize, state: &State<f64>) {
+        let case = self.seats[lane].as_mut().expect("the lane is occupied");
+        case.cycles += 1;
+        self.cycle_began[lane] = self.steps;
+        let settled = case.recurrence.meet(section(state));
+        if settled.is_some() || case.cycles >= self.cases.protocol.max_cycles {
+            self.relieve(lane, |_, _| Ok(settled));
+        }
+    }
+
+    /// Concludes the case in `lane`, which cannot go on.
+    fn give_up(&mut self, lane: usize) {
+        self.relieve(lane, |trajectory, _| trajectory.look().map(|_| None));
+    }
+
+    /// Concludes the cases whose cycle has taken too many steps.
+    fn give_up_the_slow(&mut self) {
+        let mut occupied = self.occupied;
+        while let Some(lane) = take_lowest(&mut occupied) {
+            if self.steps - self.cycle_began[lane] >= STEPS_PER_CYCLE {
+                self.give_up(lane);
+            }
+        }
+        self.deadline = self.cycle_began.iter().min().map_or(0, |&began| began + STEPS_PER_CYCLE);
+    }
+
+    /// Concludes the case in `lane` as `found` says, and seats the next.
+    fn relieve(
+        &mut self,
+        lane: usize,
+        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Recurrence) -> Found,
+    ) {
+        let case = self.leave(lane).expect("the lane is occupied");
+        let done = case.conclude(self.cases.protocol, found);
+        let next = self.cases.next(Some(done));
+        self.seat(lane, next);
+    }
+
+    /// Seats a case in `lane`, or leaves the lane empty.
+    fn seat(&mut self, lane: usize, case: Option<Underway<Q::Name>>) {
+        match &case {
+            Some(case) => {
+                self.occupied |= 1 << lane;
+                self.put(lane, &case.system, &case.motion, &case.case.parameters);
+            }
+            None => {
+                self.occupied &= !(1 << lane);
+                let Underway { system, motion, case, .. } = self.spare.clone();
+                self.put(lane, &system, &motion, &case.parameters);
+            }
+        }
+        self.cycle_began[lane] = self.steps;
+        self.seats[lane] = case;
+    }
+
+    fn put(
+        &mut self,
+        lane: usize,
+        system: &Capsule<f64>,
+        motion: &Motion<f64, Capsule<f64>>,
+        parameters: &Parameters,
+    ) {
+        let law = self.spare.case.parameters.resistance;
+        assert_eq!(law, parameters.resistance, "cases side by side share one law of resistance");
+        self.system.put(lane, system);
+        self.motion.put(lane, motion);
+        self.drive_periods = self.drive_periods.with_lane(lane, parameters.drive_period());
+    }
+
+    /// Takes the case out of `lane`, as it is.
+    fn leave(&mut self, lane: usize) -> Option<Underway<Q::Name>> {
+        let motion = self.motion.lane(lane);
+        let steps = self.steps - self.cycle_began[lane];
+        let case = self.seats[lane].take()?;
+        Some(Underway { motion, steps, ..case })
+    }
+
+    /// The cases that are still under way.
+    fn unfinished(mut self) -> Vec<Underway<Q::Name>> {
+        (0..L::WIDTH).filter_map(|lane| self.leave(lane)).collect()
+    }
+}
+
+/// The lowest bit that is set, which is cleared.
+#[inline(always)]
+fn take_lowest(bits: &mut u64) -> Option<usize> {
+    if *bits == 0 {
+        return None;
+    }
+    let lowest = bits.trailing_zeros() as usize;
+    *bits &= *bits - 1;
+    Some(lowest)
+}
