@@ -7,6 +7,7 @@
 pub mod dispatch;
 pub mod elementary;
 mod pair;
+pub mod quadrature;
 pub mod series;
 mod wide;
 #[cfg(target_arch = "x86_64")]

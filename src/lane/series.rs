@@ -9,8 +9,8 @@ pub const ORDER: usize = 16;
 pub type Series<L> = [L; ORDER + 1];
 
 /// `1/n`, so that the recurrences multiply rather than divide.
-pub const INVERSE: [f64; 2 * ORDER + 2] = {
-    let mut table = [0.0; 2 * ORDER + 2];
+pub const INVERSE: [f64; ORDER + 2] = {
+    let mut table = [0.0; ORDER + 2];
     let mut n = 1;
     while n < table.len() {
         table[n] = 1.0 / n as f64;
@@ -78,24 +78,9 @@ pub fn product_term<L: Lane>(a: &Series<L>, b: &Series<L>, k: usize) -> L {
     sum
 }
 
-/// Coefficients of the product of two series.
-pub type Product<L> = [L; 2 * ORDER + 1];
-
-/// The whole product of two series: cut at the degree of its factors, it would cost energies two digits.
-#[inline(always)]
-pub fn product<L: Lane>(a: &Series<L>, b: &Series<L>) -> Product<L> {
-    let mut result = [L::splat(0.0); 2 * ORDER + 1];
-    for (i, &left) in a.iter().enumerate() {
-        for (j, &right) in b.iter().enumerate() {
-            result[i + j] = result[i + j] + left * right;
-        }
-    }
-    result
-}
-
 /// The integral of a polynomial from 0 to `h`.
 #[inline(always)]
-pub fn integral<L: Lane>(polynomial: &[L], h: L) -> L {
+pub fn integral<L: Lane>(polynomial: &Series<L>, h: L) -> L {
     let mut sum = L::splat(0.0);
     for (k, &a) in polynomial.iter().enumerate().rev() {
         sum = sum * h + a * L::splat(INVERSE[k + 1]);

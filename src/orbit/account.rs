@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::flow::Step;
 use crate::flow::guard::crossings;
+use crate::lane::quadrature::{integral_of_product, values};
 use crate::lane::{Series, series};
 use crate::model::{Contact, EventKind, Locomotion, Parameter, Parameters, StickSlip};
 
@@ -100,44 +101,38 @@ impl Account {
     fn add_energies<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
         let h = step.length;
         let jet = system.motion(&step.jet);
-        let power = series::product(&jet.cos, &jet.y1).map(|a| self.p_d * a);
-        let work = series::integral(&power, h);
+        let (cos, y1) = (values(&jet.cos, h), values(&jet.y1, h));
+        let work = self.p_d * integral_of_product(&cos, &y1, h);
         self.energies.work_net += work;
-        self.add_signed_work(&jet.cos, &jet.y1, &power, work, h);
+        self.add_signed_work(&jet.cos, &jet.y1, work, h);
 
-        let relative: Series<f64> = std::array::from_fn(|k| jet.y1[k] - jet.y2[k]);
-        self.energies.damper_loss +=
-            self.c * series::integral(&series::product(&relative, &relative), h);
+        let y2 = values(&jet.y2, h);
+        let relative = std::array::from_fn(|i| y1[i] - y2[i]);
+        self.energies.damper_loss += self.c * integral_of_product(&relative, &relative, h);
         let friction = system.friction(&step.mode, &step.jet);
         self.friction_impulse += series::integral(&friction, h);
         if system.stick_slip(&step.mode) == StickSlip::Stick {
             self.stick_time += h;
             self.energies.work_actuator += work;
         } else {
-            let slip = system.slip_rate(&step.mode, &step.jet);
-            self.energies.friction_loss += series::integral(&series::product(&friction, &slip), h);
-            let carried = self.p_d * series::integral(&series::product(&jet.cos, &slip), h);
+            let slip = values(&system.slip_rate(&step.mode, &step.jet), h);
+            self.energies.friction_loss += integral_of_product(&values(&friction, h), &slip, h);
+            let carried = self.p_d * integral_of_product(&cos, &slip, h);
             self.energies.work_actuator += work - carried;
         }
     }
 
     /// Splits the work where the power changes sign.
-    fn add_signed_work(
-        &mut self,
-        cos: &Series<f64>,
-        y1: &Series<f64>,
-        power: &[f64],
-        work: f64,
-        h: f64,
-    ) {
+    fn add_signed_work(&mut self, cos: &Series<f64>, y1: &Series<f64>, work: f64, h: f64) {
         let mut cuts = Vec::new();
         crossings(cos, h, |t, _| cuts.push(t));
         crossings(y1, h, |t, _| cuts.push(t));
         cuts.sort_by(f64::total_cmp);
+        let work_until =
+            |&t: &f64| self.p_d * integral_of_product(&values(cos, t), &values(y1, t), t);
         let mut before = 0.0;
-        let pieces = cuts.iter().map(|&t| series::integral(power, t)).chain([work]);
-        for until in pieces {
-            let piece = until - before;
+        for until in cuts.iter().map(work_until).chain([work]) {
+            let piece: f64 = until - before;
             self.energies.work_positive += piece.max(0.0);
             self.energies.work_absolute += piece.abs();
             before = until;

@@ -211,7 +211,7 @@ fn starts_and_the_phase_can_be_axes() {
 #[test]
 fn a_study_follows_up_down_or_both_ways() {
     let follow = |lines: &str| figures(&format!("[start]\n{lines}"));
-    let chains = |lines: &str| read(&follow(lines)).chains();
+    let chains = |lines: &str| chains(&read(&follow(lines)));
     assert_eq!(chains(""), [[0], [1]]);
     assert_eq!(chains("follow = \"omega\""), [[0, 1]]);
     assert_eq!(chains("follow = \"omega\"\ndirections = [\"downward\"]"), [[1, 0]]);
@@ -234,7 +234,7 @@ fn a_study_follows_up_down_or_both_ways() {
 #[test]
 fn a_study_without_axes_is_one_case() {
     let study = read(FIG5);
-    assert_eq!((study.cases(), study.shape(), study.chains()), (1, vec![], vec![vec![0]]));
+    assert_eq!((study.cases(), study.shape(), chains(&study)), (1, vec![], vec![vec![0]]));
     assert_eq!(study.title, "");
 }
 
@@ -294,4 +294,8 @@ fn sizes_that_no_machine_holds_are_refused() {
     );
     let title = "title = \"a\\u0000b\"\n".to_owned() + FIG5;
     assert_said(&title, &["line 1: title: must be one line without control characters"]);
+}
+
+fn chains(study: &Study) -> Vec<Vec<usize>> {
+    (0..study.chains()).map(|number| study.chain(number).collect()).collect()
 }
