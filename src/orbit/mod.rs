@@ -2,10 +2,12 @@
 
 pub mod account;
 pub mod history;
+mod extrapolation;
 mod measure;
 pub mod output;
 pub mod recurrence;
 pub mod settle;
+mod settling;
 pub mod side_by_side;
 pub mod simulate;
 pub mod trajectory;

@@ -9,6 +9,8 @@ const EXACT: f64 = 1e-2;
 /// Points of an orbit closer together than so many recurrence tolerances are taken for one: the
 /// rounding of a step, carried through weakly damped cycles, makes such orbits of its own.
 pub const RESOLUTION: f64 = 100.0;
+/// A longer period is nearer than a shorter one if its distance is below this share.
+const DISTINCT: f64 = 0.1;
 /// A motion below this share of the largest one seen is measured against that largest one.
 const FADED: f64 = 1e-3;
 
@@ -32,6 +34,10 @@ pub struct Recurrence {
     /// For each period, how many points in a row have repeated to tolerance.
     repeats: Vec<usize>,
     largest: f64,
+    /// The velocity that distances are measured against: the size of the motion lately [m/s].
+    scale: f64,
+    /// The shortest period at which the last point is closest to an earlier one, and how close.
+    nearest: Option<(usize, f64)>,
 }
 
 impl Recurrence {
@@ -45,7 +51,33 @@ impl Recurrence {
             points: VecDeque::with_capacity(2 * longest + 1),
             repeats: vec![0; longest + 1],
             largest: 0.0,
+            scale: 0.0,
+            nearest: None,
         }
+    }
+
+    /// Forgets the points met, and goes on from another.
+    pub fn restart(&mut self, point: Section) {
+        self.points.clear();
+        self.repeats.fill(0);
+        self.meet(point);
+    }
+
+    /// The shortest period at which the last point is close to an earlier one, and how close, relative to
+    /// the scale: a multiple of a period counts only if it comes much closer.
+    pub fn nearest(&self) -> Option<(usize, f64)> {
+        self.nearest
+    }
+
+    /// The velocity that distances are relative to [m/s].
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// The last `N` points that are `k` cycles apart, oldest first, if there are so many.
+    pub fn last<const N: usize>(&self, k: usize) -> Option<[Section; N]> {
+        let first = self.points.len().checked_sub((N - 1) * k + 1)?;
+        Some(std::array::from_fn(|i| self.points[first + i * k]))
     }
 
     /// Takes the next section point; says what the motion has settled to, if it has.
@@ -60,11 +92,15 @@ impl Recurrence {
         if self.points.len() > 2 * self.longest + 1 {
             self.points.pop_front();
         }
-        let scale = self.scale(&point);
+        let scale = self.update_scale(&point);
         let newest = self.points.len() - 1;
         let mut found = None;
+        self.nearest = None;
         for k in 1..=self.longest.min(newest) {
             let distance = self.distance(newest, newest - k, scale);
+            if self.nearest.is_none_or(|(_, nearest)| distance < DISTINCT * nearest) {
+                self.nearest = Some((k, distance));
+            }
             if distance > self.tolerance {
                 self.repeats[k] = 0;
                 continue;
@@ -99,12 +135,12 @@ impl Recurrence {
         ratio < 1.0 && now * ratio / (1.0 - ratio) <= self.tolerance
     }
 
-    /// The velocity that distances are measured against: the size of the motion lately [m/s].
-    fn scale(&mut self, point: &Section) -> f64 {
+    fn update_scale(&mut self, point: &Section) -> f64 {
         self.largest = self.largest.max(size(self.omega, point));
         let recent = self.points.iter().rev().take(self.longest);
         let recent = recent.map(|point| size(self.omega, point));
-        recent.fold(FADED * self.largest, f64::max)
+        self.scale = recent.fold(FADED * self.largest, f64::max);
+        self.scale
     }
 
     /// Largest difference of two section points relative to the scale [-].

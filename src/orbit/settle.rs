@@ -7,7 +7,8 @@ use serde::Serialize;
 use crate::model::{Capsule, Locomotion, Parameter, Parameters, PrintedCapsule, State, Switching};
 
 use super::measure::conclude;
-use super::recurrence::{Recurrence, Settled};
+use super::recurrence::Settled;
+use super::settling::{Settling, Verdict};
 use super::{Failure, History, HistorySpan, Impact, Outputs, Section, Trajectory};
 
 /// What a case turned out to be.
@@ -76,6 +77,8 @@ pub struct Protocol {
     pub points: usize,
     /// Impacts kept at most.
     pub impact_points: usize,
+    /// Whether to leap to where the section tends, once it is clear, rather than wait until it is there.
+    pub accelerate: bool,
     /// Time history to keep.
     pub history: Option<HistorySpan>,
 }
@@ -90,6 +93,7 @@ impl Default for Protocol {
             measured_cycles: 128,
             points: 64,
             impact_points: 64,
+            accelerate: true,
             history: None,
         }
     }
@@ -154,23 +158,24 @@ fn settle_on<S: Locomotion>(
 ) -> Orbit {
     let mut trajectory =
         Trajectory::new(system, start, parameters.drive_period(), protocol.tolerance);
-    let mut recurrence =
-        Recurrence::new(protocol.max_period, protocol.recurrence, parameters[Parameter::Omega]);
-    recurrence.meet(trajectory.section());
-    let settled = find_period(&mut trajectory, &mut recurrence, protocol);
+    let mut settling = Settling::new(protocol, parameters[Parameter::Omega]);
+    settling.meet(trajectory.section());
+    let settled = find_period(&mut trajectory, &mut settling, protocol);
     conclude(&mut trajectory, parameters, start, settled, protocol)
 }
 
 /// Follows until the section repeats; none when the budget of cycles ends first.
 pub(super) fn find_period<S: Locomotion>(
     trajectory: &mut Trajectory<'_, S>,
-    recurrence: &mut Recurrence,
+    settling: &mut Settling,
     protocol: &Protocol,
 ) -> Result<Option<Settled>, Failure> {
     while trajectory.cycles < protocol.max_cycles {
         trajectory.cycle(|_| ())?;
-        if let Some(settled) = recurrence.meet(trajectory.section()) {
-            return Ok(Some(settled));
+        match settling.meet(trajectory.section()) {
+            Verdict::Settled(settled) => return Ok(Some(settled)),
+            Verdict::Leap(section) => trajectory.leap(section),
+            Verdict::Unsettled => {}
         }
     }
     Ok(None)

@@ -5,9 +5,10 @@ use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use crate::model::{Capsule, Parameter, Parameters, Resistance, State};
 
 use super::measure::conclude;
-use super::recurrence::{Recurrence, Settled};
+use super::recurrence::Settled;
 use super::settle::find_period;
-use super::trajectory::{STEPS_PER_CYCLE, section};
+use super::settling::{Settling, Verdict};
+use super::trajectory::{STEPS_PER_CYCLE, leap, section};
 use super::{Case, Failure, Orbit, Protocol, Trajectory};
 
 /// What a case has settled to, if it has, or why it could not be followed.
@@ -23,7 +24,7 @@ pub struct Underway<T> {
     case: Case,
     system: Capsule<f64>,
     motion: Motion<f64, Capsule<f64>>,
-    recurrence: Recurrence,
+    settling: Settling,
     cycles: u64,
     /// Steps taken in the cycle so far.
     steps: u64,
@@ -34,25 +35,23 @@ impl<T> Underway<T> {
     pub fn new(name: T, case: Case, protocol: &Protocol) -> Self {
         let Case { parameters, phase, start } = &case;
         let omega = parameters[Parameter::Omega];
-        let mut recurrence = Recurrence::new(protocol.max_period, protocol.recurrence, omega);
+        let mut settling = Settling::new(protocol, omega);
         let system = Capsule::single(parameters, *phase);
         let motion = Motion::new(&system, 0.0, *start);
-        recurrence.meet(section(&motion.state));
-        Underway { name, case, system, motion, recurrence, cycles: 0, steps: 0 }
+        settling.meet(section(&motion.state));
+        Underway { name, case, system, motion, settling, cycles: 0, steps: 0 }
     }
 
     /// Follows the case by itself until it settles, and measures it.
     pub fn finish(self, protocol: &Protocol) -> (T, Orbit) {
-        self.conclude(protocol, |trajectory, recurrence| {
-            find_period(trajectory, recurrence, protocol)
-        })
+        self.conclude(protocol, |trajectory, settling| find_period(trajectory, settling, protocol))
     }
 
     /// Measures the case, going on from where it is with what it is found to have settled to.
     fn conclude(
         mut self,
         protocol: &Protocol,
-        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Recurrence) -> Found,
+        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Settling) -> Found,
     ) -> (T, Orbit) {
         let Case { parameters, start, .. } = &self.case;
         let mut trajectory = Trajectory::resume(
@@ -62,7 +61,7 @@ impl<T> Underway<T> {
             parameters.drive_period(),
             protocol.tolerance,
         );
-        let settled = found(&mut trajectory, &mut self.recurrence);
+        let settled = found(&mut trajectory, &mut self.settling);
         (self.name, conclude(&mut trajectory, parameters, *start, settled, protocol))
     }
 }
@@ -85,15 +84,15 @@ pub fn settle_side_by_side<Q: Queue>(
     protocol: &Protocol,
     queue: &mut Q,
 ) -> Vec<Underway<Q::Name>> {
-    instructions.run(Settling { protocol, queue })
+    instructions.run(Supply { protocol, queue })
 }
 
-struct Settling<'a, Q> {
+struct Supply<'a, Q> {
     protocol: &'a Protocol,
     queue: &'a mut Q,
 }
 
-impl<Q: Queue> Work for Settling<'_, Q> {
+impl<Q: Queue> Work for Supply<'_, Q> {
     type Output = Vec<Underway<Q::Name>>;
 
     #[inline(always)]
@@ -115,7 +114,7 @@ impl<Q: Queue> Work for Settling<'_, Q> {
     }
 }
 
-impl<Q: Queue> Settling<'_, Q> {
+impl<Q: Queue> Supply<'_, Q> {
     fn next(&mut self, done: Option<(Q::Name, Orbit)>) -> Option<Underway<Q::Name>> {
         let (name, case) = self.queue.next(done)?;
         Some(Underway::new(name, case, self.protocol))
@@ -124,7 +123,7 @@ impl<Q: Queue> Settling<'_, Q> {
 
 /// The lanes and who is in them.
 struct Convoy<'a, L: Lane, Q: Queue> {
-    cases: Settling<'a, Q>,
+    cases: Supply<'a, Q>,
     /// What moves to no purpose in an empty lane.
     spare: Underway<()>,
     system: Capsule<L>,
@@ -142,7 +141,7 @@ struct Convoy<'a, L: Lane, Q: Queue> {
 
 impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
     /// Empty lanes, in which a capsule with the usual parameters moves.
-    fn new(resistance: Resistance, cases: Settling<'a, Q>) -> Self {
+    fn new(resistance: Resistance, cases: Supply<'a, Q>) -> Self {
         let mut parameters = Parameters::default();
         parameters.resistance = resistance;
         let case = Case { parameters, phase: 0.0, start: State::default() };
@@ -195,9 +194,17 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
         let case = self.seats[lane].as_mut().expect("the lane is occupied");
         case.cycles += 1;
         self.cycle_began[lane] = self.steps;
-        let settled = case.recurrence.meet(section(state));
-        if settled.is_some() || case.cycles >= self.cases.protocol.max_cycles {
-            self.relieve(lane, |_, _| Ok(settled));
+        let exhausted = case.cycles >= self.cases.protocol.max_cycles;
+        match case.settling.meet(section(state)) {
+            Verdict::Settled(settled) => self.relieve(lane, |_, _| Ok(Some(settled))),
+            verdict => {
+                if let Verdict::Leap(section) = verdict {
+                    self.motion.put(lane, &leap(&case.system, state, section));
+                }
+                if exhausted {
+                    self.relieve(lane, |_, _| Ok(None));
+                }
+            }
         }
     }
 
@@ -221,7 +228,7 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
     fn relieve(
         &mut self,
         lane: usize,
-        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Recurrence) -> Found,
+        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Settling) -> Found,
     ) {
         let case = self.leave(lane).expect("the lane is occupied");
         let done = case.conclude(self.cases.protocol, found);

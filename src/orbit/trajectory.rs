@@ -79,6 +79,11 @@ pub fn section(state: &State<f64>) -> Section {
     [state.r, state.y1, state.y2]
 }
 
+/// The motion from another point of the section than that of `state`, as far along the ground.
+pub fn leap<S: Locomotion>(system: &S, state: &State<f64>, [r, y1, y2]: Section) -> Motion<f64, S> {
+    Motion::new(system, 0.0, State { r, y1, y2, ..*state })
+}
+
 impl<'a, S: Locomotion> Trajectory<'a, S> {
     /// Sets out from `start` at t = 0; `drive_period` [s], relative local `tolerance`.
     pub fn new(system: &'a S, start: State<f64>, drive_period: f64, tolerance: f64) -> Self {
@@ -110,6 +115,11 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
     /// The point of the section, when a cycle has just ended.
     pub fn section(&self) -> Section {
         section(&self.motion.state)
+    }
+
+    /// Goes on from another point of the section, at the beginning of a cycle.
+    pub fn leap(&mut self, target: Section) {
+        self.motion = leap(self.system, &self.motion.state, target);
     }
 
     /// Goes on to the end of the drive cycle and shows each step to `see`.

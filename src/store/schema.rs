@@ -38,11 +38,12 @@ pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
 }
 
 /// How the cases were followed, so that the file tells it even where the study left it to the program.
-fn protocol(study: &Study) -> [(String, String); 5] {
+fn protocol(study: &Study) -> [(String, String); 6] {
     let protocol = &study.protocol;
     [
         ("tolerance", format!("{:e}", protocol.tolerance)),
         ("recurrence", format!("{:e}", protocol.recurrence)),
+        ("accelerate", protocol.accelerate.to_string()),
         ("max_cycles", protocol.max_cycles.to_string()),
         ("max_period", protocol.max_period.to_string()),
         ("measured_cycles", protocol.measured_cycles.to_string()),

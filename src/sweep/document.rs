@@ -234,6 +234,11 @@ impl<'r, 'a> Entry<'r, 'a> {
         whole
     }
 
+    /// The value as `true` or `false`.
+    pub fn truth(&self) -> Option<bool> {
+        self.expected(self.value.get_ref().as_bool(), "true or false")
+    }
+
     /// The value as a quantity of `dimension`, in SI.
     pub fn quantity(&self, dimension: Dimension) -> Option<f64> {
         if let Some(number) = self.number() {

@@ -292,6 +292,8 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
             *value = found as usize;
         };
         size("max_period", 1, LONGEST_PERIOD, &mut protocol.max_period);
+        let accelerate = table.entry("accelerate").and_then(|entry| entry.truth());
+        protocol.accelerate = accelerate.unwrap_or(protocol.accelerate);
         size("points", 0, MOST_POINTS, &mut protocol.points);
         size("impact_points", 0, MOST_POINTS, &mut protocol.impact_points);
         table.finish();

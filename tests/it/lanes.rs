@@ -3,6 +3,9 @@
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap::model::{Capsule, Parameter, Parameters, State};
+use capsulemap::orbit::{Case, Orbit, Outcome, Protocol, settle};
+
+use super::draws;
 
 const CYCLES: usize = 10;
 
@@ -101,6 +104,32 @@ fn a_case_has_the_same_bits_alone_and_among_others() {
         let mut found = instructions.run(Together(&backward[5..]));
         found.reverse();
         assert!(found == expected[..43], "{}", instructions.name());
+    }
+}
+
+#[test]
+fn an_orbit_has_the_same_bits_by_any_instructions_and_in_any_order() {
+    let mut cases = draws::cases(150, 5);
+    // One that cannot be followed, and one that never settles.
+    cases[40].start.r = 1e300;
+    let protocol = Protocol { max_cycles: 300, measured_cycles: 8, ..Protocol::default() };
+    let written = |orbits: &[Orbit]| -> Vec<String> {
+        orbits.iter().map(|orbit| format!("{orbit:?}")).collect()
+    };
+    let alone: Vec<Orbit> = cases
+        .iter()
+        .map(|Case { parameters, start, phase }| settle(parameters, *phase, *start, &protocol))
+        .collect();
+    let outcomes = |outcome| alone.iter().filter(|orbit| orbit.outcome == outcome).count();
+    assert!(outcomes(Outcome::Failed) == 1 && outcomes(Outcome::Undecided) > 1);
+    let expected = written(&alone);
+    for instructions in Instructions::available() {
+        let found = written(&draws::settled(&cases, &protocol, instructions));
+        assert!(found == expected, "{}", instructions.name());
+        let backward: Vec<Case> = cases.iter().rev().cloned().collect();
+        let mut found = written(&draws::settled(&backward, &protocol, instructions));
+        found.reverse();
+        assert!(found == expected, "{} backward", instructions.name());
     }
 }
 

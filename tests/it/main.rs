@@ -1,8 +1,10 @@
 //! The tests of the whole: closed forms, invariants, references, and the program as its users run it.
 
+mod acceleration;
 mod belt;
 mod cli;
 mod closed_forms;
+mod draws;
 mod edges;
 mod figure;
 mod house;

@@ -1,0 +1,79 @@
+//! When a case has settled, and how it gets there sooner.
+
+use super::extrapolation::{WINDOW, limit};
+use super::recurrence::{Recurrence, Settled, size};
+use super::{Protocol, Section};
+
+/// Section points this close, relative to the motion, may be near enough to their limit to leap there.
+const NEAR: f64 = 1e-3;
+/// The longest leap, relative to the motion.
+const LEAP: f64 = 1e-2;
+/// A distance so many recurrence tolerances wide is not worth a leap: waiting is as short.
+const CLOSE: f64 = 10.0;
+/// Leaps in one case at most.
+const LEAPS: u32 = 20;
+
+/// What follows from a section point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Verdict {
+    /// The motion goes on.
+    Unsettled,
+    /// It goes on from another point of the section, which it would have approached.
+    Leap(Section),
+    /// It has settled.
+    Settled(Settled),
+}
+
+/// A case on the way to settling.
+#[derive(Debug, Clone)]
+pub struct Settling {
+    recurrence: Recurrence,
+    omega: f64,
+    tolerance: f64,
+    leaps_left: u32,
+}
+
+impl Settling {
+    /// Nothing met yet, under a drive of frequency `omega` [rad/s].
+    pub fn new(protocol: &Protocol, omega: f64) -> Self {
+        Settling {
+            recurrence: Recurrence::new(protocol.max_period, protocol.recurrence, omega),
+            omega,
+            tolerance: protocol.recurrence,
+            leaps_left: if protocol.accelerate { LEAPS } else { 0 },
+        }
+    }
+
+    /// Takes the next section point.
+    ///
+    /// A leap does not decide anything: the motion goes on from where it leads, and whether it has settled is
+    /// judged by the points after it alone.
+    pub fn meet(&mut self, point: Section) -> Verdict {
+        if let Some(settled) = self.recurrence.meet(point) {
+            return Verdict::Settled(settled);
+        }
+        if self.leaps_left == 0 {
+            return Verdict::Unsettled;
+        }
+        match self.leap() {
+            Some(target) => {
+                self.leaps_left -= 1;
+                self.recurrence.restart(target);
+                Verdict::Leap(target)
+            }
+            None => Verdict::Unsettled,
+        }
+    }
+
+    fn leap(&self) -> Option<Section> {
+        let (k, distance) = self.recurrence.nearest()?;
+        if distance > NEAR || distance <= CLOSE * self.tolerance {
+            return None;
+        }
+        let points = self.recurrence.last::<WINDOW>(k)?;
+        let target = limit(&points)?;
+        let newest = points[WINDOW - 1];
+        let apart = std::array::from_fn(|j| target[j] - newest[j]);
+        (size(self.omega, &apart) <= LEAP * self.recurrence.scale()).then_some(target)
+    }
+}

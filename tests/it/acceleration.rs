@@ -1,0 +1,53 @@
+//! Leaping to where the section tends reaches what waiting reaches.
+
+use capsulemap::lane::Instructions;
+use capsulemap::orbit::{Outcome, Output, Protocol};
+
+use super::draws;
+
+/// So many random cases; `CASES=100000 cargo test --release --test it -- acceleration --nocapture` for long.
+fn count() -> usize {
+    std::env::var("CASES").map_or(500, |text| text.parse().expect("CASES is a number"))
+}
+
+#[test]
+fn a_leap_ends_on_the_attractor_of_plain_iteration() {
+    let cases = draws::cases(count(), 3);
+    let accelerated = Protocol::default();
+    let plain = Protocol { accelerate: false, ..accelerated };
+    let settled = |protocol: &Protocol| draws::settled(&cases, protocol, Instructions::widest());
+    let (fast, slow) = (settled(&accelerated), settled(&plain));
+    let (mut both, mut more, mut fewer, mut cycles) = (0, 0, 0, [0, 0]);
+    let mut others = Vec::new();
+    for (i, (fast, slow)) in fast.iter().zip(&slow).enumerate() {
+        match (fast.outcome, slow.outcome) {
+            (Outcome::Periodic, Outcome::Periodic) => both += 1,
+            (Outcome::Periodic, _) => more += 1,
+            (_, Outcome::Periodic) => fewer += 1,
+            _ => {}
+        }
+        if (fast.outcome, slow.outcome) != (Outcome::Periodic, Outcome::Periodic) {
+            continue;
+        }
+        cycles = [cycles[0] + fast.cycles, cycles[1] + slow.cycles];
+        let of = |output: Output| (fast.outputs[output], slow.outputs[output]);
+        let (speed, expected) = of(Output::ProgressionSpeed);
+        let (work, expected_work) = of(Output::WorkNet);
+        let alike = (speed - expected).abs() <= 1e-8 + 1e-6 * expected.abs()
+            && (work - expected_work).abs() <= 1e-6 * expected_work.abs();
+        if fast.period != slow.period || !alike {
+            others.push((i, fast.period, slow.period, speed, expected));
+        }
+    }
+    println!(
+        "{both} periodic both ways, in {} and {} cycles; {more} by leaping alone, {fewer} by waiting \
+         alone; on another attractor: {}",
+        cycles[0],
+        cycles[1],
+        others.len()
+    );
+    assert!(both > cases.len() * 8 / 10 && cycles[0] * 2 < cycles[1]);
+    assert!(fewer <= more, "leaping decides no fewer");
+    // One case in ten thousand may lie so close to the border of two basins that a leap of 1e-3 crosses it.
+    assert!(others.len() * 10_000 <= cases.len(), "{others:?}");
+}

@@ -1,0 +1,61 @@
+//! Cases drawn at random over everything that users vary, and all of them settled side by side.
+
+use capsulemap::lane::Instructions;
+use capsulemap::model::{Parameter, Parameters, State};
+use capsulemap::orbit::{Case, Orbit, Protocol, Queue, settle_side_by_side};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{RngCore, SeedableRng};
+
+/// Parameters and starts over the ranges in which the motion is rich.
+pub fn cases(count: usize, seed: u64) -> Vec<Case> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut uniform = |low: f64, high: f64| {
+        low + (high - low) * (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut draw = || {
+        let mu_s = uniform(0.02, 0.66);
+        let parameters = Parameters::with(&[
+            (Parameter::Omega, uniform(15.0, 180.0)),
+            (Parameter::Pd, uniform(0.5, 8.0)),
+            (Parameter::K2, 10_f64.powf(uniform(3.0, 5.0))),
+            (Parameter::Delta, uniform(0.0, 5e-3)),
+            (Parameter::C, uniform(0.35, 4.0)),
+            (Parameter::MuS, mu_s),
+            (Parameter::MuD, mu_s * uniform(0.4, 1.0)),
+            (Parameter::M2, uniform(0.2, 1.0)),
+        ]);
+        let (r, y1) = (uniform(-2e-3, 2e-3), uniform(-0.2, 0.2));
+        let y2 = if uniform(0.0, 1.0) < 0.5 { 0.0 } else { uniform(-0.2, 0.2) };
+        Case { parameters, start: State { r, y1, x2: 0.0, y2 }, phase: uniform(0.0, 6.0) }
+    };
+    (0..count).map(|_| draw()).collect()
+}
+
+/// What each case settles to.
+pub fn settled(cases: &[Case], protocol: &Protocol, instructions: Instructions) -> Vec<Orbit> {
+    let mut list = List { cases, dealt: 0, orbits: vec![None; cases.len()] };
+    for case in settle_side_by_side(instructions, protocol, &mut list) {
+        let (index, orbit) = case.finish(protocol);
+        list.orbits[index] = Some(orbit);
+    }
+    list.orbits.into_iter().map(|orbit| orbit.expect("every case is done")).collect()
+}
+
+struct List<'a> {
+    cases: &'a [Case],
+    dealt: usize,
+    orbits: Vec<Option<Orbit>>,
+}
+
+impl Queue for List<'_> {
+    type Name = usize;
+
+    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
+        if let Some((index, orbit)) = done {
+            self.orbits[index] = Some(orbit);
+        }
+        let index = self.dealt;
+        self.dealt += 1;
+        Some((index, self.cases.get(index)?.clone()))
+    }
+}
