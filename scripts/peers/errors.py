@@ -15,7 +15,7 @@ ELSEWHERE = 0.01
 
 
 def errors(case, cycles, end, reference):
-    """Return the errors of section and x2, as defined above; ends are r, y1, x2, y2."""
+    """Return the errors of section and x2; an end begins with r, y1, x2, y2."""
     omega = case[1]
     r, y1, x2, y2 = reference[:4]
     velocity = max(abs(y1), abs(y2), omega * abs(r))
