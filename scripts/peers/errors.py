@@ -8,8 +8,8 @@ DEFINITION = (
     "Errors are at the end of the last cycle. Of the section: the largest of |Δy1|, "
     "|Δy2| and ω|Δr| over the largest of |y1|, |y2| and ω|r| there, V. Of x2: |Δx2|, "
     "summed up over all n cycles, over the mean progression of one, |x2|/n, or over "
-    "V/(1000 ω) if that is more. A case is apart if its number of events is another, or "
-    "if its section is over 0.01 off: then it is elsewhere, on another motion."
+    "V/(1000 ω) if that is more. A case is apart if its number of events is another, "
+    "or if its section is over 0.01 off: then it is elsewhere, on another motion."
 )
 ELSEWHERE = 0.01
 
