@@ -1,0 +1,161 @@
+"""Runs capsulemap and its peers side by side on the same works; prints how they do."""
+
+import json
+import statistics
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from errors import DEFINITION, Comparison, compare
+from setting import setting
+from works import sample, works
+
+HERE = Path(__file__).parent
+REPETITIONS = 3
+COLUMNS = (
+    "contestant",
+    "cycles per CPU second",
+    "min .. max",
+    "ratio to capsulemap",
+    "error of section",
+    "error of x2",
+    "cases apart",
+)
+
+
+@dataclass
+class Contestant:
+    """A program that answers requests, and what it reached on each work."""
+
+    name: str
+    command: list[str]
+    # The tolerance that it is asked for; the step [s] where that is fixed.
+    tolerance: float
+    # Does only a few of the cases, once.
+    slow: bool = False
+    speeds: dict[str, list[float]] = field(default_factory=dict)
+    ends: dict[str, list] = field(default_factory=dict)
+    process: subprocess.Popen | None = None
+
+    def start(self):
+        """Start the program, which then waits for requests."""
+        pipe = subprocess.PIPE
+        self.process = subprocess.Popen(
+            self.command, stdin=pipe, stdout=pipe, text=True
+        )
+
+    def stop(self):
+        """End the program by ending its input."""
+        self.process.communicate()
+
+    def chosen(self, cases):
+        """Return the indices of the cases that it does."""
+        return sample(cases) if self.slow else range(len(cases))
+
+    def follow(self, work, cases, cycles, seconds):
+        """Have it follow the cases of a work for some seconds; keep speed and ends."""
+        cases = [cases[i] for i in self.chosen(cases)]
+        least = 0.0 if self.slow else seconds
+        lines = [f"{cycles} {self.tolerance!r} {least} {len(cases)}"]
+        lines += [" ".join(map(repr, case)) for case in cases]
+        self.process.stdin.write("\n".join(lines) + "\n")
+        self.process.stdin.flush()
+        line = self.process.stdout.readline()
+        if not line:
+            sys.exit(f"peers: {self.name} ended without an answer on {work}")
+        answer = json.loads(line)
+        speed = answer["passes"] * len(cases) * cycles / answer["seconds"]
+        self.speeds.setdefault(work, []).append(speed)
+        self.ends[work] = answer["ends"]
+
+
+def python(file, *arguments):
+    """Return the command that runs a contestant in Python."""
+    return [sys.executable, str(HERE / file), *arguments]
+
+
+CAPSULEMAP = ["cargo", "bench", "--quiet", "--bench", "peers", "--", "--requests"]
+RK4 = [str(HERE.parent.parent / "target/peers/rk4")]
+CONTESTANTS = [
+    Contestant("capsulemap, 1e-12", CAPSULEMAP, 1e-12),
+    Contestant("heyoka, batches of 8, 1e-12", python("heyoka_batch.py"), 1e-12),
+    Contestant("heyoka, scalar, 1e-12", python("heyoka_scalar.py"), 1e-12),
+    Contestant("numba, Dormand-Prince 5(4), 1e-8", python("numba_dp5.py"), 1e-8),
+    Contestant("C, Runge-Kutta 4, steps of 1e-4 s", RK4, 1e-4),
+    Contestant("SciPy, DOP853, 1e-10", python("scipy_dop853.py"), 1e-10, slow=True),
+]
+# Two independent references, so that nobody judges itself.
+HEYOKA = Contestant(
+    "heyoka, scalar, compensated, 2e-16",
+    python("heyoka_scalar.py", "--reference"),
+    2.3e-16,
+)
+CAPSULEMAP_TIGHT = Contestant("capsulemap, 1e-15", CAPSULEMAP, 1e-15)
+
+
+def judged(contestant, work, cases, cycles) -> Comparison:
+    """Compare a contestant with the reference that is not its own."""
+    judge = CAPSULEMAP_TIGHT if contestant.name.startswith("heyoka") else HEYOKA
+    chosen = contestant.chosen(cases)
+    references = [judge.ends[work][i] for i in chosen]
+    return compare(
+        [cases[i] for i in chosen], cycles, contestant.ends[work], references
+    )
+
+
+def report(cycles, work, cases):
+    """Print the table of one work."""
+    agreement = judged(HEYOKA, work, cases, cycles)
+    print(f"\n### {work}: {len(cases)} cases, {cycles} cycles each\n")
+    print(
+        f"The references agree to {agreement.section:.1e} in the section and to "
+        f"{agreement.x2:.1e} in x2; cases apart: {agreement.apart()}.\n"
+    )
+    print("| " + " | ".join(COLUMNS) + " |")
+    print("|---|" + "---:|" * 5 + "---|")
+    own = statistics.median(CONTESTANTS[0].speeds[work])
+    for contestant in CONTESTANTS:
+        speeds = contestant.speeds[work]
+        speed = statistics.median(speeds)
+        off = judged(contestant, work, cases, cycles)
+        share = f", only {off.cases} of the cases" if contestant.slow else ""
+        cells = [
+            contestant.name + share,
+            f"{speed:.0f}",
+            f"{min(speeds):.0f} .. {max(speeds):.0f}",
+            f"{speed / own:.3g}",
+            f"{off.section:.1e}",
+            f"{off.x2:.1e}",
+            off.apart(),
+        ]
+        print("| " + " | ".join(cells) + " |")
+
+
+def main():
+    """Follow the references, then all contestants by turns, and print the tables."""
+    short = "--short" in sys.argv
+    cycles, cases = works(short)
+    everyone = [HEYOKA, CAPSULEMAP_TIGHT, *CONTESTANTS]
+    for contestant in everyone:
+        contestant.start()
+    rounds = [[HEYOKA, CAPSULEMAP_TIGHT]] + [CONTESTANTS] * REPETITIONS
+    for turn, contestants in enumerate(rounds):
+        for work, its_cases in cases.items():
+            stage = f"repetition {turn} of {REPETITIONS}" if turn else "references"
+            print(f"{stage}: {work}", file=sys.stderr)
+            for contestant in contestants:
+                contestant.follow(work, its_cases, cycles, 0.2 if short else 1.0)
+    for contestant in everyone:
+        contestant.stop()
+    print(setting())
+    print(f"\n{DEFINITION}")
+    print("heyoka is judged by capsulemap's reference, all others by heyoka's.")
+    print(
+        "capsulemap stops at the end of every cycle; its peers go straight to the last."
+    )
+    for work, its_cases in cases.items():
+        report(cycles, work, its_cases)
+
+
+main()
