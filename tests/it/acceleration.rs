@@ -48,6 +48,6 @@ fn a_leap_ends_on_the_attractor_of_plain_iteration() {
     );
     assert!(both > cases.len() * 8 / 10 && cycles[0] * 2 < cycles[1]);
     assert!(fewer <= more, "leaping decides no fewer");
-    // One case in ten thousand may lie so close to the border of two basins that a leap of 1e-3 crosses it.
-    assert!(others.len() * 10_000 <= cases.len(), "{others:?}");
+    // Of 198 185 such cases one lay so close to the border of two basins that a leap crossed it.
+    assert!(others.len() * 100_000 <= cases.len(), "{others:?}");
 }
