@@ -25,9 +25,8 @@ pub fn parameters(k2: f64, omega: f64, p_d: f64, delta: f64) -> Parameters {
 /// and p_d 1..6 N (k2 18.96 kN/m, delta 1.5 mm).
 pub fn works() -> [(&'static str, Vec<Parameters>); 4] {
     let along = |index: usize, from: f64, to: f64| from + (to - from) * index as f64 / 31.0;
-    let grid = (0..32 * 32).map(|i| {
-        parameters(18_960.0, along(i % 32, 10.0, 100.0), along(i / 32, 1.0, 6.0), 0.0015)
-    });
+    let grid = (0..32 * 32)
+        .map(|i| parameters(18_960.0, along(i % 32, 10.0, 100.0), along(i / 32, 1.0, 6.0), 0.0015));
     [
         ("Fig 5", vec![parameters(2420.0, 77.91, 4.0, 0.0035); COPIES]),
         ("Fig 6", vec![parameters(18_960.0, 20.73, 4.0, 0.0015); COPIES]),

@@ -21,6 +21,8 @@ pub enum Mark {
     Patch(RGBColor),
     /// The area without values.
     Hatched,
+    /// No mark: the words go on with those of the entry before.
+    Nothing,
 }
 
 /// A mark of a legend and what it means.
@@ -136,6 +138,7 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
         Mark::Ring(colour, radius) => {
             canvas.rings(&[centre], radius, Stroke::solid(colour, CURVE_WIDTH));
         }
+        Mark::Nothing => {}
         Mark::Patch(colour) => canvas.fill(patch, colour),
         Mark::Hatched => canvas.image(patch, &Raster::cells(patch, |_| 0, |_| 0, |_, _| None)),
     }

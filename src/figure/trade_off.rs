@@ -1,5 +1,7 @@
 //! Progression speed against the energy that a cycle takes, and the best of both.
 
+use std::iter::repeat;
+
 use super::axis::AxisRequest;
 use super::canvas::{Drawn, Stroke};
 use super::cloud::{self, Dot};
@@ -91,18 +93,27 @@ fn cases(view: &View<'_>, energy: &str, free: &[&str]) -> Result<Vec<Case>, Figu
     Ok(all.filter(kept).collect())
 }
 
-/// The case with the greatest speed, and where it stands along the axes.
-fn fastest(view: &View<'_>, cases: &[Case], free: &[&str]) -> Option<(usize, Text)> {
+/// So many axes of the fastest case stand in one entry of the legend; the others follow in entries of their own.
+const AXES_TOGETHER: usize = 2;
+
+/// The case with the greatest speed, and where it stands along the axes, in parts of a legend's width.
+fn fastest(view: &View<'_>, cases: &[Case], free: &[&str]) -> Option<(usize, Vec<Text>)> {
     let faster = |a: &usize, b: &usize| cases[*a].speed.total_cmp(&cases[*b].speed);
     let at = (0..cases.len()).max_by(faster).filter(|_| cases.len() > 1)?;
-    let mut words = Text::plain("fastest: ");
-    let mut joint = "";
-    for name in free.iter().filter(|name| view.coordinate_values(name).len() > 1) {
+    let long: Vec<&&str> =
+        free.iter().filter(|name| view.coordinate_values(name).len() > 1).collect();
+    let mut parts = Vec::new();
+    for (i, name) in long.iter().enumerate() {
         let place = view.place_along(name, free, cases[at].place);
-        words = words.then(Text::plain(joint)).then(view.value_note(name, place));
-        joint = ", ";
+        let joint = if i + 1 < long.len() { ", " } else { "" };
+        let words = view.value_note(name, place).then(Text::plain(joint));
+        match parts.last_mut() {
+            Some(part) if i % AXES_TOGETHER > 0 => *part = Text::then(std::mem::take(part), words),
+            Some(_) => parts.push(words),
+            None => parts.push(Text::plain("fastest: ").then(words)),
+        }
     }
-    Some((at, words))
+    Some((at, parts))
 }
 
 /// The colours of an axis, and the axis' value for each case.
@@ -124,7 +135,7 @@ fn request(
     cases: &[Case],
     energy: &str,
     colours: Option<&Colours>,
-    fastest: Option<&(usize, Text)>,
+    fastest: Option<&(usize, Vec<Text>)>,
 ) -> PageRequest {
     let energies: Vec<f64> = cases.iter().map(|case| case.energy).collect();
     let speeds: Vec<f64> = cases.iter().map(|case| case.speed).collect();
@@ -133,7 +144,9 @@ fn request(
         _ => {
             let line = Mark::Line(Stroke::solid(VERMILION, CURVE_WIDTH));
             let mut legend = vec![(line, Text::plain("Pareto front"))];
-            legend.extend(fastest.map(|(_, words)| (Mark::Ring(INK, BEST_RADIUS), words.clone())));
+            let parts = fastest.into_iter().flat_map(|(_, parts)| parts.iter().cloned());
+            let marks = [Mark::Ring(INK, BEST_RADIUS)].into_iter().chain(repeat(Mark::Nothing));
+            legend.extend(marks.zip(parts));
             legend
         }
     };

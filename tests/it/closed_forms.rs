@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use capsulemap::model::{EventKind, Parameter, Parameters, Resistance, State};
-use capsulemap::orbit::{Outcome, Output, Protocol, settle, simulate};
+use capsulemap::orbit::{Outcome, Output, Protocol};
+
+use super::forms::{settle, simulate};
 
 const TOLERANCE: f64 = 1e-12;
 

@@ -3,7 +3,9 @@
 use capsulemap::model::{
     Capsule, Contact, EventKind, Locomotion, Parameter, Parameters, State, StickSlip, Switched,
 };
-use capsulemap::orbit::{Event, Outcome, Output, Protocol, settle, simulate};
+use capsulemap::orbit::{Event, Outcome, Output, Protocol};
+
+use super::forms::{settle, simulate};
 
 fn kinds(p: &Parameters, start: State<f64>, cycles: u64) -> Vec<EventKind> {
     let simulation = simulate(p, 0.0, start, cycles, 1e-12);

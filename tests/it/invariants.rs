@@ -4,9 +4,11 @@ use capsulemap::lane::series;
 use capsulemap::model::{
     Capsule, Contact, Locomotion, Parameter, Parameters, State, StickSlip, Switching,
 };
-use capsulemap::orbit::{Account, Outcome, Protocol, Trajectory, settle, simulate};
+use capsulemap::orbit::{Account, Outcome, Protocol, Trajectory};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+
+use super::forms::{settle, simulate};
 
 /// Parameters over the ranges that the program is used in.
 fn parameters() -> impl Strategy<Value = Parameters> {

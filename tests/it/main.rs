@@ -7,6 +7,7 @@ mod closed_forms;
 mod draws;
 mod edges;
 mod figure;
+mod forms;
 mod house;
 mod invariants;
 mod lanes;

@@ -1,7 +1,9 @@
 //! The six cases of the paper and what its text says of them.
 
 use capsulemap::model::{Parameter, Parameters, State, Switching};
-use capsulemap::orbit::{Orbit, Outcome, Output, Protocol, settle};
+use capsulemap::orbit::{Orbit, Outcome, Output, Protocol};
+
+use super::forms::settle;
 
 /// k2 [kN/m], omega [rad/s], p_d [N], delta [mm]; speed [mm/s], impacts per cycle, work [mJ] as in
 /// the model's table, digit for digit.

@@ -1,7 +1,7 @@
 //! The thirty reference trajectories, computed in 113-bit arithmetic by another code.
 
+use super::forms::simulate;
 use capsulemap::model::{Parameter, Parameters, State};
-use capsulemap::orbit::simulate;
 use serde_json::Value;
 
 fn number(value: &Value, key: &str) -> f64 {

@@ -1,0 +1,131 @@
+//! The integrator's two forms at once: what a test follows alone is followed among others in lanes too, to the
+//! same bits.
+
+use capsulemap::flow::{Motion, Step};
+use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
+use capsulemap::model::{Capsule, EventKind, Parameters, State, Switching};
+use capsulemap::orbit::{self, Case, Orbit, Protocol, Queue, Simulation, settle_side_by_side};
+
+/// [`orbit::simulate`], compared with the same case in the last lane of a vector of others.
+pub fn simulate(
+    parameters: &Parameters,
+    phase: f64,
+    start: State<f64>,
+    cycles: u64,
+    tolerance: f64,
+) -> Simulation {
+    let alone = orbit::simulate(parameters, phase, start, cycles, tolerance);
+    if parameters.switching == Switching::AsPrinted {
+        return alone;
+    }
+    let case = Case { parameters: parameters.clone(), start, phase };
+    let others = Instructions::widest().run(Among { case: &case, cycles, tolerance });
+    let bits = |state: [f64; 4]| state.map(f64::to_bits);
+    let states: Vec<_> = alone.section.iter().map(|s| bits([s.r, s.y1, s.x2, s.y2])).collect();
+    let events: Vec<_> = alone.events.iter().map(|event| (event.t.to_bits(), event.kind)).collect();
+    assert!(others == (states, events), "in lanes another motion: {case:?}");
+    alone
+}
+
+/// [`orbit::settle`], compared with the same case side by side with others.
+pub fn settle(
+    parameters: &Parameters,
+    phase: f64,
+    start: State<f64>,
+    protocol: &Protocol,
+) -> Orbit {
+    let alone = orbit::settle(parameters, phase, start, protocol);
+    if parameters.switching == Switching::AsPrinted {
+        return alone;
+    }
+    let case = Case { parameters: parameters.clone(), start, phase };
+    let mut queue = Crowd { case: &case, dealt: 0, orbit: None };
+    settle_side_by_side(Instructions::widest(), protocol, &mut queue);
+    let among = queue.orbit.expect("the case has been in the lanes to its end");
+    // Text, because a number that is not known does not equal itself.
+    assert_eq!(format!("{alone:?}"), format!("{among:?}"), "in lanes another orbit: {case:?}");
+    alone
+}
+
+/// Another case, under the same law of resistance.
+fn neighbour(case: &Case, number: usize) -> Case {
+    let mut other = super::draws::cases(1, number as u64).remove(0);
+    other.parameters.resistance = case.parameters.resistance;
+    other
+}
+
+/// Deals one case and then others until it is done.
+struct Crowd<'a> {
+    case: &'a Case,
+    dealt: usize,
+    orbit: Option<Orbit>,
+}
+
+impl Queue for Crowd<'_> {
+    type Name = usize;
+
+    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
+        if let Some((0, orbit)) = done {
+            self.orbit = Some(orbit);
+        }
+        let number = self.dealt;
+        self.dealt += 1;
+        match number {
+            0 => Some((0, self.case.clone())),
+            _ if self.orbit.is_none() => Some((number, neighbour(self.case, number))),
+            _ => None,
+        }
+    }
+}
+
+/// A case in the last lane, with others before it.
+struct Among<'a> {
+    case: &'a Case,
+    cycles: u64,
+    tolerance: f64,
+}
+
+type Course = (Vec<[u64; 4]>, Vec<(u64, EventKind)>);
+
+impl Work for Among<'_> {
+    /// States at the section and events, until the case is done or cannot go on.
+    type Output = Course;
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Course {
+        let last = L::WIDTH - 1;
+        let cases: Vec<Case> =
+            (0..last).map(|lane| neighbour(self.case, lane)).chain([self.case.clone()]).collect();
+        let own = Capsule::single(&self.case.parameters, self.case.phase);
+        let mut system = Capsule::<L>::splat(&own);
+        let mut motion = Motion::<L, Capsule<L>>::splat(&Motion::new(&own, 0.0, self.case.start));
+        for (lane, case) in cases.iter().enumerate() {
+            let one = Capsule::single(&case.parameters, case.phase);
+            system.put(lane, &one);
+            motion.put(lane, &Motion::new(&one, 0.0, case.start));
+        }
+        let periods = L::from_fn(|lane| cases[lane].parameters.drive_period());
+        let period = periods.lane(last);
+        let section = |state: State<f64>| [state.r, state.y1, state.x2, state.y2].map(f64::to_bits);
+        let mut states = vec![section(motion.state.lane(last))];
+        let mut events = Vec::new();
+        let mut step = Step::default();
+        while states.len() as u64 <= self.cycles {
+            motion.step(&system, periods, self.tolerance, &mut step);
+            let begun = (states.len() - 1) as f64 * period;
+            if let Some(kind) = EventKind::from_code(step.event.lane(last)) {
+                let t = begun + (step.start.lane(last) + step.length.lane(last));
+                events.push((t.to_bits(), kind));
+            }
+            if motion.broken(&system).lane(last) {
+                break;
+            }
+            let ended = periods.le(motion.time);
+            if ended.lane(last) {
+                states.push(section(motion.state.lane(last)));
+            }
+            motion.begin_cycle(ended);
+        }
+        (states, events)
+    }
+}
