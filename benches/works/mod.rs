@@ -36,6 +36,7 @@ pub fn works() -> [(&'static str, Vec<Parameters>); 4] {
 }
 
 /// Where a case ends, and how it got there.
+#[allow(dead_code)] // each bench reads its part
 #[derive(Debug, Clone, Copy, Default)]
 pub struct End {
     /// The state after the last cycle.

@@ -17,7 +17,7 @@ COLUMNS = (
     "contestant",
     "cycles per CPU second",
     "min .. max",
-    "ratio to capsulemap",
+    "ratio",
     "error of section",
     "error of x2",
     "cases apart",
@@ -76,10 +76,13 @@ def python(file, *arguments):
 
 
 CAPSULEMAP = ["cargo", "bench", "--quiet", "--bench", "peers", "--", "--requests"]
+SCALAR = [*CAPSULEMAP, "--scalar"]
 RK4 = [str(HERE.parent.parent / "target/peers/rk4")]
+BEST_PEER = Contestant("heyoka, batches of 8, 1e-12", python("heyoka_batch.py"), 1e-12)
 CONTESTANTS = [
     Contestant("capsulemap, 1e-12", CAPSULEMAP, 1e-12),
-    Contestant("heyoka, batches of 8, 1e-12", python("heyoka_batch.py"), 1e-12),
+    Contestant("capsulemap, one by one, 1e-12", SCALAR, 1e-12),
+    BEST_PEER,
     Contestant("heyoka, scalar, 1e-12", python("heyoka_scalar.py"), 1e-12),
     Contestant("numba, Dormand-Prince 5(4), 1e-8", python("numba_dp5.py"), 1e-8),
     Contestant("C, Runge-Kutta 4, steps of 1e-4 s", RK4, 1e-4),
@@ -91,7 +94,7 @@ HEYOKA = Contestant(
     python("heyoka_scalar.py", "--reference"),
     2.3e-16,
 )
-CAPSULEMAP_TIGHT = Contestant("capsulemap, 1e-15", CAPSULEMAP, 1e-15)
+CAPSULEMAP_TIGHT = Contestant("capsulemap, 1e-15", SCALAR, 1e-15)
 
 
 def judged(contestant, work, cases, cycles) -> Comparison:
@@ -114,7 +117,7 @@ def report(cycles, work, cases):
     )
     print("| " + " | ".join(COLUMNS) + " |")
     print("|---|" + "---:|" * 5 + "---|")
-    own = statistics.median(CONTESTANTS[0].speeds[work])
+    best = statistics.median(BEST_PEER.speeds[work])
     for contestant in CONTESTANTS:
         speeds = contestant.speeds[work]
         speed = statistics.median(speeds)
@@ -124,7 +127,7 @@ def report(cycles, work, cases):
             contestant.name + share,
             f"{speed:.0f}",
             f"{min(speeds):.0f} .. {max(speeds):.0f}",
-            f"{speed / own:.3g}",
+            f"{speed / best:.3g}",
             f"{off.section:.1e}",
             f"{off.x2:.1e}",
             off.apart(),
@@ -151,6 +154,7 @@ def main():
     print(setting())
     print(f"\n{DEFINITION}")
     print("heyoka is judged by capsulemap's reference, all others by heyoka's.")
+    print("Ratios are to heyoka in batches, the best of the peers.")
     print(
         "capsulemap stops at the end of every cycle; its peers go straight to the last."
     )

@@ -147,7 +147,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let none = L::splat(-1.0);
         let mut end = StepEnd { length, guard: none };
         let mut open = [L::Mask::splat(false); MAX_GUARDS];
-        for which in 0..S::GUARDS {
+        for (which, open) in open.iter_mut().enumerate().take(S::GUARDS) {
             let watched = system.watched(which, &self.mode);
             if !watched.any() {
                 continue;
@@ -160,7 +160,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
                     divide_by_time(guard, drop);
                 }
             }
-            open[which] = watched & !stays_positive(guard, length);
+            *open = watched & !stays_positive(guard, length);
         }
         loop {
             let mut chosen = none;

@@ -157,16 +157,16 @@ impl<L: Lane> Switched<L> for Capsule<L> {
         let one = L::splat(1.0);
         if which == CONTACT {
             let side = L::select(mode.closed, one, -one);
-            guard[0] = side * (jet.r[0] - self.delta);
-            for k in 1..=ORDER {
-                guard[k] = side * jet.r[k];
+            for (term, r) in guard.iter_mut().zip(&jet.r) {
+                *term = side * *r;
             }
+            guard[0] = side * (jet.r[0] - self.delta);
             return;
         }
         let side = if which == FORWARD { -one } else { one };
         let resting = (mode.slip * mode.slip).lt(L::splat(0.5));
-        for k in 0..=ORDER {
-            guard[k] = L::select(resting, side * jet.force[k], mode.slip * jet.y2[k]);
+        for (term, (force, y2)) in guard.iter_mut().zip(jet.force.iter().zip(&jet.y2)) {
+            *term = L::select(resting, side * *force, mode.slip * *y2);
         }
         guard[0] = guard[0] + L::select(resting, self.drag.break_away, L::splat(0.0));
     }
