@@ -42,6 +42,9 @@ pub fn first_fall<L: Lane>(guard: &mut Series<L>, length: L, watched: L::Mask) -
     let mut h = L::select(due_now, zero, length);
     let mut falls = due_now;
     let mut open = watched & !due_now;
+    let none = L::Mask::splat(false);
+    let (mut crosses, mut dips) = (none, none);
+    let mut at_end = (zero, zero);
     for _ in 0..HALVINGS {
         if !open.any() {
             break;
@@ -54,19 +57,18 @@ pub fn first_fall<L: Lane>(guard: &mut Series<L>, length: L, watched: L::Mask) -
         let (monotone, bent_one_way) = sums.keep_their_signs(guard, h);
         let decided = open & (monotone | bent_one_way);
         let (value, slope) = series::value_and_slope(guard, h);
-        let crosses = decided & value.lt(zero);
-        let dips = decided
-            & !(crosses | monotone)
-            & zero.lt(guard[2])
-            & guard[1].lt(zero)
-            & zero.lt(slope);
-        if (crosses | dips).any() {
-            let (root, found) = first_root(guard, h, value, crosses, dips);
-            h = L::select(found, root, h);
-            falls = falls | found;
-        }
+        let below = decided & value.lt(zero);
+        let convex = zero.lt(guard[2]) & guard[1].lt(zero) & zero.lt(slope);
+        crosses = crosses | below;
+        dips = dips | (decided & convex & !(below | monotone));
+        at_end = (L::select(decided, value, at_end.0), L::select(decided, slope, at_end.1));
         open = open & !decided;
         h = L::select(open, h * L::splat(0.5), h);
+    }
+    if (crosses | dips).any() {
+        let (root, found) = first_root(guard, h, at_end, crosses, dips);
+        h = L::select(found, root, h);
+        falls = falls | found;
     }
     Fall { length: h, falls }
 }
@@ -146,7 +148,7 @@ impl<L: Lane> Sums<L> {
 fn first_root<L: Lane>(
     polynomial: &Series<L>,
     end: L,
-    value: L,
+    (value, slope): (L, L),
     crosses: L::Mask,
     dips: L::Mask,
 ) -> (L, L::Mask) {
@@ -157,7 +159,7 @@ fn first_root<L: Lane>(
     let near_end = end * near;
     let [g0, g1, g2, ..] = *polynomial;
     let (mut low, mut high) = (zero, end);
-    let mut t = L::select(crosses, end * (g0 / (g0 - value)), zero);
+    let mut t = L::select(crosses, guess([g0, g1], [value, slope], end), zero);
     let mut open = crosses | dips;
     let mut found = crosses;
     for _ in 0..REFINEMENTS {
@@ -194,6 +196,23 @@ fn first_root<L: Lane>(
         }
     }
     (t, found)
+}
+
+/// Where a polynomial that falls from `first` to `last`, each a value and a slope, meets zero in (0, end).
+///
+/// Method: time as the cubic in the value that both ends give; the chord where that leaves the interval.
+#[inline(always)]
+fn guess<L: Lane>([g0, g1]: [L; 2], [value, slope]: [L; 2], end: L) -> L {
+    let fall = g0 - value;
+    let chord = g0 / fall;
+    let rest = L::splat(1.0) - chord;
+    // The slopes of time over value, relative to the chord's.
+    let scale = -(fall / end);
+    let (at_start, at_end) = (scale / g1, scale / slope);
+    let bend = rest * (at_start - L::splat(1.0)) + chord * (L::splat(1.0) - at_end);
+    let cubic = end * (chord + chord * rest * bend);
+    let inside = L::splat(0.0).lt(cubic) & cubic.lt(end);
+    L::select(inside, cubic, end * chord)
 }
 
 /// Shows `found` each time in (0, length] at which the polynomial changes sign, and whether it falls.

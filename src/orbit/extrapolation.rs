@@ -7,11 +7,11 @@ pub const WINDOW: usize = 6;
 /// Directions in which a section point can approach: the section has three coordinates.
 const DIRECTIONS: usize = 3;
 /// The rates must hold from one difference to the next this well.
-const CONSTANCY: f64 = 1e-3;
+const CONSTANCY: f64 = 1e-4;
 /// A direction that adds less than this share to those before it is none of its own.
 const INDEPENDENT: f64 = 1e-7;
-/// How much closer than the misfit of the rates a limit has to be worth going there.
-const GAIN: f64 = 0.1;
+/// The error of a limit, relative to the distance, at which it is worth going there.
+const GAIN: f64 = 0.01;
 
 /// The limit of evenly spaced `points`, oldest first, of an orbit that approaches it in one, two or three
 /// directions at steady rates; none where no such rates fit or the points move apart.
@@ -20,19 +20,16 @@ const GAIN: f64 = 0.1;
 /// return map with the derivative read from the differences u_i of the points themselves. With m
 /// directions, c_0 u_i + ... + c_{m-1} u_{i+m-1} + u_{i+m} = 0 for every i; the c fitted to all of
 /// them give the limit as the mean of the points weighted with c, and the rates as roots of the
-/// polynomial with these coefficients. All roots must lie inside the unit circle, so that an orbit which
-/// repels in a direction that the points have shown is never taken for their limit; the least m
-/// that fits is used. Error: the misfit times the distance, over 1 minus the largest rate.
+/// polynomial with these coefficients. The least m that fits is used, and all its roots must lie inside
+/// the unit circle: an orbit that repels in a direction which the points show is not their limit.
+/// Error: the misfit times the distance, over the product of 1 minus each rate.
 pub fn limit(points: &[Section; WINDOW]) -> Option<Section> {
     let differences: [Section; WINDOW - 1] =
         std::array::from_fn(|i| std::array::from_fn(|j| points[i + 1][j] - points[i][j]));
-    (1..=DIRECTIONS).find_map(|m| {
-        let fit = Fit::new(&differences, m)?;
-        if fit.misfit > CONSTANCY || !fit.contracts() || fit.misfit > GAIN * fit.sum() {
-            return None;
-        }
-        Some(fit.mean(&points[WINDOW - 1 - m..]))
-    })
+    let mut fits = (1..=DIRECTIONS).filter_map(|m| Fit::new(&differences, m));
+    let fit = fits.find(|fit| fit.misfit <= CONSTANCY)?;
+    let worth_it = fit.contracts() && fit.misfit <= GAIN * fit.sum();
+    worth_it.then(|| fit.mean(&points[WINDOW - 1 - fit.directions..]))
 }
 
 /// The relation that the differences fit best with so many directions.

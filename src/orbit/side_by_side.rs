@@ -18,7 +18,6 @@ type Found = Result<Option<Settled>, Failure>;
 const WORTHWHILE: usize = 4;
 
 /// A case between its departure and its settling, under the name that its owner knows it by.
-#[derive(Clone)]
 pub struct Underway<T> {
     name: T,
     case: Case,
@@ -216,12 +215,14 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
     /// Concludes the cases whose cycle has taken too many steps.
     fn give_up_the_slow(&mut self) {
         let mut occupied = self.occupied;
+        let mut earliest = self.steps;
         while let Some(lane) = take_lowest(&mut occupied) {
             if self.steps - self.cycle_began[lane] >= STEPS_PER_CYCLE {
                 self.give_up(lane);
             }
+            earliest = earliest.min(self.cycle_began[lane]);
         }
-        self.deadline = self.cycle_began.iter().min().map_or(0, |&began| began + STEPS_PER_CYCLE);
+        self.deadline = earliest + STEPS_PER_CYCLE;
     }
 
     /// Concludes the case in `lane` as `found` says, and seats the next.
@@ -238,33 +239,19 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
 
     /// Seats a case in `lane`, or leaves the lane empty.
     fn seat(&mut self, lane: usize, case: Option<Underway<Q::Name>>) {
-        match &case {
-            Some(case) => {
-                self.occupied |= 1 << lane;
-                self.put(lane, &case.system, &case.motion, &case.case.parameters);
-            }
-            None => {
-                self.occupied &= !(1 << lane);
-                let Underway { system, motion, case, .. } = self.spare.clone();
-                self.put(lane, &system, &motion, &case.parameters);
-            }
-        }
-        self.cycle_began[lane] = self.steps;
-        self.seats[lane] = case;
-    }
-
-    fn put(
-        &mut self,
-        lane: usize,
-        system: &Capsule<f64>,
-        motion: &Motion<f64, Capsule<f64>>,
-        parameters: &Parameters,
-    ) {
-        let law = self.spare.case.parameters.resistance;
+        let spare = &self.spare;
+        let seated = case.as_ref().map(|case| (&case.system, &case.motion, &case.case.parameters));
+        let (system, motion, parameters) =
+            seated.unwrap_or((&spare.system, &spare.motion, &spare.case.parameters));
+        let law = spare.case.parameters.resistance;
         assert_eq!(law, parameters.resistance, "cases side by side share one law of resistance");
         self.system.put(lane, system);
         self.motion.put(lane, motion);
         self.drive_periods = self.drive_periods.with_lane(lane, parameters.drive_period());
+        self.cycle_began[lane] = self.steps;
+        self.occupied &= !(1 << lane);
+        self.occupied |= u64::from(case.is_some()) << lane;
+        self.seats[lane] = case;
     }
 
     /// Takes the case out of `lane`, as it is.

@@ -50,8 +50,9 @@ pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Res
     let pool = builder.build().map_err(|error| RunError(error.to_string()))?;
     let taken = AtomicUsize::new(0);
     let last_cases = Mutex::new(Vec::new());
+    let share = study.chains().div_ceil(pool.current_num_threads());
     pool.broadcast(|_| {
-        let mut worker = Worker { study, taken: &taken, keep: &keep };
+        let mut worker = Worker { study, taken: &taken, share, keep: &keep };
         match study.base.switching {
             Switching::AsPrinted => worker.settle_one_by_one(),
             Switching::Filippov => {
@@ -83,6 +84,8 @@ struct Worker<'a, K> {
     study: &'a Study,
     /// Chains that have been taken by any thread.
     taken: &'a AtomicUsize,
+    /// Chains that this thread may still begin with, so that a few are not all in the lanes of one.
+    share: usize,
     keep: &'a K,
 }
 
@@ -90,7 +93,11 @@ impl<K: Fn(Record)> Queue for Worker<'_, K> {
     type Name = Link;
 
     fn next(&mut self, done: Option<(Link, Orbit)>) -> Option<(Link, Case)> {
-        done.and_then(|(link, orbit)| self.follow(link, orbit)).or_else(|| self.take())
+        let Some((link, orbit)) = done else {
+            self.share = self.share.checked_sub(1)?;
+            return self.take();
+        };
+        self.follow(link, orbit).or_else(|| self.take())
     }
 }
 

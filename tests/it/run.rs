@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use capsulemap::lane::Instructions;
 use capsulemap::model::{Parameter, State};
 use capsulemap::orbit::{Output, settle};
 use capsulemap::store::{self, Dataset, Values, Variable};
@@ -103,16 +104,22 @@ fn a_sweep_writes_what_simulate_says_bit_for_bit() {
 }
 
 #[test]
-fn any_number_of_threads_gives_the_same_file() {
+fn any_threads_and_any_instructions_give_the_same_file() {
     let desk = Desk::new();
     desk.put("rich.toml", RICH);
     for threads in ["1", "2", "7"] {
         let output = format!("{threads}.h5");
         desk.run(&["sweep", "rich.toml", "--threads", threads, "--output", &output]).done();
     }
+    let by: Vec<&str> = Instructions::available().map(Instructions::name).collect();
+    for &name in &by {
+        let output = format!("{name}.h5");
+        desk.run(&["sweep", "rich.toml", "--instructions", name, "--output", &output]).done();
+    }
     let one = timeless(&desk.path("1.h5"));
     let bytes = fs::read(desk.path("1.h5")).expect("a result");
-    for other in ["2.h5", "7.h5"] {
+    for other in ["2", "7"].iter().chain(&by) {
+        let other = &format!("{other}.h5");
         let several = timeless(&desk.path(other));
         assert_eq!(store::difference(&one, &several), None);
         let names = |dataset: &Dataset| dataset.variables.keys().cloned().collect::<Vec<_>>();
@@ -125,6 +132,7 @@ fn any_number_of_threads_gives_the_same_file() {
         assert!(apart <= 20 + 4, "{apart} bytes differ");
     }
     desk.run(&["sweep", "rich.toml", "--threads", "0"]).refused(&["--threads"]);
+    desk.run(&["sweep", "rich.toml", "--instructions", "mmx"]).refused(&["mmx", "sse2", "avx512"]);
 }
 
 #[test]
