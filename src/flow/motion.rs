@@ -43,6 +43,21 @@ pub struct Step<L: Lane, S: Switched<L>> {
     chosen: Series<L>,
 }
 
+impl<L: Lane, S: Switched<L>> Step<L, S> {
+    /// Copies the guard that each lane has `chosen`, by its number.
+    #[inline(always)]
+    fn choose(&mut self, chosen: L) {
+        for k in 0..=ORDER {
+            let mut term = self.guards[0][k];
+            for which in 1..S::GUARDS {
+                let taken = L::splat(which as f64).le(chosen);
+                term = L::select(taken, self.guards[which][k], term);
+            }
+            self.chosen[k] = term;
+        }
+    }
+}
+
 impl<L: Lane, S: Switched<L>> Default for Step<L, S> {
     fn default() -> Self {
         let zero = L::splat(0.0);
@@ -146,6 +161,31 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     fn locate(&self, system: &S, step: &mut Step<L, S>, length: L) -> StepEnd<L> {
         let none = L::splat(-1.0);
         let mut end = StepEnd { length, guard: none };
+        let mut open = self.open_guards(system, step, length);
+        loop {
+            let mut chosen = none;
+            for which in (0..S::GUARDS).rev() {
+                chosen = L::select(open[which], L::splat(which as f64), chosen);
+            }
+            let takes_part = none.lt(chosen);
+            if !takes_part.any() {
+                return end;
+            }
+            step.choose(chosen);
+            let fall = first_fall(&mut step.chosen, end.length, takes_part);
+            let sooner = fall.length.lt(end.length);
+            end.guard = L::select(sooner, none, end.guard);
+            end.guard = L::select(fall.falls, chosen, end.guard);
+            end.length = fall.length;
+            for (which, open) in open.iter_mut().enumerate() {
+                *open = *open & chosen.lt(L::splat(which as f64));
+            }
+        }
+    }
+
+    /// Writes the guards, with their known zeros divided out; where each of them might fall within `length`.
+    #[inline(always)]
+    fn open_guards(&self, system: &S, step: &mut Step<L, S>, length: L) -> [L::Mask; MAX_GUARDS] {
         let mut open = [L::Mask::splat(false); MAX_GUARDS];
         for (which, open) in open.iter_mut().enumerate().take(S::GUARDS) {
             let watched = system.watched(which, &self.mode);
@@ -162,50 +202,21 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             }
             *open = watched & !stays_positive(guard, length);
         }
-        loop {
-            let mut chosen = none;
-            for which in (0..S::GUARDS).rev() {
-                chosen = L::select(open[which], L::splat(which as f64), chosen);
-            }
-            let takes_part = none.lt(chosen);
-            if !takes_part.any() {
-                return end;
-            }
-            for k in 0..=ORDER {
-                let mut term = step.guards[0][k];
-                for which in 1..S::GUARDS {
-                    let taken = L::splat(which as f64).le(chosen);
-                    term = L::select(taken, step.guards[which][k], term);
-                }
-                step.chosen[k] = term;
-            }
-            let fall = first_fall(&mut step.chosen, end.length, takes_part);
-            let sooner = fall.length.lt(end.length);
-            end.guard = L::select(sooner, none, end.guard);
-            end.guard = L::select(fall.falls, chosen, end.guard);
-            end.length = fall.length;
-            for (which, open) in open.iter_mut().enumerate() {
-                *open = *open & chosen.lt(L::splat(which as f64));
-            }
-        }
+        open
     }
 }
 
-impl<L, S> Motion<L, S>
+impl<L, S> SideBySide for Motion<L, S>
 where
     L: Lane,
-    S: Switched<L, State: SideBySide, Mode: SideBySide>,
+    S: Switched<L, State: SideBySide, Mode: SideBySide> + SideBySide,
+    S::One:
+        Switched<f64, State = <S::State as SideBySide>::One, Mode = <S::Mode as SideBySide>::One>,
 {
-    /// The motion of `one` in every lane.
+    type One = Motion<f64, S::One>;
+
     #[inline(always)]
-    pub fn splat<O>(one: &Motion<f64, O>) -> Self
-    where
-        O: Switched<
-                f64,
-                State = <S::State as SideBySide>::One,
-                Mode = <S::Mode as SideBySide>::One,
-            >,
-    {
+    fn splat(one: &Self::One) -> Self {
         Motion {
             time: L::splat(one.time),
             state: SideBySide::splat(&one.state),
@@ -215,35 +226,8 @@ where
         }
     }
 
-    /// Puts the motion of `one` into lane `index`.
     #[inline(always)]
-    pub fn put<O>(&mut self, index: usize, one: &Motion<f64, O>)
-    where
-        O: Switched<
-                f64,
-                State = <S::State as SideBySide>::One,
-                Mode = <S::Mode as SideBySide>::One,
-            >,
-    {
-        self.time = self.time.with_lane(index, one.time);
-        self.state.put(index, &one.state);
-        self.mode.put(index, &one.mode);
-        for (zeros, &of_one) in self.zeros.iter_mut().zip(&one.zeros) {
-            *zeros = zeros.with_lane(index, of_one);
-        }
-        self.idle = self.idle.with_lane(index, one.idle);
-    }
-
-    /// The motion of lane `index` by itself.
-    #[inline(always)]
-    pub fn lane<O>(&self, index: usize) -> Motion<f64, O>
-    where
-        O: Switched<
-                f64,
-                State = <S::State as SideBySide>::One,
-                Mode = <S::Mode as SideBySide>::One,
-            >,
-    {
+    fn lane(&self, index: usize) -> Self::One {
         Motion {
             time: self.time.lane(index),
             state: self.state.lane(index),
@@ -251,6 +235,17 @@ where
             zeros: self.zeros.map(|zeros| zeros.lane(index)),
             idle: self.idle.lane(index),
         }
+    }
+
+    #[inline(always)]
+    fn put(&mut self, index: usize, one: &Self::One) {
+        self.time = self.time.with_lane(index, one.time);
+        self.state.put(index, &one.state);
+        self.mode.put(index, &one.mode);
+        for (zeros, &of_one) in self.zeros.iter_mut().zip(&one.zeros) {
+            *zeros = zeros.with_lane(index, of_one);
+        }
+        self.idle = self.idle.with_lane(index, one.idle);
     }
 }
 
