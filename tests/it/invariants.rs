@@ -113,7 +113,8 @@ proptest! {
         let there = simulate(&p, 0.0, State { x2: shift, ..start }, 10, 1e-12);
         prop_assert_eq!(&here.events, &there.events);
         for (a, b) in here.section.iter().zip(&there.section) {
-            prop_assert!((b.x2 - a.x2 - shift).abs() <= 1e-14);
+            // Each of the up to some thousand steps rounds x2 once, by 1e-16 at most.
+            prop_assert!((b.x2 - a.x2 - shift).abs() <= 1e-13);
             let back = capsulemap::orbit::Sample { x2: a.x2, ..*b };
             prop_assert_eq!(*a, back);
         }
