@@ -37,8 +37,8 @@ pub struct Sweep {
     /// Worker threads; one per core by default.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// Instructions to compute by; the widest that the processor has by default. Results do not depend
-    /// on them.
+    /// Instructions to compute by; the widest that the processor has, or that the study fills, by default.
+    /// Results do not depend on them.
     #[arg(long, value_parser = PossibleValuesParser::new(Instructions::NAMES.map(|(name, _)| name)))]
     instructions: Option<String>,
     /// Replace a file of results that another study left under that name.
@@ -128,19 +128,16 @@ impl Sweep {
 
     /// What to run on, as far as this machine has it.
     fn machine(&self) -> Result<Machine, Failure> {
-        let mut machine = Machine { threads: self.threads.map(usize::from), ..Machine::default() };
-        for (name, instructions) in Instructions::NAMES {
-            if self.instructions.as_deref() == Some(name) {
-                machine.instructions = instructions;
-            }
-        }
-        if machine.instructions.is_available() {
-            return Ok(machine);
-        }
+        let threads = self.threads.map(usize::from);
+        let named = |(name, _): &(&str, Instructions)| self.instructions.as_deref() == Some(*name);
+        let instructions = Instructions::NAMES.iter().find(|it| named(it)).map(|&(_, it)| it);
+        let Some(missing) = instructions.filter(|it| !it.is_available()) else {
+            return Ok(Machine { threads, instructions });
+        };
         let available: Vec<_> = Instructions::available().map(Instructions::name).collect();
         Err(Failure::request(format!(
             "--instructions: this processor has no {} (allowed here: {})",
-            machine.instructions.name(),
+            missing.name(),
             available.join(", ")
         )))
     }

@@ -4,7 +4,7 @@ use crate::lane::{Lane, Mask, ORDER, Series, series};
 
 /// A polynomial is halved at most this often before it is taken to be flat.
 const HALVINGS: usize = 60;
-/// Steps to a root; bisection alone would need 53.
+/// Steps to a root at most; three are usual, and bisection alone would need 53.
 const REFINEMENTS: usize = 80;
 /// A step of third order this short, relative to the interval and to the bend, is the last one.
 const NEAR: f64 = 3e-6;
@@ -73,7 +73,7 @@ pub fn first_fall<L: Lane>(guard: &mut Series<L>, length: L, watched: L::Mask) -
     Fall { length: h, falls }
 }
 
-/// Where `guard` provably stays positive on [0, length], or just after 0 if it starts from zero.
+/// Where `guard` provably is positive on all of [0, length].
 #[inline(always)]
 pub fn stays_positive<L: Lane>(guard: &Series<L>, length: L) -> L::Mask {
     Sums::new(guard, length).quadratic_part_positive(guard, length)

@@ -4,10 +4,17 @@
 use super::x86;
 use super::{Lane, Wide, pair::Pair};
 
+/// Vectors side by side, so that one fills the waits of another; measured in `benches/README.md`.
+pub(super) const BASELINE: usize = 2;
+/// The same for AVX2.
+pub(super) const AVX2: usize = 2;
+/// The same for AVX-512.
+pub(super) const AVX512: usize = 2;
+
 /// A piece of work that is written once for lanes of any kind.
 ///
-/// `run` and everything that it calls on lanes must be `#[inline(always)]`: only what is inlined is compiled
-/// for the instructions at hand.
+/// `run` and everything that it calls on lanes in every step must be `#[inline(always)]`: what is not inlined
+/// gives the same bits, but is compiled without the instructions at hand and slow.
 pub trait Work {
     /// What it yields.
     type Output;
@@ -52,6 +59,24 @@ impl Instructions {
         Instructions::available().next_back().unwrap_or(Instructions::Scalar)
     }
 
+    /// The narrowest that hold `count` cases at a time, or the widest: lanes that stay empty cost as much as
+    /// others.
+    pub fn suited_to(count: usize) -> Instructions {
+        Instructions::available()
+            .find(|it| it.lanes() >= count)
+            .unwrap_or_else(Instructions::widest)
+    }
+
+    /// Cases that they move at a time.
+    fn lanes(self) -> usize {
+        match self {
+            Instructions::Scalar => 1,
+            Instructions::Baseline => BASELINE * Pair::WIDTH,
+            Instructions::Avx2 => AVX2 * 4,
+            Instructions::Avx512 => AVX512 * 8,
+        }
+    }
+
     /// Whether this processor has them.
     pub fn is_available(self) -> bool {
         match self {
@@ -72,7 +97,7 @@ impl Instructions {
     pub fn run<W: Work>(self, work: W) -> W::Output {
         match self {
             Instructions::Scalar => work.run::<f64>(),
-            Instructions::Baseline => work.run::<Wide<Pair, 2>>(),
+            Instructions::Baseline => work.run::<Wide<Pair, BASELINE>>(),
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2 => x86::with_avx2(work).expect("the processor has AVX2"),
             #[cfg(target_arch = "x86_64")]

@@ -73,7 +73,7 @@ fn is<L: Lane>(whole: L, number: f64) -> L::Mask {
     (whole - L::splat(number)).abs().lt(L::splat(0.5))
 }
 
-/// Whether any lane of `x` is not a finite number.
+/// Where `x` is not a finite number.
 #[inline(always)]
 pub fn not_finite<L: Lane>(x: L) -> L::Mask {
     // The comparison is false for NaN too.

@@ -1,7 +1,7 @@
 //! Computed: the numbers of the program, one case as an `f64` or several side by side.
 //!
-//! The integrator is written once over [`Lane`]. Only additions, multiplications, divisions and
-//! square roots occur, which IEEE 754 rounds the same way on every machine, and no
+//! The integrator is written once over [`Lane`]. Besides choices and shifts of bits, only additions,
+//! multiplications and divisions occur, which IEEE 754 rounds the same way on every machine, and no
 //! multiply-add is fused; so a case has the same bits alone, among others, and anywhere.
 
 pub mod dispatch;

@@ -55,8 +55,9 @@ pub fn values(series: &Series<f64>, h: f64) -> Values {
 
 /// The integral over [0, h] of the product of two series, from their values at the nodes.
 ///
-/// Method: Gauss-Legendre, exact to degree 23. Of the terms beyond, both factors have a part as small as the
-/// tolerance to the power 3/4 or less, so that the error lies far below the tolerance of the step.
+/// Method: Gauss-Legendre, exact to degree 23. Where the terms of both series shrink steadily, so that those of
+/// degree 16 are below the tolerance of the step, the terms of the product beyond 23 are below the
+/// tolerance to the power 3/2.
 #[inline]
 pub fn integral_of_product(a: &Values, b: &Values, h: f64) -> f64 {
     let mut sum = 0.0;

@@ -9,14 +9,14 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::dispatch::Work;
+use super::dispatch::{AVX2, AVX512, Work};
 use super::{LOG_ONE, LOG_UNIT, Lane, Mask, WHOLE, Wide};
 
 /// Runs `work` on vectors of AVX-512, none where the processor lacks it.
 pub(super) fn with_avx512<W: Work>(work: W) -> Option<W::Output> {
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
     fn run<W: Work>(work: W) -> W::Output {
-        work.run::<Wide<Avx512, 2>>()
+        work.run::<Wide<Avx512, AVX512>>()
     }
     // SAFETY: the processor has what `run` is compiled for.
     has_avx512().then(|| unsafe { run(work) })
@@ -26,7 +26,7 @@ pub(super) fn with_avx512<W: Work>(work: W) -> Option<W::Output> {
 pub(super) fn with_avx2<W: Work>(work: W) -> Option<W::Output> {
     #[target_feature(enable = "avx2")]
     fn run<W: Work>(work: W) -> W::Output {
-        work.run::<Wide<Avx2, 2>>()
+        work.run::<Wide<Avx2, AVX2>>()
     }
     // SAFETY: the processor has what `run` is compiled for.
     has_avx2().then(|| unsafe { run(work) })

@@ -3,12 +3,15 @@
 use std::collections::VecDeque;
 
 use super::Section;
+use super::extrapolation::WINDOW;
 
 /// A recurrence this many times closer than asked for needs no proof that it still converges.
 const EXACT: f64 = 1e-2;
 /// Points of an orbit closer together than so many recurrence tolerances are taken for one: the
 /// rounding of a step, carried through weakly damped cycles, makes such orbits of its own.
 pub const RESOLUTION: f64 = 100.0;
+/// Points are kept so that a limit can be told for periods up to this.
+const LONGEST_LEAP: usize = 64;
 /// A longer period is nearer than a shorter one if its distance is below this share.
 const DISTINCT: f64 = 0.1;
 /// A motion below this share of the largest one seen is measured against that largest one.
@@ -30,13 +33,15 @@ pub struct Recurrence {
     tolerance: f64,
     longest: usize,
     omega: f64,
+    /// So many points are kept.
+    memory: usize,
     points: VecDeque<Section>,
     /// For each period, how many points in a row have repeated to tolerance.
     repeats: Vec<usize>,
     largest: f64,
     /// The velocity that distances are measured against: the size of the motion lately [m/s].
     scale: f64,
-    /// The shortest period at which the last point is closest to an earlier one, and how close.
+    /// The number of cycles after which the last point is nearest to an earlier one, and how near.
     nearest: Option<(usize, f64)>,
 }
 
@@ -48,7 +53,8 @@ impl Recurrence {
             tolerance,
             longest,
             omega,
-            points: VecDeque::with_capacity(2 * longest + 1),
+            memory: (2 * longest).max((WINDOW - 1) * longest.min(LONGEST_LEAP)) + 1,
+            points: VecDeque::new(),
             repeats: vec![0; longest + 1],
             largest: 0.0,
             scale: 0.0,
@@ -63,8 +69,8 @@ impl Recurrence {
         self.meet(point);
     }
 
-    /// The shortest period at which the last point is close to an earlier one, and how close, relative to
-    /// the scale: a multiple of a period counts only if it comes much closer.
+    /// The number of cycles after which the last point is nearest to an earlier one, and how near, relative
+    /// to the scale; a longer time counts only if the point comes ten times nearer.
     pub fn nearest(&self) -> Option<(usize, f64)> {
         self.nearest
     }
@@ -89,7 +95,7 @@ impl Recurrence {
     /// resolution.
     pub fn meet(&mut self, point: Section) -> Option<Settled> {
         self.points.push_back(point);
-        if self.points.len() > 2 * self.longest + 1 {
+        if self.points.len() > self.memory {
             self.points.pop_front();
         }
         let scale = self.update_scale(&point);

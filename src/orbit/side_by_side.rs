@@ -196,20 +196,18 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
         let exhausted = case.cycles >= self.cases.protocol.max_cycles;
         match case.settling.meet(section(state)) {
             Verdict::Settled(settled) => self.relieve(lane, |_, _| Ok(Some(settled))),
-            verdict => {
-                if let Verdict::Leap(section) = verdict {
-                    self.motion.put(lane, &leap(&case.system, state, section));
-                }
-                if exhausted {
-                    self.relieve(lane, |_, _| Ok(None));
-                }
-            }
+            // At the end of the budget the motion is measured where it is.
+            _ if exhausted => self.relieve(lane, |_, _| Ok(None)),
+            Verdict::Leap(section) => self.motion.put(lane, &leap(&case.system, state, section)),
+            Verdict::Unsettled => {}
         }
     }
 
     /// Concludes the case in `lane`, which cannot go on.
     fn give_up(&mut self, lane: usize) {
-        self.relieve(lane, |trajectory, _| trajectory.look().map(|_| None));
+        self.relieve(lane, |trajectory, _| {
+            Err(trajectory.look().expect_err("the lane cannot go on"))
+        });
     }
 
     /// Concludes the cases whose cycle has taken too many steps.

@@ -1,4 +1,4 @@
-//! The three calls of the HDF5 library that its Rust binding lacks, and the program's only `unsafe`.
+//! The three calls of the HDF5 library that its Rust binding lacks, by `unsafe` calls.
 //!
 //! A *dimension scale* is HDF5's word for a coordinate: a dataset of one dimension that other
 //! datasets name as the axis of theirs. Declared by hand as plain attributes it is understood by

@@ -22,41 +22,40 @@ pub struct Record {
 }
 
 /// What a study is run on; its records do not depend on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Machine {
     /// Number of threads; all cores for none.
     pub threads: Option<usize>,
-    /// By which each thread moves its cases.
-    pub instructions: Instructions,
-}
-
-impl Default for Machine {
-    fn default() -> Self {
-        Machine { threads: None, instructions: Instructions::widest() }
-    }
+    /// By which each thread moves its cases; those that suit their number for none.
+    pub instructions: Option<Instructions>,
 }
 
 /// Runs every case of `study` on `machine` and hands each record to `keep`, which is called from any
 /// thread and in any order.
 ///
 /// Every thread fills its lanes from one queue of chains until it is empty; the last cases, too few to fill
-/// a vector, are shared out among the threads one by one. A case depends on its own parameters and start,
+/// a vector, are followed one by one, by whichever thread is done with its lanes. A case depends on its own parameters and start,
 /// or on its predecessor in its chain, alone.
 pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Result<(), RunError> {
+    if let Some(missing) = machine.instructions.filter(|it| !it.is_available()) {
+        return Err(RunError(format!("the processor has no {}", missing.name())));
+    }
     let mut builder = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = machine.threads {
         builder = builder.num_threads(threads);
     }
-    let pool = builder.build().map_err(|error| RunError(error.to_string()))?;
+    let pool = builder
+        .build()
+        .map_err(|error| RunError(format!("the worker threads could not be started: {error}")))?;
     let taken = AtomicUsize::new(0);
     let last_cases = Mutex::new(Vec::new());
     let share = study.chains().div_ceil(pool.current_num_threads());
+    let instructions = machine.instructions.unwrap_or_else(|| Instructions::suited_to(share));
     pool.broadcast(|_| {
         let mut worker = Worker { study, taken: &taken, share, keep: &keep };
         match study.base.switching {
             Switching::AsPrinted => worker.settle_one_by_one(),
             Switching::Filippov => {
-                let instructions = machine.instructions;
                 let last = settle_side_by_side(instructions, &study.protocol, &mut worker);
                 let lock = || last_cases.lock().expect("no thread has panicked");
                 lock().extend(last);
@@ -146,13 +145,13 @@ impl<K: Fn(Record)> Worker<'_, K> {
     }
 }
 
-/// The threads could not be started.
+/// Why a study could not be run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RunError(String);
 
 impl std::fmt::Display for RunError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "the worker threads could not be started: {}", self.0)
+        f.write_str(&self.0)
     }
 }
 

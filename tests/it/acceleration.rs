@@ -50,3 +50,16 @@ fn a_leap_ends_on_the_attractor_of_plain_iteration() {
     // its section, waited for, repeats after two cycles to tolerance long before it repeats after one.
     assert!(others.len() * 100_000 <= cases.len(), "{others:?}");
 }
+
+#[test]
+fn whoever_asks_for_period_one_alone_is_served_as_fast() {
+    let cases = draws::cases(100, 4);
+    let cycles = |protocol: &Protocol| -> u64 {
+        let orbits = draws::settled(&cases, protocol, Instructions::widest());
+        let periodic = orbits.iter().filter(|orbit| orbit.outcome == Outcome::Periodic);
+        periodic.map(|orbit| orbit.cycles).sum()
+    };
+    let leaping = Protocol { max_period: 1, ..Protocol::default() };
+    let waiting = Protocol { accelerate: false, ..leaping };
+    assert!(cycles(&leaping) * 2 < cycles(&waiting));
+}
