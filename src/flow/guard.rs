@@ -23,7 +23,7 @@ pub struct Fall<L: Lane> {
 /// Method: on [0, h] the polynomial is positive if its quadratic part exceeds the sum of the
 /// magnitudes of the rest; else, if its first or its second derivative provably keeps its sign, the
 /// signs of value and slope at the end tell whether there is one fall, none, or a dip that may reach
-/// zero, and [`first_root`] finds it to rounding; else h is halved. A guard at or below zero at the
+/// zero, and a search for the root finds it to rounding; else h is halved. A guard at or below zero at the
 /// start falls there if it is falling, and counts as zero if it is rising. Guarantee: between 0 and
 /// the returned length the polynomial has no other fall; a minimum below zero by no more than the
 /// rounding of the polynomial is a tangency, not a fall. `guard` is left divided by the power of time
