@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use clap::Args;
-use clap::builder::PossibleValuesParser;
 
 use super::figure::{FormatChoice, draw_all, file_stem};
 use super::progress::Progress;
-use super::{Failure, print, tell};
+use super::{Failure, named, print, tell};
 use crate::lane::Instructions;
 use crate::model::{Parameter, Parameters, Resistance, Switching};
 use crate::orbit::{Case, Outcome, Protocol};
@@ -39,8 +38,8 @@ pub struct Sweep {
     threads: Option<u16>,
     /// Instructions to compute by; the widest that the processor has, or that the study fills, by default.
     /// Results do not depend on them.
-    #[arg(long, value_parser = PossibleValuesParser::new(Instructions::NAMES.map(|(name, _)| name)))]
-    instructions: Option<String>,
+    #[arg(long, value_parser = named(&Instructions::NAMES))]
+    instructions: Option<Instructions>,
     /// Replace a file of results that another study left under that name.
     #[arg(long)]
     overwrite: bool,
@@ -129,8 +128,7 @@ impl Sweep {
     /// What to run on, as far as this machine has it.
     fn machine(&self) -> Result<Machine, Failure> {
         let threads = self.threads.map(usize::from);
-        let named = |(name, _): &(&str, Instructions)| self.instructions.as_deref() == Some(*name);
-        let instructions = Instructions::NAMES.iter().find(|it| named(it)).map(|&(_, it)| it);
+        let instructions = self.instructions;
         let Some(missing) = instructions.filter(|it| !it.is_available()) else {
             return Ok(Machine { threads, instructions });
         };

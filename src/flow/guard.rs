@@ -139,8 +139,8 @@ impl<L: Lane> Sums<L> {
 /// The first root in (0, end] of a polynomial that is positive just after 0, and where there is one.
 ///
 /// A lane either `crosses`, with one change of sign and `value` < 0 at `end`, or `dips`, convex and positive
-/// at `end` with its minimum between. Method: Halley's steps towards a crossing, from where the
-/// chord meets zero, replaced by bisection where they leave the bracket; Newton's into a dip from the left,
+/// at `end` with its minimum between. Method: Halley's steps towards a crossing, from a
+/// guess by both ends, replaced by bisection where they leave the bracket; Newton's into a dip from the left,
 /// which cannot pass a root of a convex polynomial, so that a rising slope means that there is none.
 /// A lane that has converged is frozen, so that its bits do not depend on its neighbours. Error: the
 /// rounding of the polynomial over its slope.
@@ -198,7 +198,7 @@ fn first_root<L: Lane>(
     (t, found)
 }
 
-/// Where a polynomial that falls from `first` to `last`, each a value and a slope, meets zero in (0, end).
+/// Where a polynomial meets zero in (0, end), guessed from its values and slopes at both ends.
 ///
 /// Method: time as the cubic in the value that both ends give; the chord where that leaves the interval.
 #[inline(always)]

@@ -5,10 +5,9 @@ use super::Series;
 /// Nodes of the rule.
 pub const NODES: usize = 12;
 
-/// Nodes in (0, 1/2) of the Gauss-Legendre rule with twelve points on [0, 1], the others being their mirror
-/// images, and their weights.
-const HALF: [(f64, f64); NODES / 2] = {
-    // Abramowitz and Stegun, table 25.4, for [-1, 1].
+/// Nodes on [0, 1] and weights of the Gauss-Legendre rule with twelve points.
+const RULE: [(f64, f64); NODES] = {
+    // The upper half for [-1, 1], from Abramowitz and Stegun, table 25.4.
     let table = [
         (0.981_560_634_246_719_2, 0.047_175_336_386_511_83),
         (0.904_117_256_370_474_9, 0.106_939_325_995_318_43),
@@ -17,21 +16,12 @@ const HALF: [(f64, f64); NODES / 2] = {
         (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
         (0.125_233_408_511_468_9, 0.249_147_045_813_402_8),
     ];
-    let mut half = [(0.0, 0.0); NODES / 2];
-    let mut i = 0;
-    while i < half.len() {
-        half[i] = (0.5 * (1.0 - table[i].0), 0.5 * table[i].1);
-        i += 1;
-    }
-    half
-};
-
-const RULE: [(f64, f64); NODES] = {
     let mut rule = [(0.0, 0.0); NODES];
     let mut i = 0;
-    while i < HALF.len() {
-        rule[i] = HALF[i];
-        rule[NODES - 1 - i] = (1.0 - HALF[i].0, HALF[i].1);
+    while i < table.len() {
+        let (node, weight) = (0.5 * (1.0 - table[i].0), 0.5 * table[i].1);
+        rule[i] = (node, weight);
+        rule[NODES - 1 - i] = (1.0 - node, weight);
         i += 1;
     }
     rule
