@@ -75,7 +75,8 @@ impl Simulate {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let Request { parameters, start, phase } = self.request()?;
-        if parameters.static_limit() < parameters.friction_at_onset() {
+        let drag = parameters.drag();
+        if drag.static_limit < drag.at_onset {
             let force = parameters.break_away();
             tell(&format!("note: mu_s is below the friction at onset; rest ends at {force} N"));
         }

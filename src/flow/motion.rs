@@ -97,7 +97,8 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     /// Guards that are due at the start are obeyed at once: the mode at the start is no event.
     pub fn new(system: &S, time: L, state: S::State) -> Self {
         let zero = L::splat(0.0);
-        let mode = system.start(time, &state);
+        let mut state = state;
+        let mode = system.start(time, &mut state);
         let mut motion = Motion { time, state, mode, zeros: [zero; MAX_GUARDS], idle: zero };
         let mut step = Step::default();
         for _ in 0..MAX_GUARDS {
@@ -176,7 +177,8 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             let sooner = fall.length.lt(end.length);
             end.guard = L::select(sooner, none, end.guard);
             end.guard = L::select(fall.falls, chosen, end.guard);
-            end.length = fall.length;
+            let root = fall.length.as_root(&step.chosen);
+            end.length = L::select(fall.falls, root, fall.length);
             for (which, open) in open.iter_mut().enumerate() {
                 *open = *open & chosen.lt(L::splat(which as f64));
             }

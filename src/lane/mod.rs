@@ -5,6 +5,7 @@
 //! multiply-add is fused; so a case has the same bits alone, among others, and anywhere.
 
 pub mod dispatch;
+pub mod dual;
 pub mod elementary;
 mod pair;
 pub mod quadrature;
@@ -16,6 +17,7 @@ mod x86;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 pub use dispatch::{Instructions, Work};
+pub use dual::Dual;
 pub use pair::Pair;
 pub use series::{ORDER, Series};
 pub use wide::Wide;
@@ -153,6 +155,11 @@ pub trait Lane:
 
     /// The same number in every lane.
     fn splat(value: f64) -> Self;
+    /// This number as a root of `polynomial`: the same number, which depends on what the polynomial depends on.
+    #[inline(always)]
+    fn as_root(self, _polynomial: &Series<Self>) -> Self {
+        self
+    }
     /// The lesser of two numbers; `self` when either is NaN.
     #[inline(always)]
     fn min(self, other: Self) -> Self {

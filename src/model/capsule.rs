@@ -3,9 +3,12 @@
 use crate::lane::elementary::not_finite;
 use crate::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 
+use super::drive::reduced;
 use super::resistance::Drag;
-use super::switched::{Locomotion, Switched, Zeros};
-use super::{Contact, Drive, EventKind, Jet, Parameter, Parameters, State, StickSlip};
+use super::switched::{Locomotion, Stroboscopic, Switched, Zeros};
+use super::{
+    Contact, Drive, EventKind, Jet, Parameter, Parameters, Resistance, State, StickSlip,
+};
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.
 const CONTACT: usize = 0;
@@ -49,24 +52,22 @@ impl<L: Lane> Default for Mode<L> {
 impl Capsule<f64> {
     /// One capsule whose drive starts at `phase` [rad].
     pub fn single(parameters: &Parameters, phase: f64) -> Self {
-        Capsule::new(|_| parameters, |_| phase)
+        Capsule::new(|parameter| parameters[parameter], parameters.resistance, phase)
     }
 }
 
 impl<L: Lane> Capsule<L> {
-    /// The capsules of each lane's parameters and starting phase [rad], which share the first
-    /// lane's law of resistance.
-    pub fn new<'a>(of: impl Fn(usize) -> &'a Parameters, phase: impl Fn(usize) -> f64) -> Self {
-        let lanes = |parameter: Parameter| L::from_fn(|lane| of(lane)[parameter]);
+    /// The capsule with these parameters under one law, whose drive starts at `phase` [rad].
+    pub fn new(of: impl Fn(Parameter) -> L, law: Resistance, phase: f64) -> Self {
         Capsule {
-            k1: lanes(Parameter::K1),
-            c: lanes(Parameter::C),
-            k2: lanes(Parameter::K2),
-            delta: lanes(Parameter::Delta),
-            inverse_m1: L::splat(1.0) / lanes(Parameter::M1),
-            inverse_m2: L::splat(1.0) / lanes(Parameter::M2),
-            drive: Drive::new(&of, phase),
-            drag: Drag::new(&of),
+            k1: of(Parameter::K1),
+            c: of(Parameter::C),
+            k2: of(Parameter::K2),
+            delta: of(Parameter::Delta),
+            inverse_m1: L::splat(1.0) / of(Parameter::M1),
+            inverse_m2: L::splat(1.0) / of(Parameter::M2),
+            drive: Drive::new(&of, L::splat(reduced(phase))),
+            drag: Drag::new(&of, law),
         }
     }
 
@@ -90,7 +91,7 @@ impl<L: Lane> Switched<L> for Capsule<L> {
 
     const GUARDS: usize = 3;
 
-    fn start(&self, _time: L, state: &State<L>) -> Mode<L> {
+    fn start(&self, _time: L, state: &mut State<L>) -> Mode<L> {
         let zero = L::splat(0.0);
         let mut mode = Mode { closed: self.delta.lt(state.r), slip: zero };
         let force = self.force(&mode, state);
@@ -101,6 +102,8 @@ impl<L: Lane> Switched<L> for Capsule<L> {
         let breaks_away = self.drag.break_away.lt(force.abs());
         let from_rest = L::select(breaks_away, toward(force), zero);
         mode.slip = L::select(state.y2.abs().le(zero), from_rest, toward(state.y2));
+        let resting = (mode.slip * mode.slip).lt(L::splat(0.5));
+        state.y2 = L::select(resting, zero, state.y2);
         mode
     }
 
@@ -224,6 +227,23 @@ impl<L: Lane> Switched<L> for Capsule<L> {
     fn lost(&self, state: &State<L>) -> L::Mask {
         // Whatever goes wrong reaches the velocities through the forces.
         not_finite(state.y1 + state.y2)
+    }
+}
+
+impl<L: Lane> Stroboscopic<L, 3> for Capsule<L> {
+    #[inline(always)]
+    fn point(state: &State<L>) -> [L; 3] {
+        [state.r, state.y1, state.y2]
+    }
+
+    #[inline(always)]
+    fn state([r, y1, y2]: [L; 3]) -> State<L> {
+        State { r, y1, x2: L::splat(0.0), y2 }
+    }
+
+    /// A displacement r counts as the velocity omega r.
+    fn scales(&self) -> [f64; 3] {
+        [self.drive.omega.lane(0), 1.0, 1.0]
     }
 }
 

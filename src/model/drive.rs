@@ -2,14 +2,20 @@
 
 use crate::lane::{Lane, Series, elementary::sin_cos, series, side_by_side};
 
-use super::{Parameter, Parameters};
+use super::Parameter;
+
+/// The same phase within 0..2 pi [rad].
+pub fn reduced(phase: f64) -> f64 {
+    phase.rem_euclid(2.0 * std::f64::consts::PI)
+}
 
 /// Amplitude, frequency and phase at t = 0.
 #[derive(Debug, Clone, Copy)]
 pub struct Drive<L> {
     /// Amplitude [N].
     pub amplitude: L,
-    omega: L,
+    /// Frequency [rad/s].
+    pub omega: L,
     sin_phase: L,
     cos_phase: L,
 }
@@ -17,13 +23,12 @@ pub struct Drive<L> {
 side_by_side!(Drive { amplitude, omega, sin_phase, cos_phase });
 
 impl<L: Lane> Drive<L> {
-    /// The drive of each lane's parameters, started at each lane's phase [rad].
-    pub fn new<'a>(of: impl Fn(usize) -> &'a Parameters, phase: impl Fn(usize) -> f64) -> Self {
-        let turn = 2.0 * std::f64::consts::PI;
-        let (sin_phase, cos_phase) = sin_cos(L::from_fn(|lane| phase(lane).rem_euclid(turn)));
+    /// The drive of these parameters, started at `phase` within 0..2 pi [rad].
+    pub fn new(of: impl Fn(Parameter) -> L, phase: L) -> Self {
+        let (sin_phase, cos_phase) = sin_cos(phase);
         Drive {
-            amplitude: L::from_fn(|lane| of(lane)[Parameter::Pd]),
-            omega: L::from_fn(|lane| of(lane)[Parameter::Omega]),
+            amplitude: of(Parameter::Pd),
+            omega: of(Parameter::Omega),
             sin_phase,
             cos_phase,
         }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::{Index, IndexMut};
 
-use super::{Resistance, Switching};
+use super::resistance::{Drag, Resistance, Switching};
 
 /// A physical dimension that a parameter or coordinate can have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -223,30 +223,14 @@ impl Parameters {
         2.0 * std::f64::consts::PI / self[Parameter::Omega]
     }
 
-    /// Dry friction at vanishing speed, f_d(0+): 2 mu_d N by the Coulomb-Stribeck law [N].
-    pub fn friction_at_onset(&self) -> f64 {
-        let rise = match self.resistance {
-            Resistance::CoulombStribeck => 2.0,
-            Resistance::Coulomb => 1.0,
-            Resistance::Medium => 0.0,
-        };
-        rise * self[Parameter::MuD] * self.normal_load()
-    }
-
-    /// Static friction limit, f_s = mu_s N; zero in a medium [N].
-    pub fn static_limit(&self) -> f64 {
-        match self.resistance {
-            Resistance::CoulombStribeck | Resistance::Coulomb => {
-                self[Parameter::MuS] * self.normal_load()
-            }
-            Resistance::Medium => 0.0,
-        }
-    }
-
-    /// Force needed to leave rest, f_b = max(f_s, f_d(0+)): a capsule that left at less would be pushed
-    /// straight back [N].
+    /// Force needed to leave rest, f_b = max(f_s, f_d(0+)); zero in a medium [N].
     pub fn break_away(&self) -> f64 {
-        self.static_limit().max(self.friction_at_onset())
+        self.drag().break_away
+    }
+
+    /// The law of resistance with its constants.
+    pub fn drag(&self) -> Drag<f64> {
+        Drag::new(|parameter| self[parameter], self.resistance)
     }
 
     /// Normal load, `(m1 + m2) g` [N].

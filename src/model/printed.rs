@@ -8,6 +8,7 @@ use crate::lane::{ORDER, Series, series};
 
 use super::resistance::Drag;
 use super::switched::{Locomotion, Switched, Zeros};
+use super::drive::reduced;
 use super::{Contact, Drive, EventKind, Jet, Parameter, Parameters, State, StickSlip};
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.
@@ -57,8 +58,8 @@ impl PrintedCapsule {
             delta: parameters[Parameter::Delta],
             m1: parameters[Parameter::M1],
             m2: parameters[Parameter::M2],
-            drive: Drive::new(|_| parameters, |_| phase),
-            drag: Drag::new(|_| parameters),
+            drive: Drive::new(|parameter| parameters[parameter], reduced(phase)),
+            drag: parameters.drag(),
         }
     }
 
@@ -179,7 +180,7 @@ impl Switched<f64> for PrintedCapsule {
 
     const GUARDS: usize = 4;
 
-    fn start(&self, _time: f64, state: &State<f64>) -> PrintedMode {
+    fn start(&self, _time: f64, state: &mut State<f64>) -> PrintedMode {
         let closed = state.r > self.delta;
         let force = self.force(closed, state);
         let side = force.signum();

@@ -2,7 +2,7 @@
 
 use crate::lane::{Lane, Series, elementary::exp_decay, series, side_by_side};
 
-use super::{Parameter, Parameters};
+use super::Parameter;
 
 /// The law of resistance to the capsule's motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -76,18 +76,28 @@ side_by_side!(Drag {
 } alike { law });
 
 impl<L: Lane> Drag<L> {
-    /// The first lane's law, with the constants of each lane's parameters.
-    pub fn new<'a>(of: impl Fn(usize) -> &'a Parameters) -> Self {
-        let lanes = |value: &dyn Fn(&Parameters) -> f64| L::from_fn(|lane| value(of(lane)));
+    /// The law with the constants of these parameters.
+    ///
+    /// Friction at vanishing speed is 2 mu_d N by the Coulomb-Stribeck law, and rest ends at
+    /// f_b = max(f_s, f_d(0+)): a capsule that left at less would be pushed straight back.
+    pub fn new(of: impl Fn(Parameter) -> L, law: Resistance) -> Self {
+        let (of_rest, rise) = match law {
+            Resistance::CoulombStribeck => (1.0, 2.0),
+            Resistance::Coulomb => (1.0, 1.0),
+            Resistance::Medium => (0.0, 0.0),
+        };
+        let load = (of(Parameter::M1) + of(Parameter::M2)) * of(Parameter::G);
+        let static_limit = L::splat(of_rest) * of(Parameter::MuS) * load;
+        let at_onset = L::splat(rise) * of(Parameter::MuD) * load;
         Drag {
-            law: of(0).resistance,
-            dynamic: lanes(&|p| p[Parameter::MuD] * p.normal_load()),
-            static_limit: lanes(&Parameters::static_limit),
-            at_onset: lanes(&Parameters::friction_at_onset),
-            break_away: lanes(&Parameters::break_away),
-            inverse_stribeck: lanes(&|p| 1.0 / p[Parameter::Vs]),
-            linear: lanes(&|p| p[Parameter::C1]),
-            quadratic: lanes(&|p| p[Parameter::C2]),
+            law,
+            dynamic: of(Parameter::MuD) * load,
+            static_limit,
+            at_onset,
+            break_away: static_limit.max(at_onset),
+            inverse_stribeck: L::splat(1.0) / of(Parameter::Vs),
+            linear: of(Parameter::C1),
+            quadratic: of(Parameter::C2),
         }
     }
 

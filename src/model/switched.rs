@@ -29,8 +29,9 @@ pub trait Switched<L: Lane> {
     /// How many guards there are, at most [`MAX_GUARDS`].
     const GUARDS: usize;
 
-    /// The mode a motion starts in; a guard that is due at once is then obeyed without an event.
-    fn start(&self, time: L, state: &Self::State) -> Self::Mode;
+    /// The mode a motion starts in, with the state moved onto the surface that the mode lives on; a guard
+    /// that is due at once is then obeyed without an event.
+    fn start(&self, time: L, state: &mut Self::State) -> Self::Mode;
 
     /// Writes the series of the motion in `mode` from `state` at `time` into `jet`, all of it.
     fn expand(&self, mode: &Self::Mode, time: L, state: &Self::State, jet: &mut Self::Jet);
@@ -62,6 +63,18 @@ pub trait Switched<L: Lane> {
 
     /// Where the state is not a finite number.
     fn lost(&self, state: &Self::State) -> L::Mask;
+}
+
+/// A switched system under a periodic drive, seen once a cycle at `D` coordinates of its section.
+///
+/// What the coordinates leave out, like the place of a capsule on even ground, does not act on them.
+pub trait Stroboscopic<L: Lane, const D: usize>: Switched<L> {
+    /// The point of the section that a state is at.
+    fn point(state: &Self::State) -> [L; D];
+    /// A state at this point.
+    fn state(point: [L; D]) -> Self::State;
+    /// What the coordinates are multiplied with to be compared.
+    fn scales(&self) -> [f64; D];
 }
 
 /// A switched system that is a capsule, so that speed and energies can be told from its motion.

@@ -52,7 +52,7 @@ fn a_start_at_the_break_away_force_slips_or_stays() {
         let start = at_limit(y1);
         let simulation = simulate(&p, 0.0, start, 1, 1e-12);
         let soon = simulation.events.iter().any(|event| event.t < 1e-9);
-        let mode = system.stick_slip(&system.start(0.0, &start));
+        let mode = system.stick_slip(&system.start(0.0, &mut start.clone()));
         assert_eq!(modes(&p, start).1 != StickSlip::Stick || soon, slides, "{y1} {mode:?}");
     }
 }

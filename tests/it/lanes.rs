@@ -65,7 +65,8 @@ impl Work for Together<'_> {
 #[inline(always)]
 fn side_by_side<L: Lane>(cases: &[(Parameters, State<f64>)]) -> Vec<(Vec<[u64; 4]>, Vec<u64>)> {
     let of = |lane: usize| cases.get(lane).unwrap_or(&cases[0]);
-    let system = Capsule::<L>::new(|lane| &of(lane).0, |_| 0.0);
+    let law = of(0).0.resistance;
+    let system = Capsule::<L>::new(|p| L::from_fn(|lane| of(lane).0[p]), law, 0.0);
     let start = State::from_fn(|lane| of(lane).1);
     let periods = L::from_fn(|lane| of(lane).0.drive_period());
     let mut motion = Motion::new(&system, L::splat(0.0), start);

@@ -33,7 +33,7 @@ impl Switched<f64> for Impact {
     type Jet = PointJet;
     const GUARDS: usize = 1;
 
-    fn start(&self, _time: f64, _state: &Point) {}
+    fn start(&self, _time: f64, _state: &mut Point) {}
 
     fn expand(&self, _mode: &(), time: f64, state: &Point, jet: &mut PointJet) {
         let turn = 2.0 * PI;

@@ -1,0 +1,152 @@
+//! Numbers with their derivatives: what is computed with them is differentiated exactly, events included.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{Lane, Series, series};
+
+/// A number per lane with its derivatives along `N` directions.
+///
+/// Method: forward differentiation. Decisions are made by the numbers alone, so a motion takes the very
+/// steps and meets the very events that it does without derivatives, to the bit; an event's time
+/// is differentiated as the root that it is ([`Lane::as_root`]), which puts into the linearised flow the
+/// jumps that switching makes in it (saltation), and sticking takes a direction out of it exactly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dual<L, const N: usize> {
+    /// The number.
+    pub value: L,
+    /// Its derivatives.
+    pub gradient: [L; N],
+}
+
+impl<L: Lane, const N: usize> Dual<L, N> {
+    /// A number that does not depend on any direction.
+    #[inline(always)]
+    pub fn constant(value: L) -> Self {
+        Dual { value, gradient: [L::splat(0.0); N] }
+    }
+
+    /// A number that is itself the direction of this index.
+    #[inline(always)]
+    pub fn variable(value: L, direction: usize) -> Self {
+        let mut variable = Dual::constant(value);
+        variable.gradient[direction] = L::splat(1.0);
+        variable
+    }
+
+    #[inline(always)]
+    fn with_gradient(value: L, gradient: impl Fn(usize) -> L) -> Self {
+        let mut dual = Dual::constant(value);
+        for (i, derivative) in dual.gradient.iter_mut().enumerate() {
+            *derivative = gradient(i);
+        }
+        dual
+    }
+}
+
+impl<L: Lane, const N: usize> Add for Dual<L, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Dual::with_gradient(self.value + other.value, |i| self.gradient[i] + other.gradient[i])
+    }
+}
+
+impl<L: Lane, const N: usize> Sub for Dual<L, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Dual::with_gradient(self.value - other.value, |i| self.gradient[i] - other.gradient[i])
+    }
+}
+
+impl<L: Lane, const N: usize> Mul for Dual<L, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Dual::with_gradient(self.value * other.value, |i| {
+            self.gradient[i] * other.value + self.value * other.gradient[i]
+        })
+    }
+}
+
+impl<L: Lane, const N: usize> Div for Dual<L, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        let inverse = L::splat(1.0) / other.value;
+        Dual::with_gradient(value, |i| (self.gradient[i] - value * other.gradient[i]) * inverse)
+    }
+}
+
+impl<L: Lane, const N: usize> Neg for Dual<L, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Dual::with_gradient(-self.value, |i| -self.gradient[i])
+    }
+}
+
+impl<L: Lane, const N: usize> Lane for Dual<L, N> {
+    type Mask = L::Mask;
+    const WIDTH: usize = L::WIDTH;
+
+    #[inline(always)]
+    fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
+        Dual::constant(L::from_fn(value))
+    }
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Dual::constant(L::splat(value))
+    }
+    #[inline(always)]
+    fn lane(self, index: usize) -> f64 {
+        self.value.lane(index)
+    }
+    /// The lane's derivatives become zero: the number put there depends on nothing.
+    #[inline(always)]
+    fn with_lane(self, index: usize, value: f64) -> Self {
+        let value = self.value.with_lane(index, value);
+        Dual::with_gradient(value, |i| self.gradient[i].with_lane(index, 0.0))
+    }
+    #[inline(always)]
+    fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
+        Dual::with_gradient(L::select(mask, yes.value, no.value), |i| {
+            L::select(mask, yes.gradient[i], no.gradient[i])
+        })
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> L::Mask {
+        self.value.lt(other.value)
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> L::Mask {
+        self.value.le(other.value)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        let negative = self.value.lt(L::splat(0.0));
+        let turned = |i: usize| L::select(negative, -self.gradient[i], self.gradient[i]);
+        Dual::with_gradient(self.value.abs(), turned)
+    }
+    #[inline(always)]
+    fn exp2_whole(self) -> Self {
+        Dual::constant(self.value.exp2_whole())
+    }
+    #[inline(always)]
+    fn rough_log(self) -> Self {
+        Dual::constant(self.value.rough_log())
+    }
+    #[inline(always)]
+    fn rough_exp(self) -> Self {
+        Dual::constant(self.value.rough_exp())
+    }
+    /// By the implicit function theorem: the derivatives of the polynomial at the root over minus its slope there.
+    #[inline(always)]
+    fn as_root(self, polynomial: &Series<Self>) -> Self {
+        let at = Dual::constant(self.value);
+        let (value, slope) = series::value_and_slope(polynomial, at);
+        let inverse = L::splat(-1.0) / slope.value;
+        Dual::with_gradient(self.value, |i| value.gradient[i] * inverse)
+    }
+}
