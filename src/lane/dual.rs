@@ -141,6 +141,10 @@ impl<L: Lane, const N: usize> Lane for Dual<L, N> {
     fn rough_exp(self) -> Self {
         Dual::constant(self.value.rough_exp())
     }
+    #[inline(always)]
+    fn nearest_whole(self) -> Self {
+        Dual::constant(self.value.nearest_whole())
+    }
     /// By the implicit function theorem: the derivatives of the polynomial at the root over minus its slope there.
     #[inline(always)]
     fn as_root(self, polynomial: &Series<Self>) -> Self {

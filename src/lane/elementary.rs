@@ -4,9 +4,6 @@ use std::f64::consts::{FRAC_2_PI, LOG2_E};
 
 use super::Lane;
 
-/// Adding and subtracting this rounds a number of moderate size to the nearest whole one.
-const ROUNDER: f64 = 6_755_399_441_055_744.0; // 1.5 * 2^52
-
 /// `1/n!` for n = 0..=17.
 const INVERSE_FACTORIAL: [f64; 18] = {
     let mut table = [1.0; 18];
@@ -30,7 +27,7 @@ pub fn exp_decay<L: Lane>(x: L) -> L {
     const LN_2_HIGH: f64 = f64::from_bits(0x3FE6_2E42_FEE0_0000);
     const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
     let x = x.max(L::splat(-700.0));
-    let n = (x * L::splat(LOG2_E) + L::splat(ROUNDER)) - L::splat(ROUNDER);
+    let n = (x * L::splat(LOG2_E)).nearest_whole();
     let s = (x - n * L::splat(LN_2_HIGH)) - n * L::splat(LN_2_LOW);
     let mut sum = L::splat(INVERSE_FACTORIAL[13]);
     for k in (0..13).rev() {
@@ -51,7 +48,7 @@ pub fn sin_cos<L: Lane>(x: L) -> (L, L) {
         f64::from_bits(0x3DD0_B461_1A60_0000),
         f64::from_bits(0x3BA3_198A_2E03_7073),
     ];
-    let q = (x * L::splat(FRAC_2_PI) + L::splat(ROUNDER)) - L::splat(ROUNDER);
+    let q = (x * L::splat(FRAC_2_PI)).nearest_whole();
     let s = ((x - q * L::splat(PARTS[0])) - q * L::splat(PARTS[1])) - q * L::splat(PARTS[2]);
     let square = s * s;
     let (mut sine, mut cosine) = (L::splat(INVERSE_FACTORIAL[17]), L::splat(INVERSE_FACTORIAL[16]));

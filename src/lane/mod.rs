@@ -22,6 +22,8 @@ pub use pair::Pair;
 pub use series::{ORDER, Series};
 pub use wide::Wide;
 
+/// Adding and subtracting this rounds a number of moderate size to the nearest whole one.
+const ROUNDER: f64 = 1.5 * WHOLE;
 /// Added to a whole number of 0..2^52, this leaves it in the low bits of the sum.
 const WHOLE: f64 = 4_503_599_627_370_496.0;
 /// The upper half of the bits of 1.0, where the piecewise linear logarithm is zero.
@@ -155,6 +157,11 @@ pub trait Lane:
 
     /// The same number in every lane.
     fn splat(value: f64) -> Self;
+    /// The nearest whole number, for magnitudes below 2^51.
+    #[inline(always)]
+    fn nearest_whole(self) -> Self {
+        (self + Self::splat(ROUNDER)) - Self::splat(ROUNDER)
+    }
     /// This number as a root of `polynomial`: the same number, which depends on what the polynomial depends on.
     #[inline(always)]
     fn as_root(self, _polynomial: &Series<Self>) -> Self {

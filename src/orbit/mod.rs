@@ -3,9 +3,11 @@
 pub mod account;
 pub mod history;
 mod extrapolation;
+pub mod matrix;
 mod measure;
 pub mod output;
 pub mod recurrence;
+pub mod return_map;
 pub mod settle;
 mod settling;
 pub mod side_by_side;

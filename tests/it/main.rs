@@ -4,6 +4,7 @@ mod acceleration;
 mod belt;
 mod cli;
 mod closed_forms;
+mod derivatives;
 mod draws;
 mod edges;
 mod figure;
