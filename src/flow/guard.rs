@@ -49,8 +49,9 @@ pub fn first_fall<L: Lane>(guard: &mut Series<L>, length: L, watched: L::Mask) -
         if !open.any() {
             break;
         }
-        let sums = Sums::new(guard, h);
-        open = open & !sums.quadratic_part_positive(guard, h);
+        let sums = Sums::new(|k| guard[k], h);
+        let firsts = [guard[0], guard[1], guard[2]];
+        open = open & !sums.quadratic_part_positive(firsts, h);
         if !open.any() {
             break;
         }
@@ -75,8 +76,10 @@ pub fn first_fall<L: Lane>(guard: &mut Series<L>, length: L, watched: L::Mask) -
 
 /// Where `guard` provably is positive on all of [0, length].
 #[inline(always)]
-pub fn stays_positive<L: Lane>(guard: &Series<L>, length: L) -> L::Mask {
-    Sums::new(guard, length).quadratic_part_positive(guard, length)
+pub fn stays_positive<L: Lane>(guard: &Series<L>, length: L::Plain) -> L::Mask {
+    let sums = Sums::new(|k| guard[k].plain(), length);
+    let firsts = [guard[0].plain(), guard[1].plain(), guard[2].plain()];
+    sums.quadratic_part_positive(firsts, length)
 }
 
 /// Divides the polynomial by time where `mask`, dropping its constant term.
@@ -100,11 +103,11 @@ struct Sums<L> {
 
 impl<L: Lane> Sums<L> {
     #[inline(always)]
-    fn new(guard: &Series<L>, h: L) -> Self {
+    fn new(guard: impl Fn(usize) -> L, h: L) -> Self {
         let zero = L::splat(0.0);
         let (mut value, mut slope, mut curvature) = (zero, zero, zero);
         for k in (3..=ORDER).rev() {
-            let a = guard[k].abs();
+            let a = guard(k).abs();
             value = value * h + a;
             slope = slope * h + a * L::splat(k as f64);
             curvature = curvature * h + a * L::splat((k * (k - 1)) as f64);
@@ -114,9 +117,8 @@ impl<L: Lane> Sums<L> {
 
     /// Whether the least value of the quadratic part on [0, h] exceeds all the rest.
     #[inline(always)]
-    fn quadratic_part_positive(&self, guard: &Series<L>, h: L) -> L::Mask {
+    fn quadratic_part_positive(&self, [g0, g1, g2]: [L; 3], h: L) -> L::Mask {
         let two = L::splat(2.0);
-        let [g0, g1, g2, ..] = *guard;
         let at_end = g0 + h * (g1 + h * g2);
         let ends = g0.min(at_end);
         let vertex_inside = g1.lt(L::splat(0.0)) & L::splat(0.0).lt(g1 + two * g2 * h);

@@ -46,11 +46,11 @@ pub struct Step<L: Lane, S: Switched<L>> {
 impl<L: Lane, S: Switched<L>> Step<L, S> {
     /// Copies the guard that each lane has `chosen`, by its number.
     #[inline(always)]
-    fn choose(&mut self, chosen: L) {
+    fn choose(&mut self, chosen: L::Plain) {
         for k in 0..=ORDER {
             let mut term = self.guards[0][k];
             for which in 1..S::GUARDS {
-                let taken = L::splat(which as f64).le(chosen);
+                let taken = L::Plain::splat(which as f64).le(chosen);
                 term = L::select(taken, self.guards[which][k], term);
             }
             self.chosen[k] = term;
@@ -103,7 +103,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let mut step = Step::default();
         for _ in 0..MAX_GUARDS {
             system.expand(&motion.mode, time, &motion.state, &mut step.jet);
-            motion.locate(system, &mut step, zero).switch(system, &mut motion);
+            motion.locate(system, &mut step, zero.plain()).switch(system, &mut motion);
         }
         motion
     }
@@ -118,12 +118,14 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let left = until - self.time;
         let [first, second] = system.pace(&step.jet);
         let allowed = longest_step(first, tolerance).min(longest_step(second, tolerance));
-        let end = self.locate(system, step, allowed.min(left));
+        let end = self.locate(system, step, allowed.min(left.plain()));
 
-        let length = end.length;
+        let arrives = left.plain().le(end.length);
+        let cut = L::select(arrives, left, L::from_plain(end.length));
+        let length = L::select(end.falls(), end.root, cut);
         (step.start, step.mode, step.length) = (self.time, self.mode, length);
         self.state = system.at(&step.jet, length);
-        self.time = L::select(left.le(length), until, self.time + length);
+        self.time = L::select(arrives, until, self.time + length);
         let passed = L::splat(0.0).lt(length);
         for zeros in &mut self.zeros {
             *zeros = L::select(passed, L::splat(0.0), *zeros);
@@ -159,35 +161,45 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     /// Most guards cannot fall and are told at once; the others are decided in turn, each lane its own,
     /// so that lanes whose events differ share the search for a root.
     #[inline(always)]
-    fn locate(&self, system: &S, step: &mut Step<L, S>, length: L) -> StepEnd<L> {
-        let none = L::splat(-1.0);
-        let mut end = StepEnd { length, guard: none };
+    fn locate(&self, system: &S, step: &mut Step<L, S>, length: L::Plain) -> StepEnd<L> {
+        let none = L::Plain::splat(-1.0);
+        let mut end = StepEnd { length, guard: none, root: L::from_plain(length) };
         let mut open = self.open_guards(system, step, length);
         loop {
             let mut chosen = none;
             for which in (0..S::GUARDS).rev() {
-                chosen = L::select(open[which], L::splat(which as f64), chosen);
+                let this = L::Plain::splat(which as f64);
+                chosen = L::Plain::select(open[which], this, chosen);
             }
             let takes_part = none.lt(chosen);
             if !takes_part.any() {
                 return end;
             }
             step.choose(chosen);
-            let fall = first_fall(&mut step.chosen, end.length, takes_part);
+            let mut plain = series::zero();
+            for (term, of_chosen) in plain.iter_mut().zip(&step.chosen) {
+                *term = of_chosen.plain();
+            }
+            let fall = first_fall(&mut plain, end.length, takes_part);
             let sooner = fall.length.lt(end.length);
-            end.guard = L::select(sooner, none, end.guard);
-            end.guard = L::select(fall.falls, chosen, end.guard);
-            let root = fall.length.as_root(&step.chosen);
-            end.length = L::select(fall.falls, root, fall.length);
+            end.guard = L::Plain::select(sooner, none, end.guard);
+            end.guard = L::Plain::select(fall.falls, chosen, end.guard);
+            end.root = L::select(fall.falls, L::root(fall.length, &step.chosen), end.root);
+            end.length = fall.length;
             for (which, open) in open.iter_mut().enumerate() {
-                *open = *open & chosen.lt(L::splat(which as f64));
+                *open = *open & chosen.lt(L::Plain::splat(which as f64));
             }
         }
     }
 
     /// Writes the guards, with their known zeros divided out; where each of them might fall within `length`.
     #[inline(always)]
-    fn open_guards(&self, system: &S, step: &mut Step<L, S>, length: L) -> [L::Mask; MAX_GUARDS] {
+    fn open_guards(
+        &self,
+        system: &S,
+        step: &mut Step<L, S>,
+        length: L::Plain,
+    ) -> [L::Mask; MAX_GUARDS] {
         let mut open = [L::Mask::splat(false); MAX_GUARDS];
         for (which, open) in open.iter_mut().enumerate().take(S::GUARDS) {
             let watched = system.watched(which, &self.mode);
@@ -252,18 +264,27 @@ where
 }
 
 /// Where a step ends, and which guard ends it (-1 for none).
-struct StepEnd<L> {
-    length: L,
-    guard: L,
+struct StepEnd<L: Lane> {
+    length: L::Plain,
+    guard: L::Plain,
+    /// The same length as the root that it is, where a guard falls.
+    root: L,
 }
 
 impl<L: Lane> StepEnd<L> {
+    /// Where a guard ends the step.
+    #[inline(always)]
+    fn falls(&self) -> L::Mask {
+        L::Plain::splat(-0.5).lt(self.guard)
+    }
+
     /// Obeys the guard that ended the step; returns the kind of event.
     #[inline(always)]
     fn switch<S: Switched<L>>(&self, system: &S, motion: &mut Motion<L, S>) -> L {
         let mut event = L::splat(0.0);
         for which in 0..S::GUARDS {
-            let due = (self.guard - L::splat(which as f64)).abs().lt(L::splat(0.5));
+            let away = self.guard - L::Plain::splat(which as f64);
+            let due = away.abs().lt(L::Plain::splat(0.5));
             if due.any() {
                 let Motion { mode, state, zeros, .. } = motion;
                 event = event + system.switch(which, due, mode, state, zeros, motion.time);

@@ -8,23 +8,37 @@ use crate::lane::{Lane, ORDER, Series, series};
 /// its first three terms, so that no scale has to be given and a start from rest costs nothing.
 /// Solves `|a_p| h^p = tolerance max_j |a_j| h^j` for p = ORDER - 1 and ORDER, j = 0, 1, 2.
 /// Infinite where the last terms vanish.
+///
+/// Derivatives have series of their own, which may decay more slowly: the shortest of all steps is taken.
 #[inline(always)]
-pub fn longest_step<L: Lane>(series: &Series<L>, tolerance: f64) -> L {
-    let log_tolerance = L::splat(tolerance.rough_log());
-    let mut firsts = [L::splat(0.0); 3];
-    for j in 0..3 {
-        firsts[j] = series[j].abs().rough_log() + log_tolerance;
+pub fn longest_step<L: Lane>(series: &Series<L>, tolerance: f64) -> L::Plain {
+    let mut longest = L::Plain::splat(f64::INFINITY);
+    for part in 0..L::PARTS {
+        longest = longest.min(longest_step_of::<L>(series, part, tolerance));
     }
-    let mut longest = L::splat(f64::INFINITY);
+    longest
+}
+
+/// The longest step that one part of the numbers allows.
+#[inline(always)]
+fn longest_step_of<L: Lane>(series: &Series<L>, part: usize, tolerance: f64) -> L::Plain {
+    let series = |k: usize| series[k].part(part);
+    let log_tolerance = L::Plain::splat(tolerance.rough_log());
+    let mut firsts = [L::Plain::splat(0.0); 3];
+    for j in 0..3 {
+        firsts[j] = series(j).abs().rough_log() + log_tolerance;
+    }
+    let mut longest = L::Plain::splat(f64::INFINITY);
     for last in [ORDER - 1, ORDER] {
-        let tail = series[last].abs();
+        let tail = series(last).abs();
         let log_tail = tail.rough_log();
-        let mut log = L::splat(-1000.0);
+        let mut log = L::Plain::splat(-1000.0);
         for (j, &first) in firsts.iter().enumerate() {
-            log = log.max((first - log_tail) * L::splat(series::INVERSE[last - j]));
+            log = log.max((first - log_tail) * L::Plain::splat(series::INVERSE[last - j]));
         }
-        let vanishes = tail.le(L::splat(f64::MIN_POSITIVE));
-        longest = longest.min(L::select(vanishes, L::splat(f64::INFINITY), log.rough_exp()));
+        let vanishes = tail.le(L::Plain::splat(f64::MIN_POSITIVE));
+        let step = L::Plain::select(vanishes, L::Plain::splat(f64::INFINITY), log.rough_exp());
+        longest = longest.min(step);
     }
     longest
 }

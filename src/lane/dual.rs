@@ -6,9 +6,8 @@ use super::{Lane, Series, series};
 
 /// A number per lane with its derivatives along `N` directions.
 ///
-/// Method: forward differentiation. Decisions are made by the numbers alone, so a motion takes the very
-/// steps and meets the very events that it does without derivatives, to the bit; an event's time
-/// is differentiated as the root that it is ([`Lane::as_root`]), which puts into the linearised flow the
+/// Method: forward differentiation. Events are decided by the numbers alone; a step is as short as the
+/// fastest of the number's and its derivatives' series needs. An event's time is differentiated as the root that it is ([`Lane::root`]), which puts into the linearised flow the
 /// jumps that switching makes in it (saltation), and sticking takes a direction out of it exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dual<L, const N: usize> {
@@ -89,6 +88,8 @@ impl<L: Lane, const N: usize> Neg for Dual<L, N> {
 
 impl<L: Lane, const N: usize> Lane for Dual<L, N> {
     type Mask = L::Mask;
+    type Plain = L::Plain;
+    const PARTS: usize = (N + 1) * L::PARTS;
     const WIDTH: usize = L::WIDTH;
 
     #[inline(always)]
@@ -145,12 +146,27 @@ impl<L: Lane, const N: usize> Lane for Dual<L, N> {
     fn nearest_whole(self) -> Self {
         Dual::constant(self.value.nearest_whole())
     }
+    #[inline(always)]
+    fn part(self, index: usize) -> L::Plain {
+        match (index / L::PARTS, index % L::PARTS) {
+            (0, part) => self.value.part(part),
+            (direction, part) => self.gradient[direction - 1].part(part),
+        }
+    }
+    #[inline(always)]
+    fn from_plain(value: L::Plain) -> Self {
+        Dual::constant(L::from_plain(value))
+    }
     /// By the implicit function theorem: the derivatives of the polynomial at the root over minus its slope there.
     #[inline(always)]
-    fn as_root(self, polynomial: &Series<Self>) -> Self {
-        let at = Dual::constant(self.value);
-        let (value, slope) = series::value_and_slope(polynomial, at);
+    fn root(value: L::Plain, polynomial: &Series<Self>) -> Self {
+        let mut values = series::zero();
+        for (of_value, term) in values.iter_mut().zip(polynomial) {
+            *of_value = term.value;
+        }
+        let at = Dual::constant(L::root(value, &values));
+        let (there, slope) = series::value_and_slope(polynomial, at);
         let inverse = L::splat(-1.0) / slope.value;
-        Dual::with_gradient(self.value, |i| value.gradient[i] * inverse)
+        Dual::with_gradient(at.value, |i| there.gradient[i] * inverse)
     }
 }

@@ -127,6 +127,10 @@ pub trait Lane:
 {
     /// A truth value for each number.
     type Mask: Mask;
+    /// The numbers without their derivatives; themselves where they have none.
+    type Plain: Lane<Mask = Self::Mask, Plain = Self::Plain>;
+    /// One, and one more for each derivative.
+    const PARTS: usize;
     /// How many numbers there are.
     const WIDTH: usize;
 
@@ -162,10 +166,16 @@ pub trait Lane:
     fn nearest_whole(self) -> Self {
         (self + Self::splat(ROUNDER)) - Self::splat(ROUNDER)
     }
-    /// This number as a root of `polynomial`: the same number, which depends on what the polynomial depends on.
+    /// The number itself (0) or one of its derivatives.
+    fn part(self, index: usize) -> Self::Plain;
+    /// A number whose derivatives are zero.
+    fn from_plain(value: Self::Plain) -> Self;
+    /// A known root of `polynomial`, with the derivatives that those of the polynomial give it.
+    fn root(value: Self::Plain, polynomial: &Series<Self>) -> Self;
+    /// The number without its derivatives.
     #[inline(always)]
-    fn as_root(self, _polynomial: &Series<Self>) -> Self {
-        self
+    fn plain(self) -> Self::Plain {
+        self.part(0)
     }
     /// The lesser of two numbers; `self` when either is NaN.
     #[inline(always)]
@@ -192,9 +202,32 @@ impl Mask for bool {
     }
 }
 
+/// What every kind of lane says whose numbers have no derivatives.
+macro_rules! plain {
+    () => {
+        type Plain = Self;
+        const PARTS: usize = 1;
+
+        #[inline(always)]
+        fn part(self, _index: usize) -> Self {
+            self
+        }
+        #[inline(always)]
+        fn from_plain(value: Self) -> Self {
+            value
+        }
+        #[inline(always)]
+        fn root(value: Self, _polynomial: &$crate::lane::Series<Self>) -> Self {
+            value
+        }
+    };
+}
+use plain;
+
 impl Lane for f64 {
     type Mask = bool;
     const WIDTH: usize = 1;
+    plain!();
 
     #[inline(always)]
     fn from_fn(mut value: impl FnMut(usize) -> f64) -> f64 {

@@ -82,6 +82,7 @@ macro_rules! each {
 impl<L: Lane, const M: usize> Lane for Wide<L, M> {
     type Mask = Wide<L::Mask, M>;
     const WIDTH: usize = M * L::WIDTH;
+    super::plain!();
 
     #[inline(always)]
     fn splat(value: f64) -> Self {

@@ -224,6 +224,7 @@ negated!(Avx2, _mm256_xor_si256, _mm256_castpd_si256, _mm256_castsi256_pd);
 
 impl Lane for Avx512 {
     type Mask = Mask8;
+    super::plain!();
 
     lanes_alike!(
         8,
@@ -255,6 +256,7 @@ impl Lane for Avx512 {
 
 impl Lane for Avx2 {
     type Mask = Mask4;
+    super::plain!();
 
     lanes_alike!(
         4,

@@ -67,13 +67,13 @@ fn dbg_jacobians() {
         for j in 0..3 {
             if j == 2 && y2 == 0.0 { continue; }
             let mut best = f64::INFINITY;
-            for e in [1e-4, 3e-5, 1e-5, 3e-6, 1e-6] {
+            for e in [1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 1e-7,1e-8] {
             let fd = difference(&case, &point, k, j, e * scale / weights[j]);
             let norm = (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| (exact[i][j] * weights[i] / weights[j]).abs()).fold(0.0, f64::max);
             let err = (0..3).map(|i| ((fd[i] - exact[i][j]) * weights[i] / weights[j]).abs()).fold(0.0, f64::max);
-            best = best.min(err / norm);
+            if [39,70,88,80].contains(&done) {println!("{done} {e:e} {:e} margin {:e} stick {}", err/norm, orbit.outputs[capsulemap::orbit::Output::GrazingMargin], orbit.outputs[capsulemap::orbit::Output::StickShare]);} best=best.min(err/norm);
             }
-            if best > 1e-8 {println!("case {done} k {k} j {j} err {best:e} {exact:?}");}
+            if best > 1e-2 {println!("case {done} k {k} j {j} err {best:e} {exact:?}");}
         }
         done += 1;
     }
