@@ -7,6 +7,7 @@ pub mod lane;
 pub mod model;
 pub mod flow;
 pub mod orbit;
+pub mod branch;
 pub mod sweep;
 pub mod store;
 pub mod figure;

@@ -2,6 +2,7 @@
 
 pub mod account;
 pub mod history;
+pub mod certificate;
 mod extrapolation;
 pub mod matrix;
 mod measure;
@@ -14,6 +15,7 @@ pub mod side_by_side;
 pub mod simulate;
 pub mod trajectory;
 
+pub use certificate::{Certificate, Proof};
 pub use account::{Account, Energies, Impact};
 pub use history::{History, HistorySpan};
 pub use output::{Output, Outputs};

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 8] = ["lane", "model", "flow", "orbit", "sweep", "store", "figure", "cli"];
+const FLOORS: [&str; 9] =
+    ["lane", "model", "flow", "orbit", "branch", "sweep", "store", "figure", "cli"];
 
 /// Crates that one floor alone may use.
 const RESERVED: [(&str, &[&str]); 4] = [

@@ -1,0 +1,130 @@
+//! Continued: follows periodic orbits, stable or not, through parameters, and finds where they change.
+
+use crate::model::{Parameter, Parameters};
+use crate::orbit::matrix::Complex;
+use crate::orbit::{Outputs, Reason, Section};
+
+/// What to follow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// The parameters at which the first orbit is known.
+    pub parameters: Parameters,
+    /// Phase of the drive at the section [rad].
+    pub phase: f64,
+    /// A point of the section near the first orbit.
+    pub section: Section,
+    /// Its period [cycles].
+    pub period: u64,
+    /// The parameter to follow it in.
+    pub along: Parameter,
+    /// Where to stop, the lesser first.
+    pub range: [f64; 2],
+    /// How often to switch to the branch of twice the period where a multiplier passes -1.
+    pub doublings: u32,
+    /// A second parameter with its range, in which the special points are followed as curves.
+    pub second: Option<(Parameter, [f64; 2])>,
+    /// Longest step, as a share of the range.
+    pub longest_step: f64,
+    /// Points of a branch or curve at most.
+    pub most_points: usize,
+    /// Relative local error of a step of the integrator.
+    pub tolerance: f64,
+}
+
+/// A periodic orbit on a branch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// Value of the parameter that is followed.
+    pub parameter: f64,
+    /// The section points of one period.
+    pub section: Vec<Section>,
+    /// Floquet multipliers of the period, the largest magnitude first.
+    pub multipliers: [Complex; 3],
+    /// How far the section is from repeating, relative to the motion [-].
+    pub residual: f64,
+    /// Per-cycle sums and the like.
+    pub outputs: Outputs,
+    /// Which of the branch's sequences of events it has.
+    pub sequence: usize,
+}
+
+/// What happens at a special point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SpecialKind {
+    /// A multiplier passes +1 and the branch turns back.
+    Fold = 0,
+    /// A multiplier passes -1: a branch of twice the period leaves.
+    PeriodDoubling,
+    /// A pair of complex multipliers passes the unit circle.
+    NeimarkSacker,
+    /// The mass begins or ceases to touch the stop.
+    Grazing,
+    /// The sequence of events changes in another way.
+    EventSequence,
+}
+
+impl SpecialKind {
+    /// Every kind by its name in files, in the order of declaration.
+    pub const NAMES: [(&str, SpecialKind); 5] = [
+        ("fold", SpecialKind::Fold),
+        ("period-doubling", SpecialKind::PeriodDoubling),
+        ("neimark-sacker", SpecialKind::NeimarkSacker),
+        ("grazing", SpecialKind::Grazing),
+        ("event-sequence", SpecialKind::EventSequence),
+    ];
+}
+
+/// A special point of a branch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Special {
+    /// What happens there.
+    pub kind: SpecialKind,
+    /// It lies between this point of the branch and the next.
+    pub after: usize,
+    /// The orbit there.
+    pub point: Point,
+}
+
+/// A branch of periodic orbits, from one end to the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Branch {
+    /// Period of its orbits [cycles].
+    pub period: u64,
+    /// The branch that it left at a period doubling, and which of its special points that was.
+    pub parent: Option<(usize, usize)>,
+    /// Its orbits in order.
+    pub points: Vec<Point>,
+    /// Its special points in order.
+    pub special: Vec<Special>,
+}
+
+/// A curve of special points in two parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// What happens on it.
+    pub kind: SpecialKind,
+    /// The branch and the special point that it goes through.
+    pub through: (usize, usize),
+    /// Period of the orbits on it [cycles].
+    pub period: u64,
+    /// Values of the followed and of the second parameter, in order.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Found {
+    /// The branch through the first orbit, then those that doubling leads to.
+    pub branches: Vec<Branch>,
+    /// Curves in two parameters, where a second was asked for.
+    pub curves: Vec<Curve>,
+}
+
+/// Why nothing could be followed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NotFollowed {
+    /// No periodic orbit was found near the point that was given.
+    NoOrbit,
+    /// The motion could not be followed there.
+    Failed(Reason),
+}
