@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::{Failure, named, plain_or_quantity, print, tell};
 use crate::model::{Dimension, Parameter, Parameters, Resistance, State, Switching};
-use crate::orbit::{Orbit, Output, Protocol, Simulation, settle, simulate};
+use crate::orbit::{Certificate, Orbit, Output, Proof, Protocol, Simulation, settle, simulate};
 use crate::sweep::document::unknown;
 
 const EXAMPLES: &str = "\
@@ -217,6 +217,10 @@ fn orbit_json(orbit: &Orbit) -> Value {
     for &output in Output::ALL {
         object.insert(output.name().to_owned(), json!(orbit.outputs[output]));
     }
+    let Certificate { proof, multipliers, .. } = orbit.certificate;
+    object.insert("certificate".to_owned(), json!(Proof::NAMES[proof as usize].0));
+    let parts = multipliers.map(|multiplier| [multiplier.re, multiplier.im]);
+    object.insert("multipliers".to_owned(), json!(parts));
     let failure = orbit.failure.map(|failure| failure.to_string());
     object.insert("failure".to_owned(), json!(failure));
     Value::Object(object)

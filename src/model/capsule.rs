@@ -6,9 +6,7 @@ use crate::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 use super::drive::reduced;
 use super::resistance::Drag;
 use super::switched::{Locomotion, Stroboscopic, Switched, Zeros};
-use super::{
-    Contact, Drive, EventKind, Jet, Parameter, Parameters, Resistance, State, StickSlip,
-};
+use super::{Contact, Drive, EventKind, Jet, Parameter, Parameters, Resistance, State, StickSlip};
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.
 const CONTACT: usize = 0;
@@ -248,6 +246,16 @@ impl<L: Lane> Stroboscopic<L, 3> for Capsule<L> {
 }
 
 impl Locomotion for Capsule<f64> {
+    type With<L: Lane<Mask = bool>> = Capsule<L>;
+
+    fn with<L: Lane<Mask = bool>>(
+        of: impl Fn(Parameter) -> L,
+        law: Resistance,
+        phase: f64,
+    ) -> Capsule<L> {
+        Capsule::new(of, law, phase)
+    }
+
     fn motion<'a>(&self, jet: &'a Jet<f64>) -> &'a Jet<f64> {
         jet
     }

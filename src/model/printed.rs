@@ -4,11 +4,11 @@
 //! while F still contains c (y1 - y2). Where both fields push F towards f_s the printed rule chatters;
 //! it is then followed in Filippov's sense along |F| = f_s with the share of H that holds F there.
 
-use crate::lane::{ORDER, Series, series};
+use crate::lane::{Lane, ORDER, Series, series};
 
+use super::drive::reduced;
 use super::resistance::Drag;
 use super::switched::{Locomotion, Switched, Zeros};
-use super::drive::reduced;
 use super::{Contact, Drive, EventKind, Jet, Parameter, Parameters, State, StickSlip};
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.
@@ -353,6 +353,16 @@ fn event_between(before: Regime, after: Regime) -> Option<EventKind> {
 }
 
 impl Locomotion for PrintedCapsule {
+    type With<L: Lane<Mask = bool>> = super::Capsule<L>;
+
+    fn with<L: Lane<Mask = bool>>(
+        of: impl Fn(Parameter) -> L,
+        law: super::Resistance,
+        phase: f64,
+    ) -> super::Capsule<L> {
+        super::Capsule::new(of, law, phase)
+    }
+
     fn motion<'a>(&self, jet: &'a PrintedJet) -> &'a Jet<f64> {
         &jet.motion
     }

@@ -3,7 +3,7 @@
 
 use crate::lane::{Lane, Series};
 
-use super::{Contact, EventKind, Jet, State, StickSlip};
+use super::{Contact, EventKind, Jet, Parameter, Resistance, State, StickSlip};
 
 /// The most guards a system may have.
 pub const MAX_GUARDS: usize = 4;
@@ -79,6 +79,14 @@ pub trait Stroboscopic<L: Lane, const D: usize>: Switched<L> {
 
 /// A switched system that is a capsule, so that speed and energies can be told from its motion.
 pub trait Locomotion: Switched<f64, State = State<f64>> {
+    /// The same capsule in numbers of another kind.
+    type With<L: Lane<Mask = bool>>: Stroboscopic<L, 3, State = State<L>>;
+    /// The capsule with these parameters under one law, whose drive starts at `phase` [rad].
+    fn with<L: Lane<Mask = bool>>(
+        of: impl Fn(Parameter) -> L,
+        law: Resistance,
+        phase: f64,
+    ) -> Self::With<L>;
     /// The motion in the series of a step.
     fn motion<'a>(&self, jet: &'a Self::Jet) -> &'a Jet<f64>;
     /// The friction force on the capsule, opposing its motion while it slides and F at rest [N].

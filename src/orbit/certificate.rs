@@ -1,6 +1,12 @@
 //! What is proven of a periodic orbit: that it closes, how it answers to small pushes, and that its period is the least.
 
-use super::matrix::Complex;
+use crate::lane::Dual;
+use crate::model::{Locomotion, Parameter};
+
+use super::matrix::{Complex, eigenvalues};
+use super::newton::{Closed, close};
+use super::return_map::Cycles;
+use super::{Case, Protocol, Section};
 
 /// How a period was proven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,7 +15,7 @@ pub enum Proof {
     None = 0,
     /// Newton's method on the return map ended on an orbit that closes to rounding.
     Newton,
-    /// The section repeats, but the return map has no derivative there, because a guard is only touched.
+    /// The orbit closes, but the mass just touches the stop, where the derivatives are those of one side.
     Grazing,
 }
 
@@ -41,4 +47,58 @@ impl Certificate {
     pub fn is_stable(&self) -> bool {
         self.multipliers[0].abs() < 1.0
     }
+}
+
+/// A periodic orbit that Newton's method has closed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Certified {
+    /// The least period [cycles].
+    pub period: u64,
+    /// Its point of the section.
+    pub section: Section,
+    /// Its multipliers, the largest magnitude first [-].
+    pub multipliers: [Complex; 3],
+    /// Cycles followed to find it.
+    pub cycles: u64,
+}
+
+/// The periodic orbit at `section`, which has been seen to repeat after so many cycles; none where the
+/// return map does not close there.
+///
+/// Method: for each divisor of the cycles, the least first, Newton's method on the map over so many. An orbit of
+/// a divisor counts if it is stable: the motion then tends to it and has only seemed to have a longer
+/// period, as it does when a multiplier lies near -1. If it repels, the motion goes around it, as it does after a
+/// period doubling, and the longer period is proven by the shorter one. `size` is that of the motion [m/s].
+pub fn certify<S: Locomotion>(
+    case: &Case,
+    section: &Section,
+    repeats_after: u64,
+    size: f64,
+    protocol: &Protocol,
+) -> Option<Certified> {
+    let parameters = &case.parameters;
+    let constant = |parameter: Parameter| Dual::<f64, 3>::constant(parameters[parameter]);
+    let system = S::with(constant, parameters.resistance, case.phase);
+    let mut cycles = Cycles {
+        drive_period: Dual::constant(parameters.drive_period()),
+        count: 0,
+        tolerance: protocol.tolerance,
+    };
+    let mut followed = 0;
+    for period in (1..=repeats_after).filter(|&j| repeats_after.is_multiple_of(j)) {
+        cycles.count = period;
+        // What cannot be followed cannot be closed either.
+        let Ok(Some(Closed { point, residual, jacobian, cycles, .. })) =
+            close(&system, section, &cycles, size)
+        else {
+            continue;
+        };
+        followed += cycles;
+        let multipliers = eigenvalues(&jacobian);
+        let attracts = multipliers[0].abs() < 1.0;
+        if residual <= protocol.recurrence && (attracts || period == repeats_after) {
+            return Some(Certified { period, section: point, multipliers, cycles: followed });
+        }
+    }
+    None
 }

@@ -1,45 +1,77 @@
 //! What a settled case is measured to be, over the cycles that are kept.
 
+use crate::lane::Dual;
 use crate::model::{EventKind, Locomotion, Parameter, Parameters, State};
 
+use super::certificate::certify;
 use super::recurrence::{RESOLUTION, Settled, size};
+use super::wandering::{Wandering, wander};
 use super::{
-    Account, Failure, History, Impact, Orbit, Outcome, Output, Outputs, Protocol, Section,
-    Trajectory,
+    Account, Case, Certificate, Exponent, Failure, History, Impact, Orbit, Outcome, Output,
+    Outputs, Proof, Protocol, Section, Trajectory,
 };
 
-/// Measures what a case that began at `start` has `settled` to (none: nothing within its budget), going on
-/// from where its trajectory is.
+/// A maximum this near to the stop, relative to the motion, is taken for one that touches it.
+const GRAZES: f64 = 1e-9;
+
+/// What a case has been found to do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Found {
+    /// Its section repeats.
+    Repeats(Settled),
+    /// It does not within the budget of cycles; the linearised flow has not been asked yet.
+    Wanders,
+    /// It does not, and this is what the linearised flow says of it.
+    Followed(Wandering),
+}
+
+impl From<Option<Settled>> for Found {
+    fn from(settled: Option<Settled>) -> Self {
+        settled.map_or(Found::Wanders, Found::Repeats)
+    }
+}
+
+/// What is to be measured, and what is known of it.
+struct Verdict {
+    outcome: Outcome,
+    period: u64,
+    /// Cycles to measure over.
+    cycles: u64,
+    certificate: Certificate,
+    exponent: Exponent,
+}
+
+/// Measures a case that was `found` to do something, going on from where its trajectory is.
 pub(super) fn conclude<S: Locomotion>(
     trajectory: &mut Trajectory<'_, S>,
-    parameters: &Parameters,
-    start: State<f64>,
-    settled: Result<Option<Settled>, Failure>,
+    case: &Case,
+    found: Result<Found, Failure>,
     protocol: &Protocol,
 ) -> Orbit {
-    let measured = settled.and_then(|settled| {
-        let period = settled.map(|settled| settled.period as u64);
-        let measures = measure(trajectory, parameters, settled, protocol)?;
+    let measured = found.and_then(|found| {
+        let verdict = judge(trajectory, case, found, protocol)?;
+        let measures = measure(trajectory, &case.parameters, &verdict, protocol)?;
         let history = match protocol.history {
             None => None,
             Some(span) => {
                 let settled = State { x2: 0.0, ..trajectory.state() };
-                let from = if span.from_start { start } else { settled };
+                let from = if span.from_start { case.start } else { settled };
                 let system = trajectory.system();
-                Some(History::sample(system, parameters, from, span, protocol.tolerance)?)
+                Some(History::sample(system, &case.parameters, from, span, protocol.tolerance)?)
             }
         };
-        Ok((period, measures, history))
+        Ok((verdict, measures, history))
     });
     let (cycles, end) = (trajectory.cycles, trajectory.state());
     match measured {
-        Ok((period, (outputs, section, impacts), history)) => Orbit {
-            outcome: if period.is_some() { Outcome::Periodic } else { Outcome::Undecided },
-            period: period.unwrap_or(0),
+        Ok((verdict, measures, history)) => Orbit {
+            outcome: verdict.outcome,
+            period: verdict.period,
+            certificate: measures.certificate,
             cycles,
-            outputs,
-            section,
-            impacts,
+            outputs: measures.outputs,
+            section: measures.section,
+            impacts: measures.impacts,
             history,
             end,
             failure: None,
@@ -47,6 +79,7 @@ pub(super) fn conclude<S: Locomotion>(
         Err(failure) => Orbit {
             outcome: Outcome::Failed,
             period: 0,
+            certificate: Certificate::none(),
             cycles,
             outputs: Outputs::unknown(),
             section: Vec::new(),
@@ -58,26 +91,104 @@ pub(super) fn conclude<S: Locomotion>(
     }
 }
 
-type Measures = (Outputs, Vec<Section>, Vec<Impact>);
+/// Says what a case is, and leads its trajectory onto the orbit where it is a periodic one.
+fn judge<S: Locomotion>(
+    trajectory: &mut Trajectory<'_, S>,
+    case: &Case,
+    found: Found,
+    protocol: &Protocol,
+) -> Result<Verdict, Failure> {
+    match found {
+        Found::Repeats(settled) => Ok(certified(trajectory, case, settled, protocol)),
+        Found::Followed(wandering) => {
+            trajectory.cycles += wandering.cycles;
+            Ok(Verdict {
+                outcome: wandering.outcome(),
+                period: 0,
+                cycles: protocol.measured_cycles,
+                certificate: Certificate::none(),
+                exponent: wandering.exponent,
+            })
+        }
+        Found::Wanders => {
+            let parameters = &case.parameters;
+            let constant = |parameter: Parameter| Dual::<f64, 1>::constant(parameters[parameter]);
+            let system = S::with(constant, parameters.resistance, case.phase);
+            let followed = wander(
+                &system,
+                &[trajectory.section()],
+                (parameters.drive_period(), parameters[Parameter::Omega]),
+                protocol.exponent_cycles,
+                protocol.tolerance,
+            );
+            match followed[0] {
+                Ok(wandering) => judge(trajectory, case, Found::Followed(wandering), protocol),
+                Err(reason) => Err(trajectory.failure(reason)),
+            }
+        }
+    }
+}
+
+/// The verdict on a section that repeats: periodic if Newton's method closes the orbit, else undecided.
+fn certified<S: Locomotion>(
+    trajectory: &mut Trajectory<'_, S>,
+    case: &Case,
+    settled: Settled,
+    protocol: &Protocol,
+) -> Verdict {
+    let repeats_after = settled.repeats_after as u64;
+    let unknown = Exponent { value: f64::NAN, uncertainty: f64::NAN };
+    let section = trajectory.section();
+    let Some(orbit) = certify::<S>(case, &section, repeats_after, settled.size, protocol) else {
+        return Verdict {
+            outcome: Outcome::Undecided,
+            period: 0,
+            cycles: repeats_after,
+            certificate: Certificate::none(),
+            exponent: unknown,
+        };
+    };
+    trajectory.leap(orbit.section);
+    trajectory.cycles += orbit.cycles;
+    let time = orbit.period as f64 * case.parameters.drive_period();
+    let value = libm::log(orbit.multipliers[0].abs()) / time;
+    Verdict {
+        outcome: Outcome::Periodic,
+        period: orbit.period,
+        cycles: orbit.period,
+        certificate: Certificate {
+            proof: Proof::Newton,
+            residual: f64::NAN,
+            multipliers: orbit.multipliers,
+        },
+        exponent: Exponent { value, uncertainty: 0.0 },
+    }
+}
+
+/// What is measured over the kept cycles.
+struct Measures {
+    outputs: Outputs,
+    section: Vec<Section>,
+    impacts: Vec<Impact>,
+    certificate: Certificate,
+}
 
 fn measure<S: Locomotion>(
     trajectory: &mut Trajectory<'_, S>,
     parameters: &Parameters,
-    settled: Option<Settled>,
+    verdict: &Verdict,
     protocol: &Protocol,
 ) -> Result<Measures, Failure> {
     let system = trajectory.system();
-    let (cycles, points) = match settled {
-        Some(settled) => (settled.repeats_after as u64, settled.period.min(protocol.points)),
-        None => (protocol.measured_cycles, protocol.points),
-    };
+    let cycles = verdict.cycles;
+    let begins = trajectory.section();
     let mut account = Account::new(parameters);
     let (mut section, mut impacts) = (Vec::new(), Vec::new());
     let x2 = trajectory.state().x2;
     let mut speed: f64 = 0.0;
     for _ in 0..cycles {
         speed = speed.max(size(parameters[Parameter::Omega], &trajectory.section()));
-        if section.len() < points {
+        if section.len() < protocol.points {
             section.push(trajectory.section());
         }
         trajectory.cycle(|step| {
@@ -93,7 +204,35 @@ fn measure<S: Locomotion>(
     let progression = (trajectory.state().x2 - x2) / cycles as f64;
     let resolved = RESOLUTION * protocol.recurrence * speed * parameters.drive_period();
     let moves = progression.abs() > resolved;
-    Ok((outputs(&account, parameters, progression, moves, cycles as f64), section, impacts))
+    let mut outputs = outputs(&account, parameters, progression, moves, cycles as f64);
+    let certificate = seal(verdict, &begins, &trajectory.section(), speed, &account, parameters);
+    outputs[Output::LyapunovExponent] = verdict.exponent.value;
+    outputs[Output::LyapunovUncertainty] = verdict.exponent.uncertainty;
+    outputs[Output::LargestMultiplier] = certificate.multipliers[0].abs();
+    outputs[Output::SectionResidual] = certificate.residual;
+    Ok(Measures { outputs, section, impacts, certificate })
+}
+
+/// The certificate with what the measured cycles say of it: how well they close, and whether the mass just
+/// touches the stop.
+fn seal(
+    verdict: &Verdict,
+    begins: &Section,
+    ends: &Section,
+    speed: f64,
+    account: &Account,
+    parameters: &Parameters,
+) -> Certificate {
+    let Certificate { proof, multipliers, .. } = verdict.certificate;
+    if proof == Proof::None {
+        return verdict.certificate;
+    }
+    let omega = parameters[Parameter::Omega];
+    let gap = std::array::from_fn(|i| ends[i] - begins[i]);
+    let gap = size(omega, &gap);
+    let residual = if gap == 0.0 { 0.0 } else { gap / speed };
+    let touches = omega * account.grazing_margin <= GRAZES * speed;
+    Certificate { proof: if touches { Proof::Grazing } else { proof }, residual, multipliers }
 }
 
 /// The outputs per cycle, from the sums over `cycles` and the `progression` per cycle [m], which is

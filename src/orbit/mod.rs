@@ -3,9 +3,11 @@
 pub mod account;
 pub mod history;
 pub mod certificate;
+pub mod exponent;
 mod extrapolation;
 pub mod matrix;
 mod measure;
+pub mod newton;
 pub mod output;
 pub mod recurrence;
 pub mod return_map;
@@ -14,9 +16,11 @@ mod settling;
 pub mod side_by_side;
 pub mod simulate;
 pub mod trajectory;
+pub mod wandering;
 
-pub use certificate::{Certificate, Proof};
 pub use account::{Account, Energies, Impact};
+pub use certificate::{Certificate, Proof};
+pub use exponent::Exponent;
 pub use history::{History, HistorySpan};
 pub use output::{Output, Outputs};
 pub use settle::{Case, Orbit, Outcome, Protocol, settle};

@@ -18,13 +18,15 @@ const DISTINCT: f64 = 0.1;
 const FADED: f64 = 1e-3;
 
 /// What the section of a case has settled to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settled {
     /// The period [cycles].
     pub period: usize,
     /// Cycles after which the section repeats to tolerance; a multiple of the period, which repeats to
     /// the resolution only.
     pub repeats_after: usize,
+    /// Size of the motion lately, in the units of the section's scales [m/s].
+    pub size: f64,
 }
 
 /// The last section points of a case and how well they repeat.
@@ -126,7 +128,7 @@ impl Recurrence {
                 })
         };
         let period = (1..repeats_after).find(|&j| coincide(j)).unwrap_or(repeats_after);
-        Some(Settled { period, repeats_after })
+        Some(Settled { period, repeats_after, size: scale })
     }
 
     fn converged(&self, k: usize, now: f64, scale: f64) -> bool {

@@ -1,6 +1,6 @@
 //! The map from one section point to a later one, with its derivatives.
 
-use crate::flow::{Breakdown, Motion, Step};
+use crate::flow::{Motion, Step};
 use crate::lane::{Dual, Lane};
 use crate::model::Stroboscopic;
 
@@ -46,7 +46,7 @@ where
 }
 
 /// Follows a motion to the end of a cycle.
-fn cycle<S, const D: usize, const N: usize>(
+pub(super) fn cycle<S, const D: usize, const N: usize>(
     system: &S,
     motion: &mut Motion<Dual<f64, N>, S>,
     step: &mut Step<Dual<f64, N>, S>,
@@ -59,10 +59,8 @@ where
     for _ in 0..STEPS_PER_CYCLE {
         motion.step(system, cycles.drive_period, cycles.tolerance, step);
         see(step);
-        match motion.breakdown(system, 0) {
-            Some(Breakdown::NoProgress) => return Err(Reason::NoProgress),
-            Some(Breakdown::NotFinite) => return Err(Reason::NotFinite),
-            None => {}
+        if let Some(breakdown) = motion.breakdown(system, 0) {
+            return Err(breakdown.into());
         }
         if cycles.drive_period.le(motion.time) {
             motion.begin_cycle(true);

@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use crate::model::{Capsule, Locomotion, Parameter, Parameters, PrintedCapsule, State, Switching};
 
-use super::measure::conclude;
+use super::measure::{Found, conclude};
 use super::recurrence::Settled;
 use super::settling::{Settling, Verdict};
-use super::{Failure, History, HistorySpan, Impact, Outputs, Section, Trajectory};
+use super::{Certificate, Failure, History, HistorySpan, Impact, Outputs, Section, Trajectory};
 
 /// What a case turned out to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -71,8 +71,10 @@ pub struct Protocol {
     pub max_cycles: u64,
     /// Longest period looked for [cycles].
     pub max_period: usize,
-    /// Cycles over which an undecided case is measured.
+    /// Cycles over which a case that does not repeat is measured.
     pub measured_cycles: u64,
+    /// Cycles over which its exponent is computed at most; none is for zero.
+    pub exponent_cycles: u64,
     /// Section points kept at most.
     pub points: usize,
     /// Impacts kept at most.
@@ -91,6 +93,7 @@ impl Default for Protocol {
             max_cycles: 2000,
             max_period: 32,
             measured_cycles: 128,
+            exponent_cycles: 2048,
             points: 64,
             impact_points: 64,
             accelerate: true,
@@ -117,6 +120,8 @@ pub struct Orbit {
     pub outcome: Outcome,
     /// Its period [cycles]; zero unless periodic.
     pub period: u64,
+    /// What is proven of its period.
+    pub certificate: Certificate,
     /// Cycles followed, measuring included.
     pub cycles: u64,
     /// Per-cycle sums and the like; NaN where the case failed.
@@ -140,28 +145,23 @@ pub fn settle(
     start: State<f64>,
     protocol: &Protocol,
 ) -> Orbit {
+    let case = Case { parameters: parameters.clone(), start, phase };
     match parameters.switching {
-        Switching::Filippov => {
-            settle_on(&Capsule::single(parameters, phase), parameters, start, protocol)
-        }
+        Switching::Filippov => settle_on(&Capsule::single(parameters, phase), &case, protocol),
         Switching::AsPrinted => {
-            settle_on(&PrintedCapsule::single(parameters, phase), parameters, start, protocol)
+            settle_on(&PrintedCapsule::single(parameters, phase), &case, protocol)
         }
     }
 }
 
-fn settle_on<S: Locomotion>(
-    system: &S,
-    parameters: &Parameters,
-    start: State<f64>,
-    protocol: &Protocol,
-) -> Orbit {
+fn settle_on<S: Locomotion>(system: &S, case: &Case, protocol: &Protocol) -> Orbit {
+    let Case { parameters, start, .. } = case;
     let mut trajectory =
-        Trajectory::new(system, start, parameters.drive_period(), protocol.tolerance);
+        Trajectory::new(system, *start, parameters.drive_period(), protocol.tolerance);
     let mut settling = Settling::new(protocol, parameters[Parameter::Omega]);
     settling.meet(trajectory.section());
     let settled = find_period(&mut trajectory, &mut settling, protocol);
-    conclude(&mut trajectory, parameters, start, settled, protocol)
+    conclude(&mut trajectory, case, settled.map(Found::from), protocol)
 }
 
 /// Follows until the section repeats; none when the budget of cycles ends first.

@@ -4,15 +4,14 @@ use crate::flow::{Motion, Step};
 use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use crate::model::{Capsule, Parameter, Parameters, Resistance, State};
 
-use super::measure::conclude;
-use super::recurrence::Settled;
+use super::measure::{Found, conclude};
 use super::settle::find_period;
 use super::settling::{Settling, Verdict};
 use super::trajectory::{STEPS_PER_CYCLE, leap, section};
 use super::{Case, Failure, Orbit, Protocol, Trajectory};
 
 /// What a case has settled to, if it has, or why it could not be followed.
-type Found = Result<Option<Settled>, Failure>;
+type Finding = Result<Found, Failure>;
 
 /// With no more than one lane in so many at work, cases are followed faster one by one.
 const WORTHWHILE: usize = 4;
@@ -43,25 +42,27 @@ impl<T> Underway<T> {
 
     /// Follows the case by itself until it settles, and measures it.
     pub fn finish(self, protocol: &Protocol) -> (T, Orbit) {
-        self.conclude(protocol, |trajectory, settling| find_period(trajectory, settling, protocol))
+        self.conclude(protocol, |trajectory, settling| {
+            find_period(trajectory, settling, protocol).map(Found::from)
+        })
     }
 
     /// Measures the case, going on from where it is with what it is found to have settled to.
     fn conclude(
         mut self,
         protocol: &Protocol,
-        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Settling) -> Found,
+        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Settling) -> Finding,
     ) -> (T, Orbit) {
-        let Case { parameters, start, .. } = &self.case;
+        let drive_period = self.case.parameters.drive_period();
         let mut trajectory = Trajectory::resume(
             &self.system,
             self.motion,
             [self.cycles, self.steps],
-            parameters.drive_period(),
+            drive_period,
             protocol.tolerance,
         );
-        let settled = found(&mut trajectory, &mut self.settling);
-        (self.name, conclude(&mut trajectory, parameters, *start, settled, protocol))
+        let found = found(&mut trajectory, &mut self.settling);
+        (self.name, conclude(&mut trajectory, &self.case, found, protocol))
     }
 }
 
@@ -195,9 +196,9 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
         self.cycle_began[lane] = self.steps;
         let exhausted = case.cycles >= self.cases.protocol.max_cycles;
         match case.settling.meet(section(state)) {
-            Verdict::Settled(settled) => self.relieve(lane, |_, _| Ok(Some(settled))),
+            Verdict::Settled(settled) => self.relieve(lane, |_, _| Ok(Found::Repeats(settled))),
             // At the end of the budget the motion is measured where it is.
-            _ if exhausted => self.relieve(lane, |_, _| Ok(None)),
+            _ if exhausted => self.relieve(lane, |_, _| Ok(Found::Wanders)),
             Verdict::Leap(section) => self.motion.put(lane, &leap(&case.system, state, section)),
             Verdict::Unsettled => {}
         }
@@ -227,7 +228,7 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
     fn relieve(
         &mut self,
         lane: usize,
-        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Settling) -> Found,
+        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Settling) -> Finding,
     ) {
         let case = self.leave(lane).expect("the lane is occupied");
         let done = case.conclude(self.cases.protocol, found);

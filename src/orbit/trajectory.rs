@@ -34,6 +34,15 @@ impl Reason {
     ];
 }
 
+impl From<Breakdown> for Reason {
+    fn from(breakdown: Breakdown) -> Self {
+        match breakdown {
+            Breakdown::NoProgress => Reason::NoProgress,
+            Breakdown::NotFinite => Reason::NotFinite,
+        }
+    }
+}
+
 /// Where and why a case failed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Failure {
@@ -137,10 +146,7 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
     /// Looks where the last step has led: whether to the end of a cycle, and if not, what is in the way.
     pub fn look(&mut self) -> Result<bool, Failure> {
         if let Some(breakdown) = self.motion.breakdown(self.system, 0) {
-            return Err(self.failure(match breakdown {
-                Breakdown::NoProgress => Reason::NoProgress,
-                Breakdown::NotFinite => Reason::NotFinite,
-            }));
+            return Err(self.failure(breakdown.into()));
         }
         if self.motion.time >= self.drive_period {
             self.motion.begin_cycle(true);
@@ -154,7 +160,8 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
         Ok(false)
     }
 
-    fn failure(&self, reason: Reason) -> Failure {
+    /// Tells where it is when it cannot go on.
+    pub(super) fn failure(&self, reason: Reason) -> Failure {
         let time = self.cycles as f64 * self.drive_period + self.motion.time;
         Failure { reason, time, state: self.motion.state }
     }

@@ -3,7 +3,8 @@
 use ndarray::{ArrayD, IxDyn};
 
 use crate::model::{Parameter, State};
-use crate::orbit::{History, Impact, Orbit, Outcome, Reason};
+use crate::orbit::matrix::Complex;
+use crate::orbit::{Certificate, History, Impact, Orbit, Outcome, Proof, Reason};
 use crate::sweep::{Coordinate, Direction, Record, Study};
 
 use super::{Dataset, Values, Variable, provenance};
@@ -23,6 +24,7 @@ pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
         let variable = table.variable(output.unit(), output.meaning(), values);
         dataset.variables.insert(output.name().to_owned(), variable);
     }
+    add_certificates(&mut dataset, &table);
     add_section(&mut dataset, &table);
     add_impacts(&mut dataset, &table);
     add_history(&mut dataset, &table);
@@ -38,7 +40,7 @@ pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
 }
 
 /// How the cases were followed, so that the file tells it even where the study left it to the program.
-fn protocol(study: &Study) -> [(String, String); 6] {
+fn protocol(study: &Study) -> [(String, String); 7] {
     let protocol = &study.protocol;
     [
         ("tolerance", format!("{:e}", protocol.tolerance)),
@@ -47,6 +49,7 @@ fn protocol(study: &Study) -> [(String, String); 6] {
         ("max_cycles", protocol.max_cycles.to_string()),
         ("max_period", protocol.max_period.to_string()),
         ("measured_cycles", protocol.measured_cycles.to_string()),
+        ("exponent_cycles", protocol.exponent_cycles.to_string()),
     ]
     .map(|(key, value)| (format!("protocol_{key}"), value))
 }
@@ -218,6 +221,29 @@ fn add_failures(dataset: &mut Dataset, table: &Table<'_>) {
     let time = table.variable("s", "time at which the case could not be followed on", times);
     dataset.variables.insert("failure_reason".to_owned(), reason);
     dataset.variables.insert("failure_time".to_owned(), time);
+}
+
+/// What is proven of the periods.
+fn add_certificates(dataset: &mut Dataset, table: &Table<'_>) {
+    let proofs = table.integers(0, |orbit| orbit.certificate.proof as i64);
+    let mut proof = table.variable("1", "how the period was proven", proofs);
+    proof.flags = Proof::NAMES.map(|(name, proof)| (proof as i64, name.to_owned())).to_vec();
+    dataset.variables.insert("certificate".to_owned(), proof);
+    let count = Certificate::none().multipliers.len();
+    dataset.coordinates.push(coordinate(
+        "multiplier",
+        "1",
+        "Floquet multiplier of the period, the largest magnitude first",
+        self::count(count),
+    ));
+    let of = |part: fn(&Complex) -> f64| {
+        table.rows(count, move |orbit, i| orbit.certificate.multipliers.get(i).map(part))
+    };
+    let rows = [
+        ("multiplier_real", "1", "real part of a Floquet multiplier of the period", of(|m| m.re)),
+        ("multiplier_imag", "1", "imaginary part of a Floquet multiplier", of(|m| m.im)),
+    ];
+    table.add_rows(dataset, "multiplier", rows);
 }
 
 fn add_section(dataset: &mut Dataset, table: &Table<'_>) {

@@ -286,6 +286,7 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
         };
         whole("max_cycles", 1, u64::MAX, &mut protocol.max_cycles);
         whole("measured_cycles", 1, u64::MAX, &mut protocol.measured_cycles);
+        whole("exponent_cycles", 0, MOST_POINTS, &mut protocol.exponent_cycles);
         let size = |key: &str, least: u64, most: u64, value: &mut usize| {
             let mut found = *value as u64;
             whole(key, least, most, &mut found);

@@ -1,0 +1,92 @@
+//! Newton's method on the return map: from a section point near a periodic orbit onto it.
+
+use crate::lane::Dual;
+use crate::model::Stroboscopic;
+
+use super::Reason;
+use super::matrix::{Matrix, solve};
+use super::return_map::{Cycles, jacobian, returned, seeded, values};
+
+/// A residual this small, relative to the motion, cannot be told from rounding.
+const ROUNDING: f64 = 1e-14;
+/// Corrections at most: from where the section repeats, two are usual.
+const CORRECTIONS: usize = 8;
+/// The longest correction, relative to the motion: what is farther away is another orbit.
+const NEARBY: f64 = 1e-3;
+
+/// A point of a periodic orbit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Closed<const D: usize> {
+    /// The point.
+    pub point: [f64; D],
+    /// How far its image is from it, relative to the motion [-].
+    pub residual: f64,
+    /// The derivative of the image.
+    pub jacobian: Matrix<D>,
+    /// How far it is from where the search began, relative to the motion [-].
+    pub moved: f64,
+    /// How far the true orbit may be: the next correction, relative to the motion [-].
+    pub error: f64,
+    /// Cycles followed in all.
+    pub cycles: u64,
+}
+
+/// Largest coordinate of a difference, in units of `size`.
+pub fn relative<const D: usize>(difference: &[f64; D], scales: &[f64; D], size: f64) -> f64 {
+    difference.iter().zip(scales).map(|(x, scale)| (x * scale).abs()).fold(0.0, f64::max) / size
+}
+
+/// The periodic orbit nearest to `start` under the map over `cycles`; none where Newton's method leaves the
+/// neighbourhood or meets a singular derivative.
+///
+/// `size` is that of the motion, in the units of the system's scales. Method: s <- s + (I - J)^-1 (P(s) - s) with the
+/// exact Jacobian, until the residual is at rounding or no longer halved; the best point is kept. Error: see
+/// [`Closed::error`]. Where the map has a kink (an event falls on another) the steps need not converge, and
+/// the residual says so.
+pub fn close<S, const D: usize>(
+    system: &S,
+    start: &[f64; D],
+    cycles: &Cycles<D>,
+    size: f64,
+) -> Result<Option<Closed<D>>, Reason>
+where
+    S: Stroboscopic<Dual<f64, D>, D>,
+{
+    let scales = system.scales();
+    let mut point = *start;
+    let mut best: Option<Closed<D>> = None;
+    let mut followed = 0;
+    for _ in 0..=CORRECTIONS {
+        let image = returned(system, seeded(&point), cycles, |_| ())?;
+        followed += cycles.count;
+        let jacobian = jacobian(&image);
+        let image = values(&image);
+        let gap: [f64; D] = std::array::from_fn(|i| image[i] - point[i]);
+        let residual = relative(&gap, &scales, size);
+        let Some(step) = solve(less_identity(&jacobian), gap.map(|x| -x)) else { break };
+        let error = relative(&step, &scales, size);
+        let before = best.map_or(f64::INFINITY, |best| best.residual);
+        if residual < before {
+            let away = std::array::from_fn(|i| point[i] - start[i]);
+            let moved = relative(&away, &scales, size);
+            best = Some(Closed { point, residual, jacobian, moved, error, cycles: 0 });
+        }
+        let away = std::array::from_fn(|i| point[i] + step[i] - start[i]);
+        let leaves =
+            relative(&away, &scales, size).partial_cmp(&NEARBY) != Some(std::cmp::Ordering::Less);
+        if residual <= ROUNDING || residual > 0.5 * before || leaves {
+            break;
+        }
+        point = std::array::from_fn(|i| point[i] + step[i]);
+    }
+    Ok(best.map(|best| Closed { cycles: followed, ..best }))
+}
+
+/// A matrix less the identity.
+fn less_identity<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
+    let mut result = *a;
+    for (i, row) in result.iter_mut().enumerate() {
+        row[i] -= 1.0;
+    }
+    result
+}
