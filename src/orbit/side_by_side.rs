@@ -8,6 +8,7 @@ use super::measure::{Found, conclude};
 use super::settle::find_period;
 use super::settling::{Settling, Verdict};
 use super::trajectory::{STEPS_PER_CYCLE, leap, section};
+use super::wandering::{Wanders, wander_side_by_side};
 use super::{Case, Failure, Orbit, Protocol, Trajectory};
 
 /// What a case has settled to, if it has, or why it could not be followed.
@@ -47,6 +48,12 @@ impl<T> Underway<T> {
         })
     }
 
+    /// Where and how it moves, for its linearised flow.
+    fn wanders(&self) -> Wanders<'_> {
+        let start = section(&self.motion.state);
+        Wanders { system: &self.system, start, parameters: &self.case.parameters }
+    }
+
     /// Measures the case, going on from where it is with what it is found to have settled to.
     fn conclude(
         mut self,
@@ -84,12 +91,19 @@ pub fn settle_side_by_side<Q: Queue>(
     protocol: &Protocol,
     queue: &mut Q,
 ) -> Vec<Underway<Q::Name>> {
-    instructions.run(Supply { protocol, queue })
+    let (wandering, ready) = (Vec::new(), Vec::new());
+    instructions.run(Supply { instructions, protocol, queue, wandering, ready })
 }
 
-struct Supply<'a, Q> {
+/// Where the lanes take their cases from.
+struct Supply<'a, Q: Queue> {
+    instructions: Instructions,
     protocol: &'a Protocol,
     queue: &'a mut Q,
+    /// Cases that have not settled, gathered until there are enough to follow their linearised flow side by side.
+    wandering: Vec<Underway<Q::Name>>,
+    /// Cases that could depart, had they a lane.
+    ready: Vec<Underway<Q::Name>>,
 }
 
 impl<Q: Queue> Work for Supply<'_, Q> {
@@ -106,18 +120,46 @@ impl<Q: Queue> Work for Supply<'_, Q> {
             convoy.seat(lane, case);
         }
         let mut step = Step::default();
-        while convoy.occupied.count_ones() as usize * WORTHWHILE > L::WIDTH {
-            convoy.advance(&mut step);
-            convoy.attend();
+        let worthwhile = |cases: usize| cases * WORTHWHILE > L::WIDTH;
+        loop {
+            let moving = worthwhile(convoy.occupied.count_ones() as usize);
+            let wandering = convoy.cases.wandering.len();
+            if wandering >= L::WIDTH || (!moving && worthwhile(wandering)) {
+                convoy.cases.follow_wandering();
+                convoy.fill();
+            } else if moving {
+                convoy.advance(&mut step);
+                convoy.attend();
+            } else {
+                return convoy.unfinished();
+            }
         }
-        convoy.unfinished()
     }
 }
 
 impl<Q: Queue> Supply<'_, Q> {
     fn next(&mut self, done: Option<(Q::Name, Orbit)>) -> Option<Underway<Q::Name>> {
+        if done.is_none()
+            && let Some(ready) = self.ready.pop()
+        {
+            return Some(ready);
+        }
         let (name, case) = self.queue.next(done)?;
         Some(Underway::new(name, case, self.protocol))
+    }
+
+    /// Follows the cases that wander with their linearised flow, side by side, and concludes them.
+    fn follow_wandering(&mut self) {
+        let cases = std::mem::take(&mut self.wandering);
+        let motions: Vec<_> = cases.iter().map(Underway::wanders).collect();
+        let followed = wander_side_by_side(self.instructions, &motions, self.protocol);
+        for (case, followed) in cases.into_iter().zip(followed) {
+            let done = case.conclude(self.protocol, |trajectory, _| {
+                followed.map(Found::Followed).map_err(|reason| trajectory.failure(reason))
+            });
+            let next = self.next(Some(done));
+            self.ready.extend(next);
+        }
     }
 }
 
@@ -198,7 +240,12 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
         match case.settling.meet(section(state)) {
             Verdict::Settled(settled) => self.relieve(lane, |_, _| Ok(Found::Repeats(settled))),
             // At the end of the budget the motion is measured where it is.
-            _ if exhausted => self.relieve(lane, |_, _| Ok(Found::Wanders)),
+            _ if exhausted => {
+                let case = self.leave(lane).expect("the lane is occupied");
+                self.cases.wandering.push(case);
+                let next = self.cases.next(None);
+                self.seat(lane, next);
+            }
             Verdict::Leap(section) => self.motion.put(lane, &leap(&case.system, state, section)),
             Verdict::Unsettled => {}
         }
@@ -261,9 +308,22 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
         Some(Underway { motion, steps, ..case })
     }
 
+    /// Seats cases in the empty lanes, as far as there are any.
+    fn fill(&mut self) {
+        for lane in 0..L::WIDTH {
+            if self.occupied >> lane & 1 == 0 {
+                let next = self.cases.next(None);
+                self.seat(lane, next);
+            }
+        }
+    }
+
     /// The cases that are still under way.
     fn unfinished(mut self) -> Vec<Underway<Q::Name>> {
-        (0..L::WIDTH).filter_map(|lane| self.leave(lane)).collect()
+        let mut cases: Vec<_> = (0..L::WIDTH).filter_map(|lane| self.leave(lane)).collect();
+        cases.append(&mut self.cases.wandering);
+        cases.append(&mut self.cases.ready);
+        cases
     }
 }
 

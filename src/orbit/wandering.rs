@@ -1,13 +1,13 @@
 //! What a motion does that does not repeat: whether neighbours part, or time averages settle all the same.
 
 use crate::flow::{Motion, Step};
-use crate::lane::{Dual, Lane, Mask};
-use crate::model::Stroboscopic;
+use crate::lane::{Dual, Instructions, Lane, Mask, SideBySide, Work};
+use crate::model::{Capsule, Parameter, Parameters, Stroboscopic};
 
 use super::exponent::{Exponent, Stretching};
 use super::newton::relative;
 use super::trajectory::STEPS_PER_CYCLE;
-use super::{Outcome, Reason, Section};
+use super::{Outcome, Protocol, Reason, Section};
 
 /// A positive exponent counts from so many of its uncertainties.
 const CERTAINTY: f64 = 5.0;
@@ -123,6 +123,54 @@ where
     let told = wanderers.iter().enumerate();
     told.map(|(lane, wanderer)| wanderer.tell(drive_periods.lane(lane), omegas.lane(lane)))
         .collect()
+}
+
+/// A capsule to be followed with its linearised flow.
+#[derive(Debug, Clone, Copy)]
+pub struct Wanders<'a> {
+    /// The capsule.
+    pub system: &'a Capsule<f64>,
+    /// Its point of the section.
+    pub start: Section,
+    /// Its parameters.
+    pub parameters: &'a Parameters,
+}
+
+/// Follows capsules under one law of resistance as [`wander`] does, as many at a time as there are lanes.
+pub fn wander_side_by_side(
+    instructions: Instructions,
+    capsules: &[Wanders<'_>],
+    protocol: &Protocol,
+) -> Vec<Result<Wandering, Reason>> {
+    instructions.run(Crowd { capsules, protocol })
+}
+
+struct Crowd<'a> {
+    capsules: &'a [Wanders<'a>],
+    protocol: &'a Protocol,
+}
+
+impl Work for Crowd<'_> {
+    type Output = Vec<Result<Wandering, Reason>>;
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Self::Output {
+        let Protocol { exponent_cycles, tolerance, .. } = *self.protocol;
+        let mut followed = Vec::with_capacity(self.capsules.len());
+        for group in self.capsules.chunks(L::WIDTH) {
+            let of = |lane: usize| &group[lane.min(group.len() - 1)];
+            let mut system = Capsule::<Dual<L, 1>>::splat(of(0).system);
+            for (lane, capsule) in group.iter().enumerate() {
+                system.put(lane, capsule.system);
+            }
+            let starts: Vec<_> = group.iter().map(|capsule| capsule.start).collect();
+            let periods = L::from_fn(|lane| of(lane).parameters.drive_period());
+            let omegas = L::from_fn(|lane| of(lane).parameters[Parameter::Omega]);
+            let frame = (periods, omegas);
+            followed.extend(wander(&system, &starts, frame, exponent_cycles, tolerance));
+        }
+        followed
+    }
 }
 
 impl Wanderer {

@@ -111,9 +111,14 @@ fn a_case_has_the_same_bits_alone_and_among_others() {
 #[test]
 fn an_orbit_has_the_same_bits_by_any_instructions_and_in_any_order() {
     let mut cases = draws::cases(150, 5);
-    // One that cannot be followed, and one that never settles.
+    // One that cannot be followed; some that do not settle are among the others.
     cases[40].start.r = 1e300;
-    let protocol = Protocol { max_cycles: 300, measured_cycles: 8, ..Protocol::default() };
+    let protocol = Protocol {
+        max_cycles: 300,
+        measured_cycles: 8,
+        exponent_cycles: 400,
+        ..Protocol::default()
+    };
     let written = |orbits: &[Orbit]| -> Vec<String> {
         orbits.iter().map(|orbit| format!("{orbit:?}")).collect()
     };
@@ -122,7 +127,8 @@ fn an_orbit_has_the_same_bits_by_any_instructions_and_in_any_order() {
         .map(|Case { parameters, start, phase }| settle(parameters, *phase, *start, &protocol))
         .collect();
     let outcomes = |outcome| alone.iter().filter(|orbit| orbit.outcome == outcome).count();
-    assert!(outcomes(Outcome::Failed) == 1 && outcomes(Outcome::Undecided) > 1);
+    let wander = outcomes(Outcome::Undecided) + outcomes(Outcome::Chaotic);
+    assert!(outcomes(Outcome::Failed) == 1 && wander > 1);
     let expected = written(&alone);
     for instructions in Instructions::available() {
         let found = written(&draws::settled(&cases, &protocol, instructions));
