@@ -31,9 +31,12 @@ pub struct Closed<const D: usize> {
     pub cycles: u64,
 }
 
-/// Largest coordinate of a difference, in units of `size`.
+/// Largest coordinate of a difference, in units of `size`; zero for none, also of a motion at rest.
 pub fn relative<const D: usize>(difference: &[f64; D], scales: &[f64; D], size: f64) -> f64 {
-    difference.iter().zip(scales).map(|(x, scale)| (x * scale).abs()).fold(0.0, f64::max) / size
+    let scaled = difference.iter().zip(scales).map(|(x, scale)| (x * scale).abs());
+    // A number that is not known is larger than any.
+    let largest = scaled.fold(0.0, |largest, x| if x <= largest { largest } else { x });
+    if largest == 0.0 { 0.0 } else { largest / size }
 }
 
 /// The periodic orbit nearest to `start` under the map over `cycles`; none where Newton's method leaves the

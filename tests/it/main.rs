@@ -2,11 +2,13 @@
 
 mod acceleration;
 mod belt;
+mod certificates;
 mod cli;
 mod closed_forms;
 mod derivatives;
 mod draws;
 mod edges;
+mod exponents;
 mod figure;
 mod forms;
 mod house;

@@ -1,0 +1,96 @@
+//! Periods are what they are called: against a stricter run, a known false one, and the motion itself.
+
+use capsulemap::lane::Instructions;
+use capsulemap::model::State;
+use capsulemap::orbit::{Outcome, Output, Proof, Protocol, settle, simulate};
+
+use super::draws;
+
+/// Cases to re-run; the long form takes 2000 (CASES=2000).
+fn count() -> usize {
+    std::env::var("CASES").ok().and_then(|count| count.parse().ok()).unwrap_or(400)
+}
+
+#[test]
+fn a_stricter_run_finds_the_same_periods() {
+    let cases = draws::cases(count(), 77);
+    let usual = Protocol::default();
+    let strict = Protocol {
+        tolerance: 0.1 * usual.tolerance,
+        recurrence: 0.1 * usual.recurrence,
+        max_cycles: 10 * usual.max_cycles,
+        exponent_cycles: 10 * usual.exponent_cycles,
+        ..usual
+    };
+    let [once, again] =
+        [usual, strict].map(|protocol| draws::settled(&cases, &protocol, Instructions::widest()));
+    let (mut periodic, mut undecided, mut decided) = (0, 0, 0);
+    for (number, (once, again)) in once.iter().zip(&again).enumerate() {
+        match once.outcome {
+            Outcome::Periodic => {
+                periodic += 1;
+                let same = (again.outcome, again.period) == (Outcome::Periodic, once.period);
+                assert!(
+                    same,
+                    "case {number}: {} then {} ({})",
+                    once.period,
+                    again.period,
+                    again.outcome.name()
+                );
+            }
+            Outcome::Undecided => {
+                undecided += 1;
+                decided += usize::from(again.outcome != Outcome::Undecided);
+            }
+            Outcome::Chaotic => assert_eq!(again.outcome, Outcome::Chaotic, "case {number}"),
+            Outcome::QuasiPeriodic | Outcome::Failed => {}
+        }
+    }
+    println!(
+        "{periodic} periodic, {undecided} undecided, of which {decided} were decided by the stricter run"
+    );
+    assert!(periodic > cases.len() * 9 / 10);
+}
+
+#[test]
+fn a_multiplier_near_minus_one_is_no_period_two() {
+    // Its section repeats after two cycles to 1e-11 while it is still 4e-9 from repeating after one.
+    let case = draws::cases(104_983, 3).pop().expect("a case");
+    for accelerate in [true, false] {
+        let protocol = Protocol { accelerate, ..Protocol::default() };
+        let orbit = settle(&case.parameters, case.phase, case.start, &protocol);
+        assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+        let [first, ..] = orbit.certificate.multipliers;
+        assert!(first.re > -1.0 && first.re < -0.9 && first.im == 0.0, "{first:?}");
+    }
+}
+
+#[test]
+fn a_certified_orbit_closes_and_answers_pushes_as_its_multipliers_say() {
+    let cases = draws::cases(100, 31);
+    for case in &cases {
+        let orbit = settle(&case.parameters, case.phase, case.start, &Protocol::default());
+        if orbit.outcome != Outcome::Periodic {
+            continue;
+        }
+        assert_eq!(orbit.certificate.proof, Proof::Newton);
+        assert!(orbit.outputs[Output::SectionResidual] < 1e-10);
+        assert!(orbit.certificate.is_stable());
+        assert_eq!(
+            orbit.outputs[Output::LargestMultiplier],
+            orbit.certificate.multipliers[0].abs()
+        );
+        // Followed by the plain flow, the section repeats after the period and after no divisor of it.
+        let [r, y1, y2] = orbit.section[0];
+        let start = State { r, y1, x2: 0.0, y2 };
+        let run = simulate(&case.parameters, case.phase, start, orbit.period, 1e-13);
+        let gap = |n: usize| {
+            let (a, b) = (&run.section[0], &run.section[n]);
+            (a.y1 - b.y1).abs().max((a.y2 - b.y2).abs()).max((a.r - b.r).abs())
+        };
+        let k = orbit.period as usize;
+        for divisor in (1..k).filter(|&j| k.is_multiple_of(j)) {
+            assert!(gap(divisor) > 100.0 * gap(k), "period {k}, divisor {divisor}");
+        }
+    }
+}

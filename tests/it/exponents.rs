@@ -1,0 +1,272 @@
+//! Lyapunov exponents against a published one, against multipliers, and against two nearby trajectories.
+
+use std::f64::consts::PI;
+
+use capsulemap::lane::{
+    Dual, Instructions, Lane, Mask, ORDER, Series, elementary::sin_cos, series,
+};
+use capsulemap::model::{Capsule, Parameter, State, Stroboscopic, Switched, Zeros};
+use capsulemap::orbit::exponent::stretching;
+use capsulemap::orbit::return_map::Cycles;
+use capsulemap::orbit::wandering::{Wanders, irregularity, wander_side_by_side};
+use capsulemap::orbit::{Case, Outcome, Output, Protocol, Section, Trajectory, settle};
+
+use super::draws;
+
+/// Duffing's oscillator with two wells, x'' = 0.3 cos t + x - x^3 - 0.2 x'; it has no modes and no guards.
+struct Duffing;
+
+#[derive(Clone, Copy)]
+struct Point<L> {
+    x: L,
+    v: L,
+}
+
+struct Jet<L> {
+    x: Series<L>,
+    v: Series<L>,
+    square: Series<L>,
+}
+
+impl<L: Lane> Default for Jet<L> {
+    fn default() -> Self {
+        Jet { x: series::zero(), v: series::zero(), square: series::zero() }
+    }
+}
+
+impl<L: Lane> Switched<L> for Duffing {
+    type State = Point<L>;
+    type Mode = ();
+    type Jet = Jet<L>;
+    const GUARDS: usize = 0;
+
+    fn start(&self, _time: L, _state: &mut Point<L>) {}
+
+    fn expand(&self, _mode: &(), time: L, state: &Point<L>, jet: &mut Jet<L>) {
+        let (mut s, mut c) = sin_cos(time);
+        (jet.x[0], jet.v[0]) = (state.x, state.v);
+        for k in 0..ORDER {
+            let per = L::splat(series::INVERSE[k + 1]);
+            jet.square[k] = series::product_term(&jet.x, &jet.x, k);
+            let cube = series::product_term(&jet.square, &jet.x, k);
+            let force = L::splat(0.3) * c + jet.x[k] - cube - L::splat(0.2) * jet.v[k];
+            jet.x[k + 1] = jet.v[k] * per;
+            jet.v[k + 1] = force * per;
+            (c, s) = (-(s * per), c * per);
+        }
+    }
+
+    fn pace<'a>(&self, jet: &'a Jet<L>) -> [&'a Series<L>; 2] {
+        [&jet.x, &jet.v]
+    }
+
+    fn watched(&self, _which: usize, _mode: &()) -> L::Mask {
+        L::Mask::splat(false)
+    }
+
+    fn guard(&self, _which: usize, _mode: &(), _jet: &Jet<L>, _guard: &mut Series<L>) {}
+
+    fn at(&self, jet: &Jet<L>, h: L) -> Point<L> {
+        Point { x: series::value(&jet.x, h), v: series::value(&jet.v, h) }
+    }
+
+    fn switch(
+        &self,
+        _which: usize,
+        _due: L::Mask,
+        _mode: &mut (),
+        _state: &mut Point<L>,
+        _zeros: &mut Zeros<L>,
+        _time: L,
+    ) -> L {
+        L::splat(0.0)
+    }
+
+    fn lost(&self, state: &Point<L>) -> L::Mask {
+        !(state.x + state.v).abs().le(L::splat(f64::MAX))
+    }
+}
+
+impl<L: Lane> Stroboscopic<L, 2> for Duffing {
+    fn point(state: &Point<L>) -> [L; 2] {
+        [state.x, state.v]
+    }
+    fn state([x, v]: [L; 2]) -> Point<L> {
+        Point { x, v }
+    }
+    fn scales(&self) -> [f64; 2] {
+        [1.0, 1.0]
+    }
+}
+
+#[test]
+fn the_duffing_oscillator_has_its_published_exponents() {
+    let cycles =
+        Cycles::<2> { drive_period: Dual::splat(2.0 * PI), count: 60_000, tolerance: 1e-10 };
+    let stretching = stretching(&Duffing, &[0.1, 0.1], &cycles).expect("it goes on");
+    let [first, second] = stretching.exponents(2.0 * PI);
+    assert!((first.value - 0.159).abs() < 0.001, "{first:?}");
+    assert!(first.uncertainty < 0.001, "{first:?}");
+    // The field's divergence is -0.2 everywhere.
+    assert!((first.value + second.value + 0.2).abs() < 1e-6, "{first:?} {second:?}");
+}
+
+/// The period's exponent by stretching a direction cycle after cycle, without the multipliers.
+#[test]
+fn an_orbit_stretches_as_its_largest_multiplier_says() {
+    let mut compared = 0;
+    for case in draws::cases(60, 21) {
+        let orbit = settle(&case.parameters, case.phase, case.start, &Protocol::default());
+        let [first, second, _] = orbit.certificate.multipliers;
+        // A pair of equal magnitudes turns its directions for ever, and means settle slowly.
+        if orbit.outcome != Outcome::Periodic || second.abs() > 0.7 * first.abs() {
+            continue;
+        }
+        let p = &case.parameters;
+        let system =
+            Capsule::<Dual<f64, 1>>::new(|q| Dual::constant(p[q]), p.resistance, case.phase);
+        let State { r, y1, y2, .. } = orbit.end;
+        let count = 320 * orbit.period;
+        let cycles =
+            Cycles { drive_period: Dual::constant(p.drive_period()), count, tolerance: 1e-12 };
+        let [exponent] = stretching::<_, 3, 1>(&system, &[r, y1, y2], &cycles)
+            .expect("it goes on")
+            .exponents(p.drive_period());
+        let told = orbit.outputs[Output::LyapunovExponent];
+        assert!(told < 0.0, "{told}");
+        let scale = 1.0 / p.drive_period();
+        assert!((exponent.value - told).abs() < 1e-6 * scale, "{exponent:?} {told}");
+        compared += 1;
+    }
+    assert!(compared > 30, "{compared}");
+}
+
+#[test]
+fn a_capsule_at_rest_answers_as_the_linear_oscillator_it_is() {
+    let mut case = draws::cases(1, 1).remove(0);
+    case.parameters[Parameter::Pd] = 0.0;
+    let p = &case.parameters;
+    let orbit = settle(p, 0.0, State::default(), &Protocol::default());
+    assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+    // Free vibration of the mass on the resting capsule decays at the rate c / (2 m1).
+    let rate = -p[Parameter::C] / (2.0 * p[Parameter::M1]);
+    let told = orbit.outputs[Output::LyapunovExponent];
+    assert!((told / rate - 1.0).abs() < 1e-10, "{told} {rate}");
+}
+
+/// Cases of a kind, with what they settle to.
+fn chaotic(count: usize) -> Vec<(Case, Section)> {
+    let protocol = Protocol::default();
+    let cases = draws::cases(3000, 3);
+    let orbits = draws::settled(&cases, &protocol, Instructions::widest());
+    let chaotic = cases.into_iter().zip(orbits).filter(|(_, it)| it.outcome == Outcome::Chaotic);
+    chaotic.map(|(case, it)| (case, [it.end.r, it.end.y1, it.end.y2])).take(count).collect()
+}
+
+#[test]
+fn neighbouring_trajectories_part_at_the_rate_of_the_exponent() {
+    let cases = chaotic(6);
+    let systems: Vec<_> =
+        cases.iter().map(|(case, _)| Capsule::single(&case.parameters, case.phase)).collect();
+    let capsules: Vec<_> = cases
+        .iter()
+        .zip(&systems)
+        .map(|((case, start), system)| Wanders {
+            system,
+            start: *start,
+            parameters: &case.parameters,
+        })
+        .collect();
+    let protocol = Protocol::default();
+    let followed = wander_side_by_side(Instructions::widest(), &capsules, &protocol);
+    for ((case, start), followed) in cases.iter().zip(followed) {
+        let exponent = followed.expect("it goes on").exponent;
+        let (rate, spread) = parting(case, *start, 3000);
+        let apart = (rate - exponent.value).abs();
+        let allowed = 4.0 * exponent.uncertainty.hypot(spread);
+        assert!(apart < allowed, "{rate} +- {spread}, {exponent:?}");
+        assert!(rate > 0.0);
+    }
+}
+
+/// The rate at which a trajectory and another, put back to a distance of 1e-8 each cycle, part, and its
+/// standard error over ten batches [1/s].
+fn parting(case: &Case, start: Section, cycles: usize) -> (f64, f64) {
+    let p = &case.parameters;
+    let system = Capsule::single(p, case.phase);
+    let period = p.drive_period();
+    let scales = [p[Parameter::Omega], 1.0, 1.0];
+    let distance = |difference: &Section| {
+        (0..3).map(|i| (difference[i] * scales[i]).powi(2)).sum::<f64>().sqrt()
+    };
+    let state = |[r, y1, y2]: Section| State { r, y1, x2: 0.0, y2 };
+    let apart = 1e-8;
+    let mut neighbour = start;
+    neighbour[1] += apart;
+    let mut first = Trajectory::new(&system, state(start), period, 1e-13);
+    let mut second = Trajectory::new(&system, state(neighbour), period, 1e-13);
+    let mut logs = Vec::new();
+    for _ in 0..cycles {
+        first.cycle(|_| ()).expect("it goes on");
+        second.cycle(|_| ()).expect("it goes on");
+        let (a, b) = (first.section(), second.section());
+        let difference: Section = std::array::from_fn(|i| b[i] - a[i]);
+        let now = distance(&difference);
+        // Two motions that have become one are parted anew, along y1.
+        let (stretch, direction) = if now == 0.0 {
+            (1e-12, [0.0, 1.0, 0.0])
+        } else {
+            (now / apart, difference.map(|x| x / now))
+        };
+        logs.push(stretch.ln());
+        second.leap(std::array::from_fn(|i| a[i] + apart * direction[i]));
+    }
+    let rates: Vec<f64> = logs
+        .chunks(cycles / 10)
+        .map(|batch| batch.iter().sum::<f64>() / (batch.len() as f64 * period))
+        .collect();
+    let mean = rates.iter().sum::<f64>() / rates.len() as f64;
+    let squares: f64 = rates.iter().map(|rate| (rate - mean).powi(2)).sum();
+    (mean, (squares / (rates.len() * (rates.len() - 1)) as f64).sqrt())
+}
+
+#[test]
+fn smooth_means_tell_a_rotation_from_chaos() {
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let rotation = |n: usize| {
+        let angle = 2.0 * PI * golden * n as f64;
+        [angle.cos() + 0.3 * (2.0 * angle).sin(), angle.sin(), (angle.cos()).exp()]
+    };
+    let rotation: Vec<Section> = (0..2048).map(rotation).collect();
+    let mut x = 0.3;
+    let logistic: Vec<Section> = (0..2048)
+        .map(|_| {
+            x = 4.0 * x * (1.0 - x);
+            [x, 0.0, 0.0]
+        })
+        .collect();
+    let scales = [1.0; 3];
+    assert!(irregularity(&rotation, &scales, 1.0) < 1e-9);
+    assert!(irregularity(&logistic, &scales, 1.0) > 1e-3);
+}
+
+#[test]
+fn a_stretch_has_the_same_bits_by_any_instructions() {
+    let cases = draws::cases(20, 13);
+    let systems: Vec<_> =
+        cases.iter().map(|case| Capsule::single(&case.parameters, case.phase)).collect();
+    let capsules: Vec<_> = cases
+        .iter()
+        .zip(&systems)
+        .map(|(case, system)| {
+            let State { r, y1, y2, .. } = case.start;
+            Wanders { system, start: [r, y1, y2], parameters: &case.parameters }
+        })
+        .collect();
+    let protocol = Protocol { exponent_cycles: 200, ..Protocol::default() };
+    let alone = wander_side_by_side(Instructions::Scalar, &capsules, &protocol);
+    for instructions in Instructions::available() {
+        let among = wander_side_by_side(instructions, &capsules, &protocol);
+        assert_eq!(format!("{alone:?}"), format!("{among:?}"), "{}", instructions.name());
+    }
+}
