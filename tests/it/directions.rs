@@ -100,7 +100,8 @@ fn second_derivatives_are_differences_of_first_ones() {
             });
             let differences = slope(jacobian, reach, &[1.0; 9]);
             let error = distance(&second, &differences.value, &[1.0; 9]);
-            let bound = 1e-7 * size(&second, &[1.0; 9]);
+            // A linear motion has none: there only the rounding of the differences is left.
+            let bound = 1e-7 * size(&second, &[1.0; 9]) + 1e-11 / reach;
             assert!(differences.doubt < bound && error < bound, "{error:e} {bound:e}: {case:?}");
         }
     }
