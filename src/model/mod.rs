@@ -4,6 +4,7 @@ pub mod capsule;
 pub mod drive;
 pub mod parameter;
 pub mod printed;
+pub mod regime;
 pub mod resistance;
 pub mod state;
 pub mod switched;

@@ -3,55 +3,91 @@
 use std::f64::consts::PI;
 
 use capsulemap::flow::{Breakdown, Motion, Step};
-use capsulemap::lane::{ORDER, Series, elementary::sin_cos, series};
-use capsulemap::model::{Switched, Zeros};
+use capsulemap::lane::elementary::{not_finite, sin_cos};
+use capsulemap::lane::{Dual, Lane, ORDER, Series, series};
+use capsulemap::model::{Stroboscopic, Switched, Zeros};
+use capsulemap::orbit::matrix::{Matrix, solve};
+use capsulemap::orbit::return_map::{Cycles, jacobian, returned, seeded, values};
 
-/// A mass on a spring under cos(wt), thrown back by a rigid stop: x'' + k x = cos(wt), x' -> -e x' at x = s.
-struct Impact {
-    k: f64,
-    omega: f64,
-    gravity: f64,
-    stop: f64,
-    restitution: f64,
+/// A mass on a spring, thrown back by a rigid stop: x'' + c x' + k x = p cos(wt) + g, x' -> -e x' at x = s.
+#[derive(Debug, Clone, Copy)]
+pub struct Impact<L> {
+    /// Stiffness k.
+    pub k: L,
+    /// Damping c.
+    pub c: L,
+    /// Amplitude of the drive, p.
+    pub drive: L,
+    /// Frequency of the drive, w.
+    pub omega: L,
+    /// Constant force g towards the stop.
+    pub gravity: L,
+    /// Place of the stop, s.
+    pub stop: L,
+    /// Coefficient of restitution, e.
+    pub restitution: L,
 }
 
+impl Impact<f64> {
+    /// The same over numbers with derivatives, none of its constants being a direction.
+    pub fn carried<const N: usize>(&self) -> Impact<Dual<f64, N>> {
+        Impact {
+            k: Dual::constant(self.k),
+            c: Dual::constant(self.c),
+            drive: Dual::constant(self.drive),
+            omega: Dual::constant(self.omega),
+            gravity: Dual::constant(self.gravity),
+            stop: Dual::constant(self.stop),
+            restitution: Dual::constant(self.restitution),
+        }
+    }
+}
+
+/// Place and velocity of a mass point.
 #[derive(Clone, Copy, Debug)]
-struct Point {
-    x: f64,
-    v: f64,
+pub struct Point<L> {
+    /// Place.
+    pub x: L,
+    /// Velocity.
+    pub v: L,
 }
 
-#[derive(Default)]
-struct PointJet {
-    x: Series<f64>,
-    v: Series<f64>,
+/// Their series over a step.
+pub struct PointJet<L> {
+    /// Place.
+    pub x: Series<L>,
+    /// Velocity.
+    pub v: Series<L>,
 }
 
-impl Switched<f64> for Impact {
-    type State = Point;
+impl<L: Lane> Default for PointJet<L> {
+    fn default() -> Self {
+        PointJet { x: series::zero(), v: series::zero() }
+    }
+}
+
+impl<L: Lane<Mask = bool>> Switched<L> for Impact<L> {
+    type State = Point<L>;
     type Mode = ();
-    type Jet = PointJet;
+    type Jet = PointJet<L>;
     const GUARDS: usize = 1;
 
-    fn start(&self, _time: f64, _state: &mut Point) {}
+    fn start(&self, _time: L, _state: &mut Point<L>) {}
 
-    fn expand(&self, _mode: &(), time: f64, state: &Point, jet: &mut PointJet) {
-        let turn = 2.0 * PI;
-        let (mut s, mut c) = sin_cos((self.omega * time).rem_euclid(turn));
-        if self.omega == 0.0 {
-            c = 0.0;
-        }
+    fn expand(&self, _mode: &(), time: L, state: &Point<L>, jet: &mut PointJet<L>) {
+        let (mut s, mut c) = sin_cos(self.omega * time);
         (jet.x[0], jet.v[0]) = (state.x, state.v);
         for k in 0..ORDER {
-            let per = 1.0 / (k + 1) as f64;
-            let weight = if k == 0 { self.gravity } else { 0.0 };
+            let per = L::splat(1.0 / (k + 1) as f64);
+            let weight = if k == 0 { self.gravity } else { L::splat(0.0) };
+            let push = self.drive * c + weight - self.k * jet.x[k] - self.c * jet.v[k];
             jet.x[k + 1] = jet.v[k] * per;
-            jet.v[k + 1] = (c + weight - self.k * jet.x[k]) * per;
-            (c, s) = (-self.omega * s * per, self.omega * c * per);
+            jet.v[k + 1] = push * per;
+            (c, s) = (-(self.omega * s * per), self.omega * c * per);
         }
     }
 
-    fn pace<'a>(&self, jet: &'a PointJet) -> [&'a Series<f64>; 2] {
+    fn pace<'a>(&self, jet: &'a PointJet<L>) -> [&'a Series<L>; 2] {
         [&jet.x, &jet.v]
     }
 
@@ -59,12 +95,12 @@ impl Switched<f64> for Impact {
         true
     }
 
-    fn guard(&self, _which: usize, _mode: &(), jet: &PointJet, gap: &mut Series<f64>) {
+    fn guard(&self, _which: usize, _mode: &(), jet: &PointJet<L>, gap: &mut Series<L>) {
         *gap = jet.x.map(|a| -a);
         gap[0] = self.stop - jet.x[0];
     }
 
-    fn at(&self, jet: &PointJet, h: f64) -> Point {
+    fn at(&self, jet: &PointJet<L>, h: L) -> Point<L> {
         Point { x: series::value(&jet.x, h), v: series::value(&jet.v, h) }
     }
 
@@ -73,26 +109,79 @@ impl Switched<f64> for Impact {
         _which: usize,
         due: bool,
         _mode: &mut (),
-        state: &mut Point,
-        zeros: &mut Zeros<f64>,
-        _time: f64,
-    ) -> f64 {
+        state: &mut Point<L>,
+        zeros: &mut Zeros<L>,
+        _time: L,
+    ) -> L {
         if due {
-            *state = Point { x: self.stop, v: -self.restitution * state.v };
-            zeros[0] = 1.0;
+            *state = Point { x: self.stop, v: -(self.restitution * state.v) };
+            zeros[0] = L::splat(1.0);
         }
-        f64::from(u8::from(due))
+        L::splat(f64::from(u8::from(due)))
     }
 
-    fn lost(&self, state: &Point) -> bool {
-        !(state.x + state.v).is_finite()
+    fn lost(&self, state: &Point<L>) -> bool {
+        not_finite(state.x + state.v)
     }
+}
+
+impl<L: Lane<Mask = bool>> Stroboscopic<L, 2> for Impact<L> {
+    fn point(state: &Point<L>) -> [L; 2] {
+        [state.x, state.v]
+    }
+
+    fn state([x, v]: [L; 2]) -> Point<L> {
+        Point { x, v }
+    }
+
+    /// A displacement x counts as the velocity w x.
+    fn scales(&self) -> [f64; 2] {
+        [self.omega.lane(0), 1.0]
+    }
+}
+
+/// The point of the section after `count` cycles of the drive, and the Jacobian.
+pub fn mapped<S>(system: &S, point: [f64; 2], omega: f64, count: u64) -> ([f64; 2], Matrix<2>)
+where
+    S: Stroboscopic<Dual<f64, 2>, 2>,
+{
+    let drive_period = Dual::constant(2.0 * PI / omega);
+    let cycles = Cycles { drive_period, count, tolerance: 1e-15 };
+    let end = returned(system, seeded(&point), &cycles, |_| ()).expect("it goes on");
+    (values(&end), jacobian(&end))
+}
+
+/// The point near `guess` that repeats after `count` cycles, by Newton's method, and the Jacobian there.
+pub fn repeated<S>(system: &S, guess: [f64; 2], omega: f64, count: u64) -> ([f64; 2], Matrix<2>)
+where
+    S: Stroboscopic<Dual<f64, 2>, 2>,
+{
+    let mut point = guess;
+    for _ in 0..20 {
+        let (image, jacobian) = mapped(system, point, omega, count);
+        let [[a, b], [c, d]] = jacobian;
+        let miss = [image[0] - point[0], image[1] - point[1]];
+        let [x, v] = solve([[1.0 - a, -b], [-c, 1.0 - d]], miss).expect("no multiplier is one");
+        point = [point[0] + x, point[1] + v];
+        if x.abs().max(v.abs()) < 1e-14 {
+            break;
+        }
+    }
+    (point, mapped(system, point, omega, count).1)
 }
 
 #[test]
 fn a_bouncing_ball_never_falls_through_the_floor() {
     // Drop from 1 m under 10 m/s^2 onto x = 0 (the guard is the height -x): the speed halves each time.
-    let ball = Impact { k: 0.0, omega: 0.0, gravity: 10.0, stop: 0.0, restitution: 0.5 };
+    let ball = Impact {
+        k: 0.0,
+        c: 0.0,
+        drive: 0.0,
+        omega: 0.0,
+        gravity: 10.0,
+        stop: 0.0,
+        restitution: 0.5,
+    };
     let mut motion = Motion::new(&ball, 0.0, Point { x: -1.0, v: 0.0 });
     let mut step = Step::default();
     let fall = (2.0_f64 / 10.0).sqrt();
@@ -115,36 +204,4 @@ fn a_bouncing_ball_never_falls_through_the_floor() {
     }
     assert_eq!(breakdown, Some(Breakdown::NoProgress), "an endless series of bounces is told");
     assert!((motion.time - 3.0 * fall).abs() < 1e-9, "{}", motion.time);
-}
-
-#[test]
-fn a_rigid_impact_oscillator_repeats_its_closed_form() {
-    // One impact per n = 2 drive periods: x = A cos wt + B sin(t - ...) between impacts, solved for x and v
-    // at the impact from periodicity; restitution 0.8, k = 1, stop at s.
-    let (omega, restitution, n) = (2.6, 0.8, 2.0);
-    let amplitude = 1.0 / (1.0 - omega * omega);
-    let period = n * 2.0 * PI / omega;
-    // Between impacts x = amplitude cos(w t + phi) + a cos t + b sin t with x(0) = x(period) = s,
-    // x'(0) = v, x'(period) = -v / e. The drive's part repeats, so a and b satisfy
-    // a (cos P - 1) + b sin P = 0, -a sin P + b (cos P - 1) = -v (1 + 1/e).
-    let (sin, cos) = period.sin_cos();
-    let (phi, v): (f64, f64) = (0.7, -0.5);
-    // Choose the speed after the impact freely and find the stop that makes it an orbit.
-    let jump = -v * (1.0 + 1.0 / restitution);
-    let determinant = (cos - 1.0).powi(2) + sin * sin;
-    let (a, b) = (-sin * jump / determinant, (cos - 1.0) * jump / determinant);
-    // The velocity at 0 must be v: -amplitude w sin phi + b = v, which fixes phi.
-    let sin_phi = (b - v) / (amplitude * omega);
-    assert!(sin_phi.abs() < 1.0, "{sin_phi} {phi}");
-    let phi = sin_phi.asin();
-    let stop = amplitude * phi.cos() + a;
-    let oscillator = Impact { k: 1.0, omega, gravity: 0.0, stop, restitution };
-    let mut motion = Motion::new(&oscillator, phi / omega, Point { x: stop, v });
-    let mut step = Step::default();
-    while step.event == 0.0 {
-        motion.step(&oscillator, 100.0, 1e-13, &mut step);
-    }
-    let elapsed = step.start + step.length - phi / omega;
-    assert!((elapsed - period).abs() < 1e-11, "{elapsed} {period}");
-    assert!((motion.state.v - v).abs() < 1e-11 && motion.state.x == stop, "{:?}", motion.state);
 }
