@@ -25,8 +25,8 @@ fn longest_step_of<L: Lane>(series: &Series<L>, part: usize, tolerance: f64) -> 
     let series = |k: usize| series[k].part(part);
     let log_tolerance = L::Plain::splat(tolerance.rough_log());
     let mut firsts = [L::Plain::splat(0.0); 3];
-    for j in 0..3 {
-        firsts[j] = series(j).abs().rough_log() + log_tolerance;
+    for (j, first) in firsts.iter_mut().enumerate() {
+        *first = series(j).abs().rough_log() + log_tolerance;
     }
     let mut longest = L::Plain::splat(f64::INFINITY);
     for last in [ORDER - 1, ORDER] {

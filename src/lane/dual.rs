@@ -70,6 +70,8 @@ impl<L: Lane, const N: usize> Mul for Dual<L, N> {
 
 impl<L: Lane, const N: usize> Div for Dual<L, N> {
     type Output = Self;
+    // One division serves all derivatives.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;

@@ -54,14 +54,15 @@ fn a_stricter_run_finds_the_same_periods() {
 
 #[test]
 fn a_multiplier_near_minus_one_is_no_period_two() {
-    // Its section repeats after two cycles to 1e-11 while it is still 4e-9 from repeating after one.
+    // Its section repeats after two cycles to 1e-11 while it is still 4e-9 from repeating after one: a pair of
+    // multipliers of magnitude 0.989 turns it by nearly half a turn each cycle.
     let case = draws::cases(104_983, 3).pop().expect("a case");
     for accelerate in [true, false] {
         let protocol = Protocol { accelerate, ..Protocol::default() };
         let orbit = settle(&case.parameters, case.phase, case.start, &protocol);
         assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
         let [first, ..] = orbit.certificate.multipliers;
-        assert!(first.re > -1.0 && first.re < -0.9 && first.im == 0.0, "{first:?}");
+        assert!(first.re < -0.9 && first.abs() < 1.0, "{first:?}");
     }
 }
 

@@ -126,7 +126,7 @@ fn an_orbit_stretches_as_its_largest_multiplier_says() {
         let system =
             Capsule::<Dual<f64, 1>>::new(|q| Dual::constant(p[q]), p.resistance, case.phase);
         let State { r, y1, y2, .. } = orbit.end;
-        let count = 320 * orbit.period;
+        let count = 3200 * orbit.period;
         let cycles =
             Cycles { drive_period: Dual::constant(p.drive_period()), count, tolerance: 1e-12 };
         let [exponent] = stretching::<_, 3, 1>(&system, &[r, y1, y2], &cycles)
