@@ -128,3 +128,8 @@ pub enum NotFollowed {
     /// The motion could not be followed there.
     Failed(Reason),
 }
+
+/// Follows the orbit of `request`.
+pub fn follow(_request: &Request) -> Result<Found, NotFollowed> {
+    Err(NotFollowed::NoOrbit)
+}
