@@ -29,6 +29,7 @@ fn drawing(name: &str, kind: DrawingKind) -> Drawing {
         of: Vec::new(),
         at: BTreeMap::new(),
         cycles: None,
+        branches: true,
         width_mm: None,
     }
 }
