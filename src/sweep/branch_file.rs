@@ -82,6 +82,8 @@ fn read_name(table: &Table<'_, '_>) -> String {
 /// A branch without its name; none where what it needs is missing, which is told then.
 fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Continuation> {
     let along = read_parameter(table, "along");
+    // The ends are known keys where the parameter is not, too.
+    ["from", "to"].into_iter().for_each(|key| drop(table.entry(key)));
     let second = table.table("second").map(|second| read_second(second, along, study));
     let varied: Vec<Parameter> =
         along.into_iter().chain(second.and_then(|(parameter, _)| parameter)).collect();
@@ -168,12 +170,9 @@ fn read_second(
     if let (Some(name), true) = (table.entry("name"), parameter.is_some() && parameter == along) {
         name.fault("is the parameter that the orbit is followed in already");
     }
-    // Without a parameter too, so that the ends are known keys.
-    let [from, to] = ["from", "to"].map(|key| table.entry(key));
-    let range = match parameter {
-        Some(parameter) => read_range(&table, parameter, study),
-        None => from.and(to).and(None),
-    };
+    // As for the first.
+    ["from", "to"].into_iter().for_each(|key| drop(table.entry(key)));
+    let range = parameter.and_then(|parameter| read_range(&table, parameter, study));
     table.finish();
     (parameter, range)
 }

@@ -2,12 +2,14 @@
 
 mod acceleration;
 mod belt;
+mod branch_figure;
 mod cli;
 mod closed_forms;
 mod derivatives;
 mod draws;
 mod edges;
 mod figure;
+mod follow;
 mod forms;
 mod house;
 mod invariants;
