@@ -117,18 +117,82 @@ fn ten_digits(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::ten_digits;
+    use super::*;
+    use crate::branch::Point;
+    use crate::orbit::Outputs;
+    use crate::orbit::matrix::Complex;
+    use crate::sweep::Unfollowed;
+
+    const STUDY: &str = "\
+[parameters]
+omega = \"77.91 rad/s\"
+p_d = \"4 N\"
+k2 = \"2.42 kN/m\"
+delta = \"3.5 mm\"
+[[branches]]
+name = \"a\"
+along = \"p_d\"
+from = \"1 N\"
+to = \"5 N\"
+[[branches]]
+name = \"b\"
+along = \"p_d\"
+from = \"1 N\"
+to = \"5 N\"
+";
+
+    fn point(parameter: f64, multiplier: f64) -> Point {
+        let mut outputs = Outputs::unknown();
+        outputs[Output::ProgressionSpeed] = 0.0125;
+        let multipliers =
+            [Complex { re: multiplier, im: 0.0 }, Complex::default(), Complex::default()];
+        Point {
+            parameter,
+            section: vec![[0.0; 3]],
+            multipliers,
+            residual: 0.0,
+            outputs,
+            sequence: 0,
+        }
+    }
+
+    #[test]
+    fn branches_are_told_with_their_ends_and_changes() {
+        let study = Study::parse("study.toml", STUDY).expect("a study");
+        let fold =
+            Special { kind: SpecialKind::Fold, after: 1, point: point(4.123_456_789_123, 1.0) };
+        let points = vec![point(1.0, 0.5), point(4.0, 0.9), point(3.0, 1.2)];
+        let branch = Branch { period: 1, parent: None, points, special: vec![fold] };
+        let curve = Curve {
+            kind: SpecialKind::Fold,
+            through: (0, 0),
+            period: 1,
+            points: vec![[4.0, 1.0]; 7],
+        };
+        let found = Found { branches: vec![branch], curves: vec![curve] };
+        let followed = [Ok(found), Err(Unfollowed::NoOrbit)];
+        let text = summary(&study, &followed, Path::new("a.h5"), 2.0);
+        let expected = "\
+a.h5: 1 branch, 3 points in 2.0 s
+
+a: period 1
+  3 points, 2 stable, 1 unstable, from 1 N to 3 N
+                            p_d [N]  period   speed [mm/s]
+  fold                  4.123456789       1      12.500000
+  curve of fold, period 1: 7 points
+
+b: not followed: no periodic orbit was found near the start; give one closer to it
+";
+        assert_eq!(text, expected);
+    }
 
     #[test]
     fn ten_digits_are_those_that_matter() {
         assert_eq!(ten_digits(163.891_234_567_89), "163.8912346");
         assert_eq!(ten_digits(110.0), "110");
         assert_eq!(ten_digits(0.0015), "0.0015");
-        assert_eq!(
-            ten_digits(9_999_999_999.5),
-            "9999999999.5".parse::<f64>().map_or(String::new(), |it| format!("{it:.0}"))
-        );
         assert_eq!(ten_digits(59_410.0), "59410");
+        assert_eq!(ten_digits(9_876_543_210.0), "9876543210");
         assert_eq!(ten_digits(-1.234_567_890_12e-7), "-1.234567890e-7");
         assert_eq!(ten_digits(0.0), "0");
     }

@@ -9,7 +9,7 @@ use super::figure::{FormatChoice, draw_all};
 use super::progress::Progress;
 use super::result_file::{folder, kept, output_path, prepare, read_study, ready, rehearse};
 use super::{Failure, print, tell};
-use crate::store::{self, Dataset, add_branches, has_branches};
+use crate::store::{self, Dataset, add_branches, drop_branches, has_branches};
 use crate::sweep::{Study, Unfollowed, follow};
 
 const EXAMPLES: &str = "\
@@ -30,7 +30,7 @@ pub struct Follow {
     /// Worker threads; one per core by default.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// Replace a file of results that is there, be it of this study or of another.
+    /// Follow again, and replace a file of results that another study left under that name.
     #[arg(long)]
     overwrite: bool,
     /// Do not draw the study's figures.
@@ -52,13 +52,14 @@ impl Follow {
         }
         let output = output_path(&self.study, self.output.as_deref())?;
         let dataset = match kept(&output, &study, self.overwrite)? {
-            Some(dataset) if has_branches(&dataset) => {
+            Some(dataset) if has_branches(&dataset) && !self.overwrite => {
                 let shown = output.display();
                 tell(&format!("{shown}: already followed, by this program from this study"));
                 dataset
             }
             older => {
-                let dataset = older.unwrap_or_else(|| store::frame(&study));
+                let mut dataset = older.unwrap_or_else(|| store::frame(&study));
+                drop_branches(&mut dataset);
                 if !self.no_figures {
                     self.rehearse(&study, &dataset).map_err(|failure| failure.within(&name))?;
                 }

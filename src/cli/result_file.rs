@@ -48,21 +48,29 @@ pub fn folder(file: &Path) -> &Path {
     folder.unwrap_or(Path::new("."))
 }
 
-/// The results in the file `output`, if it is there and to be kept; those of another study, or by another
-/// program, are refused.
+/// The results in the file `output`, if those of this very study by this very program are there; others
+/// are refused, or given up where they may be overwritten.
 pub fn kept(output: &Path, study: &Study, overwrite: bool) -> Result<Option<Dataset>, Failure> {
-    if !output.exists() || overwrite {
+    if !output.exists() {
         return Ok(None);
     }
     let shown = output.display();
     let advice = "name another --output, or replace it with --overwrite";
-    let dataset = store::read(output)
-        .map_err(|error| Failure::request(format!("{error}\n{shown} is kept: {advice}")))?;
+    let dataset = match store::read(output) {
+        Ok(dataset) => dataset,
+        Err(_) if overwrite => return Ok(None),
+        Err(error) => {
+            return Err(Failure::request(format!("{error}\n{shown} is kept: {advice}")));
+        }
+    };
     let now = store::provenance::attributes();
     let same_program =
         ["source", "commit"].iter().all(|&key| dataset.attributes.get(key) == now.get(key));
     if dataset.texts.get("study") == Some(&study.text) && same_program {
         return Ok(Some(dataset));
+    }
+    if overwrite {
+        return Ok(None);
     }
     let what = if same_program { "study" } else { "version of the program or study" };
     Err(Failure::request(format!("{shown}: holds results of another {what}; {advice}")))

@@ -60,18 +60,18 @@ impl Sweep {
         let study = read_study(&self.study)?;
         let output = output_path(&self.study, self.output.as_deref())?;
         let dataset = match kept(&output, &study, self.overwrite)? {
-            Some(dataset) if has_cases(&dataset) => {
+            Some(dataset) if has_cases(&dataset) && !self.overwrite => {
                 let shown = output.display();
                 tell(&format!("{shown}: already computed, by this program from this study"));
                 dataset
             }
-            branches => {
+            older => {
                 if !self.no_figures {
                     rehearse(&without_cases(&study), &study.drawings)
                         .map_err(|failure| failure.within(&name))?;
                 }
                 prepare(folder(&output))?;
-                self.compute(&study, machine, &output, branches)?
+                self.compute(&study, machine, &output, older)?
             }
         };
         if !self.no_figures {
@@ -96,13 +96,13 @@ impl Sweep {
         )))
     }
 
-    /// Computes the cases and writes them beside the `branches` that were followed before, if any.
+    /// Computes the cases and writes them beside the branches of an `older` file, if it has any.
     fn compute(
         &self,
         study: &Study,
         machine: Machine,
         output: &Path,
-        branches: Option<Dataset>,
+        older: Option<Dataset>,
     ) -> Result<Dataset, Failure> {
         let progress = Progress::new(study.cases(), "cases");
         let records = Mutex::new(Vec::with_capacity(study.cases()));
@@ -115,8 +115,8 @@ impl Sweep {
         let mut records = records.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
         records.sort_by_key(|record| record.index);
         let mut dataset = store::dataset(study, &records);
-        if let Some(branches) = branches {
-            keep_branches(&mut dataset, &branches);
+        if let Some(older) = older {
+            keep_branches(&mut dataset, &older);
         }
         store::write(&dataset, output).map_err(Failure::machine)?;
         print(&summary(study, &records, output, seconds))?;

@@ -31,13 +31,13 @@ enum Shape {
 }
 
 /// Distance of the corners of a symbol from its middle [pt].
-const RADIUS: f64 = 2.7;
+const RADIUS: f64 = 2.4;
 
 /// The symbols, those that matter least first: the later are drawn over the earlier.
 pub const SYMBOLS: [Symbol; 5] = [
     Symbol {
         name: "event-sequence",
-        words: "sequence of events",
+        words: "event sequence",
         shape: Shape::Cross,
         colour: FAINT_INK,
         dash: Dash::Dotted,

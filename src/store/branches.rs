@@ -37,6 +37,14 @@ pub fn has_cases(dataset: &Dataset) -> bool {
     dataset.variable("outcome").is_some()
 }
 
+/// Removes the branches from `dataset`.
+pub fn drop_branches(dataset: &mut Dataset) {
+    let ours = |name: &str| DIMENSIONS.contains(&name);
+    dataset.coordinates.retain(|(name, _)| !ours(name));
+    dataset.variables.retain(|_, variable| !variable.dimensions.iter().any(|name| ours(name)));
+    dataset.texts.remove(NAMES);
+}
+
 /// Takes the branches of `older` over into `dataset`.
 pub fn keep_branches(dataset: &mut Dataset, older: &Dataset) {
     let ours = |name: &str| DIMENSIONS.contains(&name);

@@ -16,7 +16,7 @@ mod scale;
 pub mod schema;
 mod seal;
 
-pub use branches::{add_branches, has_branches, has_cases, keep_branches};
+pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
 pub use dataset::{Dataset, Values, Variable};
 pub use difference::difference;
 pub use error::StoreError;

@@ -279,6 +279,14 @@ fn results_of_others_are_not_followed_into() {
     assert_eq!(fs::read(desk.path("r.h5")).expect("a result"), before);
     into(&["--overwrite"]).done();
     assert!(!store::has_cases(&kept(&desk.path("r.h5"))));
+    // What the other command left of the same study stays.
+    let sweep = ["sweep", "s.toml", "--output", "r.h5", "--no-figures", "--overwrite"];
+    desk.run(&sweep).done();
+    assert!(!into(&["--overwrite"]).done().out.is_empty());
+    let both = kept(&desk.path("r.h5"));
+    assert!(store::has_cases(&both) && store::has_branches(&both));
+    let told = desk.run(&["inspect", "r.h5"]).done().out;
+    assert!(told.contains("branch_point") && told.contains("16 periodic"), "{told}");
     desk.run(&["follow", "plain.toml"]).refused(&["plain.toml: asks for no [[branches]]"]);
     desk.run(&["follow", "s.toml", "--threads", "0"]).refused(&["--threads"]);
 }
