@@ -41,7 +41,7 @@ pub enum Dash {
     /// Into short dashes.
     Short,
     /// Into dashes and dots by turns.
-    DotDash,
+    Mixed,
     /// Into dots.
     Dotted,
 }
@@ -54,7 +54,7 @@ impl Dash {
             Dash::Usual => " stroke-dasharray=\"350 220\"",
             Dash::Long => " stroke-dasharray=\"600 220\"",
             Dash::Short => " stroke-dasharray=\"220 150\"",
-            Dash::DotDash => " stroke-dasharray=\"500 180 100 180\"",
+            Dash::Mixed => " stroke-dasharray=\"500 180 100 180\"",
             Dash::Dotted => " stroke-dasharray=\"100 160\"",
         }
     }

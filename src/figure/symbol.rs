@@ -54,7 +54,7 @@ pub const SYMBOLS: [Symbol; 5] = [
         words: "Neimark–Sacker",
         shape: Shape::Star,
         colour: GREEN,
-        dash: Dash::DotDash,
+        dash: Dash::Mixed,
     },
     Symbol {
         name: "period-doubling",

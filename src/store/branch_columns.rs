@@ -90,7 +90,8 @@ impl<'d> Columns<'d> {
         (inner, length): (&str, usize),
         values: Vec<f64>,
     ) {
-        let count = values.len().checked_div(length).unwrap_or(0);
+        let places = self.dataset.coordinate(self.dimension);
+        let count = places.map_or(0, |places| places.values.shape()[0]);
         let array = ArrayD::from_shape_vec(IxDyn(&[count, length]), values);
         let values = Values::Real(array.expect("as many values for each place"));
         self.add(name, unit, long_name, values).dimensions.push(inner.to_owned());
@@ -172,13 +173,12 @@ fn add_sections(columns: &mut Columns<'_>, prefix: &str, rows: &[Row<'_>], lengt
 }
 
 fn add_multipliers(columns: &mut Columns<'_>, prefix: &str, rows: &[Row<'_>]) {
-    let parts: [(&str, fn(&Complex) -> f64); 2] =
-        [("real", |multiplier| multiplier.re), ("imag", |multiplier| multiplier.im)];
-    for (part, of) in parts {
+    let mut add = |part: &str, meaning: &str, of: fn(&Complex) -> f64| {
         let name = format!("{prefix}_multiplier_{part}");
-        let meaning = format!("{part} part of the Floquet multipliers of the period");
-        let meaning = meaning.replace("imag ", "imaginary ");
+        let meaning = format!("{meaning} part of the Floquet multipliers of the period");
         let values = rows.iter().flat_map(|row| row.point.multipliers.iter().map(of)).collect();
         columns.rows((&name, "1", &meaning), (MULTIPLIER, 3), values);
-    }
+    };
+    add("real", "real", |multiplier| multiplier.re);
+    add("imag", "imaginary", |multiplier| multiplier.im);
 }
