@@ -6,7 +6,9 @@ use crate::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 use super::drive::reduced;
 use super::resistance::Drag;
 use super::switched::{Locomotion, Stroboscopic, Switched, Zeros};
-use super::{Contact, Drive, EventKind, Jet, Parameter, Parameters, Resistance, State, StickSlip};
+use super::{
+    Contact, Drive, EventKind, Jet, Parameter, Parameters, Resistance, State, StickSlip,
+};
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.
 const CONTACT: usize = 0;

@@ -26,7 +26,12 @@ impl<L: Lane> Drive<L> {
     /// The drive of these parameters, started at `phase` within 0..2 pi [rad].
     pub fn new(of: impl Fn(Parameter) -> L, phase: L) -> Self {
         let (sin_phase, cos_phase) = sin_cos(phase);
-        Drive { amplitude: of(Parameter::Pd), omega: of(Parameter::Omega), sin_phase, cos_phase }
+        Drive {
+            amplitude: of(Parameter::Pd),
+            omega: of(Parameter::Omega),
+            sin_phase,
+            cos_phase,
+        }
     }
 
     /// Writes the series of `cos(omega t + phase)` from `time` since the start of the drive's cycle [s].

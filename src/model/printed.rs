@@ -6,9 +6,9 @@
 
 use crate::lane::{ORDER, Series, series};
 
-use super::drive::reduced;
 use super::resistance::Drag;
 use super::switched::{Locomotion, Switched, Zeros};
+use super::drive::reduced;
 use super::{Contact, Drive, EventKind, Jet, Parameter, Parameters, State, StickSlip};
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.

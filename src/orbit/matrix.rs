@@ -86,9 +86,7 @@ pub fn eigenvalues<const D: usize>(a: &Matrix<D>) -> [Complex; D] {
     let minor = |i: usize, j: usize| whole[i][i] * whole[j][j] - whole[i][j] * whole[j][i];
     let minors = minor(0, 1) + minor(0, 2) + minor(1, 2);
     let mut roots = cubic_roots([-determinant(whole), minors, -trace]);
-    roots.sort_by(|a, b| {
-        b.abs().total_cmp(&a.abs()).then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im))
-    });
+    roots.sort_by(|a, b| b.abs().total_cmp(&a.abs()).then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im)));
     std::array::from_fn(|i| roots[i])
 }
 

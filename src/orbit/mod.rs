@@ -15,8 +15,8 @@ pub mod side_by_side;
 pub mod simulate;
 pub mod trajectory;
 
-pub use account::{Account, Energies, Impact};
 pub use certificate::{Certificate, Proof};
+pub use account::{Account, Energies, Impact};
 pub use history::{History, HistorySpan};
 pub use output::{Output, Outputs};
 pub use settle::{Case, Orbit, Outcome, Protocol, settle};

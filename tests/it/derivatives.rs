@@ -16,7 +16,8 @@ fn image(case: &Case, point: Section, k: u64) -> Section {
     let system = Capsule::single(&case.parameters, case.phase);
     let [r, y1, y2] = point;
     let period = case.parameters.drive_period();
-    let mut trajectory = Trajectory::new(&system, State { r, y1, x2: 0.0, y2 }, period, TOLERANCE);
+    let mut trajectory =
+        Trajectory::new(&system, State { r, y1, x2: 0.0, y2 }, period, TOLERANCE);
     for _ in 0..k {
         trajectory.cycle(|_| ()).expect("it goes on");
     }
@@ -27,8 +28,11 @@ fn image(case: &Case, point: Section, k: u64) -> Section {
 fn linearised(case: &Case, point: &Section, k: u64) -> Matrix<3> {
     let p = &case.parameters;
     let system = Capsule::<Dual<f64, 3>>::new(|q| Dual::constant(p[q]), p.resistance, case.phase);
-    let cycles =
-        Cycles { drive_period: Dual::constant(p.drive_period()), count: k, tolerance: TOLERANCE };
+    let cycles = Cycles {
+        drive_period: Dual::constant(p.drive_period()),
+        count: k,
+        tolerance: TOLERANCE,
+    };
     jacobian(&returned(&system, seeded(point), &cycles, |_| ()).expect("it goes on"))
 }
 
@@ -52,9 +56,7 @@ fn dbg_jacobians() {
     let mut done = 0;
     for case in draws::cases(200, 9) {
         let orbit = settle(&case.parameters, case.phase, case.start, &Protocol::default());
-        if orbit.outcome != Outcome::Periodic {
-            continue;
-        }
+        if orbit.outcome != Outcome::Periodic { continue; }
         let State { r, y1, y2, .. } = orbit.end;
         let point = [r, y1, y2];
         let k = orbit.period;
@@ -63,32 +65,15 @@ fn dbg_jacobians() {
         let scale = (omega * r).abs().max(y1.abs()).max(y2.abs());
         let weights = [omega, 1.0, 1.0];
         for j in 0..3 {
-            if j == 2 && y2 == 0.0 {
-                continue;
-            }
+            if j == 2 && y2 == 0.0 { continue; }
             let mut best = f64::INFINITY;
-            for e in [1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 1e-7, 1e-8] {
-                let fd = difference(&case, &point, k, j, e * scale / weights[j]);
-                let norm = (0..3)
-                    .flat_map(|i| (0..3).map(move |j| (i, j)))
-                    .map(|(i, j)| (exact[i][j] * weights[i] / weights[j]).abs())
-                    .fold(0.0, f64::max);
-                let err = (0..3)
-                    .map(|i| ((fd[i] - exact[i][j]) * weights[i] / weights[j]).abs())
-                    .fold(0.0, f64::max);
-                if [39, 70, 88, 80].contains(&done) {
-                    println!(
-                        "{done} {e:e} {:e} margin {:e} stick {}",
-                        err / norm,
-                        orbit.outputs[capsulemap::orbit::Output::GrazingMargin],
-                        orbit.outputs[capsulemap::orbit::Output::StickShare]
-                    );
-                }
-                best = best.min(err / norm);
+            for e in [1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 1e-7,1e-8] {
+            let fd = difference(&case, &point, k, j, e * scale / weights[j]);
+            let norm = (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| (exact[i][j] * weights[i] / weights[j]).abs()).fold(0.0, f64::max);
+            let err = (0..3).map(|i| ((fd[i] - exact[i][j]) * weights[i] / weights[j]).abs()).fold(0.0, f64::max);
+            if [39,70,88,80].contains(&done) {println!("{done} {e:e} {:e} margin {:e} stick {}", err/norm, orbit.outputs[capsulemap::orbit::Output::GrazingMargin], orbit.outputs[capsulemap::orbit::Output::StickShare]);} best=best.min(err/norm);
             }
-            if best > 1e-2 {
-                println!("case {done} k {k} j {j} err {best:e} {exact:?}");
-            }
+            if best > 1e-2 {println!("case {done} k {k} j {j} err {best:e} {exact:?}");}
         }
         done += 1;
     }
