@@ -127,6 +127,8 @@ pub enum NotFollowed {
     NoOrbit,
     /// The motion could not be followed there.
     Failed(Reason),
+    /// The equation as printed is not followed, only the capsule with friction read in Filippov's sense.
+    AsPrinted,
 }
 
 /// Follows the orbit of `request`.
