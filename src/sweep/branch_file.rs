@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::model::{Allowed, Dimension, Parameter, Parameters, State};
+use crate::model::{Allowed, Dimension, Parameter, Parameters, State, Switching};
 
 use super::continuation::{Continuation, FirstOrbit};
 use super::document::{Entry, Table, unknown};
+use super::follow::AS_PRINTED;
 use super::study_file::allowed_quantity;
 use super::{Axis, Coordinate};
 
@@ -52,7 +53,11 @@ impl Surroundings<'_> {
 /// The branches of a study.
 pub(super) fn read_branches(top: &Table<'_, '_>, study: &Surroundings<'_>) -> Vec<Continuation> {
     let mut branches: Vec<Continuation> = Vec::new();
-    let entries = top.entry("branches").map(|entry| entry.list()).unwrap_or_default();
+    let list = top.entry("branches");
+    if let (Some(list), Switching::AsPrinted) = (&list, study.base.switching) {
+        list.fault(AS_PRINTED);
+    }
+    let entries = list.map(|list| list.list()).unwrap_or_default();
     for table in entries.iter().filter_map(Entry::table) {
         let name = read_name(&table);
         if let Some(twice) = table.entry("name").filter(|_| branches.iter().any(|b| b.name == name))

@@ -10,6 +10,10 @@ use crate::orbit::{Outcome, Protocol, Reason, Section, settle};
 use super::run::{RunError, pool};
 use super::{Continuation, FirstOrbit, Study};
 
+/// What is said of a study with branches that reads friction as printed.
+pub(super) const AS_PRINTED: &str =
+    "the equation as printed is not followed; it takes `friction_switching = \"filippov\"`";
+
 /// What came of one branch of a study.
 pub type Followed = Result<Found, Unfollowed>;
 
@@ -22,6 +26,8 @@ pub enum Unfollowed {
     NoOrbit,
     /// The motion could not be followed.
     Failed(Reason),
+    /// The equation as printed is not followed.
+    AsPrinted,
 }
 
 impl fmt::Display for Unfollowed {
@@ -41,6 +47,7 @@ impl fmt::Display for Unfollowed {
                 let name = name.map_or("", |(_, name)| name);
                 write!(f, "the motion could not be followed there ({name})")
             }
+            Unfollowed::AsPrinted => f.write_str(AS_PRINTED),
         }
     }
 }
@@ -74,6 +81,7 @@ fn follow_one(continuation: &Continuation, protocol: &Protocol) -> Followed {
     branch::follow(&request).map_err(|why| match why {
         NotFollowed::NoOrbit => Unfollowed::NoOrbit,
         NotFollowed::Failed(reason) => Unfollowed::Failed(reason),
+        NotFollowed::AsPrinted => Unfollowed::AsPrinted,
     })
 }
 
