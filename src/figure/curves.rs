@@ -40,7 +40,8 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let scale = Scale::around(values, 0.03);
         AxisRequest { empty, numbered: !empty, ..AxisRequest::new(view.quantity(name), scale) }
     };
-    let note = view.held_note(&[&axes[0], &axes[1]]);
+    // Branches have no direction in which they were swept.
+    let note = view.held_note(&[&axes[0], &axes[1], "direction"]);
     let panel = PanelRequest {
         x: axis(&axes[0], range(|place| place.0)),
         y: axis(&axes[1], range(|place| place.1)),

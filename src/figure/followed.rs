@@ -10,6 +10,7 @@ use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
 use super::track::{Track, tracks};
 use super::view::View;
+use crate::model::Parameter;
 use crate::store::dataset::Dataset;
 
 /// Two values of a parameter closer than this, relative to their size, are the same.
@@ -39,7 +40,9 @@ pub fn along(dataset: &Dataset) -> Vec<&str> {
 /// The parameters that branches or curves run in.
 pub fn varied(dataset: &Dataset) -> Vec<&str> {
     let over_curves = dataset.variables.iter().filter(|(_, it)| it.dimensions == ["curve_point"]);
-    let second = over_curves.filter_map(|(name, _)| name.strip_prefix("curve_"));
+    let columns = over_curves.filter_map(|(name, _)| name.strip_prefix("curve_"));
+    // What the curves are stands over their points, too.
+    let second = columns.filter(|name| Parameter::named(name).is_some());
     along(dataset).into_iter().chain(second).collect()
 }
 

@@ -133,6 +133,12 @@ fn curves_lie_over_two_parameters() {
     let said = draw(&store::frame(&study), &request, &folder("branches"), &[]);
     let said = said.expect_err("there are no curves").to_string();
     assert!(said.contains("no curves in two parameters"), "{said}");
+    // A second parameter that no branch follows, beside the columns that say what the curves are.
+    let (first, rest) = STUDY.split_once("[[branches]]\nname = \"in amplitude\"").expect("two");
+    let figures = rest.find("[[figures]]").expect("figures");
+    let lone = Study::parse("a", &format!("{first}{}", &rest[figures..])).expect("a study");
+    let lone = with_branches(store::frame(&lone), &lone, &followed()[..1]);
+    assert!(svg(&lone, &drawing("lone", DrawingKind::Curves)).contains("fold over omega, p_d"));
     let mut doubled = followed();
     if let Ok(found) = &mut doubled[0] {
         found.curves[1].period = 2;
