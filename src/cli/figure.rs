@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
+use super::result_file::ready;
 use super::{Failure, named, plain_or_quantity, tell};
 use crate::figure::{FigureError, Format, draw};
 use crate::store::{self, Dataset};
@@ -47,6 +48,9 @@ pub struct Figure {
     /// Width in mm.
     #[arg(long, requires = "kind")]
     width: Option<f64>,
+    /// Leave the followed orbits out of a bifurcation diagram.
+    #[arg(long, requires = "kind")]
+    no_branches: bool,
     /// Stem of the files; the kind of figure and what it shows by default.
     #[arg(long, requires = "kind")]
     name: Option<String>,
@@ -77,7 +81,7 @@ impl Figure {
         let folder = self.folder.as_deref().unwrap_or(here);
         let drawings = match self.kind {
             Some(kind) => vec![self.drawing(kind, &dataset)?],
-            None => studied(&dataset, &self.file)?,
+            None => ready(&dataset, &studied(&dataset, &self.file)?),
         };
         draw_all(&dataset, &drawings, folder, &self.formats)
     }
@@ -92,6 +96,7 @@ impl Figure {
             of: self.of.clone(),
             at: self.held(dataset)?,
             cycles: self.cycles()?,
+            branches: !self.no_branches,
             width_mm: self.width,
         })
     }

@@ -101,7 +101,9 @@ fn tell(dataset: &Dataset) -> String {
     }
     let counts: Vec<String> =
         outcomes(dataset).iter().map(|(name, count)| format!("{count} {name}")).collect();
-    let _ = writeln!(text, "outcomes: {}", counts.join(", "));
+    if !counts.is_empty() {
+        let _ = writeln!(text, "outcomes: {}", counts.join(", "));
+    }
     let constant = |variable: &Variable| variable.dimensions.is_empty();
     text.push_str("\ncoordinates\n");
     for (name, variable) in &dataset.coordinates {

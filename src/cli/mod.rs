@@ -1,9 +1,12 @@
 //! Asked for: connects the floors and talks to the person.
 
+mod branch_summary;
 mod failure;
 mod figure;
+mod follow;
 mod inspect;
 mod progress;
+mod result_file;
 mod simulate;
 mod sweep;
 
@@ -22,6 +25,7 @@ const EXAMPLES: &str = "\
 Examples:
   capsulemap simulate --omega \"77.91 rad/s\" --p-d \"4 N\" --k2 \"2.42 kN/m\" --delta \"3.5 mm\"
   capsulemap sweep studies/overview.toml
+  capsulemap follow branches.toml
   capsulemap inspect results/overview/overview.h5
   capsulemap figure results/overview/overview.h5 --kind map --of work_positive
 
@@ -47,6 +51,8 @@ enum Command {
     Simulate(Box<simulate::Simulate>),
     /// Compute a study: its cases over all cores, one HDF5 file, and its figures.
     Sweep(sweep::Sweep),
+    /// Follow periodic orbits, stable or not, through parameters, and find where they change.
+    Follow(follow::Follow),
     /// Draw figures from a file of results.
     Figure(figure::Figure),
     /// Say what is in a file of results.
@@ -64,6 +70,7 @@ pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Simulate(simulate) => simulate.run(),
         Command::Sweep(sweep) => sweep.run(),
+        Command::Follow(follow) => follow.run(),
         Command::Figure(figure) => figure.run(),
         Command::Inspect(inspect) => inspect.run(),
         Command::Completions { shell } => {

@@ -9,9 +9,10 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Between two lines of a log at least; the first comes with the first case.
 const LINE_INTERVAL: Duration = Duration::from_secs(10);
 
-/// Shows how many cases are done, how fast, and how long the rest will take.
+/// Shows how many are done, how fast, and how long the rest will take.
 pub struct Progress {
     total: usize,
+    what: &'static str,
     begun: Instant,
     bar: Option<ProgressBar>,
     lines: Mutex<Lines>,
@@ -23,17 +24,17 @@ struct Lines {
 }
 
 impl Progress {
-    /// Begins to watch `total` cases.
-    pub fn new(total: usize) -> Self {
+    /// Begins to watch `total` of `what`.
+    pub fn new(total: usize, what: &'static str) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
-            let style = ProgressStyle::with_template(
-                "{wide_bar} {human_pos}/{human_len} cases, {per_sec}, {eta_precise} left",
-            )
+            let style = ProgressStyle::with_template(&format!(
+                "{{wide_bar}} {{human_pos}}/{{human_len}} {what}, {{per_sec}}, {{eta_precise}} left"
+            ))
             .unwrap_or_else(|_| ProgressStyle::default_bar());
             ProgressBar::new(total as u64).with_style(style)
         });
         let lines = Mutex::new(Lines { done: 0, next: Duration::ZERO });
-        Progress { total, begun: Instant::now(), bar, lines }
+        Progress { total, what, begun: Instant::now(), bar, lines }
     }
 
     /// Notes that one more case is done.
@@ -49,10 +50,10 @@ impl Progress {
             lines.next = elapsed + LINE_INTERVAL;
             let rate = lines.done as f64 / elapsed.as_secs_f64();
             let left = (self.total - lines.done) as f64 / rate;
-            let (done, total) = (lines.done, self.total);
+            let (done, total, what) = (lines.done, self.total, self.what);
             let decimals = if rate < 10.0 { 2 } else { 0 };
             super::tell(&format!(
-                "{done}/{total} cases, {rate:.decimals$} cases/s, {left:.0} s left"
+                "{done}/{total} {what}, {rate:.decimals$} {what}/s, {left:.0} s left"
             ));
         }
     }

@@ -6,13 +6,14 @@ use std::sync::Mutex;
 
 use clap::Args;
 
-use super::figure::{FormatChoice, draw_all, file_stem};
+use super::figure::{FormatChoice, draw_all};
 use super::progress::Progress;
+use super::result_file::{folder, kept, output_path, prepare, read_study, ready, rehearse};
 use super::{Failure, named, print, tell};
 use crate::lane::Instructions;
 use crate::model::{Parameter, Parameters, Resistance, Switching};
 use crate::orbit::{Case, Outcome, Protocol};
-use crate::store::{self, Dataset};
+use crate::store::{self, Dataset, has_cases, keep_branches};
 use crate::sweep::{Machine, Record, Study, run};
 
 const EXAMPLES: &str = "\
@@ -56,73 +57,28 @@ impl Sweep {
     pub fn run(&self) -> Result<(), Failure> {
         let machine = self.machine()?;
         let name = self.study.display().to_string();
-        let study = Study::parse(&name, &self.text()?).map_err(Failure::request)?;
-        let output = self.output_path()?;
-        let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let folder = folder.unwrap_or(Path::new("."));
-        let dataset = match self.finished(&output, &study)? {
-            Some(dataset) => dataset,
-            None => {
+        let study = read_study(&self.study)?;
+        let output = output_path(&self.study, self.output.as_deref())?;
+        let dataset = match kept(&output, &study, self.overwrite)? {
+            Some(dataset) if has_cases(&dataset) && !self.overwrite => {
+                let shown = output.display();
+                tell(&format!("{shown}: already computed, by this program from this study"));
+                dataset
+            }
+            older => {
                 if !self.no_figures {
-                    rehearse(&study).map_err(|failure| failure.within(&name))?;
+                    rehearse(&without_cases(&study), &study.drawings)
+                        .map_err(|failure| failure.within(&name))?;
                 }
-                prepare(folder)?;
-                self.compute(&study, machine, &output)?
+                prepare(folder(&output))?;
+                self.compute(&study, machine, &output, older)?
             }
         };
         if !self.no_figures {
-            draw_all(&dataset, &study.drawings, folder, &self.formats)?;
+            let drawings = ready(&dataset, &study.drawings);
+            draw_all(&dataset, &drawings, folder(&output), &self.formats)?;
         }
         Ok(())
-    }
-
-    /// The text of the study file.
-    fn text(&self) -> Result<String, Failure> {
-        let name = self.study.display();
-        let bytes = std::fs::read(&self.study)
-            .map_err(|error| Failure::request(format!("{name}: cannot be read: {error}")))?;
-        String::from_utf8(bytes).map_err(|error| {
-            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-            let line = valid.iter().filter(|&&byte| byte == b'\n').count() + 1;
-            Failure::request(format!("{name}: line {line}: is not text in UTF-8"))
-        })
-    }
-
-    fn output_path(&self) -> Result<PathBuf, Failure> {
-        let stem = file_stem(&self.study)?;
-        let default = || Path::new("results").join(&stem).join(format!("{stem}.h5"));
-        let output = self.output.clone().unwrap_or_else(default);
-        if output.exists() && !output.is_file() {
-            let what = if output.is_dir() { "a folder" } else { "not a plain file" };
-            let message = format!("{}: is {what}; name a file", output.display());
-            return Err(Failure::request(message));
-        }
-        let same = |path: &Path| std::fs::canonicalize(path).ok();
-        if same(&output).is_some_and(|output| Some(output) == same(&self.study)) {
-            let message = format!("{}: is the study itself; name another file", output.display());
-            return Err(Failure::request(message));
-        }
-        Ok(output)
-    }
-
-    /// The results, if the file holds those of this very study by this very program.
-    fn finished(&self, output: &Path, study: &Study) -> Result<Option<Dataset>, Failure> {
-        if !output.exists() || self.overwrite {
-            return Ok(None);
-        }
-        let shown = output.display();
-        let advice = "name another --output, or replace it with --overwrite";
-        let dataset = store::read(output)
-            .map_err(|error| Failure::request(format!("{error}\n{shown} is kept: {advice}")))?;
-        let now = store::provenance::attributes();
-        let same_program =
-            ["source", "commit"].iter().all(|&key| dataset.attributes.get(key) == now.get(key));
-        if dataset.texts.get("study") == Some(&study.text) && same_program {
-            tell(&format!("{shown}: already computed, by this program from this study"));
-            return Ok(Some(dataset));
-        }
-        let what = if same_program { "study" } else { "version of the program or study" };
-        Err(Failure::request(format!("{shown}: holds results of another {what}; {advice}")))
     }
 
     /// What to run on, as far as this machine has it.
@@ -140,8 +96,15 @@ impl Sweep {
         )))
     }
 
-    fn compute(&self, study: &Study, machine: Machine, output: &Path) -> Result<Dataset, Failure> {
-        let progress = Progress::new(study.cases());
+    /// Computes the cases and writes them beside the branches of an `older` file, if it has any.
+    fn compute(
+        &self,
+        study: &Study,
+        machine: Machine,
+        output: &Path,
+        older: Option<Dataset>,
+    ) -> Result<Dataset, Failure> {
+        let progress = Progress::new(study.cases(), "cases");
         let records = Mutex::new(Vec::with_capacity(study.cases()));
         run(study, machine, |record| {
             progress.step();
@@ -151,41 +114,22 @@ impl Sweep {
         let seconds = progress.finish().as_secs_f64();
         let mut records = records.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
         records.sort_by_key(|record| record.index);
-        let dataset = store::dataset(study, &records);
+        let mut dataset = store::dataset(study, &records);
+        if let Some(older) = older {
+            keep_branches(&mut dataset, &older);
+        }
         store::write(&dataset, output).map_err(Failure::machine)?;
         print(&summary(study, &records, output, seconds))?;
         Ok(dataset)
     }
 }
 
-/// Draws the figures from results without a single case, so that a mistake in one of them is told
-/// before a long run and not after it.
-fn rehearse(study: &Study) -> Result<(), Failure> {
-    if study.drawings.is_empty() {
-        return Ok(());
-    }
+/// The results of a study of which no case is done, without the room that those would take.
+fn without_cases(study: &Study) -> Dataset {
     let mut small = study.clone();
     small.protocol.points = small.protocol.points.min(1);
     small.protocol.impact_points = small.protocol.impact_points.min(1);
-    // In no format at all, nothing is written.
-    draw_all(&store::dataset(&small, &[]), &study.drawings, Path::new("."), &[])
-}
-
-/// Makes the folder of the results, and sees that a file can be written there before a long run.
-fn prepare(folder: &Path) -> Result<(), Failure> {
-    let shown = folder.display();
-    let file = folder.ancestors().find(|ancestor| ancestor.is_file());
-    if let Some(file) = file {
-        return Err(Failure::request(format!(
-            "{shown}: {} is a file, not a folder; name another --output",
-            file.display()
-        )));
-    }
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::machine(format!("{shown}: cannot be made: {error}")))?;
-    tempfile::tempfile_in(folder).map(drop).map_err(|error| {
-        Failure::machine(format!("{shown}: no file can be written there: {error}"))
-    })
+    store::dataset(&small, &[])
 }
 
 /// How many cases came out how, and how to look at those that failed.

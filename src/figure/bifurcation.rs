@@ -6,11 +6,12 @@ use super::axis::AxisRequest;
 use super::canvas::Drawn;
 use super::cloud::{self, Dot};
 use super::error::FigureError;
+use super::followed::{Followed, faded};
 use super::header::{Header, Mark};
 use super::outcome::Outcomes;
 use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::Pointing;
-use super::scale::{Scale, Spacing};
+use super::scale::{Scale, Spacing, finite_range};
 use super::style::{BLUE, INK, ONE_COLUMN, VERMILION};
 use super::text::Text;
 use super::view::View;
@@ -33,10 +34,18 @@ struct Branch {
     size: f64,
 }
 
+impl Branch {
+    /// Makes room for what is drawn over it.
+    fn step_back(&mut self) {
+        self.colour = faded(self.colour);
+        self.size *= 0.8;
+    }
+}
+
 /// Draws the bifurcation diagram that `view` asks for.
 pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let x_name = super::abscissa(view)?;
-    let branches = branches(view, x_name);
+    let mut branches = branches(view, x_name);
     let mut free = vec![x_name];
     if branches.len() > 1 {
         free.push(DIRECTION);
@@ -47,15 +56,24 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     };
     let quantity = view.quantity(x_name);
     let values: Vec<f64> =
-        view.axis_values(x_name)?.iter().map(|value| value * quantity.factor).collect();
+        view.coordinate_values(x_name).iter().map(|value| value * quantity.factor).collect();
+    let followed: Vec<Followed> =
+        outputs.iter().map(|output| Followed::shown(view, x_name, output)).collect();
+    if followed.iter().any(|followed| !followed.is_empty()) {
+        branches.iter_mut().for_each(Branch::step_back);
+    }
     let clouds = outputs
         .iter()
         .map(|output| points(view, output, &values, &free, &branches))
         .collect::<Result<Vec<_>, _>>()?;
-    let page = request(view, &outputs, &clouds, AxisRequest::new(quantity, span(&values)), &free);
-    let page = PageRequest { rows: with_legend(page.rows, &branches), ..page };
+    let reached: Vec<f64> = followed.iter().flat_map(Followed::places).map(|at| at.0).collect();
+    let abscissa = AxisRequest::new(quantity, span(&values, &reached));
+    let page = request(view, &outputs, (&clouds, &followed), abscissa, &free);
+    let rows = with_legend(page.rows, &branches);
+    let page = PageRequest { rows: with_followed(rows, &clouds, &followed), ..page };
     let (mut canvas, panels) = page.lay_out();
-    for (panel, (cloud, output)) in panels.iter().flatten().zip(clouds.iter().zip(&outputs)) {
+    let shown = clouds.iter().zip(&followed).zip(&outputs);
+    for (panel, ((cloud, followed), output)) in panels.iter().flatten().zip(shown) {
         if !has_points(view, output) {
             panel.mark_zero(&mut canvas);
         }
@@ -63,20 +81,29 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         for (dots, branch) in cloud.iter().zip(&branches) {
             cloud::draw(&mut canvas, panel, dots, radius * branch.size);
         }
+        followed.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }
     Ok(canvas.finish(&super::about(view, &outputs, &free)))
 }
 
-/// The abscissa, with room for points that stand at its ends.
-fn span(values: &[f64]) -> Scale {
-    let plain = Scale::of_axis(values);
+/// The abscissa, with room for points that stand at its ends, and as far as orbits were followed.
+fn span(values: &[f64], reached: &[f64]) -> Scale {
+    let axis = Scale::of_axis(values);
+    let plain = match finite_range(reached.iter().copied()) {
+        Some((low, high)) if values.is_empty() => Scale::around([low, high], 0.02),
+        Some((low, high)) => Scale { low: axis.low.min(low), high: axis.high.max(high), ..axis },
+        None => axis,
+    };
+    if values.is_empty() {
+        return plain;
+    }
     if values.len() > 60 {
         return plain;
     }
     match plain.spacing {
-        Spacing::Linear => Scale::around(values.iter().copied(), 0.02),
-        Spacing::Log => Scale::log_around(values.iter().copied(), 0.02),
+        Spacing::Linear => Scale::around([plain.low, plain.high], 0.02),
+        Spacing::Log => Scale::log_around([plain.low, plain.high], 0.02),
     }
 }
 
@@ -106,6 +133,11 @@ fn points(
     free: &[&str],
     branches: &[Branch],
 ) -> Result<Vec<Vec<Dot>>, FigureError> {
+    // Orbits may have been followed alone, or along what is no axis.
+    let is_followed = view.dataset.variable(&format!("branch_{output}")).is_some();
+    if is_followed && (x_values.is_empty() || view.dataset.variable(output).is_none()) {
+        return Ok(branches.iter().map(|_| Vec::new()).collect());
+    }
     let array = view.shown(output, free)?;
     let outcomes = Outcomes::over(view, free)?;
     let directions = if free.len() > 1 { array.shape()[1] } else { 1 };
@@ -134,20 +166,24 @@ fn points(
 fn has_points(view: &View<'_>, output: &str) -> bool {
     let axes = view.axes();
     let is_inner = |name: &String| !axes.contains(&name.as_str());
-    view.dataset.variable(output).is_some_and(|variable| variable.dimensions.iter().any(is_inner))
+    let stored = view.dataset.variable(output);
+    let stored = stored.filter(|variable| variable.dimensions.iter().any(is_inner));
+    let followed = view.dataset.variable(&format!("branch_{output}"));
+    stored.is_some() || followed.is_some_and(|variable| variable.dimensions.len() > 1)
 }
 
 fn request(
     view: &View<'_>,
     outputs: &[String],
-    clouds: &[Vec<Vec<Dot>>],
+    (clouds, followed): (&[Vec<Vec<Dot>>], &[Followed]),
     abscissa: AxisRequest,
     free: &[&str],
 ) -> PageRequest {
     let mut rows = Vec::new();
     let mut heights = Vec::new();
     for (index, (output, cloud)) in outputs.iter().zip(clouds).enumerate() {
-        let values: Vec<f64> = cloud.iter().flatten().map(|dot| dot.at.1).collect();
+        let dots = cloud.iter().flatten().map(|dot| dot.at.1);
+        let values: Vec<f64> = dots.chain(followed[index].places().map(|at| at.1)).collect();
         let y = AxisRequest::around(view.quantity(output), &values, 0.06);
         let last = index + 1 == outputs.len();
         let x = AxisRequest { labelled: last, numbered: last, ..abscissa.clone() };
@@ -175,5 +211,23 @@ fn with_legend(mut rows: Vec<Vec<PanelRequest>>, branches: &[Branch]) -> Vec<Vec
         };
         first.header.legend = branches.iter().map(entry).collect();
     }
+    rows
+}
+
+/// The rows with what the lines of followed orbits and their symbols mean in the first legend.
+fn with_followed(
+    mut rows: Vec<Vec<PanelRequest>>,
+    clouds: &[Vec<Vec<Dot>>],
+    followed: &[Followed],
+) -> Vec<Vec<PanelRequest>> {
+    let entries = followed.iter().map(Followed::legend).max_by_key(Vec::len).unwrap_or_default();
+    let first = rows.first_mut().and_then(|row| row.first_mut());
+    let Some(first) = first.filter(|_| !entries.is_empty()) else { return rows };
+    let legend = &mut first.header.legend;
+    let dots = clouds.iter().flatten().flatten().next();
+    if let (true, Some(dot)) = (legend.is_empty(), dots) {
+        legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("settled")));
+    }
+    legend.extend(entries);
     rows
 }

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use base64::Engine as _;
 use plotters::coord::Shift;
 use plotters::prelude::{
-    Circle, Color, DrawingArea, DrawingAreaErrorKind, IntoDrawingArea, PathElement, Rectangle,
-    SVGBackend, ShapeStyle,
+    Circle, Color, DrawingArea, DrawingAreaErrorKind, IntoDrawingArea, PathElement, Polygon,
+    Rectangle, SVGBackend, ShapeStyle,
 };
 use plotters::style::RGBColor;
 
@@ -25,19 +25,50 @@ pub struct Stroke {
     pub colour: RGBColor,
     /// Width [pt].
     pub width: f64,
-    /// Whether it is broken.
-    pub dashed: bool,
+    /// How it is broken.
+    pub dash: Dash,
+}
+
+/// How a line is broken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dash {
+    /// Not at all.
+    None,
+    /// Into dashes.
+    Usual,
+    /// Into long dashes.
+    Long,
+    /// Into short dashes.
+    Short,
+    /// Into dashes and dots by turns.
+    Mixed,
+    /// Into dots.
+    Dotted,
+}
+
+impl Dash {
+    /// The attribute of an SVG group whose lines are broken so, in units of the drawing.
+    fn attribute(self) -> &'static str {
+        match self {
+            Dash::None => "",
+            Dash::Usual => " stroke-dasharray=\"350 220\"",
+            Dash::Long => " stroke-dasharray=\"600 220\"",
+            Dash::Short => " stroke-dasharray=\"220 150\"",
+            Dash::Mixed => " stroke-dasharray=\"500 180 100 180\"",
+            Dash::Dotted => " stroke-dasharray=\"100 160\"",
+        }
+    }
 }
 
 impl Stroke {
     /// An unbroken line.
     pub fn solid(colour: RGBColor, width: f64) -> Stroke {
-        Stroke { colour, width, dashed: false }
+        Stroke { colour, width, dash: Dash::None }
     }
 
     /// A broken line.
     pub fn dashed(colour: RGBColor, width: f64) -> Stroke {
-        Stroke { colour, width, dashed: true }
+        Stroke { colour, width, dash: Dash::Usual }
     }
 }
 
@@ -112,9 +143,8 @@ impl Canvas {
 
     /// A line through `points`.
     pub fn line(&mut self, points: &[Point], stroke: Stroke) {
-        let dash = if stroke.dashed { " stroke-dasharray=\"350 220\"" } else { "" };
         let path: Vec<_> = points.iter().copied().map(fine).collect();
-        self.layer(dash, |area| {
+        self.layer(stroke.dash.attribute(), |area| {
             area.draw(&PathElement::new(path, outline(stroke.colour, stroke.width)))
         });
     }
@@ -146,6 +176,12 @@ impl Canvas {
         self.layer("", |area| {
             centres.iter().try_for_each(|at| area.draw(&Circle::new(fine(*at), radius, style)))
         });
+    }
+
+    /// A filled polygon.
+    pub fn polygon(&mut self, corners: &[Point], colour: RGBColor) {
+        let corners: Vec<_> = corners.iter().copied().map(fine).collect();
+        self.layer("", |area| area.draw(&Polygon::new(corners, colour.filled())));
     }
 
     /// A filled rectangle.

@@ -6,6 +6,7 @@ use super::canvas::{Anchor, Canvas, Stroke};
 use super::geometry::{Point, Rect};
 use super::raster::Raster;
 use super::style::{CURVE_WIDTH, HEADER, INK, LABEL_SIZE, MINOR_WIDTH, SMALL_SIZE};
+use super::symbol::Symbol;
 use super::text::Text;
 
 /// What stands for a series in a legend.
@@ -19,6 +20,8 @@ pub enum Mark {
     Ring(RGBColor, f64),
     /// An area.
     Patch(RGBColor),
+    /// The symbol of a special point.
+    Symbol(Symbol),
     /// The area without values.
     Hatched,
     /// No mark: the words go on with those of the entry before.
@@ -138,6 +141,7 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
         Mark::Ring(colour, radius) => {
             canvas.rings(&[centre], radius, Stroke::solid(colour, CURVE_WIDTH));
         }
+        Mark::Symbol(symbol) => symbol.draw(canvas, centre),
         Mark::Nothing => {}
         Mark::Patch(colour) => canvas.fill(patch, colour),
         Mark::Hatched => canvas.image(patch, &Raster::cells(patch, |_| 0, |_| 0, |_, _| None)),

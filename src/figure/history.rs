@@ -1,7 +1,7 @@
 //! Displacements and velocities over time, as stacked panels or one panel per value of an axis.
 
 use super::axis::AxisRequest;
-use super::canvas::{Canvas, Drawn, Stroke};
+use super::canvas::{Canvas, Dash, Drawn, Stroke};
 use super::error::FigureError;
 use super::header::{Header, Mark};
 use super::page::{PageRequest, PanelRequest, letter};
@@ -20,7 +20,7 @@ const MOST_CASES: usize = 12;
 /// Height of a frame [pt].
 const HEIGHT: f64 = 82.0;
 /// The line at the gap between mass and plate.
-const GAP_LINE: Stroke = Stroke { colour: FAINT_INK, width: REFERENCE_WIDTH, dashed: true };
+const GAP_LINE: Stroke = Stroke { colour: FAINT_INK, width: REFERENCE_WIDTH, dash: Dash::Usual };
 
 /// One curve of a panel.
 struct Curve {

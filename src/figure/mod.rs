@@ -7,7 +7,9 @@ mod category;
 mod cells;
 mod cloud;
 mod colour;
+mod curves;
 mod error;
+mod followed;
 mod font;
 mod geometry;
 mod header;
@@ -22,8 +24,10 @@ mod quantity;
 mod raster;
 mod scale;
 mod style;
+mod symbol;
 mod text;
 mod ticks;
+mod track;
 mod trade_off;
 mod view;
 
@@ -53,6 +57,7 @@ pub fn draw(
         DrawingKind::Bifurcation => bifurcation::draw(&view)?,
         DrawingKind::Map => map::draw(&view)?,
         DrawingKind::TradeOff => trade_off::draw(&view)?,
+        DrawingKind::Curves => curves::draw(&view)?,
     };
     let figure = drawing.name.clone();
     if let Some((character, label)) = drawn.missing {
@@ -85,13 +90,14 @@ fn drawable_axes<'a>(view: &View<'a>) -> Vec<&'a str> {
     view.free_axes().into_iter().filter(|name| *name != "direction").collect()
 }
 
-/// The axis along the abscissa.
+/// The axis along the abscissa, or the parameter along which orbits were followed.
 fn abscissa<'a>(view: &View<'a>) -> Result<&'a str, FigureError> {
     let free = drawable_axes(view);
     let named = view.drawing.x.as_ref();
+    let along = followed::along(view.dataset);
     let axis = match named {
-        Some(name) => view.axes().into_iter().find(|axis| axis == name),
-        None => free.first().copied(),
+        Some(name) => view.axes().into_iter().chain(along).find(|axis| axis == name),
+        None => free.first().or(along.first()).copied(),
     };
     axis.ok_or_else(|| view.unfit("it needs an axis of the study that `at` does not hold"))
 }

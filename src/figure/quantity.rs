@@ -84,7 +84,9 @@ fn row(name: &str) -> Option<&'static Row> {
 impl Quantity {
     /// The quantity called `name`, described by `dataset` where the table does not know it.
     pub fn named(name: &str, dataset: &Dataset) -> Quantity {
+        let on_branches = || dataset.variable(&format!("branch_{name}"));
         let stored = dataset.variable(name).or_else(|| dataset.coordinate(name));
+        let stored = stored.or_else(on_branches);
         let whole = stored.is_some_and(|it| matches!(it.values, Values::Integer(_)));
         match row(name) {
             Some((_, words, symbol, unit, factor)) => Quantity {

@@ -62,6 +62,12 @@ pub const FAINT_INK: RGBColor = RGBColor(90, 90, 90);
 pub const BLUE: RGBColor = RGBColor(0, 114, 178);
 /// Second colour of curves (vermilion).
 pub const VERMILION: RGBColor = RGBColor(213, 94, 0);
+/// Third colour of curves (bluish green).
+pub const GREEN: RGBColor = RGBColor(0, 158, 115);
+/// Fourth colour of curves (reddish purple).
+pub const PURPLE: RGBColor = RGBColor(176, 74, 138);
+/// What nothing is drawn on.
+pub const PAPER: RGBColor = RGBColor(255, 255, 255);
 /// Shading of the side of the impact surface where the spring is compressed.
 pub const CONTACT: RGBColor = RGBColor(236, 236, 236);
 /// Cells without a value.

@@ -3,8 +3,10 @@
 use ndarray::{ArrayD, Axis, IxDyn};
 
 use super::error::FigureError;
+use super::followed;
 use super::quantity::Quantity;
 use super::text::Text;
+use crate::store::branches::DIMENSIONS;
 use crate::store::dataset::{Dataset, Variable};
 use crate::sweep::Drawing;
 
@@ -26,7 +28,9 @@ impl<'a> View<'a> {
     pub fn new(dataset: &'a Dataset, drawing: &'a Drawing) -> Result<View<'a>, FigureError> {
         let mut view = View { dataset, drawing, held: Vec::new() };
         for name in drawing.x.iter().chain(&drawing.y) {
-            view.check_axis(name)?;
+            if !followed::varied(dataset).contains(&name.as_str()) {
+                view.check_axis(name)?;
+            }
             if drawing.at.contains_key(name) {
                 return Err(view.unfit(format!("the axis `{name}` is both drawn and held by `at`")));
             }
@@ -49,7 +53,7 @@ impl<'a> View<'a> {
     /// Names of the study's axes, in its order.
     pub fn axes(&self) -> Vec<&'a str> {
         let names = self.dataset.coordinates.iter().map(|(name, _)| name.as_str());
-        names.filter(|name| !INNER.contains(name)).collect()
+        names.filter(|name| !INNER.contains(name) && !DIMENSIONS.contains(name)).collect()
     }
 
     /// Names of the axes that `at` does not hold.
@@ -173,6 +177,11 @@ impl<'a> View<'a> {
         }
         let value = values.get(self.held_index(name)).copied().unwrap_or(f64::NAN);
         self.arrange(name, ArrayD::from_elem(IxDyn(&[]), value), Vec::new(), free)
+    }
+
+    /// The value at which an axis that is not drawn is held, in SI.
+    pub fn held_value(&self, name: &str) -> Option<f64> {
+        self.coordinate_values(name).get(self.held_index(name)).copied()
     }
 
     /// Index at which an axis that is not drawn is held.

@@ -15,9 +15,7 @@ use super::{Dataset, Values, Variable, provenance};
 /// both ways; after them `point`, `impact_point` or `history_time` for what each case has several of.
 pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
     let table = Table::new(study, records);
-    let mut dataset = Dataset::default();
-    add_axes(&mut dataset, study);
-    add_constants(&mut dataset, study);
+    let mut dataset = frame(study);
     add_verdicts(&mut dataset, &table);
     for &output in &study.outputs {
         let values = table.reals(|orbit| orbit.outputs[output]);
@@ -28,6 +26,14 @@ pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
     add_section(&mut dataset, &table);
     add_impacts(&mut dataset, &table);
     add_history(&mut dataset, &table);
+    dataset
+}
+
+/// A study without records: its axes, its constants, and what made the file.
+pub fn frame(study: &Study) -> Dataset {
+    let mut dataset = Dataset::default();
+    add_axes(&mut dataset, study);
+    add_constants(&mut dataset, study);
     dataset.attributes.insert("title".to_owned(), study.title.clone());
     dataset.attributes.extend(provenance::attributes());
     dataset.attributes.extend(protocol(study));
@@ -128,7 +134,13 @@ impl<'a> Table<'a> {
     }
 }
 
-fn coordinate(name: &str, unit: &str, long_name: &str, values: Values) -> (String, Variable) {
+/// A coordinate, with its name.
+pub(super) fn coordinate(
+    name: &str,
+    unit: &str,
+    long_name: &str,
+    values: Values,
+) -> (String, Variable) {
     let variable = Variable {
         dimensions: vec![name.to_owned()],
         unit: unit.to_owned(),
@@ -143,7 +155,8 @@ fn line(values: Vec<f64>) -> Values {
     Values::Real(ArrayD::from_shape_vec(IxDyn(&[values.len()]), values).expect("a line of values"))
 }
 
-fn count(length: usize) -> Values {
+/// The numbers from zero along one dimension.
+pub(super) fn count(length: usize) -> Values {
     Values::Integer(ArrayD::from_shape_fn(IxDyn(&[length]), |index| index[0] as i64))
 }
 

@@ -26,16 +26,19 @@ pub enum DrawingKind {
     Map,
     /// Progression speed against an energy per cycle.
     TradeOff,
+    /// Special points of followed orbits as curves in two parameters.
+    Curves,
 }
 
 impl DrawingKind {
     /// Each kind by its name in studies and on the command line, in the order of declaration.
-    pub const NAMES: [(&str, DrawingKind); 5] = [
+    pub const NAMES: [(&str, DrawingKind); 6] = [
         ("history", DrawingKind::History),
         ("phase-portrait", DrawingKind::PhasePortrait),
         ("bifurcation", DrawingKind::Bifurcation),
         ("map", DrawingKind::Map),
         ("trade-off", DrawingKind::TradeOff),
+        ("curves", DrawingKind::Curves),
     ];
 
     /// Its name.
@@ -48,7 +51,7 @@ impl DrawingKind {
         let kept = outputs.iter().map(|output| output.name());
         match self {
             DrawingKind::History => HISTORIES.to_vec(),
-            DrawingKind::PhasePortrait => Vec::new(),
+            DrawingKind::PhasePortrait | DrawingKind::Curves => Vec::new(),
             DrawingKind::Bifurcation => kept.chain(VERDICTS).chain(POINTS).collect(),
             DrawingKind::Map => kept.chain(VERDICTS).collect(),
             DrawingKind::TradeOff => kept.collect(),
@@ -75,6 +78,8 @@ pub struct Drawing {
     pub at: BTreeMap<String, f64>,
     /// Range of cycles shown by a history, counted from its start; all by default.
     pub cycles: Option<[f64; 2]>,
+    /// Whether a bifurcation diagram shows the followed orbits, too.
+    pub branches: bool,
     /// Width of the figure [mm]; by default one or two columns of a journal, as the kind needs.
     pub width_mm: Option<f64>,
 }

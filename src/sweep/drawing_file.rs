@@ -2,25 +2,26 @@
 
 use std::collections::BTreeMap;
 
-use crate::model::Dimension;
+use crate::model::{Dimension, Parameter};
 use crate::orbit::Output;
 
 use super::document::{Entry, Table, unknown};
-use super::{Axis, Drawing, DrawingKind};
+use super::{Axis, Continuation, Drawing, DrawingKind};
 
 /// Longest name of a figure [bytes]; with an ending it still is a file name everywhere.
 const LONGEST_NAME: usize = 200;
 
-/// The figures of a study with `axes` that keeps `outputs`.
+/// The figures of a study with `axes` and `branches` that keeps `outputs`.
 pub(super) fn read_drawings(
     top: &Table<'_, '_>,
     axes: &[Axis],
+    branches: &[Continuation],
     outputs: &[Output],
 ) -> Vec<Drawing> {
     let entries = top.entry("figures").map(|entry| entry.list()).unwrap_or_default();
     let mut drawings: Vec<Drawing> = Vec::new();
     for table in entries.iter().filter_map(Entry::table) {
-        let drawing = read_drawing(&table, axes, outputs);
+        let drawing = read_drawing(&table, axes, branches, outputs);
         let alike = |other: &Drawing| other.name.eq_ignore_ascii_case(&drawing.name);
         if let Some(name) = table.entry("name").filter(|_| drawings.iter().any(alike)) {
             // Not even in capitals: some disks take such names for one.
@@ -32,14 +33,18 @@ pub(super) fn read_drawings(
     drawings
 }
 
-fn read_drawing(table: &Table<'_, '_>, axes: &[Axis], outputs: &[Output]) -> Drawing {
-    let axis_names: Vec<(&str, &str)> =
-        axes.iter().map(|axis| (axis.coordinate.name(), axis.coordinate.name())).collect();
+fn read_drawing(
+    table: &Table<'_, '_>,
+    axes: &[Axis],
+    branches: &[Continuation],
+    outputs: &[Output],
+) -> Drawing {
+    let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", &DrawingKind::NAMES));
+    let names = abscissae(kind, axes, branches);
     let axis = |key: &str| {
-        let name = table.entry(key)?.one_of("axis of this study", &axis_names)?;
+        let name = table.entry(key)?.one_of("axis of this study", &names)?;
         Some(name.to_owned())
     };
-    let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", &DrawingKind::NAMES));
     for key in ["name", "kind"] {
         if table.entry(key).is_none() {
             table.missing(key, "a figure to have a name and a kind");
@@ -54,8 +59,26 @@ fn read_drawing(table: &Table<'_, '_>, axes: &[Axis], outputs: &[Output]) -> Dra
         of: table.entry("of").map(|of| read_of(&of, kind, outputs)).unwrap_or_default(),
         at: table.table("at").map(|at| read_at(&at, axes)).unwrap_or_default(),
         cycles: table.entry("cycles").and_then(|entry| read_cycles(&entry)),
+        branches: table.entry("branches").and_then(|entry| entry.truth()).unwrap_or(true),
         width_mm: table.entry("width").and_then(|e| e.quantity(Dimension::Length)).map(|w| w * 1e3),
     }
+}
+
+/// What a figure of this kind can run along: the axes, and what is followed where it shows that.
+fn abscissae(
+    kind: Option<DrawingKind>,
+    axes: &[Axis],
+    branches: &[Continuation],
+) -> Vec<(&'static str, &'static str)> {
+    let shows_branches = matches!(kind, Some(DrawingKind::Bifurcation | DrawingKind::Curves));
+    let varied = branches.iter().filter(|_| shows_branches).flat_map(Continuation::varied);
+    let mut names: Vec<_> = axes.iter().map(|axis| axis.coordinate.name()).collect();
+    for name in varied.map(Parameter::symbol) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names.into_iter().map(|name| (name, name)).collect()
 }
 
 /// A name that can stand before the ending of a file.
@@ -80,8 +103,8 @@ fn read_name(entry: &Entry<'_, '_>) -> Option<String> {
 fn read_of(of: &Entry<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output]) -> Vec<String> {
     let list = of.list();
     let Some(kind) = kind else { return Vec::new() };
-    if kind == DrawingKind::PhasePortrait {
-        of.fault("does not go with a phase portrait");
+    if matches!(kind, DrawingKind::PhasePortrait | DrawingKind::Curves) {
+        of.fault(format!("does not go with a figure of the kind {}", kind.name()));
         return Vec::new();
     }
     if matches!(kind, DrawingKind::Map | DrawingKind::TradeOff) && list.len() > 1 {

@@ -1,17 +1,22 @@
 //! Repeated: turns a study into cases and cases into records, in parallel, in any order.
 
 pub mod axis;
+mod branch_file;
+pub mod continuation;
 pub mod document;
 pub mod drawing;
 mod drawing_file;
+pub mod follow;
 pub mod quantity;
 pub mod run;
 pub mod study;
 mod study_file;
 
 pub use axis::{Axis, Coordinate};
+pub use continuation::{Continuation, FirstOrbit};
 pub use document::{Fault, Faults};
 pub use drawing::{Drawing, DrawingKind};
+pub use follow::{Followed, Unfollowed, follow};
 pub use quantity::parse_quantity;
 pub use run::{Machine, Record, run};
 pub use study::{Direction, Follow, Study};

@@ -3,7 +3,7 @@
 use crate::model::{Parameters, State};
 use crate::orbit::{Case, Output, Protocol};
 
-use super::{Axis, Coordinate, Drawing};
+use super::{Axis, Continuation, Coordinate, Drawing};
 
 /// The way along an axis in which each case starts where its neighbour settled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,6 +57,8 @@ pub struct Study {
     pub protocol: Protocol,
     /// The outputs to keep.
     pub outputs: Vec<Output>,
+    /// The branches of periodic orbits to follow.
+    pub branches: Vec<Continuation>,
     /// The figures to draw.
     pub drawings: Vec<Drawing>,
 }

@@ -8,6 +8,7 @@ use crate::model::{Allowed, Dimension, Parameter, Parameters, Resistance, State,
 use crate::orbit::{HistorySpan, Output, Protocol};
 
 use super::axis::{linear, logarithmic};
+use super::branch_file::{Surroundings, read_branches};
 use super::document::{Entry, Faults, Reader, Table};
 use super::drawing_file::read_drawings;
 use super::study::{Direction, Follow, Study};
@@ -45,6 +46,8 @@ impl Study {
         let (start, phase, follow) = read_start(&top, &axes);
         let protocol = read_protocol(&top);
         let outputs = read_outputs(&top);
+        let surroundings = Surroundings { axes: &axes, base: &base, start, phase };
+        let branches = read_branches(&top, &surroundings);
         let study = Study {
             title,
             text: text.to_owned(),
@@ -53,8 +56,9 @@ impl Study {
             phase,
             follow,
             protocol,
-            drawings: read_drawings(&top, &axes, &outputs),
+            drawings: read_drawings(&top, &axes, &branches, &outputs),
             outputs,
+            branches,
             axes,
         };
         check_size(&reader, &study);
@@ -119,7 +123,12 @@ fn read_parameters(top: &Table<'_, '_>, axes: &[Axis]) -> Parameters {
     parameters
 }
 
-fn allowed_quantity(entry: &Entry<'_, '_>, dimension: Dimension, allowed: Allowed) -> Option<f64> {
+/// The quantity of `entry`, if its value is allowed.
+pub(super) fn allowed_quantity(
+    entry: &Entry<'_, '_>,
+    dimension: Dimension,
+    allowed: Allowed,
+) -> Option<f64> {
     let value = entry.quantity(dimension)?;
     if !allowed.admits(value) {
         let unit = Some(dimension.unit()).filter(|&unit| unit != "1");

@@ -8,18 +8,19 @@ use capsulemap::figure::{Format, draw};
 use capsulemap::store::dataset::Dataset;
 use capsulemap::sweep::{Drawing, DrawingKind};
 
-mod made;
+pub mod made;
 
 use made::{Made, OUTCOMES, cascade, plane, steps, with_history};
 
 const ALL: [Format; 3] = [Format::Png, Format::Svg, Format::Pdf];
 
 /// A folder for the figures of one test, kept in the build folder to be looked at.
-fn folder(name: &str) -> PathBuf {
+pub fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("figures").join(name)
 }
 
-fn drawing(name: &str, kind: DrawingKind) -> Drawing {
+/// A request for a figure of this kind, all else as usual.
+pub fn drawing(name: &str, kind: DrawingKind) -> Drawing {
     Drawing {
         name: name.into(),
         kind,
@@ -29,6 +30,7 @@ fn drawing(name: &str, kind: DrawingKind) -> Drawing {
         of: Vec::new(),
         at: BTreeMap::new(),
         cycles: None,
+        branches: true,
         width_mm: None,
     }
 }

@@ -2,6 +2,7 @@
 
 mod acceleration;
 mod belt;
+mod branch_figure;
 mod certificates;
 mod cli;
 mod closed_forms;
@@ -15,6 +16,7 @@ mod dual_lanes;
 mod edges;
 mod exponents;
 mod figure;
+mod follow;
 mod forms;
 mod house;
 mod impact_orbits;

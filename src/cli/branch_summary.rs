@@ -1,0 +1,199 @@
+//! What a person wants to know first of followed branches: where they end, and where they change.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use crate::branch::{Branch, Curve, Found, Special, SpecialKind};
+use crate::model::Parameter;
+use crate::orbit::Output;
+use crate::sweep::{Continuation, Followed, Study};
+
+/// What came of the branches of `study`, and which file keeps it.
+pub fn summary(study: &Study, followed: &[Followed], output: &Path, seconds: f64) -> String {
+    let found = || followed.iter().flatten();
+    let branches: usize = found().map(|found| found.branches.len()).sum();
+    let points: usize = found().flat_map(|it| &it.branches).map(|it| it.points.len()).sum();
+    let plural = if branches == 1 { "branch" } else { "branches" };
+    let shown = output.display();
+    let mut text = format!("{shown}: {branches} {plural}, {points} points in {seconds:.1} s\n");
+    for (continuation, followed) in study.branches.iter().zip(followed) {
+        match followed {
+            Ok(found) => tell_found(&mut text, continuation, found),
+            // Writing to a String cannot fail.
+            Err(why) => drop(writeln!(text, "\n{}: not followed: {why}", continuation.name)),
+        }
+    }
+    text
+}
+
+fn tell_found(text: &mut String, continuation: &Continuation, found: &Found) {
+    let Continuation { name, along, .. } = continuation;
+    for (number, branch) in found.branches.iter().enumerate() {
+        let from = branch.parent.map(|(parent, special)| {
+            let at = found.branches[parent].special[special].point.parameter;
+            format!(", left branch {} at {}", parent + 1, quantity(*along, at))
+        });
+        let number = match found.branches.len() {
+            1 => String::new(),
+            _ => format!(", branch {}", number + 1),
+        };
+        let _ = writeln!(
+            text,
+            "\n{name}{number}: period {}{}",
+            branch.period,
+            from.unwrap_or_default()
+        );
+        tell_branch(text, *along, branch);
+    }
+    for curve in &found.curves {
+        let Curve { kind, period, points, .. } = curve;
+        let name = kind_name(*kind);
+        let _ = writeln!(text, "  curve of {name}, period {period}: {} points", points.len());
+    }
+}
+
+fn tell_branch(text: &mut String, along: Parameter, branch: &Branch) {
+    let is_stable = |it: &&crate::branch::Point| it.multipliers.iter().all(|m| m.abs() < 1.0);
+    let stable = branch.points.iter().filter(is_stable).count();
+    let points = branch.points.len();
+    let ends: Vec<String> = branch
+        .points
+        .first()
+        .into_iter()
+        .chain(branch.points.last())
+        .map(|point| quantity(along, point.parameter))
+        .collect();
+    let _ = writeln!(
+        text,
+        "  {points} points, {stable} stable, {} unstable, from {}",
+        points - stable,
+        ends.join(" to ")
+    );
+    if branch.special.is_empty() {
+        return;
+    }
+    let heading = match along.dimension().unit() {
+        "1" => along.symbol().to_owned(),
+        unit => format!("{} [{unit}]", along.symbol()),
+    };
+    let _ = writeln!(text, "  {:<16} {heading:>16} {:>7} {:>14}", "", "period", "speed [mm/s]");
+    for Special { kind, point, .. } in &branch.special {
+        let _ = writeln!(
+            text,
+            "  {:<16} {:>16} {:>7} {:>14.6}",
+            kind_name(*kind),
+            ten_digits(point.parameter),
+            branch.period,
+            point.outputs[Output::ProgressionSpeed] * 1e3
+        );
+    }
+}
+
+fn kind_name(kind: SpecialKind) -> &'static str {
+    SpecialKind::NAMES.iter().find(|(_, known)| *known == kind).map_or("", |(name, _)| name)
+}
+
+fn quantity(parameter: Parameter, value: f64) -> String {
+    match parameter.dimension().unit() {
+        "1" => ten_digits(value),
+        unit => format!("{} {unit}", ten_digits(value)),
+    }
+}
+
+/// A number with ten digits that matter, zeros at the end left out where no power of ten is needed.
+fn ten_digits(value: f64) -> String {
+    let scientific = format!("{value:.9e}");
+    let exponent: i32 = scientific.split('e').nth(1).and_then(|it| it.parse().ok()).unwrap_or(0);
+    if !(-4..10).contains(&exponent) {
+        return scientific;
+    }
+    let decimals = (9 - exponent).max(0) as usize;
+    let text = format!("{value:.decimals$}");
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::branch::Point;
+    use crate::orbit::Outputs;
+    use crate::orbit::matrix::Complex;
+    use crate::sweep::Unfollowed;
+
+    const STUDY: &str = "\
+[parameters]
+omega = \"77.91 rad/s\"
+p_d = \"4 N\"
+k2 = \"2.42 kN/m\"
+delta = \"3.5 mm\"
+[[branches]]
+name = \"a\"
+along = \"p_d\"
+from = \"1 N\"
+to = \"5 N\"
+[[branches]]
+name = \"b\"
+along = \"p_d\"
+from = \"1 N\"
+to = \"5 N\"
+";
+
+    fn point(parameter: f64, multiplier: f64) -> Point {
+        let mut outputs = Outputs::unknown();
+        outputs[Output::ProgressionSpeed] = 0.0125;
+        let multipliers =
+            [Complex { re: multiplier, im: 0.0 }, Complex::default(), Complex::default()];
+        Point {
+            parameter,
+            section: vec![[0.0; 3]],
+            multipliers,
+            residual: 0.0,
+            outputs,
+            sequence: 0,
+        }
+    }
+
+    #[test]
+    fn branches_are_told_with_their_ends_and_changes() {
+        let study = Study::parse("study.toml", STUDY).expect("a study");
+        let fold =
+            Special { kind: SpecialKind::Fold, after: 1, point: point(4.123_456_789_123, 1.0) };
+        let points = vec![point(1.0, 0.5), point(4.0, 0.9), point(3.0, 1.2)];
+        let branch = Branch { period: 1, parent: None, points, special: vec![fold] };
+        let curve = Curve {
+            kind: SpecialKind::Fold,
+            through: (0, 0),
+            period: 1,
+            points: vec![[4.0, 1.0]; 7],
+        };
+        let found = Found { branches: vec![branch], curves: vec![curve] };
+        let followed = [Ok(found), Err(Unfollowed::NoOrbit)];
+        let text = summary(&study, &followed, Path::new("a.h5"), 2.0);
+        let expected = "\
+a.h5: 1 branch, 3 points in 2.0 s
+
+a: period 1
+  3 points, 2 stable, 1 unstable, from 1 N to 3 N
+                            p_d [N]  period   speed [mm/s]
+  fold                  4.123456789       1      12.500000
+  curve of fold, period 1: 7 points
+
+b: not followed: no periodic orbit was found near the start; give one closer to it
+";
+        assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn ten_digits_are_those_that_matter() {
+        assert_eq!(ten_digits(163.891_234_567_89), "163.8912346");
+        assert_eq!(ten_digits(110.0), "110");
+        assert_eq!(ten_digits(0.0015), "0.0015");
+        assert_eq!(ten_digits(59_410.0), "59410");
+        assert_eq!(ten_digits(9_876_543_210.0), "9876543210");
+        assert_eq!(ten_digits(-1.234_567_890_12e-7), "-1.234567890e-7");
+        assert_eq!(ten_digits(0.0), "0");
+    }
+}

@@ -1,0 +1,126 @@
+//! The file of a study's results: where it lies, whose results it holds, and what can be drawn from it.
+
+use std::path::{Path, PathBuf};
+
+use super::figure::{draw_all, file_stem};
+use super::{Failure, tell};
+use crate::store::{self, Dataset, has_branches, has_cases};
+use crate::sweep::{Drawing, DrawingKind, Study};
+
+/// The study in the file at `path`.
+pub fn read_study(path: &Path) -> Result<Study, Failure> {
+    Study::parse(&path.display().to_string(), &text(path)?).map_err(Failure::request)
+}
+
+/// The text of a study file.
+fn text(path: &Path) -> Result<String, Failure> {
+    let name = path.display();
+    let bytes = std::fs::read(path)
+        .map_err(|error| Failure::request(format!("{name}: cannot be read: {error}")))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = valid.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        Failure::request(format!("{name}: line {line}: is not text in UTF-8"))
+    })
+}
+
+/// The file that the results of `study` go to: `output`, or one called as the study is.
+pub fn output_path(study: &Path, output: Option<&Path>) -> Result<PathBuf, Failure> {
+    let stem = file_stem(study)?;
+    let default = || Path::new("results").join(&stem).join(format!("{stem}.h5"));
+    let output = output.map_or_else(default, Path::to_owned);
+    if output.exists() && !output.is_file() {
+        let what = if output.is_dir() { "a folder" } else { "not a plain file" };
+        let message = format!("{}: is {what}; name a file", output.display());
+        return Err(Failure::request(message));
+    }
+    let same = |path: &Path| std::fs::canonicalize(path).ok();
+    if same(&output).is_some_and(|output| Some(output) == same(study)) {
+        let message = format!("{}: is the study itself; name another file", output.display());
+        return Err(Failure::request(message));
+    }
+    Ok(output)
+}
+
+/// The folder of a file.
+pub fn folder(file: &Path) -> &Path {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
+}
+
+/// The results in the file `output`, if those of this very study by this very program are there; others
+/// are refused, or given up where they may be overwritten.
+pub fn kept(output: &Path, study: &Study, overwrite: bool) -> Result<Option<Dataset>, Failure> {
+    if !output.exists() {
+        return Ok(None);
+    }
+    let shown = output.display();
+    let advice = "name another --output, or replace it with --overwrite";
+    let dataset = match store::read(output) {
+        Ok(dataset) => dataset,
+        Err(_) if overwrite => return Ok(None),
+        Err(error) => {
+            return Err(Failure::request(format!("{error}\n{shown} is kept: {advice}")));
+        }
+    };
+    let now = store::provenance::attributes();
+    let same_program =
+        ["source", "commit"].iter().all(|&key| dataset.attributes.get(key) == now.get(key));
+    if dataset.texts.get("study") == Some(&study.text) && same_program {
+        return Ok(Some(dataset));
+    }
+    if overwrite {
+        return Ok(None);
+    }
+    let what = if same_program { "study" } else { "version of the program or study" };
+    Err(Failure::request(format!("{shown}: holds results of another {what}; {advice}")))
+}
+
+/// Makes the folder of the results, and sees that a file can be written there before a long run.
+pub fn prepare(folder: &Path) -> Result<(), Failure> {
+    let shown = folder.display();
+    let file = folder.ancestors().find(|ancestor| ancestor.is_file());
+    if let Some(file) = file {
+        return Err(Failure::request(format!(
+            "{shown}: {} is a file, not a folder; name another --output",
+            file.display()
+        )));
+    }
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::machine(format!("{shown}: cannot be made: {error}")))?;
+    tempfile::tempfile_in(folder).map(drop).map_err(|error| {
+        Failure::machine(format!("{shown}: no file can be written there: {error}"))
+    })
+}
+
+/// Draws the figures from results without a single value, so that a mistake in one of them is told
+/// before a long run and not after it.
+pub fn rehearse(empty: &Dataset, drawings: &[Drawing]) -> Result<(), Failure> {
+    let ready: Vec<Drawing> =
+        drawings.iter().filter(|it| waits_for(it.kind, empty).is_none()).cloned().collect();
+    // In no format at all, nothing is written.
+    draw_all(empty, &ready, Path::new("."), &[])
+}
+
+/// The figures among `drawings` that `dataset` holds the results for; of the others it is told what
+/// they wait for.
+pub fn ready(dataset: &Dataset, drawings: &[Drawing]) -> Vec<Drawing> {
+    let is_ready = |drawing: &&Drawing| match waits_for(drawing.kind, dataset) {
+        None => true,
+        Some(command) => {
+            tell(&format!("figure `{}`: waits for `capsulemap {command}`", drawing.name));
+            false
+        }
+    };
+    drawings.iter().filter(is_ready).cloned().collect()
+}
+
+/// The command that finds what a figure shows and `dataset` lacks.
+fn waits_for(kind: DrawingKind, dataset: &Dataset) -> Option<&'static str> {
+    let (cases, branches) = (has_cases(dataset), has_branches(dataset));
+    match kind {
+        DrawingKind::Curves => (!branches).then_some("follow"),
+        DrawingKind::Bifurcation => (!cases && !branches).then_some("sweep"),
+        _ => (!cases && branches).then_some("sweep"),
+    }
+}

@@ -1,0 +1,164 @@
+//! Curves of special points in two parameters, with the special points that they go through.
+
+use super::axis::AxisRequest;
+use super::canvas::{Canvas, Drawn, Stroke};
+use super::error::FigureError;
+use super::followed::{along, draw_symbols, faded, in_view, varied};
+use super::header::{Entry, Header, Mark};
+use super::page::{PageRequest, PanelRequest};
+use super::panel::{Panel, Pointing};
+use super::scale::Scale;
+use super::style::{CURVE_WIDTH, ONE_COLUMN};
+use super::symbol::{SYMBOLS, Symbol};
+use super::text::Text;
+use super::track::Rows;
+use super::view::View;
+
+/// Height of the frame [pt].
+const HEIGHT: f64 = 165.0;
+
+/// A curve in the units of the figure.
+struct Curve {
+    symbol: Symbol,
+    /// Period of the orbits on it.
+    period: u64,
+    points: Vec<(f64, f64)>,
+    /// The special point that it goes through.
+    through: (f64, f64),
+}
+
+/// Draws the curves that `view` asks for.
+pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let axes = axes(view)?;
+    let curves = curves(view, &axes);
+    let range = |of: fn(&(f64, f64)) -> f64| {
+        let places = curves.iter().flat_map(|curve| curve.points.iter().chain([&curve.through]));
+        places.map(of).collect::<Vec<f64>>()
+    };
+    let axis = |name: &str, values: Vec<f64>| {
+        let empty = values.is_empty();
+        let scale = Scale::around(values, 0.03);
+        AxisRequest { empty, numbered: !empty, ..AxisRequest::new(view.quantity(name), scale) }
+    };
+    // Branches have no direction in which they were swept.
+    let note = view.held_note(&[&axes[0], &axes[1], "direction"]);
+    let panel = PanelRequest {
+        x: axis(&axes[0], range(|place| place.0)),
+        y: axis(&axes[1], range(|place| place.1)),
+        header: Header { letter: None, note, legend: legend(&curves) },
+    };
+    let page = PageRequest {
+        title: view.drawing.title.clone(),
+        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
+        heights: vec![HEIGHT],
+        rows: vec![vec![panel]],
+        right_room: 0.0,
+        pointing: Pointing::Inward,
+    };
+    let (mut canvas, panels) = page.lay_out();
+    for panel in panels.iter().flatten() {
+        draw_curves(&mut canvas, panel, &curves);
+    }
+    let names = SYMBOLS.map(|symbol| symbol.name.to_owned());
+    Ok(canvas.finish(&super::about(view, &names, &[&axes[0], &axes[1]])))
+}
+
+/// The parameters along the abscissa and the ordinate.
+fn axes(view: &View<'_>) -> Result<[String; 2], FigureError> {
+    let varied = varied(view.dataset);
+    let known = |name: &&String| varied.contains(&name.as_str());
+    let first = || along(view.dataset).first().map(|name| name.to_string());
+    let x = view.drawing.x.as_ref().filter(known).cloned().or_else(first);
+    let other = || varied.iter().find(|name| x.as_deref() != Some(**name));
+    let y = view.drawing.y.as_ref().filter(known).cloned();
+    let y = y.or_else(|| other().map(|name| name.to_string()));
+    match (x, y) {
+        (Some(x), Some(y)) if x != y => Ok([x, y]),
+        _ => Err(view.unfit(
+            "the results hold no curves in two parameters: give a branch of the study a `second` \
+             parameter and run `capsulemap follow`",
+        )),
+    }
+}
+
+/// The curves over the two parameters `axes` that lie where `view` holds the others.
+fn curves(view: &View<'_>, axes: &[String; 2]) -> Vec<Curve> {
+    let dataset = view.dataset;
+    let rows = |name: &str| Rows::new(dataset, name);
+    let fits = in_view(view, &[&axes[0], &axes[1]]);
+    let (number, through) = (rows("curve"), rows("curve_through"));
+    let (branch, request) = (rows("special_branch"), rows("index_request"));
+    let (kind, period) = (rows("curve_kind"), rows("curve_period"));
+    let values = [0, 1].map(|i| (rows(&format!("curve_{}", axes[i])), view.quantity(&axes[i])));
+    let at_special = [0, 1]
+        .map(|i| [rows(&format!("special_{}", axes[i])), rows(&format!("request_{}", axes[i]))]);
+    let flags = dataset.variable("curve_kind").map_or(&[][..], |variable| &variable.flags);
+    let curve = |places: Vec<usize>| {
+        let first = *places.first()?;
+        let special = through.one(first) as usize;
+        let asked = request.one(branch.one(special) as usize) as usize;
+        let name = flags.iter().find(|(code, _)| *code as f64 == kind.one(first));
+        let place = |at: usize| {
+            let [x, y] = [0, 1].map(|i| values[i].0.one(at) * values[i].1.factor);
+            (x, y)
+        };
+        let points: Vec<_> = places.into_iter().map(place).collect();
+        let within = fits.get(asked).copied().unwrap_or(false);
+        let drawn = within && points.iter().all(|(x, y)| x.is_finite() && y.is_finite());
+        // What is not followed at the special point has the value of the request.
+        let [x, y] = [0, 1].map(|i| {
+            let [own, given] = [at_special[i][0].one(special), at_special[i][1].one(asked)];
+            (if own.is_finite() { own } else { given }) * values[i].1.factor
+        });
+        let symbol = Symbol::named(&name?.1)?;
+        let period = period.one(first) as u64;
+        drawn.then_some(Curve { symbol, period, points, through: (x, y) })
+    };
+    let all = (0..).map(|it| number.places(it)).take_while(|places| !places.is_empty());
+    all.filter_map(curve).collect()
+}
+
+impl Curve {
+    /// How the curve is drawn: the longer its period among `periods`, the fainter.
+    fn stroke(&self, periods: &[u64]) -> Stroke {
+        let rank = periods.iter().position(|&period| period == self.period).unwrap_or(0);
+        let colour = (0..rank.min(2)).fold(self.symbol.colour, |colour, _| faded(colour));
+        Stroke { colour, width: 1.2 * CURVE_WIDTH, dash: self.symbol.dash }
+    }
+}
+
+/// The periods that occur, the shortest first.
+fn periods(curves: &[Curve]) -> Vec<u64> {
+    let mut periods: Vec<u64> = curves.iter().map(|curve| curve.period).collect();
+    periods.sort_unstable();
+    periods.dedup();
+    periods
+}
+
+fn legend(curves: &[Curve]) -> Vec<Entry> {
+    let periods = periods(curves);
+    let mut legend = Vec::new();
+    for symbol in SYMBOLS.into_iter().rev() {
+        for &period in &periods {
+            let is_ours = |curve: &&Curve| curve.symbol == symbol && curve.period == period;
+            let Some(curve) = curves.iter().find(is_ours) else { continue };
+            let words = match periods.len() {
+                1 => symbol.words.to_owned(),
+                _ => format!("{}, period {period}", symbol.words),
+            };
+            legend.push((Mark::Line(curve.stroke(&periods)), Text::plain(&words)));
+        }
+    }
+    legend
+}
+
+fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
+    let periods = periods(curves);
+    for curve in curves {
+        panel.curve(canvas, &curve.points, curve.stroke(&periods));
+    }
+    for curve in curves {
+        draw_symbols(canvas, panel, curve.symbol, [curve.through].into_iter());
+    }
+    panel.finish(canvas);
+}

@@ -1,0 +1,163 @@
+//! Followed orbits over the parameter that they were followed in: lines along the branches, and special points.
+
+use plotters::style::RGBColor;
+
+use super::canvas::{Canvas, Dash, Stroke};
+use super::header::{Entry, Mark};
+use super::panel::Panel;
+use super::style::{CURVE_WIDTH, INK};
+use super::symbol::{SYMBOLS, Symbol};
+use super::text::Text;
+use super::track::{Track, tracks};
+use super::view::View;
+use crate::model::Parameter;
+use crate::store::dataset::Dataset;
+
+/// Two values of a parameter closer than this, relative to their size, are the same.
+const SAME: f64 = 1e-6;
+
+/// The followed orbits that a diagram shows, as one output of theirs.
+#[derive(Default)]
+pub struct Followed {
+    /// Lines of unstable orbits, then of stable ones.
+    lines: [Vec<Vec<(f64, f64)>>; 2],
+    /// Special points.
+    specials: Vec<(Symbol, (f64, f64))>,
+}
+
+/// The parameters along which orbits were followed, in the order of the study.
+pub fn along(dataset: &Dataset) -> Vec<&str> {
+    let mut names = Vec::new();
+    if let Some(variable) = dataset.variable("request_along") {
+        for code in variable.values.to_real() {
+            let flag = variable.flags.iter().find(|(value, _)| *value as f64 == code);
+            names.extend(flag.map(|(_, name)| name.as_str()).filter(|it| !names.contains(it)));
+        }
+    }
+    names
+}
+
+/// The parameters that branches or curves run in.
+pub fn varied(dataset: &Dataset) -> Vec<&str> {
+    let over_curves = dataset.variables.iter().filter(|(_, it)| it.dimensions == ["curve_point"]);
+    let columns = over_curves.filter_map(|(name, _)| name.strip_prefix("curve_"));
+    // What the curves are stands over their points, too.
+    let second = columns.filter(|name| Parameter::named(name).is_some());
+    along(dataset).into_iter().chain(second).collect()
+}
+
+/// Whether each branch of the study lies where `view` holds the axes other than those that are `drawn`.
+pub fn in_view(view: &View<'_>, drawn: &[&str]) -> Vec<bool> {
+    let count = view.coordinate_values("branch_request").len();
+    let mut fits = vec![true; count];
+    for axis in view.axes().into_iter().filter(|axis| !drawn.contains(axis)) {
+        let variable = view.dataset.variable(&format!("request_{axis}"));
+        let (Some(variable), Some(held)) = (variable, view.held_value(axis)) else { continue };
+        for (fits, value) in fits.iter_mut().zip(variable.values.to_real()) {
+            *fits &= (value - held).abs() <= SAME * held.abs().max(value.abs());
+        }
+    }
+    fits
+}
+
+impl Followed {
+    /// The orbits followed in `x` that lie where `view` holds the other axes, as their `output`.
+    pub fn shown(view: &View<'_>, x: &str, output: &str) -> Followed {
+        let mut followed = Followed::default();
+        if !view.drawing.branches {
+            return followed;
+        }
+        let factors = (view.quantity(x).factor, view.quantity(output).factor);
+        let scaled = |(x, y): (f64, f64)| (x * factors.0, y * factors.1);
+        for track in tracks(view, x, output) {
+            followed.add(&track, scaled);
+        }
+        followed
+    }
+
+    fn add(&mut self, track: &Track, scaled: impl Fn((f64, f64)) -> (f64, f64)) {
+        for cycle in 0..track.width() {
+            let mut line: Vec<(f64, f64)> = Vec::new();
+            let mut stable = None;
+            for stop in &track.stops {
+                let place = scaled((stop.x, stop.values[cycle]));
+                if let Some(now) = stop.stable {
+                    if let Some(before) = stable.filter(|&before| before != now) {
+                        // Both lines meet where the stability changes.
+                        let meeting = line.last().copied();
+                        self.keep(before, std::mem::take(&mut line));
+                        line.extend(meeting);
+                    }
+                    stable = Some(now);
+                }
+                if let Some(symbol) = stop.symbol {
+                    self.specials.push((symbol, place));
+                }
+                line.push(place);
+            }
+            self.keep(stable.unwrap_or(false), line);
+        }
+    }
+
+    fn keep(&mut self, stable: bool, line: Vec<(f64, f64)>) {
+        self.lines[usize::from(stable)].push(line);
+    }
+
+    /// Whether there is nothing to show.
+    pub fn is_empty(&self) -> bool {
+        self.lines.iter().all(Vec::is_empty)
+    }
+
+    /// Every place on the lines, in the units of the figure.
+    pub fn places(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.lines.iter().flatten().flatten().copied()
+    }
+
+    /// Draws the lines, the stable over the unstable, and the special points over both.
+    pub fn draw(&self, canvas: &mut Canvas, panel: &Panel) {
+        for (lines, stroke) in self.lines.iter().zip(STROKES) {
+            lines.iter().for_each(|line| panel.curve(canvas, line, stroke));
+        }
+        for symbol in SYMBOLS {
+            let ours = self.specials.iter().filter(|(other, _)| *other == symbol);
+            draw_symbols(canvas, panel, symbol, ours.map(|(_, place)| *place));
+        }
+    }
+
+    /// What the lines and symbols mean.
+    pub fn legend(&self) -> Vec<Entry> {
+        let lines = STROKES.iter().zip(["unstable", "stable"]).zip(&self.lines).rev();
+        let lines = lines
+            .filter(|(_, lines)| lines.iter().any(|line| line.len() > 1))
+            .map(|((stroke, words), _)| (Mark::Line(*stroke), Text::plain(words)));
+        let occurs = |symbol: &Symbol| self.specials.iter().any(|(other, _)| other == symbol);
+        let symbols = SYMBOLS.into_iter().rev().filter(occurs);
+        let symbols = symbols.map(|symbol| (Mark::Symbol(symbol), Text::plain(symbol.words)));
+        lines.chain(symbols).collect()
+    }
+}
+
+/// The lines of unstable orbits, and of stable ones.
+const STROKES: [Stroke; 2] = [
+    Stroke { colour: INK, width: 0.8 * CURVE_WIDTH, dash: Dash::Short },
+    Stroke { colour: INK, width: CURVE_WIDTH, dash: Dash::None },
+];
+
+/// The symbol at those of `places` that lie on the panel.
+pub fn draw_symbols(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    symbol: Symbol,
+    places: impl Iterator<Item = (f64, f64)>,
+) {
+    let on_panel = |(x, y): &(f64, f64)| panel.x.scale.holds(*x) && panel.y.scale.holds(*y);
+    for (x, y) in places.filter(on_panel) {
+        symbol.draw(canvas, panel.place(x, y));
+    }
+}
+
+/// A colour that steps back behind lines.
+pub fn faded(RGBColor(red, green, blue): RGBColor) -> RGBColor {
+    let fade = |part: u8| (255.0 - 0.42 * (255.0 - f64::from(part))).round() as u8;
+    RGBColor(fade(red), fade(green), fade(blue))
+}

@@ -1,0 +1,126 @@
+//! The symbols of special points, each with its shape and colour.
+
+use plotters::style::RGBColor;
+
+use super::canvas::{Canvas, Dash, Stroke};
+use super::geometry::Point;
+use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, GREEN, PAPER, PURPLE, VERMILION};
+
+/// A kind of special point as figures show it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Symbol {
+    /// Its name in files of results.
+    pub name: &'static str,
+    /// Its name in legends.
+    pub words: &'static str,
+    shape: Shape,
+    /// Its colour.
+    pub colour: RGBColor,
+    /// How curves of it are drawn.
+    pub dash: Dash,
+}
+
+/// The shape of a symbol.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Shape {
+    Triangle,
+    Diamond,
+    Star,
+    Ring,
+    Cross,
+}
+
+/// Distance of the corners of a symbol from its middle [pt].
+const RADIUS: f64 = 2.4;
+
+/// The symbols, those that matter least first: the later are drawn over the earlier.
+pub const SYMBOLS: [Symbol; 5] = [
+    Symbol {
+        name: "event-sequence",
+        words: "event sequence",
+        shape: Shape::Cross,
+        colour: FAINT_INK,
+        dash: Dash::Dotted,
+    },
+    Symbol {
+        name: "grazing",
+        words: "grazing",
+        shape: Shape::Ring,
+        colour: PURPLE,
+        dash: Dash::Short,
+    },
+    Symbol {
+        name: "neimark-sacker",
+        words: "Neimark–Sacker",
+        shape: Shape::Star,
+        colour: GREEN,
+        dash: Dash::Mixed,
+    },
+    Symbol {
+        name: "period-doubling",
+        words: "period doubling",
+        shape: Shape::Diamond,
+        colour: BLUE,
+        dash: Dash::Long,
+    },
+    Symbol {
+        name: "fold",
+        words: "fold",
+        shape: Shape::Triangle,
+        colour: VERMILION,
+        dash: Dash::None,
+    },
+];
+
+/// Corners of the shapes, in shares of the radius, upward negative.
+const TRIANGLE: [Point; 3] = [(0.0, -1.15), (1.0, 0.6), (-1.0, 0.6)];
+const DIAMOND: [Point; 4] = [(0.0, -1.15), (1.0, 0.0), (0.0, 1.15), (-1.0, 0.0)];
+const STAR: [Point; 10] = [
+    (0.0, -1.3),
+    (0.32, -0.44),
+    (1.24, -0.4),
+    (0.52, 0.17),
+    (0.76, 1.05),
+    (0.0, 0.55),
+    (-0.76, 1.05),
+    (-0.52, 0.17),
+    (-1.24, -0.4),
+    (-0.32, -0.44),
+];
+
+impl Symbol {
+    /// The symbol of the kind called `name` in files of results.
+    pub fn named(name: &str) -> Option<Symbol> {
+        SYMBOLS.into_iter().find(|symbol| symbol.name == name)
+    }
+
+    /// Draws the symbol with its middle at `at`, on a rim of paper that lifts it off the lines.
+    pub fn draw(&self, canvas: &mut Canvas, at: Point) {
+        match self.shape {
+            Shape::Triangle => self.fill(canvas, at, &TRIANGLE),
+            Shape::Diamond => self.fill(canvas, at, &DIAMOND),
+            Shape::Star => self.fill(canvas, at, &STAR),
+            Shape::Ring => {
+                canvas.discs(&[(at, PAPER)], RADIUS * 0.85);
+                canvas.rings(&[at], RADIUS * 0.85, Stroke::solid(self.colour, CURVE_WIDTH));
+            }
+            Shape::Cross => {
+                let reach = RADIUS * 0.62;
+                let (x, y) = at;
+                let ends = [
+                    ((x - reach, y - reach), (x + reach, y + reach)),
+                    ((x - reach, y + reach), (x + reach, y - reach)),
+                ];
+                canvas.segments(&ends, Stroke::solid(self.colour, 0.8 * CURVE_WIDTH));
+            }
+        }
+    }
+
+    fn fill(&self, canvas: &mut Canvas, (x, y): Point, corners: &[Point]) {
+        let around = |radius: f64| -> Vec<Point> {
+            corners.iter().map(|(dx, dy)| (x + dx * radius, y + dy * radius)).collect()
+        };
+        canvas.polygon(&around(RADIUS + 0.7), PAPER);
+        canvas.polygon(&around(RADIUS), self.colour);
+    }
+}

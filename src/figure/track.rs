@@ -1,0 +1,200 @@
+//! A branch as a path through a diagram: its orbits and special points in order, their cycles matched.
+
+use super::followed::in_view;
+use super::symbol::Symbol;
+use super::view::View;
+use crate::store::dataset::Dataset;
+
+/// A stop on the way along a branch, in SI.
+pub struct Stop {
+    /// Value of the followed parameter.
+    pub x: f64,
+    /// The output, once or for each cycle of the period.
+    pub values: Vec<f64>,
+    /// Whether the orbit is stable; unknown at a special point.
+    pub stable: Option<bool>,
+    /// What happens there, at a special point.
+    pub symbol: Option<Symbol>,
+}
+
+/// A branch.
+pub struct Track {
+    /// Its stops in order.
+    pub stops: Vec<Stop>,
+}
+
+impl Track {
+    /// Number of lines that the branch makes.
+    pub fn width(&self) -> usize {
+        self.stops.iter().map(|stop| stop.values.len()).min().unwrap_or(0)
+    }
+}
+
+/// The numbers of a variable, `width` of them at each place of its dimension; none where it is missing.
+pub struct Rows {
+    width: usize,
+    /// Whether there is a second dimension.
+    several: bool,
+    values: Vec<f64>,
+}
+
+impl Rows {
+    /// The variable called `name`.
+    pub fn new(dataset: &Dataset, name: &str) -> Rows {
+        let Some(variable) = dataset.variable(name) else {
+            return Rows { width: 1, several: false, values: Vec::new() };
+        };
+        let width = variable.values.shape().iter().skip(1).product();
+        let several = variable.dimensions.len() > 1;
+        Rows { width, several, values: variable.values.to_real().into_iter().collect() }
+    }
+
+    fn at(&self, place: usize) -> &[f64] {
+        let begin = place * self.width;
+        self.values.get(begin..begin + self.width).unwrap_or(&[])
+    }
+
+    /// The first number at a place, or NaN.
+    pub fn one(&self, place: usize) -> f64 {
+        self.at(place).first().copied().unwrap_or(f64::NAN)
+    }
+
+    /// The places at which the value is `wanted`.
+    pub fn places(&self, wanted: usize) -> Vec<usize> {
+        let here = |place: &usize| self.one(*place) == wanted as f64;
+        (0..self.values.len()).filter(here).collect()
+    }
+}
+
+/// The variables of points of one sort, "branch" or "special".
+struct Source {
+    branch: Rows,
+    x: Rows,
+    output: Rows,
+    period: Rows,
+    section: [Rows; 3],
+}
+
+impl Source {
+    fn new(dataset: &Dataset, prefix: &str, x: &str, output: &str) -> Source {
+        let rows = |name: &str| Rows::new(dataset, &format!("{prefix}_{name}"));
+        let branch = match prefix {
+            "branch" => Rows::new(dataset, "branch"),
+            _ => rows("branch"),
+        };
+        let section = ["section_r", "section_y1", "section_y2"].map(rows);
+        Source { branch, x: rows(x), output: rows(output), period: rows("period"), section }
+    }
+
+    /// The section points of the orbit at `place`.
+    fn orbit(&self, place: usize) -> Vec<[f64; 3]> {
+        let cycles = self.period.one(place).max(0.0) as usize;
+        let point = |cycle: usize| {
+            let value = |rows: &Rows| rows.at(place).get(cycle).copied().unwrap_or(f64::NAN);
+            [&self.section[0], &self.section[1], &self.section[2]].map(value)
+        };
+        (0..cycles).map(point).collect()
+    }
+}
+
+/// The branches along `x` that lie where `view` holds the other axes, as their `output`.
+pub fn tracks(view: &View<'_>, x: &str, output: &str) -> Vec<Track> {
+    let dataset = view.dataset;
+    if dataset.variable(&format!("branch_{output}")).is_none() {
+        return Vec::new();
+    }
+    let fits = in_view(view, &[x]);
+    let request = Rows::new(dataset, "index_request");
+    let points = Source::new(dataset, "branch", x, output);
+    let specials = Source::new(dataset, "special", x, output);
+    let along_x = |branch: &usize| {
+        let first = points.branch.places(*branch).first().copied();
+        first.is_some_and(|place| points.x.one(place).is_finite())
+    };
+    let shown = |branch: &usize| fits.get(request.one(*branch) as usize).copied().unwrap_or(false);
+    let branches = (0..request.values.len()).filter(shown).filter(along_x);
+    branches.map(|branch| track(dataset, branch, &points, &specials)).collect()
+}
+
+fn track(dataset: &Dataset, branch: usize, points: &Source, specials: &Source) -> Track {
+    let stable = Rows::new(dataset, "branch_stable");
+    let after = Rows::new(dataset, "special_after");
+    let kind = Rows::new(dataset, "special_kind");
+    let flags = dataset.variable("special_kind").map_or(&[][..], |variable| &variable.flags);
+    let symbol = |place: usize| {
+        let flag = flags.iter().find(|(code, _)| *code as f64 == kind.one(place));
+        flag.and_then(|(_, name)| Symbol::named(name))
+    };
+    let mut turning = Turning::new(points, branch);
+    let mut waiting = specials.branch.places(branch).into_iter().peekable();
+    let mut stops = Vec::new();
+    for place in points.branch.places(branch) {
+        let stable = Some(stable.one(place) == 1.0);
+        let values = turning.values(points, place);
+        stops.push(Stop { x: points.x.one(place), values, stable, symbol: None });
+        while let Some(special) = waiting.next_if(|&special| after.one(special) <= place as f64) {
+            let values = turning.values(specials, special);
+            let x = specials.x.one(special);
+            stops.push(Stop { x, values, stable: None, symbol: symbol(special) });
+        }
+    }
+    Track { stops }
+}
+
+/// Keeps the cycles of an orbit in step with those of the orbit before it on the branch.
+struct Turning {
+    /// Extent of each section coordinate on the branch.
+    extent: [f64; 3],
+    before: Vec<[f64; 3]>,
+}
+
+impl Turning {
+    fn new(points: &Source, branch: usize) -> Turning {
+        let all: Vec<[f64; 3]> =
+            points.branch.places(branch).into_iter().flat_map(|at| points.orbit(at)).collect();
+        let extent = [0, 1, 2].map(|i| {
+            let low = all.iter().map(|point| point[i]).fold(f64::INFINITY, f64::min);
+            let high = all.iter().map(|point| point[i]).fold(f64::NEG_INFINITY, f64::max);
+            (high - low).max(f64::MIN_POSITIVE)
+        });
+        Turning { extent, before: Vec::new() }
+    }
+
+    /// The output at `place`, its cycles turned to lie nearest those of the orbit before.
+    fn values(&mut self, source: &Source, place: usize) -> Vec<f64> {
+        let mut orbit = source.orbit(place);
+        let turn = match self.before.len() == orbit.len() {
+            true => self.nearest(&orbit),
+            false => 0,
+        };
+        orbit.rotate_left(turn);
+        let cycles = orbit.len();
+        self.before = orbit;
+        if !source.output.several {
+            return vec![source.output.one(place)];
+        }
+        let values = source.output.at(place);
+        let turned = (0..cycles).map(|cycle| values.get((cycle + turn) % cycles));
+        turned.map(|value| value.copied().unwrap_or(f64::NAN)).collect()
+    }
+
+    /// By how many cycles `orbit` is turned against the one before.
+    fn nearest(&self, orbit: &[[f64; 3]]) -> usize {
+        let away = |turn: usize| -> f64 {
+            let turned = orbit.iter().cycle().skip(turn);
+            let pairs = self.before.iter().zip(turned);
+            pairs.map(|(a, b)| self.apart(a, b)).sum()
+        };
+        (0..orbit.len()).min_by(|a, b| away(*a).total_cmp(&away(*b))).unwrap_or(0)
+    }
+
+    /// Square of the distance of two section points, relative to the extent of the branch.
+    fn apart(&self, a: &[f64; 3], b: &[f64; 3]) -> f64 {
+        (0..3)
+            .map(|i| {
+                let difference = (a[i] - b[i]) / self.extent[i];
+                difference * difference
+            })
+            .sum()
+    }
+}

@@ -1,0 +1,92 @@
+//! The branches of a study one after another, as they lie in a file: what referred within one refers to all.
+
+use crate::branch::{Branch, Curve, SpecialKind};
+use crate::model::Parameter;
+use crate::sweep::{Continuation, Followed};
+
+use super::branch_columns::Row;
+
+/// A branch among all.
+pub struct FlatBranch {
+    /// The branch of the study that led to it.
+    pub request: usize,
+    /// The parameter that is followed.
+    pub along: Parameter,
+    /// Period of its orbits [cycles].
+    pub period: u64,
+    /// The branch that it left, and the special point at which it did.
+    pub parent: Option<(i64, i64)>,
+}
+
+/// A curve among all, without its points.
+pub struct FlatCurve {
+    /// What happens on it.
+    pub kind: SpecialKind,
+    /// Period of the orbits on it [cycles].
+    pub period: u64,
+    /// The special point that it goes through.
+    pub through: usize,
+    /// The followed and the second parameter.
+    pub varied: [Option<Parameter>; 2],
+}
+
+/// Everything that was found, in the order of the study.
+#[derive(Default)]
+pub struct Flat<'a> {
+    /// The branches.
+    pub branches: Vec<FlatBranch>,
+    /// Their points.
+    pub points: Vec<Row<'a>>,
+    /// Their special points.
+    pub specials: Vec<Row<'a>>,
+    /// What each special point is, and the point that it comes after.
+    pub special_kinds: Vec<(SpecialKind, usize)>,
+    /// The curves.
+    pub curves: Vec<FlatCurve>,
+    /// Their points, each with the number of its curve.
+    pub curve_points: Vec<(usize, [f64; 2])>,
+}
+
+impl<'a> Flat<'a> {
+    /// What came of `continuations`.
+    pub fn new(continuations: &[Continuation], followed: &'a [Followed]) -> Self {
+        let mut flat = Flat::default();
+        for (request, (continuation, followed)) in continuations.iter().zip(followed).enumerate() {
+            let Ok(found) = followed else { continue };
+            let first_branch = flat.branches.len();
+            // Where the special points of each branch of this request begin.
+            let mut begins = Vec::new();
+            for branch in &found.branches {
+                begins.push(flat.specials.len());
+                let parent = branch.parent.map(|(parent, special)| {
+                    ((first_branch + parent) as i64, (begins[parent] + special) as i64)
+                });
+                let (along, period) = (continuation.along, branch.period);
+                flat.branches.push(FlatBranch { request, along, period, parent });
+                flat.add_points(along, branch);
+            }
+            for curve in &found.curves {
+                flat.add_curve(continuation, curve, begins[curve.through.0] + curve.through.1);
+            }
+        }
+        flat
+    }
+
+    fn add_points(&mut self, along: Parameter, branch: &'a Branch) {
+        let (number, first) = (self.branches.len() - 1, self.points.len());
+        let row = |point| Row { branch: number, along, period: branch.period, point };
+        self.points.extend(branch.points.iter().map(row));
+        self.specials.extend(branch.special.iter().map(|special| row(&special.point)));
+        let kinds = branch.special.iter().map(|special| (special.kind, first + special.after));
+        self.special_kinds.extend(kinds);
+    }
+
+    fn add_curve(&mut self, continuation: &Continuation, curve: &Curve, through: usize) {
+        let number = self.curves.len();
+        let second = continuation.second.map(|(parameter, _)| parameter);
+        let varied = [Some(continuation.along), second];
+        let Curve { kind, period, .. } = *curve;
+        self.curves.push(FlatCurve { kind, period, through, varied });
+        self.curve_points.extend(curve.points.iter().map(|&point| (number, point)));
+    }
+}

@@ -1,0 +1,298 @@
+//! The branches of a study file: which keys they have, what they mean and what is allowed.
+
+use std::collections::BTreeMap;
+
+use crate::model::{Allowed, Dimension, Parameter, Parameters, State, Switching};
+
+use super::continuation::{Continuation, FirstOrbit};
+use super::document::{Entry, Table, unknown};
+use super::follow::AS_PRINTED;
+use super::study_file::allowed_quantity;
+use super::{Axis, Coordinate};
+
+/// Longest step unless another is asked for, as a share of the range.
+const LONGEST_STEP: f64 = 0.02;
+
+/// Points of a branch at most, unless another number is asked for.
+const USUAL_POINTS: usize = 2000;
+
+/// More points of a branch than this are taken for a slip of the pen.
+const MOST_POINTS: u64 = 1_000_000;
+
+/// So many doublings make a period of over a million cycles.
+const MOST_DOUBLINGS: u64 = 20;
+
+/// Longest period of a first orbit [cycles].
+const LONGEST_PERIOD: u64 = 100_000;
+
+/// What the rest of the study gives to its branches.
+pub(super) struct Surroundings<'s> {
+    /// Its axes.
+    pub axes: &'s [Axis],
+    /// Values of the parameters that no axis varies.
+    pub base: &'s Parameters,
+    /// Where its cases start.
+    pub start: State<f64>,
+    /// Phase of the drive there [rad].
+    pub phase: f64,
+}
+
+impl Surroundings<'_> {
+    fn axis(&self, parameter: Parameter) -> Option<&Axis> {
+        self.axes.iter().find(|axis| axis.coordinate == Coordinate::Parameter(parameter))
+    }
+
+    /// The ends of the axis over `parameter`, the lesser first.
+    fn ends(&self, parameter: Parameter) -> Option<[f64; 2]> {
+        let values = self.axis(parameter)?.values.iter().copied();
+        let low = values.clone().reduce(f64::min)?;
+        Some([low, values.reduce(f64::max)?])
+    }
+}
+
+/// The branches of a study.
+pub(super) fn read_branches(top: &Table<'_, '_>, study: &Surroundings<'_>) -> Vec<Continuation> {
+    let mut branches: Vec<Continuation> = Vec::new();
+    let list = top.entry("branches");
+    if let (Some(list), Switching::AsPrinted) = (&list, study.base.switching) {
+        list.fault(AS_PRINTED);
+    }
+    let entries = list.map(|list| list.list()).unwrap_or_default();
+    for table in entries.iter().filter_map(Entry::table) {
+        let name = read_name(&table);
+        if let Some(twice) = table.entry("name").filter(|_| branches.iter().any(|b| b.name == name))
+        {
+            twice.fault(format!("a second branch \"{name}\""));
+        }
+        let branch = read_branch(&table, study);
+        table.finish();
+        branches.extend(branch.map(|branch| Continuation { name, ..branch }));
+    }
+    branches
+}
+
+/// The name, which stands in one line of the file of results.
+fn read_name(table: &Table<'_, '_>) -> String {
+    let Some(entry) = table.entry("name") else {
+        table.missing("name", "a name for the branch");
+        return String::new();
+    };
+    let name = entry.text().unwrap_or("");
+    if entry.text().is_some() && (name.trim().is_empty() || name.contains(char::is_control)) {
+        entry.fault("must be one line, not empty, without control characters");
+    }
+    name.to_owned()
+}
+
+/// A branch without its name; none where what it needs is missing, which is told then.
+fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Continuation> {
+    let along = read_parameter(table, "along");
+    // The ends are known keys where the parameter is not, too.
+    ["from", "to"].into_iter().for_each(|key| drop(table.entry(key)));
+    let second = table.table("second").map(|second| read_second(second, along, study));
+    let varied: Vec<Parameter> =
+        along.into_iter().chain(second.and_then(|(parameter, _)| parameter)).collect();
+    let range = along.and_then(|along| read_range(table, along, study));
+    let at = table.table("at");
+    let parameters = read_place(table, at.as_ref(), study, &varied);
+    let (start, phase) = read_start(table, study);
+    let first = read_first(table);
+    let (longest_step, most_points) = read_steps(table);
+    let doublings = table.entry("doublings").and_then(|entry| entry.whole(0, MOST_DOUBLINGS));
+    let (along, range, parameters) = (along?, range?, parameters?);
+    check_within(table, at.as_ref(), &parameters, (along, range));
+    let second = match second {
+        Some((parameter, range)) => Some((parameter?, range?)),
+        None => None,
+    };
+    if let Some(second) = second {
+        check_within(table, at.as_ref(), &parameters, second);
+    }
+    Some(Continuation {
+        name: String::new(),
+        along,
+        range,
+        parameters,
+        start,
+        phase,
+        first,
+        doublings: doublings.unwrap_or(0) as u32,
+        second,
+        longest_step,
+        most_points,
+    })
+}
+
+/// The parameter that `key` names.
+fn read_parameter(table: &Table<'_, '_>, key: &str) -> Option<Parameter> {
+    let names: Vec<(&str, Parameter)> = Parameter::ALL.iter().map(|&p| (p.symbol(), p)).collect();
+    let Some(entry) = table.entry(key) else {
+        table.missing(key, "the parameter to follow the orbit in");
+        return None;
+    };
+    entry.one_of("parameter", &names)
+}
+
+/// The ends `from` and `to`, the lesser first; those of the axis where they are not given.
+fn read_range(
+    table: &Table<'_, '_>,
+    parameter: Parameter,
+    study: &Surroundings<'_>,
+) -> Option<[f64; 2]> {
+    let ends = study.ends(parameter);
+    let end = |key: &str, usual: Option<f64>| {
+        let Some(entry) = table.entry(key) else {
+            // An axis without values has had its fault told.
+            if study.axis(parameter).is_none() {
+                let expected =
+                    format!("a value, as no axis varies the {} here", parameter.meaning());
+                table.missing(key, &expected);
+            }
+            return usual;
+        };
+        allowed_quantity(&entry, parameter.dimension(), parameter.allowed())
+    };
+    let (from, to) = (end("from", ends.map(|ends| ends[0])), end("to", ends.map(|ends| ends[1])));
+    let (from, to) = (from?, to?);
+    if from == to {
+        let message = "the branch would end where it begins";
+        match table.entry("to").or_else(|| table.entry("from")) {
+            Some(entry) => entry.fault(message),
+            None => table.missing("to", "a range, as the axis has one value only"),
+        }
+        return None;
+    }
+    Some([from.min(to), from.max(to)])
+}
+
+/// The second parameter with its range.
+fn read_second(
+    table: Table<'_, '_>,
+    along: Option<Parameter>,
+    study: &Surroundings<'_>,
+) -> (Option<Parameter>, Option<[f64; 2]>) {
+    let parameter = read_parameter(&table, "name");
+    if let (Some(name), true) = (table.entry("name"), parameter.is_some() && parameter == along) {
+        name.fault("is the parameter that the orbit is followed in already");
+    }
+    // As for the first.
+    ["from", "to"].into_iter().for_each(|key| drop(table.entry(key)));
+    let range = parameter.and_then(|parameter| read_range(&table, parameter, study));
+    table.finish();
+    (parameter, range)
+}
+
+/// The parameters at which the first orbit is: those of the study, and those that `at` gives; none after a
+/// fault.
+fn read_place(
+    table: &Table<'_, '_>,
+    at: Option<&Table<'_, '_>>,
+    study: &Surroundings<'_>,
+    varied: &[Parameter],
+) -> Option<Parameters> {
+    let mut parameters = study.base.clone();
+    let mut complete = true;
+    let on_axis = |parameter: &&Parameter| study.axis(**parameter).is_some();
+    let open: Vec<Parameter> = Parameter::ALL.iter().filter(on_axis).copied().collect();
+    let given: BTreeMap<String, Entry<'_, '_>> =
+        at.map(Table::entries).unwrap_or_default().into_iter().collect();
+    let names = || open.iter().chain(varied).map(|parameter| parameter.symbol());
+    for (name, entry) in &given {
+        match Parameter::named(name).filter(|it| open.contains(it) || varied.contains(it)) {
+            Some(parameter) => {
+                let value = allowed_quantity(entry, parameter.dimension(), parameter.allowed());
+                parameters[parameter] = value.unwrap_or(parameters[parameter]);
+                complete &= value.is_some();
+            }
+            None => entry.fault(unknown("parameter that varies", name, distinct(names()))),
+        }
+    }
+    for parameter in open.iter().filter(|parameter| !given.contains_key(parameter.symbol())) {
+        let key = format!("at.{}", parameter.symbol());
+        let expected =
+            format!("the {} of the first orbit, as an axis varies it", parameter.meaning());
+        table.missing(&key, &expected);
+        complete = false;
+    }
+    complete.then_some(parameters)
+}
+
+fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> impl Iterator<Item = &'n str> {
+    let mut seen = Vec::new();
+    names.filter(move |name| {
+        let new = !seen.contains(name);
+        seen.push(name);
+        new
+    })
+}
+
+/// Sure that the first orbit lies where the branch may go.
+fn check_within(
+    table: &Table<'_, '_>,
+    at: Option<&Table<'_, '_>>,
+    parameters: &Parameters,
+    (parameter, [from, to]): (Parameter, [f64; 2]),
+) {
+    let value = parameters[parameter];
+    if (from..=to).contains(&value) {
+        return;
+    }
+    let symbol = parameter.symbol();
+    let unit = Some(parameter.dimension().unit()).filter(|&unit| unit != "1");
+    let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+    let message =
+        format!("the first orbit, at {symbol} = {value}{unit}, lies outside {from} to {to}{unit}");
+    let given = at.and_then(|at| at.entry(symbol)).or_else(|| table.entry("name"));
+    given.into_iter().for_each(|entry| entry.fault(&message));
+}
+
+/// Where the first orbit is looked for, and the phase of the section.
+fn read_start(table: &Table<'_, '_>, study: &Surroundings<'_>) -> (State<f64>, f64) {
+    let (mut start, mut phase) = (study.start, study.phase);
+    let Some(table) = table.table("start") else { return (start, phase) };
+    let places = [
+        ("r", Coordinate::StartR, &mut start.r),
+        ("y1", Coordinate::StartY1, &mut start.y1),
+        ("y2", Coordinate::StartY2, &mut start.y2),
+        ("phase", Coordinate::Phase, &mut phase),
+    ];
+    for (key, coordinate, place) in places {
+        let Some(entry) = table.entry(key) else { continue };
+        let value = allowed_quantity(&entry, coordinate.dimension(), Allowed::Finite);
+        *place = value.unwrap_or(*place);
+    }
+    table.finish();
+    (start, phase)
+}
+
+fn read_first(table: &Table<'_, '_>) -> FirstOrbit {
+    let names = [("settle", false), ("newton", true)];
+    let newton = table.entry("orbit").and_then(|entry| entry.one_of("way to the orbit", &names));
+    let period = table.entry("period");
+    match (newton.unwrap_or(false), &period) {
+        (true, None) => table.missing("period", "the period of the orbit in cycles"),
+        (false, Some(entry)) if newton.is_some() || table.entry("orbit").is_none() => {
+            entry.fault("goes with `orbit = \"newton\"`; settling finds the period itself");
+        }
+        _ => {}
+    }
+    let period = period.and_then(|entry| entry.whole(1, LONGEST_PERIOD));
+    match newton {
+        Some(true) => FirstOrbit::Newton { period: period.unwrap_or(1) },
+        _ => FirstOrbit::Settle,
+    }
+}
+
+/// The longest step, as a share of the range, and the number of points at most.
+fn read_steps(table: &Table<'_, '_>) -> (f64, usize) {
+    let step = table.entry("longest_step").and_then(|entry| {
+        let step = entry.quantity(Dimension::Number)?;
+        let fits = step > 0.0 && step <= 1.0;
+        if !fits {
+            entry.fault(format!("{step} must lie above 0 and up to 1, a share of the range"));
+        }
+        fits.then_some(step)
+    });
+    let points = table.entry("most_points").and_then(|entry| entry.whole(2, MOST_POINTS));
+    (step.unwrap_or(LONGEST_STEP), points.map_or(USUAL_POINTS, |points| points as usize))
+}

@@ -1,0 +1,100 @@
+//! The branches of a study, each followed on a thread of its own, to the same results on any number of them.
+
+use std::fmt;
+
+use rayon::prelude::*;
+
+use crate::branch::{self, Found, NotFollowed};
+use crate::orbit::{Outcome, Protocol, Reason, Section, settle};
+
+use super::run::{RunError, pool};
+use super::{Continuation, FirstOrbit, Study};
+
+/// What is said of a study with branches that reads friction as printed.
+pub(super) const AS_PRINTED: &str =
+    "the equation as printed is not followed; it takes `friction_switching = \"filippov\"`";
+
+/// What came of one branch of a study.
+pub type Followed = Result<Found, Unfollowed>;
+
+/// Why a branch of a study has no points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unfollowed {
+    /// The motion from the start settles to no periodic orbit, but to this.
+    Unsettled(Outcome),
+    /// No periodic orbit was found near the start.
+    NoOrbit,
+    /// The motion could not be followed.
+    Failed(Reason),
+    /// The equation as printed is not followed.
+    AsPrinted,
+}
+
+impl fmt::Display for Unfollowed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unfollowed::Unsettled(outcome) => write!(
+                f,
+                "the motion from the start is {}, not periodic; move the start, give it more \
+                 `max_cycles`, or look for the orbit with `orbit = \"newton\"`",
+                outcome.name()
+            ),
+            Unfollowed::NoOrbit => {
+                f.write_str("no periodic orbit was found near the start; give one closer to it")
+            }
+            Unfollowed::Failed(reason) => {
+                let name = Reason::NAMES.iter().find(|(known, _)| known == reason);
+                let name = name.map_or("", |(_, name)| name);
+                write!(f, "the motion could not be followed there ({name})")
+            }
+            Unfollowed::AsPrinted => f.write_str(AS_PRINTED),
+        }
+    }
+}
+
+/// Follows every branch of `study` on so many threads, all cores for none; `done` is told of each, from
+/// any thread.
+///
+/// The results stand in the order of the study and do not depend on the threads.
+pub fn follow(
+    study: &Study,
+    threads: Option<usize>,
+    done: impl Fn() + Sync,
+) -> Result<Vec<Followed>, RunError> {
+    let one = |continuation: &Continuation| {
+        let followed = follow_one(continuation, &study.protocol);
+        done();
+        followed
+    };
+    Ok(pool(threads)?.install(|| study.branches.par_iter().map(one).collect()))
+}
+
+fn follow_one(continuation: &Continuation, protocol: &Protocol) -> Followed {
+    let (section, period) = match continuation.first {
+        FirstOrbit::Settle => settled(continuation, protocol)?,
+        FirstOrbit::Newton { period } => {
+            let start = continuation.start;
+            ([start.r, start.y1, start.y2], period)
+        }
+    };
+    let request = continuation.request(section, period, protocol.tolerance);
+    branch::follow(&request).map_err(|why| match why {
+        NotFollowed::NoOrbit => Unfollowed::NoOrbit,
+        NotFollowed::Failed(reason) => Unfollowed::Failed(reason),
+        NotFollowed::AsPrinted => Unfollowed::AsPrinted,
+    })
+}
+
+/// A section point and the period of the orbit that the motion settles to.
+fn settled(
+    Continuation { parameters, phase, start, .. }: &Continuation,
+    protocol: &Protocol,
+) -> Result<(Section, u64), Unfollowed> {
+    let protocol = Protocol { points: 1, impact_points: 0, history: None, ..*protocol };
+    let orbit = settle(parameters, *phase, *start, &protocol);
+    match (orbit.outcome, orbit.section.first(), orbit.failure) {
+        (Outcome::Periodic, Some(&section), _) => Ok((section, orbit.period)),
+        (_, _, Some(failure)) => Err(Unfollowed::Failed(failure.reason)),
+        (outcome, _, None) => Err(Unfollowed::Unsettled(outcome)),
+    }
+}

@@ -1,0 +1,149 @@
+//! Figures of followed orbits: what they show, where, and what they leave out.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use capsulemap::figure::{Format, draw};
+use capsulemap::store::{self, Dataset};
+use capsulemap::sweep::{Drawing, DrawingKind, Followed, Study};
+
+use super::figure::made::Made;
+use super::figure::{drawing, folder};
+use super::follow::made::{STUDY, branches_alone, followed, found, with_branches};
+use super::program::FIG5;
+
+const ALL: [Format; 3] = [Format::Png, Format::Svg, Format::Pdf];
+
+/// A diagram at the drive of the first branch.
+fn diagram(name: &str) -> Drawing {
+    let at = BTreeMap::from([("p_d".to_owned(), 4.0)]);
+    Drawing { at, ..drawing(name, DrawingKind::Bifurcation) }
+}
+
+/// The SVG of a figure, without the name that stands in it.
+fn svg(dataset: &Dataset, request: &Drawing) -> String {
+    let paths = draw(dataset, request, &folder("branches"), &[Format::Svg])
+        .unwrap_or_else(|error| panic!("{error}"));
+    fs::read_to_string(&paths[0]).expect("a figure").replace(&request.name, "")
+}
+
+/// `STUDY` with branches, and cases that settle to the stable orbits of the first.
+fn swept() -> Dataset {
+    let study = Study::parse("a", &STUDY.replace("points = 8", "points = 281")).expect("a study");
+    let orbits = found().branches.remove(0).points;
+    let height = move |place: usize, point: usize| {
+        let omega = 110.0 + 0.25 * place as f64;
+        let near = orbits.iter().filter(|orbit| {
+            orbit.multipliers[0].re < 1.0 && (orbit.parameter - omega).abs() < 0.13
+        });
+        let near: Vec<f64> = near.map(|orbit| orbit.section[0][0]).collect();
+        near.get((place + point) % near.len().max(1)).copied().unwrap_or(f64::NAN)
+    };
+    let speed = height.clone();
+    let made = Made(with_branches(store::frame(&study), &study, &followed()));
+    made.coordinate("point", "1", vec![0.0])
+        .real("section_r", &["omega", "p_d", "point"], move |i| height(i[0], i[2]))
+        .real("progression_speed", &["omega", "p_d"], move |i| speed(i[0], 0))
+        .0
+}
+
+#[test]
+fn branches_are_drawn_over_what_was_swept() {
+    let swept = swept();
+    let of = ["section_r", "progression_speed"].map(String::from).to_vec();
+    draw(&swept, &diagram("overlay"), &folder("branches"), &ALL).expect("a figure");
+    let wide = Drawing {
+        title: Some("Followed and swept".into()),
+        width_mm: Some(180.0),
+        ..diagram("overlay-wide")
+    };
+    draw(&swept, &wide, &folder("branches"), &ALL).expect("a figure");
+    let with = svg(&swept, &Drawing { of: of.clone(), ..diagram("with") });
+    let without = svg(&swept, &Drawing { branches: false, of, ..diagram("without") });
+    assert!(with.contains("stroke-dasharray") && !without.contains("stroke-dasharray"));
+    let mut bare = swept;
+    let lone = store::frame(&Study::parse("a", STUDY).expect("a study"));
+    bare.coordinates.retain(|(name, _)| lone.coordinate(name).is_some() || name == "point");
+    let prefixes = ["branch", "special", "request", "index", "curve"];
+    bare.variables.retain(|name, _| !prefixes.iter().any(|prefix| name.starts_with(prefix)));
+    assert_eq!(svg(&bare, &diagram("bare")), without);
+}
+
+#[test]
+fn branches_alone_make_a_diagram() {
+    let alone = branches_alone();
+    let of = ["section_r", "section_y1", "work_net", "period"].map(String::from).to_vec();
+    let every = Drawing { of, ..diagram("alone") };
+    draw(&alone, &every, &folder("branches"), &ALL).expect("a figure");
+    // Where the study has no axis, too.
+    let text = format!(
+        "{FIG5}[[branches]]\nname = \"a\"\nalong = \"p_d\"\nfrom = \"1 N\"\nto = \"5 N\"\n"
+    );
+    let study = Study::parse("a", &text).expect("a study");
+    let second: Vec<Followed> = followed().drain(1..2).collect();
+    let dataset = with_branches(store::frame(&study), &study, &second);
+    let request = drawing("no-axis", DrawingKind::Bifurcation);
+    assert!(svg(&dataset, &request).contains("progression_speed over p_d"));
+    let wrong = Drawing { x: Some("omega".into()), ..request };
+    let said = draw(&dataset, &wrong, &folder("branches"), &[]).expect_err("no such axis");
+    assert!(said.to_string().contains("`omega` is not an axis"), "{said}");
+}
+
+#[test]
+fn branches_that_lie_elsewhere_are_left_out() {
+    let alone = branches_alone();
+    let nothing = |request: Drawing| !svg(&alone, &request).contains("stroke-dasharray");
+    assert!(!nothing(diagram("here")));
+    let at = BTreeMap::from([("p_d".to_owned(), 2.0)]);
+    assert!(nothing(Drawing { at, ..diagram("elsewhere") }));
+    // Along the other axis lies the other branch, at one of the frequencies.
+    let along = |omega: f64| {
+        let at = BTreeMap::from([("omega".to_owned(), omega)]);
+        svg(&alone, &Drawing { x: Some("p_d".into()), at, ..diagram("other") })
+    };
+    assert!(along(120.0).len() > along(150.0).len());
+}
+
+#[test]
+fn the_cycles_of_an_orbit_may_begin_anywhere() {
+    let study = Study::parse("a", STUDY).expect("a study");
+    let mut straight = found();
+    for (step, point) in straight.branches[1].points.iter_mut().enumerate() {
+        point.section.rotate_right(usize::from(step % 7 == 3));
+    }
+    let apart = |point: &capsulemap::branch::Point| point.section[0][0] - point.section[1][0];
+    assert!(straight.branches[1].points.iter().all(|point| apart(point) >= 0.0));
+    let mut others = followed();
+    assert_ne!(others[0], Ok(straight.clone()));
+    others[0] = Ok(straight);
+    let straight = with_branches(store::frame(&study), &study, &others);
+    assert_eq!(svg(&straight, &diagram("straight")), svg(&branches_alone(), &diagram("turned")));
+}
+
+#[test]
+fn curves_lie_over_two_parameters() {
+    let alone = branches_alone();
+    let request = drawing("curves", DrawingKind::Curves);
+    draw(&alone, &request, &folder("branches"), &ALL).expect("a figure");
+    assert!(svg(&alone, &request).contains("grazing, neimark-sacker, period-doubling, fold over"));
+    let turned = Drawing { x: Some("p_d".into()), y: Some("omega".into()), ..request.clone() };
+    assert!(svg(&alone, &turned).contains("fold over p_d, omega"));
+    assert_ne!(svg(&alone, &request), svg(&alone, &turned));
+    let study = Study::parse("a", STUDY).expect("a study");
+    let said = draw(&store::frame(&study), &request, &folder("branches"), &[]);
+    let said = said.expect_err("there are no curves").to_string();
+    assert!(said.contains("no curves in two parameters"), "{said}");
+    // A second parameter that no branch follows, beside the columns that say what the curves are.
+    let (first, rest) = STUDY.split_once("[[branches]]\nname = \"in amplitude\"").expect("two");
+    let figures = rest.find("[[figures]]").expect("figures");
+    let lone = Study::parse("a", &format!("{first}{}", &rest[figures..])).expect("a study");
+    let lone = with_branches(store::frame(&lone), &lone, &followed()[..1]);
+    assert!(svg(&lone, &drawing("lone", DrawingKind::Curves)).contains("fold over omega, p_d"));
+    let mut doubled = followed();
+    if let Ok(found) = &mut doubled[0] {
+        found.curves[1].period = 2;
+    }
+    let doubled = with_branches(store::frame(&study), &study, &doubled);
+    let request = drawing("curves-doubled", DrawingKind::Curves);
+    draw(&doubled, &request, &folder("branches"), &ALL).expect("a figure");
+}

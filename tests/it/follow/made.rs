@@ -1,0 +1,159 @@
+//! Made-up branches for the tests of what is around following.
+
+use capsulemap::branch::{Branch, Curve, Found, Point, Special, SpecialKind};
+use capsulemap::orbit::matrix::Complex;
+use capsulemap::orbit::{Output, Outputs};
+use capsulemap::store::{self, Dataset};
+use capsulemap::sweep::{Followed, Study, Unfollowed};
+
+/// A study of three branches, the last of which leads nowhere.
+pub const STUDY: &str = r#"title = "Followed"
+outputs = ["progression_speed", "work_net"]
+[parameters]
+k2 = "18.96 kN/m"
+delta = "1.5 mm"
+[[axes]]
+name = "omega"
+from = "110 rad/s"
+to = "180 rad/s"
+points = 8
+[[axes]]
+name = "p_d"
+values = ["2 N", "4 N"]
+[[branches]]
+name = "moving on"
+along = "omega"
+at = { omega = "155 rad/s", p_d = "4 N" }
+second = { name = "p_d", from = "1 N", to = "5 N" }
+doublings = 1
+[[branches]]
+name = "in amplitude"
+along = "p_d"
+at = { omega = "120 rad/s", p_d = "3 N" }
+orbit = "newton"
+period = 1
+[[branches]]
+name = "lost"
+along = "omega"
+at = { omega = "155 rad/s", p_d = "4 N" }
+[[figures]]
+name = "b"
+kind = "bifurcation"
+at = { p_d = "4 N" }
+[[figures]]
+name = "c"
+kind = "curves"
+[[figures]]
+name = "m"
+kind = "map"
+"#;
+
+/// An orbit whose motion is all told by `height`.
+pub fn point(parameter: f64, period: usize, height: f64, multiplier: f64) -> Point {
+    let mut outputs = Outputs::unknown();
+    outputs[Output::ProgressionSpeed] = 1e-3 * height;
+    outputs[Output::WorkNet] = 2e-3 + 1e-4 * height * height;
+    Point {
+        parameter,
+        section: vec![[1e-3 * height, 0.1 * height, 0.0]; period],
+        multipliers: [multiplier, 0.1, 0.0].map(|re| Complex { re, im: 0.0 }),
+        residual: 1e-13,
+        outputs,
+        sequence: usize::from(height > 2.0),
+    }
+}
+
+/// Along a branch that turns back twice: the parameter at `share` of the way, and the height there.
+fn bent(share: f64) -> (f64, f64) {
+    let s = 2.4 * share - 1.2;
+    (145.0 + 12.0 * s - 9.5 * s * s * s, 3.0 * s + 1.0)
+}
+
+/// The branch that turns back twice, with one special point of each kind.
+pub fn bent_branch(count: usize) -> Branch {
+    let at = |place: f64| bent(place / (count - 1) as f64);
+    let parameter = |place: usize| at(place as f64).0;
+    let rising = |place: usize| parameter(place + 1) > parameter(place);
+    let turns: Vec<usize> =
+        (0..count - 2).filter(|&place| rising(place) != rising(place + 1)).collect();
+    let stable = |place: usize| turns.iter().filter(|&&turn| place > turn).count() != 1;
+    let orbit = |place: f64, multiplier: f64| {
+        let (parameter, height) = at(place);
+        point(parameter, 1, height, multiplier)
+    };
+    let points = (0..count)
+        .map(|place| orbit(place as f64, if stable(place) { 0.8 } else { 1.4 }))
+        .collect();
+    let special =
+        |kind, after: usize| Special { kind, after, point: orbit(after as f64 + 0.5, 1.0) };
+    let mut specials: Vec<Special> =
+        turns.iter().map(|&turn| special(SpecialKind::Fold, turn)).collect();
+    let others = [
+        (SpecialKind::PeriodDoubling, 1),
+        (SpecialKind::Grazing, 2),
+        (SpecialKind::EventSequence, 3),
+        (SpecialKind::NeimarkSacker, 4),
+    ];
+    specials.extend(others.map(|(kind, place)| special(kind, count * place / 24)));
+    specials.sort_by_key(|special| special.after);
+    Branch { period: 1, parent: None, points, special: specials }
+}
+
+/// What the first branch of `STUDY` might lead to.
+pub fn found() -> Found {
+    let first = bent_branch(121);
+    let is_doubling = |special: &Special| special.kind == SpecialKind::PeriodDoubling;
+    let doubling = first.special.iter().position(is_doubling).expect("one doubles");
+    let left = first.special[doubling].point.clone();
+    let points = (0..40)
+        .map(|step| {
+            let share = f64::from(step) / 39.0;
+            let height = left.section[0][0] * 1e3 - share;
+            let mut orbit = point(left.parameter, 2, height, if step < 25 { 0.5 } else { -1.3 });
+            orbit.parameter += 12.0 * share;
+            let apart = 2e-3 * share.sqrt();
+            orbit.section[0][0] += apart;
+            orbit.section[1][0] -= apart;
+            // The engine may begin the period at any of its cycles.
+            orbit.section.rotate_left(usize::from(step % 7 == 3));
+            orbit
+        })
+        .collect();
+    let doubled = Branch { period: 2, parent: Some((0, doubling)), points, special: Vec::new() };
+    let curve = |special: usize, bend: f64| {
+        let at = first.special[special].point.parameter;
+        let step = |place: i32| {
+            let second = 1.0 + 0.1 * f64::from(place);
+            [at + bend * (second - 4.0) + 0.7 * bend * (second - 4.0) * (second - 4.0), second]
+        };
+        let kind = first.special[special].kind;
+        Curve { kind, through: (0, special), period: 1, points: (0..=40).map(step).collect() }
+    };
+    let bends = [2.0, -1.5, 0.8, 2.6, -2.2, 1.2];
+    let curves = (0..first.special.len()).zip(bends).map(|(at, bend)| curve(at, bend)).collect();
+    Found { branches: vec![first, doubled], curves }
+}
+
+/// What the branches of `STUDY` might lead to.
+pub fn followed() -> Vec<Followed> {
+    let orbits = (0..30).map(|step| point(1.0 + 0.1 * f64::from(step), 1, 0.5, 0.3)).collect();
+    let plain = Branch { period: 1, parent: None, points: orbits, special: Vec::new() };
+    let second = Found { branches: vec![plain], curves: Vec::new() };
+    vec![Ok(found()), Ok(second), Err(Unfollowed::NoOrbit)]
+}
+
+pub fn study() -> Study {
+    Study::parse("study.toml", STUDY).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// The file of `STUDY` with branches alone.
+pub fn branches_alone() -> Dataset {
+    let study = study();
+    with_branches(store::frame(&study), &study, &followed())
+}
+
+/// `dataset` with what came of the branches of `study`.
+pub fn with_branches(mut dataset: Dataset, study: &Study, followed: &[Followed]) -> Dataset {
+    store::add_branches(&mut dataset, study, followed);
+    dataset
+}
