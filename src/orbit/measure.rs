@@ -58,6 +58,24 @@ pub(super) fn conclude<S: Locomotion>(
     }
 }
 
+/// The outputs per cycle of `period` cycles from a point of the section, those cycles' section points and
+/// the point after them.
+pub fn over_cycles<S: Locomotion>(
+    system: &S,
+    parameters: &Parameters,
+    [r, y1, y2]: Section,
+    period: u64,
+    tolerance: f64,
+) -> Result<(Outputs, Vec<Section>, Section), Failure> {
+    let start = State { r, y1, x2: 0.0, y2 };
+    let mut trajectory = Trajectory::new(system, start, parameters.drive_period(), tolerance);
+    let points = period as usize;
+    let protocol = Protocol { points, ..Protocol::with_tolerance(tolerance) };
+    let settled = Settled { period: points, repeats_after: points };
+    let (outputs, section, _) = measure(&mut trajectory, parameters, Some(settled), &protocol)?;
+    Ok((outputs, section, trajectory.section()))
+}
+
 type Measures = (Outputs, Vec<Section>, Vec<Impact>);
 
 fn measure<S: Locomotion>(
