@@ -21,6 +21,11 @@ pub trait Equations<const U: usize> {
 
     /// The equations at these unknowns.
     fn at(&self, unknowns: &[f64; U]) -> Result<Linear<U, Self::Seen>, Reason>;
+
+    /// Whether a solution belongs to the curve rather than to another that crosses it.
+    fn belongs(&self, _station: &Station<U, Self::Seen>) -> bool {
+        true
+    }
 }
 
 /// Equations with their derivatives at a point.

@@ -4,7 +4,9 @@ use crate::lane::{Dual, Lane};
 use crate::model::Parameter;
 use crate::orbit::Reason;
 
-use super::arclength::{Equations, Linear, Plane, Station, corrected, tangent};
+use super::arclength::{
+    Equations, Linear, Plane, Station, between, corrected, dot, moved, norm, tangent,
+};
 use super::family::{Family, Passage};
 use super::orbits::{Orbits, PARAMETER};
 use super::walk::{Bounds, Stride, Walk};
@@ -12,6 +14,8 @@ use super::{Curve, Request, Special, SpecialKind};
 
 /// Place of the second parameter among the unknowns.
 const SECOND: usize = 4;
+/// A curve goes through a point that lies beside one of its steps by no more than this share of it.
+const SAME: f64 = 0.05;
 
 /// A number with derivatives along the five unknowns.
 type Five = Dual<f64, 5>;
@@ -104,47 +108,90 @@ impl Equations<5> for Locus {
     }
 }
 
-/// The curve in two parameters through a special point of a branch; none for what is not followed or where no
-/// second parameter is asked for.
-pub fn curve(
+/// A curve with the orbits on it.
+#[derive(Debug, Clone)]
+pub struct Trace {
+    kind: SpecialKind,
+    period: u64,
+    through: (usize, usize),
+    units: [f64; 5],
+    points: Vec<[f64; 5]>,
+}
+
+impl Trace {
+    /// What is kept of it.
+    pub fn curve(&self) -> Curve {
+        let value = |at: &[f64; 5]| [PARAMETER, SECOND].map(|i| at[i] * self.units[i]);
+        let points = self.points.iter().map(value).collect();
+        Curve { kind: self.kind, through: self.through, period: self.period, points }
+    }
+
+    /// Whether it comes by a point.
+    fn passes(&self, point: &[f64; 5]) -> bool {
+        self.points.windows(2).any(|ends| {
+            let step = between(&ends[0], &ends[1]);
+            let toward = between(&ends[0], point);
+            let share = dot(&step, &toward) / dot(&step, &step);
+            let aside = norm(&between(&moved(&ends[0], share, &step), point));
+            (0.0..=1.0).contains(&share) && aside <= SAME * norm(&step)
+        })
+    }
+}
+
+/// The curve in two parameters through a special point of a branch; none for what is not followed, where no
+/// second parameter is asked for, or if one of the curves `before` goes through it.
+pub fn trace(
     request: &Request,
     orbits: &Orbits,
     through: (usize, usize),
     special: &Special,
-) -> Option<Curve> {
+    before: &[Trace],
+) -> Option<Trace> {
     let (second, range) = request.second?;
     let followed = matches!(
         special.kind,
         SpecialKind::Fold | SpecialKind::PeriodDoubling | SpecialKind::Grazing
     );
-    if !followed || second == request.along {
+    let width = range[1] - range[0];
+    let value = request.parameters[second];
+    let inside = (range[0]..=range[1]).contains(&value) && width > 0.0;
+    if !followed || !inside || second == request.along {
         return None;
     }
     let [r, y1, y2, along] = orbits.units;
-    let width = range[1] - range[0];
     let units = [r, y1, y2, along, width];
     let free = [request.along, second];
     let locus = Locus { family: orbits.family.clone(), free, units, kind: special.kind };
+    let (period, kind) = (orbits.family.period, special.kind);
+    let guess = guess(&locus, special, value)?;
+    let known = |trace: &Trace| {
+        (trace.kind, trace.period) == (kind, period) && trace.passes(&guess)
+    };
+    if before.iter().any(known) {
+        return None;
+    }
     let bounds = Bounds::none()
         .with(PARAMETER, request.range.map(|end| end / along))
         .with(SECOND, range.map(|end| end / width));
-    let points = both_ways(&locus, request, special, bounds)?;
-    let value = |at: &[f64; 5]| [at[PARAMETER] * along, at[SECOND] * width];
-    let points = points.iter().map(value).collect();
-    Some(Curve { kind: special.kind, through, period: orbits.family.period, points })
+    let points = both_ways(&locus, request, &guess, bounds)?;
+    Some(Trace { kind, period, through, units, points })
+}
+
+/// The unknowns at a special point.
+fn guess(locus: &Locus, special: &Special, second: f64) -> Option<[f64; 5]> {
+    let [r, y1, y2] = *special.point.section.first()?;
+    let raw = [r, y1, y2, special.point.parameter, second];
+    Some(std::array::from_fn(|i| raw[i] / locus.units[i]))
 }
 
 fn both_ways(
     locus: &Locus,
     request: &Request,
-    special: &Special,
+    guess: &[f64; 5],
     bounds: Bounds<5>,
 ) -> Option<Vec<[f64; 5]>> {
-    let [r, y1, y2] = *special.point.section.first()?;
-    let raw = [r, y1, y2, special.point.parameter, request.parameters[locus.free[1]]];
-    let guess = std::array::from_fn(|i| raw[i] / locus.units[i]);
     let plane = Plane::fixing(SECOND, guess[SECOND]);
-    let (start, _) = corrected(locus, &plane, &guess, &plane.normal)?;
+    let (start, _) = corrected(locus, &plane, guess, &plane.normal)?;
     let ahead = tangent(start.rows, &plane.normal)?;
     let most = request.most_points / 2;
     let way = |sign: f64| {

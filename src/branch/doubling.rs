@@ -4,7 +4,6 @@ use crate::orbit::matrix::Matrix;
 
 use super::arclength::{Equations, Plane, Station, between, corrected, dot, moved, norm, unit};
 use super::orbits::{OrbitStation, Orbits, shifted};
-use super::way::halfway;
 
 /// First steps off the branch that are tried, as shares of the longest.
 const FIRST_STEPS: [f64; 7] = [0.1, 0.03, 0.3, 0.01, 1e-3, 1e-4, 1e-5];
@@ -31,7 +30,7 @@ pub fn doubled(
         let plane = Plane::through(&predicted, tangent);
         let (met, _) = corrected(&twice, &plane, &predicted, &tangent)?;
         let near = norm(&between(&predicted, &met.at)) <= length;
-        let apart = halfway(&twice, &met)?;
+        let apart = twice.halfway(&met.at)?;
         let across = -dot(&apart, &[r, y1, y2]) >= OTHER_SIDE * length;
         (near && across).then(|| (twice.clone(), [start.clone(), met]))
     })

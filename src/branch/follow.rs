@@ -5,7 +5,7 @@ use crate::orbit::recurrence::size;
 use crate::orbit::{Outputs, Section, over_cycles};
 
 use super::arclength::{Plane, corrected, tangent};
-use super::curve::curve;
+use super::curve::{Trace, trace};
 use super::doubling::doubled;
 use super::family::Family;
 use super::orbits::{OrbitStation, Orbits, PARAMETER};
@@ -43,11 +43,13 @@ pub fn follow(request: &Request) -> Result<Found, NotFollowed> {
         leave(request, &mut followed, next, &mut found);
         next += 1;
     }
+    let mut traces = Vec::new();
     for (i, (branch, Followed { orbits, .. })) in found.branches.iter().zip(&followed).enumerate() {
         for (j, special) in branch.special.iter().enumerate() {
-            found.curves.extend(curve(request, orbits, (i, j), special));
+            traces.extend(trace(request, orbits, (i, j), special, &traces));
         }
     }
+    found.curves = traces.iter().map(Trace::curve).collect();
     Ok(found)
 }
 
@@ -57,22 +59,27 @@ fn leave(request: &Request, followed: &mut Vec<Followed>, parent: usize, found: 
     if level > request.doublings {
         return;
     }
-    for place in 0..followed[parent].way.happenings.len() {
-        let Followed { orbits, way, .. } = &followed[parent];
-        let (_, happening) = &way.happenings[place];
-        if happening.kind != SpecialKind::PeriodDoubling {
-            continue;
-        }
-        let Some((twice, first)) = doubled(orbits, &happening.station, request.longest_step)
-        else {
-            continue;
-        };
+    let mut doublings = doublings(&followed[parent].way);
+    while let Some((place, at)) = doublings.pop() {
+        let orbits = &followed[parent].orbits;
+        let Some((twice, first)) = doubled(orbits, &at, request.longest_step) else { continue };
         let mut way = Way::new(first.to_vec());
         way.follow(&twice, &mut walk(request, &twice), request.most_points);
+        way.merge(&doublings, request.longest_step);
+        doublings.retain(|(other, _)| Some(*other) != way.merged);
         followed.push(Followed { orbits: twice, level, way });
         let newest = followed.last().map(|followed| branch(followed, Some((parent, place))));
         found.branches.extend(newest);
     }
+}
+
+/// The period doublings of a branch with their places, the first last.
+fn doublings(way: &Way) -> Vec<(usize, OrbitStation)> {
+    let happenings = way.happenings.iter().enumerate().rev();
+    let doublings = happenings
+        .filter(|(_, (_, happening))| happening.kind == SpecialKind::PeriodDoubling)
+        .map(|(place, (_, happening))| (place, happening.station.clone()));
+    doublings.collect()
 }
 
 fn walk(request: &Request, orbits: &Orbits) -> Walk<4> {

@@ -5,7 +5,7 @@ use crate::model::{EventKind, Parameter};
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 use crate::orbit::{Reason, Section};
 
-use super::arclength::{Equations, Linear, Station};
+use super::arclength::{Equations, Linear, Station, norm};
 use super::family::{Family, cyclic};
 
 /// Place of the parameter among the unknowns r, y1, y2 and parameter.
@@ -21,6 +21,9 @@ pub struct Orbits {
     /// Units of r, y1, y2 and of the parameter.
     pub units: [f64; 4],
 }
+
+/// Half a period leads this far from where it began, or the orbit has half the period.
+const HALVES: f64 = 1e-6;
 
 /// What is seen of an orbit.
 #[derive(Debug, Clone)]
@@ -61,6 +64,12 @@ impl Orbits {
         Some(std::array::from_fn(|i| (passage.end[i] - section[i]) / self.units[i]))
     }
 
+    /// How far an orbit moves in half its period, in units of the section; none for an odd period.
+    pub fn halfway(&self, at: &[f64; 4]) -> Option<[f64; 3]> {
+        let even = self.family.period.is_multiple_of(2);
+        even.then(|| self.with_period(self.family.period / 2).displacement(at))?
+    }
+
     /// The same with another period.
     pub fn with_period(&self, period: u64) -> Orbits {
         let mut orbits = self.clone();
@@ -97,6 +106,10 @@ impl Equations<4> for Orbits {
         });
         let seen = Seen { jacobian, events: cyclic(&passage.events), margins: margins.collect() };
         Ok(Linear { residual, rows, seen })
+    }
+
+    fn belongs(&self, station: &OrbitStation) -> bool {
+        self.halfway(&station.at).is_none_or(|apart| norm(&apart) > HALVES)
     }
 }
 

@@ -1,7 +1,5 @@
 //! One way along a branch, from an orbit to where the branch ends.
 
-use super::SpecialKind;
-use super::arc::Arc;
 use super::arclength::{between, dot, norm};
 use super::corner::rounded;
 use super::orbits::{OrbitStation, Orbits};
@@ -12,8 +10,8 @@ use super::walk::{Stride, Walk};
 const CORNERS: usize = 40;
 /// A branch has closed if it comes by its beginning this near, relative to the step.
 const CLOSES: f64 = 0.1;
-/// Orbits nearer to the one of half the period than this share of the step are it.
-const MERGED: f64 = 1e-3;
+/// A branch merges with the one it left at a doubling that lies so many of the longest steps from its end.
+const MERGES: f64 = 0.5;
 
 /// A stretch of a branch.
 #[derive(Debug, Clone)]
@@ -24,12 +22,14 @@ pub struct Way {
     pub happenings: Vec<(usize, Happening)>,
     /// Whether it has come back to its beginning.
     pub closed: bool,
+    /// Which of the doublings it ends at.
+    pub merged: Option<usize>,
 }
 
 impl Way {
     /// A way that has yet to leave these orbits.
     pub fn new(stations: Vec<OrbitStation>) -> Self {
-        Way { stations, happenings: Vec::new(), closed: false }
+        Way { stations, happenings: Vec::new(), closed: false, merged: None }
     }
 
     /// Follows the branch on until it ends, closes or has `most` orbits.
@@ -64,28 +64,40 @@ impl Way {
         }
     }
 
+    /// Ends at the one of these period doublings of the branch it left that it has run into, if it has.
+    pub fn merge(&mut self, doublings: &[(usize, OrbitStation)], longest: f64) {
+        let Some(last) = self.stations.last() else { return };
+        let away = |station: &OrbitStation| norm(&between(&last.at, &station.at));
+        let nearest = doublings.iter().min_by(|a, b| away(&a.1).total_cmp(&away(&b.1)));
+        if let Some((place, station)) = nearest
+            && away(station) < MERGES * longest
+            && self.stations.len() > 2
+        {
+            self.merged = Some(*place);
+            self.stations.push(OrbitStation { tangent: last.tangent, ..station.clone() });
+        }
+    }
+
     /// Adds the next orbit and what happens before it; whether the branch goes on.
     fn add(&mut self, orbits: &Orbits, from: &OrbitStation, next: OrbitStation) -> bool {
-        let before = self.stations.len() - 1;
-        let merged = merger(orbits, from, &next);
-        let mut found = happenings(orbits, from, &next);
-        if let Some((distance, _)) = &merged {
-            // The branch turns back there only because its other half is the same orbits a half period later.
-            found.retain(|happening| {
-                happening.distance < *distance && happening.kind != SpecialKind::Fold
-            });
-        }
-        self.happenings.extend(found.into_iter().map(|happening| (before, happening)));
-        if let Some((_, last)) = merged {
-            self.stations.push(last);
+        if crosses(orbits, from, &next) {
             return false;
         }
-        self.closed = before > 2 && self.stations.first().is_some_and(|first| {
-            comes_by(from, &next, first)
-        });
+        let before = self.stations.len() - 1;
+        let found = happenings(orbits, from, &next);
+        self.happenings.extend(found.into_iter().map(|happening| (before, happening)));
+        self.closed = before > 2
+            && self.stations.first().is_some_and(|first| comes_by(from, &next, first));
         self.stations.push(if self.closed { self.stations[0].clone() } else { next });
         !self.closed
     }
+}
+
+/// Whether between two orbits of an even period the branch passes one of half the period: what follows are the same orbits,
+/// half a period later.
+fn crosses(orbits: &Orbits, from: &OrbitStation, to: &OrbitStation) -> bool {
+    let sides = [from, to].map(|station| orbits.halfway(&station.at));
+    matches!(sides, [Some(before), Some(after)] if dot(&before, &after) < 0.0)
 }
 
 /// Whether the step between two orbits passes a third in its direction.
@@ -97,27 +109,3 @@ fn comes_by(from: &OrbitStation, to: &OrbitStation, by: &OrbitStation) -> bool {
     (0.0..=step).contains(&along) && aside <= CLOSES * step && dot(&from.tangent, &by.tangent) > 0.9
 }
 
-/// Where between two orbits of an even period the branch meets that of half the period.
-fn merger(orbits: &Orbits, from: &OrbitStation, to: &OrbitStation) -> Option<(f64, OrbitStation)> {
-    let before = halfway(orbits, from)?;
-    let after = halfway(orbits, to)?;
-    let step = norm(&between(&from.at, &to.at));
-    if dot(&before, &after) >= 0.0 || norm(&before) <= MERGED * step {
-        return None;
-    }
-    let arc = Arc::from(orbits, from);
-    let ends = [arc.place(from), arc.place(to)];
-    let apart = |station: &OrbitStation| {
-        halfway(orbits, station).map_or(f64::NAN, |apart| dot(&before, &apart))
-    };
-    arc.zero([&ends[0], &ends[1]], apart)
-}
-
-/// How far the orbit moves in half its period, in units of the section; none for an odd period.
-pub fn halfway(orbits: &Orbits, station: &OrbitStation) -> Option<[f64; 3]> {
-    if orbits.family.period % 2 != 0 {
-        return None;
-    }
-    let half = orbits.with_period(orbits.family.period / 2);
-    half.displacement(&station.at)
-}

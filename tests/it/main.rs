@@ -2,6 +2,7 @@
 
 mod acceleration;
 mod belt;
+mod branch;
 mod cli;
 mod closed_forms;
 mod derivatives;
