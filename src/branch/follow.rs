@@ -65,7 +65,7 @@ fn leave(request: &Request, followed: &mut Vec<Followed>, parent: usize, found: 
         let Some((twice, first)) = doubled(orbits, &at, request.longest_step) else { continue };
         let mut way = Way::new(first.to_vec());
         way.follow(&twice, &mut walk(request, &twice), request.most_points);
-        way.merge(&doublings, request.longest_step);
+        way.merge(&twice, &doublings);
         doublings.retain(|(other, _)| Some(*other) != way.merged);
         followed.push(Followed { orbits: twice, level, way });
         let newest = followed.last().map(|followed| branch(followed, Some((parent, place))));

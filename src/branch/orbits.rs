@@ -23,7 +23,9 @@ pub struct Orbits {
 }
 
 /// Half a period leads this far from where it began, or the orbit has half the period.
-const HALVES: f64 = 1e-6;
+const HALVES: f64 = 1e-8;
+/// Where the return map is steeper than this, rounding makes too much of an orbit to follow it.
+const STEEPEST: f64 = 1e3;
 
 /// What is seen of an orbit.
 #[derive(Debug, Clone)]
@@ -70,6 +72,16 @@ impl Orbits {
         even.then(|| self.with_period(self.family.period / 2).displacement(at))?
     }
 
+    /// The unknowns at every section point of an orbit, in order.
+    pub fn images(&self, at: &[f64; 4]) -> Vec<[f64; 4]> {
+        let once = self.with_period(1);
+        let next = |at: &[f64; 4]| {
+            let [r, y1, y2] = once.displacement(at)?;
+            Some([at[0] + r, at[1] + y1, at[2] + y2, at[3]])
+        };
+        std::iter::successors(Some(*at), next).take(self.family.period as usize).collect()
+    }
+
     /// The same with another period.
     pub fn with_period(&self, period: u64) -> Orbits {
         let mut orbits = self.clone();
@@ -109,7 +121,8 @@ impl Equations<4> for Orbits {
     }
 
     fn belongs(&self, station: &OrbitStation) -> bool {
-        self.halfway(&station.at).is_none_or(|apart| norm(&apart) > HALVES)
+        let steep = station.seen.jacobian.iter().flatten().any(|slope| slope.abs() > STEEPEST);
+        !steep && self.halfway(&station.at).is_none_or(|apart| norm(&apart) > HALVES)
     }
 }
 

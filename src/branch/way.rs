@@ -1,6 +1,6 @@
 //! One way along a branch, from an orbit to where the branch ends.
 
-use super::arclength::{between, dot, norm};
+use super::arclength::{Equations, Linear, between, dot, norm};
 use super::corner::rounded;
 use super::orbits::{OrbitStation, Orbits};
 use super::special::{Happening, happenings};
@@ -10,8 +10,8 @@ use super::walk::{Stride, Walk};
 const CORNERS: usize = 40;
 /// A branch has closed if it comes by its beginning this near, relative to the step.
 const CLOSES: f64 = 0.1;
-/// A branch merges with the one it left at a doubling that lies so many of the longest steps from its end.
-const MERGES: f64 = 0.5;
+/// A branch merges with the one it left at a doubling that lies no more than so many steps from its end.
+const MERGES: f64 = 1.5;
 
 /// A stretch of a branch.
 #[derive(Debug, Clone)]
@@ -24,12 +24,14 @@ pub struct Way {
     pub closed: bool,
     /// Which of the doublings it ends at.
     pub merged: Option<usize>,
+    /// Length of the last step, or of the one that would have passed a merger.
+    last_step: f64,
 }
 
 impl Way {
     /// A way that has yet to leave these orbits.
     pub fn new(stations: Vec<OrbitStation>) -> Self {
-        Way { stations, happenings: Vec::new(), closed: false, merged: None }
+        Way { stations, happenings: Vec::new(), closed: false, merged: None, last_step: 0.0 }
     }
 
     /// Follows the branch on until it ends, closes or has `most` orbits.
@@ -65,21 +67,25 @@ impl Way {
     }
 
     /// Ends at the one of these period doublings of the branch it left that it has run into, if it has.
-    pub fn merge(&mut self, doublings: &[(usize, OrbitStation)], longest: f64) {
+    pub fn merge(&mut self, orbits: &Orbits, doublings: &[(usize, OrbitStation)]) {
         let Some(last) = self.stations.last() else { return };
-        let away = |station: &OrbitStation| norm(&between(&last.at, &station.at));
-        let nearest = doublings.iter().min_by(|a, b| away(&a.1).total_cmp(&away(&b.1)));
-        if let Some((place, station)) = nearest
-            && away(station) < MERGES * longest
-            && self.stations.len() > 2
+        let parent = orbits.with_period(orbits.family.period / 2);
+        let ends = doublings.iter().flat_map(|(place, station)| {
+            let images = parent.images(&station.at).into_iter();
+            images.map(|image| (*place, image, norm(&between(&last.at, &image))))
+        });
+        let Some((place, image, away)) = ends.min_by(|a, b| a.2.total_cmp(&b.2)) else { return };
+        if away <= MERGES * self.last_step
+            && let Ok(Linear { rows, seen, .. }) = orbits.at(&image)
         {
-            self.merged = Some(*place);
-            self.stations.push(OrbitStation { tangent: last.tangent, ..station.clone() });
+            self.merged = Some(place);
+            self.stations.push(OrbitStation { at: image, tangent: last.tangent, rows, seen });
         }
     }
 
     /// Adds the next orbit and what happens before it; whether the branch goes on.
     fn add(&mut self, orbits: &Orbits, from: &OrbitStation, next: OrbitStation) -> bool {
+        self.last_step = norm(&between(&from.at, &next.at));
         if crosses(orbits, from, &next) {
             return false;
         }
