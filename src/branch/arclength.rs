@@ -82,9 +82,8 @@ pub fn corrected<const U: usize, E: Equations<U>>(
     guess: &[f64; U],
     ahead: &[f64; U],
 ) -> Option<(Station<U, E::Seen>, usize)> {
-    let condition = |at: &[f64; U], _: &E::Seen| {
-        Some((dot(&plane.normal, at) - plane.offset, plane.normal))
-    };
+    let condition =
+        |at: &[f64; U], _: &E::Seen| Some((dot(&plane.normal, at) - plane.offset, plane.normal));
     corrected_by(equations, condition, guess, ahead)
 }
 

@@ -10,6 +10,9 @@ const FIRST_STEPS: [f64; 2] = [100.0, 10.0];
 /// A direction this close to the one behind leads back.
 const BACK: f64 = -0.99;
 
+/// A corner with its new tangent, and the first step from it.
+pub type Rounded<S> = (S, Stride<S>);
+
 /// The solution at which the branch goes on, with the first step beyond it.
 ///
 /// Method: around the corner the map is looked at on every side; the tangents that its derivatives have there are tried, ahead and
@@ -18,7 +21,7 @@ pub fn rounded<const U: usize, E: Equations<U>>(
     equations: &E,
     walk: &Walk<U>,
     corner: &Station<U, E::Seen>,
-) -> Option<(Station<U, E::Seen>, Stride<Station<U, E::Seen>>)> {
+) -> Option<Rounded<Station<U, E::Seen>>> {
     for radius in RADII {
         for side in 0..2 * U {
             let by = if side < U { radius } else { -radius };

@@ -44,8 +44,7 @@ impl Locus {
         });
         let [r, y1, y2, ..] = seeded;
         let Passage { end, margins, .. } = self.family.passage([r, y1, y2], &self.free(&seeded))?;
-        let nearest =
-            margins.into_iter().min_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
+        let nearest = margins.into_iter().min_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
         let unit = Five::splat(self.units[0]);
         Ok(nearest.map(|margin| (end, margin / unit)))
     }
@@ -164,9 +163,8 @@ pub fn trace(
     let locus = Locus { family: orbits.family.clone(), free, units, kind: special.kind };
     let (period, kind) = (orbits.family.period, special.kind);
     let guess = guess(&locus, special, value)?;
-    let known = |trace: &Trace| {
-        (trace.kind, trace.period) == (kind, period) && trace.passes(&guess)
-    };
+    let known =
+        |trace: &Trace| (trace.kind, trace.period) == (kind, period) && trace.passes(&guess);
     if before.iter().any(known) {
         return None;
     }
@@ -204,12 +202,7 @@ fn both_ways(
     Some(points)
 }
 
-fn one_way(
-    locus: &Locus,
-    start: Station<5, ()>,
-    mut walk: Walk<5>,
-    most: usize,
-) -> Vec<[f64; 5]> {
+fn one_way(locus: &Locus, start: Station<5, ()>, mut walk: Walk<5>, most: usize) -> Vec<[f64; 5]> {
     let mut points = vec![start.at];
     let mut last = start;
     while points.len() < most {

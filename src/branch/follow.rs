@@ -177,11 +177,7 @@ fn branch(followed: &Followed, parent: Option<(usize, usize)>) -> Branch {
 }
 
 /// An orbit with what the plain motion from it costs and yields.
-fn point(
-    orbits: &Orbits,
-    station: &OrbitStation,
-    sequences: &mut Vec<Vec<EventKind>>,
-) -> Point {
+fn point(orbits: &Orbits, station: &OrbitStation, sequences: &mut Vec<Vec<EventKind>>) -> Point {
     let Family { parameters, phase, period, tolerance } = &orbits.family;
     let parameter = orbits.parameter(&station.at);
     let mut parameters = parameters.clone();

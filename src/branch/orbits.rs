@@ -137,7 +137,8 @@ impl Seen {
     pub fn torus(&self) -> f64 {
         let j = &self.jacobian;
         let pairs = [(0, 1), (0, 2), (1, 2)];
-        let compound = pairs.map(|(a, b)| pairs.map(|(c, d)| j[a][c] * j[b][d] - j[a][d] * j[b][c]));
+        let compound =
+            pairs.map(|(a, b)| pairs.map(|(c, d)| j[a][c] * j[b][d] - j[a][d] * j[b][c]));
         determinant(shifted(&compound, -1.0))
     }
 

@@ -92,8 +92,8 @@ impl Way {
         let before = self.stations.len() - 1;
         let found = happenings(orbits, from, &next);
         self.happenings.extend(found.into_iter().map(|happening| (before, happening)));
-        self.closed = before > 2
-            && self.stations.first().is_some_and(|first| comes_by(from, &next, first));
+        self.closed =
+            before > 2 && self.stations.first().is_some_and(|first| comes_by(from, &next, first));
         self.stations.push(if self.closed { self.stations[0].clone() } else { next });
         !self.closed
     }
@@ -114,4 +114,3 @@ fn comes_by(from: &OrbitStation, to: &OrbitStation, by: &OrbitStation) -> bool {
     let aside = (dot(&toward, &toward) - along * along).max(0.0).sqrt();
     (0.0..=step).contains(&along) && aside <= CLOSES * step && dot(&from.tangent, &by.tangent) > 0.9
 }
-

@@ -56,7 +56,8 @@ fn quiet(p: &Parameters) -> Section {
 ///
 /// Fig 5 is none of them: with a gap of 3.5 mm, F would be 4.97 N and more when contact begins, above the 4.14 N at which it slips.
 fn grazing_cases() -> Vec<Parameters> {
-    let cases = [(18.96e3, 20.73), (59.41e3, 26.58), (59.41e3, 37.33), (59.41e3, 46.0), (59.41e3, 54.6)];
+    let cases =
+        [(18.96e3, 20.73), (59.41e3, 26.58), (59.41e3, 37.33), (59.41e3, 46.0), (59.41e3, 54.6)];
     let case = |&(k2, omega): &(f64, f64)| {
         let mut p = Parameters::with(&[
             (Parameter::K2, k2),
@@ -144,7 +145,10 @@ fn multipliers_of_the_stuck_capsule_are_those_of_its_oscillator() {
         let magnitude = (-decay * period).exp();
         let (re, im) = (magnitude * (turn * period).cos(), magnitude * (turn * period).sin());
         for multiplier in [one, other] {
-            assert!((multiplier.re - re).abs() < 1e-11 && (multiplier.im.abs() - im.abs()).abs() < 1e-11);
+            assert!(
+                (multiplier.re - re).abs() < 1e-11
+                    && (multiplier.im.abs() - im.abs()).abs() < 1e-11
+            );
         }
         assert_eq!(none.abs(), 0.0);
         p[Parameter::Omega] = point.parameter;
@@ -239,7 +243,9 @@ fn a_doubled_branch_leaves_and_returns() {
     let ends = ends.map(|point| point.expect("an orbit").parameter);
     assert!(relative(ends[0], first) < 1e-12 && relative(ends[1], last) < 1e-12, "{ends:?}");
     // What settles there has one period before the doubling, and twice that after it.
-    for (omega, period) in [(first - 0.05, 1), (first + 0.05, 2), (last - 0.05, 2), (last + 0.05, 1)] {
+    for (omega, period) in
+        [(first - 0.05, 1), (first + 0.05, 2), (last - 0.05, 2), (last + 0.05, 1)]
+    {
         let start = doublings[usize::from(omega > 126.0)].point.section[0];
         let orbit = settled(&two_attractors(omega), start);
         assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, period), "{omega}");
@@ -284,7 +290,13 @@ fn every_point_of_a_fold_curve_is_a_fold() {
         let mut p = two_attractors(omega - 1.0);
         p[Parameter::Pd] = p_d;
         let start = settled(&p, start.section[0]);
-        let again = request(&p, start.section[0], start.period, Parameter::Omega, [omega - 2.0, omega + 2.0]);
+        let again = request(
+            &p,
+            start.section[0],
+            start.period,
+            Parameter::Omega,
+            [omega - 2.0, omega + 2.0],
+        );
         let again = follow(&again).expect("a branch");
         let folds = of_kind(&again.branches[0], SpecialKind::Fold);
         let nearest = folds.iter().map(|fold| relative(fold.point.parameter, omega));
