@@ -11,8 +11,8 @@ const EXACT: f64 = 1e-14;
 const ROUNDING: f64 = 1e-11;
 /// A residual has ceased to shrink if it keeps this share.
 const SHRINKS: f64 = 0.3;
-/// No unknown may move by more than this in a step of Newton's.
-const FARTHEST: f64 = 2.0;
+/// No unknown may move farther than this from the guess.
+const FARTHEST: f64 = 0.5;
 
 /// U - 1 equations for `U` unknowns, whose solutions are a curve.
 pub trait Equations<const U: usize> {
@@ -117,10 +117,10 @@ pub fn corrected_by<const U: usize, E: Equations<U>>(
         }
         rows[U - 1] = normal;
         let step = solve(rows, residual)?;
-        if step.iter().any(|part| part.abs() > FARTHEST) {
+        at = std::array::from_fn(|i| at[i] - step[i]);
+        if between(guess, &at).iter().any(|part| part.abs() > FARTHEST) {
             break;
         }
-        at = std::array::from_fn(|i| at[i] - step[i]);
     }
     let (left, station, taken) = best?;
     (left <= ROUNDING).then_some((station, taken))
