@@ -1,5 +1,20 @@
 //! Continued: follows periodic orbits, stable or not, through parameters, and finds where they change.
 
+mod arc;
+mod arclength;
+mod corner;
+mod curve;
+mod doubling;
+mod family;
+mod follow;
+mod orbits;
+mod scales;
+mod special;
+mod walk;
+mod way;
+
+pub use follow::follow;
+
 use crate::model::{Parameter, Parameters};
 use crate::orbit::matrix::Complex;
 use crate::orbit::{Outputs, Reason, Section};
@@ -129,9 +144,4 @@ pub enum NotFollowed {
     Failed(Reason),
     /// The equation as printed is not followed, only the capsule with friction read in Filippov's sense.
     AsPrinted,
-}
-
-/// Follows the orbit of `request`.
-pub fn follow(_request: &Request) -> Result<Found, NotFollowed> {
-    Err(NotFollowed::NoOrbit)
 }

@@ -123,7 +123,13 @@ where
     let mut motion = Motion::new(system, Dual::splat(0.0), S::state(start));
     let mut step = Default::default();
     for _ in 0..cycles.count {
-        cycle(system, &mut motion, &mut step, cycles, &mut |_| ())?;
+        cycle(
+            system,
+            &mut motion,
+            &mut step,
+            (cycles.drive_period, cycles.tolerance),
+            &mut |_| (),
+        )?;
         let mut point = S::point(&motion.state);
         directions = point.map(|coordinate| coordinate.gradient);
         stretching.meet(&mut directions);

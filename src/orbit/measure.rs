@@ -4,6 +4,7 @@ use crate::lane::Dual;
 use crate::model::{EventKind, Locomotion, Parameter, Parameters, State};
 
 use super::certificate::certify;
+use super::matrix::Complex;
 use super::recurrence::{RESOLUTION, Settled, size};
 use super::wandering::{Wandering, wander};
 use super::{
@@ -39,6 +40,21 @@ struct Verdict {
     cycles: u64,
     certificate: Certificate,
     exponent: Exponent,
+}
+
+impl Verdict {
+    /// A periodic orbit that Newton's method has closed.
+    fn periodic(period: u64, multipliers: [Complex; 3], parameters: &Parameters) -> Self {
+        let time = period as f64 * parameters.drive_period();
+        let value = libm::log(multipliers[0].abs()) / time;
+        Verdict {
+            outcome: Outcome::Periodic,
+            period,
+            cycles: period,
+            certificate: Certificate { proof: Proof::Newton, residual: f64::NAN, multipliers },
+            exponent: Exponent { value, uncertainty: 0.0 },
+        }
+    }
 }
 
 /// Measures a case that was `found` to do something, going on from where its trajectory is.
@@ -150,19 +166,7 @@ fn certified<S: Locomotion>(
     };
     trajectory.leap(orbit.section);
     trajectory.cycles += orbit.cycles;
-    let time = orbit.period as f64 * case.parameters.drive_period();
-    let value = libm::log(orbit.multipliers[0].abs()) / time;
-    Verdict {
-        outcome: Outcome::Periodic,
-        period: orbit.period,
-        cycles: orbit.period,
-        certificate: Certificate {
-            proof: Proof::Newton,
-            residual: f64::NAN,
-            multipliers: orbit.multipliers,
-        },
-        exponent: Exponent { value, uncertainty: 0.0 },
-    }
+    Verdict::periodic(orbit.period, orbit.multipliers, &case.parameters)
 }
 
 /// What is measured over the kept cycles.
@@ -171,6 +175,22 @@ struct Measures {
     section: Vec<Section>,
     impacts: Vec<Impact>,
     certificate: Certificate,
+}
+
+/// The outputs of a periodic orbit with these multipliers from a point of it, and its section points.
+pub fn over_cycles<S: Locomotion>(
+    system: &S,
+    parameters: &Parameters,
+    [r, y1, y2]: Section,
+    (period, multipliers): (u64, [Complex; 3]),
+    tolerance: f64,
+) -> Result<(Outputs, Vec<Section>), Failure> {
+    let start = State { r, y1, x2: 0.0, y2 };
+    let mut trajectory = Trajectory::new(system, start, parameters.drive_period(), tolerance);
+    let protocol = Protocol { points: period as usize, ..Protocol::with_tolerance(tolerance) };
+    let verdict = Verdict::periodic(period, multipliers, parameters);
+    let measures = measure(&mut trajectory, parameters, &verdict, &protocol)?;
+    Ok((measures.outputs, measures.section))
 }
 
 fn measure<S: Locomotion>(

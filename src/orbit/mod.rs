@@ -22,6 +22,7 @@ pub use account::{Account, Energies, Impact};
 pub use certificate::{Certificate, Proof};
 pub use exponent::Exponent;
 pub use history::{History, HistorySpan};
+pub use measure::over_cycles;
 pub use output::{Output, Outputs};
 pub use settle::{Case, Orbit, Outcome, Protocol, settle};
 pub use side_by_side::{Queue, Underway, settle_side_by_side};

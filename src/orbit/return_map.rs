@@ -1,8 +1,8 @@
 //! The map from one section point to a later one, with its derivatives.
 
 use crate::flow::{Motion, Step};
-use crate::lane::{Dual, Lane};
-use crate::model::Stroboscopic;
+use crate::lane::{Dual, Lane, Mask};
+use crate::model::{Stroboscopic, Switched};
 
 use super::Reason;
 use super::matrix::Matrix;
@@ -32,38 +32,51 @@ pub fn returned<S, const D: usize, const N: usize>(
     system: &S,
     from: DualPoint<D, N>,
     cycles: &Cycles<N>,
-    mut see: impl FnMut(&Step<Dual<f64, N>, S>),
+    see: impl FnMut(&Step<Dual<f64, N>, S>),
 ) -> Result<DualPoint<D, N>, Reason>
 where
     S: Stroboscopic<Dual<f64, N>, D>,
 {
-    let mut motion = Motion::new(system, Dual::splat(0.0), S::state(from));
+    let Cycles { drive_period, count, tolerance } = *cycles;
+    returned_in(system, from, (drive_period, count), tolerance, see)
+}
+
+/// The same in any numbers, of which the first lane counts; nested derivatives are derivatives of the Jacobian.
+pub fn returned_in<L, S, const D: usize>(
+    system: &S,
+    from: [L; D],
+    (drive_period, count): (L, u64),
+    tolerance: f64,
+    mut see: impl FnMut(&Step<L, S>),
+) -> Result<[L; D], Reason>
+where
+    L: Lane,
+    S: Stroboscopic<L, D>,
+{
+    let mut motion = Motion::new(system, L::splat(0.0), S::state(from));
     let mut step = Step::default();
-    for _ in 0..cycles.count {
-        cycle(system, &mut motion, &mut step, cycles, &mut see)?;
+    for _ in 0..count {
+        cycle(system, &mut motion, &mut step, (drive_period, tolerance), &mut see)?;
     }
     Ok(S::point(&motion.state))
 }
 
 /// Follows a motion to the end of a cycle.
-pub(super) fn cycle<S, const D: usize, const N: usize>(
+pub(super) fn cycle<L: Lane, S: Switched<L>>(
     system: &S,
-    motion: &mut Motion<Dual<f64, N>, S>,
-    step: &mut Step<Dual<f64, N>, S>,
-    cycles: &Cycles<N>,
-    see: &mut impl FnMut(&Step<Dual<f64, N>, S>),
-) -> Result<(), Reason>
-where
-    S: Stroboscopic<Dual<f64, N>, D>,
-{
+    motion: &mut Motion<L, S>,
+    step: &mut Step<L, S>,
+    (drive_period, tolerance): (L, f64),
+    see: &mut impl FnMut(&Step<L, S>),
+) -> Result<(), Reason> {
     for _ in 0..STEPS_PER_CYCLE {
-        motion.step(system, cycles.drive_period, cycles.tolerance, step);
+        motion.step(system, drive_period, tolerance, step);
         see(step);
         if let Some(breakdown) = motion.breakdown(system, 0) {
             return Err(breakdown.into());
         }
-        if cycles.drive_period.le(motion.time) {
-            motion.begin_cycle(true);
+        if drive_period.le(motion.time).lane(0) {
+            motion.begin_cycle(L::Mask::splat(true));
             return Ok(());
         }
     }

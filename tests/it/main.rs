@@ -2,6 +2,7 @@
 
 mod acceleration;
 mod belt;
+mod branch;
 mod branch_figure;
 mod certificates;
 mod cli;

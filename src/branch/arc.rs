@@ -1,0 +1,111 @@
+//! The arc between two neighbouring solutions, and where on it something happens.
+
+use super::arclength::{Equations, Plane, Station, between, corrected, dot, moved};
+
+/// Trials of a search at most.
+const TRIALS: usize = 120;
+/// A bracket this narrow, relative to the arc, is not narrowed further.
+const NARROW: f64 = 1e-14;
+/// A sign that changes while the test stays above this share of its size at the ends is a jump, not a zero.
+const JUMP: f64 = 1e-5;
+
+/// Solutions between two others, one for each distance along the tangent of the first.
+pub struct Arc<'a, const U: usize, E: Equations<U>> {
+    equations: &'a E,
+    start: [f64; U],
+    normal: [f64; U],
+}
+
+/// A solution at a distance along an arc.
+pub type Placed<const U: usize, T> = (f64, Station<U, T>);
+
+impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
+    /// The arc that leaves a solution along its tangent.
+    pub fn from(equations: &'a E, station: &Station<U, E::Seen>) -> Self {
+        Arc { equations, start: station.at, normal: station.tangent }
+    }
+
+    /// A solution with its distance along the arc.
+    pub fn place(&self, station: &Station<U, E::Seen>) -> Placed<U, E::Seen> {
+        (dot(&self.normal, &between(&self.start, &station.at)), station.clone())
+    }
+
+    /// The solution at a distance between two others.
+    fn within(
+        &self,
+        [a, b]: [&Placed<U, E::Seen>; 2],
+        distance: f64,
+    ) -> Option<Placed<U, E::Seen>> {
+        let share = (distance - a.0) / (b.0 - a.0);
+        let guess = moved(&a.1.at, share, &between(&a.1.at, &b.1.at));
+        let offset = dot(&self.normal, &self.start) + distance;
+        let plane = Plane { normal: self.normal, offset };
+        let (station, _) = corrected(self.equations, &plane, &guess, &self.normal)?;
+        Some((distance, station))
+    }
+
+    /// Where `test` changes its sign between two solutions, to rounding.
+    ///
+    /// Method: the secant, with the older end's value halved when it stays (the Illinois rule), and bisection where
+    /// that does not halve the bracket in three trials. None where the test jumps.
+    pub fn zero(
+        &self,
+        ends: [&Placed<U, E::Seen>; 2],
+        test: impl Fn(&Station<U, E::Seen>) -> f64,
+    ) -> Option<Placed<U, E::Seen>> {
+        let [mut a, mut b] = ends.map(Clone::clone);
+        let (mut at_a, mut at_b) = (test(&a.1), test(&b.1));
+        let size = at_a.abs().max(at_b.abs());
+        let length = b.0 - a.0;
+        let (mut best, mut least) = (a.clone(), f64::INFINITY);
+        let mut goal = length;
+        let mut moved_before = None;
+        for trial in 0..TRIALS {
+            if b.0 - a.0 <= NARROW * length || least == 0.0 {
+                break;
+            }
+            let late = trial % 4 == 3 && b.0 - a.0 > 0.5 * goal;
+            if trial % 4 == 3 {
+                goal = b.0 - a.0;
+            }
+            let share = if late { 0.5 } else { at_a / (at_a - at_b) };
+            let next = self.within([&a, &b], a.0 + share * (b.0 - a.0))?;
+            let value = test(&next.1);
+            if value.abs() < least {
+                (best, least) = (next.clone(), value.abs());
+            }
+            let upper = (value < 0.0) == (at_b < 0.0);
+            let kept = if moved_before == Some(upper) { 0.5 } else { 1.0 };
+            if upper {
+                (b, at_b, at_a) = (next, value, kept * at_a);
+            } else {
+                (a, at_a, at_b) = (next, value, kept * at_b);
+            }
+            moved_before = Some(upper);
+        }
+        (least <= JUMP * size).then_some(best)
+    }
+
+    /// The last solution that is `as_before` and the first that is not, down to rounding.
+    pub fn change(
+        &self,
+        ends: [&Placed<U, E::Seen>; 2],
+        as_before: impl Fn(&Station<U, E::Seen>) -> bool,
+    ) -> Option<[Placed<U, E::Seen>; 2]> {
+        let [mut a, mut b] = ends.map(Clone::clone);
+        let narrow = NARROW * (b.0 - a.0);
+        while b.0 - a.0 > narrow {
+            let middle = a.0 + 0.5 * (b.0 - a.0);
+            if middle <= a.0 || middle >= b.0 {
+                break;
+            }
+            let next = self.within([&a, &b], middle)?;
+            if as_before(&next.1) {
+                a = next;
+            } else {
+                b = next;
+            }
+        }
+        Some([a, b])
+    }
+}

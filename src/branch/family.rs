@@ -1,0 +1,75 @@
+//! A family of motions: where each returns to, and what it passes, as functions of its point and parameters.
+
+use std::f64::consts::PI;
+
+use crate::flow::guard::crossings;
+use crate::lane::{Lane, Series, series};
+use crate::model::{Capsule, EventKind, Parameter, Parameters};
+use crate::orbit::Reason;
+use crate::orbit::return_map::returned_in;
+
+/// Motions of a capsule, some of whose parameters are free.
+#[derive(Debug, Clone)]
+pub struct Family {
+    /// The parameters that are not free.
+    pub parameters: Parameters,
+    /// Phase of the drive at the section [rad].
+    pub phase: f64,
+    /// Cycles to the return.
+    pub period: u64,
+    /// Relative local error of a step.
+    pub tolerance: f64,
+}
+
+/// What a motion passes until its return.
+#[derive(Debug, Clone)]
+pub struct Passage<L> {
+    /// Where it returns to: r, y1, y2.
+    pub end: [L; 3],
+    /// Its events in order.
+    pub events: Vec<EventKind>,
+    /// How far each local maximum of r is from the stop, above zero before it [m].
+    pub margins: Vec<L>,
+}
+
+impl Family {
+    /// The motion from a section point with these values of the `free` parameters.
+    ///
+    /// A margin carries derivatives too: at an extremum those at fixed time are those of the extremum.
+    pub fn passage<L: Lane>(
+        &self,
+        point: [L; 3],
+        free: &[(Parameter, L)],
+    ) -> Result<Passage<L>, Reason> {
+        let of = |parameter| {
+            let given = free.iter().find(|(name, _)| *name == parameter);
+            given.map_or(L::splat(self.parameters[parameter]), |(_, value)| *value)
+        };
+        let system = Capsule::new(of, self.parameters.resistance, self.phase);
+        let drive_period = L::splat(2.0 * PI) / of(Parameter::Omega);
+        let (mut events, mut margins) = (Vec::new(), Vec::new());
+        let delta = of(Parameter::Delta);
+        let cycles = (drive_period, self.period);
+        let end = returned_in(&system, point, cycles, self.tolerance, |step| {
+            events.extend(EventKind::from_code(step.event.lane(0)));
+            maxima(&step.jet.r, step.length.lane(0), |r| margins.push(delta - r));
+        })?;
+        Ok(Passage { end, events, margins })
+    }
+}
+
+/// Shows the local maxima of `r` during a step.
+fn maxima<L: Lane>(r: &Series<L>, length: f64, mut found: impl FnMut(L)) {
+    let rate = series::derivative(&std::array::from_fn(|k| r[k].lane(0)));
+    crossings(&rate, length, |time, falls| {
+        if falls {
+            found(series::value(r, L::splat(time)));
+        }
+    });
+}
+
+/// The sequence of events, begun where it is least: the same wherever on the orbit the section lies.
+pub fn cyclic(events: &[EventKind]) -> Vec<EventKind> {
+    let turned = |by: usize| [&events[by..], &events[..by]].concat();
+    (0..events.len()).map(turned).min().unwrap_or_default()
+}

@@ -1,0 +1,150 @@
+//! Steps along a curve of solutions: as long as its bends allow, and no farther than its bounds.
+
+use super::arclength::{Equations, Plane, Station, between, corrected, dot, moved, norm};
+
+/// A shorter step, relative to the longest, is none.
+const SHORTEST: f64 = 1e-8;
+/// Below this share of the longest step the curve may turn by anything short of a right angle.
+const CORNER: f64 = 1e-3;
+/// Cosine of the largest turn in a longer step.
+const LEAST_COSINE: f64 = 0.95;
+/// The correction may be so large, relative to the step: a long one, and one round a corner.
+const CORRECTIONS: [f64; 2] = [0.35, 3.0];
+/// Newton's steps up to which the next step is lengthened, and from which it is shortened.
+const EASY_AND_HARD: [usize; 2] = [4, 7];
+const LENGTHEN: f64 = 1.6;
+const SHORTEN: f64 = 0.5;
+
+/// The range of each unknown.
+#[derive(Debug, Clone, Copy)]
+pub struct Bounds<const U: usize> {
+    /// Least values.
+    pub low: [f64; U],
+    /// Greatest values.
+    pub high: [f64; U],
+}
+
+impl<const U: usize> Bounds<U> {
+    /// No bounds.
+    pub fn none() -> Self {
+        Bounds { low: [f64::NEG_INFINITY; U], high: [f64::INFINITY; U] }
+    }
+
+    /// The same with bounds on one unknown.
+    pub fn with(mut self, unknown: usize, [low, high]: [f64; 2]) -> Self {
+        (self.low[unknown], self.high[unknown]) = (low, high);
+        self
+    }
+
+    /// The first bound that a move from `from` passes: the unknown, its value, and the share of the move.
+    fn passed(&self, from: &[f64; U], to: &[f64; U]) -> Option<(usize, f64, f64)> {
+        let passed = (0..U).filter_map(|i| {
+            let bound = if to[i] < from[i] { self.low[i] } else { self.high[i] };
+            let beyond = if to[i] < from[i] { to[i] <= bound } else { to[i] >= bound };
+            let share = (bound - from[i]) / (to[i] - from[i]);
+            (beyond && bound.is_finite() && to[i] != from[i]).then_some((i, bound, share))
+        });
+        passed.min_by(|a, b| a.2.total_cmp(&b.2))
+    }
+}
+
+/// Where a step leads.
+#[derive(Debug, Clone)]
+pub enum Stride<S> {
+    /// To a solution within the bounds.
+    Inside(S),
+    /// To the solution at a bound.
+    AtBound(S),
+    /// Nowhere: even the shortest step fails.
+    Nowhere,
+}
+
+/// The length of steps along a curve.
+#[derive(Debug, Clone, Copy)]
+pub struct Walk<const U: usize> {
+    /// Where it ends.
+    pub bounds: Bounds<U>,
+    /// The longest step.
+    pub longest: f64,
+    /// The next step.
+    pub next: f64,
+}
+
+type Met<const U: usize, E> = Station<U, <E as Equations<U>>::Seen>;
+
+impl<const U: usize> Walk<U> {
+    /// A walk that begins with small steps.
+    pub fn new(bounds: Bounds<U>, longest: f64) -> Self {
+        Walk { bounds, longest, next: 0.1 * longest }
+    }
+
+    /// The next solution along the tangent.
+    ///
+    /// A step that fails, or turns too sharply, is halved until it is below 1e-8 of the longest. A curve with a corner is followed round
+    /// it where the turn is below a right angle.
+    pub fn stride<E: Equations<U>>(
+        &mut self,
+        equations: &E,
+        from: &Met<U, E>,
+    ) -> Stride<Met<U, E>> {
+        while self.next >= SHORTEST * self.longest {
+            match self.attempt(equations, from, self.next) {
+                Some((stride, taken)) => {
+                    if taken <= EASY_AND_HARD[0] {
+                        self.next = (self.next * LENGTHEN).min(self.longest);
+                    } else if taken >= EASY_AND_HARD[1] {
+                        self.next *= SHORTEN;
+                    }
+                    return stride;
+                }
+                None => self.next *= SHORTEN,
+            }
+        }
+        self.next = CORNER * self.longest;
+        Stride::Nowhere
+    }
+
+    /// The solution one step of this length along the tangent, and the steps of Newton that it took.
+    pub fn attempt<E: Equations<U>>(
+        &self,
+        equations: &E,
+        from: &Met<U, E>,
+        length: f64,
+    ) -> Option<(Stride<Met<U, E>>, usize)> {
+        let predicted = moved(&from.at, length, &from.tangent);
+        if self.bounds.passed(&from.at, &predicted).is_none() {
+            let plane = Plane::through(&predicted, from.tangent);
+            let (met, taken) = corrected(equations, &plane, &predicted, &from.tangent)?;
+            if !self.is_near(from, &predicted, &met, length) || !equations.belongs(&met) {
+                return None;
+            }
+            if self.bounds.passed(&from.at, &met.at).is_none() {
+                return Some((Stride::Inside(met), taken));
+            }
+        }
+        let (unknown, bound, share) = self.bounds.passed(&from.at, &predicted)?;
+        let guess = moved(&from.at, share * length, &from.tangent);
+        let plane = Plane::fixing(unknown, bound);
+        let (mut met, taken) = corrected(equations, &plane, &guess, &from.tangent)?;
+        met.at[unknown] = bound;
+        let near = self.is_near(from, &guess, &met, length) && equations.belongs(&met);
+        near.then_some((Stride::AtBound(met), taken))
+    }
+
+    /// Whether a solution is the one that was predicted rather than another.
+    fn is_near<T>(
+        &self,
+        from: &Station<U, T>,
+        predicted: &[f64; U],
+        met: &Station<U, T>,
+        length: f64,
+    ) -> bool {
+        let tight = length > CORNER * self.longest;
+        let [long, round_a_corner] = CORRECTIONS;
+        let allowed = if tight { long } else { round_a_corner };
+        let correction = norm(&between(predicted, &met.at));
+        let straight = dot(&from.tangent, &met.tangent) > if tight { LEAST_COSINE } else { 0.0 };
+        let ahead = dot(&from.tangent, &between(&from.at, &met.at)) >= 0.0;
+        straight && ahead && correction <= allowed * length
+    }
+}
