@@ -17,9 +17,9 @@ type Finding = Result<Found, Failure>;
 /// With no more than one lane in so many at work, cases are followed faster one by one.
 const WORTHWHILE: usize = 4;
 
-/// A case between its departure and its settling, under the name that its owner knows it by.
-pub struct Underway<T> {
-    name: T,
+/// A case between its departure and its settling, under the number that its owner knows it by.
+pub struct Underway {
+    number: usize,
     case: Case,
     system: Capsule<f64>,
     motion: Motion<f64, Capsule<f64>>,
@@ -29,20 +29,25 @@ pub struct Underway<T> {
     steps: u64,
 }
 
-impl<T> Underway<T> {
+impl Underway {
     /// A case about to depart.
-    pub fn new(name: T, case: Case, protocol: &Protocol) -> Self {
+    pub fn new(number: usize, case: Case, protocol: &Protocol) -> Self {
         let Case { parameters, phase, start } = &case;
         let omega = parameters[Parameter::Omega];
         let mut settling = Settling::new(protocol, omega);
         let system = Capsule::single(parameters, *phase);
         let motion = Motion::new(&system, 0.0, *start);
         settling.meet(section(&motion.state));
-        Underway { name, case, system, motion, settling, cycles: 0, steps: 0 }
+        Underway { number, case, system, motion, settling, cycles: 0, steps: 0 }
+    }
+
+    /// The number that its owner knows it by.
+    pub fn number(&self) -> usize {
+        self.number
     }
 
     /// Follows the case by itself until it settles, and measures it.
-    pub fn finish(self, protocol: &Protocol) -> (T, Orbit) {
+    pub fn finish(self, protocol: &Protocol) -> (usize, Orbit) {
         self.conclude(protocol, |trajectory, settling| {
             find_period(trajectory, settling, protocol).map(Found::from)
         })
@@ -59,7 +64,7 @@ impl<T> Underway<T> {
         mut self,
         protocol: &Protocol,
         found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Settling) -> Finding,
-    ) -> (T, Orbit) {
+    ) -> (usize, Orbit) {
         let drive_period = self.case.parameters.drive_period();
         let mut trajectory = Trajectory::resume(
             &self.system,
@@ -69,16 +74,14 @@ impl<T> Underway<T> {
             protocol.tolerance,
         );
         let found = found(&mut trajectory, &mut self.settling);
-        (self.name, conclude(&mut trajectory, &self.case, found, protocol))
+        (self.number, conclude(&mut trajectory, &self.case, found, protocol))
     }
 }
 
 /// Where cases come from and where they go when they have settled.
 pub trait Queue {
-    /// What a case is known by.
-    type Name;
-    /// Takes the case that has been `done`, if one has, and yields one to follow in its place.
-    fn next(&mut self, done: Option<(Self::Name, Orbit)>) -> Option<(Self::Name, Case)>;
+    /// Takes the case of a number that has been `done`, if one has, and yields one to follow in its place.
+    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)>;
 }
 
 /// Settles the cases of `queue`, which share one law of resistance, as many at a time as there are lanes,
@@ -86,36 +89,37 @@ pub trait Queue {
 ///
 /// The orbits have the bits that [`super::settle`] gives, whatever the instructions. Returns the last few
 /// cases unfinished, each to be finished by itself and on any thread.
-pub fn settle_side_by_side<Q: Queue>(
+pub fn settle_side_by_side(
     instructions: Instructions,
     protocol: &Protocol,
-    queue: &mut Q,
-) -> Vec<Underway<Q::Name>> {
+    queue: &mut dyn Queue,
+) -> Vec<Underway> {
     let (wandering, ready) = (Vec::new(), Vec::new());
     instructions.run(Supply { instructions, protocol, queue, wandering, ready })
 }
 
 /// Where the lanes take their cases from.
-struct Supply<'a, Q: Queue> {
+struct Supply<'a> {
     instructions: Instructions,
     protocol: &'a Protocol,
-    queue: &'a mut Q,
+    // Not generic over the queue: the lanes are compiled once for each kind, which takes long.
+    queue: &'a mut dyn Queue,
     /// Cases that have not settled, gathered until there are enough to follow their linearised flow side by side.
-    wandering: Vec<Underway<Q::Name>>,
+    wandering: Vec<Underway>,
     /// Cases that could depart, had they a lane.
-    ready: Vec<Underway<Q::Name>>,
+    ready: Vec<Underway>,
 }
 
-impl<Q: Queue> Work for Supply<'_, Q> {
-    type Output = Vec<Underway<Q::Name>>;
+impl Work for Supply<'_> {
+    type Output = Vec<Underway>;
 
     #[inline(always)]
-    fn run<L: Lane>(mut self) -> Vec<Underway<Q::Name>> {
+    fn run<L: Lane>(mut self) -> Vec<Underway> {
         let cases: Vec<_> = (0..L::WIDTH).map(|_| self.next(None)).collect();
         let Some(first) = cases.iter().flatten().next() else {
             return Vec::new();
         };
-        let mut convoy = Convoy::<L, Q>::new(first.case.parameters.resistance, self);
+        let mut convoy = Convoy::<L>::new(first.case.parameters.resistance, self);
         for (lane, case) in cases.into_iter().enumerate() {
             convoy.seat(lane, case);
         }
@@ -137,15 +141,15 @@ impl<Q: Queue> Work for Supply<'_, Q> {
     }
 }
 
-impl<Q: Queue> Supply<'_, Q> {
-    fn next(&mut self, done: Option<(Q::Name, Orbit)>) -> Option<Underway<Q::Name>> {
+impl Supply<'_> {
+    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<Underway> {
         if done.is_none()
             && let Some(ready) = self.ready.pop()
         {
             return Some(ready);
         }
-        let (name, case) = self.queue.next(done)?;
-        Some(Underway::new(name, case, self.protocol))
+        let (number, case) = self.queue.next(done)?;
+        Some(Underway::new(number, case, self.protocol))
     }
 
     /// Follows the cases that wander with their linearised flow, side by side, and concludes them.
@@ -164,14 +168,14 @@ impl<Q: Queue> Supply<'_, Q> {
 }
 
 /// The lanes and who is in them.
-struct Convoy<'a, L: Lane, Q: Queue> {
-    cases: Supply<'a, Q>,
+struct Convoy<'a, L: Lane> {
+    cases: Supply<'a>,
     /// What moves to no purpose in an empty lane.
-    spare: Underway<()>,
+    spare: Underway,
     system: Capsule<L>,
     motion: Motion<L, Capsule<L>>,
     drive_periods: L,
-    seats: Vec<Option<Underway<Q::Name>>>,
+    seats: Vec<Option<Underway>>,
     /// The lanes with a case, as bits.
     occupied: u64,
     /// Steps taken, and how many had been when the cycle of each lane began.
@@ -181,13 +185,13 @@ struct Convoy<'a, L: Lane, Q: Queue> {
     deadline: u64,
 }
 
-impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
+impl<'a, L: Lane> Convoy<'a, L> {
     /// Empty lanes, in which a capsule with the usual parameters moves.
-    fn new(resistance: Resistance, cases: Supply<'a, Q>) -> Self {
+    fn new(resistance: Resistance, cases: Supply<'a>) -> Self {
         let mut parameters = Parameters::default();
         parameters.resistance = resistance;
         let case = Case { parameters, phase: 0.0, start: State::default() };
-        let spare = Underway::new((), case, cases.protocol);
+        let spare = Underway::new(0, case, cases.protocol);
         Convoy {
             cases,
             motion: Motion::splat(&spare.motion),
@@ -284,7 +288,7 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
     }
 
     /// Seats a case in `lane`, or leaves the lane empty.
-    fn seat(&mut self, lane: usize, case: Option<Underway<Q::Name>>) {
+    fn seat(&mut self, lane: usize, case: Option<Underway>) {
         let spare = &self.spare;
         let seated = case.as_ref().map(|case| (&case.system, &case.motion, &case.case.parameters));
         let (system, motion, parameters) =
@@ -301,7 +305,7 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
     }
 
     /// Takes the case out of `lane`, as it is.
-    fn leave(&mut self, lane: usize) -> Option<Underway<Q::Name>> {
+    fn leave(&mut self, lane: usize) -> Option<Underway> {
         let motion = self.motion.lane(lane);
         let steps = self.steps - self.cycle_began[lane];
         let case = self.seats[lane].take()?;
@@ -319,7 +323,7 @@ impl<'a, L: Lane, Q: Queue> Convoy<'a, L, Q> {
     }
 
     /// The cases that are still under way.
-    fn unfinished(mut self) -> Vec<Underway<Q::Name>> {
+    fn unfinished(mut self) -> Vec<Underway> {
         let mut cases: Vec<_> = (0..L::WIDTH).filter_map(|lane| self.leave(lane)).collect();
         cases.append(&mut self.cases.wandering);
         cases.append(&mut self.cases.ready);

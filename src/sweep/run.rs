@@ -1,5 +1,6 @@
 //! The parallel run: chains of cases over all cores, in any order, to the same records.
 
+use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -46,18 +47,19 @@ pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Res
     let share = study.chains().div_ceil(pool.current_num_threads());
     let instructions = machine.instructions.unwrap_or_else(|| Instructions::suited_to(share));
     pool.broadcast(|_| {
-        let mut worker = Worker { study, taken: &taken, share, keep: &keep };
+        let links = BTreeMap::new();
+        let mut worker = Worker { study, taken: &taken, share, keep: &keep, links };
         match study.base.switching {
             Switching::AsPrinted => worker.settle_one_by_one(),
             Switching::Filippov => {
                 let last = settle_side_by_side(instructions, &study.protocol, &mut worker);
                 let lock = || last_cases.lock().expect("no thread has panicked");
-                lock().extend(last);
+                lock().extend(last.into_iter().map(|case| worker.part_with(case)));
                 loop {
                     // In a statement of its own, so that the lock is free again.
                     let case = lock().pop();
-                    let Some(case) = case else { break };
-                    worker.finish_chain(case);
+                    let Some((link, case)) = case else { break };
+                    worker.finish_chain(link, case);
                 }
             }
         }
@@ -90,17 +92,26 @@ struct Worker<'a, K> {
     /// Chains that this thread may still begin with, so that a few are not all in the lanes of one.
     share: usize,
     keep: &'a K,
+    /// The cases that are under way in its lanes, by their index.
+    links: BTreeMap<usize, Link>,
 }
 
 impl<K: Fn(Record)> Queue for Worker<'_, K> {
-    type Name = Link;
-
-    fn next(&mut self, done: Option<(Link, Orbit)>) -> Option<(Link, Case)> {
-        let Some((link, orbit)) = done else {
-            self.share = self.share.checked_sub(1)?;
-            return self.take();
+    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
+        let next = match done {
+            Some((index, orbit)) => {
+                let link = self.links.remove(&index).expect("the case was under way");
+                self.follow(link, orbit).or_else(|| self.take())
+            }
+            None => {
+                self.share = self.share.checked_sub(1)?;
+                self.take()
+            }
         };
-        self.follow(link, orbit).or_else(|| self.take())
+        let (link, case) = next?;
+        let index = link.index;
+        self.links.insert(index, link);
+        Some((index, case))
     }
 }
 
@@ -131,20 +142,27 @@ impl<K: Fn(Record)> Worker<'_, K> {
         Some((Link { index, start: case.start, rest: chain }, case))
     }
 
+    /// A case that leaves the lanes unfinished, with what follows it.
+    fn part_with(&mut self, case: Underway) -> (Link, Underway) {
+        let link = self.links.remove(&case.number()).expect("the case was under way");
+        (link, case)
+    }
+
     /// Settles a case by itself, and all that follow it.
-    fn finish_chain(&self, case: Underway<Link>) {
+    fn finish_chain(&self, mut link: Link, case: Underway) {
         let protocol = &self.study.protocol;
-        let (mut link, mut orbit) = case.finish(protocol);
+        let (_, mut orbit) = case.finish(protocol);
         while let Some((next, case)) = self.follow(link, orbit) {
-            (link, orbit) = Underway::new(next, case, protocol).finish(protocol);
+            link = next;
+            (_, orbit) = Underway::new(link.index, case, protocol).finish(protocol);
         }
     }
 
     fn settle_one_by_one(&mut self) {
         let mut case = self.next(None);
-        while let Some((link, Case { parameters, start, phase })) = case {
+        while let Some((index, Case { parameters, start, phase })) = case {
             let orbit = settle(&parameters, phase, start, &self.study.protocol);
-            case = self.next(Some((link, orbit)));
+            case = self.next(Some((index, orbit)));
         }
     }
 }

@@ -48,8 +48,6 @@ struct List<'a> {
 }
 
 impl Queue for List<'_> {
-    type Name = usize;
-
     fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
         if let Some((index, orbit)) = done {
             self.orbits[index] = Some(orbit);

@@ -62,8 +62,6 @@ struct Crowd<'a> {
 }
 
 impl Queue for Crowd<'_> {
-    type Name = usize;
-
     fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
         if let Some((0, orbit)) = done {
             self.orbit = Some(orbit);
