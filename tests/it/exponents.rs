@@ -115,7 +115,7 @@ fn the_duffing_oscillator_has_its_published_exponents() {
 #[test]
 fn an_orbit_stretches_as_its_largest_multiplier_says() {
     let mut compared = 0;
-    for case in draws::cases(60, 21) {
+    for case in draws::cases(120, 21) {
         let orbit = settle(&case.parameters, case.phase, case.start, &Protocol::default());
         let [first, second, _] = orbit.certificate.multipliers;
         // A pair of equal magnitudes turns its directions for ever, and means settle slowly.
