@@ -13,7 +13,7 @@ use crate::lane::Instructions;
 use crate::model::{Parameter, Parameters, Resistance, Switching};
 use crate::orbit::{Case, Outcome, Protocol};
 use crate::store::{self, Dataset};
-use crate::sweep::{Machine, Record, Study, run};
+use crate::sweep::{self, Machine, Record, Study, has_attractors, run};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -151,7 +151,12 @@ impl Sweep {
         let seconds = progress.finish().as_secs_f64();
         let mut records = records.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
         records.sort_by_key(|record| record.index);
-        let dataset = store::dataset(study, &records);
+        let mut dataset = store::dataset(study, &records);
+        if has_attractors(study) {
+            let attractors =
+                sweep::attractors(study, &records, machine).map_err(Failure::machine)?;
+            store::add_attractors(&mut dataset, study, &attractors);
+        }
         store::write(&dataset, output).map_err(Failure::machine)?;
         print(&summary(study, &records, output, seconds))?;
         Ok(dataset)

@@ -1,5 +1,6 @@
 //! Kept: keeps records and gives them back, with what made them.
 
+mod attractors;
 pub mod dataset;
 mod decode;
 mod difference;
@@ -13,6 +14,7 @@ mod scale;
 pub mod schema;
 mod seal;
 
+pub use attractors::add_attractors;
 pub use dataset::{Dataset, Values, Variable};
 pub use difference::difference;
 pub use error::StoreError;

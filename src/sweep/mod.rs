@@ -1,14 +1,20 @@
 //! Repeated: turns a study into cases and cases into records, in parallel, in any order.
 
+pub mod attractor;
 pub mod axis;
+mod cell;
+mod change;
+mod continuation;
 pub mod document;
 pub mod drawing;
 mod drawing_file;
+mod family;
 pub mod quantity;
 pub mod run;
 pub mod study;
 mod study_file;
 
+pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors};
 pub use axis::{Axis, Coordinate};
 pub use document::{Fault, Faults};
 pub use drawing::{Drawing, DrawingKind};

@@ -40,13 +40,7 @@ pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Res
     if let Some(missing) = machine.instructions.filter(|it| !it.is_available()) {
         return Err(RunError(format!("the processor has no {}", missing.name())));
     }
-    let mut builder = rayon::ThreadPoolBuilder::new();
-    if let Some(threads) = machine.threads {
-        builder = builder.num_threads(threads);
-    }
-    let pool = builder
-        .build()
-        .map_err(|error| RunError(format!("the worker threads could not be started: {error}")))?;
+    let pool = pool(machine)?;
     let taken = AtomicUsize::new(0);
     let last_cases = Mutex::new(Vec::new());
     let share = study.chains().div_ceil(pool.current_num_threads());
@@ -69,6 +63,17 @@ pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Res
         }
     });
     Ok(())
+}
+
+/// The threads of `machine`.
+pub(super) fn pool(machine: Machine) -> Result<rayon::ThreadPool, RunError> {
+    let mut builder = rayon::ThreadPoolBuilder::new();
+    if let Some(threads) = machine.threads {
+        builder = builder.num_threads(threads);
+    }
+    builder
+        .build()
+        .map_err(|error| RunError(format!("the worker threads could not be started: {error}")))
 }
 
 /// A case of a chain: its index and start, and those that follow it.
