@@ -2,6 +2,8 @@
 
 use plotters::style::RGBColor;
 
+use super::attractor_diagram;
+use super::attractors::Attractors;
 use super::axis::AxisRequest;
 use super::canvas::Drawn;
 use super::cloud::{self, Dot};
@@ -36,6 +38,9 @@ struct Branch {
 /// Draws the bifurcation diagram that `view` asks for.
 pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let x_name = super::abscissa(view)?;
+    if let Some(attractors) = Attractors::along(view, x_name)? {
+        return attractor_diagram::draw(view, x_name, &attractors);
+    }
     let branches = branches(view, x_name);
     let mut free = vec![x_name];
     if branches.len() > 1 {
@@ -69,7 +74,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 }
 
 /// The abscissa, with room for points that stand at its ends.
-fn span(values: &[f64]) -> Scale {
+pub fn span(values: &[f64]) -> Scale {
     let plain = Scale::of_axis(values);
     if values.len() > 60 {
         return plain;
@@ -88,7 +93,7 @@ fn branches(view: &View<'_>, x_name: &str) -> Vec<Branch> {
     }
     let codes = view.coordinate_values(DIRECTION);
     let flags = view.dataset.coordinate(DIRECTION).map_or(&[][..], |it| &it.flags);
-    let looks = [(BLUE, 1.7), (VERMILION, 0.75)];
+    let looks = [(BLUE, 1.7), (VERMILION, 0.75), (INK, 0.4)];
     let branch = |(index, (colour, size)): (usize, (RGBColor, f64))| {
         let code = codes[index] as i64;
         let flag = flags.iter().find(|(value, _)| *value == code);
@@ -131,13 +136,14 @@ fn points(
 }
 
 /// Whether an output has several values per case.
-fn has_points(view: &View<'_>, output: &str) -> bool {
+pub fn has_points(view: &View<'_>, output: &str) -> bool {
     let axes = view.axes();
     let is_inner = |name: &String| !axes.contains(&name.as_str());
     view.dataset.variable(output).is_some_and(|variable| variable.dimensions.iter().any(is_inner))
 }
 
-fn request(
+/// The page with a row for each output.
+pub fn request(
     view: &View<'_>,
     outputs: &[String],
     clouds: &[Vec<Vec<Dot>>],

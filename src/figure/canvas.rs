@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use base64::Engine as _;
 use plotters::coord::Shift;
 use plotters::prelude::{
-    Circle, Color, DrawingArea, DrawingAreaErrorKind, IntoDrawingArea, PathElement, Rectangle,
-    SVGBackend, ShapeStyle,
+    Circle, Color, DrawingArea, DrawingAreaErrorKind, IntoDrawingArea, PathElement, Polygon,
+    Rectangle, SVGBackend, ShapeStyle,
 };
 use plotters::style::RGBColor;
 
@@ -152,6 +152,12 @@ impl Canvas {
     pub fn fill(&mut self, rect: Rect, colour: RGBColor) {
         let (from, to) = (fine((rect.left, rect.top)), fine((rect.right, rect.bottom)));
         self.layer("", |area| area.draw(&Rectangle::new([from, to], colour.filled())));
+    }
+
+    /// A filled polygon.
+    pub fn polygon(&mut self, corners: &[Point], colour: RGBColor) {
+        let path: Vec<_> = corners.iter().copied().map(fine).collect();
+        self.layer("", |area| area.draw(&Polygon::new(path, colour.filled())));
     }
 
     /// The sides of a rectangle.

@@ -6,6 +6,7 @@ use super::canvas::{Anchor, Canvas, Stroke};
 use super::geometry::{Point, Rect};
 use super::raster::Raster;
 use super::style::{CURVE_WIDTH, HEADER, INK, LABEL_SIZE, MINOR_WIDTH, SMALL_SIZE};
+use super::symbol::Symbol;
 use super::text::Text;
 
 /// What stands for a series in a legend.
@@ -17,6 +18,8 @@ pub enum Mark {
     Disc(RGBColor, f64),
     /// A ring.
     Ring(RGBColor, f64),
+    /// The symbol of a kind of event.
+    Symbol(Symbol),
     /// An area.
     Patch(RGBColor),
     /// The area without values.
@@ -39,6 +42,8 @@ pub struct Header {
     pub legend: Vec<Entry>,
 }
 
+/// Radius of the symbol of an event in a legend [pt].
+const SYMBOL_RADIUS: f64 = 2.3;
 /// Width of a mark in a legend [pt].
 const MARK_WIDTH: f64 = 13.0;
 /// Distance between a mark and its words [pt].
@@ -138,6 +143,7 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
         Mark::Ring(colour, radius) => {
             canvas.rings(&[centre], radius, Stroke::solid(colour, CURVE_WIDTH));
         }
+        Mark::Symbol(symbol) => symbol.draw(canvas, centre, SYMBOL_RADIUS),
         Mark::Nothing => {}
         Mark::Patch(colour) => canvas.fill(patch, colour),
         Mark::Hatched => canvas.image(patch, &Raster::cells(patch, |_| 0, |_| 0, |_, _| None)),

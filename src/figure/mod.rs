@@ -1,5 +1,7 @@
 //! Shown: draws stored records.
 
+mod attractor_diagram;
+mod attractors;
 mod axis;
 mod bifurcation;
 mod canvas;
@@ -8,6 +10,7 @@ mod cells;
 mod cloud;
 mod colour;
 mod error;
+mod event_marks;
 mod font;
 mod geometry;
 mod header;
@@ -22,6 +25,7 @@ mod quantity;
 mod raster;
 mod scale;
 mod style;
+mod symbol;
 mod text;
 mod ticks;
 mod trade_off;

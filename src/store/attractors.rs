@@ -21,6 +21,10 @@ pub fn add_attractors(dataset: &mut Dataset, study: &Study, attractors: &Attract
     let number = |of: &Option<usize>| of.map_or(-1, |number| number as i64);
     let numbers = attractors.of_case.iter().map(number).collect();
     let array = ArrayD::from_shape_vec(IxDyn(&study.shape()), numbers).expect("one per case");
+    if let Some(axis) = attractors.axis {
+        let name = study.axes[axis].coordinate.name().to_owned();
+        dataset.attributes.insert("attractor_axis".to_owned(), name);
+    }
     let meaning = "attractor of the case, numbered along the axis of parameters, -1 for none";
     dataset.variables.insert(
         "attractor".to_owned(),

@@ -4,10 +4,14 @@ use crate::branch::SpecialKind;
 use crate::model::{EventKind, Locomotion};
 use crate::orbit::Section;
 
-use super::continuation::{Along, ROUNDING, Solution, apart};
+use super::continuation::{Along, ROUNDING, Solution, apart, left_to_fold};
 
 /// Changes at most between two neighbouring values; a motion that changes more often is not resolved by them.
 const MOST: usize = 16;
+/// Sequences of events that change without an impact more or less are located to this, relative to the parameter.
+const COARSE: f64 = 1e-9;
+/// How far beside the expected zero of a property to look, as a share of the way between two orbits.
+const BESIDE: f64 = 1e-3;
 /// A multiplier this near to one belongs to an orbit that is about to end in a fold.
 const NEAR_ONE: f64 = 0.01;
 
@@ -42,7 +46,8 @@ impl Change {
 ///
 /// Method: where a property differs between two neighbours on the path, the parameter is bisected, with an orbit
 /// closed by Newton's method at each trial, until it is at rounding or no orbit closes; what is left
-/// of the bracket is the uncertainty. The properties: whether a real multiplier is below -1 (the sign of det(J +
+/// of the bracket is the uncertainty. Where the property is the sign of a smooth number, trials on both sides of where
+/// the straight line through its values passes zero come before each bisection. The properties: whether a real multiplier is below -1 (the sign of det(J +
 /// I)), whether a complex pair is outside the unit circle, and the sequence of events in a period; if the number of
 /// impacts changes there it is a grazing. Two changes of one property that undo each other between two neighbours
 /// are not seen.
@@ -53,15 +58,31 @@ pub fn changes<S: Locomotion>(along: &Along<'_, S>, path: &[Solution]) -> Vec<Ch
         let doubles = |a: &Solution, b: &Solution| a.passes(-1.0) != b.passes(-1.0);
         let spirals = |a: &Solution, b: &Solution| a.spirals() != b.spirals();
         let order = |a: &Solution, b: &Solution| a.events != b.events;
-        let doubling = |_: &Solution, _: &Solution| SpecialKind::PeriodDoubling;
+        let doubling = Property {
+            differs: &doubles,
+            measure: Some(&|it| it.shifted_determinant(-1.0)),
+            kind: &|_, _| SpecialKind::PeriodDoubling,
+        };
         let spiral = |_: &Solution, _: &Solution| SpecialKind::NeimarkSacker;
-        let mut here = locate(along, low, high, doubles, doubling);
-        here.extend(locate(along, low, high, spirals, spiral));
-        here.extend(locate(along, low, high, order, of_events));
+        let spiral = Property { differs: &spirals, measure: None, kind: &spiral };
+        let sequence = Property { differs: &order, measure: None, kind: &of_events };
+        let properties = [doubling, spiral, sequence];
+        let mut here: Vec<Change> =
+            properties.iter().flat_map(|property| property.locate(along, low, high)).collect();
         here.sort_by(|a, b| (a.value - low.value).abs().total_cmp(&(b.value - low.value).abs()));
         found.extend(here);
     }
     found
+}
+
+/// What may change on the way from one orbit to another.
+struct Property<'a> {
+    /// Whether it differs between two orbits.
+    differs: &'a dyn Fn(&Solution, &Solution) -> bool,
+    /// A number that passes zero smoothly where it changes, if there is one.
+    measure: Option<&'a dyn Fn(&Solution) -> f64>,
+    /// What such a change is, from the orbits just before and after it.
+    kind: &'a dyn Fn(&Solution, &Solution) -> SpecialKind,
 }
 
 /// A grazing if the number of impacts differs, another change of the sequence of events if not.
@@ -74,48 +95,70 @@ fn of_events(low: &Solution, high: &Solution) -> SpecialKind {
     }
 }
 
-/// Every place between two orbits where they begin to differ.
-fn locate<S: Locomotion>(
-    along: &Along<'_, S>,
-    low: &Solution,
-    high: &Solution,
-    differ: impl Fn(&Solution, &Solution) -> bool,
-    kind: impl Fn(&Solution, &Solution) -> SpecialKind,
-) -> Vec<Change> {
-    let mut found = Vec::new();
-    let mut low = low.clone();
-    while differ(&low, high) && found.len() < MOST {
-        let (below, above) = bisect(along, low, high.clone(), &differ);
-        found.push(Change::between(kind(&below, &above), &below, &above));
-        low = above;
+impl Property<'_> {
+    /// Every place between two orbits where it changes.
+    fn locate<S: Locomotion>(
+        &self,
+        along: &Along<'_, S>,
+        low: &Solution,
+        high: &Solution,
+    ) -> Vec<Change> {
+        let mut found = Vec::new();
+        let mut low = low.clone();
+        while (self.differs)(&low, high) && found.len() < MOST {
+            let (below, above) = self.bisect(along, low, high.clone());
+            found.push(Change::between((self.kind)(&below, &above), &below, &above));
+            low = above;
+        }
+        found
     }
-    found
-}
 
-/// The narrowest pair of orbits between which they begin to differ from the first.
-fn bisect<S: Locomotion>(
-    along: &Along<'_, S>,
-    mut low: Solution,
-    mut high: Solution,
-    differ: impl Fn(&Solution, &Solution) -> bool,
-) -> (Solution, Solution) {
-    while (high.value - low.value).abs() > 2.0 * ROUNDING * low.value.abs() {
-        let middle = 0.5 * (low.value + high.value);
-        let Some(between) = along.between(&low, &high, middle) else { break };
-        if differ(&low, &between) {
-            high = between;
-        } else {
-            low = between;
+    /// The narrowest pair of orbits between which it begins to differ from the first.
+    fn bisect<S: Locomotion>(
+        &self,
+        along: &Along<'_, S>,
+        mut low: Solution,
+        mut high: Solution,
+    ) -> (Solution, Solution) {
+        loop {
+            let width = high.value - low.value;
+            let coarse = (self.kind)(&low, &high) == SpecialKind::EventSequence;
+            let narrow = if coarse { COARSE } else { ROUNDING };
+            if width.abs() <= 2.0 * narrow * low.value.abs() {
+                return (low, high);
+            }
+            let (from, share) = (low.value, self.shares(&low, &high));
+            for value in share.map(|share| from + share * width) {
+                let inside = (value - low.value) / (high.value - low.value);
+                if !(inside > 0.0 && inside < 1.0) {
+                    continue;
+                }
+                let Some(between) = along.between(&low, &high, value) else { return (low, high) };
+                match (self.differs)(&low, &between) {
+                    true => high = between,
+                    false => low = between,
+                }
+            }
         }
     }
-    (low, high)
+
+    /// Where to try between two orbits, as shares of the way: on both sides of where the measure passes zero if
+    /// it is straight, and then half way.
+    fn shares(&self, low: &Solution, high: &Solution) -> [f64; 3] {
+        let Some(measure) = self.measure else { return [0.5, 1.0, 1.0] };
+        let (a, b) = (measure(low), measure(high));
+        let zero = a / (a - b);
+        [zero - BESIDE, zero + BESIDE, 0.5]
+    }
 }
 
-/// What happens where an orbit does not go on for the last `step` of the parameter.
+/// What happens where the last orbit of a path does not go on for this much more of the parameter.
 ///
-/// It is a fold if a multiplier tends to +1 there, and a period doubling if the orbit runs into one of half its
-/// period; else it ends at a change of its events.
-pub fn ending<S: Locomotion>(along: &Along<'_, S>, last: &Solution, step: f64) -> Change {
+/// It is a period doubling if the orbit runs into one of half its period, and a fold if a multiplier tends to +1;
+/// else it ends at a change of its events. Near a fold Newton's method gives up before the orbit ends: the last
+/// two orbits foretell how much is left, which then is the uncertainty if it is more than the step.
+pub fn ending<S: Locomotion>(along: &Along<'_, S>, path: &[Solution], step: f64) -> Option<Change> {
+    let last = path.last()?;
     let from_one =
         last.multipliers().iter().map(|it| libm::hypot(1.0 - it.re, it.im)).fold(1.0, f64::min);
     let kind = match () {
@@ -123,13 +166,18 @@ pub fn ending<S: Locomotion>(along: &Along<'_, S>, last: &Solution, step: f64) -
         () if from_one <= NEAR_ONE => SpecialKind::Fold,
         () => SpecialKind::EventSequence,
     };
-    Change {
+    let foretold = match path {
+        [.., before, last] if kind == SpecialKind::Fold => left_to_fold(before, last),
+        _ => 0.0,
+    };
+    let left = foretold.max(0.5 * step.abs());
+    Some(Change {
         kind,
-        value: last.value + 0.5 * step,
-        uncertainty: 0.5 * step.abs(),
+        value: last.value + left.copysign(step),
+        uncertainty: left,
         period: last.period(),
         section: last.points[0],
-    }
+    })
 }
 
 /// Whether an orbit of half the period lies in the middle of this one.

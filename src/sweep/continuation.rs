@@ -46,12 +46,16 @@ impl Solution {
 
     /// Whether an odd number of multipliers lies beyond `bound`, which is -1 or +1.
     pub fn passes(&self, bound: f64) -> bool {
+        self.shifted_determinant(bound) * bound > 0.0
+    }
+
+    /// The product of all multipliers less `bound`; while all are stable it has the sign of -`bound`.
+    pub fn shifted_determinant(&self, bound: f64) -> f64 {
         let mut shifted = self.jacobian;
         for (i, row) in shifted.iter_mut().enumerate() {
             row[i] -= bound;
         }
-        // The product of all multipliers less the bound; stable ones keep its sign at that of (-bound)^3.
-        determinant(shifted) * bound > 0.0
+        determinant(shifted)
     }
 
     /// Whether a pair of complex multipliers lies beyond the unit circle.
@@ -118,7 +122,7 @@ impl<S: Locomotion> Along<'_, S> {
         let mut step = to - from.value;
         let mut attempts = 0;
         while let Some(here) = path.last().filter(|here| here.value != to) {
-            let Some(slope) = self.slope(here) else { return (path, End::Stopped(step)) };
+            let Some(slope) = self.slope(here) else { return (path, End::Lost) };
             let next = loop {
                 attempts += 1;
                 if attempts > ATTEMPTS {
@@ -134,7 +138,7 @@ impl<S: Locomotion> Along<'_, S> {
                 }
                 step = 0.5 * (target - here.value);
             };
-            step = 2.0 * (next.value - here.value);
+            step = ahead(here, &next);
             path.push(next);
         }
         (path, End::Reached)
@@ -218,6 +222,24 @@ impl<S: Locomotion> Along<'_, S> {
         };
         !(1..points.len()).any(repeats)
     }
+}
+
+/// How far to go on from the second of two orbits: twice as far as between them, or nearly to the fold that they
+/// foretell.
+fn ahead(before: &Solution, here: &Solution) -> f64 {
+    let advance = here.value - before.value;
+    let left = left_to_fold(before, here);
+    let step =
+        if left > 0.0 && left < 2.0 * advance.abs() { 0.9 * left } else { 2.0 * advance.abs() };
+    step.max(ROUNDING * here.value.abs()).copysign(advance)
+}
+
+/// How far beyond the second of two orbits a fold is, where the determinant of I - J vanishes as the root of what is
+/// left of the parameter; not positive where none is foretold.
+pub fn left_to_fold(before: &Solution, here: &Solution) -> f64 {
+    let square = |it: &Solution| it.shifted_determinant(1.0) * it.shifted_determinant(1.0);
+    let [first, second] = [before, here].map(square);
+    (here.value - before.value).abs() * second / (first - second)
 }
 
 /// How far two section points are apart under a drive of frequency `omega` [m/s].

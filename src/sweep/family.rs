@@ -33,43 +33,55 @@ pub struct Neighbours<'a, S> {
 impl<S: Locomotion> Neighbours<'_, S> {
     /// Links the attractors of the two cells.
     ///
-    /// Periodic orbits by continuation, first upward, then downward those that are left; where an orbit has lost
+    /// Periodic orbits by continuation, the shortest first, to the other cell; where an orbit has lost
     /// its stability at a period doubling on the way, it goes on in the orbit of twice the period that lies
     /// on both sides of it. What is left by what the followed cases say, see [`Neighbours::led`].
     pub fn link(&self) -> Links {
         let mut links = Links::default();
         let mut ended = [Vec::new(), Vec::new()];
-        for side in [0, 1] {
-            for (place, attractor) in self.cells[side].attractors.iter().enumerate() {
-                if links.has(side, place) || attractor.outcome != Outcome::Periodic {
-                    continue;
-                }
-                let Some(start) = self.solution(side, attractor) else { continue };
-                let (path, end) = self.along.follow(&start, self.values[1 - side]);
-                let mut found = changes(&self.along, &path);
-                let last = path.last().unwrap_or(&start);
-                match end {
-                    End::Reached => {
-                        if let Some(other) = self.successor(side, &links, last, &found) {
-                            links.pairs.push(if side == 0 {
-                                [place, other]
-                            } else {
-                                [other, place]
-                            });
-                        }
-                    }
-                    End::Stopped(step) => {
-                        found.push(ending(&self.along, last, step));
-                        ended[side].push(place);
-                    }
-                    End::Lost => {}
-                }
-                links.changes[side].extend(found.into_iter().map(|change| (place, change)));
+        for (side, place) in self.periodic() {
+            if !links.has(side, place) {
+                ended[side].extend(self.follow(side, place, &mut links).then_some(place));
             }
         }
         self.led(&mut links, &ended);
         links.pairs.sort_unstable();
         links
+    }
+
+    /// Follows an orbit to the other cell and notes what happens; tells whether it ends before.
+    fn follow(&self, side: usize, place: usize, links: &mut Links) -> bool {
+        let attractor = &self.cells[side].attractors[place];
+        let Some(start) = self.solution(side, attractor) else { return false };
+        let (path, end) = self.along.follow(&start, self.values[1 - side]);
+        let mut found = changes(&self.along, &path);
+        let last = path.last().unwrap_or(&start);
+        match end {
+            End::Reached => {
+                let other = self.successor(side, links, last, &found);
+                links.pairs.extend(other.map(|other| match side {
+                    0 => [place, other],
+                    _ => [other, place],
+                }));
+            }
+            End::Stopped(step) => found.extend(ending(&self.along, &path, step)),
+            End::Lost => {}
+        }
+        links.changes[side].extend(found.into_iter().map(|change| (place, change)));
+        matches!(end, End::Stopped(_))
+    }
+
+    /// The periodic attractors by side and place, the shortest periods first: beside a period doubling it is the
+    /// shorter orbit that goes on, while the longer one ends.
+    fn periodic(&self) -> Vec<(usize, usize)> {
+        let mut all: Vec<(usize, usize, usize)> = Vec::new();
+        for (side, cell) in self.cells.iter().enumerate() {
+            let attractors = cell.attractors.iter().enumerate();
+            let periodic = attractors.filter(|(_, it)| it.outcome == Outcome::Periodic);
+            all.extend(periodic.map(|(place, it)| (it.points.len(), side, place)));
+        }
+        all.sort_unstable();
+        all.into_iter().map(|(_, side, place)| (side, place)).collect()
     }
 
     /// The orbit of an attractor at its value of the parameter.
