@@ -8,19 +8,22 @@ use super::cells::Cells;
 use super::cloud::{self, Dot};
 use super::error::FigureError;
 use super::event_marks::EventMarks;
-use super::geometry::Rect;
+use super::geometry::{Point, Rect};
 use super::header::{Entry, Mark};
 use super::panel::Panel;
 use super::style::{COEXISTENCE, FAINT_INK, MINOR_WIDTH};
+use super::symbol::Symbol;
 use super::text::Text;
 use super::view::View;
 
 /// Panels of the diagram, unless others are asked for: those of them that the results hold.
 const PANELS: [&str; 4] = ["section_r", "progression_speed", "work_positive", "lyapunov_exponent"];
+/// The panels on which events are marked.
+const MARKED: [&str; 4] = ["section_r", "section_y1", "section_y2", "progression_speed"];
 /// The output whose sign matters.
 const EXPONENT: &str = "lyapunov_exponent";
 /// Radius of the symbols of events [pt].
-const SYMBOL_RADIUS: f64 = 2.1;
+const SYMBOL_RADIUS: f64 = 1.7;
 /// So many attractors are named in the legend.
 const NAMED: usize = 3;
 
@@ -55,14 +58,29 @@ pub fn draw(
             let share = if *look == Look::Undecided { 0.6 } else { 1.0 };
             cloud::draw(&mut canvas, panel, dots, radius * share);
         }
-        for (symbol, x, y) in marks.on(view, output, &values, attractors)? {
-            if panel.x.scale.holds(x) && panel.y.scale.holds(y) {
-                symbol.draw(&mut canvas, panel.place(x, y), SYMBOL_RADIUS);
-            }
+        if MARKED.contains(&output.as_str()) {
+            let symbols = marks.on(view, output, &values, attractors)?;
+            draw_symbols(&mut canvas, panel, &symbols);
         }
         panel.finish(&mut canvas);
     }
     Ok(canvas.finish(&super::about(view, &outputs, &attractors.free)))
+}
+
+/// Draws symbols, without those that would hide an earlier one of their kind.
+fn draw_symbols(canvas: &mut Canvas, panel: &Panel, symbols: &[(Symbol, f64, f64)]) {
+    let mut drawn: Vec<(Symbol, Point)> = Vec::new();
+    for (symbol, x, y) in symbols {
+        let at = panel.place(*x, *y);
+        let hides = |(other, there): &(Symbol, Point)| {
+            other == symbol && (at.0 - there.0).hypot(at.1 - there.1) < 1.5 * SYMBOL_RADIUS
+        };
+        let inside = panel.x.scale.holds(*x) && panel.y.scale.holds(*y);
+        if inside && !drawn.iter().any(hides) {
+            symbol.draw(canvas, at, SYMBOL_RADIUS);
+            drawn.push((*symbol, at));
+        }
+    }
 }
 
 /// What is drawn, a panel each.

@@ -13,6 +13,7 @@ const MOST: usize = 40;
 struct Event {
     symbol: Symbol,
     attractor: i64,
+    period: i64,
     /// Value of the axis [SI].
     at: f64,
     /// Its section point [SI].
@@ -42,6 +43,7 @@ impl EventMarks {
             Ok(view.take(&format!("event_{name}"), &[])?.into_iter().collect())
         };
         let (kinds, numbers, places) = (column("kind")?, column("attractor")?, column(x)?);
+        let periods = column("period")?;
         let [r, y1, y2] = ["section_r", "section_y1", "section_y2"].map(column);
         let (r, y1, y2) = (r?, y1?, y2?);
         let on_line = on_line(view, x, kinds.len())?;
@@ -54,6 +56,7 @@ impl EventMarks {
                 events.push(Event {
                     symbol,
                     attractor,
+                    period: periods[i] as i64,
                     at: places[i],
                     section: [r[i], y1[i], y2[i]],
                 });
@@ -63,6 +66,8 @@ impl EventMarks {
         let crowded: Vec<Symbol> =
             Symbol::KINDS.iter().map(|(_, _, it)| *it).filter(|it| count(*it) > MOST).collect();
         events.retain(|event| !crowded.contains(&event.symbol));
+        // Where symbols crowd, that of the shortest orbit is drawn.
+        events.sort_by_key(|event| event.period);
         Ok(EventMarks { events, factor })
     }
 

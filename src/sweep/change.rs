@@ -42,7 +42,7 @@ impl Change {
     }
 }
 
-/// The changes along a path of orbits, in its order.
+/// The changes along a path of orbits that begins with one that attracts, up to where it ceases to.
 ///
 /// Method: where a property differs between two neighbours on the path, the parameter is bisected, with an orbit
 /// closed by Newton's method at each trial, until it is at rounding or no orbit closes; what is left
@@ -52,25 +52,32 @@ impl Change {
 /// impacts changes there it is a grazing. Two changes of one property that undo each other between two neighbours
 /// are not seen.
 pub fn changes<S: Locomotion>(along: &Along<'_, S>, path: &[Solution]) -> Vec<Change> {
+    let doubles = |a: &Solution, b: &Solution| a.passes(-1.0) != b.passes(-1.0);
+    let spirals = |a: &Solution, b: &Solution| a.spirals() != b.spirals();
+    let order = |a: &Solution, b: &Solution| a.events != b.events;
+    let doubling = Property {
+        differs: &doubles,
+        measure: Some(&|it| it.shifted_determinant(-1.0)),
+        kind: &|_, _| SpecialKind::PeriodDoubling,
+    };
+    let spiral = |_: &Solution, _: &Solution| SpecialKind::NeimarkSacker;
+    let spiral = Property { differs: &spirals, measure: None, kind: &spiral };
+    let sequence = Property { differs: &order, measure: None, kind: &of_events };
     let mut found = Vec::new();
     for pair in path.windows(2) {
         let [low, high] = pair else { continue };
-        let doubles = |a: &Solution, b: &Solution| a.passes(-1.0) != b.passes(-1.0);
-        let spirals = |a: &Solution, b: &Solution| a.spirals() != b.spirals();
-        let order = |a: &Solution, b: &Solution| a.events != b.events;
-        let doubling = Property {
-            differs: &doubles,
-            measure: Some(&|it| it.shifted_determinant(-1.0)),
-            kind: &|_, _| SpecialKind::PeriodDoubling,
-        };
-        let spiral = |_: &Solution, _: &Solution| SpecialKind::NeimarkSacker;
-        let spiral = Property { differs: &spirals, measure: None, kind: &spiral };
-        let sequence = Property { differs: &order, measure: None, kind: &of_events };
-        let properties = [doubling, spiral, sequence];
-        let mut here: Vec<Change> =
-            properties.iter().flat_map(|property| property.locate(along, low, high)).collect();
-        here.sort_by(|a, b| (a.value - low.value).abs().total_cmp(&(b.value - low.value).abs()));
-        found.extend(here);
+        let losses = [&doubling, &spiral].map(|property| property.first(along, low, high));
+        let away = |it: &(Solution, Solution)| (it.0.value - low.value).abs();
+        let loss = losses.into_iter().flatten().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let until = loss.as_ref().map_or(high, |(below, _)| below);
+        found.extend(sequence.every(along, low, until));
+        if let Some((below, above)) = loss {
+            let doubles = below.passes(-1.0) != above.passes(-1.0);
+            let kind =
+                if doubles { SpecialKind::PeriodDoubling } else { SpecialKind::NeimarkSacker };
+            found.push(Change::between(kind, &below, &above));
+            break;
+        }
     }
     found
 }
@@ -97,7 +104,7 @@ fn of_events(low: &Solution, high: &Solution) -> SpecialKind {
 
 impl Property<'_> {
     /// Every place between two orbits where it changes.
-    fn locate<S: Locomotion>(
+    fn every<S: Locomotion>(
         &self,
         along: &Along<'_, S>,
         low: &Solution,
@@ -105,12 +112,24 @@ impl Property<'_> {
     ) -> Vec<Change> {
         let mut found = Vec::new();
         let mut low = low.clone();
-        while (self.differs)(&low, high) && found.len() < MOST {
-            let (below, above) = self.bisect(along, low, high.clone());
+        while let Some((below, above)) = self.first(along, &low, high) {
             found.push(Change::between((self.kind)(&below, &above), &below, &above));
+            if found.len() == MOST {
+                break;
+            }
             low = above;
         }
         found
+    }
+
+    /// The orbits just before and after the first place between two orbits where it changes.
+    fn first<S: Locomotion>(
+        &self,
+        along: &Along<'_, S>,
+        low: &Solution,
+        high: &Solution,
+    ) -> Option<(Solution, Solution)> {
+        (self.differs)(low, high).then(|| self.bisect(along, low.clone(), high.clone()))
     }
 
     /// The narrowest pair of orbits between which it begins to differ from the first.

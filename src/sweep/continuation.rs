@@ -14,7 +14,9 @@ use crate::orbit::{Case, Protocol, Section};
 /// Values of the parameter closer together than this, relative to them, are one value.
 pub const ROUNDING: f64 = 2e-13;
 /// Values tried at most between two that are given.
-const ATTEMPTS: usize = 400;
+const ATTEMPTS: usize = 200;
+/// A repelling orbit is not worth steps shorter than this share of the way.
+const SHORTEST: f64 = 1e-3;
 
 /// A periodic orbit at one value of the parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +44,11 @@ impl Solution {
     /// Its Floquet multipliers, the largest magnitude first.
     pub fn multipliers(&self) -> [Complex; 3] {
         eigenvalues(&self.jacobian)
+    }
+
+    /// Whether small pushes die out.
+    pub fn attracts(&self) -> bool {
+        self.multipliers()[0].abs() < 1.0
     }
 
     /// Whether an odd number of multipliers lies beyond `bound`, which is -1 or +1.
@@ -107,7 +114,20 @@ impl<S: Locomotion> Along<'_, S> {
         let share = (value - low.value) / (high.value - low.value);
         let [a, b] = [low, high].map(|solution| solution.points[0]);
         let from = std::array::from_fn(|i| a[i] + share * (b[i] - a[i]));
-        self.close(value, &from, low.period(), low.size.max(high.size))
+        let size = low.size.max(high.size);
+        self.close(value, &from, low.period(), size).or_else(|| {
+            let (mut path, end) = self.follow(low, value);
+            path.pop().filter(|_| end == End::Reached)
+        })
+    }
+
+    /// The orbit that is known to have these section points.
+    pub fn known(&self, value: f64, points: &[Section], error: f64) -> Option<Solution> {
+        let cycles = self.cycles(Dual::constant(value), points.len());
+        let system = self.system(Dual::<f64, 3>::constant(value));
+        let image = returned(&system, seeded(&points[0]), &cycles, |_| ()).ok()?;
+        let solution = self.trace(value, points[0], points.len())?;
+        Some(Solution { error, jacobian: jacobian(&image), ..solution })
     }
 
     /// Follows an orbit to another value of the parameter; tells the orbits on the way, itself the first.
@@ -115,7 +135,8 @@ impl<S: Locomotion> Along<'_, S> {
     /// Method: natural continuation, with the slope of the orbit over the parameter from the linearised flow
     /// as predictor and Newton's method as corrector; steps are halved where it does not close, and doubled
     /// where it does. A step that lands beyond a fold, where the determinant of I - J has changed its sign,
-    /// counts as one that does not close. Where steps have shrunk to rounding the orbit has ended. It breaks where
+    /// counts as one that does not close. Where steps have shrunk to rounding the orbit has ended; one that repels is given
+    /// up before. It breaks where
     /// another orbit is nearer than the error of the prediction.
     pub fn follow(&self, from: &Solution, to: f64) -> (Vec<Solution>, End) {
         let mut path = vec![from.clone()];
@@ -135,6 +156,9 @@ impl<S: Locomotion> Along<'_, S> {
                 }
                 if step.abs() <= ROUNDING * here.value.abs() {
                     return (path, End::Stopped(step));
+                }
+                if step.abs() <= SHORTEST * (to - from.value).abs() && !here.attracts() {
+                    return (path, End::Lost);
                 }
                 step = 0.5 * (target - here.value);
             };

@@ -86,8 +86,8 @@ impl<S: Locomotion> Neighbours<'_, S> {
 
     /// The orbit of an attractor at its value of the parameter.
     fn solution(&self, side: usize, attractor: &Attractor) -> Option<Solution> {
-        let Attractor { points, size, .. } = attractor;
-        self.along.close(self.values[side], &points[0], points.len(), *size)
+        let Attractor { points, bound, size, .. } = attractor;
+        self.along.known(self.values[side], points, bound / size)
     }
 
     /// The attractor of the other cell in which an orbit that was followed there goes on.

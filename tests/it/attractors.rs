@@ -159,8 +159,7 @@ fn given_starts_and_both_directions_meet_in_one_study() {
                  [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"downward\", \"afresh\"]";
     let study = study(&window(150.0, 165.0, 16, start));
     assert_eq!(study.cases(), 16 * 3 * 3);
-    let mut seen: Vec<usize> =
-        (0..study.chains()).flat_map(|number| study.chain(number)).collect();
+    let mut seen: Vec<usize> = (0..study.chains()).flat_map(|number| study.chain(number)).collect();
     assert_eq!(study.chains(), 3 * (2 + 16));
     seen.sort_unstable();
     assert!(seen.into_iter().eq(0..study.cases()));
