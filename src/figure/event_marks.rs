@@ -66,8 +66,9 @@ impl EventMarks {
         let crowded: Vec<Symbol> =
             Symbol::KINDS.iter().map(|(_, _, it)| *it).filter(|it| count(*it) > MOST).collect();
         events.retain(|event| !crowded.contains(&event.symbol));
-        // Where symbols crowd, that of the shortest orbit is drawn.
-        events.sort_by_key(|event| event.period);
+        // Open circles below the others, and where symbols crowd, that of the shortest orbit first.
+        let layer = |symbol| Symbol::KINDS.iter().position(|(_, _, it)| *it == symbol);
+        events.sort_by_key(|event| (layer(event.symbol), event.period));
         Ok(EventMarks { events, factor })
     }
 
