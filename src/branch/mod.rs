@@ -7,6 +7,7 @@ mod curve;
 mod doubling;
 mod family;
 mod follow;
+pub mod natural;
 mod orbits;
 mod scales;
 mod special;

@@ -14,7 +14,7 @@ use crate::lane::Instructions;
 use crate::model::{Parameter, Parameters, Resistance, Switching};
 use crate::orbit::{Case, Outcome, Protocol};
 use crate::store::{self, Dataset, has_cases, keep_branches};
-use crate::sweep::{Machine, Record, Study, run};
+use crate::sweep::{self, Machine, Record, Study, has_attractors, run};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -115,6 +115,11 @@ impl Sweep {
         let mut records = records.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
         records.sort_by_key(|record| record.index);
         let mut dataset = store::dataset(study, &records);
+        if has_attractors(study) {
+            let attractors =
+                sweep::attractors(study, &records, machine).map_err(Failure::machine)?;
+            store::add_attractors(&mut dataset, study, &attractors);
+        }
         if let Some(older) = older {
             keep_branches(&mut dataset, &older);
         }

@@ -2,6 +2,8 @@
 
 use plotters::style::RGBColor;
 
+use super::attractor_diagram;
+use super::attractors::Attractors;
 use super::axis::AxisRequest;
 use super::canvas::Drawn;
 use super::cloud::{self, Dot};
@@ -45,6 +47,9 @@ impl Branch {
 /// Draws the bifurcation diagram that `view` asks for.
 pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let x_name = super::abscissa(view)?;
+    if let Some(attractors) = Attractors::along(view, x_name)? {
+        return attractor_diagram::draw(view, x_name, &attractors);
+    }
     let mut branches = branches(view, x_name);
     let mut free = vec![x_name];
     if branches.len() > 1 {
@@ -88,7 +93,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 }
 
 /// The abscissa, with room for points that stand at its ends, and as far as orbits were followed.
-fn span(values: &[f64], reached: &[f64]) -> Scale {
+pub fn span(values: &[f64], reached: &[f64]) -> Scale {
     let axis = Scale::of_axis(values);
     let plain = match finite_range(reached.iter().copied()) {
         Some((low, high)) if values.is_empty() => Scale::around([low, high], 0.02),
@@ -115,7 +120,7 @@ fn branches(view: &View<'_>, x_name: &str) -> Vec<Branch> {
     }
     let codes = view.coordinate_values(DIRECTION);
     let flags = view.dataset.coordinate(DIRECTION).map_or(&[][..], |it| &it.flags);
-    let looks = [(BLUE, 1.7), (VERMILION, 0.75)];
+    let looks = [(BLUE, 1.7), (VERMILION, 0.75), (INK, 0.4)];
     let branch = |(index, (colour, size)): (usize, (RGBColor, f64))| {
         let code = codes[index] as i64;
         let flag = flags.iter().find(|(value, _)| *value == code);
@@ -163,7 +168,7 @@ fn points(
 }
 
 /// Whether an output has several values per case.
-fn has_points(view: &View<'_>, output: &str) -> bool {
+pub fn has_points(view: &View<'_>, output: &str) -> bool {
     let axes = view.axes();
     let is_inner = |name: &String| !axes.contains(&name.as_str());
     let stored = view.dataset.variable(output);
@@ -172,7 +177,8 @@ fn has_points(view: &View<'_>, output: &str) -> bool {
     stored.is_some() || followed.is_some_and(|variable| variable.dimensions.len() > 1)
 }
 
-fn request(
+/// The page with a row for each output.
+pub fn request(
     view: &View<'_>,
     outputs: &[String],
     (clouds, followed): (&[Vec<Vec<Dot>>], &[Followed]),
@@ -215,7 +221,7 @@ fn with_legend(mut rows: Vec<Vec<PanelRequest>>, branches: &[Branch]) -> Vec<Vec
 }
 
 /// The rows with what the lines of followed orbits and their symbols mean in the first legend.
-fn with_followed(
+pub fn with_followed(
     mut rows: Vec<Vec<PanelRequest>>,
     clouds: &[Vec<Vec<Dot>>],
     followed: &[Followed],

@@ -7,7 +7,7 @@ use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Mark, draw_mark};
 use super::outcome::Outcomes;
-use super::style::{CHAOTIC, LONG_PERIOD, PERIODS, QUASI_PERIODIC, SMALL_SIZE, UNDECIDED};
+use super::style::{CHAOTIC, LONG_PERIOD, PAPER, PERIODS, QUASI_PERIODIC, SMALL_SIZE, UNDECIDED};
 use super::text::Text;
 use super::view::View;
 
@@ -43,11 +43,13 @@ impl Kinds {
         let codes = view.take(name, free)?;
         let outcomes = Outcomes::over(view, free)?;
         let flags = view.flags(name);
+        let resting = resting(view, free)?;
         // Each case with its place in the legend.
         let kinds: Vec<(usize, Kind)> = codes
             .iter()
             .enumerate()
             .map(|(case, code)| match name {
+                "period" if resting.get(case) == Some(&true) => rest(),
                 "period" => by_period(*code, outcomes.name(case)),
                 _ => by_flag(*code, flags),
             })
@@ -102,6 +104,22 @@ fn by_name(name: &str) -> Option<(usize, Kind)> {
         _ => return None,
     };
     Some((rank, Kind { name: name.to_string(), colour }))
+}
+
+/// Whether each periodic case is one in which the capsule never slides; empty where the results do not say.
+fn resting(view: &View<'_>, free: &[&str]) -> Result<Vec<bool>, FigureError> {
+    if view.dataset.variable("stick_share").is_none() {
+        return Ok(Vec::new());
+    }
+    let outcomes = Outcomes::over(view, free)?;
+    let shares = view.take("stick_share", free)?;
+    let rests = |(case, share): (usize, &f64)| *share >= 1.0 && outcomes.periodic(case);
+    Ok(shares.iter().enumerate().map(rests).collect())
+}
+
+/// The mass moves and the capsule does not, whatever the period.
+fn rest() -> (usize, Kind) {
+    (0, Kind { name: "rest".to_string(), colour: Some(PAPER) })
 }
 
 fn no_value() -> (usize, Kind) {

@@ -33,6 +33,17 @@ impl Cells {
         self.order.len()
     }
 
+    /// The place in the results of cell number `cell`.
+    pub fn place(&self, cell: usize) -> usize {
+        self.order[cell]
+    }
+
+    /// Where cell number `cell` begins and ends, as shares of the axis.
+    pub fn range(&self, cell: usize) -> [f64; 2] {
+        let begins = cell.checked_sub(1).map_or(0.0, |before| self.ends[before]);
+        [begins, self.ends.get(cell).copied().unwrap_or(1.0)]
+    }
+
     /// The place in the results of the cell at `share` of the axis.
     pub fn at(&self, share: f64) -> usize {
         self.order[self.ends.partition_point(|end| *end < share)]

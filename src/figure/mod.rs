@@ -1,5 +1,7 @@
 //! Shown: draws stored records.
 
+mod attractor_diagram;
+mod attractors;
 mod axis;
 mod bifurcation;
 mod canvas;
@@ -10,6 +12,7 @@ mod colour;
 mod curves;
 mod error;
 mod followed;
+mod event_marks;
 mod font;
 mod geometry;
 mod header;

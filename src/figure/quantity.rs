@@ -74,6 +74,10 @@ const TABLE: &[Row] = &[
     ("stick_share", "Share of sticking", "", "", 1.0),
     ("peak_contact_force", "Peak contact force", "", "N", 1.0),
     ("grazing_margin", "Grazing margin", "", "mm", 1e3),
+    ("lyapunov_exponent", "Lyapunov exponent", "", "1/s", 1.0),
+    ("lyapunov_uncertainty", "Uncertainty of the exponent", "", "1/s", 1.0),
+    ("largest_multiplier", "Largest multiplier", "", "", 1.0),
+    ("section_residual", "Section residual", "", "", 1.0),
 ];
 
 /// The row called `name`.

@@ -90,6 +90,22 @@ pub const PERIODS: [RGBColor; 8] = [
 ];
 /// Periods above 8.
 pub const LONG_PERIOD: RGBColor = RGBColor(170, 68, 153);
+/// Colours of attractors, after Okabe and Ito, which the colour-blind can tell apart.
+pub const ATTRACTORS: [RGBColor; 7] = [
+    BLUE,
+    VERMILION,
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(136, 34, 85),
+];
+/// Attractors beyond these.
+pub const OTHER_ATTRACTOR: RGBColor = RGBColor(90, 90, 90);
+/// Points of cases without a known attractor.
+pub const UNDECIDED_DOT: RGBColor = RGBColor(175, 175, 175);
+/// Shading of windows in which attractors coexist.
+pub const COEXISTENCE: RGBColor = RGBColor(244, 237, 218);
 /// Chaotic motion.
 pub const CHAOTIC: RGBColor = RGBColor(20, 20, 20);
 /// Quasi-periodic motion.

@@ -11,7 +11,7 @@ use crate::store::dataset::{Dataset, Variable};
 use crate::sweep::Drawing;
 
 /// Dimensions within a case, which are not axes of the study.
-const INNER: [&str; 4] = ["point", "impact_point", "history_time", "multiplier"];
+const INNER: [&str; 5] = ["point", "impact_point", "history_time", "multiplier", "event"];
 
 /// The results as one figure sees them.
 pub struct View<'a> {

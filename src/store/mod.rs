@@ -1,5 +1,6 @@
 //! Kept: keeps records and gives them back, with what made them.
 
+mod attractors;
 mod branch_columns;
 pub mod branches;
 pub mod dataset;
@@ -16,6 +17,7 @@ mod scale;
 pub mod schema;
 mod seal;
 
+pub use attractors::add_attractors;
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
 pub use dataset::{Dataset, Values, Variable};
 pub use difference::difference;

@@ -176,7 +176,8 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
             "direction in which the attractor was followed",
             Values::Integer(values),
         );
-        variable.flags = Direction::ALL.iter().map(|&d| (d as i64, d.name().to_owned())).collect();
+        let named = Direction::ALL.iter().filter(|it| directions.contains(it));
+        variable.flags = named.map(|&d| (d as i64, d.name().to_owned())).collect();
         dataset.coordinates.push((name, variable));
     }
 }

@@ -1,17 +1,22 @@
 //! Repeated: turns a study into cases and cases into records, in parallel, in any order.
 
+pub mod attractor;
 pub mod axis;
 mod branch_file;
+mod cell;
+mod change;
 pub mod continuation;
 pub mod document;
 pub mod drawing;
 mod drawing_file;
+mod family;
 pub mod follow;
 pub mod quantity;
 pub mod run;
 pub mod study;
 mod study_file;
 
+pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors};
 pub use axis::{Axis, Coordinate};
 pub use continuation::{Continuation, FirstOrbit};
 pub use document::{Fault, Faults};

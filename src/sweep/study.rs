@@ -5,24 +5,27 @@ use crate::orbit::{Case, Output, Protocol};
 
 use super::{Axis, Continuation, Coordinate, Drawing};
 
-/// The way along an axis in which each case starts where its neighbour settled.
+/// The way along an axis in which each case starts where its neighbour settled, or that none does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
     /// From the first value to the last.
     Upward = 0,
     /// From the last value to the first.
     Downward,
+    /// Each case starts as the study says.
+    Afresh,
 }
 
 impl Direction {
-    /// Both, in the order of their numbers.
-    pub const ALL: [Direction; 2] = [Direction::Upward, Direction::Downward];
+    /// All of them, in the order of their numbers.
+    pub const ALL: [Direction; 3] = [Direction::Upward, Direction::Downward, Direction::Afresh];
 
     /// Its name in studies and files.
     pub fn name(self) -> &'static str {
         match self {
             Direction::Upward => "upward",
             Direction::Downward => "downward",
+            Direction::Afresh => "afresh",
         }
     }
 }
@@ -32,7 +35,7 @@ impl Direction {
 pub struct Follow {
     /// Position of the axis in the study.
     pub axis: usize,
-    /// In which directions; two of them make one more dimension, `direction`, the last.
+    /// In which directions; several of them make one more dimension, `direction`, the last.
     pub directions: Vec<Direction>,
 }
 
@@ -92,7 +95,7 @@ impl Study {
         shape
     }
 
-    /// The directions, where there are two and they make a dimension of the results.
+    /// The directions, where there are several and they make a dimension of the results.
     pub fn direction_axis(&self) -> Option<&[Direction]> {
         let follow = self.follow.as_ref()?;
         (follow.directions.len() > 1).then_some(&follow.directions)
@@ -123,8 +126,22 @@ impl Study {
     pub fn chains(&self) -> usize {
         match &self.follow {
             None => self.cases(),
-            Some(follow) => self.cases() / self.axes[follow.axis].values.len(),
+            Some(follow) => {
+                let directions = follow.directions.len();
+                let groups = self.cases() / self.axes[follow.axis].values.len() / directions;
+                groups * self.chains_of_group(follow)
+            }
         }
+    }
+
+    /// Chains of the cases that differ along the followed axis and in direction only: one for each direction
+    /// that is followed, and one for each case that starts afresh.
+    fn chains_of_group(&self, follow: &Follow) -> usize {
+        let length = |direction: &Direction| match direction {
+            Direction::Upward | Direction::Downward => 1,
+            Direction::Afresh => self.axes[follow.axis].values.len(),
+        };
+        follow.directions.iter().map(length).sum()
     }
 
     /// The cases of chain `number`, to be run in order; a chain is one case where none is followed.
@@ -134,23 +151,38 @@ impl Study {
         };
         let length = self.axes[follow.axis].values.len();
         let stride: usize = self.shape()[follow.axis + 1..].iter().product();
-        let first = number / stride * stride * length + number % stride;
-        let direction = match self.direction_axis() {
-            Some(directions) => directions[number % directions.len()],
-            None => follow.directions[0],
-        };
-        match direction {
-            Direction::Upward => Chain { first, step: stride as isize, left: length },
-            Direction::Downward => Chain {
-                first: first + (length - 1) * stride,
-                step: -(stride as isize),
-                left: length,
-            },
+        let inner = stride / follow.directions.len();
+        let (group, mut left) =
+            (number / self.chains_of_group(follow), number % self.chains_of_group(follow));
+        let corner = group / inner * stride * length + group % inner * follow.directions.len();
+        for (place, direction) in follow.directions.iter().enumerate() {
+            let first = corner + place;
+            match direction {
+                Direction::Afresh if left < length => {
+                    return Chain { first: first + left * stride, step: 0, left: 1 };
+                }
+                Direction::Afresh => left -= length,
+                _ if left > 0 => left -= 1,
+                Direction::Upward => {
+                    return Chain { first, step: stride as isize, left: length };
+                }
+                Direction::Downward => {
+                    let last = first + (length - 1) * stride;
+                    return Chain { first: last, step: -(stride as isize), left: length };
+                }
+            }
         }
+        unreachable!("the lengths of a group add up to its chains")
+    }
+
+    /// The direction of case `index`, where an axis is followed.
+    pub fn direction(&self, index: usize) -> Option<Direction> {
+        let follow = self.follow.as_ref()?;
+        Some(follow.directions[index % follow.directions.len()])
     }
 
     /// Position of case `index` along each dimension.
-    fn position(&self, index: usize) -> Vec<usize> {
+    pub fn position(&self, index: usize) -> Vec<usize> {
         let mut rest = index;
         let mut position: Vec<usize> = self
             .shape()

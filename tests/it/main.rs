@@ -1,6 +1,7 @@
 //! The tests of the whole: closed forms, invariants, references, and the program as its users run it.
 
 mod acceleration;
+mod attractors;
 mod belt;
 mod branch;
 mod branch_figure;

@@ -1,0 +1,194 @@
+//! A bifurcation diagram by attractors: each in its colour, windows of coexistence shaded, events marked.
+
+use super::attractors::{Attractors, Look};
+use super::axis::AxisRequest;
+use super::bifurcation::{has_points, request, span, with_followed};
+use super::canvas::{Canvas, Drawn, Stroke};
+use super::cells::Cells;
+use super::cloud::{self, Dot};
+use super::error::FigureError;
+use super::event_marks::EventMarks;
+use super::followed::Followed;
+use super::geometry::{Point, Rect};
+use super::header::{Entry, Mark};
+use super::panel::Panel;
+use super::style::{COEXISTENCE, FAINT_INK, MINOR_WIDTH};
+use super::symbol::Symbol;
+use super::text::Text;
+use super::view::View;
+
+/// Panels of the diagram, unless others are asked for: those of them that the results hold.
+const PANELS: [&str; 4] = ["section_r", "progression_speed", "work_positive", "lyapunov_exponent"];
+/// The panels on which events are marked.
+const MARKED: [&str; 4] = ["section_r", "section_y1", "section_y2", "progression_speed"];
+/// The output whose sign matters.
+const EXPONENT: &str = "lyapunov_exponent";
+/// Symbols of one kind nearer than this would hide each other [pt].
+const SYMBOL_SPACING: f64 = 2.6;
+/// So many attractors are named in the legend.
+const NAMED: usize = 3;
+
+/// Draws the diagram that `view` asks for over `x_name`, along which `attractors` are known.
+pub fn draw(
+    view: &View<'_>,
+    x_name: &str,
+    attractors: &Attractors<'_>,
+) -> Result<Drawn, FigureError> {
+    let outputs = outputs(view);
+    let quantity = view.quantity(x_name);
+    let values: Vec<f64> =
+        view.axis_values(x_name)?.iter().map(|value| value * quantity.factor).collect();
+    let looks = looks(attractors);
+    let clouds = outputs
+        .iter()
+        .map(|output| points(view, output, &values, attractors, &looks))
+        .collect::<Result<Vec<_>, _>>()?;
+    let marks = EventMarks::of(view, x_name, attractors)?;
+    let windows = windows(&values, attractors);
+    let followed: Vec<Followed> =
+        outputs.iter().map(|output| Followed::shown(view, x_name, output)).collect();
+    // Branches bring their special points along, events of attractors among them.
+    let marks = if followed.iter().all(Followed::is_empty) { marks } else { EventMarks::none() };
+    let reached: Vec<f64> = followed.iter().flat_map(Followed::places).map(|at| at.0).collect();
+    let abscissa = AxisRequest::new(quantity, span(&values, &reached));
+    let mut page = request(view, &outputs, (&clouds, &followed), abscissa, &attractors.free);
+    if let Some(first) = page.rows.first_mut().and_then(|row| row.first_mut()) {
+        first.header.legend = legend(attractors, &marks, !windows.is_empty());
+    }
+    page.rows = with_followed(page.rows, &clouds, &followed);
+    let (mut canvas, panels) = page.lay_out();
+    let shown = clouds.iter().zip(&followed).zip(&outputs);
+    for (panel, ((cloud, followed), output)) in panels.iter().flatten().zip(shown) {
+        shade(&mut canvas, panel, &windows);
+        mark_zero(&mut canvas, panel, output, view);
+        let radius = cloud::radius(cloud.iter().map(Vec::len).sum());
+        for (dots, look) in cloud.iter().zip(&looks) {
+            let share = if *look == Look::Undecided { 0.6 } else { 1.0 };
+            cloud::draw(&mut canvas, panel, dots, radius * share);
+        }
+        if MARKED.contains(&output.as_str()) {
+            let symbols = marks.on(view, output, &values, attractors)?;
+            draw_symbols(&mut canvas, panel, &symbols);
+        }
+        followed.draw(&mut canvas, panel);
+        panel.finish(&mut canvas);
+    }
+    Ok(canvas.finish(&super::about(view, &outputs, &attractors.free)))
+}
+
+/// Draws symbols, without those that would hide an earlier one of their kind.
+fn draw_symbols(canvas: &mut Canvas, panel: &Panel, symbols: &[(Symbol, f64, f64)]) {
+    let mut drawn: Vec<(Symbol, Point)> = Vec::new();
+    for (symbol, x, y) in symbols {
+        let at = panel.place(*x, *y);
+        let hides = |(other, there): &(Symbol, Point)| {
+            other == symbol && (at.0 - there.0).hypot(at.1 - there.1) < SYMBOL_SPACING
+        };
+        let inside = panel.x.scale.holds(*x) && panel.y.scale.holds(*y);
+        if inside && !drawn.iter().any(hides) {
+            symbol.draw(canvas, at);
+            drawn.push((*symbol, at));
+        }
+    }
+}
+
+/// What is drawn, a panel each.
+fn outputs(view: &View<'_>) -> Vec<String> {
+    if !view.drawing.of.is_empty() {
+        return view.drawing.of.clone();
+    }
+    let held = PANELS.iter().filter(|name| view.dataset.variable(name).is_some());
+    held.map(|name| name.to_string()).collect()
+}
+
+/// The looks in the order in which they are drawn.
+fn looks(attractors: &Attractors<'_>) -> Vec<Look> {
+    let own = (0..attractors.own.len()).map(Look::Own);
+    [Look::Undecided, Look::Other].into_iter().chain(own).collect()
+}
+
+/// The points of `output` in each look.
+fn points(
+    view: &View<'_>,
+    output: &str,
+    x_values: &[f64],
+    attractors: &Attractors<'_>,
+    looks: &[Look],
+) -> Result<Vec<Vec<Dot>>, FigureError> {
+    let array = view.shown(output, &attractors.free)?;
+    let cases = x_values.len() * attractors.per_value;
+    let per_case = array.len().checked_div(cases).unwrap_or(0);
+    let values: Vec<f64> = array.iter().copied().collect();
+    let mut clouds: Vec<Vec<Dot>> = looks.iter().map(|_| Vec::new()).collect();
+    for case in 0..cases {
+        let look = attractors.look(case);
+        let Some(cloud) = looks.iter().position(|it| Some(*it) == look) else { continue };
+        let shown = &values[case * per_case..(case + 1) * per_case];
+        let finite: Vec<f64> = shown.iter().copied().filter(|it| it.is_finite()).collect();
+        let crowding = (finite.len() * x_values.len()) as f64;
+        let (x, colour) = (x_values[case / attractors.per_value], looks[cloud].colour());
+        clouds[cloud].extend(finite.into_iter().map(|y| Dot { at: (x, y), colour, crowding }));
+    }
+    Ok(clouds)
+}
+
+/// The ranges of the axis in which attractors coexist, as shares of the axis of cells.
+fn windows(values: &[f64], attractors: &Attractors<'_>) -> Vec<[f64; 2]> {
+    if values.len() < 2 {
+        return Vec::new();
+    }
+    let cells = Cells::around(values);
+    let mut windows: Vec<[f64; 2]> = Vec::new();
+    let mut before = false;
+    for place in 0..cells.count() {
+        let here = attractors.coexist(cells.place(place));
+        let [from, to] = cells.range(place).map(|share| cells.scale.value(share));
+        match windows.last_mut() {
+            Some(window) if here && before => window[1] = to,
+            _ if here => windows.push([from, to]),
+            _ => {}
+        }
+        before = here;
+    }
+    windows
+}
+
+fn shade(canvas: &mut Canvas, panel: &Panel, windows: &[[f64; 2]]) {
+    let Rect { left, top, right, bottom } = panel.frame;
+    for [from, to] in windows {
+        let [from, to] = [from, to].map(|x| panel.place(*x, panel.y.scale.low).0);
+        let band =
+            Rect { left: from.clamp(left, right), top, right: to.clamp(left, right), bottom };
+        canvas.fill(band, COEXISTENCE);
+    }
+}
+
+/// A line at zero: always for the exponent, whose sign matters, else where both signs occur.
+fn mark_zero(canvas: &mut Canvas, panel: &Panel, output: &str, view: &View<'_>) {
+    if output == EXPONENT && !panel.y.empty {
+        let zero = [(panel.x.scale.low, 0.0), (panel.x.scale.high, 0.0)];
+        panel.curve(canvas, &zero, Stroke::solid(FAINT_INK, MINOR_WIDTH));
+    } else if !has_points(view, output) {
+        panel.mark_zero(canvas);
+    }
+}
+
+fn legend(attractors: &Attractors<'_>, marks: &EventMarks, shaded: bool) -> Vec<Entry> {
+    let mut legend = Vec::new();
+    let count = attractors.own.len();
+    if (2..=NAMED).contains(&count) {
+        let disc = |place: usize| Mark::Disc(Look::Own(place).colour(), 1.8);
+        let name = |place: usize| Text::plain(&format!("attractor {}", place + 1));
+        legend.extend((0..count).map(|place| (disc(place), name(place))));
+    }
+    for (look, words) in [(Look::Other, "further attractors"), (Look::Undecided, "undecided")] {
+        if attractors.has(look) {
+            legend.push((Mark::Disc(look.colour(), 1.4), Text::plain(words)));
+        }
+    }
+    if shaded {
+        legend.push((Mark::Patch(COEXISTENCE), Text::plain("coexistence")));
+    }
+    legend.extend(marks.legend().map(|(symbol, words)| (Mark::Symbol(symbol), words)));
+    legend
+}

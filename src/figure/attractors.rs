@@ -1,0 +1,125 @@
+//! The attractors of a diagram: which case shows which, in what colour, and where several coexist.
+
+use plotters::style::RGBColor;
+
+use super::error::FigureError;
+use super::outcome::Outcomes;
+use super::style::{ATTRACTORS, OTHER_ATTRACTOR, UNDECIDED_DOT};
+use super::view::View;
+
+/// The axis along which the attractor was followed up and down.
+const DIRECTION: &str = "direction";
+/// The variable that tells attractors apart.
+const ATTRACTOR: &str = "attractor";
+/// The attribute of a file that names the axis along which they are numbered.
+const AXIS: &str = "attractor_axis";
+
+/// What a case shows, from what is drawn first to what is drawn last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Look {
+    /// No attractor is known.
+    Undecided,
+    /// An attractor with a colour that it shares with others.
+    Other,
+    /// An attractor with a colour of its own, by its place among these.
+    Own(usize),
+}
+
+impl Look {
+    /// The colour of its points.
+    pub fn colour(self) -> RGBColor {
+        match self {
+            Look::Undecided => UNDECIDED_DOT,
+            Look::Other => OTHER_ATTRACTOR,
+            Look::Own(place) => ATTRACTORS[place],
+        }
+    }
+}
+
+/// The attractors along one axis.
+pub struct Attractors<'a> {
+    /// The axes over which the cases are spread, that of the diagram first.
+    pub free: Vec<&'a str>,
+    /// Cases at each value of the axis.
+    pub per_value: usize,
+    /// Values of the axis.
+    pub values: usize,
+    /// The number of each case's attractor, in the order of the axes; negative for none.
+    numbers: Vec<i64>,
+    failed: Vec<bool>,
+    /// The attractors with colours of their own, in the order of their numbers.
+    pub own: Vec<i64>,
+}
+
+impl<'a> Attractors<'a> {
+    /// The attractors over the axis `x`; none where the results do not follow any along it.
+    pub fn along(view: &View<'a>, x: &'a str) -> Result<Option<Attractors<'a>>, FigureError> {
+        let numbered = view.dataset.attributes.get(AXIS).is_some_and(|axis| axis == x);
+        if !numbered || view.dataset.variable(ATTRACTOR).is_none() {
+            return Ok(None);
+        }
+        let joins = |name: &&str| name.starts_with("start_") || *name == DIRECTION;
+        let free: Vec<&str> =
+            std::iter::once(x).chain(view.free_axes().into_iter().filter(joins)).collect();
+        let numbers: Vec<i64> = view.take(ATTRACTOR, &free)?.iter().map(|it| *it as i64).collect();
+        let outcomes = Outcomes::over(view, &free)?;
+        let failed = (0..numbers.len()).map(|case| outcomes.failed(case)).collect();
+        let values = view.coordinate_values(x).len();
+        let per_value = numbers.len().checked_div(values).unwrap_or(0);
+        let own = widest(&numbers, per_value);
+        Ok(Some(Attractors { free, per_value, values, numbers, failed, own }))
+    }
+
+    /// How a case looks; none where it failed, or where an earlier case at its value shows the same attractor.
+    pub fn look(&self, case: usize) -> Option<Look> {
+        let number = self.numbers[case];
+        if self.failed[case] {
+            return None;
+        }
+        if number < 0 {
+            return Some(Look::Undecided);
+        }
+        let first = case / self.per_value * self.per_value;
+        let shown = self.numbers[first..case].contains(&number);
+        let own = self.own.iter().position(|it| *it == number);
+        (!shown).then_some(own.map_or(Look::Other, Look::Own))
+    }
+
+    /// The first case at value number `at` that shows an attractor.
+    pub fn case_of(&self, number: i64, at: usize) -> Option<usize> {
+        let first = at * self.per_value;
+        let here = self.numbers.get(first..first + self.per_value)?;
+        here.iter().position(|it| *it == number).map(|place| first + place)
+    }
+
+    /// Whether the cases at value number `at` show several attractors.
+    pub fn coexist(&self, at: usize) -> bool {
+        let here = &self.numbers[at * self.per_value..(at + 1) * self.per_value];
+        let mut known = here.iter().filter(|number| **number >= 0);
+        known.next().is_some_and(|first| known.any(|number| number != first))
+    }
+
+    /// Whether any case has a look.
+    pub fn has(&self, look: Look) -> bool {
+        (0..self.numbers.len()).any(|case| self.look(case) == Some(look))
+    }
+}
+
+/// The attractors that show at most values, as many as there are colours, in the order of their numbers.
+fn widest(numbers: &[i64], per_value: usize) -> Vec<i64> {
+    let mut extent: std::collections::BTreeMap<i64, usize> = std::collections::BTreeMap::new();
+    for here in numbers.chunks(per_value.max(1)) {
+        let mut known: Vec<i64> = here.iter().copied().filter(|number| *number >= 0).collect();
+        known.sort_unstable();
+        known.dedup();
+        for number in known {
+            *extent.entry(number).or_default() += 1;
+        }
+    }
+    let mut widest: Vec<(i64, usize)> = extent.into_iter().collect();
+    widest.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
+    let mut own: Vec<i64> =
+        widest.into_iter().take(ATTRACTORS.len()).map(|(number, _)| number).collect();
+    own.sort_unstable();
+    own
+}

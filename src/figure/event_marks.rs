@@ -1,0 +1,150 @@
+//! The events of attractors as symbols on the panels of a diagram.
+
+use super::attractors::Attractors;
+use super::error::FigureError;
+use super::symbol::{SYMBOLS, Symbol};
+use super::text::Text;
+use super::view::View;
+
+/// Symbols of one kind beyond this number would hide the diagram, and the kind is left out.
+const MOST: usize = 40;
+
+/// One event.
+struct Event {
+    symbol: Symbol,
+    attractor: i64,
+    period: i64,
+    /// Value of the axis [SI].
+    at: f64,
+    /// Its section point [SI].
+    section: [f64; 3],
+}
+
+/// The events to be marked.
+pub struct EventMarks {
+    events: Vec<Event>,
+    /// Value shown per value of the axis stored.
+    factor: f64,
+}
+
+impl EventMarks {
+    /// None at all.
+    pub fn none() -> EventMarks {
+        EventMarks { events: Vec::new(), factor: 1.0 }
+    }
+
+    /// The events along the axis `x` of attractors with colours of their own, where the other axes are held.
+    pub fn of(
+        view: &View<'_>,
+        x: &str,
+        attractors: &Attractors<'_>,
+    ) -> Result<EventMarks, FigureError> {
+        let factor = view.quantity(x).factor;
+        let mut events = Vec::new();
+        if view.dataset.variable("event_kind").is_none() {
+            return Ok(EventMarks { events, factor });
+        }
+        let column = |name: &str| -> Result<Vec<f64>, FigureError> {
+            Ok(view.take(&format!("event_{name}"), &[])?.into_iter().collect())
+        };
+        let (kinds, numbers, places) = (column("kind")?, column("attractor")?, column(x)?);
+        let periods = column("period")?;
+        let [r, y1, y2] = ["section_r", "section_y1", "section_y2"].map(column);
+        let (r, y1, y2) = (r?, y1?, y2?);
+        let on_line = on_line(view, x, kinds.len())?;
+        let flags = view.flags("event_kind");
+        for (i, kind) in kinds.iter().enumerate().filter(|(i, _)| on_line[*i]) {
+            let name = flags.iter().find(|(code, _)| *code as f64 == *kind);
+            let Some(symbol) = name.and_then(|(_, name)| Symbol::named(name)) else { continue };
+            let attractor = numbers[i] as i64;
+            if attractors.own.contains(&attractor) {
+                events.push(Event {
+                    symbol,
+                    attractor,
+                    period: periods[i] as i64,
+                    at: places[i],
+                    section: [r[i], y1[i], y2[i]],
+                });
+            }
+        }
+        let count = |symbol: Symbol| events.iter().filter(|it| it.symbol == symbol).count();
+        let crowded: Vec<Symbol> = SYMBOLS.into_iter().filter(|it| count(*it) > MOST).collect();
+        events.retain(|event| !crowded.contains(&event.symbol));
+        // Where symbols crowd, that of the shortest orbit is drawn first.
+        let layer = |symbol| SYMBOLS.iter().position(|it| *it == symbol);
+        events.sort_by_key(|event| (layer(event.symbol), event.period));
+        Ok(EventMarks { events, factor })
+    }
+
+    /// The symbols that occur, with their words.
+    pub fn legend(&self) -> impl Iterator<Item = (Symbol, Text)> {
+        let occurs = |symbol: Symbol| self.events.iter().any(|event| event.symbol == symbol);
+        let kinds = SYMBOLS.into_iter().rev().filter(move |symbol| occurs(*symbol));
+        kinds.map(|symbol| (symbol, Text::plain(symbol.words)))
+    }
+
+    /// The symbols on the panel of an `output`, with their places in its units: at the section point of the
+    /// orbit, or at the value of the case of the attractor that is nearest.
+    pub fn on(
+        &self,
+        view: &View<'_>,
+        output: &str,
+        x_values: &[f64],
+        attractors: &Attractors<'_>,
+    ) -> Result<Vec<(Symbol, f64, f64)>, FigureError> {
+        let coordinate =
+            ["section_r", "section_y1", "section_y2"].iter().position(|it| *it == output);
+        let factor = view.quantity(output).factor;
+        let values: Vec<f64> = view.shown(output, &attractors.free)?.into_iter().collect();
+        let per_case = values.len().checked_div(attractors.values * attractors.per_value);
+        let place = |event: &Event| {
+            let x = event.at * self.factor;
+            let y = match coordinate {
+                Some(i) => event.section[i] * factor,
+                None if per_case == Some(1) => beside(event, x, x_values, &values, attractors)?,
+                None => return None,
+            };
+            Some((event.symbol, x, y))
+        };
+        Ok(self.events.iter().filter_map(place).collect())
+    }
+}
+
+/// The output of the attractor of an event at `x`: on the straight line between its two nearest cases, or that of the
+/// nearest where it ends.
+fn beside(
+    event: &Event,
+    x: f64,
+    x_values: &[f64],
+    values: &[f64],
+    attractors: &Attractors<'_>,
+) -> Option<f64> {
+    let known = |at: usize| Some((x_values[at], values[attractors.case_of(event.attractor, at)?]));
+    let nearest = |side: fn(&f64, &f64) -> bool| {
+        let known = (0..x_values.len()).filter(|at| side(&x_values[*at], &x)).filter_map(known);
+        known.min_by(|a, b| (a.0 - x).abs().total_cmp(&(b.0 - x).abs()))
+    };
+    let (below, above) = (nearest(|at, x| at <= x), nearest(|at, x| at > x));
+    let spacing = x_values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+    let near = |point: &(f64, f64)| (point.0 - x).abs() <= 1.01 * spacing;
+    match (below.filter(near), above.filter(near)) {
+        (Some((a, low)), Some((b, high))) => Some(low + (high - low) * (x - a) / (b - a)),
+        (one, other) => one.or(other).map(|(_, value)| value),
+    }
+}
+
+/// Whether each event lies where the figure holds the axes other than `x`.
+fn on_line(view: &View<'_>, x: &str, count: usize) -> Result<Vec<bool>, FigureError> {
+    let mut on_line = vec![true; count];
+    for name in view.axes().into_iter().filter(|name| *name != x) {
+        let column = format!("event_{name}");
+        if view.dataset.variable(&column).is_none() {
+            continue;
+        }
+        let held = view.parameter(name, &[])?.into_iter().next();
+        for (kept, value) in on_line.iter_mut().zip(view.take(&column, &[])?) {
+            *kept &= Some(value) == held;
+        }
+    }
+    Ok(on_line)
+}

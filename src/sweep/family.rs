@@ -1,0 +1,168 @@
+//! Which attractors of two neighbouring cells are one, and what happens to them in between.
+
+use crate::branch::SpecialKind;
+use crate::model::Locomotion;
+use crate::orbit::Outcome;
+
+use super::Direction;
+use super::cell::{Attractor, Cell, coincide};
+use super::change::{Change, changes, ending, straddles};
+use crate::branch::natural::{Along, End, Solution};
+
+/// How the attractors of a cell go on in the next.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Links {
+    /// Pairs of places, in this cell and in the next, that are one attractor.
+    pub pairs: Vec<[usize; 2]>,
+    /// Changes of attractors of this cell, by place, and of the next.
+    pub changes: [Vec<(usize, Change)>; 2],
+}
+
+/// Two neighbouring cells along a parameter.
+pub struct Neighbours<'a, S> {
+    /// What is held, and the parameter.
+    pub along: Along<'a, S>,
+    /// Its two values.
+    pub values: [f64; 2],
+    /// The cells.
+    pub cells: [&'a Cell; 2],
+    /// The direction of each case of a cell, by its place; none where the axis is not followed.
+    pub directions: &'a [Option<Direction>],
+}
+
+impl<S: Locomotion> Neighbours<'_, S> {
+    /// Links the attractors of the two cells.
+    ///
+    /// Periodic orbits by continuation, the shortest first, to the other cell; where an orbit has lost
+    /// its stability at a period doubling on the way, it goes on in the orbit of twice the period that lies
+    /// on both sides of it. What is left by what the followed cases say, see [`Neighbours::led`].
+    pub fn link(&self) -> Links {
+        let mut links = Links::default();
+        let mut ended = [Vec::new(), Vec::new()];
+        for (side, place) in self.periodic() {
+            if !links.has(side, place) {
+                ended[side].extend(self.follow(side, place, &mut links).then_some(place));
+            }
+        }
+        self.led(&mut links, &ended);
+        links.pairs.sort_unstable();
+        links
+    }
+
+    /// Follows an orbit to the other cell and notes what happens; tells whether it ends before.
+    fn follow(&self, side: usize, place: usize, links: &mut Links) -> bool {
+        let attractor = &self.cells[side].attractors[place];
+        let Some(start) = self.solution(side, attractor) else { return false };
+        let (path, end) = self.along.follow(&start, self.values[1 - side]);
+        let mut found = changes(&self.along, &path);
+        let last = path.last().unwrap_or(&start);
+        match end {
+            End::Reached => {
+                let other = self.successor(side, links, last, &found);
+                links.pairs.extend(other.map(|other| match side {
+                    0 => [place, other],
+                    _ => [other, place],
+                }));
+            }
+            End::Stopped(step) => found.extend(ending(&self.along, &path, step)),
+            End::Lost => {}
+        }
+        links.changes[side].extend(found.into_iter().map(|change| (place, change)));
+        matches!(end, End::Stopped(_))
+    }
+
+    /// The periodic attractors by side and place, the shortest periods first: beside a period doubling it is the
+    /// shorter orbit that goes on, while the longer one ends.
+    fn periodic(&self) -> Vec<(usize, usize)> {
+        let mut all: Vec<(usize, usize, usize)> = Vec::new();
+        for (side, cell) in self.cells.iter().enumerate() {
+            let attractors = cell.attractors.iter().enumerate();
+            let periodic = attractors.filter(|(_, it)| it.outcome == Outcome::Periodic);
+            all.extend(periodic.map(|(place, it)| (it.points.len(), side, place)));
+        }
+        all.sort_unstable();
+        all.into_iter().map(|(_, side, place)| (side, place)).collect()
+    }
+
+    /// The orbit of an attractor at its value of the parameter.
+    fn solution(&self, side: usize, attractor: &Attractor) -> Option<Solution> {
+        let Attractor { points, bound, size, .. } = attractor;
+        self.along.known(self.values[side], points, bound / size)
+    }
+
+    /// The attractor of the other cell in which an orbit that was followed there goes on.
+    fn successor(
+        &self,
+        side: usize,
+        links: &Links,
+        orbit: &Solution,
+        changes: &[Change],
+    ) -> Option<usize> {
+        let omega = self.along.omega(orbit.value);
+        let doubles = changes.iter().any(|change| change.kind == SpecialKind::PeriodDoubling);
+        let goes_on = |(place, other): &(usize, &Attractor)| {
+            let bound = other.bound + orbit.size * orbit.error.max(other.bound / other.size);
+            let same = coincide(&orbit.points, &other.points, bound, omega);
+            let beside = || doubles && straddles(&other.points, &orbit.points, omega);
+            other.outcome == Outcome::Periodic && !links.has(1 - side, *place) && (same || beside())
+        };
+        let mut others = self.cells[1 - side].attractors.iter().enumerate();
+        others.find(goes_on).map(|(place, _)| place)
+    }
+
+    /// Links what continuation has left, by what the followed cases say.
+    ///
+    /// Two attractors are one if the upward cases lead from the first to the second and the downward ones back; where
+    /// the axis is followed in one direction only, if they lead so and neither orbit ends on the way; where it is
+    /// not followed, if both are the only ones left that do not repeat. It breaks where a followed case falls from one
+    /// such attractor to another beside it in both directions.
+    fn led(&self, links: &mut Links, ended: &[Vec<usize>; 2]) {
+        let upward = self.leads(Direction::Upward);
+        let downward = self.leads(Direction::Downward);
+        let follows = |direction| self.directions.contains(&Some(direction));
+        let pairs = match (follows(Direction::Upward), follows(Direction::Downward)) {
+            (true, true) => upward.into_iter().filter(|pair| downward.contains(pair)).collect(),
+            (false, false) => self.only_ones(links),
+            _ => {
+                let mut pairs = [upward, downward].concat();
+                pairs.retain(|[a, b]| !ended[0].contains(a) && !ended[1].contains(b));
+                pairs
+            }
+        };
+        for [a, b] in pairs {
+            if !links.has(0, a) && !links.has(1, b) {
+                links.pairs.push([a, b]);
+            }
+        }
+    }
+
+    /// The attractors of the two cells between which the cases followed in a direction lead.
+    fn leads(&self, direction: Direction) -> Vec<[usize; 2]> {
+        let [low, high] = self.cells.map(|cell| &cell.of_case);
+        let both = low.iter().zip(high).zip(self.directions);
+        both.filter(|(_, it)| **it == Some(direction))
+            .filter_map(|((a, b), _)| Some([(*a)?, (*b)?]))
+            .collect()
+    }
+
+    /// The attractors that do not repeat, where each cell has just one that is not linked.
+    fn only_ones(&self, links: &Links) -> Vec<[usize; 2]> {
+        let left = |side: usize| {
+            let attractors = self.cells[side].attractors.iter().enumerate();
+            let mut left = attractors
+                .filter(|(place, it)| it.outcome != Outcome::Periodic && !links.has(side, *place));
+            let first = left.next().map(|(place, it)| (place, it.outcome));
+            first.filter(|_| left.next().is_none())
+        };
+        match (left(0), left(1)) {
+            (Some((a, first)), Some((b, second))) if first == second => vec![[a, b]],
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl Links {
+    fn has(&self, side: usize, place: usize) -> bool {
+        self.pairs.iter().any(|pair| pair[side] == place)
+    }
+}

@@ -1,0 +1,195 @@
+//! Attractors along an axis: grazing against its closed form, coexistence, period doubling, any number of threads.
+
+use std::fs;
+
+use capsulemap::branch::SpecialKind;
+use capsulemap::lane::Dual;
+use capsulemap::model::{Capsule, Parameter};
+use capsulemap::orbit::matrix::eigenvalues;
+use capsulemap::orbit::newton::close;
+use capsulemap::orbit::return_map::Cycles;
+use capsulemap::orbit::{Outcome, Proof, Protocol};
+use capsulemap::store;
+use capsulemap::sweep::{self, AttractorEvent, Attractors, Machine, Record, Study};
+
+use super::program::Desk;
+
+/// The capsule that moves on or shakes in place, see `studies/hysteresis.toml`.
+const TWO_MOTIONS: &str = r#"[parameters]
+m2 = "0.2 kg"
+c = "1.77 N s/m"
+mu_s = 0.33
+mu_d = 0.165
+p_d = "2.79 N"
+k2 = "65.518 kN/m"
+delta = "4.33 mm"
+"#;
+
+fn study(text: &str) -> Study {
+    Study::parse("study.toml", text).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn records(study: &Study) -> Vec<Record> {
+    let records = std::sync::Mutex::new(Vec::new());
+    sweep::run(study, Machine::default(), |record| records.lock().expect("a lock").push(record))
+        .expect("the study runs");
+    let mut records = records.into_inner().expect("a lock");
+    records.sort_by_key(|record| record.index);
+    records
+}
+
+fn found(study: &Study, records: &[Record]) -> Attractors {
+    sweep::attractors(study, records, Machine::default()).expect("the threads start")
+}
+
+/// The frequency of the two motions on an axis, followed as `start` says.
+fn window(from: f64, to: f64, points: usize, start: &str) -> String {
+    format!(
+        "{TWO_MOTIONS}[[axes]]\nname = \"omega\"\nfrom = \"{from} rad/s\"\nto = \"{to} rad/s\"\n\
+         points = {points}\n{start}\n"
+    )
+}
+
+const BOTH_WAYS: &str = "[start]\nfollow = \"omega\"\ndirections = [\"upward\", \"downward\"]";
+
+#[test]
+fn grazing_of_the_stuck_capsule_is_where_its_amplitude_is_the_gap() {
+    let cases = [
+        ("2.42", 77.91, 3.5),
+        ("18.96", 20.73, 1.5),
+        ("59.41", 26.58, 1.5),
+        ("59.41", 37.33, 1.5),
+        ("59.41", 46.0, 1.5),
+        ("59.41", 54.6, 1.5),
+    ];
+    let mut left_out = Vec::new();
+    for (k2, omega, delta) in cases {
+        let (m1, m2, k1, c, mu_s, g) = (0.11, 0.53, 1420.0, 3.89, 0.66, 9.81);
+        let gap = delta * 1e-3;
+        let z = f64::hypot(k1 - m1 * omega * omega, c * omega);
+        let contact = gap * z;
+        let slip = mu_s * (m1 + m2) * g * z / f64::hypot(k1, c * omega);
+        if slip < contact {
+            left_out.push(omega);
+            continue;
+        }
+        let study = study(&format!(
+            "[parameters]\nk2 = \"{k2} kN/m\"\nomega = \"{omega} rad/s\"\ndelta = \"{delta} mm\"\n\
+             [[axes]]\nname = \"p_d\"\nfrom = \"{} N\"\nto = \"{} N\"\npoints = 6\n",
+            0.9 * contact,
+            1.02 * contact
+        ));
+        let attractors = found(&study, &records(&study));
+        assert!(attractors.of_case.iter().all(|it| *it == Some(0)), "{attractors:?}");
+        let first = attractors.events.first().expect("an event");
+        assert_eq!((first.kind, first.period), (SpecialKind::Grazing, 1), "{omega}");
+        let off = (first.value / contact - 1.0).abs();
+        assert!(off < 1e-8 && first.uncertainty < 1e-11 * contact, "{omega}: {off:e} {first:?}");
+    }
+    // In Fig 5 the capsule slips before the mass reaches the stop.
+    assert_eq!(left_out, [77.91]);
+}
+
+#[test]
+fn two_certified_attractors_coexist_between_two_folds() {
+    let study = study(&window(150.0, 166.0, 33, BOTH_WAYS));
+    let records = records(&study);
+    let attractors = found(&study, &records);
+    for (at, omega) in study.axes[0].values.iter().enumerate() {
+        let here = [attractors.of_case[2 * at], attractors.of_case[2 * at + 1]];
+        let expected = match *omega {
+            omega if omega < 151.018 => [Some(0); 2],
+            omega if omega < 164.1 => [Some(0), Some(1)],
+            _ => [Some(1); 2],
+        };
+        assert_eq!(here, expected, "{omega}");
+        for record in &records[2 * at..2 * at + 2] {
+            assert_eq!((record.orbit.outcome, record.orbit.period), (Outcome::Periodic, 1));
+            assert_eq!(record.orbit.certificate.proof, Proof::Newton);
+        }
+    }
+    let folds: Vec<&AttractorEvent> =
+        attractors.events.iter().filter(|event| event.kind == SpecialKind::Fold).collect();
+    let [low, high] = folds[..] else { panic!("{folds:?}") };
+    assert_eq!((low.attractor, high.attractor), (1, 0));
+    assert!((low.value - 151.018).abs() < 1e-3 && (high.value - 164.1555).abs() < 1e-3);
+}
+
+#[test]
+fn attractors_do_not_depend_on_the_threads() {
+    let study = study(&window(124.0, 126.0, 21, BOTH_WAYS));
+    let records = records(&study);
+    let on = |threads: usize| {
+        let machine = Machine { threads: Some(threads), ..Machine::default() };
+        sweep::attractors(&study, &records, machine).expect("the threads start")
+    };
+    let one = on(1);
+    assert!(one.events.len() > 4, "{one:?}");
+    assert_eq!(one, on(2));
+    assert_eq!(one, on(7));
+}
+
+#[test]
+fn a_multiplier_is_minus_one_where_the_period_doubles() {
+    let study = study(&window(124.6, 125.0, 5, BOTH_WAYS));
+    let attractors = found(&study, &records(&study));
+    let doubles = |event: &&AttractorEvent| event.kind == SpecialKind::PeriodDoubling;
+    let events: Vec<&AttractorEvent> = attractors.events.iter().filter(doubles).collect();
+    assert!(events.iter().any(|event| event.period == 1), "{events:?}");
+    for event in events {
+        let mut parameters = study.base.clone();
+        parameters[Parameter::Omega] = event.value;
+        let of = |parameter| Dual::<f64, 3>::constant(parameters[parameter]);
+        let system = Capsule::new(of, parameters.resistance, 0.0);
+        let drive_period = Dual::constant(parameters.drive_period());
+        let tolerance = Protocol::default().tolerance;
+        let cycles = Cycles { drive_period, count: event.period, tolerance };
+        let orbit = close(&system, &event.section, &cycles, 0.5).expect("it goes on");
+        let orbit = orbit.expect("an orbit");
+        assert!(orbit.residual < 1e-11, "{orbit:?}");
+        let from = |it: &capsulemap::orbit::matrix::Complex| f64::hypot(it.re + 1.0, it.im);
+        let nearest = eigenvalues(&orbit.jacobian).iter().map(from).fold(1.0, f64::min);
+        assert!(nearest < 1e-6, "{event:?}: {nearest:e}");
+    }
+}
+
+#[test]
+fn given_starts_and_both_directions_meet_in_one_study() {
+    let start = "[[axes]]\nname = \"start_y1\"\nvalues = [\"0 m/s\", \"0.5 m/s\", \"-1 m/s\"]\n\
+                 [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"downward\", \"afresh\"]";
+    let study = study(&window(150.0, 165.0, 16, start));
+    assert_eq!(study.cases(), 16 * 3 * 3);
+    let mut seen: Vec<usize> = (0..study.chains()).flat_map(|number| study.chain(number)).collect();
+    assert_eq!(study.chains(), 3 * (2 + 16));
+    seen.sort_unstable();
+    assert!(seen.into_iter().eq(0..study.cases()));
+    let attractors = found(&study, &records(&study));
+    for (at, here) in attractors.of_case.chunks(9).enumerate() {
+        let omega = study.axes[0].values[at];
+        let mut known: Vec<usize> = here.iter().map(|it| it.expect("an attractor")).collect();
+        known.sort_unstable();
+        known.dedup();
+        let several = (151.1..164.1).contains(&omega);
+        assert_eq!(known.len(), if several { 2 } else { 1 }, "{omega}: {here:?}");
+    }
+}
+
+#[test]
+fn the_file_lists_the_events_and_the_figure_shows_them() {
+    let desk = Desk::new();
+    let figure = "[[figures]]\nname = \"diagram\"\nkind = \"bifurcation\"";
+    desk.put("two.toml", window(150.0, 166.0, 33, &format!("{BOTH_WAYS}\n{figure}")));
+    desk.run(&["sweep", "two.toml", "--formats", "svg,png"]).done();
+    let dataset = store::read(&desk.path("results/two/two.h5")).expect("a file of results");
+    let column = |name: &str| dataset.variable(name).expect(name).values.to_real();
+    let kinds = column("event_kind");
+    let events = column("event_omega");
+    assert_eq!(kinds.len(), events.len());
+    assert!(events.iter().any(|omega| (omega - 164.1555).abs() < 1e-3), "{events}");
+    assert_eq!(column("attractor").shape(), [33, 2]);
+    assert_eq!(dataset.attributes.get("attractor_axis").map(String::as_str), Some("omega"));
+    let svg = fs::read_to_string(desk.path("results/two/diagram.svg")).expect("a figure");
+    assert!(svg.contains("section_r, progression_speed, work_positive, lyapunov_exponent"));
+    // The light shading of the window.
+    assert!(svg.contains("#f4edda"), "no window is shaded");
+}
