@@ -12,7 +12,7 @@ use super::{Dataset, Values, Variable};
 /// Dimension: the cycles of a period.
 pub const CYCLE: &str = "branch_cycle";
 /// Dimension: the Floquet multipliers of an orbit.
-pub const MULTIPLIER: &str = "multiplier";
+pub const MULTIPLIER: &str = "branch_multiplier";
 
 /// An orbit on a branch.
 pub struct Row<'a> {
