@@ -7,8 +7,9 @@ use super::{Lane, Series, series};
 /// A number per lane with its derivatives along `N` directions.
 ///
 /// Method: forward differentiation. Events are decided by the numbers alone; a step is as short as the
-/// fastest of the number's and its derivatives' series needs. An event's time is differentiated as the root that it is ([`Lane::root`]), which puts into the linearised flow the
-/// jumps that switching makes in it (saltation), and sticking takes a direction out of it exactly.
+/// fastest of the number's and its derivatives' series needs. An event's time is differentiated as the
+/// root that it is ([`Lane::root`]), which puts into the linearised flow the jumps that switching makes in
+/// it (saltation), and sticking takes a direction out of it exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dual<L, const N: usize> {
     /// The number.
@@ -60,6 +61,8 @@ impl<L: Lane, const N: usize> Sub for Dual<L, N> {
 
 impl<L: Lane, const N: usize> Mul for Dual<L, N> {
     type Output = Self;
+    // The product rule has a sum in it.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Dual::with_gradient(self.value * other.value, |i| {
