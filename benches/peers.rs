@@ -1,11 +1,12 @@
 //! The integrator among its peers: `scripts/peers.sh` runs it beside them on the same cases.
 //!
-//! `cargo bench --bench peers` follows the works of `benches/cycles.rs` for 100 drive cycles from rest
-//! on one thread, by the widest instructions that the processor has or, with `-- --scalar`, one by one. With `-- --requests` it answers requests from standard input, as every contestant of
-//! that script does. A request is a line "cycles tolerance seconds cases" and a line
-//! "k2 omega p_d delta" for each case; the cases are followed again and again until so many seconds
-//! have passed. An answer is one line of JSON: the processor's seconds and the number of passes, and
-//! r, y1, x2, y2 and the number of events of each case at the end.
+//! `cargo bench --bench peers` follows the works of `benches/cycles.rs` for 100 drive cycles from rest on
+//! one thread, by the widest instructions that the processor has or, with `-- --scalar`, one by one. With
+//! `-- --requests` it answers requests from standard input, as every contestant of that script does. A
+//! request is a line "cycles tolerance seconds cases" and a line "k2 omega p_d delta" for each case; the
+//! cases are followed again and again until so many seconds have passed. An answer is one line of JSON: the
+//! processor's seconds and the number of passes, and r, y1, x2, y2 and the number of events of each case at
+//! the end.
 
 mod works;
 

@@ -46,8 +46,8 @@ impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
 
     /// Where `test` changes its sign between two solutions, to rounding.
     ///
-    /// Method: the secant, with the older end's value halved when it stays (the Illinois rule), and bisection where
-    /// that does not halve the bracket in three trials. None where the test jumps.
+    /// Method: the secant, with the older end's value halved when it stays (the Illinois rule), and
+    /// bisection where that does not halve the bracket in three trials. None where the test jumps.
     pub fn zero(
         &self,
         ends: [&Placed<U, E::Seen>; 2],

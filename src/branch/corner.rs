@@ -1,4 +1,5 @@
-//! Round a corner: where the return map has a kink, a branch may go on in a direction that nothing before it shows.
+//! Round a corner: where the return map has a kink, a branch may go on in a direction that nothing before
+//! it shows.
 
 use super::arclength::{Equations, Station, between, dot, tangent, unit};
 use super::walk::{Stride, Walk};
@@ -15,8 +16,8 @@ pub type Rounded<S> = (S, Stride<S>);
 
 /// The solution at which the branch goes on, with the first step beyond it.
 ///
-/// Method: around the corner the map is looked at on every side; the tangents that its derivatives have there are tried, ahead and
-/// behind. None where each of them leads back or nowhere.
+/// Method: around the corner the map is looked at on every side; the tangents that its derivatives have
+/// there are tried, ahead and behind. None where each of them leads back or nowhere.
 pub fn rounded<const U: usize, E: Equations<U>>(
     equations: &E,
     walk: &Walk<U>,

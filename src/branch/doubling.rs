@@ -10,10 +10,11 @@ const FIRST_STEPS: [f64; 7] = [0.1, 0.03, 0.3, 0.01, 1e-3, 1e-4, 1e-5];
 /// On an orbit of twice the period half of it leads to the other side: nearly two steps away.
 const OTHER_SIDE: f64 = 1.0;
 
-/// The orbits of twice the period near a period doubling, and the first two: that at the doubling and one off it.
+/// The orbits of twice the period near a period doubling, and the first two: that at the doubling and one
+/// off it.
 ///
-/// Method: a step along the eigenvector of -1 at constant parameter, corrected at right angles to it, and accepted if the orbit
-/// needs both halves of its period.
+/// Method: a step along the eigenvector of -1 at constant parameter, corrected at right angles to it, and
+/// accepted if the orbit needs both halves of its period.
 pub fn doubled(
     orbits: &Orbits,
     at: &OrbitStation,

@@ -1,4 +1,5 @@
-//! From a request to what is found: the first orbit, its branch both ways, the doubled branches and the curves.
+//! From a request to what is found: the first orbit, its branch both ways, the doubled branches and the
+//! curves.
 
 use crate::model::{Capsule, EventKind, Switching};
 use crate::orbit::{Output, Outputs, over_cycles};

@@ -132,12 +132,12 @@ impl<S: Locomotion> Along<'_, S> {
 
     /// Follows an orbit to another value of the parameter; tells the orbits on the way, itself the first.
     ///
-    /// Method: natural continuation, with the slope of the orbit over the parameter from the linearised flow
-    /// as predictor and Newton's method as corrector; steps are halved where it does not close, and doubled
-    /// where it does. A step that lands beyond a fold, where the determinant of I - J has changed its sign,
-    /// counts as one that does not close. Where steps have shrunk to rounding the orbit has ended; one that repels is given
-    /// up before. It breaks where
-    /// another orbit is nearer than the error of the prediction.
+    /// Method: natural continuation, with the slope of the orbit over the parameter from the linearised
+    /// flow as predictor and Newton's method as corrector; steps are halved where it does not close, and
+    /// doubled where it does. A step that lands beyond a fold, where the determinant of I - J has changed
+    /// its sign, counts as one that does not close. Where steps have shrunk to rounding the orbit has
+    /// ended; one that repels is given up before. It breaks where another orbit is nearer than the error of
+    /// the prediction.
     pub fn follow(&self, from: &Solution, to: f64) -> (Vec<Solution>, End) {
         let mut path = vec![from.clone()];
         let mut step = to - from.value;
@@ -248,8 +248,8 @@ impl<S: Locomotion> Along<'_, S> {
     }
 }
 
-/// How far to go on from the second of two orbits: twice as far as between them, or nearly to the fold that they
-/// foretell.
+/// How far to go on from the second of two orbits: twice as far as between them, or nearly to the fold that
+/// they foretell.
 fn ahead(before: &Solution, here: &Solution) -> f64 {
     let advance = here.value - before.value;
     let left = left_to_fold(before, here);
@@ -258,8 +258,8 @@ fn ahead(before: &Solution, here: &Solution) -> f64 {
     step.max(ROUNDING * here.value.abs()).copysign(advance)
 }
 
-/// How far beyond the second of two orbits a fold is, where the determinant of I - J vanishes as the root of what is
-/// left of the parameter; not positive where none is foretold.
+/// How far beyond the second of two orbits a fold is, where the determinant of I - J vanishes as the root
+/// of what is left of the parameter; not positive where none is foretold.
 pub fn left_to_fold(before: &Solution, here: &Solution) -> f64 {
     let square = |it: &Solution| it.shifted_determinant(1.0) * it.shifted_determinant(1.0);
     let [first, second] = [before, here].map(square);

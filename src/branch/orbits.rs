@@ -34,7 +34,8 @@ pub struct Seen {
     pub jacobian: Matrix<3>,
     /// Its cyclic sequence of events.
     pub events: Vec<EventKind>,
-    /// Distance of each local maximum of r from the stop in units of r, with its derivatives along the unknowns.
+    /// Distance of each local maximum of r from the stop in units of r, with its derivatives along the
+    /// unknowns.
     pub margins: Vec<Dual<f64, 4>>,
 }
 
@@ -132,8 +133,8 @@ impl Seen {
         determinant(shifted(&self.jacobian, 1.0))
     }
 
-    /// The product of one less than each product of two multipliers, which vanishes where a complex pair passes the
-    /// unit circle: det(C - I), C the second compound of J.
+    /// The product of one less than each product of two multipliers, which vanishes where a complex pair
+    /// passes the unit circle: det(C - I), C the second compound of J.
     pub fn torus(&self) -> f64 {
         let j = &self.jacobian;
         let pairs = [(0, 1), (0, 2), (1, 2)];

@@ -80,8 +80,8 @@ impl<const U: usize> Walk<U> {
 
     /// The next solution along the tangent.
     ///
-    /// A step that fails, or turns too sharply, is halved until it is below 1e-8 of the longest. A curve with a corner is followed round
-    /// it where the turn is below a right angle.
+    /// A step that fails, or turns too sharply, is halved until it is below 1e-8 of the longest. A curve
+    /// with a corner is followed round it where the turn is below a right angle.
     pub fn stride<E: Equations<U>>(
         &mut self,
         equations: &E,

@@ -99,8 +99,8 @@ impl Way {
     }
 }
 
-/// Whether between two orbits of an even period the branch passes one of half the period: what follows are the same orbits,
-/// half a period later.
+/// Whether between two orbits of an even period the branch passes one of half the period: what follows are
+/// the same orbits, half a period later.
 fn crosses(orbits: &Orbits, from: &OrbitStation, to: &OrbitStation) -> bool {
     let sides = [from, to].map(|station| orbits.halfway(&station.at));
     matches!(sides, [Some(before), Some(after)] if dot(&before, &after) < 0.0)

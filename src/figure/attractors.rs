@@ -70,7 +70,8 @@ impl<'a> Attractors<'a> {
         Ok(Some(Attractors { free, per_value, values, numbers, failed, own }))
     }
 
-    /// How a case looks; none where it failed, or where an earlier case at its value shows the same attractor.
+    /// How a case looks; none where it failed, or where an earlier case at its value shows the same
+    /// attractor.
     pub fn look(&self, case: usize) -> Option<Look> {
         let number = self.numbers[case];
         if self.failed[case] {

@@ -110,8 +110,8 @@ impl EventMarks {
     }
 }
 
-/// The output of the attractor of an event at `x`: on the straight line between its two nearest cases, or that of the
-/// nearest where it ends.
+/// The output of the attractor of an event at `x`: on the straight line between its two nearest cases, or
+/// that of the nearest where it ends.
 fn beside(
     event: &Event,
     x: f64,

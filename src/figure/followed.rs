@@ -1,4 +1,5 @@
-//! Followed orbits over the parameter that they were followed in: lines along the branches, and special points.
+//! Followed orbits over the parameter that they were followed in: lines along the branches, and special
+//! points.
 
 use plotters::style::RGBColor;
 

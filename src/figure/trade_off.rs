@@ -93,7 +93,8 @@ fn cases(view: &View<'_>, energy: &str, free: &[&str]) -> Result<Vec<Case>, Figu
     Ok(all.filter(kept).collect())
 }
 
-/// So many axes of the fastest case stand in one entry of the legend; the others follow in entries of their own.
+/// So many axes of the fastest case stand in one entry of the legend; the others follow in entries of their
+/// own.
 const AXES_TOGETHER: usize = 2;
 
 /// The case with the greatest speed, and where it stands along the axes, in parts of a legend's width.

@@ -162,7 +162,8 @@ impl<L: Lane, const N: usize> Lane for Dual<L, N> {
     fn from_plain(value: L::Plain) -> Self {
         Dual::constant(L::from_plain(value))
     }
-    /// By the implicit function theorem: the derivatives of the polynomial at the root over minus its slope there.
+    /// By the implicit function theorem: the derivatives of the polynomial at the root over minus its slope
+    /// there.
     #[inline(always)]
     fn root(value: L::Plain, polynomial: &Series<Self>) -> Self {
         let mut values = series::zero();

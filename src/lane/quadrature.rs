@@ -45,8 +45,8 @@ pub fn values(series: &Series<f64>, h: f64) -> Values {
 
 /// The integral over [0, h] of the product of two series, from their values at the nodes.
 ///
-/// Method: Gauss-Legendre, exact to degree 23. Where the terms of both series shrink steadily, so that those of
-/// degree 16 are below the tolerance of the step, the terms of the product beyond 23 are below the
+/// Method: Gauss-Legendre, exact to degree 23. Where the terms of both series shrink steadily, so that
+/// those of degree 16 are below the tolerance of the step, the terms of the product beyond 23 are below the
 /// tolerance to the power 3/2.
 #[inline]
 pub fn integral_of_product(a: &Values, b: &Values, h: f64) -> f64 {

@@ -88,7 +88,8 @@ impl<L: Lane<Mask = bool>> PrintedCapsule<L> {
         }
     }
 
-    /// What follows where |F| = f_s is met at a first-order zero of its guard, and which guards start at zero.
+    /// What follows where |F| = f_s is met at a first-order zero of its guard, and which guards start at
+    /// zero.
     pub(super) fn limit_met(
         &self,
         closed: bool,

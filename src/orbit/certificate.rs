@@ -1,4 +1,5 @@
-//! What is proven of a periodic orbit: that it closes, how it answers to small pushes, and that its period is the least.
+//! What is proven of a periodic orbit: that it closes, how it answers to small pushes, and that its period
+//! is the least.
 
 use crate::lane::Dual;
 use crate::model::{Locomotion, Parameter};
@@ -30,7 +31,8 @@ impl Proof {
 pub struct Certificate {
     /// How.
     pub proof: Proof,
-    /// How far the section is from repeating after a period, relative to the motion [-]; NaN without an orbit.
+    /// How far the section is from repeating after a period, relative to the motion [-]; NaN without an
+    /// orbit.
     pub residual: f64,
     /// Floquet multipliers of the period, the largest magnitude first [-]; NaN where they are not known.
     pub multipliers: [Complex; 3],
@@ -65,10 +67,11 @@ pub struct Certified {
 /// The periodic orbit at `section`, which has been seen to repeat after so many cycles; none where the
 /// return map does not close there.
 ///
-/// Method: for each divisor of the cycles, the least first, Newton's method on the map over so many. An orbit of
-/// a divisor counts if it is stable: the motion then tends to it and has only seemed to have a longer
-/// period, as it does when a multiplier lies near -1. If it repels, the motion goes around it, as it does after a
-/// period doubling, and the longer period is proven by the shorter one. `size` is that of the motion [m/s].
+/// Method: for each divisor of the cycles, the least first, Newton's method on the map over so many. An
+/// orbit of a divisor counts if it is stable: the motion then tends to it and has only seemed to have a
+/// longer period, as it does when a multiplier lies near -1. If it repels, the motion goes around it, as it
+/// does after a period doubling, and the longer period is proven by the shorter one. `size` is that of the
+/// motion [m/s].
 pub fn certify<S: Locomotion>(
     case: &Case,
     section: &Section,

@@ -44,7 +44,8 @@ impl<const D: usize, const N: usize> Stretching<D, N> {
         directions
     }
 
-    /// Takes the directions as a cycle has stretched them, notes by how much, and makes them orthonormal again.
+    /// Takes the directions as a cycle has stretched them, notes by how much, and makes them orthonormal
+    /// again.
     ///
     /// Method: Gram and Schmidt's, as Benettin and others (1980) have it.
     pub fn meet(&mut self, directions: &mut [[f64; N]; D]) {

@@ -73,8 +73,8 @@ pub fn determinant<const D: usize>(mut a: Matrix<D>) -> f64 {
 /// The eigenvalues of a matrix with at most three rows, the largest magnitude first.
 ///
 /// Method: roots of the characteristic polynomial in closed form, a real root polished by Newton's method
-/// before it is divided out. Error: rounding relative to the largest magnitude, larger where roots coincide; a
-/// matrix that loses rank has roots which are exactly or nearly zero.
+/// before it is divided out. Error: rounding relative to the largest magnitude, larger where roots
+/// coincide; a matrix that loses rank has roots which are exactly or nearly zero.
 pub fn eigenvalues<const D: usize>(a: &Matrix<D>) -> [Complex; D] {
     assert!(D <= 3, "closed forms end at three rows");
     let mut whole = [[0.0; 3]; 3];

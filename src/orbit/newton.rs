@@ -42,10 +42,10 @@ pub fn relative<const D: usize>(difference: &[f64; D], scales: &[f64; D], size: 
 /// The periodic orbit nearest to `start` under the map over `cycles`; none where Newton's method leaves the
 /// neighbourhood or meets a singular derivative.
 ///
-/// `size` is that of the motion, in the units of the system's scales. Method: s <- s + (I - J)^-1 (P(s) - s) with the
-/// exact Jacobian, until the residual is at rounding or no longer halved; the best point is kept. Error: see
-/// [`Closed::error`]. Where the map has a kink (an event falls on another) the steps need not converge, and
-/// the residual says so.
+/// `size` is that of the motion, in the units of the system's scales. Method: s <- s + (I - J)^-1 (P(s) -
+/// s) with the exact Jacobian, until the residual is at rounding or no longer halved; the best point is
+/// kept. Error: see [`Closed::error`]. Where the map has a kink (an event falls on another) the steps need
+/// not converge, and the residual says so.
 pub fn close<S, const D: usize>(
     system: &S,
     start: &[f64; D],

@@ -25,9 +25,9 @@ pub struct Cycles<const N: usize> {
 /// Where `system` is after whole cycles from a point of the section, differentiated along the `N` directions
 /// of the point and of the system's parameters; every step is shown to `see`.
 ///
-/// Method: the motion is followed in numbers that carry their derivatives, event times included. Error: that of the
-/// motion. Where an event falls on another or a guard is only touched, the map has a kink or a corner, and
-/// the derivatives are those of the side that the motion takes.
+/// Method: the motion is followed in numbers that carry their derivatives, event times included. Error:
+/// that of the motion. Where an event falls on another or a guard is only touched, the map has a kink or a
+/// corner, and the derivatives are those of the side that the motion takes.
 pub fn returned<S, const D: usize, const N: usize>(
     system: &S,
     from: DualPoint<D, N>,
@@ -41,7 +41,8 @@ where
     returned_in(system, from, (drive_period, count), tolerance, see)
 }
 
-/// The same in any numbers, of which the first lane counts; nested derivatives are derivatives of the Jacobian.
+/// The same in any numbers, of which the first lane counts; nested derivatives are derivatives of the
+/// Jacobian.
 pub fn returned_in<L, S, const D: usize>(
     system: &S,
     from: [L; D],

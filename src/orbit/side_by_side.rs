@@ -104,7 +104,8 @@ struct Supply<'a> {
     protocol: &'a Protocol,
     // Not generic over the queue: the lanes are compiled once for each kind, which takes long.
     queue: &'a mut dyn Queue,
-    /// Cases that have not settled, gathered until there are enough to follow their linearised flow side by side.
+    /// Cases that have not settled, gathered until there are enough to follow their linearised flow side by
+    /// side.
     wandering: Vec<Underway>,
     /// Cases that could depart, had they a lane.
     ready: Vec<Underway>,

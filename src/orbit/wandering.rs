@@ -11,8 +11,8 @@ use super::{Outcome, Protocol, Reason, Section};
 
 /// A positive exponent counts from so many of its uncertainties.
 const CERTAINTY: f64 = 5.0;
-/// Neighbours that part steadily are e to this power farther apart in the end; where the motion is regular the
-/// distance grows no faster than time, and never gets so far.
+/// Neighbours that part steadily are e to this power farther apart in the end; where the motion is regular
+/// the distance grows no faster than time, and never gets so far.
 const GROWTH: f64 = 12.0;
 /// Whether neighbours part is looked at after each so many cycles.
 const LOOK: usize = 128;
@@ -41,9 +41,9 @@ pub struct Wandering {
 impl Wandering {
     /// What the motion is: chaotic, quasi-periodic, or undecided.
     ///
-    /// Chaotic: the exponent is positive by five of its uncertainties, and neighbours have parted by more than
-    /// a regular motion could part them. Quasi-periodic: they have not parted, the averages of the section
-    /// over two stretches of time agree as only those of a regular motion do, and no point recurs.
+    /// Chaotic: the exponent is positive by five of its uncertainties, and neighbours have parted by more
+    /// than a regular motion could part them. Quasi-periodic: they have not parted, the averages of the
+    /// section over two stretches of time agree as only those of a regular motion do, and no point recurs.
     pub fn outcome(&self) -> Outcome {
         let Exponent { value, uncertainty } = self.exponent;
         if value > CERTAINTY * uncertainty && self.growth > GROWTH {
@@ -220,8 +220,8 @@ impl Wanderer {
 
 /// How far the means of two halves of a sequence differ, relative to `size`.
 ///
-/// Method: the weighted Birkhoff average of Das, Saiki, Sander and Yorke (2017), whose weights
-/// exp(-1/(t (1 - t))) vanish smoothly at both ends: on a quasi-periodic orbit it converges faster than any power of the
+/// Method: the weighted Birkhoff average of Das, Saiki, Sander and Yorke (2017), whose weights exp(-1/(t (1
+/// - t))) vanish smoothly at both ends: on a quasi-periodic orbit it converges faster than any power of the
 /// length, on a chaotic one with the inverse root of it.
 pub fn irregularity(points: &[Section], scales: &Section, size: f64) -> f64 {
     let (first, second) = points.split_at(points.len() / 2);

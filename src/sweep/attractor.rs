@@ -55,8 +55,8 @@ pub fn has_attractors(study: &Study) -> bool {
 
 /// Finds the attractors of a study from the `records` of its cases.
 ///
-/// A periodic attractor is known by its certified orbit, see [`Cell::sort`] and [`Neighbours::link`]. Every cell and
-/// every two neighbours are a task of their own, so that the threads do not matter.
+/// A periodic attractor is known by its certified orbit, see `Cell::sort` and `Neighbours::link`. Every
+/// cell and every two neighbours are a task of their own, so that the threads do not matter.
 pub fn attractors(
     study: &Study,
     records: &[Record],

@@ -13,8 +13,8 @@ use crate::branch::natural::apart;
 const OBLIQUE: f64 = 100.0;
 /// Points by which two motions that do not repeat are compared.
 const SAMPLE: usize = 64;
-/// Two samples of one motion have half of all nearest neighbours in the same sample, those of two motions all:
-/// half way between the two they are told apart.
+/// Two samples of one motion have half of all nearest neighbours in the same sample, those of two motions
+/// all: half way between the two they are told apart.
 const MIXED: f64 = 0.75;
 
 /// An attractor as the cases of one cell show it.
@@ -67,8 +67,9 @@ impl Cell {
 impl Attractor {
     /// What a case has ended on; none where that repels or is not known.
     ///
-    /// The bound of a periodic orbit: its residual, or the error of the integrator if that is larger, over the
-    /// least distance of a multiplier from one, is how far the true orbit is along the slowest direction.
+    /// The bound of a periodic orbit: its residual, or the error of the integrator if that is larger, over
+    /// the least distance of a multiplier from one, is how far the true orbit is along the slowest
+    /// direction.
     fn of<S: Locomotion>(
         index: usize,
         case: &Case,
@@ -94,8 +95,8 @@ impl Attractor {
     ///
     /// Periodic orbits: the periods are equal, and the points up to a cyclic shift, within the two bounds.
     /// Others: by the nearest neighbours of the two samples (Schilling 1986). It breaks where two
-    /// attractors interleave more closely than their samples lie, and where a motion drifts so slowly that its
-    /// two samples do not meet.
+    /// attractors interleave more closely than their samples lie, and where a motion drifts so slowly that
+    /// its two samples do not meet.
     fn is(&self, other: &Attractor, omega: f64) -> bool {
         if self.outcome != other.outcome {
             return false;

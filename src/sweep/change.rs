@@ -8,7 +8,8 @@ use crate::branch::natural::{Along, ROUNDING, Solution, apart, left_to_fold};
 
 /// Changes at most between two neighbouring values; a motion that changes more often is not resolved by them.
 const MOST: usize = 16;
-/// Sequences of events that change without an impact more or less are located to this, relative to the parameter.
+/// Sequences of events that change without an impact more or less are located to this, relative to the
+/// parameter.
 const COARSE: f64 = 1e-9;
 /// How far beside the expected zero of a property to look, as a share of the way between two orbits.
 const BESIDE: f64 = 1e-3;
@@ -44,13 +45,13 @@ impl Change {
 
 /// The changes along a path of orbits that begins with one that attracts, up to where it ceases to.
 ///
-/// Method: where a property differs between two neighbours on the path, the parameter is bisected, with an orbit
-/// closed by Newton's method at each trial, until it is at rounding or no orbit closes; what is left
-/// of the bracket is the uncertainty. Where the property is the sign of a smooth number, trials on both sides of where
-/// the straight line through its values passes zero come before each bisection. The properties: whether a real multiplier is below -1 (the sign of det(J +
-/// I)), whether a complex pair is outside the unit circle, and the sequence of events in a period; if the number of
-/// impacts changes there it is a grazing. Two changes of one property that undo each other between two neighbours
-/// are not seen.
+/// Method: where a property differs between two neighbours on the path, the parameter is bisected, with an
+/// orbit closed by Newton's method at each trial, until it is at rounding or no orbit closes; what is left
+/// of the bracket is the uncertainty. Where the property is the sign of a smooth number, trials on both
+/// sides of where the straight line through its values passes zero come before each bisection. The
+/// properties: whether a real multiplier is below -1 (the sign of det(J + I)), whether a complex pair is
+/// outside the unit circle, and the sequence of events in a period; if the number of impacts changes there
+/// it is a grazing. Two changes of one property that undo each other between two neighbours are not seen.
 pub fn changes<S: Locomotion>(along: &Along<'_, S>, path: &[Solution]) -> Vec<Change> {
     let doubles = |a: &Solution, b: &Solution| a.passes(-1.0) != b.passes(-1.0);
     let spirals = |a: &Solution, b: &Solution| a.spirals() != b.spirals();
@@ -161,8 +162,8 @@ impl Property<'_> {
         }
     }
 
-    /// Where to try between two orbits, as shares of the way: on both sides of where the measure passes zero if
-    /// it is straight, and then half way.
+    /// Where to try between two orbits, as shares of the way: on both sides of where the measure passes
+    /// zero if it is straight, and then half way.
     fn shares(&self, low: &Solution, high: &Solution) -> [f64; 3] {
         let Some(measure) = self.measure else { return [0.5, 1.0, 1.0] };
         let (a, b) = (measure(low), measure(high));
@@ -173,9 +174,10 @@ impl Property<'_> {
 
 /// What happens where the last orbit of a path does not go on for this much more of the parameter.
 ///
-/// It is a period doubling if the orbit runs into one of half its period, and a fold if a multiplier tends to +1;
-/// else it ends at a change of its events. Near a fold Newton's method gives up before the orbit ends: the last
-/// two orbits foretell how much is left, which then is the uncertainty if it is more than the step.
+/// It is a period doubling if the orbit runs into one of half its period, and a fold if a multiplier tends
+/// to +1; else it ends at a change of its events. Near a fold Newton's method gives up before the orbit
+/// ends: the last two orbits foretell how much is left, which then is the uncertainty if it is more than
+/// the step.
 pub fn ending<S: Locomotion>(along: &Along<'_, S>, path: &[Solution], step: f64) -> Option<Change> {
     let last = path.last()?;
     let from_one =
@@ -211,8 +213,8 @@ fn merges<S: Locomotion>(along: &Along<'_, S>, orbit: &Solution) -> bool {
     shorter.is_some_and(|shorter| straddles(&orbit.points, &shorter.points, omega))
 }
 
-/// Whether an orbit of twice the period lies on both sides of the shorter one, up to where they begin, as it does
-/// beside a period doubling.
+/// Whether an orbit of twice the period lies on both sides of the shorter one, up to where they begin, as
+/// it does beside a period doubling.
 pub fn straddles(longer: &[Section], shorter: &[Section], omega: f64) -> bool {
     let k = shorter.len();
     let beside = |shift: usize| {

@@ -71,8 +71,8 @@ impl<S: Locomotion> Neighbours<'_, S> {
         matches!(end, End::Stopped(_))
     }
 
-    /// The periodic attractors by side and place, the shortest periods first: beside a period doubling it is the
-    /// shorter orbit that goes on, while the longer one ends.
+    /// The periodic attractors by side and place, the shortest periods first: beside a period doubling it
+    /// is the shorter orbit that goes on, while the longer one ends.
     fn periodic(&self) -> Vec<(usize, usize)> {
         let mut all: Vec<(usize, usize, usize)> = Vec::new();
         for (side, cell) in self.cells.iter().enumerate() {
@@ -112,10 +112,10 @@ impl<S: Locomotion> Neighbours<'_, S> {
 
     /// Links what continuation has left, by what the followed cases say.
     ///
-    /// Two attractors are one if the upward cases lead from the first to the second and the downward ones back; where
-    /// the axis is followed in one direction only, if they lead so and neither orbit ends on the way; where it is
-    /// not followed, if both are the only ones left that do not repeat. It breaks where a followed case falls from one
-    /// such attractor to another beside it in both directions.
+    /// Two attractors are one if the upward cases lead from the first to the second and the downward ones
+    /// back; where the axis is followed in one direction only, if they lead so and neither orbit ends on
+    /// the way; where it is not followed, if both are the only ones left that do not repeat. It breaks
+    /// where a followed case falls from one such attractor to another beside it in both directions.
     fn led(&self, links: &mut Links, ended: &[Vec<usize>; 2]) {
         let upward = self.leads(Direction::Upward);
         let downward = self.leads(Direction::Downward);

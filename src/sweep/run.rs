@@ -35,8 +35,8 @@ pub struct Machine {
 /// thread and in any order.
 ///
 /// Every thread fills its lanes from one queue of chains until it is empty; the last cases, too few to fill
-/// a vector, are followed one by one, by whichever thread is done with its lanes. A case depends on its own parameters and start,
-/// or on its predecessor in its chain, alone.
+/// a vector, are followed one by one, by whichever thread is done with its lanes. A case depends on its own
+/// parameters and start, or on its predecessor in its chain, alone.
 pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Result<(), RunError> {
     if let Some(missing) = machine.instructions.filter(|it| !it.is_available()) {
         return Err(RunError(format!("the processor has no {}", missing.name())));

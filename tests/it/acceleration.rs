@@ -46,8 +46,9 @@ fn a_leap_ends_on_the_attractor_of_plain_iteration() {
     );
     assert!(both > cases.len() * 8 / 10 && cycles[0] * 2 < cycles[1]);
     assert!(fewer <= more, "leaping decides no fewer");
-    // Of 198 188 such cases one was told apart: with a multiplier near -1, it is of period 1 as leaping says, and
-    // its section, waited for, repeats after two cycles to tolerance long before it repeats after one.
+    // Of 198 188 such cases one was told apart: with a multiplier near -1, it is of period 1 as leaping
+    // says, and its section, waited for, repeats after two cycles to tolerance long before it repeats after
+    // one.
     assert!(others.len() * 100_000 <= cases.len(), "{others:?}");
 }
 

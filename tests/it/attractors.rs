@@ -1,4 +1,5 @@
-//! Attractors along an axis: grazing against its closed form, coexistence, period doubling, any number of threads.
+//! Attractors along an axis: grazing against its closed form, coexistence, period doubling, any number of
+//! threads.
 
 use std::fs;
 

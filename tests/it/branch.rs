@@ -54,7 +54,8 @@ fn quiet(p: &Parameters) -> Section {
 
 /// The cases of the paper whose stuck capsule touches before it slips, at the drive that makes it touch.
 ///
-/// Fig 5 is none of them: with a gap of 3.5 mm, F would be 4.97 N and more when contact begins, above the 4.14 N at which it slips.
+/// Fig 5 is none of them: with a gap of 3.5 mm, F would be 4.97 N and more when contact begins, above the
+/// 4.14 N at which it slips.
 fn grazing_cases() -> Vec<Parameters> {
     let cases =
         [(18.96e3, 20.73), (59.41e3, 26.58), (59.41e3, 37.33), (59.41e3, 46.0), (59.41e3, 54.6)];

@@ -54,8 +54,8 @@ fn a_stricter_run_finds_the_same_periods() {
 
 #[test]
 fn a_multiplier_near_minus_one_is_no_period_two() {
-    // Its section repeats after two cycles to 1e-11 while it is still 4e-9 from repeating after one: a pair of
-    // multipliers of magnitude 0.989 turns it by nearly half a turn each cycle.
+    // Its section repeats after two cycles to 1e-11 while it is still 4e-9 from repeating after one: a pair
+    // of multipliers of magnitude 0.989 turns it by nearly half a turn each cycle.
     let case = draws::cases(104_983, 3).pop().expect("a case");
     for accelerate in [true, false] {
         let protocol = Protocol { accelerate, ..Protocol::default() };

@@ -170,7 +170,8 @@ fn den_hartogs_amplitude_is_met_exactly() {
         for turn in turns {
             assert!((turn.abs() - exact).abs() < 1e-10 * exact, "w {omega}: {turn} {exact}");
         }
-        // At the turn the drive's phase has the cosine X/V, and friction changes sides: volumes jump twice alike.
+        // At the turn the drive's phase has the cosine X/V, and friction changes sides: volumes jump twice
+        // alike.
         let push = exact * (1.0 / v - 1.0);
         let jump = (push + friction) / (push - friction);
         let [[a, b], [c, d]] = jacobian;

@@ -10,7 +10,8 @@ pub const TOLERANCE: f64 = 1e-15;
 /// Widths tried, each a quarter of the one before.
 const WIDTHS: usize = 11;
 
-/// Where `system` is `k` cycles after a point of the section, in numbers of any kind; each step is shown to `see`.
+/// Where `system` is `k` cycles after a point of the section, in numbers of any kind; each step is shown to
+/// `see`.
 pub fn followed<L, S, const D: usize>(
     system: &S,
     from: [L; D],
@@ -50,8 +51,8 @@ pub struct Slope<const D: usize> {
 /// The slope of `image` at zero, its coordinates compared after multiplication with `weights`.
 ///
 /// Method: central differences at widths that shrink from `widest`, each pair of them extrapolated after
-/// Richardson; of the successive extrapolations those are taken that agree best. The exact slope is not looked at. Where a guard is
-/// nearly touched no two widths agree, which `doubt` tells.
+/// Richardson; of the successive extrapolations those are taken that agree best. The exact slope is not
+/// looked at. Where a guard is nearly touched no two widths agree, which `doubt` tells.
 pub fn slope<const D: usize>(
     image: impl Fn(f64) -> [f64; D],
     widest: f64,

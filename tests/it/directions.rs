@@ -33,7 +33,8 @@ fn image<L: Lane<Mask = bool>>(of: &Periodic, direction: Parameter, value: L) ->
     followed(&system, from, turn / with(Parameter::Omega), of.period, |_| ())
 }
 
-/// The derivative along a parameter, of that parameter's relative change, carried and by differences; the doubt.
+/// The derivative along a parameter, of that parameter's relative change, carried and by differences; the
+/// doubt.
 fn along(of: &Periodic, direction: Parameter) -> (Section, Section, f64) {
     let p = &of.case.parameters;
     let weights = [p[Parameter::Omega], 1.0, 1.0];
@@ -67,7 +68,8 @@ fn parameters_are_directions() {
     assert!(touched <= 24, "differences resolve too few: {touched} of 480 do not");
 }
 
-/// Second derivatives of the section point, that of coordinate `row` along `column` and `j` at [row][column][j].
+/// Second derivatives of the section point, that of coordinate `row` along `column` and `j` at
+/// [row][column][j].
 fn second_derivatives(of: &Periodic) -> [[[f64; 3]; 3]; 3] {
     type Twice = Dual<Dual<f64, 3>, 3>;
     let p = &of.case.parameters;

@@ -37,7 +37,8 @@ struct Volume {
     jumps: f64,
 }
 
-/// What becomes of a volume around the orbit: the flow between events, and the jumps of the field at reversals.
+/// What becomes of a volume around the orbit: the flow between events, and the jumps of the field at
+/// reversals.
 ///
 /// The compliant stop leaves the field continuous. Where y2 passes zero, volumes are multiplied with the
 /// acceleration after over that before. None where the capsule sticks.

@@ -1,5 +1,5 @@
-//! The integrator's two forms at once: what a test follows alone is followed among others in lanes too, to the
-//! same bits.
+//! The integrator's two forms at once: what a test follows alone is followed among others in lanes too, to
+//! the same bits.
 
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};

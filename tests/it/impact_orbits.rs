@@ -6,9 +6,9 @@ use super::oscillators::{Impact, mapped, repeated};
 
 /// An orbit of one impact per n drive periods of x'' + c x' + x = cos(wt) with a stop at x = 0.
 ///
-/// With time t since the impact, x = p(t) + h(t): the forced part p = a cos(w t + phi - psi) repeats, so the free
-/// part h makes good the jump of the velocity, h(P) = h(0) and h'(P) = h'(0) + (1 + e) u at an impact of
-/// speed u (Shaw and Holmes 1983).
+/// With time t since the impact, x = p(t) + h(t): the forced part p = a cos(w t + phi - psi) repeats, so
+/// the free part h makes good the jump of the velocity, h(P) = h(0) and h'(P) = h'(0) + (1 + e) u at an
+/// impact of speed u (Shaw and Holmes 1983).
 struct OneImpact {
     oscillator: Impact<f64>,
     n: u64,
@@ -71,8 +71,8 @@ impl OneImpact {
         self.at((2.0 * PI - self.forced[2]) / self.oscillator.omega)
     }
 
-    /// The sum of the multipliers: the trace of the free motion after the jump [[-e, 0], [(1 + e) A / u, -e]],
-    /// with A the force at the impact but for damping.
+    /// The sum of the multipliers: the trace of the free motion after the jump [[-e, 0], [(1 + e) A / u,
+    /// -e]], with A the force at the impact but for damping.
     fn trace(&self) -> f64 {
         let e = self.oscillator.restitution;
         let [[a, b], [_, d]] = free_motion(self.oscillator.c, self.duration);
@@ -122,7 +122,8 @@ fn check(orbit: &OneImpact) {
     );
 }
 
-/// A ball on a table that moves by A cos(wt), seen from the table: the height h obeys h'' = A w^2 cos(wt) - g.
+/// A ball on a table that moves by A cos(wt), seen from the table: the height h obeys h'' = A w^2 cos(wt) -
+/// g.
 ///
 /// The drive is G = A w^2 / g, the table's greatest acceleration over gravity, with g = w = 1. The ball that
 /// bounces once a period leaves and meets the table at the same height, so its speeds there are -+ pi/w g
