@@ -12,7 +12,7 @@ use super::followed::Followed;
 use super::geometry::{Point, Rect};
 use super::header::{Entry, Mark};
 use super::panel::Panel;
-use super::style::{COEXISTENCE, FAINT_INK, MINOR_WIDTH};
+use super::style::{ATTRACTORS, COEXISTENCE, FAINT_INK, MINOR_WIDTH};
 use super::symbol::Symbol;
 use super::text::Text;
 use super::view::View;
@@ -61,7 +61,9 @@ pub fn draw(
     for (panel, ((cloud, followed), output)) in panels.iter().flatten().zip(shown) {
         shade(&mut canvas, panel, &windows);
         mark_zero(&mut canvas, panel, output, view);
-        let radius = cloud::radius(cloud.iter().map(Vec::len).sum());
+        // Points stand out on both sides of the lines through them.
+        let wider = if followed.is_empty() { 1.0 } else { 1.4 };
+        let radius = wider * cloud::radius(cloud.iter().map(Vec::len).sum());
         for (dots, look) in cloud.iter().zip(&looks) {
             let share = if *look == Look::Undecided { 0.6 } else { 1.0 };
             cloud::draw(&mut canvas, panel, dots, radius * share);
@@ -137,11 +139,11 @@ fn windows(values: &[f64], attractors: &Attractors<'_>) -> Vec<[f64; 2]> {
     if values.len() < 2 {
         return Vec::new();
     }
-    let cells = Cells::around(values);
+    let (cells, coexist) = (Cells::around(values), attractors.coexist());
     let mut windows: Vec<[f64; 2]> = Vec::new();
     let mut before = false;
     for place in 0..cells.count() {
-        let here = attractors.coexist(cells.place(place));
+        let here = coexist[cells.place(place)];
         let [from, to] = cells.range(place).map(|share| cells.scale.value(share));
         match windows.last_mut() {
             Some(window) if here && before => window[1] = to,
@@ -180,6 +182,9 @@ fn legend(attractors: &Attractors<'_>, marks: &EventMarks, shaded: bool) -> Vec<
         let disc = |place: usize| Mark::Disc(Look::Own(place).colour(), 1.8);
         let name = |place: usize| Text::plain(&format!("attractor {}", place + 1));
         legend.extend((0..count).map(|place| (disc(place), name(place))));
+    } else if count > NAMED {
+        let discs = Mark::Discs(&ATTRACTORS[..NAMED], 1.8);
+        legend.push((discs, Text::plain("attractors, each in its colour")));
     }
     for (look, words) in [(Look::Other, "further attractors"), (Look::Undecided, "undecided")] {
         if attractors.has(look) {

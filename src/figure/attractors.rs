@@ -1,5 +1,7 @@
 //! The attractors of a diagram: which case shows which, in what colour, and where several coexist.
 
+use std::collections::BTreeMap;
+
 use plotters::style::RGBColor;
 
 use super::error::FigureError;
@@ -93,11 +95,20 @@ impl<'a> Attractors<'a> {
         here.iter().position(|it| *it == number).map(|place| first + place)
     }
 
-    /// Whether the cases at value number `at` show several attractors.
-    pub fn coexist(&self, at: usize) -> bool {
-        let here = &self.numbers[at * self.per_value..(at + 1) * self.per_value];
-        let mut known = here.iter().filter(|number| **number >= 0);
-        known.next().is_some_and(|first| known.any(|number| number != first))
+    /// Whether several attractors exist at each value.
+    ///
+    /// An attractor exists from the first to the last value where a case shows it: between them it keeps
+    /// its number only if it has been followed.
+    pub fn coexist(&self) -> Vec<bool> {
+        let mut extents: BTreeMap<i64, [usize; 2]> = BTreeMap::new();
+        for (case, number) in self.numbers.iter().enumerate().filter(|(_, number)| **number >= 0) {
+            let at = case / self.per_value;
+            extents.entry(*number).or_insert([at, at])[1] = at;
+        }
+        let exist = |at: usize| {
+            extents.values().filter(|[first, last]| (*first..=*last).contains(&at)).count()
+        };
+        (0..self.values).map(|at| exist(at) > 1).collect()
     }
 
     /// Whether any case has a look.
@@ -108,7 +119,7 @@ impl<'a> Attractors<'a> {
 
 /// The attractors that show at most values, as many as there are colours, in the order of their numbers.
 fn widest(numbers: &[i64], per_value: usize) -> Vec<i64> {
-    let mut extent: std::collections::BTreeMap<i64, usize> = std::collections::BTreeMap::new();
+    let mut extent: BTreeMap<i64, usize> = BTreeMap::new();
     for here in numbers.chunks(per_value.max(1)) {
         let mut known: Vec<i64> = here.iter().copied().filter(|number| *number >= 0).collect();
         known.sort_unstable();

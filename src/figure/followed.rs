@@ -140,8 +140,8 @@ impl Followed {
 
 /// The lines of unstable orbits, and of stable ones.
 const STROKES: [Stroke; 2] = [
-    Stroke { colour: INK, width: 0.8 * CURVE_WIDTH, dash: Dash::Short },
-    Stroke { colour: INK, width: CURVE_WIDTH, dash: Dash::None },
+    Stroke { colour: INK, width: 0.6 * CURVE_WIDTH, dash: Dash::Short },
+    Stroke { colour: INK, width: 0.5 * CURVE_WIDTH, dash: Dash::None },
 ];
 
 /// The symbol at those of `places` that lie on the panel.

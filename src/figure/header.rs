@@ -22,10 +22,22 @@ pub enum Mark {
     Patch(RGBColor),
     /// The symbol of a special point.
     Symbol(Symbol),
+    /// Discs of several colours.
+    Discs(&'static [RGBColor], f64),
     /// The area without values.
     Hatched,
     /// No mark: the words go on with those of the entry before.
     Nothing,
+}
+
+impl Mark {
+    /// Width in a legend [pt].
+    fn width(self) -> f64 {
+        match self {
+            Mark::Disc(..) | Mark::Ring(..) | Mark::Symbol(_) | Mark::Nothing => POINT_WIDTH,
+            Mark::Line(_) | Mark::Patch(_) | Mark::Hatched | Mark::Discs(..) => MARK_WIDTH,
+        }
+    }
 }
 
 /// A mark of a legend and what it means.
@@ -42,8 +54,10 @@ pub struct Header {
     pub legend: Vec<Entry>,
 }
 
-/// Width of a mark in a legend [pt].
+/// Width of a line or an area in a legend [pt].
 const MARK_WIDTH: f64 = 13.0;
+/// Width of a point in a legend [pt].
+const POINT_WIDTH: f64 = 6.0;
 /// Distance between a mark and its words [pt].
 const MARK_GAP: f64 = 3.0;
 /// Distance between lines of a header [pt].
@@ -71,7 +85,7 @@ impl Header {
             let baseline = baseline - line as f64 * HEADER_LINE;
             for (mark, words) in entries {
                 draw_mark(canvas, *mark, (at, baseline - 0.3 * SMALL_SIZE));
-                at += MARK_WIDTH + MARK_GAP;
+                at += mark.width() + MARK_GAP;
                 canvas.text(words, (at, baseline), SMALL_SIZE, Anchor::Start);
                 at += words.width(SMALL_SIZE) + ENTRY_GAP;
             }
@@ -120,15 +134,15 @@ fn letter_text(letter: char) -> Text {
 
 /// Width of a legend in a row [pt].
 fn legend_width(legend: &[Entry]) -> f64 {
-    let entries: f64 = legend.iter().map(|(_, words)| words.width(SMALL_SIZE)).sum();
-    let count = legend.len() as f64;
-    entries + count * (MARK_WIDTH + MARK_GAP) + (count - 1.0).max(0.0) * ENTRY_GAP
+    let width = |(mark, words): &Entry| mark.width() + MARK_GAP + words.width(SMALL_SIZE);
+    let entries: f64 = legend.iter().map(width).sum();
+    entries + legend.len().saturating_sub(1) as f64 * ENTRY_GAP
 }
 
 /// A mark of a legend, from its left end at the height of its middle.
 pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
     let (left, middle) = at;
-    let centre = (left + MARK_WIDTH / 2.0, middle);
+    let centre = (left + mark.width() / 2.0, middle);
     let patch = Rect {
         left: left + 1.0,
         top: middle - 3.3,
@@ -138,6 +152,13 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
     match mark {
         Mark::Line(stroke) => canvas.line(&[at, (left + MARK_WIDTH, middle)], stroke),
         Mark::Disc(colour, radius) => canvas.discs(&[(centre, colour)], radius),
+        Mark::Discs(colours, radius) => {
+            let step = mark.width() / colours.len() as f64;
+            let place = |place: usize| (left + (place as f64 + 0.5) * step, middle);
+            let discs: Vec<_> =
+                colours.iter().enumerate().map(|(i, colour)| (place(i), *colour)).collect();
+            canvas.discs(&discs, radius);
+        }
         Mark::Ring(colour, radius) => {
             canvas.rings(&[centre], radius, Stroke::solid(colour, CURVE_WIDTH));
         }

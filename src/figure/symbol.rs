@@ -1,10 +1,10 @@
-//! The symbols of special points, each with its shape and colour.
+//! The symbols of special points: a shape for the point, a colour for curves of such points.
 
 use plotters::style::RGBColor;
 
 use super::canvas::{Canvas, Dash, Stroke};
 use super::geometry::Point;
-use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, GREEN, PAPER, PURPLE, VERMILION};
+use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, GREEN, INK, PAPER, PURPLE, VERMILION};
 
 /// A kind of special point as figures show it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,7 +14,7 @@ pub struct Symbol {
     /// Its name in legends.
     pub words: &'static str,
     shape: Shape,
-    /// Its colour.
+    /// The colour of curves of it; the symbol itself is black, as colours of points tell attractors.
     pub colour: RGBColor,
     /// How curves of it are drawn.
     pub dash: Dash,
@@ -102,7 +102,7 @@ impl Symbol {
             Shape::Star => self.fill(canvas, at, &STAR),
             Shape::Ring => {
                 canvas.discs(&[(at, PAPER)], RADIUS * 0.85);
-                canvas.rings(&[at], RADIUS * 0.85, Stroke::solid(self.colour, CURVE_WIDTH));
+                canvas.rings(&[at], RADIUS * 0.85, Stroke::solid(INK, CURVE_WIDTH));
             }
             Shape::Cross => {
                 let reach = RADIUS * 0.62;
@@ -111,7 +111,7 @@ impl Symbol {
                     ((x - reach, y - reach), (x + reach, y + reach)),
                     ((x - reach, y + reach), (x + reach, y - reach)),
                 ];
-                canvas.segments(&ends, Stroke::solid(self.colour, 0.8 * CURVE_WIDTH));
+                canvas.segments(&ends, Stroke::solid(INK, CURVE_WIDTH));
             }
         }
     }
@@ -121,6 +121,6 @@ impl Symbol {
             corners.iter().map(|(dx, dy)| (x + dx * radius, y + dy * radius)).collect()
         };
         canvas.polygon(&around(RADIUS + 0.7), PAPER);
-        canvas.polygon(&around(RADIUS), self.colour);
+        canvas.polygon(&around(RADIUS), INK);
     }
 }

@@ -9,7 +9,9 @@ use crate::branch::SpecialKind;
 use crate::model::{Capsule, Locomotion, PrintedCapsule, Switching};
 use crate::orbit::{Orbit, Section};
 
+use super::bridge::{Bridge, bridges};
 use super::cell::Cell;
+use super::change::Change;
 use super::family::{Links, Neighbours};
 use super::run::{RunError, pool};
 use super::{Coordinate, Machine, Record, Study};
@@ -43,7 +45,7 @@ pub struct Attractors {
     ///
     /// They are numbered along each line of the axis anew, in the order in which they appear.
     pub of_case: Vec<Option<usize>>,
-    /// The events, line by line in the order of the axis.
+    /// The events, line by line in the order of the parameter.
     pub events: Vec<AttractorEvent>,
 }
 
@@ -115,49 +117,53 @@ fn find<S: Locomotion>(study: &Study, orbits: &[Option<&Orbit>]) -> Attractors {
     };
     let lines: Vec<Vec<Cell>> =
         lines(study, axis).par_iter().map(|line| line.par_iter().map(sort).collect()).collect();
-    let links: Vec<Vec<Links>> = lines
-        .par_iter()
-        .map(|line| {
-            line.par_windows(2)
-                .enumerate()
-                .map(|(at, cells)| link::<S>(study, axis, at, [&cells[0], &cells[1]]))
-                .collect()
-        })
-        .collect();
     let mut attractors =
         Attractors { axis, of_case: vec![None; study.cases()], events: Vec::new() };
-    for (line, links) in lines.iter().zip(&links) {
-        attractors.add_line(line, links);
+    let linked: Vec<(Vec<Links>, Vec<Bridge>)> = lines
+        .par_iter()
+        .map(|line| {
+            let between = |at: usize| neighbours::<S>(study, axis, at, line);
+            let link = |at: usize| between(at).map_or_else(Links::default, |it| it.link());
+            let last = line.len().saturating_sub(1);
+            let links: Vec<Links> = (0..last).into_par_iter().map(link).collect();
+            let bridges = bridges(line, &links, between);
+            (links, bridges)
+        })
+        .collect();
+    for (line, (links, bridges)) in lines.iter().zip(&linked) {
+        attractors.add_line(line, links, bridges);
     }
     attractors
 }
 
-/// The links between the cells at a place of the axis and at the next.
-fn link<S: Locomotion>(study: &Study, axis: Option<usize>, at: usize, cells: [&Cell; 2]) -> Links {
-    let parameter = axis.and_then(|axis| match study.axes[axis].coordinate {
-        Coordinate::Parameter(parameter) => Some((parameter, &study.axes[axis].values)),
-        _ => None,
-    });
-    let (Some((parameter, values)), Some(first)) = (parameter, cells[0].cases.first()) else {
-        return Links::default();
-    };
-    let directions: Vec<_> = cells[0].cases.iter().map(|&case| study.direction(case)).collect();
-    let case = study.case(*first);
+/// The cells of a line at a place of the axis and at the next; none where the axis is no parameter.
+fn neighbours<'a, S: Locomotion>(
+    study: &'a Study,
+    axis: Option<usize>,
+    at: usize,
+    line: &'a [Cell],
+) -> Option<Neighbours<'a, S>> {
+    let axis = &study.axes[axis?];
+    let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
+    let case = study.case(*line[at].cases.first()?);
     let along = Along { case, parameter, protocol: &study.protocol, system: PhantomData::<S> };
-    let values = [values[at], values[at + 1]];
-    Neighbours { along, values, cells, directions: &directions }.link()
+    let values = [axis.values[at], axis.values[at + 1]];
+    let directions = line[at].cases.iter().map(|&case| study.direction(case)).collect();
+    Some(Neighbours { along, values, cells: [&line[at], &line[at + 1]], directions })
 }
 
 impl Attractors {
-    /// Numbers the attractors of a line and notes their events.
-    fn add_line(&mut self, cells: &[Cell], links: &[Links]) {
+    /// Numbers the attractors of a line and notes their events, in the order of the parameter.
+    fn add_line(&mut self, cells: &[Cell], links: &[Links], bridges: &[Bridge]) {
         let mut numbers: Vec<Vec<usize>> = Vec::new();
         let mut count = 0;
         for (at, cell) in cells.iter().enumerate() {
             let before = |place: usize| {
                 let pairs = &links[at.checked_sub(1)?].pairs;
-                let pair = pairs.iter().find(|pair| pair[1] == place)?;
-                Some(numbers[at - 1][pair[0]])
+                let pair = pairs.iter().find(|pair| pair[1] == place);
+                let bridge = || bridges.iter().find(|bridge| bridge.to == [at, place]);
+                let from = pair.map(|pair| [at - 1, pair[0]]).or_else(|| Some(bridge()?.from));
+                from.map(|[at, place]| numbers[at][place])
             };
             let here: Vec<Option<usize>> = (0..cell.attractors.len()).map(before).collect();
             let number = |known: Option<usize>| {
@@ -171,26 +177,25 @@ impl Attractors {
                 self.of_case[case] = place.map(|place| numbers[at][place]);
             }
         }
-        for (at, links) in links.iter().enumerate() {
-            self.add_events(&cells[at..at + 2], &numbers[at..at + 2], links);
-        }
-    }
-
-    /// Notes the events between two neighbours, in the order of the parameter.
-    fn add_events(&mut self, cells: &[Cell], numbers: &[Vec<usize>], links: &Links) {
         let mut events = Vec::new();
-        for side in [0, 1] {
-            for (place, change) in &links.changes[side] {
-                events.push(AttractorEvent {
-                    kind: change.kind,
-                    attractor: numbers[side][*place],
-                    case: cells[side].attractors[*place].case,
-                    value: change.value,
-                    uncertainty: change.uncertainty,
-                    period: change.period as u64,
-                    section: change.section,
-                });
+        let mut add = |[at, place]: [usize; 2], change: &Change| {
+            events.push(AttractorEvent {
+                kind: change.kind,
+                attractor: numbers[at][place],
+                case: cells[at].attractors[place].case,
+                value: change.value,
+                uncertainty: change.uncertainty,
+                period: change.period as u64,
+                section: change.section,
+            });
+        };
+        for (at, links) in links.iter().enumerate() {
+            for side in [0, 1] {
+                links.changes[side].iter().for_each(|(place, it)| add([at + side, *place], it));
             }
+        }
+        for bridge in bridges {
+            bridge.changes.iter().for_each(|change| add(bridge.from, change));
         }
         events.sort_by(|a, b| a.value.total_cmp(&b.value).then(a.attractor.cmp(&b.attractor)));
         self.events.extend(events);

@@ -16,6 +16,8 @@ pub struct Links {
     pub pairs: Vec<[usize; 2]>,
     /// Changes of attractors of this cell, by place, and of the next.
     pub changes: [Vec<(usize, Change)>; 2],
+    /// Orbits of this cell, by place, that attract at the next one too, where no case shows them.
+    pub unseen: Vec<(usize, Solution)>,
 }
 
 /// Two neighbouring cells along a parameter.
@@ -27,7 +29,7 @@ pub struct Neighbours<'a, S> {
     /// The cells.
     pub cells: [&'a Cell; 2],
     /// The direction of each case of a cell, by its place; none where the axis is not followed.
-    pub directions: &'a [Option<Direction>],
+    pub directions: Vec<Option<Direction>>,
 }
 
 impl<S: Locomotion> Neighbours<'_, S> {
@@ -59,6 +61,9 @@ impl<S: Locomotion> Neighbours<'_, S> {
         match end {
             End::Reached => {
                 let other = self.successor(side, links, last, &found);
+                if side == 0 && other.is_none() && last.attracts() {
+                    links.unseen.push((place, last.clone()));
+                }
                 links.pairs.extend(other.map(|other| match side {
                     0 => [place, other],
                     _ => [other, place],
@@ -101,10 +106,10 @@ impl<S: Locomotion> Neighbours<'_, S> {
         let omega = self.along.omega(orbit.value);
         let doubles = changes.iter().any(|change| change.kind == SpecialKind::PeriodDoubling);
         let goes_on = |(place, other): &(usize, &Attractor)| {
-            let bound = other.bound + orbit.size * orbit.error.max(other.bound / other.size);
-            let same = coincide(&orbit.points, &other.points, bound, omega);
             let beside = || doubles && straddles(&other.points, &orbit.points, omega);
-            other.outcome == Outcome::Periodic && !links.has(1 - side, *place) && (same || beside())
+            other.outcome == Outcome::Periodic
+                && !links.has(1 - side, *place)
+                && (is_orbit(orbit, other, omega) || beside())
         };
         let mut others = self.cells[1 - side].attractors.iter().enumerate();
         others.find(goes_on).map(|(place, _)| place)
@@ -139,7 +144,7 @@ impl<S: Locomotion> Neighbours<'_, S> {
     /// The attractors of the two cells between which the cases followed in a direction lead.
     fn leads(&self, direction: Direction) -> Vec<[usize; 2]> {
         let [low, high] = self.cells.map(|cell| &cell.of_case);
-        let both = low.iter().zip(high).zip(self.directions);
+        let both = low.iter().zip(high).zip(&self.directions);
         both.filter(|(_, it)| **it == Some(direction))
             .filter_map(|((a, b), _)| Some([(*a)?, (*b)?]))
             .collect()
@@ -159,6 +164,13 @@ impl<S: Locomotion> Neighbours<'_, S> {
             _ => Vec::new(),
         }
     }
+}
+
+/// Whether an orbit that was followed is that of an attractor at the same parameters.
+pub fn is_orbit(orbit: &Solution, attractor: &Attractor, omega: f64) -> bool {
+    let Attractor { points, bound, size, .. } = attractor;
+    let bound = bound + orbit.size * orbit.error.max(bound / size);
+    coincide(&orbit.points, points, bound, omega)
 }
 
 impl Links {

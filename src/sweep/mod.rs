@@ -3,6 +3,7 @@
 pub mod attractor;
 pub mod axis;
 mod branch_file;
+mod bridge;
 mod cell;
 mod change;
 pub mod continuation;

@@ -2,7 +2,7 @@
 
 use capsulemap::lane::Instructions;
 use capsulemap::model::State;
-use capsulemap::orbit::{Outcome, Output, Proof, Protocol, settle, simulate};
+use capsulemap::orbit::{Case, Outcome, Output, Proof, Protocol, settle, simulate};
 
 use super::draws;
 
@@ -24,19 +24,21 @@ fn a_stricter_run_finds_the_same_periods() {
     };
     let [once, again] =
         [usual, strict].map(|protocol| draws::settled(&cases, &protocol, Instructions::widest()));
-    let (mut periodic, mut undecided, mut decided) = (0, 0, 0);
+    let (mut periodic, mut elsewhere, mut undecided, mut decided) = (0, 0, 0, 0);
     for (number, (once, again)) in once.iter().zip(&again).enumerate() {
         match once.outcome {
             Outcome::Periodic => {
                 periodic += 1;
-                let same = (again.outcome, again.period) == (Outcome::Periodic, once.period);
-                assert!(
-                    same,
-                    "case {number}: {} then {} ({})",
-                    once.period,
-                    again.period,
-                    again.outcome.name()
-                );
+                if (again.outcome, again.period) != (Outcome::Periodic, once.period) {
+                    // Where attractors coexist, the tolerance may decide where the start leads to: then
+                    // the motion on the orbit that was found must keep the period.
+                    elsewhere += 1;
+                    let Case { parameters, phase, .. } = &cases[number];
+                    let [r, y1, y2] = once.section[0];
+                    let kept = settle(parameters, *phase, State { r, y1, x2: 0.0, y2 }, &strict);
+                    let same = (kept.outcome, kept.period) == (Outcome::Periodic, once.period);
+                    assert!(same, "case {number}: {} then {}", once.period, kept.period);
+                }
             }
             Outcome::Undecided => {
                 undecided += 1;
@@ -47,9 +49,11 @@ fn a_stricter_run_finds_the_same_periods() {
         }
     }
     println!(
-        "{periodic} periodic, {undecided} undecided, of which {decided} were decided by the stricter run"
+        "{periodic} periodic, of which {elsewhere} starts led elsewhere in the stricter run; \
+         {undecided} undecided, of which {decided} were decided by it"
     );
     assert!(periodic > cases.len() * 9 / 10);
+    assert!(1000 * elsewhere <= cases.len());
 }
 
 #[test]

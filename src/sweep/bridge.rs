@@ -1,0 +1,74 @@
+//! Attractors across cells whose cases do not show them: no start there leads to an orbit that exists.
+
+use rayon::prelude::*;
+
+use crate::branch::natural::{End, Solution};
+use crate::model::Locomotion;
+use crate::orbit::Outcome;
+
+use super::cell::Cell;
+use super::change::{Change, changes};
+use super::family::{Links, Neighbours, is_orbit};
+
+/// A periodic attractor of one cell that is seen again in a later one, but in none between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bridge {
+    /// The cell where it was last seen, by its place on the line, and the attractor by its place there.
+    pub from: [usize; 2],
+    /// The cell where it is seen again, and the attractor there.
+    pub to: [usize; 2],
+    /// What happens to it on the way.
+    pub changes: Vec<Change>,
+}
+
+/// The bridges of a line, in order.
+///
+/// Method: an orbit that attracts at the next cell, where no case shows it, is followed from cell to cell
+/// until one has it, or until it ends or repels. `between` gives what is held between a cell and the next.
+pub fn bridges<'a, S: Locomotion>(
+    cells: &[Cell],
+    links: &[Links],
+    between: impl Fn(usize) -> Option<Neighbours<'a, S>> + Sync,
+) -> Vec<Bridge> {
+    let unseen = links.iter().enumerate().flat_map(|(at, links)| {
+        links.unseen.iter().map(move |(place, solution)| ([at, *place], solution))
+    });
+    let unseen: Vec<([usize; 2], &Solution)> = unseen.collect();
+    let crossed: Vec<Option<Bridge>> = unseen
+        .into_par_iter()
+        .map(|(from, solution)| cross(cells, links, from, solution, &between))
+        .collect();
+    let mut found: Vec<Bridge> = Vec::new();
+    for bridge in crossed.into_iter().flatten() {
+        if found.iter().all(|other| other.to != bridge.to) {
+            found.push(bridge);
+        }
+    }
+    found
+}
+
+/// Follows an orbit, which attracts at the cell after `from`, to the next cell that shows it.
+fn cross<'a, S: Locomotion>(
+    cells: &[Cell],
+    links: &[Links],
+    from: [usize; 2],
+    solution: &Solution,
+    between: impl Fn(usize) -> Option<Neighbours<'a, S>>,
+) -> Option<Bridge> {
+    let mut here = solution.clone();
+    let mut found = Vec::new();
+    for at in from[0] + 1..links.len() {
+        let Neighbours { along, values, .. } = between(at)?;
+        let (mut path, end) = along.follow(&here, values[1]);
+        found.extend(changes(&along, &path));
+        here = path.pop().filter(|last| end == End::Reached && last.attracts())?;
+        let omega = along.omega(here.value);
+        let is_new = |place: usize| links[at].pairs.iter().all(|pair| pair[1] != place);
+        let attractors = cells[at + 1].attractors.iter().enumerate();
+        let mut periodic = attractors.filter(|(_, it)| it.outcome == Outcome::Periodic);
+        if let Some((place, _)) = periodic.find(|(_, it)| is_orbit(&here, it, omega)) {
+            return is_new(place).then_some(Bridge { from, to: [at + 1, place], changes: found });
+        }
+    }
+    None
+}
