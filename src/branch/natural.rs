@@ -15,6 +15,8 @@ use crate::orbit::{Case, Protocol, Section};
 pub const ROUNDING: f64 = 2e-13;
 /// Values tried at most between two that are given.
 const ATTEMPTS: usize = 200;
+/// Cycles of orbits tried at most between two values: where a long orbit ends is not worth more.
+const CYCLES: usize = 400;
 /// A repelling orbit is not worth steps shorter than this share of the way.
 const SHORTEST: f64 = 1e-3;
 
@@ -141,12 +143,13 @@ impl<S: Locomotion> Along<'_, S> {
     pub fn follow(&self, from: &Solution, to: f64) -> (Vec<Solution>, End) {
         let mut path = vec![from.clone()];
         let mut step = to - from.value;
+        let most = ATTEMPTS.min(CYCLES / from.period());
         let mut attempts = 0;
         while let Some(here) = path.last().filter(|here| here.value != to) {
             let Some(slope) = self.slope(here) else { return (path, End::Lost) };
             let next = loop {
                 attempts += 1;
-                if attempts > ATTEMPTS {
+                if attempts > most {
                     return (path, End::Lost);
                 }
                 let left = to - here.value;

@@ -56,18 +56,11 @@ fn tell_branch(text: &mut String, along: Parameter, branch: &Branch) {
     let is_stable = |it: &&crate::branch::Point| it.multipliers.iter().all(|m| m.abs() < 1.0);
     let stable = branch.points.iter().filter(is_stable).count();
     let points = branch.points.len();
-    let ends: Vec<String> = branch
-        .points
-        .first()
-        .into_iter()
-        .chain(branch.points.last())
-        .map(|point| quantity(along, point.parameter))
-        .collect();
     let _ = writeln!(
         text,
-        "  {points} points, {stable} stable, {} unstable, from {}",
+        "  {points} points, {stable} stable, {} unstable, {}",
         points - stable,
-        ends.join(" to ")
+        reach(along, branch)
     );
     if branch.special.is_empty() {
         return;
@@ -87,6 +80,19 @@ fn tell_branch(text: &mut String, along: Parameter, branch: &Branch) {
             point.outputs[Output::ProgressionSpeed] * 1e3
         );
     }
+}
+
+/// From where to where a branch leads; one that ends where it began is closed.
+fn reach(along: Parameter, branch: &Branch) -> String {
+    let values = branch.points.iter().map(|point| point.parameter);
+    let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
+        (least.min(value), most.max(value))
+    });
+    let [first, .., last] = &branch.points[..] else { return "a single orbit".to_owned() };
+    let closed = (first.parameter, &first.section) == (last.parameter, &last.section);
+    let (from, to) = if closed { (least, most) } else { (first.parameter, last.parameter) };
+    let ends = format!("from {} to {}", quantity(along, from), quantity(along, to));
+    if closed { format!("{ends}, closed") } else { ends }
 }
 
 fn kind_name(kind: SpecialKind) -> &'static str {
@@ -163,22 +169,27 @@ to = \"5 N\"
             Special { kind: SpecialKind::Fold, after: 1, point: point(4.123_456_789_123, 1.0) };
         let points = vec![point(1.0, 0.5), point(4.0, 0.9), point(3.0, 1.2)];
         let branch = Branch { period: 1, parent: None, points, special: vec![fold] };
+        let around = [2.0, 3.0, 2.0, 1.5, 2.0].map(|at| point(at, 0.5)).to_vec();
+        let ring = Branch { period: 2, parent: None, points: around, special: Vec::new() };
         let curve = Curve {
             kind: SpecialKind::Fold,
             through: (0, 0),
             period: 1,
             points: vec![[4.0, 1.0]; 7],
         };
-        let found = Found { branches: vec![branch], curves: vec![curve] };
+        let found = Found { branches: vec![branch, ring], curves: vec![curve] };
         let followed = [Ok(found), Err(Unfollowed::NoOrbit)];
         let text = summary(&study, &followed, Path::new("a.h5"), 2.0);
         let expected = "\
-a.h5: 1 branch, 3 points in 2.0 s
+a.h5: 2 branches, 8 points in 2.0 s
 
-a: period 1
+a, branch 1: period 1
   3 points, 2 stable, 1 unstable, from 1 N to 3 N
                             p_d [N]  period   speed [mm/s]
   fold                  4.123456789       1      12.500000
+
+a, branch 2: period 2
+  5 points, 5 stable, 0 unstable, from 1.5 N to 3 N, closed
   curve of fold, period 1: 7 points
 
 b: not followed: no periodic orbit was found near the start; give one closer to it

@@ -53,7 +53,7 @@ impl Progress {
             let (done, total, what) = (lines.done, self.total, self.what);
             let decimals = if rate < 10.0 { 2 } else { 0 };
             super::tell(&format!(
-                "{done}/{total} {what}, {rate:.decimals$} {what}/s, {left:.0} s left"
+                "{done}/{total} {what}, {rate:.decimals$} a second, {left:.0} s left"
             ));
         }
     }

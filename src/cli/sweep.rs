@@ -111,13 +111,15 @@ impl Sweep {
             records.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(record);
         })
         .map_err(Failure::machine)?;
-        let seconds = progress.finish().as_secs_f64();
+        let mut seconds = progress.finish().as_secs_f64();
         let mut records = records.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
         records.sort_by_key(|record| record.index);
         let mut dataset = store::dataset(study, &records);
         if has_attractors(study) {
-            let attractors =
-                sweep::attractors(study, &records, machine).map_err(Failure::machine)?;
+            let progress = Progress::new(sweep::links(study), "links of attractors");
+            let attractors = sweep::attractors(study, &records, machine, || progress.step())
+                .map_err(Failure::machine)?;
+            seconds += progress.finish().as_secs_f64();
             store::add_attractors(&mut dataset, study, &attractors);
         }
         if let Some(older) = older {

@@ -55,7 +55,18 @@ pub fn has_attractors(study: &Study) -> bool {
     linked_axis(study).is_some() || study.axes.iter().any(|axis| is_start(axis.coordinate))
 }
 
-/// Finds the attractors of a study from the `records` of its cases.
+/// Pairs of neighbouring cells between which attractors are linked.
+pub fn links(study: &Study) -> usize {
+    let pairs = |axis: usize| {
+        let others = study.axes.iter().enumerate().filter(|(at, _)| *at != axis);
+        let lines =
+            others.filter(|(_, it)| !is_start(it.coordinate)).map(|(_, it)| it.values.len());
+        lines.product::<usize>() * study.axes[axis].values.len().saturating_sub(1)
+    };
+    linked_axis(study).map_or(0, pairs)
+}
+
+/// Finds the attractors of a study from the `records` of its cases; calls `linked` after each link.
 ///
 /// A periodic attractor is known by its certified orbit, see `Cell::sort` and `Neighbours::link`. Every
 /// cell and every two neighbours are a task of their own, so that the threads do not matter.
@@ -63,6 +74,7 @@ pub fn attractors(
     study: &Study,
     records: &[Record],
     machine: Machine,
+    linked: impl Fn() + Sync,
 ) -> Result<Attractors, RunError> {
     if !has_attractors(study) {
         return Ok(Attractors { of_case: vec![None; study.cases()], ..Attractors::default() });
@@ -72,8 +84,8 @@ pub fn attractors(
         orbits[record.index] = Some(&record.orbit);
     }
     Ok(pool(machine.threads)?.install(|| match study.base.switching {
-        Switching::Filippov => find::<Capsule<f64>>(study, &orbits),
-        Switching::AsPrinted => find::<PrintedCapsule<f64>>(study, &orbits),
+        Switching::Filippov => find::<Capsule<f64>>(study, &orbits, &linked),
+        Switching::AsPrinted => find::<PrintedCapsule<f64>>(study, &orbits, &linked),
     }))
 }
 
@@ -109,7 +121,11 @@ fn lines(study: &Study, axis: Option<usize>) -> Vec<Vec<Vec<usize>>> {
     lines.into_values().collect()
 }
 
-fn find<S: Locomotion>(study: &Study, orbits: &[Option<&Orbit>]) -> Attractors {
+fn find<S: Locomotion>(
+    study: &Study,
+    orbits: &[Option<&Orbit>],
+    linked: impl Fn() + Sync,
+) -> Attractors {
     let axis = linked_axis(study);
     let sort = |cases: &Vec<usize>| {
         let known = |&case: &usize| Some((case, study.case(case), orbits[case]?));
@@ -119,18 +135,22 @@ fn find<S: Locomotion>(study: &Study, orbits: &[Option<&Orbit>]) -> Attractors {
         lines(study, axis).par_iter().map(|line| line.par_iter().map(sort).collect()).collect();
     let mut attractors =
         Attractors { axis, of_case: vec![None; study.cases()], events: Vec::new() };
-    let linked: Vec<(Vec<Links>, Vec<Bridge>)> = lines
+    let found: Vec<(Vec<Links>, Vec<Bridge>)> = lines
         .par_iter()
         .map(|line| {
             let between = |at: usize| neighbours::<S>(study, axis, at, line);
-            let link = |at: usize| between(at).map_or_else(Links::default, |it| it.link());
+            let link = |at: usize| {
+                let links = between(at).map_or_else(Links::default, |it| it.link());
+                linked();
+                links
+            };
             let last = line.len().saturating_sub(1);
             let links: Vec<Links> = (0..last).into_par_iter().map(link).collect();
             let bridges = bridges(line, &links, between);
             (links, bridges)
         })
         .collect();
-    for (line, (links, bridges)) in lines.iter().zip(&linked) {
+    for (line, (links, bridges)) in lines.iter().zip(&found) {
         attractors.add_line(line, links, bridges);
     }
     attractors

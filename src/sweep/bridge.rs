@@ -4,11 +4,10 @@ use rayon::prelude::*;
 
 use crate::branch::natural::{End, Solution};
 use crate::model::Locomotion;
-use crate::orbit::Outcome;
 
-use super::cell::Cell;
+use super::cell::{Attractor, Cell};
 use super::change::{Change, changes};
-use super::family::{Links, Neighbours, is_orbit};
+use super::family::{Links, Neighbours, goes_on_in};
 
 /// A periodic attractor of one cell that is seen again in a later one, but in none between them.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +23,7 @@ pub struct Bridge {
 /// The bridges of a line, in order.
 ///
 /// Method: an orbit that attracts at the next cell, where no case shows it, is followed from cell to cell
-/// until one has it, or until it ends or repels. `between` gives what is held between a cell and the next.
+/// until one has it, or that of twice the period that it has become, or until it ends or repels. `between` gives what is held between a cell and the next.
 pub fn bridges<'a, S: Locomotion>(
     cells: &[Cell],
     links: &[Links],
@@ -60,14 +59,18 @@ fn cross<'a, S: Locomotion>(
     for at in from[0] + 1..links.len() {
         let Neighbours { along, values, .. } = between(at)?;
         let (mut path, end) = along.follow(&here, values[1]);
-        found.extend(changes(&along, &path));
-        here = path.pop().filter(|last| end == End::Reached && last.attracts())?;
+        let changed = changes(&along, &path);
+        here = path.pop().filter(|_| end == End::Reached)?;
         let omega = along.omega(here.value);
-        let is_new = |place: usize| links[at].pairs.iter().all(|pair| pair[1] != place);
-        let attractors = cells[at + 1].attractors.iter().enumerate();
-        let mut periodic = attractors.filter(|(_, it)| it.outcome == Outcome::Periodic);
-        if let Some((place, _)) = periodic.find(|(_, it)| is_orbit(&here, it, omega)) {
-            return is_new(place).then_some(Bridge { from, to: [at + 1, place], changes: found });
+        let goes_on = |it: &Attractor| goes_on_in(&here, it, &changed, omega);
+        let place = cells[at + 1].attractors.iter().position(goes_on);
+        found.extend(changed);
+        if let Some(place) = place {
+            let is_new = links[at].pairs.iter().all(|pair| pair[1] != place);
+            return is_new.then_some(Bridge { from, to: [at + 1, place], changes: found });
+        }
+        if !here.attracts() {
+            return None;
         }
     }
     None

@@ -104,15 +104,11 @@ impl<S: Locomotion> Neighbours<'_, S> {
         changes: &[Change],
     ) -> Option<usize> {
         let omega = self.along.omega(orbit.value);
-        let doubles = changes.iter().any(|change| change.kind == SpecialKind::PeriodDoubling);
-        let goes_on = |(place, other): &(usize, &Attractor)| {
-            let beside = || doubles && straddles(&other.points, &orbit.points, omega);
-            other.outcome == Outcome::Periodic
-                && !links.has(1 - side, *place)
-                && (is_orbit(orbit, other, omega) || beside())
+        let is_next = |(place, other): &(usize, &Attractor)| {
+            !links.has(1 - side, *place) && goes_on_in(orbit, other, changes, omega)
         };
         let mut others = self.cells[1 - side].attractors.iter().enumerate();
-        others.find(goes_on).map(|(place, _)| place)
+        others.find(is_next).map(|(place, _)| place)
     }
 
     /// Links what continuation has left, by what the followed cases say.
@@ -166,11 +162,15 @@ impl<S: Locomotion> Neighbours<'_, S> {
     }
 }
 
-/// Whether an orbit that was followed is that of an attractor at the same parameters.
-pub fn is_orbit(orbit: &Solution, attractor: &Attractor, omega: f64) -> bool {
-    let Attractor { points, bound, size, .. } = attractor;
+/// Whether an orbit that was followed, through `changes`, is that of an attractor at the same parameters,
+/// or has doubled its period to become that.
+pub fn goes_on_in(orbit: &Solution, attractor: &Attractor, changes: &[Change], omega: f64) -> bool {
+    let Attractor { outcome, points, bound, size, .. } = attractor;
     let bound = bound + orbit.size * orbit.error.max(bound / size);
-    coincide(&orbit.points, points, bound, omega)
+    let doubles = || changes.iter().any(|change| change.kind == SpecialKind::PeriodDoubling);
+    *outcome == Outcome::Periodic
+        && (coincide(&orbit.points, points, bound, omega)
+            || (doubles() && straddles(points, &orbit.points, omega)))
 }
 
 impl Links {

@@ -17,7 +17,7 @@ pub mod run;
 pub mod study;
 mod study_file;
 
-pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors};
+pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors, links};
 pub use axis::{Axis, Coordinate};
 pub use continuation::{Continuation, FirstOrbit};
 pub use document::{Fault, Faults};

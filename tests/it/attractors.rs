@@ -2,6 +2,7 @@
 //! threads.
 
 use std::fs;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use capsulemap::branch::SpecialKind;
 use capsulemap::lane::Dual;
@@ -40,7 +41,7 @@ fn records(study: &Study) -> Vec<Record> {
 }
 
 fn found(study: &Study, records: &[Record]) -> Attractors {
-    sweep::attractors(study, records, Machine::default()).expect("the threads start")
+    sweep::attractors(study, records, Machine::default(), || ()).expect("the threads start")
 }
 
 /// The frequency of the two motions on an axis, followed as `start` says.
@@ -117,12 +118,37 @@ fn two_certified_attractors_coexist_between_two_folds() {
 }
 
 #[test]
+fn an_attractor_that_no_start_shows_in_between_keeps_its_number() {
+    // An orbit of period 3 beside one of period 1 and 2, which only some starts from rest lead to.
+    let study = study(
+        "[parameters]\nc = \"0.44 N s/m\"\nmu_s = 0.437\nmu_d = 0.2185\np_d = \"3.4 N\"\n\
+         k2 = \"86.8 kN/m\"\ndelta = \"2.45 mm\"\n[[axes]]\nname = \"omega\"\n\
+         from = \"39.3 rad/s\"\nto = \"40.1 rad/s\"\npoints = 81\n\
+         [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"afresh\"]\n",
+    );
+    let records = records(&study);
+    let linked = AtomicUsize::new(0);
+    let note = || {
+        linked.fetch_add(1, Ordering::Relaxed);
+    };
+    let attractors =
+        sweep::attractors(&study, &records, Machine::default(), note).expect("the threads start");
+    assert_eq!((linked.into_inner(), sweep::links(&study)), (80, 80));
+    let seen: Vec<usize> = (0..study.cases()).filter(|&i| records[i].orbit.period == 3).collect();
+    assert!(seen.len() > 10 && seen.windows(2).any(|pair| pair[1] / 2 - pair[0] / 2 > 3));
+    for case in 0..study.cases() {
+        let expected = usize::from(records[case].orbit.period == 3);
+        assert_eq!(attractors.of_case[case], Some(expected), "{case}");
+    }
+}
+
+#[test]
 fn attractors_do_not_depend_on_the_threads() {
     let study = study(&window(124.0, 126.0, 21, BOTH_WAYS));
     let records = records(&study);
     let on = |threads: usize| {
         let machine = Machine { threads: Some(threads), ..Machine::default() };
-        sweep::attractors(&study, &records, machine).expect("the threads start")
+        sweep::attractors(&study, &records, machine, || ()).expect("the threads start")
     };
     let one = on(1);
     assert!(one.events.len() > 4, "{one:?}");

@@ -23,6 +23,7 @@ mod forms;
 mod house;
 mod impact_orbits;
 mod invariants;
+mod kept_branches;
 mod lanes;
 mod oscillators;
 mod paper;
