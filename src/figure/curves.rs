@@ -154,8 +154,11 @@ fn legend(curves: &[Curve]) -> Vec<Entry> {
 
 fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
     let periods = periods(curves);
-    for curve in curves {
-        panel.curve(canvas, &curve.points, curve.stroke(&periods));
+    // The dashed go over the solid, so that both show where they run together.
+    for symbol in SYMBOLS.into_iter().rev() {
+        for curve in curves.iter().filter(|curve| curve.symbol == symbol) {
+            panel.curve(canvas, &curve.points, curve.stroke(&periods));
+        }
     }
     for curve in curves {
         draw_symbols(canvas, panel, curve.symbol, [curve.through].into_iter());
