@@ -15,7 +15,7 @@ use super::change::Change;
 use super::family::{Links, Neighbours};
 use super::run::{RunError, pool};
 use super::{Coordinate, Machine, Record, Study};
-use crate::branch::natural::Along;
+use crate::branch::natural::{Along, ROUNDING};
 
 /// A change of an attractor along the axis, or its beginning or end.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +34,15 @@ pub struct AttractorEvent {
     pub period: u64,
     /// Its section point there.
     pub section: Section,
+}
+
+impl AttractorEvent {
+    /// Whether another event, as it was located, can be this one.
+    fn is(&self, other: &AttractorEvent) -> bool {
+        let apart = (self.value - other.value).abs();
+        (self.kind, self.attractor, self.period) == (other.kind, other.attractor, other.period)
+            && apart <= self.uncertainty + other.uncertainty + ROUNDING * self.value.abs()
+    }
 }
 
 /// The attractors of a study.
@@ -218,6 +227,8 @@ impl Attractors {
             bridge.changes.iter().for_each(|change| add(bridge.from, change));
         }
         events.sort_by(|a, b| a.value.total_cmp(&b.value).then(a.attractor.cmp(&b.attractor)));
+        // What two cells know of the same change counts once.
+        events.dedup_by(|b, a| a.is(b));
         self.events.extend(events);
     }
 }

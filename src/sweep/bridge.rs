@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::branch::natural::{End, Solution};
+use crate::branch::natural::End;
 use crate::model::Locomotion;
 
-use super::cell::{Attractor, Cell};
+use super::cell::Cell;
 use super::change::{Change, changes};
-use super::family::{Links, Neighbours, goes_on_in};
+use super::family::{Links, Neighbours, Unseen, doubles};
 
 /// A periodic attractor of one cell that is seen again in a later one, but in none between them.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,19 +23,21 @@ pub struct Bridge {
 /// The bridges of a line, in order.
 ///
 /// Method: an orbit that attracts at the next cell, where no case shows it, is followed from cell to cell
-/// until one has it, or that of twice the period that it has become, or until it ends or repels. `between` gives what is held between a cell and the next.
+/// until one has it, or until it ends or repels. One that has doubled its period is followed on past cells
+/// that show nothing new, as cases settle slowly there. `between` gives what is held between a cell and the
+/// next.
 pub fn bridges<'a, S: Locomotion>(
     cells: &[Cell],
     links: &[Links],
     between: impl Fn(usize) -> Option<Neighbours<'a, S>> + Sync,
 ) -> Vec<Bridge> {
     let unseen = links.iter().enumerate().flat_map(|(at, links)| {
-        links.unseen.iter().map(move |(place, solution)| ([at, *place], solution))
+        links.unseen.iter().map(move |(place, unseen)| ([at, *place], unseen))
     });
-    let unseen: Vec<([usize; 2], &Solution)> = unseen.collect();
+    let unseen: Vec<([usize; 2], &Unseen)> = unseen.collect();
     let crossed: Vec<Option<Bridge>> = unseen
         .into_par_iter()
-        .map(|(from, solution)| cross(cells, links, from, solution, &between))
+        .map(|(from, unseen)| cross(cells, links, from, unseen.clone(), &between))
         .collect();
     let mut found: Vec<Bridge> = Vec::new();
     for bridge in crossed.into_iter().flatten() {
@@ -46,30 +48,32 @@ pub fn bridges<'a, S: Locomotion>(
     found
 }
 
-/// Follows an orbit, which attracts at the cell after `from`, to the next cell that shows it.
+/// Follows an orbit, which is at the cell after `from`, to the next cell that shows it.
 fn cross<'a, S: Locomotion>(
     cells: &[Cell],
     links: &[Links],
     from: [usize; 2],
-    solution: &Solution,
+    mut here: Unseen,
     between: impl Fn(usize) -> Option<Neighbours<'a, S>>,
 ) -> Option<Bridge> {
-    let mut here = solution.clone();
     let mut found = Vec::new();
     for at in from[0] + 1..links.len() {
         let Neighbours { along, values, .. } = between(at)?;
-        let (mut path, end) = along.follow(&here, values[1]);
-        let changed = changes(&along, &path);
-        here = path.pop().filter(|_| end == End::Reached)?;
-        let omega = along.omega(here.value);
-        let goes_on = |it: &Attractor| goes_on_in(&here, it, &changed, omega);
-        let place = cells[at + 1].attractors.iter().position(goes_on);
-        found.extend(changed);
-        if let Some(place) = place {
-            let is_new = links[at].pairs.iter().all(|pair| pair[1] != place);
-            return is_new.then_some(Bridge { from, to: [at + 1, place], changes: found });
+        let (mut path, end) = along.follow(&here.orbit, values[1]);
+        if here.orbit.attracts() {
+            let changed = changes(&along, &path);
+            here.doubled |= doubles(&changed);
+            found.extend(changed);
         }
-        if !here.attracts() {
+        here.orbit = path.pop().filter(|_| end == End::Reached)?;
+        let omega = along.omega(here.orbit.value);
+        let next = &cells[at + 1].attractors;
+        let is_new = |place: usize| links[at].pairs.iter().all(|pair| pair[1] != place);
+        if let Some(place) = next.iter().position(|it| here.belongs_to(it, omega)) {
+            return is_new(place).then_some(Bridge { from, to: [at + 1, place], changes: found });
+        }
+        let something_new = || (0..next.len()).any(is_new);
+        if !here.is_followed() || (!here.orbit.attracts() && something_new()) {
             return None;
         }
     }

@@ -53,35 +53,39 @@ impl Change {
 /// outside the unit circle, and the sequence of events in a period; if the number of impacts changes there
 /// it is a grazing. Two changes of one property that undo each other between two neighbours are not seen.
 pub fn changes<S: Locomotion>(along: &Along<'_, S>, path: &[Solution]) -> Vec<Change> {
-    let doubles = |a: &Solution, b: &Solution| a.passes(-1.0) != b.passes(-1.0);
     let spirals = |a: &Solution, b: &Solution| a.spirals() != b.spirals();
     let order = |a: &Solution, b: &Solution| a.events != b.events;
-    let doubling = Property {
-        differs: &doubles,
-        measure: Some(&|it| it.shifted_determinant(-1.0)),
-        kind: &|_, _| SpecialKind::PeriodDoubling,
-    };
     let spiral = |_: &Solution, _: &Solution| SpecialKind::NeimarkSacker;
     let spiral = Property { differs: &spirals, measure: None, kind: &spiral };
     let sequence = Property { differs: &order, measure: None, kind: &of_events };
     let mut found = Vec::new();
     for pair in path.windows(2) {
         let [low, high] = pair else { continue };
-        let losses = [&doubling, &spiral].map(|property| property.first(along, low, high));
+        let losses = [&DOUBLING, &spiral].map(|property| property.first(along, low, high));
         let away = |it: &(Solution, Solution)| (it.0.value - low.value).abs();
         let loss = losses.into_iter().flatten().min_by(|a, b| away(a).total_cmp(&away(b)));
         let until = loss.as_ref().map_or(high, |(below, _)| below);
         found.extend(sequence.every(along, low, until));
         if let Some((below, above)) = loss {
-            let doubles = below.passes(-1.0) != above.passes(-1.0);
-            let kind =
-                if doubles { SpecialKind::PeriodDoubling } else { SpecialKind::NeimarkSacker };
-            found.push(Change::between(kind, &below, &above));
+            let property = if doubles(&below, &above) { &DOUBLING } else { &spiral };
+            found.push(Change::between((property.kind)(&below, &above), &below, &above));
             break;
         }
     }
     found
 }
+
+/// Whether a period doubling lies between two orbits.
+fn doubles(a: &Solution, b: &Solution) -> bool {
+    a.passes(-1.0) != b.passes(-1.0)
+}
+
+/// A real multiplier passes -1.
+const DOUBLING: Property<'static> = Property {
+    differs: &doubles,
+    measure: Some(&|it| it.shifted_determinant(-1.0)),
+    kind: &|_, _| SpecialKind::PeriodDoubling,
+};
 
 /// What may change on the way from one orbit to another.
 struct Property<'a> {
@@ -172,21 +176,25 @@ impl Property<'_> {
     }
 }
 
-/// What happens where the last orbit of a path does not go on for this much more of the parameter.
+/// What happens where the last orbit of a path, on its way to the value `to`, does not go on for `step`
+/// more of the parameter.
 ///
-/// It is a period doubling if the orbit runs into one of half its period, and a fold if a multiplier tends
-/// to +1; else it ends at a change of its events. Near a fold Newton's method gives up before the orbit
-/// ends: the last two orbits foretell how much is left, which then is the uncertainty if it is more than
-/// the step.
-pub fn ending<S: Locomotion>(along: &Along<'_, S>, path: &[Solution], step: f64) -> Option<Change> {
+/// It is a period doubling if the orbit runs into one of half its period, which then is located on that
+/// shorter orbit, and a fold if a multiplier tends to +1; else it ends at a change of its events. Near a
+/// fold Newton's method gives up before the orbit ends: the last two orbits foretell how much is left,
+/// which then is the uncertainty if it is more than the step.
+pub fn ending<S: Locomotion>(
+    along: &Along<'_, S>,
+    path: &[Solution],
+    (to, step): (f64, f64),
+) -> Option<Change> {
     let last = path.last()?;
+    if let Some(shorter) = merged(along, last) {
+        return doubling(along, &shorter, [path[0].value, to]);
+    }
     let from_one =
         last.multipliers().iter().map(|it| libm::hypot(1.0 - it.re, it.im)).fold(1.0, f64::min);
-    let kind = match () {
-        () if merges(along, last) => SpecialKind::PeriodDoubling,
-        () if from_one <= NEAR_ONE => SpecialKind::Fold,
-        () => SpecialKind::EventSequence,
-    };
+    let kind = if from_one <= NEAR_ONE { SpecialKind::Fold } else { SpecialKind::EventSequence };
     let foretold = match path {
         [.., before, last] if kind == SpecialKind::Fold => left_to_fold(before, last),
         _ => 0.0,
@@ -201,16 +209,30 @@ pub fn ending<S: Locomotion>(along: &Along<'_, S>, path: &[Solution], step: f64)
     })
 }
 
-/// Whether an orbit of half the period lies in the middle of this one.
-fn merges<S: Locomotion>(along: &Along<'_, S>, orbit: &Solution) -> bool {
+/// The period doubling of the orbit that a longer one on the way from the first value to the second has run
+/// into. Near it the two are hard to tell apart, so that it may lie before or behind.
+fn doubling<S: Locomotion>(
+    along: &Along<'_, S>,
+    shorter: &Solution,
+    [from, to]: [f64; 2],
+) -> Option<Change> {
+    let toward = if shorter.passes(-1.0) { to } else { from };
+    let (path, _) = along.follow(shorter, toward);
+    let (below, above) =
+        path.windows(2).find_map(|pair| DOUBLING.first(along, &pair[0], &pair[1]))?;
+    Some(Change::between(SpecialKind::PeriodDoubling, &below, &above))
+}
+
+/// The orbit of half the period in the middle of this one, if there is one.
+fn merged<S: Locomotion>(along: &Along<'_, S>, orbit: &Solution) -> Option<Solution> {
     let half = orbit.period() / 2;
     if half == 0 || !orbit.period().is_multiple_of(2) {
-        return false;
+        return None;
     }
     let middle = std::array::from_fn(|i| 0.5 * (orbit.points[0][i] + orbit.points[half][i]));
-    let shorter = along.close(orbit.value, &middle, half, orbit.size);
+    let shorter = along.close(orbit.value, &middle, half, orbit.size)?;
     let omega = along.omega(orbit.value);
-    shorter.is_some_and(|shorter| straddles(&orbit.points, &shorter.points, omega))
+    straddles(&orbit.points, &shorter.points, omega).then_some(shorter)
 }
 
 /// Whether an orbit of twice the period lies on both sides of the shorter one, up to where they begin, as

@@ -16,8 +16,17 @@ pub struct Links {
     pub pairs: Vec<[usize; 2]>,
     /// Changes of attractors of this cell, by place, and of the next.
     pub changes: [Vec<(usize, Change)>; 2],
-    /// Orbits of this cell, by place, that attract at the next one too, where no case shows them.
-    pub unseen: Vec<(usize, Solution)>,
+    /// Orbits of this cell, by place, that go on at the next one, where no case shows them.
+    pub unseen: Vec<(usize, Unseen)>,
+}
+
+/// An orbit at a value of the parameter where no case shows the attractor that it belongs to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unseen {
+    /// The orbit.
+    pub orbit: Solution,
+    /// Whether it has lost its stability by a period doubling, so that the attractor is of twice the period.
+    pub doubled: bool,
 }
 
 /// Two neighbouring cells along a parameter.
@@ -55,21 +64,23 @@ impl<S: Locomotion> Neighbours<'_, S> {
     fn follow(&self, side: usize, place: usize, links: &mut Links) -> bool {
         let attractor = &self.cells[side].attractors[place];
         let Some(start) = self.solution(side, attractor) else { return false };
-        let (path, end) = self.along.follow(&start, self.values[1 - side]);
+        let to = self.values[1 - side];
+        let (path, end) = self.along.follow(&start, to);
         let mut found = changes(&self.along, &path);
         let last = path.last().unwrap_or(&start);
         match end {
             End::Reached => {
-                let other = self.successor(side, links, last, &found);
-                if side == 0 && other.is_none() && last.attracts() {
-                    links.unseen.push((place, last.clone()));
+                let here = Unseen { orbit: last.clone(), doubled: doubles(&found) };
+                let other = self.successor(side, links, &here);
+                if side == 0 && other.is_none() && here.is_followed() {
+                    links.unseen.push((place, here));
                 }
                 links.pairs.extend(other.map(|other| match side {
                     0 => [place, other],
                     _ => [other, place],
                 }));
             }
-            End::Stopped(step) => found.extend(ending(&self.along, &path, step)),
+            End::Stopped(step) => found.extend(ending(&self.along, &path, (to, step))),
             End::Lost => {}
         }
         links.changes[side].extend(found.into_iter().map(|change| (place, change)));
@@ -95,17 +106,11 @@ impl<S: Locomotion> Neighbours<'_, S> {
         self.along.known(self.values[side], points, bound / size)
     }
 
-    /// The attractor of the other cell in which an orbit that was followed there goes on.
-    fn successor(
-        &self,
-        side: usize,
-        links: &Links,
-        orbit: &Solution,
-        changes: &[Change],
-    ) -> Option<usize> {
-        let omega = self.along.omega(orbit.value);
+    /// The attractor of the other cell that belongs to an orbit that was followed there.
+    fn successor(&self, side: usize, links: &Links, here: &Unseen) -> Option<usize> {
+        let omega = self.along.omega(here.orbit.value);
         let is_next = |(place, other): &(usize, &Attractor)| {
-            !links.has(1 - side, *place) && goes_on_in(orbit, other, changes, omega)
+            !links.has(1 - side, *place) && here.belongs_to(other, omega)
         };
         let mut others = self.cells[1 - side].attractors.iter().enumerate();
         others.find(is_next).map(|(place, _)| place)
@@ -162,15 +167,26 @@ impl<S: Locomotion> Neighbours<'_, S> {
     }
 }
 
-/// Whether an orbit that was followed, through `changes`, is that of an attractor at the same parameters,
-/// or has doubled its period to become that.
-pub fn goes_on_in(orbit: &Solution, attractor: &Attractor, changes: &[Change], omega: f64) -> bool {
-    let Attractor { outcome, points, bound, size, .. } = attractor;
-    let bound = bound + orbit.size * orbit.error.max(bound / size);
-    let doubles = || changes.iter().any(|change| change.kind == SpecialKind::PeriodDoubling);
-    *outcome == Outcome::Periodic
-        && (coincide(&orbit.points, points, bound, omega)
-            || (doubles() && straddles(points, &orbit.points, omega)))
+/// Whether a period doubling is among the changes of an orbit.
+pub fn doubles(changes: &[Change]) -> bool {
+    changes.iter().any(|change| change.kind == SpecialKind::PeriodDoubling)
+}
+
+impl Unseen {
+    /// Whether it is worth following on.
+    pub fn is_followed(&self) -> bool {
+        self.doubled || self.orbit.attracts()
+    }
+
+    /// Whether the attractor at the same parameters is its own.
+    pub fn belongs_to(&self, attractor: &Attractor, omega: f64) -> bool {
+        let Attractor { outcome, points, bound, size, .. } = attractor;
+        let Unseen { orbit, doubled } = self;
+        let bound = bound + orbit.size * orbit.error.max(bound / size);
+        *outcome == Outcome::Periodic
+            && (coincide(&orbit.points, points, bound, omega)
+                || (*doubled && straddles(points, &orbit.points, omega)))
+    }
 }
 
 impl Links {
