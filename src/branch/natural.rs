@@ -17,6 +17,8 @@ pub const ROUNDING: f64 = 2e-13;
 const ATTEMPTS: usize = 200;
 /// Cycles of orbits tried at most between two values: where a long orbit ends is not worth more.
 const CYCLES: usize = 400;
+/// Values tried between two however long the orbit is.
+const FEW: usize = 8;
 /// A repelling orbit is not worth steps shorter than this share of the way.
 const SHORTEST: f64 = 1e-3;
 
@@ -129,7 +131,9 @@ impl<S: Locomotion> Along<'_, S> {
         let system = self.system(Dual::<f64, 3>::constant(value));
         let image = returned(&system, seeded(&points[0]), &cycles, |_| ()).ok()?;
         let solution = self.trace(value, points[0], points.len())?;
-        Some(Solution { error, jacobian: jacobian(&image), ..solution })
+        let jacobian = jacobian(&image);
+        let is_finite = jacobian.iter().flatten().all(|part| part.is_finite());
+        is_finite.then_some(Solution { error, jacobian, ..solution })
     }
 
     /// Follows an orbit to another value of the parameter; tells the orbits on the way, itself the first.
@@ -143,7 +147,8 @@ impl<S: Locomotion> Along<'_, S> {
     pub fn follow(&self, from: &Solution, to: f64) -> (Vec<Solution>, End) {
         let mut path = vec![from.clone()];
         let mut step = to - from.value;
-        let most = ATTEMPTS.min(CYCLES / from.period());
+        let most = ATTEMPTS.min(CYCLES / from.period()).max(FEW);
+        let rounding = ROUNDING * from.value.abs().max(to.abs());
         let mut attempts = 0;
         while let Some(here) = path.last().filter(|here| here.value != to) {
             let Some(slope) = self.slope(here) else { return (path, End::Lost) };
@@ -157,7 +162,7 @@ impl<S: Locomotion> Along<'_, S> {
                 if let Some(next) = self.step(here, &slope, target) {
                     break next;
                 }
-                if step.abs() <= ROUNDING * here.value.abs() {
+                if step.abs() <= rounding {
                     return (path, End::Stopped(step));
                 }
                 if step.abs() <= SHORTEST * (to - from.value).abs() && !here.attracts() {
@@ -165,7 +170,7 @@ impl<S: Locomotion> Along<'_, S> {
                 }
                 step = 0.5 * (target - here.value);
             };
-            step = ahead(here, &next);
+            step = ahead(here, &next, rounding);
             path.push(next);
         }
         (path, End::Reached)
@@ -253,12 +258,12 @@ impl<S: Locomotion> Along<'_, S> {
 
 /// How far to go on from the second of two orbits: twice as far as between them, or nearly to the fold that
 /// they foretell.
-fn ahead(before: &Solution, here: &Solution) -> f64 {
+fn ahead(before: &Solution, here: &Solution, rounding: f64) -> f64 {
     let advance = here.value - before.value;
     let left = left_to_fold(before, here);
     let step =
         if left > 0.0 && left < 2.0 * advance.abs() { 0.9 * left } else { 2.0 * advance.abs() };
-    step.max(ROUNDING * here.value.abs()).copysign(advance)
+    step.max(rounding).copysign(advance)
 }
 
 /// How far beyond the second of two orbits a fold is, where the determinant of I - J vanishes as the root

@@ -74,7 +74,9 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let reached: Vec<f64> = followed.iter().flat_map(Followed::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
     let page = request(view, &outputs, (&clouds, &followed), abscissa, &free);
-    let rows = with_legend(page.rows, &branches);
+    // Without cases there are only the lines of followed orbits to explain.
+    let shown = if values.is_empty() { &[][..] } else { &branches[..] };
+    let rows = with_legend(page.rows, shown);
     let page = PageRequest { rows: with_followed(rows, &clouds, &followed), ..page };
     let (mut canvas, panels) = page.lay_out();
     let shown = clouds.iter().zip(&followed).zip(&outputs);

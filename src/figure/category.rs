@@ -119,7 +119,7 @@ fn resting(view: &View<'_>, free: &[&str]) -> Result<Vec<bool>, FigureError> {
 
 /// The mass moves and the capsule does not, whatever the period.
 fn rest() -> (usize, Kind) {
-    (0, Kind { name: "rest".to_string(), colour: Some(PAPER) })
+    (0, Kind { name: "capsule at rest".to_string(), colour: Some(PAPER) })
 }
 
 fn no_value() -> (usize, Kind) {

@@ -111,7 +111,7 @@ fn fastest(view: &View<'_>, cases: &[Case], free: &[&str]) -> Option<(usize, Vec
         match parts.last_mut() {
             Some(part) if i % AXES_TOGETHER > 0 => *part = Text::then(std::mem::take(part), words),
             Some(_) => parts.push(words),
-            None => parts.push(Text::plain("fastest: ").then(words)),
+            None => parts.push(Text::plain("fastest forward: ").then(words)),
         }
     }
     Some((at, parts))

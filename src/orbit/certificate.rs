@@ -9,6 +9,16 @@ use super::newton::{Closed, close};
 use super::return_map::Cycles;
 use super::{Case, Protocol, Section};
 
+/// How much farther an orbit may be than a residual and multipliers say, as they do not tell how oblique
+/// the directions are that the multipliers belong to.
+pub const OBLIQUE: f64 = 100.0;
+
+/// The least distance of a multiplier from one, over which a residual is how far the orbit is.
+pub fn least_from_one(multipliers: &[Complex; 3]) -> f64 {
+    let from_one = multipliers.iter().map(|it| libm::hypot(1.0 - it.re, it.im));
+    from_one.fold(f64::INFINITY, f64::min)
+}
+
 /// How a period was proven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Proof {
@@ -70,8 +80,9 @@ pub struct Certified {
 /// Method: for each divisor of the cycles, the least first, Newton's method on the map over so many. An
 /// orbit of a divisor counts if it is stable: the motion then tends to it and has only seemed to have a
 /// longer period, as it does when a multiplier lies near -1. If it repels, the motion goes around it, as it
-/// does after a period doubling, and the longer period is proven by the shorter one. `size` is that of the
-/// motion [m/s].
+/// does after a period doubling, and the longer period is proven by the shorter one. What repeats without
+/// divisor may repel, if the motion began on it to rounding; its multipliers say so. An orbit counts only
+/// as near to the section as recurrence and multipliers foretell. `size` is that of the motion [m/s].
 pub fn certify<S: Locomotion>(
     case: &Case,
     section: &Section,
@@ -91,7 +102,7 @@ pub fn certify<S: Locomotion>(
     for period in (1..=repeats_after).filter(|&j| repeats_after.is_multiple_of(j)) {
         cycles.count = period;
         // What cannot be followed cannot be closed either.
-        let Ok(Some(Closed { point, residual, jacobian, cycles, .. })) =
+        let Ok(Some(Closed { point, residual, jacobian, moved, cycles, .. })) =
             close(&system, section, &cycles, size)
         else {
             continue;
@@ -99,7 +110,11 @@ pub fn certify<S: Locomotion>(
         followed += cycles;
         let multipliers = eigenvalues(&jacobian);
         let attracts = multipliers[0].abs() < 1.0;
-        if residual <= protocol.recurrence && (attracts || period == repeats_after) {
+        let slowest =
+            if attracts { 1.0 - multipliers[0].abs() } else { least_from_one(&multipliers) };
+        let is_near = moved * slowest <= OBLIQUE * protocol.recurrence;
+        let closes = residual <= protocol.recurrence && is_near;
+        if closes && (attracts || period == repeats_after) {
             return Some(Certified { period, section: point, multipliers, cycles: followed });
         }
     }

@@ -8,7 +8,7 @@ use super::Reason;
 use super::return_map::{Cycles, cycle};
 
 /// Stretches are averaged in so many batches, whose spread tells the uncertainty.
-const BATCHES: usize = 16;
+pub const BATCHES: usize = 16;
 
 /// An exponent with its statistical uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,11 +73,6 @@ impl<const D: usize, const N: usize> Stretching<D, N> {
             row.iter_mut().for_each(|x| *x /= scale);
         }
         lengths
-    }
-
-    /// Cycles met.
-    pub fn cycles(&self) -> usize {
-        self.logs.len()
     }
 
     /// Logarithm of the stretch of direction `j` over all cycles.

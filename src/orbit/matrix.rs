@@ -127,6 +127,9 @@ fn quadratic_roots(constant: f64, linear: f64) -> [Complex; 2] {
 
 /// A real root of a cubic, by bisection between bounds and Newton's steps to the end.
 fn one_real_root([c0, c1, c2]: [f64; 3]) -> f64 {
+    if !(c0 + c1 + c2).is_finite() {
+        return f64::NAN;
+    }
     let value = |x: f64| ((x + c2) * x + c1) * x + c0;
     let slope = |x: f64| (3.0 * x + 2.0 * c2) * x + c1;
     // Cauchy's bound; the cubic is negative at its lower end and positive at its upper one.
@@ -174,6 +177,14 @@ mod tests {
             let determinant = determinant(a).abs();
             assert!((magnitude - determinant).abs() < 1e-13 * roots[0].abs().powi(3), "{a:?}");
             assert!(roots[0].abs() >= roots[1].abs() && roots[1].abs() >= roots[2].abs());
+        }
+    }
+
+    #[test]
+    fn of_what_is_not_finite_the_eigenvalues_are_unknown() {
+        for unknown in [f64::NAN, f64::INFINITY] {
+            let roots = eigenvalues(&[[unknown; 3]; 3]);
+            assert!(roots.iter().all(|root| root.abs().is_nan()), "{roots:?}");
         }
     }
 

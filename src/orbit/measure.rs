@@ -40,11 +40,18 @@ struct Verdict {
     cycles: u64,
     certificate: Certificate,
     exponent: Exponent,
+    /// Size of the motion that led there, beside which what is left of it may be nothing [m/s].
+    size: f64,
 }
 
 impl Verdict {
     /// A periodic orbit that Newton's method has closed.
-    fn periodic(period: u64, multipliers: [Complex; 3], parameters: &Parameters) -> Self {
+    fn periodic(
+        period: u64,
+        multipliers: [Complex; 3],
+        parameters: &Parameters,
+        size: f64,
+    ) -> Self {
         let time = period as f64 * parameters.drive_period();
         let value = libm::log(multipliers[0].abs()) / time;
         Verdict {
@@ -53,6 +60,7 @@ impl Verdict {
             cycles: period,
             certificate: Certificate { proof: Proof::Newton, residual: f64::NAN, multipliers },
             exponent: Exponent { value, uncertainty: 0.0 },
+            size,
         }
     }
 }
@@ -115,7 +123,10 @@ fn judge<S: Locomotion>(
     protocol: &Protocol,
 ) -> Result<Verdict, Failure> {
     match found {
-        Found::Repeats(settled) => Ok(certified(trajectory, case, settled, protocol)),
+        Found::Repeats(settled) => match certified(trajectory, case, settled, protocol) {
+            Some(verdict) => Ok(verdict),
+            None => judge(trajectory, case, Found::Wanders, protocol),
+        },
         Found::Followed(wandering) => {
             trajectory.cycles += wandering.cycles;
             Ok(Verdict {
@@ -124,6 +135,7 @@ fn judge<S: Locomotion>(
                 cycles: protocol.measured_cycles,
                 certificate: Certificate::none(),
                 exponent: wandering.exponent,
+                size: 0.0,
             })
         }
         Found::Wanders => {
@@ -145,28 +157,19 @@ fn judge<S: Locomotion>(
     }
 }
 
-/// The verdict on a section that repeats: periodic if Newton's method closes the orbit, else undecided.
+/// The verdict on a section that repeats: periodic if Newton's method closes the orbit, else none.
 fn certified<S: Locomotion>(
     trajectory: &mut Trajectory<'_, S>,
     case: &Case,
     settled: Settled,
     protocol: &Protocol,
-) -> Verdict {
+) -> Option<Verdict> {
     let repeats_after = settled.repeats_after as u64;
-    let unknown = Exponent { value: f64::NAN, uncertainty: f64::NAN };
     let section = trajectory.section();
-    let Some(orbit) = certify::<S>(case, &section, repeats_after, settled.size, protocol) else {
-        return Verdict {
-            outcome: Outcome::Undecided,
-            period: 0,
-            cycles: repeats_after,
-            certificate: Certificate::none(),
-            exponent: unknown,
-        };
-    };
+    let orbit = certify::<S>(case, &section, repeats_after, settled.size, protocol)?;
     trajectory.leap(orbit.section);
     trajectory.cycles += orbit.cycles;
-    Verdict::periodic(orbit.period, orbit.multipliers, &case.parameters)
+    Some(Verdict::periodic(orbit.period, orbit.multipliers, &case.parameters, settled.size))
 }
 
 /// What is measured over the kept cycles.
@@ -188,7 +191,7 @@ pub fn over_cycles<S: Locomotion>(
     let start = State { r, y1, x2: 0.0, y2 };
     let mut trajectory = Trajectory::new(system, start, parameters.drive_period(), tolerance);
     let protocol = Protocol { points: period as usize, ..Protocol::with_tolerance(tolerance) };
-    let verdict = Verdict::periodic(period, multipliers, parameters);
+    let verdict = Verdict::periodic(period, multipliers, parameters, 0.0);
     let measures = measure(&mut trajectory, parameters, &verdict, &protocol)?;
     Ok((measures.outputs, measures.section))
 }
@@ -250,7 +253,7 @@ fn seal(
     let omega = parameters[Parameter::Omega];
     let gap = std::array::from_fn(|i| ends[i] - begins[i]);
     let gap = size(omega, &gap);
-    let residual = if gap == 0.0 { 0.0 } else { gap / speed };
+    let residual = if gap == 0.0 { 0.0 } else { gap / speed.max(verdict.size) };
     let touches = omega * account.grazing_margin <= GRAZES * speed;
     Certificate { proof: if touches { Proof::Grazing } else { proof }, residual, multipliers }
 }
@@ -269,6 +272,8 @@ fn outputs(
     let losses = energies.friction_loss + energies.damper_loss;
     let force = parameters[Parameter::Pd] + parameters.break_away();
     let ratio = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
+    // Without a drive only losses are left to measure against.
+    let exchanged = energies.work_absolute.max(losses);
     let cost_of_transport = if moves {
         energies.work_positive / cycles / (parameters.normal_load() * progression.abs())
     } else {
@@ -283,7 +288,7 @@ fn outputs(
         (Output::WorkActuator, energies.work_actuator / cycles),
         (Output::FrictionLoss, energies.friction_loss / cycles),
         (Output::DamperLoss, energies.damper_loss / cycles),
-        (Output::EnergyResidual, ratio(energies.work_net - losses, energies.work_absolute)),
+        (Output::EnergyResidual, ratio(energies.work_net - losses, exchanged)),
         (Output::MomentumResidual, ratio(account.friction_impulse / account.time, force)),
         (Output::CostOfTransport, cost_of_transport),
         (Output::ImpactsPerCycle, account.impacts as f64 / cycles),

@@ -39,8 +39,8 @@ pub fn relative<const D: usize>(difference: &[f64; D], scales: &[f64; D], size: 
     if largest == 0.0 { 0.0 } else { largest / size }
 }
 
-/// The periodic orbit nearest to `start` under the map over `cycles`; none where Newton's method leaves the
-/// neighbourhood or meets a singular derivative.
+/// The periodic orbit nearest to `start` under the map over `cycles`, or the point nearest to one that was
+/// met before Newton's method left the neighbourhood; none where the first derivative is singular already.
 ///
 /// `size` is that of the motion, in the units of the system's scales. Method: s <- s + (I - J)^-1 (P(s) -
 /// s) with the exact Jacobian, until the residual is at rounding or no longer halved; the best point is

@@ -20,10 +20,7 @@ const FADED: f64 = 1e-3;
 /// What the section of a case has settled to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settled {
-    /// The period [cycles].
-    pub period: usize,
-    /// Cycles after which the section repeats to tolerance; a multiple of the period, which repeats to
-    /// the resolution only.
+    /// Cycles after which the section repeats to tolerance, the least such number: a period is proposed.
     pub repeats_after: usize,
     /// Size of the motion lately, in the units of the section's scales [m/s].
     pub size: f64,
@@ -92,9 +89,7 @@ impl Recurrence {
     ///
     /// A recurrence after k cycles is accepted when a whole period of points has repeated to tolerance, and
     /// either the last repeat is a hundred times closer, or the remaining distance d q/(1 - q), with q
-    /// the ratio of the last two distances k cycles apart, is within tolerance too. The smallest such k
-    /// is found first; the period is its smallest divisor after which the points coincide to the
-    /// resolution.
+    /// the ratio of the last two distances k cycles apart, is within tolerance too.
     pub fn meet(&mut self, point: Section) -> Option<Settled> {
         self.points.push_back(point);
         if self.points.len() > self.memory {
@@ -118,17 +113,7 @@ impl Recurrence {
                 found = Some(k);
             }
         }
-        let repeats_after = found?;
-        let coincide = |j: usize| {
-            repeats_after.is_multiple_of(j)
-                && (0..repeats_after).all(|i| {
-                    newest >= i + j
-                        && self.distance(newest - i, newest - i - j, scale)
-                            <= RESOLUTION * self.tolerance
-                })
-        };
-        let period = (1..repeats_after).find(|&j| coincide(j)).unwrap_or(repeats_after);
-        Some(Settled { period, repeats_after, size: scale })
+        Some(Settled { repeats_after: found?, size: scale })
     }
 
     fn converged(&self, k: usize, now: f64, scale: f64) -> bool {
@@ -172,7 +157,9 @@ mod tests {
 
     fn period_of(point: impl Fn(usize) -> f64, cycles: usize) -> Option<usize> {
         let mut recurrence = Recurrence::new(16, 1e-11, 1.0);
-        (0..cycles).find_map(|n| recurrence.meet([point(n), 1.0, 0.0])).map(|found| found.period)
+        (0..cycles)
+            .find_map(|n| recurrence.meet([point(n), 1.0, 0.0]))
+            .map(|found| found.repeats_after)
     }
 
     #[test]
@@ -194,7 +181,7 @@ mod tests {
     #[test]
     fn a_small_period_two_is_not_a_period_one() {
         assert_eq!(period_of(|n| 1.0 + 1e-8 * (n % 2) as f64, 100), Some(2));
-        // Below the resolution it is: rounding makes such orbits of its own.
-        assert_eq!(period_of(|n| 1.0 + 1e-10 * (n % 2) as f64, 100), Some(1));
+        assert_eq!(period_of(|n| 1.0 + 1e-10 * (n % 2) as f64, 100), Some(2));
+        assert_eq!(period_of(|n| 1.0 + 1e-14 * (n % 2) as f64, 100), Some(1));
     }
 }

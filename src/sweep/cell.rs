@@ -2,15 +2,13 @@
 
 use crate::lane::Dual;
 use crate::model::{Locomotion, Parameter};
+use crate::orbit::certificate::{OBLIQUE, least_from_one};
 use crate::orbit::recurrence::size;
 use crate::orbit::return_map::{Cycles, returned, values};
 use crate::orbit::{Case, Certificate, Orbit, Outcome, Protocol, Section};
 
 use crate::branch::natural::apart;
 
-/// How much farther the true orbit may be than a residual and multipliers say, as they do not tell how
-/// oblique the directions are that the multipliers belong to.
-const OBLIQUE: f64 = 100.0;
 /// Points by which two motions that do not repeat are compared.
 const SAMPLE: usize = 64;
 /// Two samples of one motion have half of all nearest neighbours in the same sample, those of two motions
@@ -85,9 +83,8 @@ impl Attractor {
         let points = points::<S>(case, orbit, wanted, protocol)?;
         let omega = case.parameters[Parameter::Omega];
         let size = points.iter().map(|point| size(omega, point)).fold(0.0, f64::max);
-        let from_one = |it: &crate::orbit::matrix::Complex| libm::hypot(1.0 - it.re, it.im);
-        let slowest = multipliers.iter().map(from_one).fold(f64::INFINITY, f64::min);
-        let bound = OBLIQUE * residual.max(protocol.tolerance) / slowest * size;
+        let residual = residual.max(protocol.tolerance);
+        let bound = OBLIQUE * residual / least_from_one(&multipliers) * size;
         Some(Attractor { case: index, outcome: orbit.outcome, points, bound, size })
     }
 

@@ -3,6 +3,7 @@
 use crate::branch::SpecialKind;
 use crate::model::{EventKind, Locomotion};
 use crate::orbit::Section;
+use crate::orbit::certificate::least_from_one;
 
 use crate::branch::natural::{Along, ROUNDING, Solution, apart, left_to_fold};
 
@@ -15,6 +16,9 @@ const COARSE: f64 = 1e-9;
 const BESIDE: f64 = 1e-3;
 /// A multiplier this near to one belongs to an orbit that is about to end in a fold.
 const NEAR_ONE: f64 = 0.01;
+
+/// It has come nearer to one by this factor on the way.
+const SHRINKS: f64 = 0.5;
 
 /// A change of an orbit, located.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,8 +71,13 @@ pub fn changes<S: Locomotion>(along: &Along<'_, S>, path: &[Solution]) -> Vec<Ch
         let until = loss.as_ref().map_or(high, |(below, _)| below);
         found.extend(sequence.every(along, low, until));
         if let Some((below, above)) = loss {
-            let property = if doubles(&below, &above) { &DOUBLING } else { &spiral };
-            found.push(Change::between((property.kind)(&below, &above), &below, &above));
+            // Multipliers jump where the order of events changes, and then it is that which happens.
+            let kind = match () {
+                () if below.events != above.events => of_events(&below, &above),
+                () if doubles(&below, &above) => SpecialKind::PeriodDoubling,
+                () => SpecialKind::NeimarkSacker,
+            };
+            found.push(Change::between(kind, &below, &above));
             break;
         }
     }
@@ -144,11 +153,13 @@ impl Property<'_> {
         mut low: Solution,
         mut high: Solution,
     ) -> (Solution, Solution) {
+        // A parameter that passes zero is measured against the way to it.
+        let scale = low.value.abs().max(high.value.abs());
         loop {
             let width = high.value - low.value;
             let coarse = (self.kind)(&low, &high) == SpecialKind::EventSequence;
             let narrow = if coarse { COARSE } else { ROUNDING };
-            if width.abs() <= 2.0 * narrow * low.value.abs() {
+            if width.abs() <= 2.0 * narrow * scale {
                 return (low, high);
             }
             let (from, share) = (low.value, self.shares(&low, &high));
@@ -192,14 +203,16 @@ pub fn ending<S: Locomotion>(
     if let Some(shorter) = merged(along, last) {
         return doubling(along, &shorter, [path[0].value, to]);
     }
-    let from_one =
-        last.multipliers().iter().map(|it| libm::hypot(1.0 - it.re, it.im)).fold(1.0, f64::min);
-    let kind = if from_one <= NEAR_ONE { SpecialKind::Fold } else { SpecialKind::EventSequence };
-    let foretold = match path {
-        [.., before, last] if kind == SpecialKind::Fold => left_to_fold(before, last),
-        _ => 0.0,
+    let from_one = |it: &Solution| least_from_one(&it.multipliers());
+    let (kind, left) = match path {
+        [.., before, last] if from_one(last) <= NEAR_ONE.min(SHRINKS * from_one(&path[0])) => {
+            let foretold = left_to_fold(before, last);
+            let within = foretold > 0.0 && foretold <= (to - last.value).abs();
+            (SpecialKind::Fold, if within { foretold } else { 0.0 })
+        }
+        _ => (SpecialKind::EventSequence, 0.0),
     };
-    let left = foretold.max(0.5 * step.abs());
+    let left = left.max(0.5 * step.abs());
     Some(Change {
         kind,
         value: last.value + left.copysign(step),

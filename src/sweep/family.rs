@@ -20,6 +20,15 @@ pub struct Links {
     pub unseen: Vec<(usize, Unseen)>,
 }
 
+/// The attractors of the two cells, by place, whose orbits are known not to be one in the other cell.
+#[derive(Default)]
+struct Apart {
+    /// The orbit ends on the way.
+    ended: [Vec<usize>; 2],
+    /// The orbit attracts at the other value, where no case shows it.
+    unseen: [Vec<usize>; 2],
+}
+
 /// An orbit at a value of the parameter where no case shows the attractor that it belongs to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unseen {
@@ -49,21 +58,21 @@ impl<S: Locomotion> Neighbours<'_, S> {
     /// on both sides of it. What is left by what the followed cases say, see [`Neighbours::led`].
     pub fn link(&self) -> Links {
         let mut links = Links::default();
-        let mut ended = [Vec::new(), Vec::new()];
+        let mut apart = Apart::default();
         for (side, place) in self.periodic() {
             if !links.has(side, place) {
-                ended[side].extend(self.follow(side, place, &mut links).then_some(place));
+                self.follow(side, place, &mut links, &mut apart);
             }
         }
-        self.led(&mut links, &ended);
+        self.led(&mut links, &apart);
         links.pairs.sort_unstable();
         links
     }
 
-    /// Follows an orbit to the other cell and notes what happens; tells whether it ends before.
-    fn follow(&self, side: usize, place: usize, links: &mut Links) -> bool {
+    /// Follows an orbit to the other cell and notes what happens.
+    fn follow(&self, side: usize, place: usize, links: &mut Links, apart: &mut Apart) {
         let attractor = &self.cells[side].attractors[place];
-        let Some(start) = self.solution(side, attractor) else { return false };
+        let Some(start) = self.solution(side, attractor) else { return };
         let to = self.values[1 - side];
         let (path, end) = self.along.follow(&start, to);
         let mut found = changes(&self.along, &path);
@@ -72,19 +81,24 @@ impl<S: Locomotion> Neighbours<'_, S> {
             End::Reached => {
                 let here = Unseen { orbit: last.clone(), doubled: doubles(&found) };
                 let other = self.successor(side, links, &here);
-                if side == 0 && other.is_none() && here.is_followed() {
-                    links.unseen.push((place, here));
+                if other.is_none() {
+                    apart.unseen[side].extend(here.orbit.attracts().then_some(place));
+                    if side == 0 && here.is_followed() {
+                        links.unseen.push((place, here));
+                    }
                 }
                 links.pairs.extend(other.map(|other| match side {
                     0 => [place, other],
                     _ => [other, place],
                 }));
             }
-            End::Stopped(step) => found.extend(ending(&self.along, &path, (to, step))),
+            End::Stopped(step) => {
+                apart.ended[side].push(place);
+                found.extend(ending(&self.along, &path, (to, step)));
+            }
             End::Lost => {}
         }
         links.changes[side].extend(found.into_iter().map(|change| (place, change)));
-        matches!(end, End::Stopped(_))
     }
 
     /// The periodic attractors by side and place, the shortest periods first: beside a period doubling it
@@ -120,21 +134,26 @@ impl<S: Locomotion> Neighbours<'_, S> {
     ///
     /// Two attractors are one if the upward cases lead from the first to the second and the downward ones
     /// back; where the axis is followed in one direction only, if they lead so and neither orbit ends on
-    /// the way; where it is not followed, if both are the only ones left that do not repeat. It breaks
-    /// where a followed case falls from one such attractor to another beside it in both directions.
-    fn led(&self, links: &mut Links, ended: &[Vec<usize>; 2]) {
+    /// the way; where it is not followed, if both are the only ones left that do not repeat. An orbit that
+    /// is known to attract at the other value is no other attractor there. It breaks where a followed case
+    /// falls from one such attractor to another beside it in both directions.
+    fn led(&self, links: &mut Links, apart: &Apart) {
         let upward = self.leads(Direction::Upward);
         let downward = self.leads(Direction::Downward);
         let follows = |direction| self.directions.contains(&Some(direction));
-        let pairs = match (follows(Direction::Upward), follows(Direction::Downward)) {
+        let among = |places: &[Vec<usize>; 2], [a, b]: &[usize; 2]| {
+            places[0].contains(a) || places[1].contains(b)
+        };
+        let mut pairs = match (follows(Direction::Upward), follows(Direction::Downward)) {
             (true, true) => upward.into_iter().filter(|pair| downward.contains(pair)).collect(),
             (false, false) => self.only_ones(links),
             _ => {
                 let mut pairs = [upward, downward].concat();
-                pairs.retain(|[a, b]| !ended[0].contains(a) && !ended[1].contains(b));
+                pairs.retain(|pair| !among(&apart.ended, pair));
                 pairs
             }
         };
+        pairs.retain(|pair| !among(&apart.unseen, pair));
         for [a, b] in pairs {
             if !links.has(0, a) && !links.has(1, b) {
                 links.pairs.push([a, b]);

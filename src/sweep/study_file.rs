@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use toml::de::DeTable;
 
 use crate::model::{Allowed, Dimension, Parameter, Parameters, Resistance, State, Switching};
+use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Output, Protocol};
 
 use super::axis::{linear, logarithmic};
@@ -296,6 +297,12 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
         whole("max_cycles", 1, u64::MAX, &mut protocol.max_cycles);
         whole("measured_cycles", 1, u64::MAX, &mut protocol.measured_cycles);
         whole("exponent_cycles", 0, MOST_POINTS, &mut protocol.exponent_cycles);
+        if (1..BATCHES as u64).contains(&protocol.exponent_cycles)
+            && let Some(entry) = table.entry("exponent_cycles")
+        {
+            let given = protocol.exponent_cycles;
+            entry.fault(format!("{given} are too few for an exponent; {BATCHES} or more, or 0"));
+        }
         let size = |key: &str, least: u64, most: u64, value: &mut usize| {
             let mut found = *value as u64;
             whole(key, least, most, &mut found);

@@ -10,7 +10,7 @@ use capsulemap::model::{Capsule, Parameter};
 use capsulemap::orbit::matrix::eigenvalues;
 use capsulemap::orbit::newton::close;
 use capsulemap::orbit::return_map::Cycles;
-use capsulemap::orbit::{Outcome, Proof, Protocol};
+use capsulemap::orbit::{Outcome, Output, Proof, Protocol};
 use capsulemap::store;
 use capsulemap::sweep::{self, AttractorEvent, Attractors, Machine, Record, Study};
 
@@ -49,6 +49,14 @@ fn window(from: f64, to: f64, points: usize, start: &str) -> String {
     format!(
         "{TWO_MOTIONS}[[axes]]\nname = \"omega\"\nfrom = \"{from} rad/s\"\nto = \"{to} rad/s\"\n\
          points = {points}\n{start}\n"
+    )
+}
+
+/// The capsule of `studies/cascade.toml` over the frequency.
+fn cascade(omega: &str) -> String {
+    format!(
+        "[parameters]\nc = \"0.44 N s/m\"\nmu_s = 0.437\nmu_d = 0.2185\np_d = \"3.4 N\"\n\
+         k2 = \"86.8 kN/m\"\ndelta = \"2.45 mm\"\n[[axes]]\nname = \"omega\"\n{omega}\n"
     )
 }
 
@@ -120,12 +128,10 @@ fn two_certified_attractors_coexist_between_two_folds() {
 #[test]
 fn an_attractor_that_no_start_shows_in_between_keeps_its_number() {
     // An orbit of period 3 beside one of period 1 and 2, which only some starts from rest lead to.
-    let study = study(
-        "[parameters]\nc = \"0.44 N s/m\"\nmu_s = 0.437\nmu_d = 0.2185\np_d = \"3.4 N\"\n\
-         k2 = \"86.8 kN/m\"\ndelta = \"2.45 mm\"\n[[axes]]\nname = \"omega\"\n\
-         from = \"39.3 rad/s\"\nto = \"40.1 rad/s\"\npoints = 81\n\
-         [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"afresh\"]\n",
-    );
+    let study = study(&cascade(
+        "from = \"39.3 rad/s\"\nto = \"40.1 rad/s\"\npoints = 81\n\
+         [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"afresh\"]",
+    ));
     let records = records(&study);
     let linked = AtomicUsize::new(0);
     let note = || {
@@ -140,6 +146,50 @@ fn an_attractor_that_no_start_shows_in_between_keeps_its_number() {
         let expected = usize::from(records[case].orbit.period == 3);
         assert_eq!(attractors.of_case[case], Some(expected), "{case}");
     }
+}
+
+#[test]
+fn a_case_that_falls_to_another_attractor_takes_its_number() {
+    // From the orbit of period 3 the next case falls to that of period 1, while both go on attracting.
+    let omegas =
+        "values = [\"39.3 rad/s\", \"39.65 rad/s\"]\n[start]\ny1 = \"-0.2142857142857143 m/s\"";
+    let study = study(&cascade(&format!("{omegas}\nfollow = \"omega\"")));
+    let records = records(&study);
+    let periods: Vec<u64> = records.iter().map(|record| record.orbit.period).collect();
+    assert_eq!(periods, [3, 1]);
+    assert_eq!(found(&study, &records).of_case, [Some(0), Some(1)]);
+}
+
+#[test]
+fn a_period_doubling_among_cases_that_settle_too_slowly_is_located_once() {
+    let study = study(&cascade(
+        "from = \"39.7975 rad/s\"\nto = \"39.7987 rad/s\"\npoints = 61\n\
+         [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"downward\"]",
+    ));
+    let records = records(&study);
+    let undecided = |record: &&Record| record.orbit.outcome == Outcome::Undecided;
+    assert!(records.iter().filter(undecided).count() > 5);
+    let attractors = found(&study, &records);
+    assert!(attractors.of_case.iter().flatten().all(|number| *number == 0));
+    let [event] = &attractors.events[..] else { panic!("{:?}", attractors.events) };
+    assert_eq!((event.kind, event.period), (SpecialKind::PeriodDoubling, 1));
+    assert!((event.value - 39.798_118_915).abs() < 1e-9 && event.uncertainty < 1e-10, "{event:?}");
+}
+
+#[test]
+fn a_parameter_may_begin_at_zero() {
+    let study = study(
+        "[parameters]\nomega = \"77.91 rad/s\"\nk2 = \"2.42 kN/m\"\ndelta = \"0 mm\"\n\
+         [[axes]]\nname = \"p_d\"\nvalues = [\"0 N\", \"0.5 N\", \"1 N\"]\n",
+    );
+    let records = records(&study);
+    assert!(records.iter().all(|record| record.orbit.outcome == Outcome::Periodic));
+    for event in found(&study, &records).events {
+        assert!(event.uncertainty > 1e-15 && event.value.is_finite(), "{event:?}");
+    }
+    // At rest nothing is left but rounding, beside the motion that came to rest.
+    let rest = &records[0].orbit.outputs;
+    assert!(rest[Output::SectionResidual] < 1e-10 && rest[Output::EnergyResidual].abs() < 1e-10);
 }
 
 #[test]
