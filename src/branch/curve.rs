@@ -2,7 +2,7 @@
 
 use super::arclength::{Plane, Station, between, corrected, norm, tangent};
 use super::corner::is_corner;
-use super::locus::{Locus, LocusStation, SECOND};
+use super::locus::{Locus, LocusStation, SECOND, Touch};
 use super::orbits::{Orbits, PARAMETER};
 use super::periodic::{Goal, Periodic, passes};
 use super::walk::{Bounds, Stride, Walk};
@@ -130,7 +130,7 @@ fn one_way(
     start: &LocusStation,
     mut walk: Walk<5>,
     most: usize,
-    goal: &Goal<5, Option<f64>>,
+    goal: &Goal<5, Option<Touch>>,
 ) -> (Vec<[f64; 5]>, LocusStation, End) {
     let mut points = vec![start.at];
     let mut last = start.clone();
@@ -138,7 +138,7 @@ fn one_way(
         let stride = walk.stride(locus, &last);
         let at_bound = matches!(stride, Stride::AtBound(_));
         let (Stride::Inside(next) | Stride::AtBound(next)) = stride else {
-            let end = if is_corner(locus, &last) { End::Corner } else { End::Stopped };
+            let end = dead_end(locus, &last);
             return (points, last, end);
         };
         if let Some(goal) = goal.met(locus, [&last, &next], points.len()) {
@@ -163,6 +163,17 @@ fn one_way(
         }
     }
     (points, last, End::MostPoints)
+}
+
+/// Why no step leads on from an orbit.
+fn dead_end(locus: &Locus, last: &LocusStation) -> End {
+    if locus.vanishes(last) {
+        End::Vanishes
+    } else if is_corner(locus, last) {
+        End::Corner
+    } else {
+        End::Stopped
+    }
 }
 
 /// Whether a curve passes an orbit of half the period and leads back as the other half of its orbits.

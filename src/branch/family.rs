@@ -32,7 +32,7 @@ pub struct Passage<L> {
     pub extrema: Vec<Extremum<L>>,
 }
 
-/// A local maximum or minimum of r: at the stop it is a grazing, of open contact or of closed contact.
+/// A local maximum or minimum of r: at the stop it is a grazing, from the open or the closed side.
 #[derive(Debug, Clone, Copy)]
 pub struct Extremum<L> {
     /// How far it is from the stop, above zero before it [m].
@@ -82,6 +82,12 @@ impl Family {
 fn turns<L: Lane>(r: &Series<L>, length: f64, mut found: impl FnMut(f64, L)) {
     let rate = series::derivative(&std::array::from_fn(|k| r[k].lane(0)));
     crossings(&rate, length, |time, _| found(time, series::value(r, L::splat(time))));
+}
+
+/// How far two times of a motion of this period are apart, the other way round too.
+pub fn apart(a: f64, b: f64, period: u64) -> f64 {
+    let apart = (a - b).rem_euclid(period as f64);
+    apart.min(period as f64 - apart)
 }
 
 /// The sequence of events, begun where it is least: the same wherever on the orbit the section lies.

@@ -6,7 +6,7 @@ use crate::orbit::Reason;
 
 use super::SpecialKind;
 use super::arclength::{Equations, Linear, Station};
-use super::family::{Family, Passage, nearest};
+use super::family::{Extremum, Family, Passage, apart, nearest};
 use super::orbits::PARAMETER;
 use super::periodic::Periodic;
 
@@ -14,14 +14,25 @@ use super::periodic::Periodic;
 pub const SECOND: usize = 4;
 /// The extremum that touches the stop moves in a step by no more than this share of a cycle.
 const SAME_EXTREMUM: f64 = 0.02;
+/// A maximum and a minimum this close in time are about to meet, as a share of a cycle.
+const MEET: f64 = 1e-3;
 
 /// A number with derivatives along the five unknowns.
 type Five = Dual<f64, 5>;
 /// The same, which carries a row of the Jacobian along, so that its derivatives are known too.
 type Nested = Dual<Dual<f64, 3>, 5>;
 
-/// An orbit on a curve, and when it touches the stop after the section, if it is a grazing [cycles].
-pub type LocusStation = Station<5, Option<f64>>;
+/// How a grazing orbit touches the stop.
+#[derive(Debug, Clone, Copy)]
+pub struct Touch {
+    /// When, after the section [cycles].
+    time: f64,
+    /// How far from there the next extremum of r is [cycles].
+    alone: f64,
+}
+
+/// An orbit on a curve, and how it touches the stop, if it is a grazing.
+pub type LocusStation = Station<5, Option<Touch>>;
 
 /// Orbits to which one thing happens: P^k(s) - s = 0 and a test, in s and two parameters.
 #[derive(Debug, Clone)]
@@ -36,8 +47,8 @@ pub struct Locus {
     pub kind: SpecialKind,
 }
 
-/// Where an orbit returns to, the test, and when it touches the stop.
-type Tested = ([Five; 3], Five, Option<f64>);
+/// Where an orbit returns to, the test, and how it touches the stop.
+type Tested = ([Five; 3], Five, Option<Touch>);
 
 impl Locus {
     fn free<L: Copy>(&self, seeded: &[L; 5]) -> [(Parameter, L); 2] {
@@ -54,7 +65,16 @@ impl Locus {
         let [r, y1, y2, ..] = seeded;
         let Passage { end, extrema, .. } = self.family.passage([r, y1, y2], &self.free(&seeded))?;
         let touch = nearest(&extrema).ok_or(Reason::NotFinite)?;
-        Ok((end, touch.margin / Five::splat(self.units[0]), Some(touch.time)))
+        let away = |other: &Extremum<Five>| apart(touch.time, other.time, self.family.period);
+        let others = extrema.iter().filter(|other| other.time != touch.time);
+        let alone = others.map(away).fold(f64::INFINITY, f64::min);
+        let seen = Touch { time: touch.time, alone };
+        Ok((end, touch.margin / Five::splat(self.units[0]), Some(seen)))
+    }
+
+    /// Whether the extremum of r that touches is about to vanish, with another that it meets.
+    pub fn vanishes(&self, station: &LocusStation) -> bool {
+        station.seen.is_some_and(|touch| touch.alone < MEET)
     }
 
     /// The return and the determinant of J + `shift` I.
@@ -90,9 +110,9 @@ impl Locus {
 }
 
 impl Equations<5> for Locus {
-    type Seen = Option<f64>;
+    type Seen = Option<Touch>;
 
-    fn at(&self, at: &[f64; 5]) -> Result<Linear<5, Option<f64>>, Reason> {
+    fn at(&self, at: &[f64; 5]) -> Result<Linear<5, Option<Touch>>, Reason> {
         let allowed = |(place, parameter): (usize, Parameter)| {
             parameter.allowed().admits(at[place] * self.units[place])
         };
@@ -117,9 +137,7 @@ impl Equations<5> for Locus {
     /// Where two curves of grazings cross, another extremum is as near to the stop.
     fn belongs(&self, from: &LocusStation, met: &LocusStation) -> bool {
         let same = from.seen.zip(met.seen).is_none_or(|(before, after)| {
-            let period = self.family.period as f64;
-            let apart = (after - before).rem_euclid(period);
-            apart.min(period - apart) <= SAME_EXTREMUM
+            apart(before.time, after.time, self.family.period) <= SAME_EXTREMUM
         });
         same && self.is_whole(&met.at)
     }

@@ -119,18 +119,21 @@ pub enum End {
     MostPoints,
     /// The return map has a kink or a jump there, and beyond it no orbit goes on.
     Corner,
+    /// The maximum of r that touches the stop meets a minimum there, and both vanish.
+    Vanishes,
     /// It could not be followed further.
     Stopped,
 }
 
 impl End {
     /// Every reason by its name in files, in the order of declaration.
-    pub const NAMES: [(&str, End); 6] = [
+    pub const NAMES: [(&str, End); 7] = [
         ("edge-of-range", End::Bound),
         ("closed", End::Closed),
         ("half-period", End::Merged),
         ("most-points", End::MostPoints),
         ("corner", End::Corner),
+        ("touch-vanishes", End::Vanishes),
         ("stopped", End::Stopped),
     ];
 }

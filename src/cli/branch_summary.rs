@@ -130,6 +130,7 @@ fn end_words(end: End) -> Option<&'static str> {
         End::Merged => Some("at an orbit of half the period"),
         End::MostPoints => Some("where `most_points` is reached"),
         End::Corner => Some("at a corner of the return map"),
+        End::Vanishes => Some("where its touch of the stop vanishes"),
         End::Stopped => Some("where it cannot be followed further"),
     }
 }

@@ -53,7 +53,7 @@ pub struct Account {
     pub stick_time: f64,
     /// Largest contact force [N].
     pub peak_contact_force: f64,
-    /// Least distance between a local maximum of r and the stop [m]; infinite while there is none.
+    /// Least distance between a local extremum of r and the stop [m]; infinite while there is none.
     pub grazing_margin: f64,
     /// How often contact closed.
     pub impacts: u64,
@@ -139,28 +139,26 @@ impl Account {
         }
     }
 
-    /// Looks at the local maxima of r, which hold the peak force and the margin to grazing.
+    /// Looks at the local extrema of r, which hold the margin to grazing, and the maxima the peak force.
     fn add_extremes<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
         let r = &system.motion(&step.jet).r;
         let rate = series::derivative(r);
         // The printed equation lets r turn with a corner, between two steps.
-        if self.rate_of_r > 0.0 && rate[0] < 0.0 {
-            self.meet_maximum(r[0]);
+        if self.rate_of_r * rate[0] < 0.0 {
+            self.meet_extremum(r[0], rate[0] < 0.0);
         }
-        crossings(&rate, step.length, |t, falls| {
-            if falls {
-                self.meet_maximum(series::value(r, t));
-            }
-        });
+        crossings(&rate, step.length, |t, falls| self.meet_extremum(series::value(r, t), falls));
         self.rate_of_r = series::value(&rate, step.length);
         if system.contact(&step.mode) == Contact::Closed {
             self.meet_contact(r[0]);
         }
     }
 
-    fn meet_maximum(&mut self, r: f64) {
+    fn meet_extremum(&mut self, r: f64, is_maximum: bool) {
         self.grazing_margin = self.grazing_margin.min((self.delta - r).abs());
-        self.meet_contact(r);
+        if is_maximum {
+            self.meet_contact(r);
+        }
     }
 
     fn meet_contact(&mut self, r: f64) {

@@ -48,7 +48,7 @@ outputs! {
     Reversals "reversals_per_cycle" "1" "reversals of the capsule without rest per cycle";
     StickShare "stick_share" "1" "share of time at which the capsule rests";
     PeakContactForce "peak_contact_force" "N" "largest contact force";
-    GrazingMargin "grazing_margin" "m" "least distance between a local maximum of x1 - x2 and the stop";
+    GrazingMargin "grazing_margin" "m" "least distance between a local extremum of x1 - x2 and the stop";
     LyapunovExponent "lyapunov_exponent" "1/s" "largest Lyapunov exponent";
     LyapunovUncertainty "lyapunov_uncertainty" "1/s" "standard error of the largest Lyapunov exponent";
     LargestMultiplier "largest_multiplier" "1" "largest magnitude of a Floquet multiplier of the period";

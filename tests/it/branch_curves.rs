@@ -2,7 +2,7 @@
 
 use capsulemap::branch::{Curve, End, Found, Request, SpecialKind, follow};
 use capsulemap::model::{Parameter, Parameters};
-use capsulemap::orbit::Section;
+use capsulemap::orbit::{Output, Section};
 
 use super::branch::{assert_closed, of_kind, relative, request, settled};
 
@@ -45,6 +45,7 @@ fn contact_opens_where_the_closed_form_says_in_two_parameters() {
     let grazing = of_kind(&found.branches[0], SpecialKind::Grazing);
     let special = grazing.first().expect("contact opens");
     assert!(relative(special.point.parameter, edge) < 1e-13, "{}", special.point.parameter);
+    assert!(special.point.outputs[Output::GrazingMargin] < 1e-15);
     let curve = &found.curves[special.curve.expect("a curve")];
     assert!(curve.points.len() > 20);
     for &[p_d, omega] in &curve.points {
@@ -85,11 +86,37 @@ fn assert_sound(request: &Request, found: &Found) {
 }
 
 /// A mass between soft spring and hard stop whose response folds over and doubles.
-fn folding() -> Parameters {
+pub fn folding() -> Parameters {
     Parameters::with(&[
         (Parameter::M1, 0.15),
         (Parameter::K2, 30e3),
         (Parameter::Delta, 1.2e-3),
         (Parameter::Omega, 30.0),
     ])
+}
+
+#[test]
+fn every_curve_goes_through_its_special_points_and_is_there_once() {
+    let mut p = folding();
+    p[Parameter::Pd] = 5.92;
+    let start = settled(&p, [0.0; 3]);
+    let mut request = request(&p, start.section[0], start.period, Parameter::Pd, [5.4, 7.0]);
+    (request.doublings, request.longest_step) = (1, 0.1);
+    request.second = Some((Parameter::Omega, [25.0, 35.0]));
+    let found = follow(&request).expect("a branch");
+    assert_closed(&found);
+    assert_sound(&request, &found);
+    // Minima of r touch the stop at some of these, and every one has its curve.
+    let all = || found.branches.iter().flat_map(|branch| &branch.special);
+    let grazing = all().filter(|special| special.kind == SpecialKind::Grazing);
+    assert!(grazing.clone().count() > 8 && grazing.clone().all(|it| it.curve.is_some()));
+    // Both folds lie on one curve that closes, and so do both period doublings.
+    for kind in [SpecialKind::Fold, SpecialKind::PeriodDoubling] {
+        let special = of_kind(&found.branches[0], kind);
+        let curves: Vec<_> = special.iter().map(|special| special.curve).collect();
+        assert!(curves.len() == 2 && curves[0].is_some() && curves[0] == curves[1], "{curves:?}");
+    }
+    let doubling = found.curves.iter().find(|it| it.kind == SpecialKind::PeriodDoubling);
+    assert_eq!(doubling.expect("a curve").ends, [End::Closed; 2]);
+    assert!(found.curves.iter().any(|curve| curve.ends == [End::Bound; 2]));
 }

@@ -3,7 +3,8 @@
 use capsulemap::branch::{Branch, End, SpecialKind, follow};
 use capsulemap::model::Parameter;
 
-use super::branch::{assert_closed, moving, relative};
+use super::branch::{assert_closed, moving, relative, request};
+use super::branch_curves::folding;
 
 #[test]
 fn a_branch_says_why_it_ends() {
@@ -39,16 +40,17 @@ fn happens(branch: &Branch) -> Vec<(SpecialKind, f64)> {
 
 #[test]
 fn a_poor_guess_leads_to_the_same_branch_as_a_good_one() {
-    let mut request = moving([126.0, 170.0]);
-    request.section = [0.2, 30.0, 0.0];
+    let mut p = folding();
+    p[Parameter::Pd] = 5.0;
+    let mut request = request(&p, [0.2, 30.0, 0.0], 3, Parameter::Omega, [25.0, 35.0]);
     let poor = follow(&request).expect("a branch");
     assert_closed(&poor);
-    let first = request.parameters[Parameter::Omega];
-    let there = poor.branches[0].points.iter().find(|point| point.parameter == first);
+    let there = poor.branches[0].points.iter().find(|point| point.parameter == 30.0);
     request.section = there.expect("the first orbit").section[0];
     let good = follow(&request).expect("a branch");
     let [poor, good] = [poor, good].map(|found| happens(&found.branches[0]));
-    assert_eq!(poor.len(), good.len());
+    let folds = good.iter().filter(|(kind, _)| *kind == SpecialKind::Fold);
+    assert_eq!((poor.len(), folds.count()), (good.len(), 4));
     for ((kind, at), (other, expected)) in poor.iter().zip(&good) {
         assert!(kind == other && relative(*at, *expected) < 1e-9, "{at} {expected}");
     }
