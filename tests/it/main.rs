@@ -4,6 +4,8 @@ mod acceleration;
 mod attractors;
 mod belt;
 mod branch;
+mod branch_curves;
+mod branch_ends;
 mod branch_figure;
 mod certificates;
 mod cli;
