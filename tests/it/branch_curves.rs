@@ -2,7 +2,7 @@
 
 use capsulemap::branch::{Curve, End, Found, Request, SpecialKind, follow};
 use capsulemap::model::{Parameter, Parameters};
-use capsulemap::orbit::{Output, Section};
+use capsulemap::orbit::Section;
 
 use super::branch::{assert_closed, of_kind, relative, request, settled};
 
