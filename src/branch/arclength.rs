@@ -22,10 +22,8 @@ pub trait Equations<const U: usize> {
     /// The equations at these unknowns.
     fn at(&self, unknowns: &[f64; U]) -> Result<Linear<U, Self::Seen>, Reason>;
 
-    /// Whether a solution belongs to the curve rather than to another that crosses it.
-    fn belongs(&self, _station: &Station<U, Self::Seen>) -> bool {
-        true
-    }
+    /// Whether a solution belongs to the curve of another rather than to one that crosses it.
+    fn belongs(&self, from: &Station<U, Self::Seen>, met: &Station<U, Self::Seen>) -> bool;
 }
 
 /// Equations with their derivatives at a point.

@@ -1,5 +1,5 @@
 //! Round a corner: where the return map has a kink, a branch may go on in a direction that nothing before
-//! it shows.
+//! it shows, or end.
 
 use super::arclength::{Equations, Station, between, dot, tangent, unit};
 use super::walk::{Stride, Walk};
@@ -10,6 +10,28 @@ const RADII: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 const FIRST_STEPS: [f64; 2] = [100.0, 10.0];
 /// A direction this close to the one behind leads back.
 const BACK: f64 = -0.99;
+/// Derivatives that change by more than this share of the largest so close by have a jump there.
+const JUMP: f64 = 1e-2;
+
+/// Whether the equations have a kink or a jump at a solution: whether beside it their derivatives are
+/// others.
+pub fn is_corner<const U: usize, E: Equations<U>>(equations: &E, at: &Station<U, E::Seen>) -> bool {
+    let size = |rows: &[[f64; U]]| rows.iter().flatten().fold(1.0_f64, |most, x| most.max(x.abs()));
+    (0..2 * U).any(|side| {
+        let Ok(linear) = equations.at(&beside(&at.at, side, RADII[2])) else { return true };
+        let pairs = linear.rows.iter().zip(&at.rows).take(U - 1);
+        let changes: Vec<[f64; U]> = pairs.map(|(there, here)| between(here, there)).collect();
+        let apart = changes.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
+        apart > JUMP * size(&at.rows[..U - 1])
+    })
+}
+
+/// A point on one of the sides of another, at a distance.
+fn beside<const U: usize>(at: &[f64; U], side: usize, radius: f64) -> [f64; U] {
+    let mut beside = *at;
+    beside[side % U] += if side < U { radius } else { -radius };
+    beside
+}
 
 /// A corner with its new tangent, and the first step from it.
 pub type Rounded<S> = (S, Stride<S>);
@@ -25,10 +47,7 @@ pub fn rounded<const U: usize, E: Equations<U>>(
 ) -> Option<Rounded<Station<U, E::Seen>>> {
     for radius in RADII {
         for side in 0..2 * U {
-            let by = if side < U { radius } else { -radius };
-            let mut beside = corner.at;
-            beside[side % U] += by;
-            let Ok(linear) = equations.at(&beside) else { continue };
+            let Ok(linear) = equations.at(&beside(&corner.at, side, radius)) else { continue };
             let Some(ahead) = tangent(linear.rows, &corner.tangent) else { continue };
             let goes_on = [1.0, -1.0].into_iter().find_map(|sign| {
                 let start = Station { tangent: ahead.map(|part| sign * part), ..corner.clone() };

@@ -1,222 +1,184 @@
 //! Curves of special points in two parameters.
 
-use crate::lane::{Dual, Lane};
-use crate::model::Parameter;
-use crate::orbit::Reason;
-
-use super::arclength::{
-    Equations, Linear, Plane, Station, between, corrected, dot, moved, norm, tangent,
-};
-use super::family::{Family, Passage};
+use super::arclength::{Plane, Station, between, corrected, norm, tangent};
+use super::corner::is_corner;
+use super::locus::{Locus, LocusStation, SECOND, Touch};
 use super::orbits::{Orbits, PARAMETER};
+use super::periodic::{Goal, Periodic, passes};
 use super::walk::{Bounds, Stride, Walk};
-use super::{Curve, Request, Special, SpecialKind};
+use super::{Curve, End, Request, Special, SpecialKind};
 
-/// Place of the second parameter among the unknowns.
-const SECOND: usize = 4;
-/// A curve goes through a point that lies beside one of its steps by no more than this share of it.
-const SAME: f64 = 0.05;
-
-/// A number with derivatives along the five unknowns.
-type Five = Dual<f64, 5>;
-/// The same, which carries a row of the Jacobian along, so that its derivatives are known too.
-type Nested = Dual<Dual<f64, 3>, 5>;
-
-/// Orbits to which one thing happens: P^k(s) - s = 0 and a test, in s and two parameters.
-struct Locus {
-    family: Family,
-    free: [Parameter; 2],
-    units: [f64; 5],
-    kind: SpecialKind,
-}
-
-impl Locus {
-    fn free<L: Copy>(&self, seeded: &[L; 5]) -> [(Parameter, L); 2] {
-        [(self.free[0], seeded[PARAMETER]), (self.free[1], seeded[SECOND])]
-    }
-
-    /// The return and the test of grazing: the margin of the local maximum of r that is nearest to the stop.
-    fn grazing(&self, at: &[f64; 5]) -> Result<Option<([Five; 3], Five)>, Reason> {
-        let seeded: [Five; 5] = std::array::from_fn(|i| {
-            let mut seeded = Dual::constant(at[i] * self.units[i]);
-            seeded.gradient[i] = self.units[i];
-            seeded
-        });
-        let [r, y1, y2, ..] = seeded;
-        let Passage { end, margins, .. } = self.family.passage([r, y1, y2], &self.free(&seeded))?;
-        let nearest = margins.into_iter().min_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
-        let unit = Five::splat(self.units[0]);
-        Ok(nearest.map(|margin| (end, margin / unit)))
-    }
-
-    /// The return and the determinant of J + `shift` I.
-    ///
-    /// Derivatives: exact, by numbers whose derivatives have derivatives.
-    fn multiplier(&self, at: &[f64; 5], shift: f64) -> Result<([Five; 3], Five), Reason> {
-        let seeded: [Nested; 5] = std::array::from_fn(|i| {
-            let mut value = Dual::constant(at[i] * self.units[i]);
-            if i < PARAMETER {
-                value.gradient[i] = self.units[i];
-            }
-            let mut seeded = Dual::constant(value);
-            seeded.gradient[i] = Dual::constant(self.units[i]);
-            seeded
-        });
-        let [r, y1, y2, ..] = seeded;
-        let Passage { end, .. } = self.family.passage([r, y1, y2], &self.free(&seeded))?;
-        let inside = |i: usize, part: fn(&Dual<f64, 3>, usize) -> f64, j: usize| Dual {
-            value: part(&end[i].value, j),
-            gradient: end[i].gradient.map(|along| part(&along, j)),
-        };
-        let m: [[Five; 3]; 3] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                let slope = inside(i, |dual, j| dual.gradient[j], j);
-                let diagonal = if i == j { shift } else { 0.0 };
-                slope / Five::splat(self.units[i]) + Five::splat(diagonal)
-            })
-        });
-        let minor = |a: usize, b: usize| m[1][a] * m[2][b] - m[1][b] * m[2][a];
-        let determinant = m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1);
-        Ok((std::array::from_fn(|i| inside(i, |dual, _| dual.value, 0)), determinant))
-    }
-}
-
-impl Equations<5> for Locus {
-    type Seen = ();
-
-    fn at(&self, at: &[f64; 5]) -> Result<Linear<5, ()>, Reason> {
-        let allowed = |(place, parameter): (usize, Parameter)| {
-            parameter.allowed().admits(at[place] * self.units[place])
-        };
-        if ![(PARAMETER, self.free[0]), (SECOND, self.free[1])].into_iter().all(allowed) {
-            return Err(Reason::NotFinite);
-        }
-        let (end, test) = match self.kind {
-            SpecialKind::Fold => self.multiplier(at, -1.0)?,
-            SpecialKind::PeriodDoubling => self.multiplier(at, 1.0)?,
-            _ => self.grazing(at)?.ok_or(Reason::NotFinite)?,
-        };
-        let (mut residual, mut rows) = ([0.0; 5], [[0.0; 5]; 5]);
-        for (i, end) in end.iter().enumerate() {
-            residual[i] = (end.value - at[i] * self.units[i]) / self.units[i];
-            rows[i] = end.gradient.map(|part| part / self.units[i]);
-            rows[i][i] -= 1.0;
-        }
-        (residual[3], rows[3]) = (test.value, test.gradient);
-        Ok(Linear { residual, rows, seen: () })
-    }
-}
+/// A curve begins at its special point to within this, relative to each unknown.
+const AT_SPECIAL: f64 = 1e-9;
+/// Points of a curve closer together than this are one.
+const ONE: f64 = 1e-12;
+/// A step across an orbit of half the period is shortened to this share of the longest.
+const ACROSS: f64 = 0.03;
 
 /// A curve with the orbits on it.
 #[derive(Debug, Clone)]
 pub struct Trace {
-    kind: SpecialKind,
-    period: u64,
+    locus: Locus,
     through: (usize, usize),
-    units: [f64; 5],
     points: Vec<[f64; 5]>,
+    ends: [End; 2],
 }
 
 impl Trace {
     /// What is kept of it.
     pub fn curve(&self) -> Curve {
-        let value = |at: &[f64; 5]| [PARAMETER, SECOND].map(|i| at[i] * self.units[i]);
+        let value = |at: &[f64; 5]| [PARAMETER, SECOND].map(|i| at[i] * self.locus.units[i]);
         let points = self.points.iter().map(value).collect();
-        Curve { kind: self.kind, through: self.through, period: self.period, points }
+        let (kind, period) = (self.locus.kind, self.locus.family.period);
+        Curve { kind, through: self.through, period, points, ends: self.ends }
     }
 
-    /// Whether it comes by a point.
-    fn passes(&self, point: &[f64; 5]) -> bool {
-        self.points.windows(2).any(|ends| {
-            let step = between(&ends[0], &ends[1]);
-            let toward = between(&ends[0], point);
-            let share = dot(&step, &toward) / dot(&step, &step);
-            let aside = norm(&between(&moved(&ends[0], share, &step), point));
-            (0.0..=1.0).contains(&share) && aside <= SAME * norm(&step)
-        })
+    /// Whether it goes through an orbit, from whichever of its section points.
+    fn passes(&self, station: &LocusStation) -> bool {
+        let images = self.locus.images(station);
+        let through = |ends: &[[f64; 5]], at| passes(&self.locus, [&ends[0], &ends[1]], at);
+        self.points.windows(2).any(|ends| images.iter().any(|image| through(ends, &image.at)))
     }
 }
 
-/// The curve in two parameters through a special point of a branch; none for what is not followed, where no
-/// second parameter is asked for, or if one of the curves `before` goes through it.
+/// Whether special points of a kind are followed as curves.
+pub fn is_followed(kind: SpecialKind) -> bool {
+    matches!(kind, SpecialKind::Fold | SpecialKind::PeriodDoubling | SpecialKind::Grazing)
+}
+
+/// The number of the curve in two parameters through a special point of a branch, which is added to
+/// `traces` unless one of them goes through it already.
+///
+/// None for what is not followed, where no second parameter is asked for, and where the equations of the
+/// curve do not hold at the special point.
 pub fn trace(
     request: &Request,
     orbits: &Orbits,
     through: (usize, usize),
     special: &Special,
-    before: &[Trace],
-) -> Option<Trace> {
+    traces: &mut Vec<Trace>,
+) -> Option<usize> {
     let (second, range) = request.second?;
-    let followed = matches!(
-        special.kind,
-        SpecialKind::Fold | SpecialKind::PeriodDoubling | SpecialKind::Grazing
-    );
     let width = range[1] - range[0];
     let value = request.parameters[second];
     let inside = (range[0]..=range[1]).contains(&value) && width > 0.0;
-    if !followed || !inside || second == request.along {
+    if !is_followed(special.kind) || !inside || second == request.along {
         return None;
     }
     let [r, y1, y2, along] = orbits.units;
     let units = [r, y1, y2, along, width];
     let free = [request.along, second];
     let locus = Locus { family: orbits.family.clone(), free, units, kind: special.kind };
-    let (period, kind) = (orbits.family.period, special.kind);
-    let guess = guess(&locus, special, value)?;
-    let known =
-        |trace: &Trace| (trace.kind, trace.period) == (kind, period) && trace.passes(&guess);
-    if before.iter().any(known) {
-        return None;
+    let start = start(&locus, special, value)?;
+    let alike =
+        |trace: &Trace| (trace.locus.kind, trace.locus.period()) == (locus.kind, locus.period());
+    if let Some(known) = traces.iter().position(|trace| alike(trace) && trace.passes(&start)) {
+        return Some(known);
     }
     let bounds = Bounds::none()
         .with(PARAMETER, request.range.map(|end| end / along))
         .with(SECOND, range.map(|end| end / width));
-    let points = both_ways(&locus, request, &guess, bounds)?;
-    Some(Trace { kind, period, through, units, points })
+    let walk = Walk::new(bounds, request.longest_step);
+    let (points, ends) = both_ways(&locus, &start, walk, request.most_points);
+    traces.push(Trace { locus, through, points, ends });
+    Some(traces.len() - 1)
 }
 
-/// The unknowns at a special point.
-fn guess(locus: &Locus, special: &Special, second: f64) -> Option<[f64; 5]> {
+/// The special point as a point of its curve, with the tangent there.
+fn start(locus: &Locus, special: &Special, second: f64) -> Option<LocusStation> {
     let [r, y1, y2] = *special.point.section.first()?;
     let raw = [r, y1, y2, special.point.parameter, second];
-    Some(std::array::from_fn(|i| raw[i] / locus.units[i]))
+    let at: [f64; 5] = std::array::from_fn(|i| raw[i] / locus.units[i]);
+    let plane = Plane::fixing(SECOND, at[SECOND]);
+    let (start, _) = corrected(locus, &plane, &at, &plane.normal)?;
+    let away = between(&at, &start.at);
+    let near = |i: usize| away[i].abs() <= AT_SPECIAL * at[i].abs().max(1.0);
+    let tangent = tangent(start.rows, &plane.normal)?;
+    (0..5).all(near).then_some(Station { tangent, ..start })
 }
 
+/// The curve through an orbit from one end to the other, of so many points at most.
 fn both_ways(
     locus: &Locus,
-    request: &Request,
-    guess: &[f64; 5],
-    bounds: Bounds<5>,
-) -> Option<Vec<[f64; 5]>> {
-    let plane = Plane::fixing(SECOND, guess[SECOND]);
-    let (start, _) = corrected(locus, &plane, guess, &plane.normal)?;
-    let ahead = tangent(start.rows, &plane.normal)?;
-    let most = request.most_points / 2;
-    let way = |sign: f64| {
-        let start = Station { tangent: ahead.map(|part| sign * part), ..start.clone() };
-        one_way(locus, start, Walk::new(bounds, request.longest_step), most)
-    };
-    let (mut points, forward) = (way(-1.0), way(1.0));
+    start: &LocusStation,
+    walk: Walk<5>,
+    most: usize,
+) -> (Vec<[f64; 5]>, [End; 2]) {
+    let back = turned(start);
+    let (mut points, last, end) =
+        one_way(locus, &back, walk, most.div_ceil(2), &Goal::at(locus, &back));
+    if end == End::Closed {
+        return (points, [end; 2]);
+    }
+    // What closes farther round than one way goes meets the end of that way.
+    let left = most + 1 - points.len();
+    let goal = Goal::at(locus, &turned(&last));
+    let (forward, _, other_end) = one_way(locus, start, walk, left, &goal);
     points.reverse();
     points.extend(forward.into_iter().skip(1));
-    Some(points)
+    (points, if other_end == End::Closed { [other_end; 2] } else { [end, other_end] })
 }
 
-fn one_way(locus: &Locus, start: Station<5, ()>, mut walk: Walk<5>, most: usize) -> Vec<[f64; 5]> {
+/// A point of a curve, from which it leads the other way.
+fn turned(station: &LocusStation) -> LocusStation {
+    Station { tangent: station.tangent.map(|part| -part), ..station.clone() }
+}
+
+/// The curve from a point on along its tangent, its last point with the tangent, and why it ends.
+fn one_way(
+    locus: &Locus,
+    start: &LocusStation,
+    mut walk: Walk<5>,
+    most: usize,
+    goal: &Goal<5, Option<Touch>>,
+) -> (Vec<[f64; 5]>, LocusStation, End) {
     let mut points = vec![start.at];
-    let mut last = start;
+    let mut last = start.clone();
     while points.len() < most {
-        match walk.stride(locus, &last) {
-            Stride::Inside(next) => {
-                points.push(next.at);
-                last = next;
+        let stride = walk.stride(locus, &last);
+        let at_bound = matches!(stride, Stride::AtBound(_));
+        let (Stride::Inside(next) | Stride::AtBound(next)) = stride else {
+            let end = dead_end(locus, &last);
+            return (points, last, end);
+        };
+        if let Some(goal) = goal.met(locus, [&last, &next], points.len()) {
+            points.push(goal.at);
+            return (points, goal, End::Closed);
+        }
+        let step = norm(&between(&last.at, &next.at));
+        if comes_back(locus, &last, &next) {
+            // The curve turns where its orbits halve, which a short step comes near enough.
+            if step <= ACROSS * walk.longest {
+                return (points, last, End::Merged);
             }
-            Stride::AtBound(next) => {
-                points.push(next.at);
-                break;
-            }
-            Stride::Nowhere => break,
+            walk.next = 0.5 * step;
+            continue;
+        }
+        if step > ONE {
+            points.push(next.at);
+        }
+        last = next;
+        if at_bound {
+            return (points, last, End::Bound);
         }
     }
-    points
+    (points, last, End::MostPoints)
+}
+
+/// Why no step leads on from an orbit.
+fn dead_end(locus: &Locus, last: &LocusStation) -> End {
+    if locus.vanishes(last) {
+        End::Vanishes
+    } else if is_corner(locus, last) {
+        End::Corner
+    } else {
+        End::Stopped
+    }
+}
+
+/// Whether a curve passes an orbit of half the period and leads back as the other half of its orbits.
+///
+/// A grazing does not: half a period later another extremum touches.
+fn comes_back(locus: &Locus, from: &LocusStation, to: &LocusStation) -> bool {
+    locus.kind != SpecialKind::Grazing && locus.halves(&from.at, &to.at)
 }

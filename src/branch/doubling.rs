@@ -4,6 +4,7 @@ use crate::orbit::matrix::Matrix;
 
 use super::arclength::{Equations, Plane, Station, between, corrected, dot, moved, norm, unit};
 use super::orbits::{OrbitStation, Orbits, shifted};
+use super::periodic::Periodic;
 
 /// First steps off the branch that are tried, as shares of the longest.
 const FIRST_STEPS: [f64; 7] = [0.1, 0.03, 0.3, 0.01, 1e-3, 1e-4, 1e-5];

@@ -28,8 +28,23 @@ pub struct Passage<L> {
     pub end: [L; 3],
     /// Its events in order.
     pub events: Vec<EventKind>,
-    /// How far each local maximum of r is from the stop, above zero before it [m].
-    pub margins: Vec<L>,
+    /// The local extrema of r in order.
+    pub extrema: Vec<Extremum<L>>,
+}
+
+/// A local maximum or minimum of r: at the stop it is a grazing, from the open or the closed side.
+#[derive(Debug, Clone, Copy)]
+pub struct Extremum<L> {
+    /// How far it is from the stop, above zero before it [m].
+    pub margin: L,
+    /// When it is met after the section [cycles].
+    pub time: f64,
+}
+
+/// The extremum that is nearest to the stop.
+pub fn nearest<L: Lane>(extrema: &[Extremum<L>]) -> Option<&Extremum<L>> {
+    let away = |extremum: &Extremum<L>| extremum.margin.lane(0).abs();
+    extrema.iter().min_by(|a, b| away(a).total_cmp(&away(b)))
 }
 
 impl Family {
@@ -47,25 +62,32 @@ impl Family {
         };
         let system = Capsule::new(of, self.parameters.resistance, self.phase);
         let drive_period = L::splat(2.0 * PI) / of(Parameter::Omega);
-        let (mut events, mut margins) = (Vec::new(), Vec::new());
+        let (mut events, mut extrema, mut elapsed) = (Vec::new(), Vec::new(), 0.0);
         let delta = of(Parameter::Delta);
         let cycles = (drive_period, self.period);
         let end = returned_in(&system, point, cycles, self.tolerance, |step| {
             events.extend(EventKind::from_code(step.event.lane(0)));
-            maxima(&step.jet.r, step.length.lane(0), |r| margins.push(delta - r));
+            let length = step.length.lane(0);
+            turns(&step.jet.r, length, |time, r| {
+                let time = (elapsed + time) / drive_period.lane(0);
+                extrema.push(Extremum { margin: delta - r, time });
+            });
+            elapsed += length;
         })?;
-        Ok(Passage { end, events, margins })
+        Ok(Passage { end, events, extrema })
     }
 }
 
-/// Shows the local maxima of `r` during a step.
-fn maxima<L: Lane>(r: &Series<L>, length: f64, mut found: impl FnMut(L)) {
+/// Shows the local extrema of `r` during a step, each with its time.
+fn turns<L: Lane>(r: &Series<L>, length: f64, mut found: impl FnMut(f64, L)) {
     let rate = series::derivative(&std::array::from_fn(|k| r[k].lane(0)));
-    crossings(&rate, length, |time, falls| {
-        if falls {
-            found(series::value(r, L::splat(time)));
-        }
-    });
+    crossings(&rate, length, |time, _| found(time, series::value(r, L::splat(time))));
+}
+
+/// How far two times of a motion of this period are apart, the other way round too.
+pub fn apart(a: f64, b: f64, period: u64) -> f64 {
+    let apart = (a - b).rem_euclid(period as f64);
+    apart.min(period as f64 - apart)
 }
 
 /// The sequence of events, begun where it is least: the same wherever on the orbit the section lies.

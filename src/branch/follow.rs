@@ -2,17 +2,18 @@
 //! curves.
 
 use crate::model::{Capsule, EventKind, Switching};
-use crate::orbit::{Output, Outputs, over_cycles};
+use crate::orbit::{Output, Outputs, Section, over_cycles};
 
 use super::arclength::{Plane, corrected, tangent};
 use super::curve::{Trace, trace};
 use super::doubling::doubled;
 use super::family::Family;
 use super::orbits::{OrbitStation, Orbits, PARAMETER};
+use super::periodic::{Goal, Periodic};
 use super::scales::units;
 use super::walk::{Bounds, Walk};
 use super::way::Way;
-use super::{Branch, Found, NotFollowed, Point, Request, Special, SpecialKind};
+use super::{Branch, End, Found, NotFollowed, Point, Request, Special, SpecialKind};
 
 /// Cycles after which Newton's method is tried again from where the motion then is.
 const APPROACH: u64 = 4;
@@ -26,6 +27,8 @@ struct Followed {
     orbits: Orbits,
     level: u32,
     way: Way,
+    /// Why it begins where it does.
+    beginning: End,
 }
 
 /// Follows a branch of periodic orbits both ways from the one that is given, and what leaves it.
@@ -35,8 +38,8 @@ pub fn follow(request: &Request) -> Result<Found, NotFollowed> {
     }
     let (orbits, first) = first_orbit(request)?;
     let mut found = Found::default();
-    let way = both_ways(request, &orbits, first);
-    let mut followed = vec![Followed { orbits, level: 0, way }];
+    let (way, beginning) = both_ways(request, &orbits, first);
+    let mut followed = vec![Followed { orbits, level: 0, way, beginning }];
     found.branches.push(branch(&followed[0], None));
     let mut next = 0;
     while next < followed.len() {
@@ -44,9 +47,10 @@ pub fn follow(request: &Request) -> Result<Found, NotFollowed> {
         next += 1;
     }
     let mut traces = Vec::new();
-    for (i, (branch, Followed { orbits, .. })) in found.branches.iter().zip(&followed).enumerate() {
-        for (j, special) in branch.special.iter().enumerate() {
-            traces.extend(trace(request, orbits, (i, j), special, &traces));
+    let branches = found.branches.iter_mut().zip(&followed);
+    for (i, (branch, Followed { orbits, .. })) in branches.enumerate() {
+        for (j, special) in branch.special.iter_mut().enumerate() {
+            special.curve = trace(request, orbits, (i, j), special, &mut traces);
         }
     }
     found.curves = traces.iter().map(Trace::curve).collect();
@@ -64,10 +68,11 @@ fn leave(request: &Request, followed: &mut Vec<Followed>, parent: usize, found: 
         let orbits = &followed[parent].orbits;
         let Some((twice, first)) = doubled(orbits, &at, request.longest_step) else { continue };
         let mut way = Way::new(first.to_vec());
-        way.follow(&twice, &mut walk(request, &twice), request.most_points);
+        let goal = Goal::at(&twice, &way.stations[0]);
+        way.follow(&twice, &mut walk(request, &twice), request.most_points, &goal);
         way.merge(&twice, &doublings);
         doublings.retain(|(other, _)| Some(*other) != way.merged);
-        followed.push(Followed { orbits: twice, level, way });
+        followed.push(Followed { orbits: twice, level, way, beginning: End::Merged });
         let newest = followed.last().map(|followed| branch(followed, Some((parent, place))));
         found.branches.extend(newest);
     }
@@ -109,7 +114,13 @@ fn first_orbit(request: &Request) -> Result<(Orbits, OrbitStation), NotFollowed>
         let guess = orbits.unknowns(&section, value);
         if let Some((station, _)) = corrected(&orbits, &plane, &guess, &plane.normal) {
             orbits.family.period = least_period(&orbits, &station);
-            let met = corrected(&orbits, &plane, &station.at, &plane.normal);
+            // The guess may be far away: only the orbit knows the scale of its motion.
+            let points = orbits.section_points(&station.at);
+            let points: Vec<Section> = points.iter().map(|at| orbits.section(at)).collect();
+            let [r, y1, y2] = units(request, &points);
+            let section = orbits.section(&station.at);
+            orbits.units = [r, y1, y2, width];
+            let met = corrected(&orbits, &plane, &orbits.unknowns(&section, value), &plane.normal);
             return met.map(|(station, _)| (orbits, station)).ok_or(NotFollowed::NoOrbit);
         }
         let ahead = orbits.with_period(APPROACH * request.period).family;
@@ -128,28 +139,39 @@ fn least_period(orbits: &Orbits, station: &OrbitStation) -> u64 {
     (1..period).filter(|part| period.is_multiple_of(*part)).find(repeats).unwrap_or(period)
 }
 
-/// The branch through an orbit, down to the lesser end first.
-fn both_ways(request: &Request, orbits: &Orbits, first: OrbitStation) -> Way {
+/// The branch through an orbit, down to the lesser end first, and why it begins there.
+fn both_ways(request: &Request, orbits: &Orbits, first: OrbitStation) -> (Way, End) {
     let most = request.most_points.div_ceil(2);
     let mut rising = [0.0; 4];
     rising[PARAMETER] = 1.0;
     let ahead = tangent(first.rows, &rising).unwrap_or(rising);
-    let leaving = |sign: f64| {
-        let start = OrbitStation { tangent: ahead.map(|part| sign * part), ..first.clone() };
+    let turned = |station: &OrbitStation, ahead: [f64; 4], sign: f64| OrbitStation {
+        tangent: ahead.map(|part| sign * part),
+        ..station.clone()
+    };
+    let leaving = |start: OrbitStation, most: usize, goal: &OrbitStation| {
         let mut way = Way::new(vec![start]);
-        way.follow(orbits, &mut walk(request, orbits), most);
+        way.follow(orbits, &mut walk(request, orbits), most, &Goal::at(orbits, goal));
         way
     };
-    let downward = leaving(-1.0);
-    if downward.closed {
-        return downward;
-    }
-    joined(downward, leaving(1.0))
+    let start = turned(&first, ahead, -1.0);
+    let downward = leaving(start.clone(), most, &start);
+    let end = downward.end;
+    let Some(last) = downward.stations.last().filter(|_| end != End::Closed) else {
+        return (downward, end);
+    };
+    // What closes farther round than one way goes meets the end of that way.
+    let goal = turned(last, last.tangent, -1.0);
+    let left = request.most_points + 1 - downward.stations.len();
+    let upward = leaving(turned(&first, ahead, 1.0), left, &goal);
+    let beginning = if upward.end == End::Closed { End::Closed } else { end };
+    (joined(downward, upward), beginning)
 }
 
 /// Two ways from one orbit as one, the first turned round.
 fn joined(mut downward: Way, upward: Way) -> Way {
     let last = downward.stations.len() - 1;
+    downward.end = upward.end;
     downward.stations.reverse();
     downward.happenings.reverse();
     for (after, _) in &mut downward.happenings {
@@ -171,9 +193,11 @@ fn branch(followed: &Followed, parent: Option<(usize, usize)>) -> Branch {
         kind: happening.kind,
         after: *after,
         point: point(orbits, &happening.station, &mut sequences),
+        curve: None,
     });
     let special = special.collect();
-    Branch { period: orbits.family.period, parent, points, special }
+    let ends = [followed.beginning, way.end];
+    Branch { period: orbits.family.period, parent, points, special, ends }
 }
 
 /// An orbit with what the plain motion from it costs and yields.

@@ -7,13 +7,16 @@ mod curve;
 mod doubling;
 mod family;
 mod follow;
+mod locus;
 pub mod natural;
 mod orbits;
+mod periodic;
 mod scales;
 mod special;
 mod walk;
 mod way;
 
+pub use curve::is_followed;
 pub use follow::follow;
 
 use crate::model::{Parameter, Parameters};
@@ -99,6 +102,40 @@ pub struct Special {
     pub after: usize,
     /// The orbit there.
     pub point: Point,
+    /// The curve in two parameters that goes through it.
+    pub curve: Option<usize>,
+}
+
+/// Why a branch or a curve ends where it does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// A parameter is at an end of its range.
+    Bound = 0,
+    /// It has come back to where it began, and has no ends.
+    Closed,
+    /// It runs into an orbit of half its period.
+    Merged,
+    /// It has as many points as it may have.
+    MostPoints,
+    /// The return map has a kink or a jump there, and beyond it no orbit goes on.
+    Corner,
+    /// The maximum of r that touches the stop meets a minimum there, and both vanish.
+    Vanishes,
+    /// It could not be followed further.
+    Stopped,
+}
+
+impl End {
+    /// Every reason by its name in files, in the order of declaration.
+    pub const NAMES: [(&str, End); 7] = [
+        ("edge-of-range", End::Bound),
+        ("closed", End::Closed),
+        ("half-period", End::Merged),
+        ("most-points", End::MostPoints),
+        ("corner", End::Corner),
+        ("touch-vanishes", End::Vanishes),
+        ("stopped", End::Stopped),
+    ];
 }
 
 /// A branch of periodic orbits, from one end to the other.
@@ -112,6 +149,8 @@ pub struct Branch {
     pub points: Vec<Point>,
     /// Its special points in order.
     pub special: Vec<Special>,
+    /// Why it ends at its first orbit and at its last.
+    pub ends: [End; 2],
 }
 
 /// A curve of special points in two parameters.
@@ -119,12 +158,14 @@ pub struct Branch {
 pub struct Curve {
     /// What happens on it.
     pub kind: SpecialKind,
-    /// The branch and the special point that it goes through.
+    /// The branch and the special point that it was followed from.
     pub through: (usize, usize),
     /// Period of the orbits on it [cycles].
     pub period: u64,
     /// Values of the followed and of the second parameter, in order.
     pub points: Vec<[f64; 2]>,
+    /// Why it ends at its first point and at its last.
+    pub ends: [End; 2],
 }
 
 /// What was found.

@@ -5,8 +5,9 @@ use crate::model::{EventKind, Parameter};
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 use crate::orbit::{Reason, Section};
 
-use super::arclength::{Equations, Linear, Station, norm};
-use super::family::{Family, cyclic};
+use super::arclength::{Equations, Linear, Station};
+use super::family::{Family, cyclic, nearest};
+use super::periodic::Periodic;
 
 /// Place of the parameter among the unknowns r, y1, y2 and parameter.
 pub const PARAMETER: usize = 3;
@@ -22,8 +23,6 @@ pub struct Orbits {
     pub units: [f64; 4],
 }
 
-/// Half a period leads this far from where it began, or the orbit has half the period.
-const HALVES: f64 = 1e-8;
 /// Where the return map is steeper than this, rounding makes too much of an orbit to follow it.
 const STEEPEST: f64 = 1e3;
 
@@ -34,9 +33,9 @@ pub struct Seen {
     pub jacobian: Matrix<3>,
     /// Its cyclic sequence of events.
     pub events: Vec<EventKind>,
-    /// Distance of each local maximum of r from the stop in units of r, with its derivatives along the
-    /// unknowns.
-    pub margins: Vec<Dual<f64, 4>>,
+    /// Distance of the local extremum of r that is nearest to the stop from it in units of r, with its
+    /// derivatives along the unknowns.
+    pub margin: Option<Dual<f64, 4>>,
 }
 
 /// An orbit on a branch.
@@ -60,21 +59,8 @@ impl Orbits {
         std::array::from_fn(|i| raw[i] / self.units[i])
     }
 
-    /// How far the return is from a point, in units of the section.
-    pub fn displacement(&self, at: &[f64; 4]) -> Option<[f64; 3]> {
-        let section = self.section(at);
-        let passage = self.family.passage(section, &[(self.along, self.parameter(at))]).ok()?;
-        Some(std::array::from_fn(|i| (passage.end[i] - section[i]) / self.units[i]))
-    }
-
-    /// How far an orbit moves in half its period, in units of the section; none for an odd period.
-    pub fn halfway(&self, at: &[f64; 4]) -> Option<[f64; 3]> {
-        let even = self.family.period.is_multiple_of(2);
-        even.then(|| self.with_period(self.family.period / 2).displacement(at))?
-    }
-
     /// The unknowns at every section point of an orbit, in order.
-    pub fn images(&self, at: &[f64; 4]) -> Vec<[f64; 4]> {
+    pub fn section_points(&self, at: &[f64; 4]) -> Vec<[f64; 4]> {
         let once = self.with_period(1);
         let next = |at: &[f64; 4]| {
             let [r, y1, y2] = once.displacement(at)?;
@@ -82,12 +68,23 @@ impl Orbits {
         };
         std::iter::successors(Some(*at), next).take(self.family.period as usize).collect()
     }
+}
 
-    /// The same with another period.
-    pub fn with_period(&self, period: u64) -> Orbits {
+impl Periodic<4> for Orbits {
+    fn period(&self) -> u64 {
+        self.family.period
+    }
+
+    fn with_period(&self, period: u64) -> Orbits {
         let mut orbits = self.clone();
         orbits.family.period = period;
         orbits
+    }
+
+    fn displacement(&self, at: &[f64; 4]) -> Option<[f64; 3]> {
+        let section = self.section(at);
+        let passage = self.family.passage(section, &[(self.along, self.parameter(at))]).ok()?;
+        Some(std::array::from_fn(|i| (passage.end[i] - section[i]) / self.units[i]))
     }
 }
 
@@ -113,17 +110,17 @@ impl Equations<4> for Orbits {
             rows[i][i] -= 1.0;
         }
         let in_unit = |part: f64| part / self.units[0];
-        let margins = passage.margins.iter().map(|margin| Dual {
-            value: in_unit(margin.value),
-            gradient: margin.gradient.map(in_unit),
+        let margin = nearest(&passage.extrema).map(|extremum| Dual {
+            value: in_unit(extremum.margin.value),
+            gradient: extremum.margin.gradient.map(in_unit),
         });
-        let seen = Seen { jacobian, events: cyclic(&passage.events), margins: margins.collect() };
+        let seen = Seen { jacobian, events: cyclic(&passage.events), margin };
         Ok(Linear { residual, rows, seen })
     }
 
-    fn belongs(&self, station: &OrbitStation) -> bool {
-        let steep = station.seen.jacobian.iter().flatten().any(|slope| slope.abs() > STEEPEST);
-        !steep && self.halfway(&station.at).is_none_or(|apart| norm(&apart) > HALVES)
+    fn belongs(&self, _: &OrbitStation, met: &OrbitStation) -> bool {
+        let steep = met.seen.jacobian.iter().flatten().any(|slope| slope.abs() > STEEPEST);
+        !steep && self.is_whole(&met.at)
     }
 }
 
@@ -151,11 +148,6 @@ impl Seen {
     /// How often contact closes in a period.
     pub fn impacts(&self) -> usize {
         self.events.iter().filter(|&&kind| kind == EventKind::ContactClosed).count()
-    }
-
-    /// The local maximum of r that is nearest to the stop.
-    pub fn nearest_margin(&self) -> Option<Dual<f64, 4>> {
-        self.margins.iter().copied().min_by(|a, b| a.value.abs().total_cmp(&b.value.abs()))
     }
 }
 

@@ -8,8 +8,8 @@ use super::Request;
 
 /// Units of r, y1 and y2.
 ///
-/// A velocity counts relative to the largest of the first orbit's and of what the mass would have if it swung
-/// linearly at the ends of the range; a displacement r counts as omega r.
+/// A velocity counts relative to the largest of those at the section points `first` and of what the mass
+/// would have if it swung linearly at the ends of the range; a displacement r counts as omega r.
 pub fn units(request: &Request, first: &[Section]) -> [f64; 3] {
     let omega = request.parameters[Parameter::Omega];
     let swung = request.range.map(|value| {

@@ -88,12 +88,13 @@ fn changed(
     Happening { kind, distance: arc.place(&station).0, station }
 }
 
-/// The orbit near another whose nearest local maximum of r lies on the stop.
+/// The orbit near another whose nearest local extremum of r lies on the stop: a maximum where contact
+/// begins, a minimum where contact opens.
 ///
 /// Method: Newton's on the orbit and that margin together, whose derivatives are exact and continuous there.
 fn grazed(orbits: &Orbits, near: &OrbitStation) -> Option<OrbitStation> {
     let margin = |_: &[f64; 4], seen: &Seen| {
-        let nearest = seen.nearest_margin()?;
+        let nearest = seen.margin?;
         Some((nearest.value, nearest.gradient))
     };
     let (station, _) = corrected_by(orbits, margin, &near.at, &near.tangent)?;

@@ -115,7 +115,7 @@ impl<const U: usize> Walk<U> {
         if self.bounds.passed(&from.at, &predicted).is_none() {
             let plane = Plane::through(&predicted, from.tangent);
             let (met, taken) = corrected(equations, &plane, &predicted, &from.tangent)?;
-            if !self.is_near(from, &predicted, &met, length) || !equations.belongs(&met) {
+            if !self.is_near(from, &predicted, &met, length) || !equations.belongs(from, &met) {
                 return None;
             }
             if self.bounds.passed(&from.at, &met.at).is_none() {
@@ -127,7 +127,7 @@ impl<const U: usize> Walk<U> {
         let plane = Plane::fixing(unknown, bound);
         let (mut met, taken) = corrected(equations, &plane, &guess, &from.tangent)?;
         met.at[unknown] = bound;
-        let near = self.is_near(from, &guess, &met, length) && equations.belongs(&met);
+        let near = self.is_near(from, &guess, &met, length) && equations.belongs(from, &met);
         near.then_some((Stride::AtBound(met), taken))
     }
 

@@ -3,10 +3,10 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::branch::{Branch, Curve, Found, Special, SpecialKind};
+use crate::branch::{Branch, Curve, End, Found, Special, SpecialKind, is_followed};
 use crate::model::Parameter;
 use crate::orbit::Output;
-use crate::sweep::{Continuation, Followed, Study};
+use crate::sweep::{Continuation, FirstOrbit, Followed, Study};
 
 /// What came of the branches of `study`, and which file keeps it.
 pub fn summary(study: &Study, followed: &[Followed], output: &Path, seconds: f64) -> String {
@@ -33,6 +33,12 @@ fn tell_found(text: &mut String, continuation: &Continuation, found: &Found) {
             let at = found.branches[parent].special[special].point.parameter;
             format!(", left branch {} at {}", parent + 1, quantity(*along, at))
         });
+        let from = from.or_else(|| match continuation.first {
+            FirstOrbit::Newton { period } if period != branch.period => {
+                Some(format!(", though {period} was asked for"))
+            }
+            _ => None,
+        });
         let number = match found.branches.len() {
             1 => String::new(),
             _ => format!(", branch {}", number + 1),
@@ -46,9 +52,28 @@ fn tell_found(text: &mut String, continuation: &Continuation, found: &Found) {
         tell_branch(text, *along, branch);
     }
     for curve in &found.curves {
-        let Curve { kind, period, points, .. } = curve;
-        let name = kind_name(*kind);
-        let _ = writeln!(text, "  curve of {name}, period {period}: {} points", points.len());
+        let Curve { kind, period, points, ends, .. } = curve;
+        let (name, points) = (kind_name(*kind), points.len());
+        let ends = told_ends(*ends);
+        let _ = writeln!(text, "  curve of {name}, period {period}: {points} points{ends}");
+    }
+    if continuation.second.is_some() {
+        tell_without_curve(text, found);
+    }
+}
+
+/// How many special points of which kind no curve goes through.
+fn tell_without_curve(text: &mut String, found: &Found) {
+    let specials = || found.branches.iter().flat_map(|branch| &branch.special);
+    let counts = SpecialKind::NAMES.iter().filter_map(|(name, kind)| {
+        let ours = |it: &&Special| it.kind == *kind && it.curve.is_none();
+        let never = if is_followed(*kind) { "" } else { " (never followed)" };
+        let count = specials().filter(ours).count();
+        (count > 0).then(|| format!("{count} {name}{never}"))
+    });
+    let counts: Vec<String> = counts.collect();
+    if !counts.is_empty() {
+        let _ = writeln!(text, "  no curve through {}", counts.join(", "));
     }
 }
 
@@ -82,17 +107,47 @@ fn tell_branch(text: &mut String, along: Parameter, branch: &Branch) {
     }
 }
 
-/// From where to where a branch leads; one that ends where it began is closed.
+/// What is said of two ends; nothing of those at the edge of the range.
+fn told_ends(ends: [End; 2]) -> String {
+    if ends.contains(&End::Closed) {
+        return ", closed".to_owned();
+    }
+    match ends.map(end_words) {
+        [Some(first), Some(last)] if first == last => format!(", both ends {first}"),
+        [first, last] => {
+            let told = [("first", first), ("last", last)].map(|(which, words)| {
+                words.map_or(String::new(), |words| format!(", {which} end {words}"))
+            });
+            told.concat()
+        }
+    }
+}
+
+/// Why an end is none of the range's.
+fn end_words(end: End) -> Option<&'static str> {
+    match end {
+        End::Bound | End::Closed => None,
+        End::Merged => Some("at an orbit of half the period"),
+        End::MostPoints => Some("where `most_points` is reached"),
+        End::Corner => Some("at a corner of the return map"),
+        End::Vanishes => Some("where its touch of the stop vanishes"),
+        End::Stopped => Some("where it cannot be followed further"),
+    }
+}
+
+/// From where to where a branch leads, and why it ends there.
 fn reach(along: Parameter, branch: &Branch) -> String {
     let values = branch.points.iter().map(|point| point.parameter);
     let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
         (least.min(value), most.max(value))
     });
     let [first, .., last] = &branch.points[..] else { return "a single orbit".to_owned() };
-    let closed = (first.parameter, &first.section) == (last.parameter, &last.section);
+    let closed = branch.ends.contains(&End::Closed);
     let (from, to) = if closed { (least, most) } else { (first.parameter, last.parameter) };
-    let ends = format!("from {} to {}", quantity(along, from), quantity(along, to));
-    if closed { format!("{ends}, closed") } else { ends }
+    // Where a branch left another is told above.
+    let left = if branch.parent.is_some() { End::Bound } else { branch.ends[0] };
+    let ends = told_ends([left, branch.ends[1]]);
+    format!("from {} to {}{ends}", quantity(along, from), quantity(along, to))
 }
 
 fn kind_name(kind: SpecialKind) -> &'static str {
@@ -140,6 +195,9 @@ name = \"a\"
 along = \"p_d\"
 from = \"1 N\"
 to = \"5 N\"
+orbit = \"newton\"
+period = 2
+second = { name = \"k2\", from = \"1 kN/m\", to = \"5 kN/m\" }
 [[branches]]
 name = \"b\"
 along = \"p_d\"
@@ -165,17 +223,32 @@ to = \"5 N\"
     #[test]
     fn branches_are_told_with_their_ends_and_changes() {
         let study = Study::parse("study.toml", STUDY).expect("a study");
-        let fold =
-            Special { kind: SpecialKind::Fold, after: 1, point: point(4.123_456_789_123, 1.0) };
+        let special =
+            |kind, curve| Special { kind, after: 1, point: point(4.123_456_789_123, 1.0), curve };
+        let others = [SpecialKind::Grazing, SpecialKind::EventSequence, SpecialKind::EventSequence];
+        let others = others.map(|kind| special(kind, None));
         let points = vec![point(1.0, 0.5), point(4.0, 0.9), point(3.0, 1.2)];
-        let branch = Branch { period: 1, parent: None, points, special: vec![fold] };
+        let branch = Branch {
+            period: 1,
+            parent: None,
+            points,
+            special: vec![special(SpecialKind::Fold, Some(0))],
+            ends: [End::Bound, End::Corner],
+        };
         let around = [2.0, 3.0, 2.0, 1.5, 2.0].map(|at| point(at, 0.5)).to_vec();
-        let ring = Branch { period: 2, parent: None, points: around, special: Vec::new() };
+        let ring = Branch {
+            period: 2,
+            parent: None,
+            points: around,
+            special: others.to_vec(),
+            ends: [End::Closed; 2],
+        };
         let curve = Curve {
             kind: SpecialKind::Fold,
             through: (0, 0),
             period: 1,
             points: vec![[4.0, 1.0]; 7],
+            ends: [End::MostPoints; 2],
         };
         let found = Found { branches: vec![branch, ring], curves: vec![curve] };
         let followed = [Ok(found), Err(Unfollowed::NoOrbit)];
@@ -183,14 +256,19 @@ to = \"5 N\"
         let expected = "\
 a.h5: 2 branches, 8 points in 2.0 s
 
-a, branch 1: period 1
-  3 points, 2 stable, 1 unstable, from 1 N to 3 N
+a, branch 1: period 1, though 2 was asked for
+  3 points, 2 stable, 1 unstable, from 1 N to 3 N, last end at a corner of the return map
                             p_d [N]  period   speed [mm/s]
   fold                  4.123456789       1      12.500000
 
 a, branch 2: period 2
   5 points, 5 stable, 0 unstable, from 1.5 N to 3 N, closed
-  curve of fold, period 1: 7 points
+                            p_d [N]  period   speed [mm/s]
+  grazing               4.123456789       2      12.500000
+  event-sequence        4.123456789       2      12.500000
+  event-sequence        4.123456789       2      12.500000
+  curve of fold, period 1: 7 points, both ends where `most_points` is reached
+  no curve through 1 grazing, 2 event-sequence (never followed)
 
 b: not followed: no periodic orbit was found near the start; give one closer to it
 ";

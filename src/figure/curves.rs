@@ -23,8 +23,8 @@ struct Curve {
     /// Period of the orbits on it.
     period: u64,
     points: Vec<(f64, f64)>,
-    /// The special point that it goes through.
-    through: (f64, f64),
+    /// The special points that it goes through.
+    specials: Vec<(f64, f64)>,
 }
 
 /// Draws the curves that `view` asks for.
@@ -32,7 +32,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let axes = axes(view)?;
     let curves = curves(view, &axes);
     let range = |of: fn(&(f64, f64)) -> f64| {
-        let places = curves.iter().flat_map(|curve| curve.points.iter().chain([&curve.through]));
+        let places = curves.iter().flat_map(|curve| curve.points.iter().chain(&curve.specials));
         places.map(of).collect::<Vec<f64>>()
     };
     let axis = |name: &str, values: Vec<f64>| {
@@ -92,11 +92,11 @@ fn curves(view: &View<'_>, axes: &[String; 2]) -> Vec<Curve> {
     let values = [0, 1].map(|i| (rows(&format!("curve_{}", axes[i])), view.quantity(&axes[i])));
     let at_special = [0, 1]
         .map(|i| [rows(&format!("special_{}", axes[i])), rows(&format!("request_{}", axes[i]))]);
+    let on_curve = rows("special_curve");
     let flags = dataset.variable("curve_kind").map_or(&[][..], |variable| &variable.flags);
     let curve = |places: Vec<usize>| {
         let first = *places.first()?;
-        let special = through.one(first) as usize;
-        let asked = request.one(branch.one(special) as usize) as usize;
+        let asked = request.one(branch.one(through.one(first) as usize) as usize) as usize;
         let name = flags.iter().find(|(code, _)| *code as f64 == kind.one(first));
         let place = |at: usize| {
             let [x, y] = [0, 1].map(|i| values[i].0.one(at) * values[i].1.factor);
@@ -106,13 +106,17 @@ fn curves(view: &View<'_>, axes: &[String; 2]) -> Vec<Curve> {
         let within = fits.get(asked).copied().unwrap_or(false);
         let drawn = within && points.iter().all(|(x, y)| x.is_finite() && y.is_finite());
         // What is not followed at the special point has the value of the request.
-        let [x, y] = [0, 1].map(|i| {
-            let [own, given] = [at_special[i][0].one(special), at_special[i][1].one(asked)];
-            (if own.is_finite() { own } else { given }) * values[i].1.factor
-        });
+        let special = |special: usize| {
+            let [x, y] = [0, 1].map(|i| {
+                let [own, given] = [at_special[i][0].one(special), at_special[i][1].one(asked)];
+                (if own.is_finite() { own } else { given }) * values[i].1.factor
+            });
+            (x, y)
+        };
+        let specials = on_curve.places(number.one(first) as usize).into_iter().map(special);
         let symbol = Symbol::named(&name?.1)?;
         let period = period.one(first) as u64;
-        drawn.then_some(Curve { symbol, period, points, through: (x, y) })
+        drawn.then(|| Curve { symbol, period, points, specials: specials.collect() })
     };
     let all = (0..).map(|it| number.places(it)).take_while(|places| !places.is_empty());
     all.filter_map(curve).collect()
@@ -161,7 +165,7 @@ fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
         }
     }
     for curve in curves {
-        draw_symbols(canvas, panel, curve.symbol, [curve.through].into_iter());
+        draw_symbols(canvas, panel, curve.symbol, curve.specials.iter().copied());
     }
     panel.finish(canvas);
 }

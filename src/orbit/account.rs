@@ -55,6 +55,8 @@ pub struct Account {
     pub peak_contact_force: f64,
     /// Least distance between a local maximum of r and the stop [m]; infinite while there is none.
     pub grazing_margin: f64,
+    /// The same of any local extremum: in a minimum, contact that lasts is about to open [m].
+    pub touching_margin: f64,
     /// How often contact closed.
     pub impacts: u64,
     /// How often the capsule began to slide forward, by onset or by reversal.
@@ -80,6 +82,7 @@ impl Account {
             stick_time: 0.0,
             peak_contact_force: 0.0,
             grazing_margin: f64::INFINITY,
+            touching_margin: f64::INFINITY,
             impacts: 0,
             forward_slips: 0,
             backward_slips: 0,
@@ -139,28 +142,28 @@ impl Account {
         }
     }
 
-    /// Looks at the local maxima of r, which hold the peak force and the margin to grazing.
+    /// Looks at the local extrema of r, which hold the margins, and the maxima the peak force.
     fn add_extremes<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
         let r = &system.motion(&step.jet).r;
         let rate = series::derivative(r);
         // The printed equation lets r turn with a corner, between two steps.
-        if self.rate_of_r > 0.0 && rate[0] < 0.0 {
-            self.meet_maximum(r[0]);
+        if self.rate_of_r * rate[0] < 0.0 {
+            self.meet_extremum(r[0], rate[0] < 0.0);
         }
-        crossings(&rate, step.length, |t, falls| {
-            if falls {
-                self.meet_maximum(series::value(r, t));
-            }
-        });
+        crossings(&rate, step.length, |t, falls| self.meet_extremum(series::value(r, t), falls));
         self.rate_of_r = series::value(&rate, step.length);
         if system.contact(&step.mode) == Contact::Closed {
             self.meet_contact(r[0]);
         }
     }
 
-    fn meet_maximum(&mut self, r: f64) {
-        self.grazing_margin = self.grazing_margin.min((self.delta - r).abs());
-        self.meet_contact(r);
+    fn meet_extremum(&mut self, r: f64, is_maximum: bool) {
+        let margin = (self.delta - r).abs();
+        self.touching_margin = self.touching_margin.min(margin);
+        if is_maximum {
+            self.grazing_margin = self.grazing_margin.min(margin);
+            self.meet_contact(r);
+        }
     }
 
     fn meet_contact(&mut self, r: f64) {

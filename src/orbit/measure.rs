@@ -12,7 +12,7 @@ use super::{
     Outputs, Proof, Protocol, Section, Trajectory,
 };
 
-/// A maximum this near to the stop, relative to the motion, is taken for one that touches it.
+/// An extremum this near to the stop, relative to the motion, is taken for one that touches it.
 const GRAZES: f64 = 1e-9;
 
 /// What a case has been found to do.
@@ -254,7 +254,7 @@ fn seal(
     let gap = std::array::from_fn(|i| ends[i] - begins[i]);
     let gap = size(omega, &gap);
     let residual = if gap == 0.0 { 0.0 } else { gap / speed.max(verdict.size) };
-    let touches = omega * account.grazing_margin <= GRAZES * speed;
+    let touches = omega * account.touching_margin <= GRAZES * speed;
     Certificate { proof: if touches { Proof::Grazing } else { proof }, residual, multipliers }
 }
 

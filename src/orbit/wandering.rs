@@ -220,9 +220,9 @@ impl Wanderer {
 
 /// How far the means of two halves of a sequence differ, relative to `size`.
 ///
-/// Method: the weighted Birkhoff average of Das, Saiki, Sander and Yorke (2017), whose weights exp(-1/(t (1
-/// - t))) vanish smoothly at both ends: on a quasi-periodic orbit it converges faster than any power of the
-/// length, on a chaotic one with the inverse root of it.
+/// Method: the weighted Birkhoff average of Das, Saiki, Sander and Yorke (2017), whose weights
+/// exp(-1/(t (1 - t))) vanish smoothly at both ends: on a quasi-periodic orbit it converges faster than
+/// any power of the length, on a chaotic one with the inverse root of it.
 pub fn irregularity(points: &[Section], scales: &Section, size: f64) -> f64 {
     let (first, second) = points.split_at(points.len() / 2);
     let [a, b] = [first, second].map(smooth_mean);

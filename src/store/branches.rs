@@ -1,6 +1,6 @@
 //! Which variables the followed orbits have in a file of results, beside those of the sweep.
 
-use crate::branch::SpecialKind;
+use crate::branch::{End, SpecialKind};
 use crate::model::Parameter;
 use crate::orbit::{Outcome, Reason};
 use crate::sweep::{Continuation, Followed, Study, Unfollowed};
@@ -18,11 +18,14 @@ const BRANCH: &str = "branch_index";
 const POINT: &str = "branch_point";
 /// Dimension: the special points of all branches.
 const SPECIAL: &str = "special_point";
-/// Dimension: the points of all curves in two parameters.
-const CURVE: &str = "curve_point";
+/// Dimension: the curves in two parameters.
+const CURVE: &str = "curve_index";
+/// Dimension: the points of all curves.
+const CURVE_POINT: &str = "curve_point";
 
 /// The dimensions of the branches, none of which is an axis of a study.
-pub const DIMENSIONS: [&str; 7] = [REQUEST, BRANCH, POINT, CYCLE, MULTIPLIER, SPECIAL, CURVE];
+pub const DIMENSIONS: [&str; 8] =
+    [REQUEST, BRANCH, POINT, CYCLE, MULTIPLIER, SPECIAL, CURVE, CURVE_POINT];
 
 /// The text that names the branches of the study, one a line.
 pub const NAMES: &str = "branch_names";
@@ -68,7 +71,8 @@ pub fn add_branches(dataset: &mut Dataset, study: &Study, followed: &[Followed])
         (CYCLE, longest.max().unwrap_or(0), "drive cycle within the period"),
         (MULTIPLIER, 3, "Floquet multiplier, the largest magnitude first"),
         (SPECIAL, flat.specials.len(), "special point of the branches, one branch after the other"),
-        (CURVE, flat.curve_points.len(), "point of the curves, one curve after the other"),
+        (CURVE, flat.curves.len(), "curve in two parameters"),
+        (CURVE_POINT, flat.curve_points.len(), "point of the curves, one curve after the other"),
     ] {
         dataset.coordinates.push(coordinate(name, "1", meaning, count(length)));
     }
@@ -156,6 +160,23 @@ fn add_index(dataset: &mut Dataset, flat: &Flat<'_>) {
     columns.integers("index_parent", "branch that it left at a period doubling, or -1", parents);
     let specials = branches.iter().map(|branch| branch.parent.map_or(-1, |(_, special)| special));
     columns.integers("index_parent_special", "special point where it left, or -1", specials);
+    add_ends(&mut columns, "index", "branch", branches.iter().map(|branch| branch.ends));
+}
+
+/// Why each branch or curve ends where it does.
+fn add_ends(
+    columns: &mut Columns<'_>,
+    prefix: &str,
+    what: &str,
+    ends: impl Iterator<Item = [End; 2]> + Clone,
+) {
+    let reasons = || End::NAMES.map(|(name, end)| (end as i64, name.to_owned())).to_vec();
+    for (place, which) in ["first", "last"].into_iter().enumerate() {
+        let codes = ends.clone().map(|ends| ends[place] as i64);
+        let (name, meaning) =
+            (format!("{prefix}_end_{which}"), format!("why the {what} ends at its {which} point"));
+        columns.flags(&name, &meaning, codes, reasons());
+    }
 }
 
 fn kinds() -> Vec<(i64, String)> {
@@ -164,15 +185,20 @@ fn kinds() -> Vec<(i64, String)> {
 
 fn add_special_kinds(dataset: &mut Dataset, flat: &Flat<'_>) {
     let mut columns = Columns::new(dataset, SPECIAL);
-    let codes = flat.special_kinds.iter().map(|(kind, _)| *kind as i64);
+    let specials = &flat.special_kinds;
+    let codes = specials.iter().map(|special| special.kind as i64);
     columns.flags("special_kind", "what happens at the special point", codes, kinds());
-    let after = flat.special_kinds.iter().map(|(_, after)| *after as i64);
+    let after = specials.iter().map(|special| special.after as i64);
     columns.integers("special_after", "point of the branch that it comes after", after);
+    let curves = specials.iter().map(|special| special.curve.map_or(-1, |curve| curve as i64));
+    columns.integers("special_curve", "curve that goes through it, or -1", curves);
 }
 
 /// The curves in two parameters; a parameter that a curve does not vary is NaN on it.
 fn add_curves(dataset: &mut Dataset, study: &Study, flat: &Flat<'_>) {
     let mut columns = Columns::new(dataset, CURVE);
+    add_ends(&mut columns, "curve", "curve", flat.curves.iter().map(|curve| curve.ends));
+    let mut columns = Columns::new(dataset, CURVE_POINT);
     let curve = |at: &(usize, [f64; 2])| &flat.curves[at.0];
     let points = &flat.curve_points;
     columns.integers("curve", "curve in two parameters", points.iter().map(|it| it.0 as i64));
@@ -181,7 +207,7 @@ fn add_curves(dataset: &mut Dataset, study: &Study, flat: &Flat<'_>) {
     let periods = points.iter().map(|it| curve(it).period as i64);
     columns.integers("curve_period", "period of its orbits in drive cycles", periods);
     let through = points.iter().map(|it| curve(it).through as i64);
-    columns.integers("curve_through", "special point that it goes through", through);
+    columns.integers("curve_through", "special point that it was followed from", through);
     let asked = study.branches.iter().filter(|branch| branch.second.is_some());
     for parameter in parameters(asked.flat_map(Continuation::varied)) {
         let values = points.iter().map(|it| {

@@ -1,6 +1,6 @@
 //! The branches of a study one after another, as they lie in a file: what referred within one refers to all.
 
-use crate::branch::{Branch, Curve, SpecialKind};
+use crate::branch::{Branch, Curve, End, SpecialKind};
 use crate::model::Parameter;
 use crate::sweep::{Continuation, Followed};
 
@@ -16,6 +16,8 @@ pub struct FlatBranch {
     pub period: u64,
     /// The branch that it left, and the special point at which it did.
     pub parent: Option<(i64, i64)>,
+    /// Why it ends at its first orbit and at its last.
+    pub ends: [End; 2],
 }
 
 /// A curve among all, without its points.
@@ -24,10 +26,22 @@ pub struct FlatCurve {
     pub kind: SpecialKind,
     /// Period of the orbits on it [cycles].
     pub period: u64,
-    /// The special point that it goes through.
+    /// The special point that it was followed from.
     pub through: usize,
     /// The followed and the second parameter.
     pub varied: [Option<Parameter>; 2],
+    /// Why it ends at its first point and at its last.
+    pub ends: [End; 2],
+}
+
+/// What a special point is, beside its orbit.
+pub struct FlatSpecial {
+    /// What happens there.
+    pub kind: SpecialKind,
+    /// The point of the branch that it comes after.
+    pub after: usize,
+    /// The curve that goes through it.
+    pub curve: Option<usize>,
 }
 
 /// Everything that was found, in the order of the study.
@@ -39,8 +53,8 @@ pub struct Flat<'a> {
     pub points: Vec<Row<'a>>,
     /// Their special points.
     pub specials: Vec<Row<'a>>,
-    /// What each special point is, and the point that it comes after.
-    pub special_kinds: Vec<(SpecialKind, usize)>,
+    /// What each special point is.
+    pub special_kinds: Vec<FlatSpecial>,
     /// The curves.
     pub curves: Vec<FlatCurve>,
     /// Their points, each with the number of its curve.
@@ -61,8 +75,8 @@ impl<'a> Flat<'a> {
                 let parent = branch.parent.map(|(parent, special)| {
                     ((first_branch + parent) as i64, (begins[parent] + special) as i64)
                 });
-                let (along, period) = (continuation.along, branch.period);
-                flat.branches.push(FlatBranch { request, along, period, parent });
+                let (along, period, ends) = (continuation.along, branch.period, branch.ends);
+                flat.branches.push(FlatBranch { request, along, period, parent, ends });
                 flat.add_points(along, branch);
             }
             for curve in &found.curves {
@@ -77,16 +91,21 @@ impl<'a> Flat<'a> {
         let row = |point| Row { branch: number, along, period: branch.period, point };
         self.points.extend(branch.points.iter().map(row));
         self.specials.extend(branch.special.iter().map(|special| row(&special.point)));
-        let kinds = branch.special.iter().map(|special| (special.kind, first + special.after));
-        self.special_kinds.extend(kinds);
+        // The curves of a request follow its branches.
+        let curves = self.curves.len();
+        self.special_kinds.extend(branch.special.iter().map(|special| FlatSpecial {
+            kind: special.kind,
+            after: first + special.after,
+            curve: special.curve.map(|curve| curves + curve),
+        }));
     }
 
     fn add_curve(&mut self, continuation: &Continuation, curve: &Curve, through: usize) {
         let number = self.curves.len();
         let second = continuation.second.map(|(parameter, _)| parameter);
         let varied = [Some(continuation.along), second];
-        let Curve { kind, period, .. } = *curve;
-        self.curves.push(FlatCurve { kind, period, through, varied });
+        let Curve { kind, period, ends, .. } = *curve;
+        self.curves.push(FlatCurve { kind, period, through, varied, ends });
         self.curve_points.extend(curve.points.iter().map(|&point| (number, point)));
     }
 }

@@ -142,8 +142,8 @@ fn an_attractor_that_no_start_shows_in_between_keeps_its_number() {
     assert_eq!((linked.into_inner(), sweep::links(&study)), (80, 80));
     let seen: Vec<usize> = (0..study.cases()).filter(|&i| records[i].orbit.period == 3).collect();
     assert!(seen.len() > 10 && seen.windows(2).any(|pair| pair[1] / 2 - pair[0] / 2 > 3));
-    for case in 0..study.cases() {
-        let expected = usize::from(records[case].orbit.period == 3);
+    for (case, record) in records.iter().enumerate() {
+        let expected = usize::from(record.orbit.period == 3);
         assert_eq!(attractors.of_case[case], Some(expected), "{case}");
     }
 }

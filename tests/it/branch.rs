@@ -11,7 +11,8 @@ use super::draws;
 
 const TOLERANCE: f64 = 1e-12;
 
-fn request(
+/// The request to follow the orbit near a section point.
+pub fn request(
     parameters: &Parameters,
     section: Section,
     period: u64,
@@ -33,7 +34,8 @@ fn request(
     }
 }
 
-fn relative(a: f64, b: f64) -> f64 {
+/// How far a number is from another, relative to it.
+pub fn relative(a: f64, b: f64) -> f64 {
     ((a - b) / b).abs()
 }
 
@@ -73,12 +75,13 @@ fn grazing_cases() -> Vec<Parameters> {
     cases.iter().map(case).collect()
 }
 
-fn of_kind(branch: &Branch, kind: SpecialKind) -> Vec<&Special> {
+/// The special points of a kind.
+pub fn of_kind(branch: &Branch, kind: SpecialKind) -> Vec<&Special> {
     branch.special.iter().filter(|special| special.kind == kind).collect()
 }
 
 /// Every orbit of every branch closes to rounding in the plain motion.
-fn assert_closed(found: &Found) {
+pub fn assert_closed(found: &Found) {
     for branch in &found.branches {
         let special = branch.special.iter().map(|special| &special.point);
         for point in branch.points.iter().chain(special) {
@@ -162,7 +165,7 @@ fn multipliers_of_the_stuck_capsule_are_those_of_its_oscillator() {
 }
 
 /// Where a moving and a resting attractor coexist.
-fn two_attractors(omega: f64) -> Parameters {
+pub fn two_attractors(omega: f64) -> Parameters {
     Parameters::with(&[
         (Parameter::M2, 0.2),
         (Parameter::C, 1.77),
@@ -175,12 +178,13 @@ fn two_attractors(omega: f64) -> Parameters {
     ])
 }
 
-fn settled(p: &Parameters, [r, y1, y2]: Section) -> Orbit {
+/// What the motion settles to from a section point.
+pub fn settled(p: &Parameters, [r, y1, y2]: Section) -> Orbit {
     settle(p, 0.0, State { r, y1, x2: 0.0, y2 }, &Protocol::default())
 }
 
 /// The moving orbit at 130 rad/s followed in the frequency.
-fn moving(range: [f64; 2]) -> Request {
+pub fn moving(range: [f64; 2]) -> Request {
     let p = two_attractors(130.0);
     let start = settled(&p, [0.0, 0.3, 0.0]);
     assert_eq!((start.outcome, start.period), (Outcome::Periodic, 1));

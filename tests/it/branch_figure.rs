@@ -139,6 +139,13 @@ fn curves_lie_over_two_parameters() {
     let lone = Study::parse("a", &format!("{first}{}", &rest[figures..])).expect("a study");
     let lone = with_branches(store::frame(&lone), &lone, &followed()[..1]);
     assert!(svg(&lone, &drawing("lone", DrawingKind::Curves)).contains("fold over omega, p_d"));
+    // Every special point that a curve goes through is marked on it.
+    let mut unmarked = followed();
+    if let Ok(found) = &mut unmarked[0] {
+        found.branches[0].special.last_mut().expect("one").curve = None;
+    }
+    let unmarked = with_branches(store::frame(&study), &study, &unmarked);
+    assert!(svg(&unmarked, &request).len() < svg(&alone, &request).len());
     let mut doubled = followed();
     if let Ok(found) = &mut doubled[0] {
         found.curves[1].period = 2;

@@ -174,6 +174,16 @@ fn every_number_of_every_branch_is_in_the_file() {
         assert_eq!(*code, f64::from(special.kind as u8));
     }
     assert_eq!((kinds.len(), reals(&back, "curve").len()), (6, 6 * 41));
+    assert_eq!(reals(&back, "special_curve"), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+    let named = |name: &str| -> Vec<String> {
+        let variable = back.variable(name).expect(name);
+        let codes = variable.values.to_real();
+        let flag = |code: &f64| variable.flags.iter().find(|(it, _)| *it as f64 == *code);
+        codes.iter().map(|code| flag(code).map_or(String::new(), |it| it.1.clone())).collect()
+    };
+    assert_eq!(named("index_end_first"), ["edge-of-range", "half-period", "edge-of-range"]);
+    assert_eq!(named("index_end_last"), ["edge-of-range", "most-points", "edge-of-range"]);
+    assert_eq!(named("curve_end_last"), ["corner"; 6]);
     assert_eq!(reals(&back, "index_parent"), [-1.0, 0.0, -1.0]);
     let doubling = reals(&back, "index_parent_special")[1] as usize;
     assert_eq!(kinds[doubling], f64::from(SpecialKind::PeriodDoubling as u8));

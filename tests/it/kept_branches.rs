@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use capsulemap::branch::SpecialKind;
+use capsulemap::branch::{End, SpecialKind};
 use capsulemap::model::{Parameter, State};
 use capsulemap::orbit::{Outcome, Protocol, settle};
 use capsulemap::store::{self, Dataset};
@@ -92,6 +92,8 @@ fn the_cascade_doubles_where_the_motion_does() {
     // Beside it lies a branch of period 3 that closes upon itself between two folds.
     let folds: Vec<f64> = kept.points(5, SpecialKind::Fold).iter().map(|it| it.omega).collect();
     assert!(folds.len() == 2 && kept.told.contains(", closed"), "{}", kept.told);
+    let ends = kept.dataset.variable("index_end_last").expect("ends").values.to_real();
+    assert_eq!(ends[[5]], f64::from(End::Closed as u8));
     assert!((folds[0].min(folds[1]) - 39.276_239_7).abs() < 1e-7, "{folds:?}");
     assert!((folds[0].max(folds[1]) - 40.299_701_2).abs() < 1e-7, "{folds:?}");
 }

@@ -5,6 +5,8 @@ mod attractors;
 mod belt;
 mod blocks;
 mod branch;
+mod branch_curves;
+mod branch_ends;
 mod branch_figure;
 mod certificates;
 mod cli;

@@ -1,6 +1,6 @@
 //! Made-up branches for the tests of what is around following.
 
-use capsulemap::branch::{Branch, Curve, Found, Point, Special, SpecialKind};
+use capsulemap::branch::{Branch, Curve, End, Found, Point, Special, SpecialKind};
 use capsulemap::orbit::matrix::Complex;
 use capsulemap::orbit::{Output, Outputs};
 use capsulemap::store::{self, Dataset};
@@ -84,8 +84,12 @@ pub fn bent_branch(count: usize) -> Branch {
     let points = (0..count)
         .map(|place| orbit(place as f64, if stable(place) { 0.8 } else { 1.4 }))
         .collect();
-    let special =
-        |kind, after: usize| Special { kind, after, point: orbit(after as f64 + 0.5, 1.0) };
+    let special = |kind, after: usize| Special {
+        kind,
+        after,
+        point: orbit(after as f64 + 0.5, 1.0),
+        curve: None,
+    };
     let mut specials: Vec<Special> =
         turns.iter().map(|&turn| special(SpecialKind::Fold, turn)).collect();
     let others = [
@@ -96,12 +100,12 @@ pub fn bent_branch(count: usize) -> Branch {
     ];
     specials.extend(others.map(|(kind, place)| special(kind, count * place / 24)));
     specials.sort_by_key(|special| special.after);
-    Branch { period: 1, parent: None, points, special: specials }
+    Branch { period: 1, parent: None, points, special: specials, ends: [End::Bound; 2] }
 }
 
 /// What the first branch of `STUDY` might lead to.
 pub fn found() -> Found {
-    let first = bent_branch(121);
+    let mut first = bent_branch(121);
     let is_doubling = |special: &Special| special.kind == SpecialKind::PeriodDoubling;
     let doubling = first.special.iter().position(is_doubling).expect("one doubles");
     let left = first.special[doubling].point.clone();
@@ -119,29 +123,34 @@ pub fn found() -> Found {
             orbit
         })
         .collect();
-    let doubled = Branch { period: 2, parent: Some((0, doubling)), points, special: Vec::new() };
+    let (parent, ends) = (Some((0, doubling)), [End::Merged, End::MostPoints]);
+    let doubled = Branch { period: 2, parent, points, special: Vec::new(), ends };
     let curve = |special: usize, bend: f64| {
         let at = first.special[special].point.parameter;
         let step = |place: i32| {
             let second = 1.0 + 0.1 * f64::from(place);
             [at + bend * (second - 4.0) + 0.7 * bend * (second - 4.0) * (second - 4.0), second]
         };
-        let kind = first.special[special].kind;
-        Curve { kind, through: (0, special), period: 1, points: (0..=40).map(step).collect() }
+        let (kind, points) = (first.special[special].kind, (0..=40).map(step).collect());
+        let ends = [End::Bound, End::Corner];
+        Curve { kind, through: (0, special), period: 1, points, ends }
     };
     let bends = [2.0, -1.5, 0.8, 2.6, -2.2, 1.2];
     let curves = (0..first.special.len()).zip(bends).map(|(at, bend)| curve(at, bend)).collect();
+    first.special.iter_mut().enumerate().for_each(|(at, special)| special.curve = Some(at));
     Found { branches: vec![first, doubled], curves }
 }
 
 /// What the branches of `STUDY` might lead to.
 pub fn followed() -> Vec<Followed> {
     let orbits = (0..30).map(|step| point(1.0 + 0.1 * f64::from(step), 1, 0.5, 0.3)).collect();
-    let plain = Branch { period: 1, parent: None, points: orbits, special: Vec::new() };
+    let ends = [End::Bound; 2];
+    let plain = Branch { period: 1, parent: None, points: orbits, special: Vec::new(), ends };
     let second = Found { branches: vec![plain], curves: Vec::new() };
     vec![Ok(found()), Ok(second), Err(Unfollowed::NoOrbit)]
 }
 
+/// The study of these branches.
 pub fn study() -> Study {
     Study::parse("study.toml", STUDY).unwrap_or_else(|faults| panic!("{faults}"))
 }

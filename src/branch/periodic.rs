@@ -1,0 +1,114 @@
+//! What is true of every curve of periodic orbits: an orbit has as many section points as its period has
+//! cycles, and any of them may stand for it.
+
+use super::arclength::{
+    Equations, Linear, Plane, Station, between, corrected, dot, moved, norm, unit,
+};
+
+/// Half a period leads this far from where it began, or the orbit has half the period.
+const HALVES: f64 = 1e-8;
+/// A curve passes a solution that it comes by this near.
+const SAME: f64 = 1e-6;
+/// Steps before a curve may close.
+const LEAST_STEPS: usize = 3;
+
+/// Equations of periodic orbits, whose first three unknowns are the section point.
+pub trait Periodic<const U: usize>: Equations<U> + Sized {
+    /// Their period [cycles].
+    fn period(&self) -> u64;
+
+    /// The same with another period.
+    fn with_period(&self, period: u64) -> Self;
+
+    /// How far the return is from a point, in units of the section.
+    fn displacement(&self, at: &[f64; U]) -> Option<[f64; 3]>;
+
+    /// How far an orbit moves in half its period, in units of the section; none for an odd period.
+    fn halfway(&self, at: &[f64; U]) -> Option<[f64; 3]> {
+        let even = self.period().is_multiple_of(2);
+        even.then(|| self.with_period(self.period() / 2).displacement(at))?
+    }
+
+    /// Whether an orbit needs both halves of its period.
+    fn is_whole(&self, at: &[f64; U]) -> bool {
+        self.halfway(at).is_none_or(|apart| norm(&apart) > HALVES)
+    }
+
+    /// Whether between two orbits of an even period the curve passes one of half the period: what follows
+    /// are the same orbits, half a period later.
+    fn halves(&self, from: &[f64; U], to: &[f64; U]) -> bool {
+        let sides = [from, to].map(|at| self.halfway(at));
+        matches!(sides, [Some(before), Some(after)] if dot(&before, &after) < 0.0)
+    }
+
+    /// An orbit from each of its section points in turn.
+    fn images(&self, station: &Station<U, Self::Seen>) -> Vec<Station<U, Self::Seen>> {
+        let later = (1..self.period()).filter_map(|cycles| self.image(station, cycles));
+        std::iter::once(station.clone()).chain(later).collect()
+    }
+
+    /// An orbit from the section point that it reaches after so many cycles.
+    fn image(
+        &self,
+        station: &Station<U, Self::Seen>,
+        cycles: u64,
+    ) -> Option<Station<U, Self::Seen>> {
+        let Linear { residual, rows, .. } = self.with_period(cycles).at(&station.at).ok()?;
+        let (mut at, mut tangent) = (station.at, station.tangent);
+        for i in 0..3 {
+            at[i] += residual[i];
+            tangent[i] += dot(&rows[i], &station.tangent);
+        }
+        let Linear { rows, seen, .. } = self.at(&at).ok()?;
+        Some(Station { at, tangent: unit(&tangent), rows, seen })
+    }
+}
+
+/// Whether the curve passes a point between two neighbouring solutions.
+///
+/// Method: the plane through the point, at right angles to the chord, cuts the curve in a solution that is
+/// the point or is not.
+pub fn passes<const U: usize, E: Equations<U>>(
+    equations: &E,
+    [from, to]: [&[f64; U]; 2],
+    point: &[f64; U],
+) -> bool {
+    let chord = between(from, to);
+    let step = norm(&chord);
+    if step == 0.0 {
+        return false;
+    }
+    let ahead = unit(&chord);
+    let along = dot(&ahead, &between(from, point));
+    let foot = moved(from, along, &ahead);
+    if !(-SAME..=step + SAME).contains(&along) || norm(&between(&foot, point)) > step {
+        return false;
+    }
+    let met = corrected(equations, &Plane::through(point, ahead), &foot, &ahead);
+    met.is_some_and(|(met, _)| norm(&between(&met.at, point)) <= SAME)
+}
+
+/// Where a curve closes: at a solution known to lie on it, from whichever of its section points.
+#[derive(Debug, Clone)]
+pub struct Goal<const U: usize, T>(Vec<Station<U, T>>);
+
+impl<const U: usize, T: Clone> Goal<U, T> {
+    /// The goal at a solution whose tangent is the direction of arrival.
+    pub fn at<E: Periodic<U, Seen = T>>(equations: &E, station: &Station<U, T>) -> Self {
+        Goal(equations.images(station))
+    }
+
+    /// The solution at which the curve has closed between two that are `steps` from its beginning.
+    pub fn met<E: Periodic<U, Seen = T>>(
+        &self,
+        equations: &E,
+        [from, to]: [&Station<U, T>; 2],
+        steps: usize,
+    ) -> Option<Station<U, T>> {
+        let ahead = between(&from.at, &to.at);
+        let here = |goal: &&Station<U, T>| {
+            dot(&goal.tangent, &ahead) > 0.0 && passes(equations, [&from.at, &to.at], &goal.at)
+        };
+        self.0.iter().find(here).filter(|_| steps >= LEAST_STEPS).cloned()
+    }
+}
