@@ -63,7 +63,7 @@ pub fn read(path: &Path) -> Result<Dataset, StoreError> {
 }
 
 /// A new file beside `path`, hidden, removed again unless it gets its final name.
-fn temporary(path: &Path, folder: &Path) -> io::Result<NamedTempFile> {
+pub(super) fn temporary(path: &Path, folder: &Path) -> io::Result<NamedTempFile> {
     let name = path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
     let prefix = format!(".{}.", name.to_string_lossy());
     let mut builder = tempfile::Builder::new();
@@ -75,6 +75,6 @@ fn temporary(path: &Path, folder: &Path) -> io::Result<NamedTempFile> {
 }
 
 /// A new name is safe only once the folder that lists it is on the disk.
-fn sync_folder(folder: &Path) -> io::Result<()> {
+pub(super) fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }

@@ -16,6 +16,8 @@ pub mod provenance;
 mod scale;
 pub mod schema;
 mod seal;
+pub mod shard;
+mod whole;
 
 pub use attractors::add_attractors;
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};

@@ -7,26 +7,45 @@ use crate::orbit::matrix::Complex;
 use crate::orbit::{Certificate, History, Impact, Orbit, Outcome, Proof, Reason};
 use crate::sweep::{Coordinate, Direction, Record, Study};
 
+use super::whole::Whole;
 use super::{Dataset, Values, Variable, provenance};
 
-/// The dataset of a finished study; `records` holds one record per case, in any order.
+/// The dimension of the cases of a block, which in a whole dataset gives way to the axes.
+pub const CASE: &str = "case";
+
+/// The dataset of a study; `records` holds one record per case, in any order, or fewer.
 ///
 /// Dimensions: the axes of the study, slowest first, then `direction` where the attractor was followed
 /// both ways; after them `point`, `impact_point` or `history_time` for what each case has several of.
 pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
-    let table = Table::new(study, records);
     let mut dataset = frame(study);
-    add_verdicts(&mut dataset, &table);
+    let cases: Vec<usize> = records.iter().map(|record| record.index).collect();
+    let columns = columns(study, records);
+    for (name, variable) in columns.variables {
+        let mut whole = Whole::new(study, &name, &variable);
+        whole.put(&cases, &variable.values);
+        dataset.variables.insert(name, whole.finish());
+    }
+    dataset.coordinates.extend(columns.coordinates);
+    dataset
+}
+
+/// The variables of a study over its `records` alone, in their order along the dimension `case`, and the
+/// coordinates of what each case has several of.
+pub fn columns(study: &Study, records: &[Record]) -> Dataset {
+    let table = Table { study, orbits: records.iter().map(|record| &record.orbit).collect() };
+    let mut columns = Dataset::default();
+    add_verdicts(&mut columns, &table);
     for &output in &study.outputs {
         let values = table.reals(|orbit| orbit.outputs[output]);
         let variable = table.variable(output.unit(), output.meaning(), values);
-        dataset.variables.insert(output.name().to_owned(), variable);
+        columns.variables.insert(output.name().to_owned(), variable);
     }
-    add_certificates(&mut dataset, &table);
-    add_section(&mut dataset, &table);
-    add_impacts(&mut dataset, &table);
-    add_history(&mut dataset, &table);
-    dataset
+    add_certificates(&mut columns, &table);
+    add_section(&mut columns, &table);
+    add_impacts(&mut columns, &table);
+    add_history(&mut columns, &table);
+    columns
 }
 
 /// A study without records: its axes, its constants, and what made the file.
@@ -60,58 +79,40 @@ fn protocol(study: &Study) -> [(String, String); 7] {
     .map(|(key, value)| (format!("protocol_{key}"), value))
 }
 
-/// The records in the order of their cases, with the dimensions they fill.
+/// The orbits of some cases of a study.
 struct Table<'a> {
     study: &'a Study,
-    orbits: Vec<Option<&'a Orbit>>,
-    dimensions: Vec<String>,
-    shape: Vec<usize>,
+    orbits: Vec<&'a Orbit>,
 }
 
-impl<'a> Table<'a> {
-    fn new(study: &'a Study, records: &'a [Record]) -> Self {
-        let mut orbits = vec![None; study.cases()];
-        for record in records {
-            orbits[record.index] = Some(&record.orbit);
-        }
-        let mut dimensions: Vec<String> =
-            study.axes.iter().map(|axis| axis.coordinate.name().to_owned()).collect();
-        if study.direction_axis().is_some() {
-            dimensions.push("direction".to_owned());
-        }
-        Table { study, orbits, dimensions, shape: study.shape() }
-    }
-
+impl Table<'_> {
     fn array<T: Clone>(&self, extra: Option<usize>, values: Vec<T>) -> ArrayD<T> {
-        let shape: Vec<usize> = self.shape.iter().copied().chain(extra).collect();
+        let shape: Vec<usize> = std::iter::once(self.orbits.len()).chain(extra).collect();
         ArrayD::from_shape_vec(IxDyn(&shape), values).expect("one value per case and point")
     }
 
-    /// One real per case; NaN for a case without a record.
+    /// One real per case.
     fn reals(&self, value: impl Fn(&Orbit) -> f64) -> Values {
-        let values = self.orbits.iter().map(|orbit| orbit.map_or(f64::NAN, &value)).collect();
-        Values::Real(self.array(None, values))
+        Values::Real(self.array(None, self.orbits.iter().map(|orbit| value(orbit)).collect()))
     }
 
     /// One integer per case.
-    fn integers(&self, missing: i64, value: impl Fn(&Orbit) -> i64) -> Values {
-        let values = self.orbits.iter().map(|orbit| orbit.map_or(missing, &value)).collect();
-        Values::Integer(self.array(None, values))
+    fn integers(&self, value: impl Fn(&Orbit) -> i64) -> Values {
+        Values::Integer(self.array(None, self.orbits.iter().map(|orbit| value(orbit)).collect()))
     }
 
     /// Several reals per case, padded with NaN.
     fn rows(&self, length: usize, value: impl Fn(&Orbit, usize) -> Option<f64>) -> Values {
         let mut values = Vec::with_capacity(self.orbits.len() * length);
         for orbit in &self.orbits {
-            let row = (0..length).map(|i| orbit.and_then(|orbit| value(orbit, i)));
-            values.extend(row.map(|value| value.unwrap_or(f64::NAN)));
+            values.extend((0..length).map(|i| value(orbit, i).unwrap_or(f64::NAN)));
         }
         Values::Real(self.array(Some(length), values))
     }
 
     fn variable(&self, unit: &str, long_name: &str, values: Values) -> Variable {
         Variable {
-            dimensions: self.dimensions.clone(),
+            dimensions: vec![CASE.to_owned()],
             unit: unit.to_owned(),
             long_name: long_name.to_owned(),
             values,
@@ -208,16 +209,15 @@ fn add_constants(dataset: &mut Dataset, study: &Study) {
 }
 
 fn add_verdicts(dataset: &mut Dataset, table: &Table<'_>) {
-    let failed = Outcome::Failed as i64;
     let mut outcome = table.variable(
         "1",
         "what the case turned out to be",
-        table.integers(failed, |orbit| orbit.outcome as i64),
+        table.integers(|orbit| orbit.outcome as i64),
     );
     outcome.flags = Outcome::ALL.iter().map(|&o| (o as i64, o.name().to_owned())).collect();
-    let periods = table.integers(0, |orbit| orbit.period as i64);
+    let periods = table.integers(|orbit| orbit.period as i64);
     let period = table.variable("1", "period in drive cycles, 0 unless periodic", periods);
-    let cycles = table.integers(0, |orbit| orbit.cycles as i64);
+    let cycles = table.integers(|orbit| orbit.cycles as i64);
     let cycles = table.variable("1", "drive cycles followed, measuring included", cycles);
     for (name, variable) in [("outcome", outcome), ("period", period), ("cycles", cycles)] {
         dataset.variables.insert(name.to_owned(), variable);
@@ -227,7 +227,7 @@ fn add_verdicts(dataset: &mut Dataset, table: &Table<'_>) {
 
 /// Why and when a case could not be followed on.
 fn add_failures(dataset: &mut Dataset, table: &Table<'_>) {
-    let reasons = table.integers(0, |orbit| orbit.failure.map_or(0, |why| why.reason as i64));
+    let reasons = table.integers(|orbit| orbit.failure.map_or(0, |why| why.reason as i64));
     let mut reason = table.variable("1", "why the case could not be followed", reasons);
     let names = Reason::NAMES.map(|(reason, name)| (reason as i64, name.to_owned()));
     reason.flags = std::iter::once((0, "none".to_owned())).chain(names).collect();
@@ -239,7 +239,7 @@ fn add_failures(dataset: &mut Dataset, table: &Table<'_>) {
 
 /// What is proven of the periods.
 fn add_certificates(dataset: &mut Dataset, table: &Table<'_>) {
-    let proofs = table.integers(0, |orbit| orbit.certificate.proof as i64);
+    let proofs = table.integers(|orbit| orbit.certificate.proof as i64);
     let mut proof = table.variable("1", "how the period was proven", proofs);
     proof.flags = Proof::NAMES.map(|(name, proof)| (proof as i64, name.to_owned())).to_vec();
     dataset.variables.insert("certificate".to_owned(), proof);

@@ -2,6 +2,7 @@
 
 pub mod attractor;
 pub mod axis;
+pub mod block;
 mod branch_file;
 mod bridge;
 mod cell;
@@ -19,6 +20,7 @@ mod study_file;
 
 pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors, links};
 pub use axis::{Axis, Coordinate};
+pub use block::run_blocks;
 pub use continuation::{Continuation, FirstOrbit};
 pub use document::{Fault, Faults};
 pub use drawing::{Drawing, DrawingKind};

@@ -33,22 +33,34 @@ pub struct Machine {
 
 /// Runs every case of `study` on `machine` and hands each record to `keep`, which is called from any
 /// thread and in any order.
+pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Result<(), RunError> {
+    run_chains(study, machine, (study.chains(), &|place| (0, place)), |_, record| keep(record))
+}
+
+/// Runs so many chains of `study` on `machine`, each given by its place as the number of its block and its
+/// own, and hands each record to `keep` with the number of the block.
 ///
 /// Every thread fills its lanes from one queue of chains until it is empty; the last cases, too few to fill
 /// a vector, are followed one by one, by whichever thread is done with its lanes. A case depends on its own
 /// parameters and start, or on its predecessor in its chain, alone.
-pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Result<(), RunError> {
+pub(super) fn run_chains(
+    study: &Study,
+    machine: Machine,
+    (count, chains): (usize, Chains<'_>),
+    keep: impl Fn(usize, Record) + Sync,
+) -> Result<(), RunError> {
     if let Some(missing) = machine.instructions.filter(|it| !it.is_available()) {
         return Err(RunError(format!("the processor has no {}", missing.name())));
     }
     let pool = pool(machine.threads)?;
     let taken = AtomicUsize::new(0);
     let last_cases = Mutex::new(Vec::new());
-    let share = study.chains().div_ceil(pool.current_num_threads());
+    let share = count.div_ceil(pool.current_num_threads());
     let instructions = machine.instructions.unwrap_or_else(|| Instructions::suited_to(share));
     pool.broadcast(|_| {
         let links = BTreeMap::new();
-        let mut worker = Worker { study, taken: &taken, share, keep: &keep, links };
+        let mut worker =
+            Worker { study, queue: (count, chains), taken: &taken, share, keep: &keep, links };
         match study.base.switching {
             Switching::AsPrinted => worker.settle_one_by_one(),
             Switching::Filippov => {
@@ -77,8 +89,12 @@ pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, RunError
     builder.build().map_err(failed)
 }
 
+/// The block and the number of the chain at each place of the queue.
+pub(super) type Chains<'a> = &'a (dyn Fn(usize) -> (usize, usize) + Sync);
+
 /// A case of a chain: its index and start, and those that follow it.
 struct Link {
+    block: usize,
     index: usize,
     start: State<f64>,
     rest: Chain,
@@ -87,6 +103,8 @@ struct Link {
 /// A thread with its part of the queue.
 struct Worker<'a, K> {
     study: &'a Study,
+    /// The length of the queue and what is in it.
+    queue: (usize, Chains<'a>),
     /// Chains that have been taken by any thread.
     taken: &'a AtomicUsize,
     /// Chains that this thread may still begin with, so that a few are not all in the lanes of one.
@@ -96,7 +114,7 @@ struct Worker<'a, K> {
     links: BTreeMap<usize, Link>,
 }
 
-impl<K: Fn(Record)> Queue for Worker<'_, K> {
+impl<K: Fn(usize, Record)> Queue for Worker<'_, K> {
     fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
         let next = match done {
             Some((index, orbit)) => {
@@ -115,31 +133,42 @@ impl<K: Fn(Record)> Queue for Worker<'_, K> {
     }
 }
 
-impl<K: Fn(Record)> Worker<'_, K> {
+impl<K: Fn(usize, Record)> Worker<'_, K> {
     /// The first case of the next chain.
     fn take(&self) -> Option<(Link, Case)> {
-        let number = self.taken.fetch_add(1, Ordering::Relaxed);
-        if number >= self.study.chains() {
+        let place = self.taken.fetch_add(1, Ordering::Relaxed);
+        let (count, chains) = self.queue;
+        if place >= count {
             return None;
         }
-        self.depart(self.study.chain(number), None)
+        let (block, number) = chains(place);
+        self.depart(block, self.study.chain(number), None)
     }
 
     /// Keeps the record of a case and yields the next of its chain.
-    fn follow(&self, Link { index, start, rest }: Link, orbit: Orbit) -> Option<(Link, Case)> {
+    fn follow(
+        &self,
+        Link { block, index, start, rest }: Link,
+        orbit: Orbit,
+    ) -> Option<(Link, Case)> {
         // After a failure the next case starts afresh.
         let settled = (orbit.outcome != Outcome::Failed).then_some(orbit.end);
-        (self.keep)(Record { index, start, orbit });
-        self.depart(rest, settled)
+        (self.keep)(block, Record { index, start, orbit });
+        self.depart(block, rest, settled)
     }
 
-    fn depart(&self, mut chain: Chain, from: Option<State<f64>>) -> Option<(Link, Case)> {
+    fn depart(
+        &self,
+        block: usize,
+        mut chain: Chain,
+        from: Option<State<f64>>,
+    ) -> Option<(Link, Case)> {
         let index = chain.next()?;
         let mut case = self.study.case(index);
         if let Some(from) = from {
             case.start = State { x2: case.start.x2, ..from };
         }
-        Some((Link { index, start: case.start, rest: chain }, case))
+        Some((Link { block, index, start: case.start, rest: chain }, case))
     }
 
     /// A case that leaves the lanes unfinished, with what follows it.

@@ -124,24 +124,25 @@ impl Study {
 
     /// Number of chains, which can be run in any order.
     pub fn chains(&self) -> usize {
-        match &self.follow {
-            None => self.cases(),
-            Some(follow) => {
-                let directions = follow.directions.len();
-                let groups = self.cases() / self.axes[follow.axis].values.len() / directions;
-                groups * self.chains_of_group(follow)
-            }
-        }
+        self.cases() / self.cases_of_group() * self.chains_of_group()
     }
 
-    /// Chains of the cases that differ along the followed axis and in direction only: one for each direction
-    /// that is followed, and one for each case that starts afresh.
-    fn chains_of_group(&self, follow: &Follow) -> usize {
+    /// Chains of a group of cases, which differ along the followed axis and in direction only: one for each
+    /// direction that is followed, and one for each case that starts afresh. Where no axis is followed, each
+    /// case is a group.
+    pub(super) fn chains_of_group(&self) -> usize {
+        let Some(follow) = &self.follow else { return 1 };
         let length = |direction: &Direction| match direction {
             Direction::Upward | Direction::Downward => 1,
             Direction::Afresh => self.axes[follow.axis].values.len(),
         };
         follow.directions.iter().map(length).sum()
+    }
+
+    /// Cases of such a group.
+    pub(super) fn cases_of_group(&self) -> usize {
+        let follow = self.follow.as_ref();
+        follow.map_or(1, |it| self.axes[it.axis].values.len() * it.directions.len())
     }
 
     /// The cases of chain `number`, to be run in order; a chain is one case where none is followed.
@@ -152,8 +153,7 @@ impl Study {
         let length = self.axes[follow.axis].values.len();
         let stride: usize = self.shape()[follow.axis + 1..].iter().product();
         let inner = stride / follow.directions.len();
-        let (group, mut left) =
-            (number / self.chains_of_group(follow), number % self.chains_of_group(follow));
+        let (group, mut left) = (number / self.chains_of_group(), number % self.chains_of_group());
         let corner = group / inner * stride * length + group % inner * follow.directions.len();
         for (place, direction) in follow.directions.iter().enumerate() {
             let first = corner + place;

@@ -3,6 +3,7 @@
 mod acceleration;
 mod attractors;
 mod belt;
+mod blocks;
 mod branch;
 mod branch_curves;
 mod branch_ends;

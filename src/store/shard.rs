@@ -1,0 +1,249 @@
+//! A block of a study on disk: a small file that says by itself whether it is whole, and whose it is.
+//!
+//! After a line that names the format comes one of JSON, then each column deflated, lowest byte first, and
+//! at the end the seal of all bytes.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use flate2::Compression;
+use flate2::read::ZlibDecoder;
+use flate2::write::ZlibEncoder;
+use serde::{Deserialize, Serialize};
+
+use super::StoreError;
+use super::file::{sync_folder, temporary};
+use super::provenance;
+use super::seal::{self, Seal};
+
+/// The first line of every shard; its number grows with the layout.
+const FORMAT: &str = "capsulemap shard 1";
+/// No head is longer [bytes].
+const LONGEST_HEAD: u64 = 1 << 20;
+
+/// The numbers of a column.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Numbers {
+    /// Quantities; a missing one is NaN.
+    Real(Vec<f64>),
+    /// Counts and categories.
+    Integer(Vec<i64>),
+}
+
+/// What the cases of a block have of one variable: as many numbers each, case by case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Name of the variable.
+    pub name: String,
+    /// Its numbers.
+    pub numbers: Numbers,
+}
+
+/// What a shard says of itself.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Head {
+    /// What tells its study, and the program that computed it, from others.
+    pub fingerprint: String,
+    /// The number of its block.
+    pub block: usize,
+    /// Cases in it.
+    pub cases: usize,
+    /// Who made it, when and on what, see [`provenance::attributes`].
+    pub made: BTreeMap<String, String>,
+    columns: Vec<Place>,
+}
+
+/// Where the numbers of a column are.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Place {
+    name: String,
+    real: bool,
+    /// Bytes in the file, behind those of the columns before.
+    bytes: u64,
+}
+
+/// A shard on disk that is whole.
+#[derive(Debug)]
+pub struct Shard {
+    /// What it says of itself.
+    pub head: Head,
+    path: PathBuf,
+    /// Where the first column begins.
+    begin: u64,
+}
+
+/// Why a file is not the shard that was looked for.
+#[derive(Debug)]
+pub enum Unusable {
+    /// It is not there.
+    Missing,
+    /// It is cut short, or has changed since it was written.
+    Torn,
+    /// It is whole, but of another study, version or block.
+    Foreign,
+    /// The operating system refused.
+    Refused(io::Error),
+}
+
+/// The file of block `number` in `folder`.
+pub fn path(folder: &Path, number: usize) -> PathBuf {
+    folder.join(format!("block-{number:07}"))
+}
+
+/// Keeps the columns of a block in its file in `folder`, whole or not at all.
+pub fn write(
+    folder: &Path,
+    fingerprint: &str,
+    (block, cases): (usize, usize),
+    columns: &[Column],
+) -> Result<(), StoreError> {
+    let path = path(folder, block);
+    let failed = |doing| {
+        let path = &path;
+        move |said| StoreError::system(path, doing, said)
+    };
+    let packed: Vec<Vec<u8>> = columns
+        .iter()
+        .map(|column| pack(&column.numbers))
+        .collect::<io::Result<_>>()
+        .map_err(failed("packing"))?;
+    let place = |(column, packed): (&Column, &Vec<u8>)| Place {
+        name: column.name.clone(),
+        real: matches!(column.numbers, Numbers::Real(_)),
+        bytes: packed.len() as u64,
+    };
+    let head = Head {
+        fingerprint: fingerprint.to_owned(),
+        block,
+        cases,
+        made: provenance::attributes(),
+        columns: columns.iter().zip(&packed).map(place).collect(),
+    };
+    let head = serde_json::to_string(&head).map_err(io::Error::from).map_err(failed("packing"))?;
+    let mut image = format!("{FORMAT}\n{head}\n").into_bytes();
+    packed.iter().for_each(|column| image.extend_from_slice(column));
+    seal::put(&mut image);
+    let mut file = temporary(&path, folder).map_err(failed("starting a new file"))?;
+    file.write_all(&image).map_err(failed("writing"))?;
+    file.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
+    file.persist(&path).map_err(|refused| failed("giving the file its name")(refused.error))?;
+    sync_folder(folder).map_err(failed("forcing the folder to the disk"))
+}
+
+/// The shard of block `number` in `folder`, once every byte has been checked.
+pub fn open(folder: &Path, fingerprint: &str, number: usize) -> Result<Shard, Unusable> {
+    let path = path(folder, number);
+    let file = File::open(&path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => Unusable::Missing,
+        _ => Unusable::Refused(error),
+    })?;
+    if seal::judge(&file).map_err(Unusable::Refused)? != Seal::Whole {
+        return Err(Unusable::Torn);
+    }
+    let mut reader = BufReader::new(file);
+    reader.rewind().map_err(Unusable::Refused)?;
+    let mut line = || {
+        let mut line = String::new();
+        let read = reader.by_ref().take(LONGEST_HEAD).read_line(&mut line);
+        read.map(|bytes| (line.trim_end().to_owned(), bytes as u64)).map_err(|_| Unusable::Foreign)
+    };
+    let (format, first) = line()?;
+    let (head, second) = line()?;
+    let head: Head = serde_json::from_str(&head).map_err(|_| Unusable::Foreign)?;
+    let ours = format == FORMAT && head.fingerprint == fingerprint && head.block == number;
+    if ours { Ok(Shard { head, path, begin: first + second }) } else { Err(Unusable::Foreign) }
+}
+
+impl Shard {
+    /// The numbers of a column; none if there is none of this name.
+    pub fn column(&self, name: &str) -> Result<Option<Numbers>, StoreError> {
+        let failed = |said| StoreError::system(&self.path, "reading", said);
+        let columns = &self.head.columns;
+        let Some(at) = columns.iter().position(|column| column.name == name) else {
+            return Ok(None);
+        };
+        let before: u64 = columns[..at].iter().map(|column| column.bytes).sum();
+        let mut file = File::open(&self.path).map_err(failed)?;
+        file.seek(SeekFrom::Start(self.begin + before)).map_err(failed)?;
+        unpack(file.take(columns[at].bytes), columns[at].real).map(Some).map_err(failed)
+    }
+}
+
+fn pack(numbers: &Numbers) -> io::Result<Vec<u8>> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+    match numbers {
+        Numbers::Real(reals) => {
+            reals.iter().try_for_each(|it| encoder.write_all(&it.to_bits().to_le_bytes()))?;
+        }
+        Numbers::Integer(integers) => {
+            integers.iter().try_for_each(|it| encoder.write_all(&it.to_le_bytes()))?;
+        }
+    }
+    encoder.finish()
+}
+
+fn unpack(packed: impl Read, real: bool) -> io::Result<Numbers> {
+    let mut bytes = Vec::new();
+    ZlibDecoder::new(packed).read_to_end(&mut bytes)?;
+    let (words, _) = bytes.as_chunks::<8>();
+    Ok(match real {
+        true => Numbers::Real(words.iter().map(|it| f64::from_le_bytes(*it)).collect()),
+        false => Numbers::Integer(words.iter().map(|it| i64::from_le_bytes(*it)).collect()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn columns() -> Vec<Column> {
+        let reals = vec![1.5, f64::NAN, -0.0, f64::INFINITY, 1e-300, 2.0];
+        let column = |name: &str, numbers| Column { name: name.to_owned(), numbers };
+        vec![
+            column("speed", Numbers::Real(reals)),
+            column("period", Numbers::Integer(vec![1, -7, i64::MAX])),
+        ]
+    }
+
+    #[test]
+    fn every_number_comes_back_bit_for_bit() {
+        let folder = tempfile::tempdir().expect("a folder");
+        write(folder.path(), "a", (12, 3), &columns()).expect("it is written");
+        let shard = open(folder.path(), "a", 12).expect("it is whole");
+        assert_eq!((shard.head.block, shard.head.cases), (12, 3));
+        assert!(shard.head.made.contains_key("commit"));
+        let Ok(Some(Numbers::Real(reals))) = shard.column("speed") else { panic!("reals") };
+        let Numbers::Real(expected) = &columns()[0].numbers else { panic!("reals") };
+        let bits = |reals: &[f64]| reals.iter().map(|it| it.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&reals), bits(expected));
+        let period = shard.column("period").expect("it is read");
+        assert_eq!(period, Some(columns()[1].numbers.clone()));
+        assert!(shard.column("nothing").expect("it is read").is_none());
+    }
+
+    #[test]
+    fn what_is_torn_or_foreign_is_never_opened() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let place = folder.path();
+        assert!(matches!(open(place, "a", 0), Err(Unusable::Missing)));
+        write(place, "a", (0, 3), &columns()).expect("it is written");
+        let whole = std::fs::read(path(place, 0)).expect("bytes");
+        for length in (0..whole.len()).step_by(7) {
+            std::fs::write(path(place, 0), &whole[..length]).expect("it is cut");
+            assert!(matches!(open(place, "a", 0), Err(Unusable::Torn)), "{length}");
+        }
+        for byte in 0..whole.len() {
+            let mut bytes = whole.clone();
+            bytes[byte] ^= 1 << (byte % 8);
+            std::fs::write(path(place, 0), bytes).expect("it is flipped");
+            assert!(matches!(open(place, "a", 0), Err(Unusable::Torn)), "{byte}");
+        }
+        std::fs::write(path(place, 0), &whole).expect("it is whole");
+        assert!(open(place, "a", 0).is_ok());
+        assert!(matches!(open(place, "b", 0), Err(Unusable::Foreign)));
+        std::fs::rename(path(place, 0), path(place, 1)).expect("it is renamed");
+        assert!(matches!(open(place, "a", 1), Err(Unusable::Foreign)));
+    }
+}
