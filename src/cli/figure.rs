@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 
 use super::result_file::ready;
 use super::{Failure, named, plain_or_quantity, tell};
-use crate::figure::{FigureError, Format, draw};
-use crate::store::{self, Dataset};
+use crate::figure::{FigureError, Format, draw, reads};
+use crate::store::{self, Archive, Dataset};
 use crate::sweep::document::unknown;
 use crate::sweep::{Coordinate, Drawing, DrawingKind, Study};
 
@@ -76,14 +76,14 @@ pub enum FormatChoice {
 impl Figure {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let dataset = store::read(&self.file).map_err(Failure::request)?;
+        let archive = store::open(&self.file).map_err(Failure::request)?;
         let here = self.file.parent().unwrap_or(Path::new("."));
         let folder = self.folder.as_deref().unwrap_or(here);
-        let drawings = match self.kind {
-            Some(kind) => vec![self.drawing(kind, &dataset)?],
-            None => ready(&dataset, &studied(&dataset, &self.file)?),
-        };
-        draw_all(&dataset, &drawings, folder, &self.formats)
+        let frame = archive.frame();
+        match self.kind {
+            Some(kind) => draw_each(&archive, &[self.drawing(kind, frame)?], folder, &self.formats),
+            None => draw_from(&archive, &studied(frame, &self.file)?, folder, &self.formats),
+        }
     }
 
     fn drawing(&self, kind: DrawingKind, dataset: &Dataset) -> Result<Drawing, Failure> {
@@ -160,6 +160,31 @@ fn studied(dataset: &Dataset, file: &Path) -> Result<Vec<Drawing>, Failure> {
         return Err(Failure::request(message));
     }
     Ok(drawings)
+}
+
+/// Draws those figures of a study for which there is all that they show.
+pub fn draw_from(
+    archive: &Archive,
+    drawings: &[Drawing],
+    folder: &Path,
+    formats: &[FormatChoice],
+) -> Result<(), Failure> {
+    draw_each(archive, &ready(archive.into(), drawings), folder, formats)
+}
+
+/// Draws figures, each from no more of the results than it shows.
+fn draw_each(
+    archive: &Archive,
+    drawings: &[Drawing],
+    folder: &Path,
+    formats: &[FormatChoice],
+) -> Result<(), Failure> {
+    let mut failures = Vec::new();
+    for drawing in drawings {
+        let dataset = archive.labelled(|name| reads(drawing, name)).map_err(Failure::machine)?;
+        failures.extend(draw_all(&dataset, std::slice::from_ref(drawing), folder, formats).err());
+    }
+    Failure::all(failures).map_or(Ok(()), Err)
 }
 
 /// Draws each figure and says where it went; one that cannot be drawn does not keep the others.

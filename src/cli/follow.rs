@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::branch_summary::summary;
-use super::figure::{FormatChoice, draw_all};
+use super::figure::{FormatChoice, draw_from};
 use super::progress::Progress;
-use super::result_file::{folder, kept, output_path, prepare, read_study, ready, rehearse};
+use super::result_file::{folder, kept, output_path, prepare, read_study, rehearse};
 use super::{Failure, print, tell};
-use crate::store::{self, Dataset, add_branches, drop_branches, has_branches};
+use crate::store::{self, Archive, Dataset, add_branches, drop_branches, has_branches};
 use crate::sweep::{Study, Unfollowed, follow};
 
 const EXAMPLES: &str = "\
@@ -51,13 +51,15 @@ impl Follow {
             return Err(Failure::request(message));
         }
         let output = output_path(&self.study, self.output.as_deref())?;
-        let dataset = match kept(&output, &study, self.overwrite)? {
-            Some(dataset) if has_branches(&dataset) && !self.overwrite => {
+        let archive = match kept(&output, &study, self.overwrite)? {
+            Some(archive) if has_branches(archive.frame()) && !self.overwrite => {
                 let shown = output.display();
                 tell(&format!("{shown}: already followed, by this program from this study"));
-                dataset
+                archive
             }
             older => {
+                let older = older.map(|archive| archive.dataset(|_, _| true));
+                let older = older.transpose().map_err(Failure::machine)?;
                 let mut dataset = older.unwrap_or_else(|| store::frame(&study));
                 drop_branches(&mut dataset);
                 if !self.no_figures {
@@ -68,8 +70,7 @@ impl Follow {
             }
         };
         if !self.no_figures {
-            let drawings = ready(&dataset, &study.drawings);
-            draw_all(&dataset, &drawings, folder(&output), &self.formats)?;
+            draw_from(&archive, &study.drawings, folder(&output), &self.formats)?;
         }
         Ok(())
     }
@@ -88,7 +89,7 @@ impl Follow {
         study: &Study,
         mut dataset: Dataset,
         output: &Path,
-    ) -> Result<Dataset, Failure> {
+    ) -> Result<Archive, Failure> {
         let progress = Progress::new(study.branches.len(), "branches");
         let threads = self.threads.map(usize::from);
         let followed = follow(study, threads, || progress.step()).map_err(Failure::machine)?;
@@ -96,6 +97,6 @@ impl Follow {
         add_branches(&mut dataset, study, &followed);
         store::write(&dataset, output).map_err(Failure::machine)?;
         print(&summary(study, &followed, output, seconds))?;
-        Ok(dataset)
+        store::open(output).map_err(Failure::machine)
     }
 }

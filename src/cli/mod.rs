@@ -1,14 +1,24 @@
 //! Asked for: connects the floors and talks to the person.
 
+mod block_progress;
+mod blocks;
 mod branch_summary;
+mod dry_run;
 mod failure;
 mod figure;
 mod follow;
 mod inspect;
+mod join;
 mod progress;
 mod result_file;
 mod simulate;
+mod status;
+mod stop;
+mod summary;
 mod sweep;
+mod task;
+mod verify;
+mod words;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -17,19 +27,22 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
+use crate::lane::Instructions;
 use crate::model::Dimension;
-use crate::sweep::parse_quantity;
+use crate::sweep::{Machine, parse_quantity};
 use failure::Failure;
 
 const EXAMPLES: &str = "\
 Examples:
   capsulemap simulate --omega \"77.91 rad/s\" --p-d \"4 N\" --k2 \"2.42 kN/m\" --delta \"3.5 mm\"
   capsulemap sweep studies/overview.toml
+  capsulemap status studies/overview.toml
   capsulemap follow branches.toml
   capsulemap inspect results/overview/overview.h5
   capsulemap figure results/overview/overview.h5 --kind map --of work_positive
 
-Exit codes: 0 done; 2 a mistake in what was asked; 3 a fault of the machine (disk, memory).";
+Exit codes: 0 done; 2 a mistake in what was asked; 3 a fault of the machine (disk, memory); 130 stopped by
+Ctrl-C, 143 by a scheduler or `kill`: what is done is kept, and the same command goes on.";
 
 const COMPLETIONS_EXAMPLES: &str = "\
 Examples:
@@ -51,6 +64,12 @@ enum Command {
     Simulate(Box<simulate::Simulate>),
     /// Compute a study: its cases over all cores, one HDF5 file, and its figures.
     Sweep(sweep::Sweep),
+    /// Join the blocks that the tasks of a sweep have computed into one file.
+    Join(join::Join),
+    /// Say how far a sweep is, from another terminal.
+    Status(status::Status),
+    /// Compute a random sample of a file's cases again and compare every bit.
+    Verify(verify::Verify),
     /// Follow periodic orbits, stable or not, through parameters, and find where they change.
     Follow(follow::Follow),
     /// Draw figures from a file of results.
@@ -70,6 +89,9 @@ pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Simulate(simulate) => simulate.run(),
         Command::Sweep(sweep) => sweep.run(),
+        Command::Join(join) => join.run(),
+        Command::Status(status) => status.run(),
+        Command::Verify(verify) => verify.run(),
         Command::Follow(follow) => follow.run(),
         Command::Figure(figure) => figure.run(),
         Command::Inspect(inspect) => inspect.run(),
@@ -92,6 +114,21 @@ pub fn main() -> ExitCode {
 fn tell(line: &str) {
     // There is nowhere left to report that the line could not be written.
     let _ = writeln!(std::io::stderr().lock(), "{line}");
+}
+
+/// What to run on, as far as this machine has it.
+fn machine(threads: Option<u16>, instructions: Option<Instructions>) -> Result<Machine, Failure> {
+    let granted = || Some(std::env::var("SLURM_CPUS_PER_TASK").ok()?.trim().parse().ok()?);
+    let threads = threads.map(usize::from).or_else(|| granted().filter(|&count: &usize| count > 0));
+    let Some(missing) = instructions.filter(|it| !it.is_available()) else {
+        return Ok(Machine { threads, instructions });
+    };
+    let available: Vec<_> = Instructions::available().map(Instructions::name).collect();
+    Err(Failure::request(format!(
+        "--instructions: this processor has no {} (allowed here: {})",
+        missing.name(),
+        available.join(", ")
+    )))
 }
 
 /// Reads one of a few names, which the help then lists.

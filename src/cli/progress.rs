@@ -6,7 +6,9 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Between two lines of a log at least; the first comes with the first case.
+/// Before the first line of a log, as quick work needs none.
+const FIRST_LINE: Duration = Duration::from_secs(2);
+/// Between two lines of a log at least.
 const LINE_INTERVAL: Duration = Duration::from_secs(10);
 
 /// Shows how many are done, how fast, and how long the rest will take.
@@ -33,7 +35,7 @@ impl Progress {
             .unwrap_or_else(|_| ProgressStyle::default_bar());
             ProgressBar::new(total as u64).with_style(style)
         });
-        let lines = Mutex::new(Lines { done: 0, next: Duration::ZERO });
+        let lines = Mutex::new(Lines { done: 0, next: FIRST_LINE });
         Progress { total, what, begun: Instant::now(), bar, lines }
     }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::figure::{draw_all, file_stem};
 use super::{Failure, tell};
-use crate::store::{self, Dataset, has_branches, has_cases};
+use crate::store::{self, Archive, Dataset, has_branches, has_cases};
 use crate::sweep::{Drawing, DrawingKind, Study};
 
 /// The study in the file at `path`.
@@ -48,26 +48,26 @@ pub fn folder(file: &Path) -> &Path {
     folder.unwrap_or(Path::new("."))
 }
 
-/// The results in the file `output`, if those of this very study by this very program are there; others
+/// The file `output` of results, if those of this very study by this very program are there; others
 /// are refused, or given up where they may be overwritten.
-pub fn kept(output: &Path, study: &Study, overwrite: bool) -> Result<Option<Dataset>, Failure> {
+pub fn kept(output: &Path, study: &Study, overwrite: bool) -> Result<Option<Archive>, Failure> {
     if !output.exists() {
         return Ok(None);
     }
     let shown = output.display();
     let advice = "name another --output, or replace it with --overwrite";
-    let dataset = match store::read(output) {
-        Ok(dataset) => dataset,
+    let archive = match store::open(output) {
+        Ok(archive) => archive,
         Err(_) if overwrite => return Ok(None),
         Err(error) => {
             return Err(Failure::request(format!("{error}\n{shown} is kept: {advice}")));
         }
     };
-    let now = store::provenance::attributes();
+    let (frame, now) = (archive.frame(), store::provenance::attributes());
     let same_program =
-        ["source", "commit"].iter().all(|&key| dataset.attributes.get(key) == now.get(key));
-    if dataset.texts.get("study") == Some(&study.text) && same_program {
-        return Ok(Some(dataset));
+        ["source", "commit"].iter().all(|&key| frame.attributes.get(key) == now.get(key));
+    if frame.texts.get("study") == Some(&study.text) && same_program {
+        return Ok(Some(archive));
     }
     if overwrite {
         return Ok(None);
@@ -93,19 +93,38 @@ pub fn prepare(folder: &Path) -> Result<(), Failure> {
     })
 }
 
+/// What a file of results holds.
+#[derive(Debug, Clone, Copy)]
+pub struct Holds {
+    cases: bool,
+    branches: bool,
+}
+
+impl From<&Dataset> for Holds {
+    fn from(dataset: &Dataset) -> Self {
+        Holds { cases: has_cases(dataset), branches: has_branches(dataset) }
+    }
+}
+
+impl From<&Archive> for Holds {
+    fn from(archive: &Archive) -> Self {
+        Holds { cases: archive.has_cases(), branches: has_branches(archive.frame()) }
+    }
+}
+
 /// Draws the figures from results without a single value, so that a mistake in one of them is told
 /// before a long run and not after it.
 pub fn rehearse(empty: &Dataset, drawings: &[Drawing]) -> Result<(), Failure> {
     let ready: Vec<Drawing> =
-        drawings.iter().filter(|it| waits_for(it.kind, empty).is_none()).cloned().collect();
+        drawings.iter().filter(|it| waits_for(it.kind, empty.into()).is_none()).cloned().collect();
     // In no format at all, nothing is written.
     draw_all(empty, &ready, Path::new("."), &[])
 }
 
-/// The figures among `drawings` that `dataset` holds the results for; of the others it is told what
+/// The figures among `drawings` for which there is all that they show; of the others it is told what
 /// they wait for.
-pub fn ready(dataset: &Dataset, drawings: &[Drawing]) -> Vec<Drawing> {
-    let is_ready = |drawing: &&Drawing| match waits_for(drawing.kind, dataset) {
+pub fn ready(holds: Holds, drawings: &[Drawing]) -> Vec<Drawing> {
+    let is_ready = |drawing: &&Drawing| match waits_for(drawing.kind, holds) {
         None => true,
         Some(command) => {
             tell(&format!("figure `{}`: waits for `capsulemap {command}`", drawing.name));
@@ -115,9 +134,8 @@ pub fn ready(dataset: &Dataset, drawings: &[Drawing]) -> Vec<Drawing> {
     drawings.iter().filter(is_ready).cloned().collect()
 }
 
-/// The command that finds what a figure shows and `dataset` lacks.
-fn waits_for(kind: DrawingKind, dataset: &Dataset) -> Option<&'static str> {
-    let (cases, branches) = (has_cases(dataset), has_branches(dataset));
+/// The command that finds what a figure shows and is not there.
+fn waits_for(kind: DrawingKind, Holds { cases, branches }: Holds) -> Option<&'static str> {
     match kind {
         DrawingKind::Curves => (!branches).then_some("follow"),
         DrawingKind::Bifurcation => (!cases && !branches).then_some("sweep"),

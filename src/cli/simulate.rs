@@ -1,13 +1,17 @@
 //! `capsulemap simulate`: one case in full.
 
 use std::fmt::Write;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::{Map, Value, json};
 
+use super::result_file::read_study;
 use super::{Failure, named, plain_or_quantity, print, tell};
 use crate::model::{Dimension, Parameter, Parameters, Resistance, State, Switching};
-use crate::orbit::{Certificate, Orbit, Output, Proof, Protocol, Simulation, settle, simulate};
+use crate::orbit::{
+    Case, Certificate, Orbit, Output, Proof, Protocol, Simulation, settle, simulate,
+};
 use crate::sweep::document::unknown;
 
 const EXAMPLES: &str = "\
@@ -15,6 +19,7 @@ Examples:
   capsulemap simulate --omega \"20.73 rad/s\" --p-d \"4 N\" --k2 \"18.96 kN/m\" --delta \"1.5 mm\" --json
   capsulemap simulate --set mu_s=0.4 --set mu_d=0.2 --start r=-2.5e-3,y2=0.1 --cycles 50
   capsulemap simulate --friction-switching as-printed
+  capsulemap simulate --study studies/overview.toml --case 1234
 
 A number without a unit is in SI. What is not given is as in the paper's Table 1 and Fig 5.";
 
@@ -22,6 +27,13 @@ A number without a unit is in SI. What is not given is as in the paper's Table 1
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Simulate {
+    /// Take a case of this study, with its parameters, its start and the study's protocol.
+    #[arg(long, value_name = "STUDY", requires = "case", conflicts_with_all = ["omega", "p_d", "k2", "delta", "set",
+        "phase", "tolerance", "max_cycles", "friction_switching", "resistance"])]
+    study: Option<PathBuf>,
+    /// Its number, counted from 0 with the last axis fastest, as failures are told.
+    #[arg(long, requires = "study")]
+    case: Option<usize>,
     /// Frequency of the drive, as "77.91 rad/s" or "12.4 Hz".
     #[arg(long, value_name = "QUANTITY", allow_negative_numbers = true)]
     omega: Option<String>,
@@ -64,25 +76,26 @@ pub struct Simulate {
     json: bool,
 }
 
-/// A case as it was asked for.
+/// A case as it was asked for, and how to follow it.
 struct Request {
-    parameters: Parameters,
-    start: State<f64>,
-    phase: f64,
+    case: Case,
+    protocol: Protocol,
 }
 
 impl Simulate {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let Request { parameters, start, phase } = self.request()?;
+        let Request { case, protocol } = match &self.study {
+            Some(study) => self.studied(study)?,
+            None => self.request()?,
+        };
+        let Case { parameters, start, phase } = case;
         let drag = parameters.drag();
         if drag.static_limit < drag.at_onset {
             let force = parameters.break_away();
             tell(&format!("note: mu_s is below the friction at onset; rest ends at {force} N"));
         }
-        let simulation = simulate(&parameters, phase, start, self.cycles, self.tolerance);
-        let protocol =
-            Protocol { max_cycles: self.max_cycles, ..Protocol::with_tolerance(self.tolerance) };
+        let simulation = simulate(&parameters, phase, start, self.cycles, protocol.tolerance);
         let orbit = settle(&parameters, phase, start, &protocol);
         if self.json {
             let object = json!({
@@ -96,6 +109,25 @@ impl Simulate {
         } else {
             print(&summary(&parameters, &simulation, &orbit))
         }
+    }
+
+    /// A case of a study; another start may be given, as that of a case which follows its neighbour.
+    fn studied(&self, path: &Path) -> Result<Request, Failure> {
+        let study = read_study(path)?;
+        let index = self.case.unwrap_or(0);
+        if index >= study.cases() {
+            let message = format!("--case {index}: {} has {} cases", path.display(), study.cases());
+            return Err(Failure::request(message));
+        }
+        let mut case = study.case(index);
+        if self.start.is_some() {
+            let mut faults = Vec::new();
+            case.start = self.start(&mut faults);
+            if !faults.is_empty() {
+                return Err(Failure::requests(&faults));
+            }
+        }
+        Ok(Request { case, protocol: study.protocol })
     }
 
     fn request(&self) -> Result<Request, Failure> {
@@ -134,7 +166,11 @@ impl Simulate {
         }
         faults.extend(parameters.faults().iter().map(ToString::to_string));
         if faults.is_empty() {
-            Ok(Request { parameters, start, phase })
+            let protocol = Protocol {
+                max_cycles: self.max_cycles,
+                ..Protocol::with_tolerance(self.tolerance)
+            };
+            Ok(Request { case: Case { parameters, start, phase }, protocol })
         } else {
             Err(Failure::requests(&faults))
         }

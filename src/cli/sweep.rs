@@ -1,29 +1,30 @@
 //! `capsulemap sweep`: a study, from its file to its results and figures.
 
-use std::fmt::Write;
-use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::path::PathBuf;
 
 use clap::Args;
 
-use super::figure::{FormatChoice, draw_all};
-use super::progress::Progress;
-use super::result_file::{folder, kept, output_path, prepare, read_study, ready, rehearse};
-use super::{Failure, named, print, tell};
+use super::blocks::{compute, enter};
+use super::dry_run::foretell;
+use super::figure::{FormatChoice, draw_from};
+use super::join::Joining;
+use super::result_file::{folder, kept, output_path, prepare, read_study, rehearse};
+use super::task::Task;
+use super::words::{count, time};
+use super::{Failure, machine, named, tell};
 use crate::lane::Instructions;
-use crate::model::{Parameter, Parameters, Resistance, Switching};
-use crate::orbit::{Case, Outcome, Protocol};
-use crate::store::{self, Dataset, has_cases, keep_branches};
-use crate::sweep::{self, Machine, Record, Study, has_attractors, run};
+use crate::store::{self, BlockFolder, Company, Dataset};
+use crate::sweep::Study;
 
 const EXAMPLES: &str = "\
 Examples:
   capsulemap sweep studies/overview.toml
+  capsulemap sweep night.toml --dry-run
   capsulemap sweep night.toml --output /data/night.h5 --threads 8
-  capsulemap sweep studies/fig5.toml --formats pdf";
+  capsulemap sweep night.toml --task 3/8      # on each of 8 machines; then: capsulemap join night.toml
 
-/// So many failed cases are named in the summary; the file names them all.
-const FAILURES_SHOWN: usize = 5;
+A run that was stopped, by whatever, goes on with the same command. Without --task, a job of a Slurm array
+takes its part by itself; scripts/slurm has the array script.";
 
 /// Compute a study.
 #[derive(Debug, Args)]
@@ -31,17 +32,24 @@ const FAILURES_SHOWN: usize = 5;
 pub struct Sweep {
     /// The study, a TOML file.
     study: PathBuf,
-    /// The file to write; results/NAME/NAME.h5 for a study NAME.toml by default.
+    /// The file to write; results/NAME/NAME.h5 for a study NAME.toml by default. The blocks that are done lie
+    /// beside it, in a folder NAME.blocks, until they are joined.
     #[arg(long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
-    /// Worker threads; one per core by default.
+    /// Compute the I-th of N parts only, and do not join them; 1/1 is all, whatever Slurm says.
+    #[arg(long, value_name = "I/N")]
+    task: Option<Task>,
+    /// Compute nothing but a few blocks as a probe, and foretell time and size.
+    #[arg(long, conflicts_with = "task")]
+    dry_run: bool,
+    /// Worker threads; one per core by default, or SLURM_CPUS_PER_TASK.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// Instructions to compute by; the widest that the processor has, or that the study fills, by default.
     /// Results do not depend on them.
     #[arg(long, value_parser = named(&Instructions::NAMES))]
     instructions: Option<Instructions>,
-    /// Replace a file of results that another study left under that name.
+    /// Replace a file of results that another study left under that name, and give up its blocks.
     #[arg(long)]
     overwrite: bool,
     /// Do not draw the study's figures.
@@ -55,15 +63,19 @@ pub struct Sweep {
 impl Sweep {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let machine = self.machine()?;
+        let machine = machine(self.threads, self.instructions)?;
         let name = self.study.display().to_string();
         let study = read_study(&self.study)?;
         let output = output_path(&self.study, self.output.as_deref())?;
-        let dataset = match kept(&output, &study, self.overwrite)? {
-            Some(dataset) if has_cases(&dataset) && !self.overwrite => {
+        if self.dry_run {
+            return foretell(&study, machine, &output);
+        }
+        let task = self.task()?;
+        let archive = match kept(&output, &study, self.overwrite)? {
+            Some(archive) if archive.has_cases() && !self.overwrite => {
                 let shown = output.display();
                 tell(&format!("{shown}: already computed, by this program from this study"));
-                dataset
+                archive
             }
             older => {
                 if !self.no_figures {
@@ -71,63 +83,47 @@ impl Sweep {
                         .map_err(|failure| failure.within(&name))?;
                 }
                 prepare(folder(&output))?;
-                self.compute(&study, machine, &output, older)?
+                let company = if task.of > 1 { Company::Tasks } else { Company::Alone };
+                let blocks = enter(&output, &study, company, self.overwrite)?;
+                let added = compute(&study, machine, &blocks, task)?;
+                if added.cases > 0 {
+                    tell(&format!("{} cases computed in {}", count(added.cases), time(added.time.as_secs_f64())));
+                }
+                if task.of > 1 {
+                    return self.part_with(task, &blocks);
+                }
+                let joining = Joining { path: &self.study, study: &study, machine, file: &output };
+                joining.join(blocks, older, false)?
             }
         };
         if !self.no_figures {
-            let drawings = ready(&dataset, &study.drawings);
-            draw_all(&dataset, &drawings, folder(&output), &self.formats)?;
+            draw_from(&archive, &study.drawings, folder(&output), &self.formats)?;
         }
         Ok(())
     }
 
-    /// What to run on, as far as this machine has it.
-    fn machine(&self) -> Result<Machine, Failure> {
-        let threads = self.threads.map(usize::from);
-        let instructions = self.instructions;
-        let Some(missing) = instructions.filter(|it| !it.is_available()) else {
-            return Ok(Machine { threads, instructions });
-        };
-        let available: Vec<_> = Instructions::available().map(Instructions::name).collect();
-        Err(Failure::request(format!(
-            "--instructions: this processor has no {} (allowed here: {})",
-            missing.name(),
-            available.join(", ")
-        )))
+    /// Which part of the study to compute.
+    fn task(&self) -> Result<Task, Failure> {
+        let from_slurm = || Task::of_slurm(|name| std::env::var(name).ok());
+        match self.task.map(Ok).or_else(from_slurm) {
+            None => Ok(Task::WHOLE),
+            Some(task) => {
+                let task = task.map_err(Failure::request)?;
+                if task.of > 1 {
+                    tell(&format!("{task}: every {}th block", task.of));
+                }
+                Ok(task)
+            }
+        }
     }
 
-    /// Computes the cases and writes them beside the branches of an `older` file, if it has any.
-    fn compute(
-        &self,
-        study: &Study,
-        machine: Machine,
-        output: &Path,
-        older: Option<Dataset>,
-    ) -> Result<Dataset, Failure> {
-        let progress = Progress::new(study.cases(), "cases");
-        let records = Mutex::new(Vec::with_capacity(study.cases()));
-        run(study, machine, |record| {
-            progress.step();
-            records.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(record);
-        })
-        .map_err(Failure::machine)?;
-        let mut seconds = progress.finish().as_secs_f64();
-        let mut records = records.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
-        records.sort_by_key(|record| record.index);
-        let mut dataset = store::dataset(study, &records);
-        if has_attractors(study) {
-            let progress = Progress::new(sweep::links(study), "links of attractors");
-            let attractors = sweep::attractors(study, &records, machine, || progress.step())
-                .map_err(Failure::machine)?;
-            seconds += progress.finish().as_secs_f64();
-            store::add_attractors(&mut dataset, study, &attractors);
-        }
-        if let Some(older) = older {
-            keep_branches(&mut dataset, &older);
-        }
-        store::write(&dataset, output).map_err(Failure::machine)?;
-        print(&summary(study, &records, output, seconds))?;
-        Ok(dataset)
+    /// The end of a task.
+    fn part_with(&self, task: Task, blocks: &BlockFolder) -> Result<(), Failure> {
+        let (shown, study) = (blocks.path().display(), self.study.display());
+        tell(&format!(
+            "{task}: its blocks are in {shown}; once all tasks are done: capsulemap join {study}"
+        ));
+        Ok(())
     }
 }
 
@@ -137,52 +133,4 @@ fn without_cases(study: &Study) -> Dataset {
     small.protocol.points = small.protocol.points.min(1);
     small.protocol.impact_points = small.protocol.impact_points.min(1);
     store::dataset(&small, &[])
-}
-
-/// How many cases came out how, and how to look at those that failed.
-fn summary(study: &Study, records: &[Record], output: &Path, seconds: f64) -> String {
-    let cycles: u64 = records.iter().map(|record| record.orbit.cycles).sum();
-    let shown = output.display();
-    let (count, plural) = (records.len(), if records.len() == 1 { "" } else { "s" });
-    let mut text = format!("{shown}: {count} case{plural}, {cycles} cycles in {seconds:.1} s\n");
-    for outcome in Outcome::ALL {
-        let count = records.iter().filter(|record| record.orbit.outcome == outcome).count();
-        if count > 0 {
-            // Writing to a String cannot fail.
-            let _ = writeln!(text, "  {:<14} {count}", outcome.name());
-        }
-    }
-    let failures = records.iter().filter_map(|record| Some((record, record.orbit.failure?)));
-    for (&Record { index, start, .. }, failure) in failures.take(FAILURES_SHOWN) {
-        let _ = writeln!(text, "  case {index} failed: {failure}");
-        let case = Case { start, ..study.case(index) };
-        let _ = writeln!(text, "    replay: {}", replay(&case, &study.protocol));
-    }
-    text
-}
-
-/// The command that follows one case in full.
-fn replay(case: &Case, protocol: &Protocol) -> String {
-    let mut command = "capsulemap simulate".to_owned();
-    for &parameter in Parameter::ALL {
-        let _ = write!(command, " --set {}={}", parameter.symbol(), case.parameters[parameter]);
-    }
-    let start = case.start;
-    let _ = write!(command, " --start r={},y1={},y2={}", start.r, start.y1, start.y2);
-    let _ = write!(command, " --phase {}", case.phase);
-    let usual = Protocol::default();
-    if protocol.tolerance != usual.tolerance {
-        let _ = write!(command, " --tolerance {}", protocol.tolerance);
-    }
-    if protocol.max_cycles != usual.max_cycles {
-        let _ = write!(command, " --max-cycles {}", protocol.max_cycles);
-    }
-    let Parameters { switching, resistance, .. } = case.parameters;
-    if switching != Switching::default() {
-        let _ = write!(command, " --friction-switching {}", switching.name());
-    }
-    if resistance != Resistance::default() {
-        let _ = write!(command, " --resistance {}", resistance.name());
-    }
-    command
 }

@@ -25,6 +25,7 @@ mod panel;
 mod phase_portrait;
 mod quantity;
 mod raster;
+mod reading;
 mod scale;
 mod style;
 mod symbol;
@@ -38,6 +39,7 @@ use std::path::{Path, PathBuf};
 
 pub use error::FigureError;
 pub use output::Format;
+pub use reading::reads;
 
 use crate::store::dataset::Dataset;
 use crate::sweep::{Drawing, DrawingKind};

@@ -10,8 +10,8 @@ use crate::store::branches::DIMENSIONS;
 use crate::store::dataset::{Dataset, Variable};
 use crate::sweep::Drawing;
 
-/// Dimensions within a case, which are not axes of the study.
-const INNER: [&str; 5] = ["point", "impact_point", "history_time", "multiplier", "event"];
+/// Dimensions within a case or beside the cases, which are not axes of the study.
+const INNER: [&str; 6] = ["point", "impact_point", "history_time", "multiplier", "event", "block"];
 
 /// The results as one figure sees them.
 pub struct View<'a> {

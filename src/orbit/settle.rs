@@ -38,7 +38,7 @@ impl Outcome {
     ];
 
     /// Its name in files.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Outcome::Periodic => "periodic",
             Outcome::Chaotic => "chaotic",

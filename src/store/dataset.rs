@@ -22,6 +22,13 @@ impl Values {
         }
     }
 
+    /// The least and the greatest of integers; none for reals and where there are none.
+    pub fn range(&self) -> Option<[i64; 2]> {
+        let Values::Integer(all) = self else { return None };
+        let wider = |[low, high]: [i64; 2], it: &i64| [low.min(*it), high.max(*it)];
+        all.first().map(|&first| all.iter().fold([first, first], wider))
+    }
+
     /// The same numbers as reals.
     pub fn to_real(&self) -> ArrayD<f64> {
         match self {

@@ -1,49 +1,165 @@
 //! Turns a file on disk back into the dataset it was made of, trusting nothing that it says.
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
-use hdf5::{Dataset as Array, File, Location};
+use hdf5::{Dataset as Array, File, Hyperslab, Location, SliceOrIndex};
+use ndarray::{ArrayD, IxDyn};
 
+use super::branches::DIMENSIONS;
 use super::names::*;
+use super::piece::Piece;
 use super::{Dataset, StoreError, Values, Variable};
 
 /// zlib cannot shrink further than this, so a file that claims more is damaged.
 const LARGEST_COMPRESSION: u64 = 1100;
 
-/// The dataset in the file at `path`.
-pub fn dataset(path: &Path) -> Result<Dataset, StoreError> {
-    let failed = |doing: String| move |said| StoreError::decoding(path, doing, said);
-    let file = File::open(path).map_err(failed("opening the file".into()))?;
-    check_format(&file, path)?;
-    let mut dataset = Dataset::default();
-    let mut numbered = Vec::new();
-    let mut waiting = Vec::new();
-    let arrays = file.datasets().map_err(failed("listing the variables".into()))?;
-    for array in arrays {
-        let name = array.name().trim_start_matches('/').to_owned();
-        let found = found(&array, &file, &name);
-        match found.map_err(failed(format!("reading {name}")))? {
-            Found::Text(text) => drop(dataset.texts.insert(name, text)),
-            Found::Coordinate(id, variable) => numbered.push((id, (name, variable))),
-            Found::Variable(ids, variable) => waiting.push((name, ids, variable)),
+/// An open file of results, of which each variable can be read by itself.
+pub struct Archive {
+    path: PathBuf,
+    file: File,
+    /// The coordinates, the attributes and the texts.
+    frame: Dataset,
+    /// The variables without their numbers, by name.
+    labels: BTreeMap<String, Variable>,
+}
+
+impl Archive {
+    /// Opens the HDF5 file at `path`.
+    pub(super) fn decode(path: &Path) -> Result<Archive, StoreError> {
+        let failed = |doing: String| move |said| StoreError::decoding(path, doing, said);
+        let file = File::open(path).map_err(failed("opening the file".into()))?;
+        check_format(&file, path)?;
+        let mut frame = Dataset::default();
+        let mut numbered = Vec::new();
+        let mut waiting = Vec::new();
+        let arrays = file.datasets().map_err(failed("listing the variables".into()))?;
+        for array in arrays {
+            let name = array.name().trim_start_matches('/').to_owned();
+            let found = found(&array, &file, &name);
+            match found.map_err(failed(format!("reading {name}")))? {
+                Found::Text(text) => drop(frame.texts.insert(name, text)),
+                Found::Coordinate(id, variable) => numbered.push((id, (name, variable))),
+                Found::Variable(ids, variable) => waiting.push((name, ids, variable, array)),
+            }
         }
+        numbered.sort_by_key(|(id, _)| *id);
+        frame.coordinates = numbered.into_iter().map(|(_, coordinate)| coordinate).collect();
+        let mut labels = BTreeMap::new();
+        for (name, ids, mut variable, array) in waiting {
+            variable.dimensions = dimensions(&frame, &ids, &array.shape())
+                .map_err(failed(format!("reading {name}")))?;
+            labels.insert(name, variable);
+        }
+        frame.attributes = attributes(&file).map_err(failed("reading the attributes".into()))?;
+        Ok(Archive { path: path.to_owned(), file, frame, labels })
     }
-    numbered.sort_by_key(|(id, _)| *id);
-    dataset.coordinates = numbered.into_iter().map(|(_, coordinate)| coordinate).collect();
-    for (name, ids, mut variable) in waiting {
-        variable.dimensions = dimensions(&dataset, &ids, &variable.values)
-            .map_err(failed(format!("reading {name}")))?;
-        dataset.variables.insert(name, variable);
+
+    /// The coordinates, the attributes and the texts: all but the variables.
+    pub fn frame(&self) -> &Dataset {
+        &self.frame
     }
-    dataset.attributes = attributes(&file).map_err(failed("reading the attributes".into()))?;
-    Ok(dataset)
+
+    /// Name and dimensions of every variable.
+    pub fn variables(&self) -> impl Iterator<Item = (&str, &[String])> {
+        self.labels.iter().map(|(name, label)| (name.as_str(), label.dimensions.as_slice()))
+    }
+
+    /// A variable with its numbers; none if there is none of this name.
+    pub fn variable(&self, name: &str) -> Result<Option<Variable>, StoreError> {
+        let read = |array: Array| values(&array, &self.file);
+        self.numbers(name, read)
+    }
+
+    /// What some cases, given by their positions along the axes, have of a variable; nothing if there is none
+    /// of this name.
+    pub fn rows(&self, name: &str, at: &[Vec<usize>]) -> Result<Vec<Values>, StoreError> {
+        let failed = |said| StoreError::decoding(&self.path, format!("reading {name}"), said);
+        if !self.labels.contains_key(name) {
+            return Ok(Vec::new());
+        }
+        let array = self.file.dataset(name).map_err(failed)?;
+        let row = |position: &Vec<usize>| {
+            let piece = Piece { start: position.clone(), count: vec![1; position.len()] };
+            values_of(&array, &self.file, &piece).map_err(failed)
+        };
+        at.iter().map(row).collect()
+    }
+
+    /// A variable at the cases of a piece, with what each has several of.
+    pub(super) fn piece(&self, name: &str, piece: &Piece) -> Result<Option<Variable>, StoreError> {
+        self.numbers(name, |array| values_of(&array, &self.file, piece))
+    }
+
+    fn numbers(
+        &self,
+        name: &str,
+        read: impl Fn(Array) -> hdf5::Result<Values>,
+    ) -> Result<Option<Variable>, StoreError> {
+        let failed = |said| StoreError::decoding(&self.path, format!("reading {name}"), said);
+        let Some(label) = self.labels.get(name) else { return Ok(None) };
+        let values = self.file.dataset(name).and_then(read).map_err(failed)?;
+        Ok(Some(Variable { values, ..label.clone() }))
+    }
+
+    /// Whether it holds what `capsulemap sweep` finds.
+    pub fn has_cases(&self) -> bool {
+        self.labels.contains_key("outcome")
+    }
+
+    /// What `capsulemap follow` has found.
+    pub fn branches(&self) -> Result<Dataset, StoreError> {
+        self.dataset(|_, dimensions| dimensions.iter().any(|it| DIMENSIONS.contains(&it.as_str())))
+    }
+
+    /// The dataset with those variables that are `wanted`, by name; the others have their labels, but no
+    /// numbers.
+    pub fn labelled(&self, wanted: impl Fn(&str) -> bool) -> Result<Dataset, StoreError> {
+        let mut dataset = self.dataset(|name, _| wanted(name))?;
+        for (name, label) in &self.labels {
+            dataset.variables.entry(name.clone()).or_insert_with(|| label.clone());
+        }
+        Ok(dataset)
+    }
+
+    /// The dataset with those variables that are `wanted`, by name and dimensions.
+    pub fn dataset(&self, wanted: impl Fn(&str, &[String]) -> bool) -> Result<Dataset, StoreError> {
+        let mut dataset = self.frame.clone();
+        for (name, _) in self.variables().filter(|(name, dimensions)| wanted(name, dimensions)) {
+            let variable = self.variable(name)?;
+            dataset.variables.extend(variable.map(|variable| (name.to_owned(), variable)));
+        }
+        Ok(dataset)
+    }
+}
+
+/// What the cases of a piece have of an array.
+fn values_of(array: &Array, file: &File, piece: &Piece) -> hdf5::Result<Values> {
+    let Some(part) = hyperslab(piece, &array.shape()) else { return values(array, file) };
+    match array.dtype()?.to_descriptor()? {
+        TypeDescriptor::Float(_) => Ok(Values::Real(array.read_slice::<f64, _, IxDyn>(part)?)),
+        _ => Ok(Values::Integer(array.read_slice::<i64, _, IxDyn>(part)?)),
+    }
+}
+
+/// The part of an array that a piece of a study covers, with all that each case has several of; none where
+/// that is the whole array.
+pub fn hyperslab(piece: &Piece, shape: &[usize]) -> Option<Hyperslab> {
+    let axes = piece.start.len();
+    if piece.count == shape[..axes] {
+        return None;
+    }
+    let axes = piece.start.iter().zip(&piece.count).map(|(start, count)| *start..start + count);
+    let inner = shape[piece.start.len()..].iter().map(|length| 0..*length);
+    Some(axes.chain(inner).map(SliceOrIndex::from).collect::<Vec<_>>().into())
 }
 
 /// What a name in the file stands for; the numbers are positions among the coordinates.
 enum Found {
     Text(String),
     Coordinate(i32, Variable),
+    /// A variable without its numbers and dimensions.
     Variable(Vec<i32>, Variable),
 }
 
@@ -63,14 +179,16 @@ fn found(array: &Array, file: &File, name: &str) -> hdf5::Result<Found> {
     if let TypeDescriptor::VarLenUnicode = array.dtype()?.to_descriptor()? {
         return Ok(Found::Text(text(array.read_scalar::<VarLenUnicode>()?)?));
     }
+    check_size(array, file)?;
     let mut variable = Variable {
         dimensions: Vec::new(),
         unit: words(array, UNITS)?,
         long_name: words(array, LONG_NAME)?,
-        values: values(array, file)?,
+        values: nothing(array)?,
         flags: flags(array)?,
     };
     if has(array, DIMENSION_ID)? {
+        variable.values = values(array, file)?;
         variable.dimensions.push(name.to_owned());
         return Ok(Found::Coordinate(array.attr(DIMENSION_ID)?.read_scalar()?, variable));
     }
@@ -81,11 +199,25 @@ fn found(array: &Array, file: &File, name: &str) -> hdf5::Result<Found> {
     Ok(Found::Variable(ids, variable))
 }
 
-fn values(array: &Array, file: &File) -> hdf5::Result<Values> {
+/// No numbers, of the kind that the array has.
+fn nothing(array: &Array) -> hdf5::Result<Values> {
+    let none = IxDyn(&[0]);
+    Ok(match array.dtype()?.to_descriptor()? {
+        TypeDescriptor::Integer(_) => Values::Integer(ArrayD::zeros(none)),
+        _ => Values::Real(ArrayD::zeros(none)),
+    })
+}
+
+fn check_size(array: &Array, file: &File) -> hdf5::Result<()> {
     let elements = array.shape().iter().fold(1_u64, |size, n| size.saturating_mul(*n as u64));
     if elements / LARGEST_COMPRESSION > file.size() {
         return Err(format!("it claims {elements} numbers, more than the file can hold").into());
     }
+    Ok(())
+}
+
+fn values(array: &Array, file: &File) -> hdf5::Result<Values> {
+    check_size(array, file)?;
     match array.dtype()?.to_descriptor()? {
         TypeDescriptor::Float(_) => Ok(Values::Real(array.read_dyn()?)),
         TypeDescriptor::Integer(_) => Ok(Values::Integer(array.read_dyn()?)),
@@ -108,8 +240,7 @@ fn flags(array: &Array) -> hdf5::Result<Vec<(i64, String)>> {
 }
 
 /// The names of a variable's dimensions, checked against the lengths of those coordinates.
-fn dimensions(dataset: &Dataset, ids: &[i32], values: &Values) -> hdf5::Result<Vec<String>> {
-    let lengths = values.shape();
+fn dimensions(dataset: &Dataset, ids: &[i32], lengths: &[usize]) -> hdf5::Result<Vec<String>> {
     if lengths.len() != ids.len() {
         return Err(format!("{} dimensions, {} of them named", lengths.len(), ids.len()).into());
     }
@@ -124,7 +255,7 @@ fn dimensions(dataset: &Dataset, ids: &[i32], values: &Values) -> hdf5::Result<V
     Ok(names)
 }
 
-fn attributes(file: &File) -> hdf5::Result<std::collections::BTreeMap<String, String>> {
+fn attributes(file: &File) -> hdf5::Result<BTreeMap<String, String>> {
     let names = file.attr_names()?.into_iter();
     names
         .filter(|name| name != CONVENTIONS && name != FORMAT)

@@ -1,14 +1,14 @@
-//! Turns a dataset into the bytes of an HDF5 file that netCDF-4 readers open with all its labels.
+//! Turns a dataset into an HDF5 file that netCDF-4 readers open with all its labels.
 //!
-//! The file is built in memory and handed out as bytes: HDF5 then never meets a full disk, which it
-//! may report late or not at all, and everything that touches the disk is in one place.
+//! A file that fits into memory is built there and handed out as bytes: HDF5 then never meets a full
+//! disk, which it may report late or not at all.
 
 use std::path::Path;
 
-use hdf5::file::LibraryVersion;
+use hdf5::file::{FileAccessBuilder, LibraryVersion};
 use hdf5::plist::file_create::LinkCreationOrder;
 use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset as Array, DatasetBuilder, File, H5Type, Location};
+use hdf5::{Dataset as Array, DatasetBuilder, File, H5Type, Hyperslab, Location};
 use ndarray::{ArrayD, ArrayView1};
 
 use super::names::*;
@@ -23,48 +23,62 @@ const COMPRESSION: u8 = 4;
 /// Memory is claimed in steps of this size while the file grows.
 const GROWTH_BYTES: usize = 1 << 20;
 
+/// The coordinates of a file that is being written, in their order.
+pub type Scales = Vec<(String, Array)>;
+
 /// The bytes of the file that holds `dataset`; `path` only names it in messages.
 pub fn image(dataset: &Dataset, path: &Path) -> Result<Vec<u8>, StoreError> {
+    let failed = |doing: &str| {
+        let doing = doing.to_owned();
+        move |said| StoreError::encoding(path, doing, said)
+    };
     // HDF5 takes two files in memory of one name for the same file, so there is one at a time.
-    hdf5::sync::sync(|| lay_out(dataset, path))
+    hdf5::sync::sync(|| {
+        let in_memory = |plist: &mut FileAccessBuilder| {
+            plist.core_options(GROWTH_BYTES, false);
+        };
+        let file = blank(Path::new("capsulemap.nc"), in_memory);
+        let file = file.map_err(failed("starting a file in memory"))?;
+        drop(lay_out(&file, dataset, path)?);
+        file.flush().and_then(|()| scale::image(&file)).map_err(failed("completing the file"))
+    })
 }
 
-fn lay_out(dataset: &Dataset, path: &Path) -> Result<Vec<u8>, StoreError> {
+/// Puts `dataset` into `file`; `path` only names it in messages.
+pub fn lay_out(file: &File, dataset: &Dataset, path: &Path) -> Result<Scales, StoreError> {
     let failed = |doing: String| move |said| StoreError::encoding(path, doing, said);
-    let file = blank().map_err(failed("starting a file in memory".into()))?;
-    let mut scales = Vec::new();
+    let mut scales = Scales::new();
     for (name, coordinate) in &dataset.coordinates {
-        let placed = put_coordinate(&file, name, coordinate, scales.len());
-        scales.push((name, placed.map_err(failed(format!("storing the coordinate {name}")))?));
+        let placed = put_coordinate(file, name, coordinate, scales.len());
+        let placed = placed.map_err(failed(format!("storing the coordinate {name}")))?;
+        scales.push((name.clone(), placed));
     }
     for (name, variable) in &dataset.variables {
-        put_variable(&file, name, variable, &scales)
+        put_variable(file, name, variable, &scales)
             .map_err(failed(format!("storing the variable {name}")))?;
     }
     for (name, text) in &dataset.texts {
-        put_text(&file, name, text).map_err(failed(format!("storing the text {name}")))?;
+        put_text(file, name, text).map_err(failed(format!("storing the text {name}")))?;
     }
     for (name, words) in &dataset.attributes {
-        put_words(&file, name, words).map_err(failed(format!("storing the attribute {name}")))?;
+        put_words(file, name, words).map_err(failed(format!("storing the attribute {name}")))?;
     }
-    drop(scales);
-    file.flush().and_then(|()| scale::image(&file)).map_err(failed("completing the file".into()))
+    Ok(scales)
 }
 
-/// An empty file in memory, without times, so that the same dataset gives the same bytes.
-fn blank() -> hdf5::Result<File> {
+/// An empty file, without times, so that the same dataset gives the same bytes.
+pub fn blank(path: &Path, place: impl Fn(&mut FileAccessBuilder)) -> hdf5::Result<File> {
     let file = File::with_options()
         .with_fcpl(|plist| {
             // netCDF-4 shows variables in the order of creation, and asks for it to append.
             plist.obj_track_times(false).link_creation_order(LinkCreationOrder::Indexed)
         })
         .with_fapl(|plist| {
+            place(plist);
             // Version 1.8 is the newest layout that every reader in use understands.
-            plist
-                .core_options(GROWTH_BYTES, false)
-                .libver_bounds(LibraryVersion::Earliest, LibraryVersion::V18)
+            plist.libver_bounds(LibraryVersion::Earliest, LibraryVersion::V18)
         })
-        .create("capsulemap.nc")?;
+        .create(path)?;
     put_words(&file, CONVENTIONS, CONVENTIONS_FOLLOWED)?;
     put_words(&file, FORMAT, FORMAT_WRITTEN)?;
     Ok(file)
@@ -86,17 +100,22 @@ fn put_variable(
     file: &File,
     name: &str,
     variable: &Variable,
-    scales: &[(&String, Array)],
+    scales: &[(String, Array)],
 ) -> hdf5::Result<()> {
     let array = put_labelled(file, name, variable)?;
+    attach(&array, variable, scales)
+}
+
+/// Names the coordinates of a variable, and the number that stands for a missing one.
+pub fn attach(array: &Array, variable: &Variable, scales: &[(String, Array)]) -> hdf5::Result<()> {
     if let Values::Real(_) = variable.values {
         array.new_attr::<f64>().create(FILL_VALUE)?.write_scalar(&f64::NAN)?;
     }
     let mut positions = Vec::new();
     for (dimension, along) in variable.dimensions.iter().enumerate() {
-        let position = scales.iter().position(|(scale, _)| *scale == along);
+        let position = scales.iter().position(|(scale, _)| scale == along);
         let position = position.ok_or_else(|| format!("no coordinate is called {along}"))?;
-        scale::attach(&array, &scales[position].1, dimension)?;
+        scale::attach(array, &scales[position].1, dimension)?;
         positions.push(position as i32);
     }
     if !positions.is_empty() {
@@ -107,77 +126,133 @@ fn put_variable(
 
 /// The numbers with their unit, meaning and flags.
 fn put_labelled(file: &File, name: &str, variable: &Variable) -> hdf5::Result<Array> {
-    let flags: Vec<i64> = variable.flags.iter().map(|(value, _)| *value).collect();
-    let array = match &variable.values {
-        Values::Real(reals) => put_array(file, name, reals, Some(f64::NAN))?,
-        Values::Integer(integers) => {
-            let fits = |low: i64, high: i64| {
-                integers.iter().chain(&flags).all(|value| (low..=high).contains(value))
-            };
-            if !flags.is_empty() && fits(i8::MIN.into(), i8::MAX.into()) {
-                put_integers(file, name, integers, &flags, |value| value as i8)?
-            } else if fits(i32::MIN.into(), i32::MAX.into()) {
-                put_integers(file, name, integers, &flags, |value| value as i32)?
-            } else {
-                put_integers(file, name, integers, &flags, |value| value)?
-            }
-        }
-    };
-    put_words(&array, UNITS, &variable.unit)?;
-    put_words(&array, LONG_NAME, &variable.long_name)?;
-    if !flags.is_empty() {
-        let meanings: Vec<&str> = variable.flags.iter().map(|(_, text)| text.as_str()).collect();
-        put_words(&array, FLAG_MEANINGS, &meanings.join(" "))?;
-    }
+    let shape = variable.values.shape();
+    let element = Element::of(variable, variable.values.range());
+    let array = element.create(file, name, shape)?;
+    element.write(&array, &variable.values, None)?;
+    label(&array, variable, element)?;
     Ok(array)
 }
 
-/// Integers in the type that `narrow` gives, which their flags share as CF asks.
-fn put_integers<T: H5Type + Clone>(
-    file: &File,
-    name: &str,
-    integers: &ArrayD<i64>,
-    flags: &[i64],
+/// Adds the unit, the meaning and the flags of a variable.
+pub fn label(array: &Array, variable: &Variable, element: Element) -> hdf5::Result<()> {
+    put_words(array, UNITS, &variable.unit)?;
+    put_words(array, LONG_NAME, &variable.long_name)?;
+    if variable.flags.is_empty() {
+        return Ok(());
+    }
+    let values: Vec<i64> = variable.flags.iter().map(|(value, _)| *value).collect();
+    match element {
+        Element::Byte => put_flag_values(array, &values, |value| value as i8)?,
+        Element::Int => put_flag_values(array, &values, |value| value as i32)?,
+        Element::Long | Element::Real => put_flag_values(array, &values, |value| value)?,
+    }
+    let meanings: Vec<&str> = variable.flags.iter().map(|(_, text)| text.as_str()).collect();
+    put_words(array, FLAG_MEANINGS, &meanings.join(" "))
+}
+
+/// The integers that a category takes, in the type of the category, as CF asks.
+fn put_flag_values<T: H5Type>(
+    array: &Array,
+    values: &[i64],
     narrow: impl Fn(i64) -> T,
-) -> hdf5::Result<Array> {
-    let array = put_array(file, name, &integers.mapv(&narrow), None)?;
-    if !flags.is_empty() {
-        let flags: Vec<T> = flags.iter().map(|value| narrow(*value)).collect();
-        array.new_attr_builder().with_data(ArrayView1::from(&flags)).create(FLAG_VALUES)?;
-    }
-    Ok(array)
+) -> hdf5::Result<()> {
+    let values: Vec<T> = values.iter().map(|value| narrow(*value)).collect();
+    array.new_attr_builder().with_data(ArrayView1::from(&values)).create(FLAG_VALUES)?;
+    Ok(())
 }
 
-fn put_array<T: H5Type + Clone>(
-    file: &File,
-    name: &str,
-    values: &ArrayD<T>,
-    missing: Option<f64>,
-) -> hdf5::Result<Array> {
-    let mut builder = file.new_dataset_builder();
-    if let Some(missing) = missing {
-        builder = builder.fill_value(missing);
+/// The type of a variable's numbers in the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Element {
+    /// Eight bytes, a real.
+    Real,
+    /// One byte.
+    Byte,
+    /// Four bytes.
+    Int,
+    /// Eight bytes.
+    Long,
+}
+
+impl Element {
+    /// The narrowest type for the numbers of a variable, of which those that are integers are in `range`.
+    pub fn of(variable: &Variable, range: Option<[i64; 2]>) -> Element {
+        if let Values::Real(_) = variable.values {
+            return Element::Real;
+        }
+        let flags = variable.flags.iter().map(|(value, _)| *value);
+        let all: Vec<i64> = range.into_iter().flatten().chain(flags).collect();
+        let fits = |low: i64, high: i64| all.iter().all(|value| (low..=high).contains(value));
+        match () {
+            () if !variable.flags.is_empty() && fits(i8::MIN.into(), i8::MAX.into()) => {
+                Element::Byte
+            }
+            () if fits(i32::MIN.into(), i32::MAX.into()) => Element::Int,
+            () => Element::Long,
+        }
     }
-    let shape = values.shape();
-    builder = if values.len() * size_of::<T>() >= COMPRESSED_FROM_BYTES {
+
+    /// Bytes of a number.
+    pub fn bytes(self) -> usize {
+        match self {
+            Element::Byte => 1,
+            Element::Int => 4,
+            Element::Real | Element::Long => 8,
+        }
+    }
+
+    /// An array without its numbers.
+    pub fn create(self, file: &File, name: &str, shape: &[usize]) -> hdf5::Result<Array> {
+        let builder = file.new_dataset_builder();
+        match self {
+            Element::Real => create::<f64>(builder.fill_value(f64::NAN), name, shape),
+            Element::Byte => create::<i8>(builder, name, shape),
+            Element::Int => create::<i32>(builder, name, shape),
+            Element::Long => create::<i64>(builder, name, shape),
+        }
+    }
+
+    /// Writes numbers to an array, or to a part of it.
+    pub fn write(
+        self,
+        array: &Array,
+        values: &Values,
+        part: Option<Hyperslab>,
+    ) -> hdf5::Result<()> {
+        match (self, values) {
+            (Element::Real, Values::Real(reals)) => write(array, reals, part),
+            (Element::Byte, Values::Integer(all)) => write(array, &all.mapv(|it| it as i8), part),
+            (Element::Int, Values::Integer(all)) => write(array, &all.mapv(|it| it as i32), part),
+            (Element::Long, Values::Integer(all)) => write(array, all, part),
+            _ => Err("reals and integers are mixed".into()),
+        }
+    }
+}
+
+fn create<T: H5Type>(builder: DatasetBuilder, name: &str, shape: &[usize]) -> hdf5::Result<Array> {
+    let bytes = shape.iter().product::<usize>() * size_of::<T>();
+    let builder = if bytes >= COMPRESSED_FROM_BYTES {
         builder.chunk(chunk_shape(shape, size_of::<T>())).shuffle().deflate(COMPRESSION)
     } else {
         builder.no_chunk()
     };
-    write_array(builder, name, values)
+    builder.empty::<T>().shape(shape).create(name)
 }
 
-fn write_array<T: H5Type + Clone>(
-    builder: DatasetBuilder,
-    name: &str,
-    values: &ArrayD<T>,
-) -> hdf5::Result<Array> {
+fn write<T: H5Type>(array: &Array, values: &ArrayD<T>, part: Option<Hyperslab>) -> hdf5::Result<()>
+where
+    T: Clone,
+{
     let values = values.as_standard_layout();
-    builder.with_data(values.view()).create(name)
+    match part {
+        Some(part) => array.write_slice(values.view(), part),
+        None => array.write(values.view()),
+    }
 }
 
 /// The whole array, halved along its longest side until a chunk fits.
-fn chunk_shape(shape: &[usize], element: usize) -> Vec<usize> {
+pub fn chunk_shape(shape: &[usize], element: usize) -> Vec<usize> {
     let mut chunk = shape.to_vec();
     while chunk.iter().product::<usize>() * element > CHUNK_BYTES {
         if let Some(longest) = chunk.iter_mut().max() {

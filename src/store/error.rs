@@ -53,6 +53,18 @@ pub enum StoreError {
         /// The file concerned.
         path: PathBuf,
     },
+    /// The blocks in a folder are of another study, or another program made them.
+    Changed {
+        /// The folder.
+        folder: PathBuf,
+        /// What has changed, a line each.
+        changes: Vec<String>,
+    },
+    /// Another run works on the same study.
+    Busy {
+        /// The folder of its blocks.
+        folder: PathBuf,
+    },
     /// What was written does not read back as it was; the new file was discarded.
     Unequal {
         /// The file that was to be written.
@@ -113,6 +125,22 @@ impl fmt::Display for StoreError {
                 "{}: the file has changed since it was written, its checksum does not fit; restore \
                  a copy or make it again",
                 path.display()
+            ),
+            StoreError::Changed { folder, changes } => {
+                write!(f, "{}: holds blocks of another run: ", folder.display())?;
+                changes.iter().try_for_each(|change| writeln!(f, "{change}"))?;
+                write!(
+                    f,
+                    "they are kept, and not mixed with others: go back to the study and program that they \
+                     belong to (the study is in {}), name another --output, or give them up with --overwrite",
+                    folder.join("study.toml").display()
+                )
+            }
+            StoreError::Busy { folder } => write!(
+                f,
+                "{}: another run is at work on this study; wait for it, or stop it and run again (what it \
+                 has finished is kept)",
+                folder.display()
             ),
             StoreError::Unequal { path, difference } => write!(
                 f,

@@ -6,9 +6,10 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
+use super::decode::Archive;
 use super::faults::faults;
 use super::seal::{self, Seal};
-use super::{Dataset, StoreError, decode, difference, encode};
+use super::{Dataset, StoreError, difference, encode};
 
 /// The first bytes of every HDF5 file.
 const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
@@ -24,10 +25,7 @@ pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
         return Err(StoreError::Unfit { path: path.to_owned(), faults });
     }
     let failed = |doing| move |said| StoreError::system(path, doing, said);
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
+    let folder = folder(path);
     let mut file = temporary(path, folder).map_err(failed("starting a new file"))?;
     let mut image = encode::image(dataset, path)?;
     seal::put(&mut image);
@@ -47,6 +45,11 @@ pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
 
 /// The dataset in the file at `path`, exactly as it was written.
 pub fn read(path: &Path) -> Result<Dataset, StoreError> {
+    open(path)?.dataset(|_, _| true)
+}
+
+/// The file of results at `path`, once every byte has been checked.
+pub fn open(path: &Path) -> Result<Archive, StoreError> {
     let failed = |said| StoreError::system(path, "opening the file", said);
     let mut file = File::open(path).map_err(failed)?;
     let mut start = Vec::new();
@@ -58,8 +61,14 @@ pub fn read(path: &Path) -> Result<Dataset, StoreError> {
     file.rewind().map_err(failed)?;
     match seal::judge(file).map_err(failed)? {
         Seal::Broken => Err(StoreError::Damaged { path: path.to_owned() }),
-        Seal::Whole | Seal::Absent => decode::dataset(path),
+        Seal::Whole | Seal::Absent => Archive::decode(path),
     }
+}
+
+/// The folder of a file.
+pub(super) fn folder(path: &Path) -> &Path {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
 }
 
 /// A new file beside `path`, hidden, removed again unless it gets its final name.
@@ -72,6 +81,25 @@ pub(super) fn temporary(path: &Path, folder: &Path) -> io::Result<NamedTempFile>
     // Without this only its owner could read the result; the user's umask still applies.
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder)
+}
+
+/// Removes what runs that were killed have left of the file at `path`.
+pub fn discard_unfinished(path: &Path) -> Result<(), StoreError> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let failed = |said| StoreError::system(path, "clearing away what is unfinished", said);
+    discard_unfinished_in(folder(path), &format!("{name}.")).map_err(failed)
+}
+
+/// Removes what runs that were killed have left of files in `folder` whose names begin with `name`.
+pub(super) fn discard_unfinished_in(folder: &Path, name: &str) -> io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        let found = path.file_name().unwrap_or_default().to_string_lossy();
+        if found.starts_with(&format!(".{name}")) && found.ends_with(".tmp") {
+            std::fs::remove_file(path)?;
+        }
+    }
+    Ok(())
 }
 
 /// A new name is safe only once the folder that lists it is on the disk.

@@ -1,6 +1,7 @@
 //! Kept: keeps records and gives them back, with what made them.
 
 mod attractors;
+pub mod block_folder;
 mod branch_columns;
 pub mod branches;
 pub mod dataset;
@@ -11,18 +12,24 @@ mod error;
 mod faults;
 mod file;
 mod flat;
+mod join;
+mod joined;
 mod names;
+mod piece;
 pub mod provenance;
 mod scale;
 pub mod schema;
 mod seal;
 pub mod shard;
-mod whole;
 
 pub use attractors::add_attractors;
+pub use block_folder::{BlockFolder, Company, by_outcome, packed_bytes};
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
 pub use dataset::{Dataset, Values, Variable};
+pub use decode::Archive;
 pub use difference::difference;
 pub use error::StoreError;
-pub use file::{read, write};
+pub use file::{discard_unfinished, open, read, write};
+pub use join::{Blocks, FailedCase};
 pub use schema::{dataset, frame};
+pub use shard::{Summary, Unusable};

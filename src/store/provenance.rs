@@ -17,9 +17,19 @@ pub fn attributes() -> BTreeMap<String, String> {
     .collect()
 }
 
-/// The time as ISO 8601 in UTC, to the second.
+/// Who made something, in one word: program, commit, architecture and the widest vector instructions.
+pub fn maker(made: &BTreeMap<String, String>) -> String {
+    let keys = ["source", "commit", "host_architecture", "host_instruction_set"];
+    let words = keys.map(|key| made.get(key).map_or("unknown", String::as_str));
+    words.join("@").replace(' ', "-")
+}
+
+/// The time as ISO 8601 in UTC, to the second; where files are to be the same byte for byte, as the
+/// environment variable SOURCE_DATE_EPOCH has it [s since 1970], which reproducible-builds.org defines.
 fn now() -> String {
-    let since = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs());
+    let given = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.parse().ok());
+    let elapsed = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs());
+    let since: u64 = given.unwrap_or_else(elapsed);
     let (days, seconds) = (since / 86_400, since % 86_400);
     let (year, month, day) = civil(days);
     let (hour, minute, second) = (seconds / 3600, seconds / 60 % 60, seconds % 60);

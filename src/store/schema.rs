@@ -7,7 +7,7 @@ use crate::orbit::matrix::Complex;
 use crate::orbit::{Certificate, History, Impact, Orbit, Outcome, Proof, Reason};
 use crate::sweep::{Coordinate, Direction, Record, Study};
 
-use super::whole::Whole;
+use super::piece::{Filling, MISSING, Piece};
 use super::{Dataset, Values, Variable, provenance};
 
 /// The dimension of the cases of a block, which in a whole dataset gives way to the axes.
@@ -19,15 +19,38 @@ pub const CASE: &str = "case";
 /// both ways; after them `point`, `impact_point` or `history_time` for what each case has several of.
 pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
     let mut dataset = frame(study);
-    let cases: Vec<usize> = records.iter().map(|record| record.index).collect();
     let columns = columns(study, records);
+    let piece = Piece::whole(&study.shape());
     for (name, variable) in columns.variables {
-        let mut whole = Whole::new(study, &name, &variable);
-        whole.put(&cases, &variable.values);
-        dataset.variables.insert(name, whole.finish());
+        let mut filling = Filling::new(&piece, &name, &variable.values);
+        let places = records.iter().map(|record| Some(record.index));
+        match &variable.values {
+            Values::Real(own) => filling.put_reals(places, own.as_slice().expect("a table")),
+            Values::Integer(own) => filling.put_integers(places, own.as_slice().expect("a table")),
+        }
+        let label = over_axes(study, &name, variable, records.len() < study.cases());
+        dataset.variables.insert(name, Variable { values: filling.finish(), ..label });
     }
     dataset.coordinates.extend(columns.coordinates);
     dataset
+}
+
+/// A variable over cases as one over the axes of the study, its numbers as they were.
+pub(super) fn over_axes(
+    study: &Study,
+    name: &str,
+    variable: Variable,
+    is_partial: bool,
+) -> Variable {
+    let axes = study.axes.iter().map(|axis| axis.coordinate.name().to_owned());
+    let directions = study.direction_axis().map(|_| "direction".to_owned());
+    let inner = variable.dimensions[1..].iter().cloned();
+    let dimensions = axes.chain(directions).chain(inner).collect();
+    let mut flags = variable.flags;
+    if is_partial && name == "outcome" {
+        flags.insert(0, (MISSING.0, MISSING.1.to_owned()));
+    }
+    Variable { dimensions, flags, ..variable }
 }
 
 /// The variables of a study over its `records` alone, in their order along the dimension `case`, and the

@@ -4,7 +4,8 @@
 //! numbers carry no checksum at all. Every reader ignores bytes behind the end that HDF5 knows.
 //! A program that opens the file to change it drops the seal, and HDF5 is trusted as usual.
 
-use std::io::{self, Read};
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
 
 /// What a seal begins with; the checksum of all bytes before follows, lowest byte first.
 const MARK: &[u8] = b"capsulemap";
@@ -28,6 +29,20 @@ pub fn put(bytes: &mut Vec<u8>) {
     let sum = crc32fast::hash(bytes);
     bytes.extend_from_slice(MARK);
     bytes.extend_from_slice(&sum.to_le_bytes());
+}
+
+/// Appends the seal of all bytes of a file, read again from its beginning.
+pub fn put_on(file: &mut File) -> io::Result<()> {
+    let mut sum = crc32fast::Hasher::new();
+    let mut bytes = Vec::new();
+    file.rewind()?;
+    while file.take(PIECE_BYTES as u64).read_to_end(&mut bytes)? > 0 {
+        sum.update(&bytes);
+        bytes.clear();
+    }
+    file.seek(SeekFrom::End(0))?;
+    file.write_all(MARK)?;
+    file.write_all(&sum.finalize().to_le_bytes())
 }
 
 /// Reads `source` to its end and judges the seal found there.
@@ -67,6 +82,20 @@ mod tests {
             assert_eq!(judge(&bytes[..])?, Seal::Broken);
             bytes[bit / 8] ^= 1 << (bit % 8);
         }
+        Ok(())
+    }
+
+    #[test]
+    fn a_file_is_sealed_as_its_bytes_are() -> io::Result<()> {
+        let mut bytes: Vec<u8> = (0..PIECE_BYTES + 11).map(|i| (i % 251) as u8).collect();
+        let mut file = tempfile::tempfile()?;
+        file.write_all(&bytes)?;
+        put_on(&mut file)?;
+        put(&mut bytes);
+        let mut kept = Vec::new();
+        file.rewind()?;
+        file.read_to_end(&mut kept)?;
+        assert_eq!(kept, bytes);
         Ok(())
     }
 

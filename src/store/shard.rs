@@ -46,20 +46,32 @@ pub struct Column {
 pub struct Head {
     /// What tells its study, and the program that computed it, from others.
     pub fingerprint: String,
-    /// The number of its block.
-    pub block: usize,
-    /// Cases in it.
-    pub cases: usize,
+    /// The block.
+    pub block: Summary,
     /// Who made it, when and on what, see [`provenance::attributes`].
     pub made: BTreeMap<String, String>,
     columns: Vec<Place>,
+}
+
+/// A block in a few numbers.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Summary {
+    /// Its number.
+    pub number: usize,
+    /// Cases in it.
+    pub cases: usize,
+    /// Cases by outcome, those that occur.
+    pub outcomes: BTreeMap<String, usize>,
+    /// Drive cycles that they were followed.
+    pub cycles: u64,
 }
 
 /// Where the numbers of a column are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Place {
     name: String,
-    real: bool,
+    /// The least and the greatest number of a column of integers; none for reals.
+    range: Option<[i64; 2]>,
     /// Bytes in the file, behind those of the columns before.
     bytes: u64,
 }
@@ -81,10 +93,21 @@ pub enum Unusable {
     Missing,
     /// It is cut short, or has changed since it was written.
     Torn,
-    /// It is whole, but of another study, version or block.
-    Foreign,
+    /// It is whole, but of another study, version or block, as the words tell.
+    Foreign(String),
     /// The operating system refused.
     Refused(io::Error),
+}
+
+impl std::fmt::Display for Unusable {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Unusable::Missing => write!(f, "it is not there"),
+            Unusable::Torn => write!(f, "it is torn: cut short, or changed since it was written"),
+            Unusable::Foreign(why) => write!(f, "it is foreign: {why}"),
+            Unusable::Refused(said) => write!(f, "it cannot be read: {said}"),
+        }
+    }
 }
 
 /// The file of block `number` in `folder`.
@@ -92,68 +115,107 @@ pub fn path(folder: &Path, number: usize) -> PathBuf {
     folder.join(format!("block-{number:07}"))
 }
 
-/// Keeps the columns of a block in its file in `folder`, whole or not at all.
+/// Keeps the columns of a block in its file in `folder`, whole or not at all; returns the bytes it takes.
 pub fn write(
     folder: &Path,
     fingerprint: &str,
-    (block, cases): (usize, usize),
+    block: Summary,
     columns: &[Column],
-) -> Result<(), StoreError> {
-    let path = path(folder, block);
+) -> Result<u64, StoreError> {
+    let path = path(folder, block.number);
     let failed = |doing| {
         let path = &path;
         move |said| StoreError::system(path, doing, said)
     };
-    let packed: Vec<Vec<u8>> = columns
-        .iter()
-        .map(|column| pack(&column.numbers))
-        .collect::<io::Result<_>>()
-        .map_err(failed("packing"))?;
+    let image = image(fingerprint, block, columns).map_err(failed("packing"))?;
+    let mut file = temporary(&path, folder).map_err(failed("starting a new file"))?;
+    file.write_all(&image).map_err(failed("writing"))?;
+    file.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
+    file.persist(&path).map_err(|refused| failed("giving the file its name")(refused.error))?;
+    sync_folder(folder).map_err(failed("forcing the folder to the disk"))?;
+    Ok(image.len() as u64)
+}
+
+/// The bytes of a shard.
+pub fn image(fingerprint: &str, block: Summary, columns: &[Column]) -> io::Result<Vec<u8>> {
+    let packed: Vec<Vec<u8>> =
+        columns.iter().map(|column| pack(&column.numbers)).collect::<io::Result<_>>()?;
     let place = |(column, packed): (&Column, &Vec<u8>)| Place {
         name: column.name.clone(),
-        real: matches!(column.numbers, Numbers::Real(_)),
+        range: column.numbers.range(),
         bytes: packed.len() as u64,
     };
     let head = Head {
         fingerprint: fingerprint.to_owned(),
         block,
-        cases,
         made: provenance::attributes(),
         columns: columns.iter().zip(&packed).map(place).collect(),
     };
-    let head = serde_json::to_string(&head).map_err(io::Error::from).map_err(failed("packing"))?;
-    let mut image = format!("{FORMAT}\n{head}\n").into_bytes();
+    let mut image = format!("{FORMAT}\n{}\n", serde_json::to_string(&head)?).into_bytes();
     packed.iter().for_each(|column| image.extend_from_slice(column));
     seal::put(&mut image);
-    let mut file = temporary(&path, folder).map_err(failed("starting a new file"))?;
-    file.write_all(&image).map_err(failed("writing"))?;
-    file.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
-    file.persist(&path).map_err(|refused| failed("giving the file its name")(refused.error))?;
-    sync_folder(folder).map_err(failed("forcing the folder to the disk"))
+    Ok(image)
 }
 
 /// The shard of block `number` in `folder`, once every byte has been checked.
 pub fn open(folder: &Path, fingerprint: &str, number: usize) -> Result<Shard, Unusable> {
     let path = path(folder, number);
-    let file = File::open(&path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => Unusable::Missing,
-        _ => Unusable::Refused(error),
-    })?;
+    let mut file = File::open(&path).map_err(refused)?;
     if seal::judge(&file).map_err(Unusable::Refused)? != Seal::Whole {
         return Err(Unusable::Torn);
     }
+    file.rewind().map_err(Unusable::Refused)?;
+    let (head, begin) = read_head(file)?;
+    match foreign(&head, fingerprint, number) {
+        None => Ok(Shard { head, path, begin }),
+        Some(why) => Err(Unusable::Foreign(why)),
+    }
+}
+
+/// What the shard of block `number` in `folder` says of itself, without a look at its columns.
+pub fn glance(folder: &Path, fingerprint: &str, number: usize) -> Result<Head, Unusable> {
+    let file = File::open(path(folder, number)).map_err(refused)?;
+    let (head, _) = read_head(file)?;
+    foreign(&head, fingerprint, number).map_or(Ok(head), |why| Err(Unusable::Foreign(why)))
+}
+
+fn refused(error: io::Error) -> Unusable {
+    match error.kind() {
+        io::ErrorKind::NotFound => Unusable::Missing,
+        _ => Unusable::Refused(error),
+    }
+}
+
+/// The head of a shard, and where the first column begins.
+fn read_head(file: File) -> Result<(Head, u64), Unusable> {
     let mut reader = BufReader::new(file);
-    reader.rewind().map_err(Unusable::Refused)?;
     let mut line = || {
-        let mut line = String::new();
-        let read = reader.by_ref().take(LONGEST_HEAD).read_line(&mut line);
-        read.map(|bytes| (line.trim_end().to_owned(), bytes as u64)).map_err(|_| Unusable::Foreign)
+        let mut line = Vec::new();
+        let read = reader.by_ref().take(LONGEST_HEAD).read_until(b'\n', &mut line);
+        read.map(|bytes| (line, bytes as u64)).map_err(Unusable::Refused)
     };
     let (format, first) = line()?;
+    if format.strip_suffix(b"\n") != Some(FORMAT.as_bytes()) {
+        return Err(Unusable::Foreign(format!("it does not begin with \"{FORMAT}\"")));
+    }
     let (head, second) = line()?;
-    let head: Head = serde_json::from_str(&head).map_err(|_| Unusable::Foreign)?;
-    let ours = format == FORMAT && head.fingerprint == fingerprint && head.block == number;
-    if ours { Ok(Shard { head, path, begin: first + second }) } else { Err(Unusable::Foreign) }
+    let head = serde_json::from_slice(&head).map_err(|_| Unusable::Torn)?;
+    Ok((head, first + second))
+}
+
+/// Why a shard is not the one that was looked for, if it is not.
+fn foreign(head: &Head, fingerprint: &str, number: usize) -> Option<String> {
+    let now = provenance::attributes();
+    let program = ["source", "commit"].map(|key| [head.made.get(key), now.get(key)]);
+    if program.iter().any(|[made, now]| made != now) {
+        let named = program.map(|[made, _]| made.map_or("unknown", String::as_str));
+        return Some(format!("made by another version, {} (commit {})", named[0], named[1]));
+    }
+    if head.fingerprint != fingerprint {
+        return Some("made for another study".to_owned());
+    }
+    let other = head.block.number;
+    (other != number).then(|| format!("it is block {other} under another name"))
 }
 
 impl Shard {
@@ -167,7 +229,39 @@ impl Shard {
         let before: u64 = columns[..at].iter().map(|column| column.bytes).sum();
         let mut file = File::open(&self.path).map_err(failed)?;
         file.seek(SeekFrom::Start(self.begin + before)).map_err(failed)?;
-        unpack(file.take(columns[at].bytes), columns[at].real).map(Some).map_err(failed)
+        let real = columns[at].range.is_none();
+        unpack(file.take(columns[at].bytes), real).map(Some).map_err(failed)
+    }
+
+    /// The numbers of a column of reals.
+    pub fn reals(&self, name: &str) -> Result<Vec<f64>, StoreError> {
+        match self.column(name)? {
+            Some(Numbers::Real(reals)) => Ok(reals),
+            _ => Err(StoreError::Damaged { path: self.path.clone() }),
+        }
+    }
+
+    /// The numbers of a column of integers.
+    pub fn integers(&self, name: &str) -> Result<Vec<i64>, StoreError> {
+        match self.column(name)? {
+            Some(Numbers::Integer(integers)) => Ok(integers),
+            _ => Err(StoreError::Damaged { path: self.path.clone() }),
+        }
+    }
+
+    /// The least and the greatest number of a column of integers, if it is one and has any.
+    pub fn range(&self, name: &str) -> Option<[i64; 2]> {
+        let column = self.head.columns.iter().find(|column| column.name == name)?;
+        column.range.filter(|[low, high]| low <= high)
+    }
+}
+
+impl Numbers {
+    /// The least and the greatest of integers, the other way round if there are none; none for reals.
+    fn range(&self) -> Option<[i64; 2]> {
+        let Numbers::Integer(all) = self else { return None };
+        let wider = |[low, high]: [i64; 2], it: &i64| [low.min(*it), high.max(*it)];
+        Some(all.iter().fold([i64::MAX, i64::MIN], wider))
     }
 }
 
@@ -207,12 +301,19 @@ mod tests {
         ]
     }
 
+    fn block(number: usize) -> Summary {
+        let outcomes = BTreeMap::from([("periodic".to_owned(), 3)]);
+        Summary { number, cases: 3, outcomes, cycles: 90 }
+    }
+
     #[test]
     fn every_number_comes_back_bit_for_bit() {
         let folder = tempfile::tempdir().expect("a folder");
-        write(folder.path(), "a", (12, 3), &columns()).expect("it is written");
+        write(folder.path(), "a", block(12), &columns()).expect("it is written");
         let shard = open(folder.path(), "a", 12).expect("it is whole");
-        assert_eq!((shard.head.block, shard.head.cases), (12, 3));
+        assert_eq!(shard.head.block, block(12));
+        assert_eq!(glance(folder.path(), "a", 12).expect("a head"), shard.head);
+        assert_eq!((shard.range("period"), shard.range("speed")), (Some([-7, i64::MAX]), None));
         assert!(shard.head.made.contains_key("commit"));
         let Ok(Some(Numbers::Real(reals))) = shard.column("speed") else { panic!("reals") };
         let Numbers::Real(expected) = &columns()[0].numbers else { panic!("reals") };
@@ -228,7 +329,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let place = folder.path();
         assert!(matches!(open(place, "a", 0), Err(Unusable::Missing)));
-        write(place, "a", (0, 3), &columns()).expect("it is written");
+        write(place, "a", block(0), &columns()).expect("it is written");
         let whole = std::fs::read(path(place, 0)).expect("bytes");
         for length in (0..whole.len()).step_by(7) {
             std::fs::write(path(place, 0), &whole[..length]).expect("it is cut");
@@ -242,8 +343,8 @@ mod tests {
         }
         std::fs::write(path(place, 0), &whole).expect("it is whole");
         assert!(open(place, "a", 0).is_ok());
-        assert!(matches!(open(place, "b", 0), Err(Unusable::Foreign)));
+        assert!(matches!(open(place, "b", 0), Err(Unusable::Foreign(_))));
         std::fs::rename(path(place, 0), path(place, 1)).expect("it is renamed");
-        assert!(matches!(open(place, "a", 1), Err(Unusable::Foreign)));
+        assert!(matches!(open(place, "a", 1), Err(Unusable::Foreign(_))));
     }
 }

@@ -1,7 +1,7 @@
 //! Blocks: a study cut into pieces that are computed, kept and done again each as a whole.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use std::sync::Mutex;
 
 use super::run::{Machine, Record, RunError, run_chains};
@@ -9,6 +9,9 @@ use super::study::Study;
 
 /// A block has this many cases, or those of one group of chains if they are more.
 const CASES: usize = 512;
+/// A large study has larger blocks, so that there are about so many at most: folders of many more files are
+/// slow to list, and clusters count them.
+const MOST_BLOCKS: usize = 8192;
 
 impl Study {
     /// Number of blocks. How a study is cut depends on the study alone, never on the machine, so that every
@@ -31,14 +34,37 @@ impl Study {
         cases
     }
 
+    /// Number of cases of block `number`.
+    pub fn cases_of_block(&self, number: usize) -> usize {
+        self.block(number).len() / self.chains_of_group() * self.cases_of_group()
+    }
+
     /// Chains of every block but the last, which may have fewer.
     fn chains_per_block(&self) -> usize {
-        self.chains_of_group() * (CASES / self.cases_of_group()).max(1)
+        let cases = CASES.max(self.cases().div_ceil(MOST_BLOCKS));
+        self.chains_of_group() * (cases / self.cases_of_group()).max(1)
     }
 }
 
-/// Runs the `blocks` of a study, each named once, on `machine`, and hands the records of each, in the order
-/// of their indices, to `finished` when the last of them is done; from any thread, and in any order.
+/// All blocks in an order in which any number of the first are spread evenly over the study, so that they
+/// foretell how long the rest takes, and show a map of it before the end.
+///
+/// Method: steps of the golden section, or of the next number that has no divisor in common with the number
+/// of blocks.
+pub fn spread(blocks: usize) -> Vec<usize> {
+    let coprime = |step: &usize| greatest_divisor(*step, blocks) == 1;
+    let golden = (0.618_033_988_749_894_9 * blocks as f64) as usize;
+    let step = (golden.max(1)..).find(coprime).unwrap_or(1);
+    (0..blocks).map(|place| place * step % blocks).collect()
+}
+
+fn greatest_divisor(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { greatest_divisor(b, a % b) }
+}
+
+/// Runs the `blocks` of a study, each named once, on `machine`, tells `done` of each record, and hands the records of each, in the order
+/// of their indices, to `finished` when the last of them is done, until that says to stop; from any thread, and
+/// in any order.
 ///
 /// Threads go on to the next block before the last cases of one are done, so that their lanes stay full: as
 /// many blocks are unfinished at a time as hold slow cases, and a few more.
@@ -46,7 +72,8 @@ pub fn run_blocks(
     study: &Study,
     machine: Machine,
     blocks: &[usize],
-    finished: impl Fn(usize, Vec<Record>) + Sync,
+    done: impl Fn(&Record) + Sync,
+    finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
     let mut ends = Vec::with_capacity(blocks.len());
     for &block in blocks {
@@ -58,10 +85,12 @@ pub fn run_blocks(
     };
     let unfinished: Mutex<BTreeMap<usize, Vec<Record>>> = Mutex::default();
     let keep = |block: usize, record: Record| {
-        if let Some(mut records) = whole(study, &unfinished, block, record) {
-            records.sort_by_key(|record| record.index);
-            finished(block, records);
-        }
+        done(&record);
+        let Some(mut records) = whole(study, &unfinished, block, record) else {
+            return ControlFlow::Continue(());
+        };
+        records.sort_by_key(|record| record.index);
+        finished(block, records)
     };
     run_chains(study, machine, (ends.last().copied().unwrap_or(0), &chains), keep)
 }
@@ -73,11 +102,10 @@ fn whole(
     block: usize,
     record: Record,
 ) -> Option<Vec<Record>> {
-    let groups = study.block(block).len() / study.chains_of_group();
     let mut unfinished = unfinished.lock().expect("no thread has panicked");
     let records = unfinished.entry(block).or_default();
     records.push(record);
-    if records.len() < groups * study.cases_of_group() {
+    if records.len() < study.cases_of_block(block) {
         return None;
     }
     unfinished.remove(&block)

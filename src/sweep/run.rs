@@ -1,8 +1,9 @@
 //! The parallel run: chains of cases over all cores, in any order, to the same records.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use crate::lane::Instructions;
 use crate::model::{State, Switching};
@@ -34,11 +35,35 @@ pub struct Machine {
 /// Runs every case of `study` on `machine` and hands each record to `keep`, which is called from any
 /// thread and in any order.
 pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Result<(), RunError> {
-    run_chains(study, machine, (study.chains(), &|place| (0, place)), |_, record| keep(record))
+    let keep = |_, record| {
+        keep(record);
+        ControlFlow::Continue(())
+    };
+    run_chains(study, machine, (study.chains(), &|place| (0, place)), keep)
+}
+
+/// Runs some chains of `study`, each named once, on `machine`; calls `done` after each case, and returns the
+/// records in the order of their indices.
+pub fn run_sample(
+    study: &Study,
+    machine: Machine,
+    chains: &[usize],
+    done: impl Fn() + Sync,
+) -> Result<Vec<Record>, RunError> {
+    let records = Mutex::new(Vec::new());
+    let keep = |_, record| {
+        done();
+        records.lock().expect("no thread has panicked").push(record);
+        ControlFlow::Continue(())
+    };
+    run_chains(study, machine, (chains.len(), &|place| (0, chains[place])), keep)?;
+    let mut records = records.into_inner().expect("no thread has panicked");
+    records.sort_by_key(|record: &Record| record.index);
+    Ok(records)
 }
 
 /// Runs so many chains of `study` on `machine`, each given by its place as the number of its block and its
-/// own, and hands each record to `keep` with the number of the block.
+/// own, and hands each record to `keep` with the number of the block, until that says to stop.
 ///
 /// Every thread fills its lanes from one queue of chains until it is empty; the last cases, too few to fill
 /// a vector, are followed one by one, by whichever thread is done with its lanes. A case depends on its own
@@ -47,20 +72,21 @@ pub(super) fn run_chains(
     study: &Study,
     machine: Machine,
     (count, chains): (usize, Chains<'_>),
-    keep: impl Fn(usize, Record) + Sync,
+    keep: impl Fn(usize, Record) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
     if let Some(missing) = machine.instructions.filter(|it| !it.is_available()) {
         return Err(RunError(format!("the processor has no {}", missing.name())));
     }
     let pool = pool(machine.threads)?;
-    let taken = AtomicUsize::new(0);
+    let (taken, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
     let last_cases = Mutex::new(Vec::new());
     let share = count.div_ceil(pool.current_num_threads());
     let instructions = machine.instructions.unwrap_or_else(|| Instructions::suited_to(share));
     pool.broadcast(|_| {
         let links = BTreeMap::new();
+        let queue = (count, chains);
         let mut worker =
-            Worker { study, queue: (count, chains), taken: &taken, share, keep: &keep, links };
+            Worker { study, queue, taken: &taken, stopped: &stopped, share, keep: &keep, links };
         match study.base.switching {
             Switching::AsPrinted => worker.settle_one_by_one(),
             Switching::Filippov => {
@@ -71,6 +97,9 @@ pub(super) fn run_chains(
                     // In a statement of its own, so that the lock is free again.
                     let case = lock().pop();
                     let Some((link, case)) = case else { break };
+                    if stopped.load(Ordering::Relaxed) {
+                        break;
+                    }
                     worker.finish_chain(link, case);
                 }
             }
@@ -107,6 +136,8 @@ struct Worker<'a, K> {
     queue: (usize, Chains<'a>),
     /// Chains that have been taken by any thread.
     taken: &'a AtomicUsize,
+    /// Whether nothing more is to be begun.
+    stopped: &'a AtomicBool,
     /// Chains that this thread may still begin with, so that a few are not all in the lanes of one.
     share: usize,
     keep: &'a K,
@@ -114,7 +145,7 @@ struct Worker<'a, K> {
     links: BTreeMap<usize, Link>,
 }
 
-impl<K: Fn(usize, Record)> Queue for Worker<'_, K> {
+impl<K: Fn(usize, Record) -> ControlFlow<()>> Queue for Worker<'_, K> {
     fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
         let next = match done {
             Some((index, orbit)) => {
@@ -133,7 +164,7 @@ impl<K: Fn(usize, Record)> Queue for Worker<'_, K> {
     }
 }
 
-impl<K: Fn(usize, Record)> Worker<'_, K> {
+impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     /// The first case of the next chain.
     fn take(&self) -> Option<(Link, Case)> {
         let place = self.taken.fetch_add(1, Ordering::Relaxed);
@@ -153,7 +184,9 @@ impl<K: Fn(usize, Record)> Worker<'_, K> {
     ) -> Option<(Link, Case)> {
         // After a failure the next case starts afresh.
         let settled = (orbit.outcome != Outcome::Failed).then_some(orbit.end);
-        (self.keep)(block, Record { index, start, orbit });
+        if (self.keep)(block, Record { index, start, orbit }).is_break() {
+            self.stopped.store(true, Ordering::Relaxed);
+        }
         self.depart(block, rest, settled)
     }
 
@@ -163,6 +196,9 @@ impl<K: Fn(usize, Record)> Worker<'_, K> {
         mut chain: Chain,
         from: Option<State<f64>>,
     ) -> Option<(Link, Case)> {
+        if self.stopped.load(Ordering::Relaxed) {
+            return None;
+        }
         let index = chain.next()?;
         let mut case = self.study.case(index);
         if let Some(from) = from {

@@ -1,5 +1,9 @@
 //! A study: what to compute, as a set of axes over one base case.
 
+use std::hash::Hash;
+
+use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
+
 use crate::model::{Parameters, State};
 use crate::orbit::{Case, Output, Protocol};
 
@@ -99,6 +103,23 @@ impl Study {
     pub fn direction_axis(&self) -> Option<&[Direction]> {
         let follow = self.follow.as_ref()?;
         (follow.directions.len() > 1).then_some(&follow.directions)
+    }
+
+    /// Tells studies apart whose cases or records differ in anything; titles, figures, branches and the way
+    /// in which a study is written make no difference.
+    pub fn fingerprint(&self) -> String {
+        let computed = Study {
+            title: String::new(),
+            text: String::new(),
+            branches: Vec::new(),
+            drawings: Vec::new(),
+            ..self.clone()
+        };
+        let mut hasher = SipHasher13::new();
+        // Numbers are shown with all the digits that tell them apart.
+        format!("{computed:?}").hash(&mut hasher);
+        let Hash128 { h1, h2 } = hasher.finish128();
+        format!("{h1:016x}{h2:016x}")
     }
 
     /// Number of cases.

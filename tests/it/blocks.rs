@@ -1,6 +1,7 @@
 //! Blocks: every case is in just one, and comes out the same whichever blocks are run, and in what order.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
 use std::sync::Mutex;
 
 use capsulemap::sweep::{self, Machine, Record, Study};
@@ -34,10 +35,17 @@ fn whole(study: &Study) -> Vec<Record> {
 
 fn blocks(study: &Study, numbers: &[usize], machine: Machine) -> BTreeMap<usize, Vec<Record>> {
     let found = Mutex::new(BTreeMap::new());
-    sweep::run_blocks(study, machine, numbers, |block, records| {
-        let before = found.lock().expect("a lock").insert(block, records);
-        assert!(before.is_none(), "block {block} came twice");
-    })
+    sweep::run_blocks(
+        study,
+        machine,
+        numbers,
+        |_| (),
+        |block, records| {
+            let before = found.lock().expect("a lock").insert(block, records);
+            assert!(before.is_none(), "block {block} came twice");
+            ControlFlow::Continue(())
+        },
+    )
     .expect("the blocks run");
     found.into_inner().expect("a lock")
 }
@@ -73,6 +81,39 @@ fn a_block_has_the_same_records_whatever_is_run_beside_it() {
                     study.block_cases(block).iter().map(|&case| whole[case].clone()).collect();
                 assert!(same(&records, &expected), "block {block}");
             }
+        }
+    }
+}
+
+#[test]
+fn a_run_stops_when_it_is_told_to() {
+    let study = &studies()[1];
+    let numbers: Vec<usize> = (0..study.blocks()).collect();
+    let machine = Machine { threads: Some(1), ..Machine::default() };
+    let count = Mutex::new(0);
+    sweep::run_blocks(
+        study,
+        machine,
+        &numbers,
+        |_| (),
+        |_, _| {
+            *count.lock().expect("a lock") += 1;
+            ControlFlow::Break(())
+        },
+    )
+    .expect("the blocks run");
+    assert!((1..study.blocks()).contains(&count.into_inner().expect("a lock")));
+}
+
+#[test]
+fn the_first_blocks_are_spread_over_the_study() {
+    for blocks in [1, 2, 3, 8, 60, 1000, 8192] {
+        let order = sweep::spread(blocks);
+        assert_eq!(order.iter().collect::<BTreeSet<_>>().len(), blocks);
+        for part in [blocks / 10, blocks / 3] {
+            let mean = order[..part].iter().sum::<usize>() as f64 / part as f64;
+            let off = mean / (blocks as f64 / 2.0) - 1.0;
+            assert!(part < 20 || off.abs() < 0.1, "{blocks} {part} {off}");
         }
     }
 }

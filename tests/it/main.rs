@@ -29,6 +29,7 @@ mod invariants;
 mod kept_branches;
 mod lanes;
 mod oscillators;
+mod overnight;
 mod paper;
 mod program;
 mod readme;

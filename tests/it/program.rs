@@ -91,7 +91,8 @@ impl Desk {
 }
 
 impl Ran {
-    fn from(output: Output) -> Self {
+    /// What came of a run that has ended.
+    pub fn from(output: Output) -> Self {
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
         Ran {
             code: output.status.code().expect("the program was not killed"),

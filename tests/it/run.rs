@@ -257,10 +257,11 @@ fn an_output_that_cannot_be_written_is_told_and_leaves_nothing() {
         let script = "trap '' XFSZ; ulimit -f 4; exec \"$0\" sweep a.toml";
         let told = desk.shell(script);
         assert_eq!((told.code, told.out.as_str()), (3, ""), "{}", told.err);
-        assert!(told.err.contains("a.h5: writing: File too large"), "{}", told.err);
-        assert!(desk.path("results/a").is_dir());
-        fs::remove_dir(desk.path("results/a")).expect("nothing is left in it");
-        fs::remove_dir(desk.path("results")).expect("nothing is left in it");
+        assert!(told.err.contains("File too large"), "{}", told.err);
+        let left = desk.files();
+        assert!(left.iter().all(|name| !name.ends_with(".tmp") && !name.ends_with(".h5")
+            || before.contains(name)), "{left:?}");
+        fs::remove_dir_all(desk.path("results")).expect("what is left goes on with more room");
     }
     assert_eq!(desk.files(), before);
 }
@@ -280,10 +281,10 @@ fn a_case_that_fails_is_a_record_and_can_be_replayed() {
     assert!(speeds[[0]].is_finite() && speeds[[1]].is_nan() && speeds[[2]].is_finite());
     assert!(told.out.contains("3 cases") && told.out.contains("failed         1"), "{}", told.out);
     let replay = told.out.split("replay: capsulemap ").nth(1).expect("how to replay").trim();
-    assert!(replay.contains("--tolerance 0.0000000001"), "{replay}");
+    assert_eq!(replay, "simulate --study a.toml --case 1");
     let again = desk.shell(&format!("\"$0\" {replay} --json")).json();
     assert_eq!(again["orbit"]["outcome"], "failed");
-    assert!(told.out.contains(again["orbit"]["failure"].as_str().expect("why")), "{}", told.out);
+    assert!(told.out.contains("case 1 failed: not-finite, at t = "), "{}", told.out);
 }
 
 #[test]
@@ -292,7 +293,7 @@ fn a_log_of_a_run_holds_plain_lines() {
     desk.put("rich.toml", RICH);
     let told = desk.run(&["sweep", "rich.toml"]).done();
     let first = told.err.lines().next().expect("a line of progress");
-    assert!(first.starts_with("1/18 cases, ") && first.ends_with(" s left"), "{first}");
+    assert!(first.starts_with("block 0: 18 cases, ") && first.ends_with(" s left"), "{first}");
     assert!(!told.err.contains(['\u{1b}', '\r']) && !told.out.contains(['\u{1b}', '\r']));
     assert!(told.out.starts_with("results/rich/rich.h5: 18 cases, "), "{}", told.out);
 }

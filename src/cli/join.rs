@@ -1,0 +1,180 @@
+//! `capsulemap join`: the blocks of a study into one file of results.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::blocks::enter;
+use super::figure::{FormatChoice, draw_from};
+use super::progress::Progress;
+use super::result_file::{folder, kept, output_path, prepare, read_study};
+use super::summary::summary;
+use super::words::count;
+use super::{Failure, print, tell};
+use crate::store::{self, Archive, BlockFolder, Blocks, Company, Unusable, keep_branches};
+use crate::sweep::{self, Machine, Study, has_attractors};
+
+const EXAMPLES: &str = "\
+Examples:
+  capsulemap join night.toml
+  capsulemap join night.toml --partial
+
+`sweep` joins by itself unless it was one task of several. With --partial the file and the figures go to a
+folder `partial` beside the blocks; cases that are not done have the outcome `missing`.";
+
+/// Join the blocks that the tasks of a sweep have computed.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Join {
+    /// The study, a TOML file.
+    study: PathBuf,
+    /// The file to write; results/NAME/NAME.h5 for a study NAME.toml by default.
+    #[arg(long, value_name = "FILE.h5")]
+    output: Option<PathBuf>,
+    /// Join what there is, for a look before the end; the blocks stay.
+    #[arg(long)]
+    partial: bool,
+    /// Worker threads for the search for attractors; one per core by default.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Do not draw the study's figures.
+    #[arg(long)]
+    no_figures: bool,
+    /// File formats of the figures.
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "png,svg,pdf")]
+    formats: Vec<FormatChoice>,
+}
+
+impl Join {
+    /// Carries the command out.
+    pub fn run(&self) -> Result<(), Failure> {
+        let study = read_study(&self.study)?;
+        let output = output_path(&self.study, self.output.as_deref())?;
+        let older = kept(&output, &study, false)?;
+        let machine = super::machine(self.threads, None)?;
+        let (archive, file) = match older {
+            Some(archive) if archive.has_cases() => {
+                tell(&format!("{}: is there, whole, from this study", output.display()));
+                (archive, output)
+            }
+            older => {
+                let company = if self.partial { Company::Anybody } else { Company::Alone };
+                let blocks = enter(&output, &study, company, false)?;
+                let file = if self.partial { partial(&output) } else { output };
+                let joining = Joining { path: &self.study, study: &study, machine, file: &file };
+                (joining.join(blocks, older, self.partial)?, file)
+            }
+        };
+        if !self.no_figures {
+            draw_from(&archive, &study.drawings, folder(&file), &self.formats)?;
+        }
+        Ok(())
+    }
+}
+
+/// Where a look before the end goes.
+fn partial(output: &Path) -> PathBuf {
+    folder(output).join("partial").join(output.file_name().unwrap_or_default())
+}
+
+/// Blocks on their way into a file.
+pub struct Joining<'a> {
+    /// The file of the study.
+    pub path: &'a Path,
+    /// The study.
+    pub study: &'a Study,
+    /// What to search for attractors on.
+    pub machine: Machine,
+    /// The file to write.
+    pub file: &'a Path,
+}
+
+impl Joining<'_> {
+    /// Joins the `blocks` into the file, beside the branches of an `older` one if it has any, and removes
+    /// them, unless they are only a part.
+    pub fn join(
+        &self,
+        folder: BlockFolder,
+        older: Option<Archive>,
+        is_partial: bool,
+    ) -> Result<Archive, Failure> {
+        prepare(super::result_file::folder(self.file))?;
+        let blocks = Blocks::open(&folder, self.study, 0..self.study.blocks());
+        if !is_partial && !blocks.missing.is_empty() {
+            return Err(Failure::request(incomplete(&folder, &blocks.missing)));
+        }
+        let mut frame = store::frame(self.study);
+        if has_attractors(self.study) {
+            let progress = Progress::new(sweep::links(self.study), "links of attractors");
+            let endings = blocks.endings().map_err(Failure::machine)?;
+            let attractors =
+                sweep::attractors(self.study, &endings, self.machine, || progress.step())
+                    .map_err(Failure::machine)?;
+            progress.finish();
+            store::add_attractors(&mut frame, self.study, &attractors);
+        }
+        if let Some(older) = older {
+            let branches = older.branches().map_err(Failure::machine)?;
+            keep_branches(&mut frame, &branches);
+        }
+        if !is_partial {
+            store::discard_unfinished(self.file).map_err(Failure::machine)?;
+        }
+        let progress = std::cell::OnceCell::new();
+        let begun = |steps| drop(progress.set(Progress::new(steps, "pieces written")));
+        let done = || progress.get().into_iter().for_each(Progress::step);
+        blocks.join(frame, self.file, begun, done).map_err(Failure::machine)?;
+        progress.get().map(Progress::finish);
+        let archive = store::open(self.file).map_err(Failure::machine)?;
+        print(&summary(self, &blocks).map_err(Failure::machine)?)?;
+        drop(blocks);
+        if !is_partial {
+            folder.remove().map_err(Failure::machine)?;
+        }
+        Ok(archive)
+    }
+}
+
+/// What is missing, and how to get it.
+fn incomplete(folder: &BlockFolder, missing: &[(usize, Unusable)]) -> String {
+    let shown = folder.path().display();
+    let mut text = format!(
+        "{shown}: {} blocks are missing: {}",
+        count(missing.len()),
+        ranges(missing.iter().map(|(number, _)| *number))
+    );
+    for (number, why) in missing.iter().filter(|(_, why)| !matches!(why, Unusable::Missing)) {
+        text.push_str(&format!("\n{}: {why}", folder.file(*number).display()));
+    }
+    text.push_str(
+        "\nrun `capsulemap sweep` again, or those tasks that did not end well; --partial joins what there is",
+    );
+    text
+}
+
+/// Numbers in rising order as ranges: "3, 17-24, 90".
+fn ranges(numbers: impl Iterator<Item = usize>) -> String {
+    let mut ranges: Vec<[usize; 2]> = Vec::new();
+    for number in numbers {
+        match ranges.last_mut() {
+            Some([_, last]) if *last + 1 == number => *last = number,
+            _ => ranges.push([number, number]),
+        }
+    }
+    let words = ranges.iter().map(|[first, last]| match first == last {
+        true => first.to_string(),
+        false => format!("{first}-{last}"),
+    });
+    words.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ranges;
+
+    #[test]
+    fn neighbours_are_told_as_ranges() {
+        assert_eq!(ranges([3, 17, 18, 19, 90].into_iter()), "3, 17-19, 90");
+        assert_eq!(ranges(std::iter::empty()), "");
+    }
+}

@@ -1,0 +1,51 @@
+//! What came of the cases of a study, in a few lines.
+
+use std::fmt::Write;
+
+use super::join::Joining;
+use super::words::count;
+use crate::orbit::Outcome;
+use crate::store::{Blocks, StoreError, Summary, by_outcome};
+
+/// So many failed cases are named; the file names them all.
+const FAILURES_SHOWN: usize = 5;
+
+/// How many cases came out how, and how to look at those that failed.
+pub fn summary(joining: &Joining<'_>, blocks: &Blocks<'_>) -> Result<String, StoreError> {
+    let summaries = blocks.summaries();
+    let shown = joining.file.display();
+    let mut text = format!("{shown}: {}\n", totals(&summaries));
+    let missing = joining.study.cases() - summaries.iter().map(|it| it.cases).sum::<usize>();
+    text.push_str(&outcomes(&summaries));
+    if missing > 0 {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "  {:<14} {}", "missing", count(missing));
+    }
+    for failed in blocks.failures(FAILURES_SHOWN)? {
+        let (index, path) = (failed.index, joining.path.display());
+        let _ =
+            writeln!(text, "  case {index} failed: {}, at t = {} s", failed.reason, failed.time);
+        let _ = write!(text, "    replay: capsulemap simulate --study {path} --case {index}");
+        let (start, usual) = (failed.start, joining.study.case(index).start);
+        if (start.r, start.y1, start.y2) != (usual.r, usual.y1, usual.y2) {
+            let _ = write!(text, " --start r={},y1={},y2={}", start.r, start.y1, start.y2);
+        }
+        text.push('\n');
+    }
+    Ok(text)
+}
+
+/// Cases and cycles of some blocks.
+pub fn totals(blocks: &[Summary]) -> String {
+    let cases: usize = blocks.iter().map(|block| block.cases).sum();
+    let cycles: u64 = blocks.iter().map(|block| block.cycles).sum();
+    let plural = if cases == 1 { "" } else { "s" };
+    format!("{} case{plural}, {} cycles", count(cases), count(cycles as usize))
+}
+
+/// Cases by outcome, a line each.
+pub fn outcomes(blocks: &[Summary]) -> String {
+    let line =
+        |(outcome, cases): (Outcome, usize)| format!("  {:<14} {}\n", outcome.name(), count(cases));
+    by_outcome(blocks).into_iter().map(line).collect()
+}

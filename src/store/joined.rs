@@ -1,0 +1,183 @@
+//! Puts a dataset on disk whose largest variables come piece by piece, so that it need not fit into memory.
+
+use std::fs::File;
+use std::io;
+use std::path::Path;
+
+use hdf5::Dataset as Array;
+use tempfile::NamedTempFile;
+
+use super::decode::{Archive, hyperslab};
+use super::encode::{self, Element, Scales};
+use super::faults::faults;
+use super::file::{folder, sync_folder, temporary};
+use super::piece::{MOST_NUMBERS, Piece, pieces};
+use super::{Dataset, StoreError, Values, Variable, difference, file, seal};
+
+/// What HDF5 may write beside the numbers of a piece [bytes].
+const BESIDE: u64 = 1 << 20;
+
+/// A variable that comes piece by piece.
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Dimensions, unit, meaning and flags, and of the values the kind.
+    pub label: Variable,
+    /// Its shape: the axes of the study, then what each case has several of.
+    pub shape: Vec<usize>,
+    /// The least and the greatest of its numbers, if they are integers and there are any.
+    pub range: Option<[i64; 2]>,
+}
+
+/// Keeps `frame` and the `columns`, which have `axes` axes, in the file at `path`, replacing an older one
+/// only by a complete new one; `numbers` gives what a piece has of a column, and `done` is called after each.
+///
+/// The new file grows under a temporary name. Before HDF5 is given a piece, room for it is made sure of, as
+/// HDF5 may not tell of a full disk; at the end every piece is read back and compared by its checksum.
+pub fn write(
+    frame: &Dataset,
+    (columns, axes): (&[Column], usize),
+    path: &Path,
+    numbers: impl Fn(&Column, &Piece) -> Result<Values, StoreError>,
+    done: impl Fn(),
+) -> Result<(), StoreError> {
+    let faults = faults(frame);
+    if !faults.is_empty() {
+        return Err(StoreError::Unfit { path: path.to_owned(), faults });
+    }
+    let failed = |doing| move |said| StoreError::system(path, doing, said);
+    let mut temporary = temporary(path, folder(path)).map_err(failed("starting a new file"))?;
+    let encoding = |doing: &'static str| move |said| StoreError::encoding(path, doing, said);
+    let file = encode::blank(temporary.path(), |_| ()).map_err(encoding("starting a new file"))?;
+    make_room(path, BESIDE + frame_bytes(frame)).map_err(failed("making room for the results"))?;
+    let scales = encode::lay_out(&file, frame, path)?;
+    let mut sums = Vec::new();
+    for column in columns {
+        let array = begin(&file, column, &scales)
+            .map_err(|said| StoreError::encoding(path, format!("storing {}", column.name), said))?;
+        for piece in column.pieces(axes) {
+            let values = numbers(column, &piece)?;
+            sums.push(checksum(&values));
+            let bytes = column.element().bytes() * values.shape().iter().product::<usize>();
+            make_room(path, BESIDE + bytes as u64)
+                .map_err(failed("making room for the results"))?;
+            let put = column.element().write(&array, &values, hyperslab(&piece, &column.shape));
+            put.and_then(|()| file.flush()).map_err(encoding("storing a piece"))?;
+            done();
+        }
+    }
+    drop(scales);
+    file.close().map_err(encoding("completing the file"))?;
+    seal::put_on(temporary.as_file_mut()).map_err(failed("sealing the file"))?;
+    temporary.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
+    check(&temporary, frame, (columns, axes), &sums, path)?;
+    temporary.persist(path).map_err(|refused| failed("giving the file its name")(refused.error))?;
+    sync_folder(folder(path)).map_err(failed("forcing the folder to the disk"))
+}
+
+impl Column {
+    fn element(&self) -> Element {
+        Element::of(&self.label, self.range)
+    }
+
+    /// The pieces in which it is put together, none of which shares a chunk with another.
+    fn pieces(&self, axes: usize) -> Vec<Piece> {
+        let width = self.shape[axes..].iter().product::<usize>().max(1);
+        let chunk = encode::chunk_shape(&self.shape, self.element().bytes());
+        pieces(&self.shape[..axes], &chunk[..axes], (MOST_NUMBERS / width).max(1))
+    }
+}
+
+/// Pieces of all columns together.
+pub fn count_pieces(columns: &[Column], axes: usize) -> usize {
+    columns.iter().map(|column| column.pieces(axes).len()).sum()
+}
+
+fn begin(file: &hdf5::File, column: &Column, scales: &Scales) -> hdf5::Result<Array> {
+    let array = column.element().create(file, &column.name, &column.shape)?;
+    encode::label(&array, &column.label, column.element())?;
+    encode::attach(&array, &column.label, scales)?;
+    Ok(array)
+}
+
+/// Bytes that the numbers and texts of a dataset take at most.
+fn frame_bytes(frame: &Dataset) -> u64 {
+    let variables = frame.coordinates.iter().map(|(_, it)| it).chain(frame.variables.values());
+    let numbers: usize = variables.map(|it| it.values.shape().iter().product::<usize>()).sum();
+    let texts: usize = frame.texts.values().map(String::len).sum();
+    (size_of::<f64>() * numbers + texts) as u64
+}
+
+/// Sees that so many bytes can be written beside `path`; a system that cannot tell is believed.
+fn make_room(path: &Path, bytes: u64) -> io::Result<()> {
+    let file = temporary(path, folder(path))?;
+    #[cfg(unix)]
+    {
+        use rustix::fs::{FallocateFlags, fallocate};
+        use rustix::io::Errno;
+        match fallocate(file.as_file(), FallocateFlags::empty(), 0, bytes) {
+            Err(Errno::NOSYS | Errno::OPNOTSUPP | Errno::INVAL) | Ok(()) => {}
+            Err(said) => return Err(said.into()),
+        }
+    }
+    #[cfg(not(unix))]
+    let _ = bytes;
+    file.close()
+}
+
+/// The checksum of numbers in their order.
+fn checksum(values: &Values) -> u32 {
+    let mut sum = crc32fast::Hasher::new();
+    let mut bytes = Vec::with_capacity(1 << 16);
+    let mut add = |number: [u8; 8]| {
+        bytes.extend_from_slice(&number);
+        if bytes.len() >= 1 << 16 {
+            sum.update(&bytes);
+            bytes.clear();
+        }
+    };
+    match values {
+        Values::Real(reals) => reals.iter().for_each(|it| add(it.to_bits().to_le_bytes())),
+        Values::Integer(integers) => integers.iter().for_each(|it| add(it.to_le_bytes())),
+    }
+    sum.update(&bytes);
+    sum.finalize()
+}
+
+/// Reads everything back and compares it with what was to be written.
+fn check(
+    temporary: &NamedTempFile<File>,
+    frame: &Dataset,
+    (columns, axes): (&[Column], usize),
+    sums: &[u32],
+    path: &Path,
+) -> Result<(), StoreError> {
+    let unequal = |difference: String| StoreError::Unequal { path: path.to_owned(), difference };
+    let archive = match file::open(temporary.path()) {
+        Ok(archive) => archive,
+        Err(refused) => return Err(unequal(refused.to_string())),
+    };
+    let is_column = |name: &str| columns.iter().any(|column| column.name == name);
+    if let Some(difference) = difference(frame, &archive.dataset(|name, _| !is_column(name))?) {
+        return Err(unequal(difference));
+    }
+    let mut sums = sums.iter();
+    for column in columns {
+        for piece in column.pieces(axes) {
+            if !same(&archive, column, &piece, sums.next()) {
+                return Err(unequal(format!("the values of {}", column.name)));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether a piece reads back with its checksum and its labels.
+fn same(archive: &Archive, column: &Column, piece: &Piece, sum: Option<&u32>) -> bool {
+    let Ok(Some(kept)) = archive.piece(&column.name, piece) else { return false };
+    let Variable { dimensions, unit, long_name, flags, values } = &kept;
+    let label = &column.label;
+    (dimensions, unit, long_name, flags)
+        == (&label.dimensions, &label.unit, &label.long_name, &label.flags)
+        && Some(&checksum(values)) == sum
+}

@@ -1,0 +1,193 @@
+//! Parts of a variable over a study's axes, small enough to be held in memory one at a time.
+
+use ndarray::{ArrayD, IxDyn};
+
+use super::Values;
+
+/// A variable is put together in parts of this size at most [numbers], which no study makes larger.
+pub const MOST_NUMBERS: usize = 1 << 23;
+
+/// The category of a case that has not been computed.
+pub const MISSING: (i64, &str) = (-1, "missing");
+
+/// A box of a study's cases: where it begins along each axis, slowest first, and how far it goes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Piece {
+    /// First position along each axis.
+    pub start: Vec<usize>,
+    /// Positions along each axis.
+    pub count: Vec<usize>,
+}
+
+impl Piece {
+    /// All cases of a study of so many values along each axis.
+    pub fn whole(shape: &[usize]) -> Piece {
+        Piece { start: vec![0; shape.len()], count: shape.to_vec() }
+    }
+
+    /// Number of cases.
+    pub fn cases(&self) -> usize {
+        self.count.iter().product()
+    }
+
+    /// The place of a case of a study of the given shape among those of the piece; none if it is outside.
+    pub fn place(&self, shape: &[usize], case: usize) -> Option<usize> {
+        let (mut rest, mut place, mut stride) = (case, 0, 1);
+        for axis in (0..shape.len()).rev() {
+            let inside = (rest % shape[axis]).checked_sub(self.start[axis])?;
+            if inside >= self.count[axis] {
+                return None;
+            }
+            place += inside * stride;
+            stride *= self.count[axis];
+            rest /= shape[axis];
+        }
+        Some(place)
+    }
+
+    /// The least and the greatest index of its cases in a study of the given shape.
+    pub fn bounds(&self, shape: &[usize]) -> [usize; 2] {
+        let index = |last: bool| {
+            (0..shape.len()).fold(0, |index, axis| {
+                let more = if last { self.count[axis] - 1 } else { 0 };
+                index * shape[axis] + self.start[axis] + more
+            })
+        };
+        [index(false), index(true)]
+    }
+}
+
+/// Cuts a study of the given shape into pieces of at most `most` cases, or of one chunk if that has more;
+/// no chunk is in two pieces.
+pub fn pieces(shape: &[usize], chunk: &[usize], most: usize) -> Vec<Piece> {
+    let mut pieces = vec![Piece::whole(shape)];
+    for axis in 0..shape.len() {
+        if pieces[0].cases() <= most {
+            break;
+        }
+        let across = pieces[0].cases() / pieces[0].count[axis];
+        let length = (most / across / chunk[axis]).max(1) * chunk[axis];
+        let cut = |piece: &Piece| {
+            let piece = piece.clone();
+            (0..shape[axis]).step_by(length).map(move |from| {
+                let mut part = piece.clone();
+                part.start[axis] = from;
+                part.count[axis] = length.min(shape[axis] - from);
+                part
+            })
+        };
+        pieces = pieces.iter().flat_map(cut).collect();
+    }
+    pieces
+}
+
+/// What the cases of a piece have of a variable, most of which may still be missing.
+pub struct Filling {
+    numbers: Numbers,
+    /// Numbers of each case.
+    width: usize,
+    shape: Vec<usize>,
+}
+
+enum Numbers {
+    Real(Vec<f64>),
+    Integer(Vec<i64>),
+}
+
+impl Filling {
+    /// The variable `name` without any case; of `model`, which is what a block has of it, the kind of
+    /// numbers and how many each case has are taken.
+    pub fn new(piece: &Piece, name: &str, model: &Values) -> Filling {
+        let inner = &model.shape()[1..];
+        let width = inner.iter().product();
+        let length = piece.cases() * width;
+        let numbers = match model {
+            Values::Real(_) => Numbers::Real(vec![f64::NAN; length]),
+            // Zero stands for no period, no failure, no proof; an outcome has no such number.
+            Values::Integer(_) => {
+                let nothing = if name == "outcome" { MISSING.0 } else { 0 };
+                Numbers::Integer(vec![nothing; length])
+            }
+        };
+        let shape = piece.count.iter().chain(inner).copied().collect();
+        Filling { numbers, width, shape }
+    }
+
+    /// Puts reals in the places of their cases; what has no place is left out.
+    ///
+    /// # Panics
+    ///
+    /// If the variable is one of integers.
+    pub fn put_reals(&mut self, places: impl Iterator<Item = Option<usize>>, own: &[f64]) {
+        let Numbers::Real(all) = &mut self.numbers else { panic!("the variable is of integers") };
+        put_rows(all, self.width, places, own);
+    }
+
+    /// Puts integers in the places of their cases; what has no place is left out.
+    ///
+    /// # Panics
+    ///
+    /// If the variable is one of reals.
+    pub fn put_integers(&mut self, places: impl Iterator<Item = Option<usize>>, own: &[i64]) {
+        let Numbers::Integer(all) = &mut self.numbers else { panic!("the variable is of reals") };
+        put_rows(all, self.width, places, own);
+    }
+
+    /// The numbers over the axes of the piece.
+    pub fn finish(self) -> Values {
+        let shape = IxDyn(&self.shape);
+        let fits = "as many numbers as the shape has";
+        match self.numbers {
+            Numbers::Real(all) => Values::Real(ArrayD::from_shape_vec(shape, all).expect(fits)),
+            Numbers::Integer(all) => {
+                Values::Integer(ArrayD::from_shape_vec(shape, all).expect(fits))
+            }
+        }
+    }
+}
+
+fn put_rows<T: Copy>(
+    all: &mut [T],
+    width: usize,
+    places: impl Iterator<Item = Option<usize>>,
+    own: &[T],
+) {
+    for (place, row) in places.zip(own.chunks_exact(width)) {
+        if let Some(place) = place {
+            all[place * width..(place + 1) * width].copy_from_slice(row);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_case_has_its_place_in_one_piece() {
+        let shape = [7, 5, 9, 2];
+        let chunk = [3, 2, 4, 2];
+        for most in [1, 10, 24, 48, 100, 200, 10_000] {
+            let pieces = pieces(&shape, &chunk, most);
+            assert!(pieces.iter().all(|piece| piece.cases() <= most.max(48)));
+            let mut seen = vec![0; shape.iter().product()];
+            for piece in &pieces {
+                let of = |case| piece.place(&shape, case).map(|place| (place, case));
+                let mut places: Vec<(usize, usize)> = (0..seen.len()).filter_map(of).collect();
+                let [first, last] = piece.bounds(&shape);
+                assert_eq!((places[0].1, places[places.len() - 1].1), (first, last));
+                places.iter().for_each(|(_, case)| seen[*case] += 1);
+                places.sort_unstable();
+                assert!(places.iter().map(|(place, _)| *place).eq(0..piece.cases()));
+                assert!(places.is_sorted_by_key(|(_, case)| *case));
+            }
+            assert!(seen.iter().all(|&count| count == 1), "{most}");
+        }
+    }
+
+    #[test]
+    fn a_study_of_one_case_is_one_piece() {
+        assert_eq!(pieces(&[], &[], 1), [Piece { start: vec![], count: vec![] }]);
+        assert_eq!(Piece::whole(&[]).place(&[], 0), Some(0));
+    }
+}

@@ -1,0 +1,398 @@
+//! What a long run must survive: kills, signals, faults of the disk, damaged blocks, a changed study, two runs
+//! at once; and parts that are computed apart and joined.
+
+use std::fs;
+use std::io::Read;
+use std::path::PathBuf;
+use std::process::{Child, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use capsulemap::store::{self, Values};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{RngCore, SeedableRng};
+
+use super::program::{Desk, Ran};
+
+/// Some seconds of work in 24 blocks, with attractors to link when they are joined.
+const NIGHT: &str = r#"title = "A night"
+[parameters]
+k2 = "18.96 kN/m"
+delta = "1.5 mm"
+[[axes]]
+name = "p_d"
+from = "2 N"
+to = "8 N"
+points = 48
+[[axes]]
+name = "omega"
+from = "18 rad/s"
+to = "80 rad/s"
+points = 150
+[start]
+follow = "omega"
+directions = ["upward", "downward"]
+[protocol]
+points = 4
+impact_points = 2
+max_cycles = 300
+exponent_cycles = 64
+"#;
+
+/// A desk with the study and the file of a run that nothing has disturbed.
+struct Night {
+    desk: Desk,
+    undisturbed: Vec<u8>,
+}
+
+impl Night {
+    fn new() -> Night {
+        let night = Night { desk: Desk::new(), undisturbed: Vec::new() };
+        night.desk.put("night.toml", NIGHT);
+        night.sweep(&["--output", "whole.h5"]).done();
+        let undisturbed = fs::read(night.desk.path("whole.h5")).expect("a result");
+        assert!(!night.desk.path("whole.blocks").exists(), "joined blocks are removed");
+        Night { undisturbed, ..night }
+    }
+
+    /// The command with a fixed time of creation, so that files can be compared byte for byte.
+    fn command(&self, arguments: &[&str]) -> std::process::Command {
+        let mut command = self.desk.command(arguments);
+        command.env("SOURCE_DATE_EPOCH", "1700000000").env_remove("SLURM_ARRAY_TASK_ID");
+        command
+    }
+
+    fn run(&self, arguments: &[&str]) -> Ran {
+        Ran::from(self.command(arguments).output().expect("the program starts"))
+    }
+
+    fn sweep(&self, more: &[&str]) -> Ran {
+        self.run(&[&["sweep", "night.toml", "--no-figures"], more].concat())
+    }
+
+    fn start(&self, more: &[&str]) -> Child {
+        let mut command = self.command(&[&["sweep", "night.toml", "--no-figures"], more].concat());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts")
+    }
+
+    fn file(&self) -> PathBuf {
+        self.desk.path("results/night/night.h5")
+    }
+
+    fn block(&self, number: usize) -> PathBuf {
+        self.desk.path(&format!("results/night/night.blocks/block-{number:07}"))
+    }
+
+    /// Names of the blocks that are there.
+    fn blocks(&self) -> Vec<PathBuf> {
+        let entries = fs::read_dir(self.desk.path("results/night/night.blocks"));
+        let paths = entries.into_iter().flatten().map(|entry| entry.expect("an entry").path());
+        let is_block = |path: &PathBuf| {
+            path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("block-"))
+        };
+        paths.filter(is_block).collect()
+    }
+
+    /// Waits until so many blocks are there.
+    fn wait_for(&self, blocks: usize) {
+        let begun = Instant::now();
+        while self.blocks().len() < blocks {
+            assert!(begun.elapsed() < Duration::from_secs(120), "no {blocks} blocks came");
+            sleep(Duration::from_millis(5));
+        }
+    }
+
+    fn assert_undisturbed(&self) {
+        let bytes = fs::read(self.file()).expect("a result");
+        assert!(bytes == self.undisturbed, "the file differs from that of an undisturbed run");
+        assert!(!self.desk.path("results/night/night.blocks").exists());
+        let left = self.desk.files();
+        assert!(left.iter().all(|name| !name.ends_with(".tmp")), "{left:?}");
+    }
+
+    fn forget(&self) {
+        fs::remove_dir_all(self.desk.path("results")).expect("results to forget");
+    }
+}
+
+/// What a program has said, once it has ended.
+fn said(child: &mut Child) -> String {
+    let mut text = String::new();
+    let stderr = child.stderr.as_mut().expect("standard error");
+    stderr.read_to_string(&mut text).expect("the program writes UTF-8");
+    text
+}
+
+/// In the long form `KILLS=100`.
+#[test]
+fn runs_that_are_killed_at_random_and_resumed_end_in_the_same_bytes() {
+    let kills = std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(4);
+    let begun = Instant::now();
+    let night = Night::new();
+    let whole = begun.elapsed();
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut killed = 0;
+    for run in 0..kills {
+        let mut times = 0;
+        loop {
+            let mut child = night.start(&[]);
+            let share = f64::from(random.next_u32()) / f64::from(u32::MAX);
+            // Later starts have less to do, so that kills must come sooner to come in time.
+            sleep(whole.mul_f64(share * 1.1 / f64::from(times + 1)));
+            let ended = child.try_wait().expect("a process");
+            child.kill().expect("it is killed or has ended");
+            let status = child.wait().expect("a process");
+            if ended.is_some() {
+                assert!(status.success(), "{}", said(&mut child));
+                break;
+            }
+            killed += 1;
+            times += 1;
+            if times >= 3 {
+                night.sweep(&[]).done();
+                break;
+            }
+        }
+        night.assert_undisturbed();
+        night.forget();
+        if kills > 10 {
+            println!("run {run}: killed {times} times, the same {} bytes", night.undisturbed.len());
+        }
+    }
+    println!("{kills} runs were killed {killed} times and ended in the same bytes");
+    assert!(killed > 0, "no kill came in time");
+}
+
+#[cfg(unix)]
+#[test]
+fn signals_keep_what_is_done_and_say_how_to_go_on() {
+    use std::os::unix::process::ExitStatusExt;
+    let night = Night::new();
+    for signal in ["INT", "TERM"] {
+        let mut child = night.start(&[]);
+        night.wait_for(3);
+        let told = night.desk.shell(&format!("kill -{signal} {}", child.id()));
+        assert_eq!(told.code, 0, "{}", told.err);
+        let asked = Instant::now();
+        let status = child.wait().expect("a process");
+        assert!(asked.elapsed() < Duration::from_secs(10));
+        assert_eq!(status.signal(), Some(if signal == "INT" { 2 } else { 15 }));
+        let text = said(&mut child);
+        let last = text.lines().last().expect("a last line");
+        assert!(last.contains(" blocks are done and kept in results/night/night.blocks"), "{text}");
+        assert!(last.ends_with("the same command goes on from there"), "{text}");
+        let there = night.blocks().len();
+        let resumed = night.sweep(&[]).done();
+        let kept = format!("{there} of 24 blocks are done and kept");
+        assert!(resumed.err.contains(&kept), "{kept}: {}", resumed.err);
+        night.assert_undisturbed();
+        night.forget();
+    }
+}
+
+#[test]
+fn damaged_and_foreign_blocks_are_named_and_computed_again() {
+    let night = Night::new();
+    for part in ["1/3", "2/3", "3/3"] {
+        night.sweep(&["--task", part]).done();
+    }
+    let bytes = |number| fs::read(night.block(number)).expect("a block");
+    let mut flipped = bytes(3);
+    let middle = flipped.len() / 2;
+    flipped[middle] ^= 4;
+    let cut = &bytes(5)[..700];
+    // The same grid with another tolerance is another study; a build of another commit another version.
+    let other = Desk::new();
+    other.put("night.toml", NIGHT.replace("max_cycles = 300", "max_cycles = 301"));
+    other.run(&["sweep", "night.toml", "--task", "1/2"]).done();
+    let foreign: Vec<PathBuf> = fs::read_dir(other.path("results/night/night.blocks"))
+        .expect("blocks")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    let foreign = foreign.iter().find(|path| path.to_string_lossy().contains("block-"));
+    let foreign = foreign.expect("a block").clone();
+    let number = foreign.file_name().expect("a name").to_string_lossy()[6..].parse::<usize>();
+    let number = number.expect("a number");
+    let spare = (7..24).find(|it| ![number, 3, 5].contains(it)).expect("another block");
+    fs::write(night.block(3), flipped).expect("it is flipped");
+    fs::write(night.block(5), cut).expect("it is cut");
+    fs::copy(foreign, night.block(number)).expect("it is foreign");
+    fs::write(night.block(spare), sealed_by_another_version(&bytes(spare))).expect("it is old");
+    let refused = night.run(&["join", "night.toml"]);
+    refused.refused(&["4 blocks are missing", "block-0000003: it is torn", "--partial"]);
+    let told = night.sweep(&[]).done();
+    let line = |number: usize| {
+        let name = format!("block-{number:07}: it is ");
+        let line = told.err.lines().find(|line| line.contains(&name));
+        line.unwrap_or_else(|| panic!("{name} is missing from:\n{}", told.err)).to_owned()
+    };
+    assert!(line(3).contains("torn") && line(5).contains("torn"));
+    assert!(line(number).contains("foreign: made for another study; it is computed again"));
+    let old = line(spare);
+    assert!(old.contains("foreign: made by another version, capsulemap 0.0.9"), "{old}");
+    assert!(told.err.contains("20 of 24 blocks are done and kept"), "{}", told.err);
+    night.assert_undisturbed();
+}
+
+/// A block as an older program would have written it, with a seal that fits.
+fn sealed_by_another_version(bytes: &[u8]) -> Vec<u8> {
+    let body = &bytes[..bytes.len() - 14];
+    let own = format!("capsulemap {}", env!("CARGO_PKG_VERSION")).into_bytes();
+    let at = body.windows(own.len()).position(|part| part == own).expect("the program's name");
+    let old = [&body[..at], b"capsulemap 0.0.9", &body[at + own.len()..]].concat();
+    let sum = crc32fast::hash(&old);
+    [&old[..], b"capsulemap", &sum.to_le_bytes()].concat()
+}
+
+#[test]
+fn a_changed_study_does_not_mix_with_older_blocks() {
+    let night = Night::new();
+    night.sweep(&["--task", "1/4"]).done();
+    let there = night.blocks().len();
+    night.desk.put("night.toml", NIGHT.replace("to = \"8 N\"", "to = \"7 N\""));
+    night.sweep(&[]).refused(&[
+        "night.blocks: holds blocks of another run",
+        "- to = \"8 N\"",
+        "+ to = \"7 N\"",
+        "study.toml",
+        "--overwrite",
+    ]);
+    night.run(&["join", "night.toml"]).refused(&["- to = \"8 N\""]);
+    assert_eq!(night.blocks().len(), there, "nothing is lost by a refusal");
+    // What does not change a case does not matter.
+    let words = NIGHT.replace("A night", "Another title") + "# a remark\n";
+    night.desk.put("night.toml", words);
+    let told = night.sweep(&["--task", "2/4"]).done();
+    assert!(!told.err.contains("computed again") && night.blocks().len() > there);
+    // Blocks of another build are not mixed either.
+    night.desk.put("night.toml", NIGHT);
+    let begun = night.desk.path("results/night/night.blocks/begun.json");
+    let text = fs::read_to_string(&begun).expect("what it was begun with");
+    let commit = text.split("\"commit\": \"").nth(1).and_then(|rest| rest.split('"').next());
+    fs::write(&begun, text.replace(commit.expect("a commit"), "0123456789ab")).expect("it is old");
+    night.sweep(&[]).refused(&["the blocks were made by capsulemap", "(commit 0123456789ab)"]);
+    night.sweep(&["--overwrite"]).done();
+    night.assert_undisturbed();
+}
+
+#[test]
+fn a_second_run_on_the_same_study_stops_at_once() {
+    let night = Night::new();
+    let mut first = night.start(&[]);
+    night.wait_for(1);
+    let begun = Instant::now();
+    night.sweep(&[]).refused(&["another run is at work on this study"]);
+    night.sweep(&["--task", "1/2"]).refused(&["another run is at work on this study"]);
+    night.run(&["join", "night.toml"]).refused(&["another run is at work on this study"]);
+    assert!(begun.elapsed() < Duration::from_secs(10));
+    let status = night.run(&["status", "night.toml"]).done();
+    assert!(status.out.contains("at work now") || night.file().exists(), "{}", status.out);
+    assert!(first.wait().expect("a process").success(), "{}", said(&mut first));
+    night.assert_undisturbed();
+}
+
+#[test]
+fn tasks_that_share_a_study_are_joined_to_the_file_of_one_run() {
+    let night = Night::new();
+    let mut twins: Vec<Child> =
+        ["1/3", "2/3", "2/3"].iter().map(|part| night.start(&["--task", part])).collect();
+    for twin in &mut twins {
+        assert!(twin.wait().expect("a process").success(), "{}", said(twin));
+    }
+    let refused = night.run(&["join", "night.toml"]);
+    refused.refused(&["8 blocks are missing: ", "--partial"]);
+    let status = night.run(&["status", "night.toml"]).done().out;
+    for part in ["16 of 24 blocks", "9 600 cases", "of 14 400", "nobody is at work", "16 blocks by"] {
+        assert!(status.contains(part), "{part}: {status}");
+    }
+    // Slurm says which task it is where the command does not.
+    let mut third = night.command(&["sweep", "night.toml"]);
+    for (name, value) in [("ID", "30"), ("MIN", "10"), ("STEP", "10"), ("COUNT", "3")] {
+        third.env(format!("SLURM_ARRAY_TASK_{name}"), value);
+    }
+    let third = Ran::from(third.env("SLURM_CPUS_PER_TASK", "1").output().expect("it starts"));
+    assert!(third.done().err.contains("task 3 of 3"));
+    night.run(&["join", "night.toml", "--no-figures"]).done();
+    night.assert_undisturbed();
+    let again = night.run(&["join", "night.toml", "--no-figures"]).done();
+    assert!(again.err.contains("is there, whole"), "{}", again.err);
+    for wrong in ["0/3", "4/3", "x", "3"] {
+        night.sweep(&["--task", wrong]).refused(&["--task", "expected I/N"]);
+    }
+}
+
+#[test]
+fn a_look_before_the_end_shows_what_is_there() {
+    let night = Night::new();
+    let figure = "[[figures]]\nname = \"speed\"\nkind = \"map\"\n";
+    night.desk.put("night.toml", NIGHT.to_owned() + figure);
+    night.sweep(&["--task", "1/2"]).done();
+    night.run(&["join", "night.toml", "--partial", "--formats", "png"]).done();
+    assert!(night.desk.path("results/night/partial/speed.png").is_file());
+    let partial = store::read(&night.desk.path("results/night/partial/night.h5")).expect("a result");
+    let whole = store::read(&night.desk.path("whole.h5")).expect("a result");
+    let Values::Integer(outcomes) = &partial.variables["outcome"].values else { panic!("codes") };
+    assert_eq!(partial.variables["outcome"].flags[0], (-1, "missing".to_owned()));
+    let missing = outcomes.iter().filter(|&&code| code == -1).count();
+    assert_eq!(missing, 7200);
+    let speed = |dataset: &store::Dataset| dataset.variables["progression_speed"].values.to_real();
+    for ((now, whole), code) in speed(&partial).iter().zip(&speed(&whole)).zip(outcomes) {
+        let expected = if *code == -1 { f64::NAN } else { *whole };
+        assert_eq!(now.to_bits(), expected.to_bits());
+    }
+    // The look has not touched the blocks.
+    night.desk.put("night.toml", NIGHT);
+    night.sweep(&[]).done();
+    fs::remove_dir_all(night.desk.path("results/night/partial")).expect("the look");
+    night.assert_undisturbed();
+}
+
+#[test]
+fn a_file_is_verified_bit_for_bit() {
+    let night = Night::new();
+    let verify = |file: &str, more: &[&str]| night.run(&[&["verify", file], more].concat());
+    let told = verify("whole.h5", &["--cases", "300", "--seed", "3", "--instructions", "scalar"]);
+    assert!(told.done().out.contains("300 cases drawn with --seed 3 came out the same in all "));
+    let all = verify("whole.h5", &["--cases", "1000000"]).done();
+    assert!(all.out.contains("14 400 cases"), "{}", all.out);
+    let mut dataset = store::read(&night.desk.path("whole.h5")).expect("a result");
+    let speed = dataset.variables.get_mut("progression_speed").expect("a speed");
+    let Values::Real(speeds) = &mut speed.values else { panic!("reals") };
+    let changed = f64::from_bits(speeds[[17, 5, 0]].to_bits() ^ 1);
+    speeds[[17, 5, 0]] = changed;
+    store::write(&dataset, &night.desk.path("changed.h5")).expect("it is written");
+    let told = verify("changed.h5", &["--cases", "1000000"]);
+    assert_eq!(told.code, 3, "{}", told.err);
+    let case = format!("case {}: progression_speed is {changed:e}", (17 * 150 + 5) * 2);
+    assert!(told.err.contains("1 numbers of 14 400 cases") && told.err.contains(&case), "{}", told.err);
+    dataset.attributes.insert("commit".to_owned(), "0123456789ab".to_owned());
+    store::write(&dataset, &night.desk.path("other.h5")).expect("it is written");
+    let told = verify("other.h5", &["--cases", "10"]);
+    assert!(told.err.contains("was made by capsulemap"), "{}", told.err);
+}
+
+#[test]
+fn a_dry_run_foretells_and_leaves_nothing() {
+    let night = Night::new();
+    let before = night.desk.files();
+    let told = night.sweep(&["--dry-run", "--threads", "2"]).done().out;
+    for part in ["14 400 in 24 blocks", "with 2 threads", "room ", "search for attractors"] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    assert_eq!(night.desk.files(), before);
+}
+
+#[test]
+fn a_clock_that_was_set_back_confuses_nobody() {
+    let night = Night::new();
+    night.sweep(&["--task", "1/2"]).done();
+    let tomorrow = std::time::SystemTime::now() + Duration::from_secs(86_400);
+    for block in night.blocks().iter().take(3) {
+        let file = fs::File::options().append(true).open(block).expect("a block");
+        file.set_modified(tomorrow).expect("a time");
+    }
+    let status = night.run(&["status", "night.toml"]).done().out;
+    assert!(status.contains("12 of 24 blocks"), "{status}");
+    night.sweep(&[]).done();
+    night.assert_undisturbed();
+}
