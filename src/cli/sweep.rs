@@ -87,7 +87,11 @@ impl Sweep {
                 let blocks = enter(&output, &study, company, self.overwrite)?;
                 let added = compute(&study, machine, &blocks, task)?;
                 if added.cases > 0 {
-                    tell(&format!("{} cases computed in {}", count(added.cases), time(added.time.as_secs_f64())));
+                    tell(&format!(
+                        "{} cases computed in {}",
+                        count(added.cases),
+                        time(added.time.as_secs_f64())
+                    ));
                 }
                 if task.of > 1 {
                     return self.part_with(task, &blocks);

@@ -23,6 +23,7 @@ mod exponents;
 mod figure;
 mod follow;
 mod forms;
+mod full_disk;
 mod house;
 mod impact_orbits;
 mod invariants;

@@ -302,7 +302,8 @@ fn tasks_that_share_a_study_are_joined_to_the_file_of_one_run() {
     let refused = night.run(&["join", "night.toml"]);
     refused.refused(&["8 blocks are missing: ", "--partial"]);
     let status = night.run(&["status", "night.toml"]).done().out;
-    for part in ["16 of 24 blocks", "9 600 cases", "of 14 400", "nobody is at work", "16 blocks by"] {
+    for part in ["16 of 24 blocks", "9 600 cases", "of 14 400", "nobody is at work", "16 blocks by"]
+    {
         assert!(status.contains(part), "{part}: {status}");
     }
     // Slurm says which task it is where the command does not.
@@ -329,7 +330,8 @@ fn a_look_before_the_end_shows_what_is_there() {
     night.sweep(&["--task", "1/2"]).done();
     night.run(&["join", "night.toml", "--partial", "--formats", "png"]).done();
     assert!(night.desk.path("results/night/partial/speed.png").is_file());
-    let partial = store::read(&night.desk.path("results/night/partial/night.h5")).expect("a result");
+    let partial =
+        store::read(&night.desk.path("results/night/partial/night.h5")).expect("a result");
     let whole = store::read(&night.desk.path("whole.h5")).expect("a result");
     let Values::Integer(outcomes) = &partial.variables["outcome"].values else { panic!("codes") };
     assert_eq!(partial.variables["outcome"].flags[0], (-1, "missing".to_owned()));
@@ -364,7 +366,11 @@ fn a_file_is_verified_bit_for_bit() {
     let told = verify("changed.h5", &["--cases", "1000000"]);
     assert_eq!(told.code, 3, "{}", told.err);
     let case = format!("case {}: progression_speed is {changed:e}", (17 * 150 + 5) * 2);
-    assert!(told.err.contains("1 numbers of 14 400 cases") && told.err.contains(&case), "{}", told.err);
+    assert!(
+        told.err.contains("1 numbers of 14 400 cases") && told.err.contains(&case),
+        "{}",
+        told.err
+    );
     dataset.attributes.insert("commit".to_owned(), "0123456789ab".to_owned());
     store::write(&dataset, &night.desk.path("other.h5")).expect("it is written");
     let told = verify("other.h5", &["--cases", "10"]);

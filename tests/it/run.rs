@@ -259,8 +259,12 @@ fn an_output_that_cannot_be_written_is_told_and_leaves_nothing() {
         assert_eq!((told.code, told.out.as_str()), (3, ""), "{}", told.err);
         assert!(told.err.contains("File too large"), "{}", told.err);
         let left = desk.files();
-        assert!(left.iter().all(|name| !name.ends_with(".tmp") && !name.ends_with(".h5")
-            || before.contains(name)), "{left:?}");
+        assert!(
+            left.iter()
+                .all(|name| !name.ends_with(".tmp") && !name.ends_with(".h5")
+                    || before.contains(name)),
+            "{left:?}"
+        );
         fs::remove_dir_all(desk.path("results")).expect("what is left goes on with more room");
     }
     assert_eq!(desk.files(), before);

@@ -1,0 +1,93 @@
+//! A disk that fills up in the middle of a run and while blocks are joined, and has room again.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::program::Desk;
+use super::store::say;
+
+/// More than a megabyte of blocks.
+const STUDY: &str = r#"
+[parameters]
+k2 = "18.96 kN/m"
+delta = "1.5 mm"
+[[axes]]
+name = "p_d"
+from = "2 N"
+to = "8 N"
+points = 80
+[[axes]]
+name = "omega"
+from = "18 rad/s"
+to = "80 rad/s"
+points = 100
+[protocol]
+max_cycles = 40
+exponent_cycles = 0
+points = 8
+impact_points = 0
+"#;
+
+/// A file system of a size that can be changed, in memory.
+struct Disk(PathBuf);
+
+impl Disk {
+    /// One of so many kB; none where the system does not let us.
+    fn mount(folder: &Path, kilobytes: usize) -> Option<Disk> {
+        fs::create_dir(folder).expect("a folder to mount on");
+        let size = format!("size={kilobytes}k");
+        let mount = Command::new("mount").args(["-t", "tmpfs", "-o", &size, "tmpfs"]).arg(folder).output();
+        mount.is_ok_and(|it| it.status.success()).then(|| Disk(folder.to_owned()))
+    }
+
+    fn resize(&self, kilobytes: usize) {
+        let size = format!("remount,size={kilobytes}k");
+        let done = Command::new("mount").args(["-o", &size]).arg(&self.0).status();
+        assert!(done.expect("mount starts").success(), "the disk has another size");
+    }
+}
+
+impl Drop for Disk {
+    fn drop(&mut self) {
+        // A test that fails leaves the disk busy at worst; it goes with the machine.
+        let _ = Command::new("umount").arg("-l").arg(&self.0).status();
+    }
+}
+
+#[test]
+fn a_disk_that_fills_stops_the_run_and_room_lets_it_go_on() {
+    let desk = Desk::new();
+    let Some(disk) = Disk::mount(&desk.path("disk"), 600) else {
+        say("SKIPPED: a disk that fills (a file system cannot be mounted here)");
+        return;
+    };
+    desk.put("a.toml", STUDY);
+    let sweep = |output: &str| {
+        let mut command = desk.command(&["sweep", "a.toml", "--no-figures", "--output", output]);
+        let output = command.env("SOURCE_DATE_EPOCH", "1700000000").output();
+        super::program::Ran::from(output.expect("the program starts"))
+    };
+    sweep("whole.h5").done();
+    let undisturbed = fs::read(desk.path("whole.h5")).expect("a result");
+    let mut stops = 0;
+    let mut kilobytes = 600;
+    loop {
+        let told = sweep("disk/a.h5");
+        if told.code == 0 {
+            break;
+        }
+        stops += 1;
+        assert_eq!((told.code, told.out.as_str()), (3, ""), "{}", told.err);
+        assert!(told.err.contains("No space left on device"), "{}", told.err);
+        assert!(told.err.contains("free some space and run again"), "{}", told.err);
+        assert!(!told.err.contains("panicked"), "{}", told.err);
+        assert!(!desk.path("disk/a.h5").exists(), "nothing half-written has the name of a result");
+        kilobytes += 400;
+        disk.resize(kilobytes);
+        assert!(kilobytes < 40_000, "there is room enough: {}", told.err);
+    }
+    assert!(stops >= 2, "the disk was full while cases were computed and while they were joined");
+    assert!(fs::read(desk.path("disk/a.h5")).expect("a result") == undisturbed);
+    assert_eq!(fs::read_dir(desk.path("disk")).expect("the disk").count(), 1, "nothing else is left");
+}
