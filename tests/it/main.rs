@@ -36,5 +36,6 @@ mod program;
 mod readme;
 mod reference;
 mod run;
+mod slurm;
 mod store;
 mod study;
