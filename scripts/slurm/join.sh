@@ -4,9 +4,9 @@
 #   sbatch scripts/slurm/join.sh studies/night.toml
 # If blocks are missing, the job fails and its log lists them.
 
-# What to change for your cluster, as in array.sh. The whole study has to fit into the memory.
+# What to change for your cluster, as in array.sh. A study of ten million cases takes less than 1 GB.
 #SBATCH --cpus-per-task=4
-#SBATCH --mem=8G
+#SBATCH --mem=2G
 #SBATCH --time=01:00:00
 ##SBATCH --partition=NAME
 ##SBATCH --account=NAME

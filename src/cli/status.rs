@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::blocks::block_path;
 use super::result_file::{output_path, read_study};
-use super::summary::{outcomes, totals};
+use super::summary::outcomes;
 use super::words::{count, estimated, rate, size, time};
 use super::{Failure, print};
 use crate::store::{self, BlockFolder, Company, StoreError, Summary, Unusable, provenance};
@@ -88,8 +88,9 @@ fn on_the_way(study: &Study, folder: &BlockFolder, is_busy: bool) -> String {
     let done = count(there.blocks.len());
     let all = count(study.blocks());
     let shown = folder.path().display();
-    let mut text = format!("{shown}: {done} of {all} blocks, {}", totals(&there.blocks));
-    text.push_str(&format!(" of {}, {}\n", count(study.cases()), size(there.bytes as f64)));
+    let cases = count(there.blocks.iter().map(|block| block.cases).sum());
+    let (wanted, bytes) = (count(study.cases()), size(there.bytes as f64));
+    let mut text = format!("{shown}: {done} of {all} blocks, {cases} of {wanted} cases, {bytes}\n");
     text.push_str(&outcomes(&there.blocks));
     if is_busy {
         text.push_str("at work now");

@@ -14,8 +14,11 @@ const FAILURES_SHOWN: usize = 5;
 pub fn summary(joining: &Joining<'_>, blocks: &Blocks<'_>) -> Result<String, StoreError> {
     let summaries = blocks.summaries();
     let shown = joining.file.display();
-    let mut text = format!("{shown}: {}\n", totals(&summaries));
-    let missing = joining.study.cases() - summaries.iter().map(|it| it.cases).sum::<usize>();
+    let cases = summaries.iter().map(|block| block.cases).sum();
+    let cycles = summaries.iter().map(|block| block.cycles).sum::<u64>() as usize;
+    let plural = if cases == 1 { "" } else { "s" };
+    let mut text = format!("{shown}: {} case{plural}, {} cycles\n", count(cases), count(cycles));
+    let missing = joining.study.cases() - cases;
     text.push_str(&outcomes(&summaries));
     if missing > 0 {
         // Writing to a String cannot fail.
@@ -33,14 +36,6 @@ pub fn summary(joining: &Joining<'_>, blocks: &Blocks<'_>) -> Result<String, Sto
         text.push('\n');
     }
     Ok(text)
-}
-
-/// Cases and cycles of some blocks.
-pub fn totals(blocks: &[Summary]) -> String {
-    let cases: usize = blocks.iter().map(|block| block.cases).sum();
-    let cycles: u64 = blocks.iter().map(|block| block.cycles).sum();
-    let plural = if cases == 1 { "" } else { "s" };
-    format!("{} case{plural}, {} cycles", count(cases), count(cycles as usize))
 }
 
 /// Cases by outcome, a line each.

@@ -178,7 +178,7 @@ fn assert_all_but_task_2_have_ended_well(cluster: &Cluster, array: &str) {
         assert_eq!(cluster.job(&task, "Restarts"), restarts, "task {number}");
     }
     let told = log(cluster, &format!("capsulemap-{array}-3.log"));
-    assert!(told.contains("again"), "task 3 does not say how to go on:\n{told}");
+    assert!(told.contains("goes on from there"), "task 3 does not say how to go on:\n{told}");
 }
 
 /// Submits a script by itself, as it says in its first lines, and waits until it has succeeded.

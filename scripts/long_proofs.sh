@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# The long forms of proofs whose short forms are among the tests; takes about an hour on two cores.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh
+cargo build --release
+program=target/release/capsulemap
+
+echo "== a hundred runs, killed at random and resumed, end in the same bytes"
+KILLS=100 cargo test --release --test it -- runs_that_are_killed --nocapture
+
+echo "== 20 000 periods, computed again with a tenth of the tolerances and ten times the budget"
+CASES=20000 cargo test --release --test it -- certificates --nocapture
+
+echo "== leaping against waiting in 200 000 cases"
+CASES=200000 cargo test --release --test it -- acceleration --nocapture
+
+echo "== ten million cases in less than 1 GiB: while they are computed, stopped, and while they are joined"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+night=("$program" sweep studies/ten-million.toml --output "$folder/night.h5" --formats png)
+scripts/memory.sh timeout --foreground -s INT 60 "${night[@]}" 2>&1 | tail -n 2 || true
+scripts/memory.sh "${night[@]}" 2>&1 | tail -n 5
+scripts/memory.sh "$program" verify "$folder/night.h5" --cases 10000 2>&1 | tail -n 2

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Runs a command and says the most memory that it held: scripts/memory.sh COMMAND [ARGUMENT...]
+set -euo pipefail
+
+[ $# -gt 0 ] || { echo "usage: scripts/memory.sh COMMAND [ARGUMENT...]" >&2; exit 2; }
+[ -r /proc/self/status ] || { echo "memory.sh: needs /proc, as Linux has it" >&2; exit 1; }
+
+"$@" &
+child=$!
+trap 'kill -TERM $child 2>/dev/null' INT TERM
+peak=0
+# The kernel remembers the peak, so that nothing is missed but the last moment.
+while held=$(awk '/^VmHWM/ { print $2 }' "/proc/$child/status" 2>/dev/null) && [ -n "$held" ]; do
+    peak=$held
+    sleep 0.05
+done
+wait "$child" && code=0 || code=$?
+echo "memory.sh: at most $((peak / 1024)) MiB" >&2
+exit "$code"
