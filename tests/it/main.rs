@@ -34,5 +34,6 @@ mod program;
 mod readme;
 mod reference;
 mod run;
+mod slurm;
 mod store;
 mod study;

@@ -83,7 +83,7 @@ fn entries(folder: &Path) -> Vec<String> {
 }
 
 /// A word that is seen even when the test passes: the usual macros are heard only on failure.
-fn say(words: &str) {
+pub fn say(words: &str) {
     writeln!(std::io::stderr(), "{words}").expect("a word can be said");
 }
 
