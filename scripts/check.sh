@@ -29,6 +29,35 @@ python_readers() {
     fi
 }
 
+# Nobody wants a workload manager installed unasked, so it comes only where CI is set.
+slurm() {
+    local log=target/check-slurm.log skipped="its test will be skipped"
+    mkdir -p target
+    if has_slurm; then
+        return
+    elif [ -z "${CI:-}" ]; then
+        echo "Slurm is not installed: $skipped (CI=true scripts/check.sh installs it)"
+    elif ! command -v apt-get >/dev/null; then
+        echo "no apt-get here to install Slurm: $skipped"
+    elif ! { install_slurm && has_slurm; } >"$log" 2>&1; then
+        echo "apt-get could not install Slurm (see $log): $skipped"
+    fi
+}
+
+has_slurm() {
+    local PATH=$PATH:/usr/sbin
+    command -v sbatch && command -v slurmctld && command -v slurmd && command -v munged
+} >/dev/null
+
+# The lists of packages may be missing or old: try, fetch, try.
+install_slurm() {
+    local root=()
+    [ "$(id -u)" -eq 0 ] || root=(sudo -n)
+    local install=("${root[@]}" env DEBIAN_FRONTEND=noninteractive
+        apt-get install -y -q --no-install-recommends slurm-wlm munge)
+    "${install[@]}" || { "${root[@]}" apt-get update -q && "${install[@]}"; }
+}
+
 readme_test() {
     scripts/setup.sh && cargo test --release
 }
@@ -40,6 +69,7 @@ documentation() {
 step "what the machine needs" scripts/setup.sh
 step "formatting" cargo fmt --check
 step "Python readers" python_readers
+step "Slurm" slurm
 step "tests, as in the README" readme_test
 step "lints" cargo clippy --release --all-targets -- -D warnings
 step "documentation" documentation
