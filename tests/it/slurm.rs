@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::store::say;
-use cluster::{Cluster, said, wait};
+use cluster::{Cluster, said};
 
 /// The program of this build.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_capsulemap");
@@ -145,15 +145,14 @@ fn tasks_that_die_cost_nothing_but_time() {
 fn interrupt(cluster: &Cluster, array: &str) -> BTreeMap<String, u64> {
     let [first, second, third] = [1, 2, 3].map(|number| format!("{array}_{number}"));
     // Task 1 is killed and put back in the queue, as if its node had failed; task 2 stays dead.
-    cluster.wait_for(&first, "RUNNING");
     cluster.wait_for(&second, "RUNNING");
-    wait("the first blocks", || blocks(cluster).len() > 1);
+    cluster.wait_while_running(&first, || blocks(cluster).len() > 1);
     kill(cluster, &[&first, &second]);
     cluster.run("scontrol", &["requeue", &first]);
     // Task 3 makes room for others: it is told to stop, and goes back to the queue.
     cluster.wait_for(&third, "RUNNING");
     let before = blocks(cluster).len();
-    wait("a block more", || blocks(cluster).len() > before);
+    cluster.wait_while_running(&third, || blocks(cluster).len() > before);
     cluster.run("scontrol", &["requeue", &third]);
     blocks(cluster)
 }
