@@ -37,7 +37,8 @@ impl Disk {
     fn mount(folder: &Path, kilobytes: usize) -> Option<Disk> {
         fs::create_dir(folder).expect("a folder to mount on");
         let size = format!("size={kilobytes}k");
-        let mount = Command::new("mount").args(["-t", "tmpfs", "-o", &size, "tmpfs"]).arg(folder).output();
+        let mount =
+            Command::new("mount").args(["-t", "tmpfs", "-o", &size, "tmpfs"]).arg(folder).output();
         mount.is_ok_and(|it| it.status.success()).then(|| Disk(folder.to_owned()))
     }
 
@@ -89,5 +90,9 @@ fn a_disk_that_fills_stops_the_run_and_room_lets_it_go_on() {
     }
     assert!(stops >= 2, "the disk was full while cases were computed and while they were joined");
     assert!(fs::read(desk.path("disk/a.h5")).expect("a result") == undisturbed);
-    assert_eq!(fs::read_dir(desk.path("disk")).expect("the disk").count(), 1, "nothing else is left");
+    assert_eq!(
+        fs::read_dir(desk.path("disk")).expect("the disk").count(),
+        1,
+        "nothing else is left"
+    );
 }

@@ -302,8 +302,7 @@ fn tasks_that_share_a_study_are_joined_to_the_file_of_one_run() {
     let refused = night.run(&["join", "night.toml"]);
     refused.refused(&["8 blocks are missing: ", "--partial"]);
     let status = night.run(&["status", "night.toml"]).done().out;
-    for part in ["16 of 24 blocks", "9 600 of 14 400 cases", "nobody is at work", "16 blocks by"]
-    {
+    for part in ["16 of 24 blocks", "9 600 of 14 400 cases", "nobody is at work", "16 blocks by"] {
         assert!(status.contains(part), "{part}: {status}");
     }
     // Slurm says which task it is where the command does not.

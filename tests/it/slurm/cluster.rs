@@ -101,8 +101,6 @@ impl Cluster {
         });
     }
 
-<<<<<<< HEAD
-=======
     /// Waits until a running job has `done` something, and fails if it ends before.
     pub fn wait_while_running(&self, job: &str, done: impl Fn() -> bool) {
         self.wait_for(job, "RUNNING");
@@ -113,7 +111,6 @@ impl Cluster {
         });
     }
 
->>>>>>> slurm
     /// Standard output of a command, and whether it succeeded.
     fn asked(&self, program: &str, arguments: &[&str]) -> (String, bool) {
         let output = self.command(program).args(arguments).output().expect("timeout starts");
@@ -247,11 +244,7 @@ impl Drop for Cluster {
 }
 
 /// Waits until `done`, and fails if that takes too long.
-<<<<<<< HEAD
-pub fn wait(what: &str, mut done: impl FnMut() -> bool) {
-=======
 fn wait(what: &str, mut done: impl FnMut() -> bool) {
->>>>>>> slurm
     let end = Instant::now() + PATIENCE;
     while !done() {
         assert!(Instant::now() < end, "waited for {what} in vain");
