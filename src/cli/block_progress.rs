@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::tell;
-use super::words::{count, estimated, rate};
+use super::words::{count, counted, estimated, rate};
 use crate::store::Summary;
 use crate::sweep::{Forecast, Record};
 
@@ -92,9 +92,10 @@ impl BlockProgress {
         state.done[0] += 1;
         state.forecast.add(block.cases, block.cycles);
         if self.bar.is_none() {
-            let (cases, cycles) = (count(block.cases), count(block.cycles as usize));
+            let cases = counted(block.cases, "case");
+            let cycles = counted(block.cycles as usize, "cycle");
             let words = self.words(&state);
-            tell(&format!("block {}: {cases} cases, {cycles} cycles; {words}", block.number));
+            tell(&format!("block {}: {cases}, {cycles}; {words}", block.number));
         }
     }
 

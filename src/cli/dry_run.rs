@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use super::words::{count, estimated, size, time};
+use super::words::{count, counted, estimated, size, time};
 use super::{Failure, print};
 use crate::store::packed_bytes;
 use crate::sweep::{Estimate, Forecast, Machine, Study, has_attractors, run_blocks, spread};
@@ -57,25 +57,26 @@ fn words(
     probe: &Probe,
     (cycles, took): (u64, Duration),
 ) -> String {
-    let (cases, blocks) = (count(study.cases()), count(study.blocks()));
+    let (cases, blocks) = (count(study.cases()), counted(study.blocks(), "block"));
     let pace = took.as_secs_f64() / cycles as f64;
     let whole = probe.forecast.cycles();
     let whole = whole.map(|it| Estimate { value: it.value * pace, error: it.error * pace });
     let whole = whole.map_or("not known".to_owned(), estimated);
     let bytes = probe.bytes as f64 / probe.cases as f64 * study.cases() as f64;
     let threads = match machine.threads {
-        Some(threads) => count(threads),
-        None => count(std::thread::available_parallelism().map_or(1, usize::from)),
+        Some(threads) => threads,
+        None => std::thread::available_parallelism().map_or(1, usize::from),
     };
+    let threads = counted(threads, "thread");
     let more = if has_attractors(study) { ", and more to search for attractors" } else { "" };
     format!(
-        "{}\n  cases  {cases} in {blocks} blocks\n  time   {whole} with {threads} threads{more}\n  \
+        "{}\n  cases  {cases} in {blocks}\n  time   {whole} with {threads}{more}\n  \
          room   {} for the blocks, and as much again while they are joined\n  \
-         foretold by {} cases in {} blocks, computed in {}; nothing was written\n",
+         foretold by {} in {}, computed in {}; nothing was written\n",
         output.display(),
         size(bytes),
-        count(probe.cases),
-        count(probe.blocks),
+        counted(probe.cases, "case"),
+        counted(probe.blocks, "block"),
         time(took.as_secs_f64())
     )
 }

@@ -9,7 +9,7 @@ use super::figure::{FormatChoice, draw_from};
 use super::progress::Progress;
 use super::result_file::{folder, kept, output_path, prepare, read_study};
 use super::summary::summary;
-use super::words::count;
+use super::words::counted;
 use super::{Failure, print, tell};
 use crate::store::{self, Archive, BlockFolder, Blocks, Company, Unusable, keep_branches};
 use crate::sweep::{self, Machine, Study, has_attractors};
@@ -139,8 +139,8 @@ impl Joining<'_> {
 fn incomplete(folder: &BlockFolder, missing: &[(usize, Unusable)]) -> String {
     let shown = folder.path().display();
     let mut text = format!(
-        "{shown}: {} blocks are missing: {}",
-        count(missing.len()),
+        "{shown}: {} missing: {}",
+        counted(missing.len(), "block"),
         ranges(missing.iter().map(|(number, _)| *number))
     );
     for (number, why) in missing.iter().filter(|(_, why)| !matches!(why, Unusable::Missing)) {

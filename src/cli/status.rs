@@ -9,7 +9,7 @@ use clap::Args;
 use super::blocks::block_path;
 use super::result_file::{output_path, read_study};
 use super::summary::outcomes;
-use super::words::{count, estimated, rate, size, time};
+use super::words::{count, counted, estimated, rate, size, time};
 use super::{Failure, print};
 use crate::store::{self, BlockFolder, Company, StoreError, Summary, Unusable, provenance};
 use crate::sweep::{Forecast, Study};
@@ -100,7 +100,7 @@ fn on_the_way(study: &Study, folder: &BlockFolder, is_busy: bool) -> String {
     text.push_str(&pace(study, &there));
     text.push('\n');
     for (maker, blocks) in &there.makers {
-        text.push_str(&format!("{} blocks by {maker}\n", count(*blocks)));
+        text.push_str(&format!("{} by {maker}\n", counted(*blocks, "block")));
     }
     there.faults.iter().for_each(|fault| text.push_str(&format!("{fault}\n")));
     text

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::join::Joining;
-use super::words::count;
+use super::words::{count, counted};
 use crate::orbit::Outcome;
 use crate::store::{Blocks, StoreError, Summary, by_outcome};
 
@@ -16,8 +16,8 @@ pub fn summary(joining: &Joining<'_>, blocks: &Blocks<'_>) -> Result<String, Sto
     let shown = joining.file.display();
     let cases = summaries.iter().map(|block| block.cases).sum();
     let cycles = summaries.iter().map(|block| block.cycles).sum::<u64>() as usize;
-    let plural = if cases == 1 { "" } else { "s" };
-    let mut text = format!("{shown}: {} case{plural}, {} cycles\n", count(cases), count(cycles));
+    let (cases_told, cycles) = (counted(cases, "case"), counted(cycles, "cycle"));
+    let mut text = format!("{shown}: {cases_told}, {cycles}\n");
     let missing = joining.study.cases() - cases;
     text.push_str(&outcomes(&summaries));
     if missing > 0 {

@@ -10,7 +10,7 @@ use super::figure::{FormatChoice, draw_from};
 use super::join::Joining;
 use super::result_file::{folder, kept, output_path, prepare, read_study, rehearse};
 use super::task::Task;
-use super::words::{count, time};
+use super::words::{counted, time};
 use super::{Failure, machine, named, tell};
 use crate::lane::Instructions;
 use crate::store::{self, BlockFolder, Company, Dataset};
@@ -88,8 +88,8 @@ impl Sweep {
                 let added = compute(&study, machine, &blocks, task)?;
                 if added.cases > 0 {
                     tell(&format!(
-                        "{} cases computed in {}",
-                        count(added.cases),
+                        "{} computed in {}",
+                        counted(added.cases, "case"),
                         time(added.time.as_secs_f64())
                     ));
                 }

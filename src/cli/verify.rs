@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::progress::Progress;
-use super::words::count;
+use super::words::{count, counted};
 use super::{Failure, machine, named, print, tell};
 use crate::lane::Instructions;
 use crate::store::{self, Archive, provenance};
@@ -60,18 +60,18 @@ impl Verify {
         let seed = self.seed.unwrap_or_else(|| fastrand::u64(..));
         let chains = sample(&study, self.cases as usize, seed);
         let compared = compare(&study, machine, &archive, &chains)?;
-        let cases = count(compared.cases);
+        let cases = counted(compared.cases, "case");
         if compared.differences.is_empty() {
             let numbers = count(compared.numbers);
             return print(&format!(
-                "{shown}: {cases} cases drawn with --seed {seed} came out the same in all {numbers} numbers\n"
+                "{shown}: {cases} drawn with --seed {seed} came out the same in all {numbers} numbers\n"
             ));
         }
         let differences: Vec<String> =
             compared.differences.iter().take(SHOWN).map(|it| format!("  {it}")).collect();
         Err(Failure::machine(format!(
-            "{shown}: {} numbers of {cases} cases drawn with --seed {seed} came out otherwise:\n{}\n{}",
-            count(compared.differences.len()),
+            "{shown}: {} of {cases} drawn with --seed {seed} came out otherwise:\n{}\n{}",
+            counted(compared.differences.len(), "number"),
             differences.join("\n"),
             notice.unwrap_or_else(|| {
                 "the file or a machine is faulty: compute the study again, and \

@@ -40,6 +40,11 @@ pub fn count(number: usize) -> String {
     text
 }
 
+/// A count of things: "1 block", "24 blocks".
+pub fn counted(number: usize, what: &str) -> String {
+    format!("{} {what}{}", count(number), if number == 1 { "" } else { "s" })
+}
+
 /// A rate in words.
 pub fn rate(per_second: f64) -> String {
     if per_second < 10.0 { format!("{per_second:.2}") } else { count(per_second.round() as usize) }
@@ -67,6 +72,7 @@ mod tests {
         assert_eq!(estimated(Estimate { value: 100.0, error: 0.5 }), "100 s");
         assert_eq!(estimated(Estimate { value: 30.0, error: f64::NAN }), "30 s, perhaps");
         assert_eq!([0, 999, 1000, 1_234_567].map(count), ["0", "999", "1 000", "1 234 567"]);
+        assert_eq!([1, 24].map(|it| counted(it, "block")), ["1 block", "24 blocks"]);
         assert_eq!([0.5, 5230.4].map(rate), ["0.50", "5 230"]);
         assert_eq!([10.0, 3.4e6, 1.2e10].map(size), ["10 B", "3.4 MB", "12 GB"]);
     }

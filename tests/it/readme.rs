@@ -47,7 +47,7 @@ fn the_main_job_leaves_a_file_and_its_figures() {
     assert_eq!(command, "scripts/setup.sh && cargo run --release -- sweep studies/overview.toml");
     let folder = clone();
     let summary = capsulemap(&["sweep", "studies/overview.toml"], folder.path());
-    assert!(summary.contains("34221 cases"), "{summary}");
+    assert!(summary.contains("34 221 cases"), "{summary}");
     assert!(README.contains("34 221 cases"));
     let results = folder.path().join("results/overview");
     for figure in ["bifurcation", "speed", "period", "trade-off"] {
@@ -178,5 +178,22 @@ fn the_table_of_the_readme_is_the_tested_one() {
     let tested = include_str!("paper.rs");
     for digits in ["10.298005", "25.39085", "0.008345", "1.119443", "0.528927", "3.575601"] {
         assert!(README.contains(digits) && tested.contains(digits), "{digits}");
+    }
+}
+
+#[test]
+fn the_commands_of_a_night_do_what_is_said_of_them() {
+    let lines = blocks("sh").into_iter().find(|block| block.contains("--dry-run"));
+    let folder = tempfile::tempdir().expect("a folder");
+    let study = blocks("toml")[0].replace("points = 351", "points = 15");
+    std::fs::write(folder.path().join("night.toml"), study).expect("a study");
+    let mut said = String::new();
+    for line in lines.expect("the commands").lines() {
+        let command = line.split('#').next().expect("a command").trim();
+        let arguments: Vec<&str> = command.split_whitespace().skip(1).collect();
+        said += &capsulemap(&arguments, folder.path());
+    }
+    for part in ["30 in 1 block", "30 cases, ", "all cases, written", "30 cases drawn"] {
+        assert!(said.contains(part), "{part}: {said}");
     }
 }
