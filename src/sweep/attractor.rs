@@ -71,8 +71,8 @@ pub fn links(study: &Study) -> usize {
     layout.lines() * layout.cells().saturating_sub(1)
 }
 
-/// Finds the attractors of a study from the `endings` of its cases by index, where none stands for a case that
-/// is missing; calls `linked` after each link.
+/// Finds the attractors of a study from the `endings` of its cases by index, none for a case that is
+/// missing; calls `linked` after each link.
 ///
 /// A periodic attractor is known by its certified orbit, see `Cell::sort` and `Neighbours::link`. Every line
 /// is a task of its own, of which only numbers and events are kept; so are its cells and every two

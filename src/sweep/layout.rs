@@ -104,6 +104,7 @@ mod tests {
         let axis =
             |name: &str, values: &str| format!("[[axes]]\nname = \"{name}\"\nvalues = {values}\n");
         let text = [
+            "[parameters]\nk2 = \"18.96 kN/m\"\ndelta = \"1.5 mm\"\n".to_owned(),
             axis("start_y1", "[\"0 m/s\", \"1 m/s\"]"),
             axis("omega", "[\"20 rad/s\", \"30 rad/s\", \"40 rad/s\"]"),
             axis("start_r", "[\"0 mm\", \"1 mm\"]"),
