@@ -34,7 +34,7 @@ pub struct Kinds {
     /// Heading of the legend.
     heading: Text,
     /// The kind of each case.
-    of_case: Vec<usize>,
+    of_case: Vec<u16>,
 }
 
 impl Kinds {
@@ -44,32 +44,37 @@ impl Kinds {
         let outcomes = Outcomes::over(view, free)?;
         let flags = view.flags(name);
         let resting = resting(view, free)?;
-        // Each case with its place in the legend.
-        let kinds: Vec<(usize, Kind)> = codes
-            .iter()
-            .enumerate()
-            .map(|(case, code)| match name {
-                "period" if resting.get(case) == Some(&true) => rest(),
-                "period" => by_period(*code, outcomes.name(case)),
-                _ => by_flag(*code, flags),
-            })
-            .collect();
+        let kind = |case: usize, code: f64| match name {
+            "period" if resting.get(case) == Some(&true) => rest(),
+            "period" => by_period(code, outcomes.name(case)),
+            _ => by_flag(code, flags),
+        };
+        // The kinds with their places in the legend, in the order in which cases show them.
         let mut present: Vec<(usize, Kind)> = Vec::new();
-        for (rank, kind) in &kinds {
-            if !present.iter().any(|(_, other)| other == kind) {
-                present.push((*rank, kind.clone()));
+        let mut of_case = Vec::with_capacity(codes.len());
+        for (case, code) in codes.iter().enumerate() {
+            let kind = kind(case, *code);
+            let known = present.iter().position(|other| other.1 == kind.1);
+            of_case.push(known.unwrap_or(present.len()) as u16);
+            if known.is_none() {
+                present.push(kind);
             }
         }
-        present.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| a.1.name.cmp(&b.1.name)));
-        let place = |kind: &Kind| present.iter().position(|(_, it)| it == kind).unwrap_or(0);
-        let of_case = kinds.iter().map(|(_, kind)| place(kind)).collect();
-        let kinds = present.into_iter().map(|(_, kind)| kind).collect();
+        let mut order: Vec<usize> = (0..present.len()).collect();
+        order.sort_by(|&a, &b| {
+            let (a, b) = (&present[a], &present[b]);
+            a.0.cmp(&b.0).then_with(|| a.1.name.cmp(&b.1.name))
+        });
+        let place = |shown: u16| order.iter().position(|&it| it == usize::from(shown)).unwrap_or(0);
+        let places: Vec<u16> = (0..present.len() as u16).map(|it| place(it) as u16).collect();
+        of_case.iter_mut().for_each(|it| *it = places[usize::from(*it)]);
+        let kinds = order.iter().map(|&it| present[it].1.clone()).collect();
         Ok(Kinds { kinds, heading: view.quantity(name).short_name(), of_case })
     }
 
     /// The colour of a case.
     pub fn colour(&self, case: usize) -> Option<RGBColor> {
-        self.of_case.get(case).and_then(|place| self.kinds[*place].colour)
+        self.of_case.get(case).and_then(|place| self.kinds[usize::from(*place)].colour)
     }
 
     /// Room that the legend takes beside a frame [pt].

@@ -3,29 +3,35 @@
 use super::error::FigureError;
 use super::view::View;
 
+/// Stands for a case of which nothing is known.
+const UNKNOWN: u8 = u8::MAX;
+
 /// The outcome of every case of a view.
-pub struct Outcomes {
-    /// One name per case, in the order of the axes; none where the results do not say.
-    names: Vec<Option<String>>,
+pub struct Outcomes<'a> {
+    /// The names that outcomes have in the results.
+    flags: &'a [(i64, String)],
+    /// For each case its place among them, in the order of the axes; none where the results do not say.
+    places: Vec<u8>,
 }
 
-impl Outcomes {
+impl<'a> Outcomes<'a> {
     /// The outcomes over the axes `free`; unknown where the results hold no `outcome`.
-    pub fn over(view: &View<'_>, free: &[&str]) -> Result<Outcomes, FigureError> {
+    pub fn over(view: &View<'a>, free: &[&str]) -> Result<Outcomes<'a>, FigureError> {
         if view.dataset.variable("outcome").is_none() {
-            return Ok(Outcomes { names: Vec::new() });
+            return Ok(Outcomes { flags: &[], places: Vec::new() });
         }
         let flags = view.flags("outcome");
-        let name = |code: &f64| {
-            let flag = flags.iter().find(|(value, _)| *value as f64 == *code);
-            flag.map(|(_, name)| name.clone())
+        let place = |code: &f64| {
+            let place = flags.iter().position(|(value, _)| *value as f64 == *code);
+            place.and_then(|place| u8::try_from(place).ok()).unwrap_or(UNKNOWN)
         };
-        Ok(Outcomes { names: view.take("outcome", free)?.iter().map(name).collect() })
+        Ok(Outcomes { flags, places: view.take("outcome", free)?.iter().map(place).collect() })
     }
 
     /// The outcome of a case, if it is known.
-    pub fn name(&self, case: usize) -> Option<&str> {
-        self.names.get(case).and_then(|name| name.as_deref())
+    pub fn name(&self, case: usize) -> Option<&'a str> {
+        let place = usize::from(*self.places.get(case)?);
+        self.flags.get(place).map(|(_, name)| name.as_str())
     }
 
     /// Whether a case is known to have failed.

@@ -33,6 +33,8 @@ mod oscillators;
 mod overnight;
 mod paper;
 mod program;
+mod readers;
+mod reading;
 mod readme;
 mod reference;
 mod run;

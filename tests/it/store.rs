@@ -9,7 +9,6 @@ use std::process::Command;
 use capsulemap::store::{self, Dataset, StoreError, Values, Variable};
 use ndarray::{Array1, ArrayD};
 use proptest::prelude::*;
-use serde_json::{Value, json};
 
 fn real(dimensions: &[&str], unit: &str, values: ArrayD<f64>) -> Variable {
     labelled(dimensions, unit, Values::Real(values))
@@ -32,7 +31,7 @@ fn array<T>(shape: &[usize], number: impl Fn(usize) -> T) -> ArrayD<T> {
 }
 
 /// A study in small with everything a result may contain, and one array large enough to compress.
-fn rich() -> Dataset {
+pub fn rich() -> Dataset {
     let mut direction = integer(&["direction"], array(&[2], |i| i as i64));
     direction.flags = vec![(0, "up".into()), (1, "down".into())];
     let mut outcome = integer(&["direction", "p_d", "omega"], array(&[2, 3, 5], |i| i as i64 % 3));
@@ -67,6 +66,11 @@ fn rich() -> Dataset {
             ("empty".into(), String::new()),
         ]),
     }
+}
+
+/// A coordinate along which there is nothing.
+pub fn nothing_along(name: &str) -> (String, Variable) {
+    (name.into(), real(&[name], "s", array(&[0], |_| 0.0)))
 }
 
 /// A folder of its own for each test, and the path of a result in it.
@@ -276,52 +280,4 @@ fn a_damaged_file_is_refused() {
         store::read(&path).expect_err("a byte was changed");
         damaged[place] ^= 0x10;
     }
-}
-
-/// What the Python side must find, read from the dataset in memory and not from the file.
-fn expectation(dataset: &Dataset) -> Value {
-    let coordinates = dataset.coordinates.iter().map(|(name, variable)| (name, variable));
-    let variables: BTreeMap<&String, Value> = coordinates
-        .chain(&dataset.variables)
-        .map(|(name, variable)| {
-            let values: Vec<String> = match &variable.values {
-                Values::Real(reals) => reals.iter().map(f64::to_string).collect(),
-                Values::Integer(integers) => integers.iter().map(i64::to_string).collect(),
-            };
-            let kind = if matches!(variable.values, Values::Real(_)) { "real" } else { "integer" };
-            let about = json!({
-                "dimensions": variable.dimensions, "shape": variable.values.shape(),
-                "units": variable.unit, "long_name": variable.long_name, "kind": kind,
-                "values": values, "flags": variable.flags,
-            });
-            (name, about)
-        })
-        .collect();
-    let coordinates: Vec<&String> = dataset.coordinates.iter().map(|(name, _)| name).collect();
-    json!({
-        "coordinates": coordinates, "variables": variables,
-        "attributes": dataset.attributes, "texts": dataset.texts,
-    })
-}
-
-#[test]
-fn every_python_reader_finds_names_coordinates_and_units() {
-    let python = std::env::var("CAPSULEMAP_PYTHON").unwrap_or_else(|_| "python3".into());
-    let readers = "import h5py, netCDF4, h5netcdf, xarray";
-    let probe = Command::new(&python).args(["-c", readers]).output();
-    if !probe.is_ok_and(|done| done.status.success()) {
-        say(&format!("SKIPPED: {python} cannot import h5py, netCDF4, h5netcdf and xarray"));
-        return;
-    }
-    let (folder, path) = place();
-    let mut dataset = rich();
-    dataset.coordinates.push(("none".into(), real(&["none"], "s", array(&[0], |_| 0.0))));
-    store::write(&dataset, &path).expect("it is written");
-    let expected = folder.path().join("expected.json");
-    fs::write(&expected, expectation(&dataset).to_string()).expect("it is written");
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/check_dataset.py");
-    let done = Command::new(&python).arg(script).args([&path, &expected]).output();
-    let done = done.expect("python runs");
-    let said = [done.stdout, done.stderr].concat();
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&said));
 }

@@ -1,0 +1,126 @@
+//! What others read of our files: real Python packages open them and find names, coordinates, units and bits.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use capsulemap::store::{self, Dataset, Values};
+use serde_json::{Value, json};
+
+use super::program::Desk;
+use super::store::{rich, say};
+
+/// What the Python side must find, read from the dataset in memory and not from the file.
+fn expectation(dataset: &Dataset) -> Value {
+    let coordinates = dataset.coordinates.iter().map(|(name, variable)| (name, variable));
+    let variables: BTreeMap<&String, Value> = coordinates
+        .chain(&dataset.variables)
+        .map(|(name, variable)| {
+            let values: Vec<String> = match &variable.values {
+                Values::Real(reals) => reals.iter().map(f64::to_string).collect(),
+                Values::Integer(integers) => integers.iter().map(i64::to_string).collect(),
+            };
+            let kind = if matches!(variable.values, Values::Real(_)) { "real" } else { "integer" };
+            let about = json!({
+                "dimensions": variable.dimensions, "shape": variable.values.shape(),
+                "units": variable.unit, "long_name": variable.long_name, "kind": kind,
+                "values": values, "flags": variable.flags,
+            });
+            (name, about)
+        })
+        .collect();
+    let coordinates: Vec<&String> = dataset.coordinates.iter().map(|(name, _)| name).collect();
+    json!({
+        "coordinates": coordinates, "variables": variables,
+        "attributes": dataset.attributes, "texts": dataset.texts,
+    })
+}
+
+/// The Python that has the readers; a word and none where there is none.
+fn python() -> Option<String> {
+    let python = std::env::var("CAPSULEMAP_PYTHON").unwrap_or_else(|_| "python3".into());
+    let readers = "import h5py, netCDF4, h5netcdf, xarray";
+    let probe = Command::new(&python).args(["-c", readers]).output();
+    let has = probe.is_ok_and(|done| done.status.success());
+    if !has {
+        say(&format!("SKIPPED: {python} cannot import h5py, netCDF4, h5netcdf and xarray"));
+    }
+    has.then_some(python)
+}
+
+/// Sure that every reader finds in the file at `path` what `dataset` holds.
+fn assert_readers_find(python: &str, path: &Path, dataset: &Dataset) {
+    let expected = path.with_extension("expected.json");
+    fs::write(&expected, expectation(dataset).to_string()).expect("it is written");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/check_dataset.py");
+    let done = Command::new(python).arg(script).args([path, &expected]).output();
+    let done = done.expect("python runs");
+    let said = [done.stdout, done.stderr].concat();
+    assert!(done.status.success(), "{}: {}", path.display(), String::from_utf8_lossy(&said));
+}
+
+#[test]
+fn every_python_reader_finds_names_coordinates_and_units() {
+    let Some(python) = python() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("rich.nc");
+    let mut dataset = rich();
+    dataset.coordinates.push(super::store::nothing_along("none"));
+    store::write(&dataset, &path).expect("it is written");
+    assert_readers_find(&python, &path, &dataset);
+}
+
+/// Everything that a file may hold: several directions, histories, points, attractors, branches.
+const STUDY: &str = r#"title = "µ, δ and all"
+[parameters]
+k2 = "18.96 kN/m"
+delta = "1.5 mm"
+p_d = "4 N"
+[[axes]]
+name = "omega"
+from = "18 rad/s"
+to = "80 rad/s"
+points = 160
+[[axes]]
+name = "start_y1"
+values = ["0 m/s", "0.2 m/s"]
+[start]
+follow = "omega"
+directions = ["upward", "downward"]
+[history]
+cycles = 1
+samples_per_cycle = 8
+[protocol]
+points = 3
+impact_points = 2
+max_cycles = 100
+exponent_cycles = 64
+[[branches]]
+name = "b"
+along = "omega"
+at = { omega = "20.73 rad/s" }
+range = ["20 rad/s", "24 rad/s"]
+"#;
+
+#[test]
+fn every_file_that_the_program_writes_opens_with_all_its_labels() {
+    let Some(python) = python() else { return };
+    let desk = Desk::new();
+    desk.put("all.toml", STUDY);
+    let read = |path: &Path| store::read(path).expect("a result");
+    // Branches alone; then, beside them, a look at a part of the cases; then all.
+    let file = desk.path("results/all/all.h5");
+    desk.run(&["follow", "all.toml"]).done();
+    assert_readers_find(&python, &file, &read(&file));
+    desk.run(&["sweep", "all.toml", "--task", "1/2"]).done();
+    desk.run(&["join", "all.toml", "--partial"]).done();
+    let partial = desk.path("results/all/partial/all.h5");
+    assert_readers_find(&python, &partial, &read(&partial));
+    desk.run(&["sweep", "all.toml"]).done();
+    let whole = read(&file);
+    for name in ["progression_speed", "branch_stable", "attractor", "history_r", "block_maker"] {
+        assert!(whole.variable(name).is_some(), "{name}");
+    }
+    assert_readers_find(&python, &file, &whole);
+}
