@@ -117,7 +117,8 @@ impl Sweep {
         let mut dataset = store::dataset(study, &records);
         if has_attractors(study) {
             let progress = Progress::new(sweep::links(study), "links of attractors");
-            let attractors = sweep::attractors(study, &records, machine, || progress.step())
+            let endings = sweep::endings(study, &records);
+            let attractors = sweep::attractors(study, &endings, machine, || progress.step())
                 .map_err(Failure::machine)?;
             seconds += progress.finish().as_secs_f64();
             store::add_attractors(&mut dataset, study, &attractors);

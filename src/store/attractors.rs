@@ -18,7 +18,7 @@ pub fn add_attractors(dataset: &mut Dataset, study: &Study, attractors: &Attract
     let mut dimensions: Vec<String> =
         study.axes.iter().map(|axis| axis.coordinate.name().to_owned()).collect();
     dimensions.extend(study.direction_axis().map(|_| "direction".to_owned()));
-    let number = |of: &Option<usize>| of.map_or(-1, |number| number as i64);
+    let number = |of: &Option<u32>| of.map_or(-1, i64::from);
     let numbers = attractors.of_case.iter().map(number).collect();
     let array = ArrayD::from_shape_vec(IxDyn(&study.shape()), numbers).expect("one per case");
     if let Some(axis) = attractors.axis {
@@ -45,7 +45,7 @@ fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
     let codes = integers(events.iter().map(|event| event.kind as i64).collect());
     let flags = SpecialKind::NAMES.map(|(name, kind)| (kind as i64, name.to_owned())).to_vec();
     add("kind", Variable { flags, ..column("1", "what happens to the attractor", codes) });
-    let numbers = integers(events.iter().map(|event| event.attractor as i64).collect());
+    let numbers = integers(events.iter().map(|event| i64::from(event.attractor)).collect());
     add("attractor", column("1", "attractor of the event", numbers));
     let periods = integers(events.iter().map(|event| event.period as i64).collect());
     add("period", column("1", "period of the orbit that changes, in drive cycles", periods));

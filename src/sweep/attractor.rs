@@ -1,20 +1,21 @@
 //! Which cases of a study share an attractor, how attractors go on along an axis, and where they change.
 
-use std::collections::BTreeMap;
 use std::marker::PhantomData;
+use std::sync::Mutex;
 
 use rayon::prelude::*;
 
 use crate::branch::SpecialKind;
 use crate::model::{Capsule, Locomotion, PrintedCapsule, Switching};
-use crate::orbit::{Orbit, Section};
+use crate::orbit::Section;
 
 use super::bridge::{Bridge, bridges};
 use super::cell::Cell;
 use super::change::Change;
 use super::family::{Links, Neighbours};
+use super::layout::{Layout, is_start, linked_axis};
 use super::run::{RunError, pool};
-use super::{Coordinate, Machine, Record, Study};
+use super::{Coordinate, Ending, Machine, Study};
 use crate::branch::natural::{Along, ROUNDING};
 
 /// A change of an attractor along the axis, or its beginning or end.
@@ -23,7 +24,7 @@ pub struct AttractorEvent {
     /// What happens.
     pub kind: SpecialKind,
     /// The attractor, by its number on its line.
-    pub attractor: usize,
+    pub attractor: u32,
     /// A case of the attractor beside the event, which tells the values of the other axes.
     pub case: usize,
     /// The value of the parameter of the axis.
@@ -53,7 +54,7 @@ pub struct Attractors {
     /// The attractor of each case, by its number; none where the case has none.
     ///
     /// They are numbered along each line of the axis anew, in the order in which they appear.
-    pub of_case: Vec<Option<usize>>,
+    pub of_case: Vec<Option<u32>>,
     /// The events, line by line in the order of the parameter.
     pub events: Vec<AttractorEvent>,
 }
@@ -66,169 +67,176 @@ pub fn has_attractors(study: &Study) -> bool {
 
 /// Pairs of neighbouring cells between which attractors are linked.
 pub fn links(study: &Study) -> usize {
-    let pairs = |axis: usize| {
-        let others = study.axes.iter().enumerate().filter(|(at, _)| *at != axis);
-        let lines =
-            others.filter(|(_, it)| !is_start(it.coordinate)).map(|(_, it)| it.values.len());
-        lines.product::<usize>() * study.axes[axis].values.len().saturating_sub(1)
-    };
-    linked_axis(study).map_or(0, pairs)
+    let layout = Layout::of(study);
+    layout.lines() * layout.cells().saturating_sub(1)
 }
 
-/// Finds the attractors of a study from the `records` of its cases; calls `linked` after each link.
+/// Finds the attractors of a study from the `endings` of its cases by index, none for a case that is
+/// missing; calls `linked` after each link.
 ///
-/// A periodic attractor is known by its certified orbit, see `Cell::sort` and `Neighbours::link`. Every
-/// cell and every two neighbours are a task of their own, so that the threads do not matter.
+/// A periodic attractor is known by its certified orbit, see `Cell::sort` and `Neighbours::link`. Every line
+/// is a task of its own, of which only numbers and events are kept; so are its cells and every two
+/// neighbours, as there may be a single line. The threads do not matter.
 pub fn attractors(
     study: &Study,
-    records: &[Record],
+    endings: &[Option<Ending>],
     machine: Machine,
     linked: impl Fn() + Sync,
 ) -> Result<Attractors, RunError> {
     if !has_attractors(study) {
         return Ok(Attractors { of_case: vec![None; study.cases()], ..Attractors::default() });
     }
-    let mut orbits = vec![None; study.cases()];
-    for record in records {
-        orbits[record.index] = Some(&record.orbit);
-    }
     Ok(pool(machine.threads)?.install(|| match study.base.switching {
-        Switching::Filippov => find::<Capsule<f64>>(study, &orbits, &linked),
-        Switching::AsPrinted => find::<PrintedCapsule<f64>>(study, &orbits, &linked),
+        Switching::Filippov => find::<Capsule<f64>>(study, endings, &linked),
+        Switching::AsPrinted => find::<PrintedCapsule<f64>>(study, endings, &linked),
     }))
-}
-
-fn is_start(coordinate: Coordinate) -> bool {
-    matches!(coordinate, Coordinate::StartR | Coordinate::StartY1 | Coordinate::StartY2)
-}
-
-/// The axis that is followed, or else the only parameter that varies.
-fn linked_axis(study: &Study) -> Option<usize> {
-    if let Some(follow) = &study.follow {
-        return Some(follow.axis);
-    }
-    let is_parameter = |axis: &usize| !is_start(study.axes[*axis].coordinate);
-    let mut varies = (0..study.axes.len()).filter(is_parameter);
-    let first = varies.next()?;
-    let alone = varies.next().is_none();
-    let parameter = matches!(study.axes[first].coordinate, Coordinate::Parameter(_));
-    (alone && parameter).then_some(first)
-}
-
-/// The cases of each cell, line by line along the axis; without one each cell is a line.
-fn lines(study: &Study, axis: Option<usize>) -> Vec<Vec<Vec<usize>>> {
-    let length = axis.map_or(1, |axis| study.axes[axis].values.len());
-    let mut lines: BTreeMap<Vec<usize>, Vec<Vec<usize>>> = BTreeMap::new();
-    for case in 0..study.cases() {
-        let position = study.position(case);
-        let others = study.axes.iter().enumerate().zip(&position);
-        let key = others.filter(|((i, it), _)| Some(*i) != axis && !is_start(it.coordinate));
-        let key = key.map(|(_, place)| *place).collect();
-        let line = lines.entry(key).or_insert_with(|| vec![Vec::new(); length]);
-        line[axis.map_or(0, |axis| position[axis])].push(case);
-    }
-    lines.into_values().collect()
 }
 
 fn find<S: Locomotion>(
     study: &Study,
-    orbits: &[Option<&Orbit>],
+    endings: &[Option<Ending>],
     linked: impl Fn() + Sync,
 ) -> Attractors {
-    let axis = linked_axis(study);
-    let sort = |cases: &Vec<usize>| {
-        let known = |&case: &usize| Some((case, study.case(case), orbits[case]?));
-        Cell::sort::<S>(&cases.iter().filter_map(known).collect::<Vec<_>>(), &study.protocol)
+    let layout = Layout::of(study);
+    let of_case = Mutex::new(vec![None; study.cases()]);
+    let search = |number: usize| {
+        let line = Line { study, layout: &layout, number };
+        let cells = line.cells::<S>(endings);
+        let (links, bridges) = line.links::<S>(&cells, &linked);
+        let numbers = numbers(&cells, &links, &bridges);
+        let events = events(&cells, &links, &bridges, &numbers);
+        line.note(&cells, &numbers, &mut of_case.lock().expect("no thread has panicked"));
+        events
     };
-    let lines: Vec<Vec<Cell>> =
-        lines(study, axis).par_iter().map(|line| line.par_iter().map(sort).collect()).collect();
-    let mut attractors =
-        Attractors { axis, of_case: vec![None; study.cases()], events: Vec::new() };
-    let found: Vec<(Vec<Links>, Vec<Bridge>)> = lines
-        .par_iter()
-        .map(|line| {
-            let between = |at: usize| neighbours::<S>(study, axis, at, line);
-            let link = |at: usize| {
-                let links = between(at).map_or_else(Links::default, |it| it.link());
-                linked();
-                links
-            };
-            let last = line.len().saturating_sub(1);
-            let links: Vec<Links> = (0..last).into_par_iter().map(link).collect();
-            let bridges = bridges(line, &links, between);
-            (links, bridges)
-        })
-        .collect();
-    for (line, (links, bridges)) in lines.iter().zip(&found) {
-        attractors.add_line(line, links, bridges);
-    }
-    attractors
+    let events = (0..layout.lines()).into_par_iter().flat_map_iter(search).collect();
+    let of_case = of_case.into_inner().expect("no thread has panicked");
+    Attractors { axis: layout.axis, of_case, events }
 }
 
-/// The cells of a line at a place of the axis and at the next; none where the axis is no parameter.
-fn neighbours<'a, S: Locomotion>(
+/// A line of a study, by its number.
+#[derive(Clone, Copy)]
+struct Line<'a> {
     study: &'a Study,
-    axis: Option<usize>,
-    at: usize,
-    line: &'a [Cell],
-) -> Option<Neighbours<'a, S>> {
-    let axis = &study.axes[axis?];
-    let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
-    let case = study.case(*line[at].cases.first()?);
-    let along = Along { case, parameter, protocol: &study.protocol, system: PhantomData::<S> };
-    let values = [axis.values[at], axis.values[at + 1]];
-    let directions = line[at].cases.iter().map(|&case| study.direction(case)).collect();
-    Some(Neighbours { along, values, cells: [&line[at], &line[at + 1]], directions })
+    layout: &'a Layout,
+    number: usize,
 }
 
-impl Attractors {
-    /// Numbers the attractors of a line and notes their events, in the order of the parameter.
-    fn add_line(&mut self, cells: &[Cell], links: &[Links], bridges: &[Bridge]) {
-        let mut numbers: Vec<Vec<usize>> = Vec::new();
-        let mut count = 0;
-        for (at, cell) in cells.iter().enumerate() {
-            let before = |place: usize| {
-                let pairs = &links[at.checked_sub(1)?].pairs;
-                let pair = pairs.iter().find(|pair| pair[1] == place);
-                let bridge = || bridges.iter().find(|bridge| bridge.to == [at, place]);
-                let from = pair.map(|pair| [at - 1, pair[0]]).or_else(|| Some(bridge()?.from));
-                from.map(|[at, place]| numbers[at][place])
+impl<'a> Line<'a> {
+    /// The cells, their cases sorted by attractor.
+    fn cells<S: Locomotion>(&self, endings: &[Option<Ending>]) -> Vec<Cell> {
+        let Line { study, layout, number } = *self;
+        let sort = |at: usize| {
+            let ending = |place: usize| {
+                let case = layout.case(number, at, place);
+                (case, endings[case])
             };
-            let here: Vec<Option<usize>> = (0..cell.attractors.len()).map(before).collect();
-            let number = |known: Option<usize>| {
-                known.unwrap_or_else(|| {
-                    count += 1;
-                    count - 1
-                })
-            };
-            numbers.push(here.into_iter().map(number).collect());
-            for (&case, place) in cell.cases.iter().zip(&cell.of_case) {
-                self.of_case[case] = place.map(|place| numbers[at][place]);
-            }
-        }
-        let mut events = Vec::new();
-        let mut add = |[at, place]: [usize; 2], change: &Change| {
-            events.push(AttractorEvent {
-                kind: change.kind,
-                attractor: numbers[at][place],
-                case: cells[at].attractors[place].case,
-                value: change.value,
-                uncertainty: change.uncertainty,
-                period: change.period as u64,
-                section: change.section,
-            });
+            let first = study.case(layout.case(number, at, 0));
+            Cell::sort::<S>(layout.cases(), ending, &first, &study.protocol)
         };
-        for (at, links) in links.iter().enumerate() {
-            for side in [0, 1] {
-                links.changes[side].iter().for_each(|(place, it)| add([at + side, *place], it));
+        (0..layout.cells()).into_par_iter().map(sort).collect()
+    }
+
+    /// How the attractors of each cell go on in the next, and those that go on beyond it.
+    fn links<S: Locomotion>(
+        &self,
+        cells: &[Cell],
+        linked: impl Fn() + Sync,
+    ) -> (Vec<Links>, Vec<Bridge>) {
+        let between = |at: usize| self.neighbours::<S>(cells, at);
+        let link = |at: usize| {
+            let links = between(at).map_or_else(Links::default, |it| it.link());
+            linked();
+            links
+        };
+        let last = cells.len().saturating_sub(1);
+        let links: Vec<Links> = (0..last).into_par_iter().map(link).collect();
+        let bridges = bridges(cells, &links, between);
+        (links, bridges)
+    }
+
+    /// The cells at a place of the axis and at the next; none where the axis is no parameter.
+    fn neighbours<'b, S: Locomotion>(
+        &self,
+        cells: &'b [Cell],
+        at: usize,
+    ) -> Option<Neighbours<'b, S>>
+    where
+        'a: 'b,
+    {
+        let Line { study, layout, number } = *self;
+        let axis = &study.axes[layout.axis?];
+        let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
+        let case = study.case(layout.case(number, at, 0));
+        let along = Along { case, parameter, protocol: &study.protocol, system: PhantomData };
+        let values = [axis.values[at], axis.values[at + 1]];
+        let directions = study.follow.as_ref().map_or(&[][..], |follow| &follow.directions);
+        Some(Neighbours { along, values, cells: [&cells[at], &cells[at + 1]], directions })
+    }
+
+    /// Notes the number of each case's attractor.
+    fn note(&self, cells: &[Cell], numbers: &[Vec<u32>], of_case: &mut [Option<u32>]) {
+        for (at, (cell, numbers)) in cells.iter().zip(numbers).enumerate() {
+            for (place, attractor) in cell.of_case.iter().enumerate() {
+                let case = self.layout.case(self.number, at, place);
+                of_case[case] = attractor.map(|attractor| numbers[attractor as usize]);
             }
         }
-        for bridge in bridges {
-            bridge.changes.iter().for_each(|change| add(bridge.from, change));
-        }
-        events.sort_by(|a, b| a.value.total_cmp(&b.value).then(a.attractor.cmp(&b.attractor)));
-        // What two cells know of the same change counts once.
-        events.dedup_by(|b, a| a.is(b));
-        self.events.extend(events);
     }
+}
+
+/// The numbers of the attractors of a line, cell by cell.
+fn numbers(cells: &[Cell], links: &[Links], bridges: &[Bridge]) -> Vec<Vec<u32>> {
+    let mut numbers: Vec<Vec<u32>> = Vec::with_capacity(cells.len());
+    let mut count = 0;
+    for (at, cell) in cells.iter().enumerate() {
+        let before = |place: usize| {
+            let pairs = &links[at.checked_sub(1)?].pairs;
+            let pair = pairs.iter().find(|pair| pair[1] == place);
+            let bridge = || bridges.iter().find(|bridge| bridge.to == [at, place]);
+            let from = pair.map(|pair| [at - 1, pair[0]]).or_else(|| Some(bridge()?.from));
+            from.map(|[at, place]| numbers[at][place])
+        };
+        let number = |place: usize| {
+            before(place).unwrap_or_else(|| {
+                count += 1;
+                count - 1
+            })
+        };
+        let here = (0..cell.attractors.len()).map(number).collect();
+        numbers.push(here);
+    }
+    numbers
+}
+
+/// The events of a line, in the order of the parameter.
+fn events(
+    cells: &[Cell],
+    links: &[Links],
+    bridges: &[Bridge],
+    numbers: &[Vec<u32>],
+) -> Vec<AttractorEvent> {
+    let mut events = Vec::new();
+    let mut add = |[at, place]: [usize; 2], change: &Change| {
+        events.push(AttractorEvent {
+            kind: change.kind,
+            attractor: numbers[at][place],
+            case: cells[at].attractors[place].case,
+            value: change.value,
+            uncertainty: change.uncertainty,
+            period: change.period as u64,
+            section: change.section,
+        });
+    };
+    for (at, links) in links.iter().enumerate() {
+        for side in [0, 1] {
+            links.changes[side].iter().for_each(|(place, it)| add([at + side, *place], it));
+        }
+    }
+    for bridge in bridges {
+        bridge.changes.iter().for_each(|change| add(bridge.from, change));
+    }
+    events.sort_by(|a, b| a.value.total_cmp(&b.value).then(a.attractor.cmp(&b.attractor)));
+    // What two cells know of the same change counts once.
+    events.dedup_by(|b, a| a.is(b));
+    events
 }

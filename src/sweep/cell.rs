@@ -1,12 +1,15 @@
 //! A cell of a diagram: the cases with the same parameters, sorted by the attractor they ended on.
 
+use rayon::prelude::*;
+
 use crate::lane::Dual;
 use crate::model::{Locomotion, Parameter};
-use crate::orbit::certificate::{OBLIQUE, least_from_one};
+use crate::orbit::certificate::OBLIQUE;
 use crate::orbit::recurrence::size;
 use crate::orbit::return_map::{Cycles, returned, values};
-use crate::orbit::{Case, Certificate, Orbit, Outcome, Protocol, Section};
+use crate::orbit::{Case, Outcome, Protocol, Section};
 
+use super::Ending;
 use crate::branch::natural::apart;
 
 /// Points by which two motions that do not repeat are compared.
@@ -14,6 +17,10 @@ const SAMPLE: usize = 64;
 /// Two samples of one motion have half of all nearest neighbours in the same sample, those of two motions
 /// all: half way between the two they are told apart.
 const MIXED: f64 = 0.75;
+/// So many cases are followed before they are sorted in turn, as a cell may have millions.
+const TOGETHER: usize = 4096;
+/// A thread takes so many of them at least: fewer are not worth sharing out.
+const SHARE: usize = 16;
 
 /// An attractor as the cases of one cell show it.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +29,7 @@ pub struct Attractor {
     pub case: usize,
     /// Periodic, chaotic or quasi-periodic.
     pub outcome: Outcome,
-    /// Section points: those of a period, or a sample.
+    /// Section points of a period, or a sample, which is held only until the cell is sorted.
     pub points: Vec<Section>,
     /// How far each point may be from the true orbit [m/s].
     pub bound: f64,
@@ -33,32 +40,60 @@ pub struct Attractor {
 /// The cases with the same parameters.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Cell {
-    /// The cases, in order.
-    pub cases: Vec<usize>,
-    /// The attractor of each, by its place in the list below; none where the case has none.
-    pub of_case: Vec<Option<usize>>,
+    /// The attractor of each case, by its place in the list below; none where the case has none.
+    pub of_case: Vec<Option<u32>>,
     /// The attractors in the order in which the cases show them.
     pub attractors: Vec<Attractor>,
 }
 
 impl Cell {
-    /// Sorts `cases`, each with its orbit, by attractor.
-    pub fn sort<S: Locomotion>(cases: &[(usize, Case, &Orbit)], protocol: &Protocol) -> Cell {
-        let mut cell = Cell::default();
-        for (index, case, orbit) in cases {
-            let found = Attractor::of::<S>(*index, case, orbit, protocol);
-            let place = found.map(|found| {
-                let omega = case.parameters[Parameter::Omega];
-                let known = cell.attractors.iter().position(|known| known.is(&found, omega));
-                known.unwrap_or_else(|| {
-                    cell.attractors.push(found);
-                    cell.attractors.len() - 1
-                })
-            });
-            cell.cases.push(*index);
-            cell.of_case.push(place);
+    /// Sorts so many cases by attractor: `ending` tells the index and the ending of each, and `case` their
+    /// parameters.
+    ///
+    /// The threads follow many cases at a time and compare each with the attractors that are known by then;
+    /// what is new is sorted in turn. A case belongs to the first attractor that it matches, and attractors
+    /// are only added at the end, so that it does not matter how many were known.
+    pub fn sort<S: Locomotion>(
+        cases: usize,
+        ending: impl Fn(usize) -> (usize, Option<Ending>) + Sync,
+        case: &Case,
+        protocol: &Protocol,
+    ) -> Cell {
+        let omega = case.parameters[Parameter::Omega];
+        let mut cell = Cell { of_case: Vec::with_capacity(cases), attractors: Vec::new() };
+        for first in (0..cases).step_by(TOGETHER) {
+            let meet = |place: usize| {
+                let (index, ending) = ending(place);
+                let found = Attractor::of::<S>(index, case, &ending?, protocol)?;
+                Some(cell.place(&found, omega).ok_or(found))
+            };
+            let places = first..cases.min(first + TOGETHER);
+            let places = places.into_par_iter().with_min_len(SHARE);
+            let met: Vec<Option<Result<usize, Attractor>>> = places.map(meet).collect();
+            for met in met {
+                let place = met.map(|met| met.unwrap_or_else(|new| cell.add(new, omega)));
+                cell.of_case.push(place.map(|place| place as u32));
+            }
+        }
+        for attractor in &mut cell.attractors {
+            if attractor.outcome != Outcome::Periodic {
+                attractor.points = Vec::new();
+            }
         }
         cell
+    }
+
+    /// The place of an attractor, if it is known.
+    fn place(&self, found: &Attractor, omega: f64) -> Option<usize> {
+        self.attractors.iter().position(|known| known.is(found, omega))
+    }
+
+    /// The place of an attractor, which is added if it is not known.
+    fn add(&mut self, found: Attractor, omega: f64) -> usize {
+        self.place(&found, omega).unwrap_or_else(|| {
+            self.attractors.push(found);
+            self.attractors.len() - 1
+        })
     }
 }
 
@@ -71,21 +106,20 @@ impl Attractor {
     fn of<S: Locomotion>(
         index: usize,
         case: &Case,
-        orbit: &Orbit,
+        ending: &Ending,
         protocol: &Protocol,
     ) -> Option<Attractor> {
-        let Certificate { residual, multipliers, .. } = orbit.certificate;
-        let wanted = match orbit.outcome {
-            Outcome::Periodic if orbit.certificate.is_stable() => orbit.period as usize,
+        let wanted = match ending.outcome {
+            Outcome::Periodic if ending.is_stable => ending.period as usize,
             Outcome::Chaotic | Outcome::QuasiPeriodic => SAMPLE,
             Outcome::Periodic | Outcome::Undecided | Outcome::Failed => return None,
         };
-        let points = points::<S>(case, orbit, wanted, protocol)?;
+        let points = points::<S>(case, ending.section, wanted, protocol)?;
         let omega = case.parameters[Parameter::Omega];
         let size = points.iter().map(|point| size(omega, point)).fold(0.0, f64::max);
-        let residual = residual.max(protocol.tolerance);
-        let bound = OBLIQUE * residual / least_from_one(&multipliers) * size;
-        Some(Attractor { case: index, outcome: orbit.outcome, points, bound, size })
+        let residual = ending.residual.max(protocol.tolerance);
+        let bound = OBLIQUE * residual / ending.from_one * size;
+        Some(Attractor { case: index, outcome: ending.outcome, points, bound, size })
     }
 
     /// Whether this is the same attractor as another at the same parameters.
@@ -129,22 +163,20 @@ fn same_neighbours(a: &[Section], b: &[Section], omega: f64) -> f64 {
     (own(a, b) + own(b, a)) as f64 / (a.len() + b.len()) as f64
 }
 
-/// So many section points of what a case ended on: those that were kept, or else followed anew.
+/// So many section points of the motion from one of them on.
 fn points<S: Locomotion>(
     case: &Case,
-    orbit: &Orbit,
+    from: Section,
     wanted: usize,
     protocol: &Protocol,
 ) -> Option<Vec<Section>> {
-    if orbit.section.len() >= wanted {
-        return Some(orbit.section[..wanted].to_vec());
-    }
     let parameters = &case.parameters;
     let of = |parameter| Dual::<f64, 0>::constant(parameters[parameter]);
     let system = S::with(of, parameters.resistance, case.phase);
     let drive_period = Dual::constant(parameters.drive_period());
     let cycles = Cycles { drive_period, count: 1, tolerance: protocol.tolerance };
-    let mut points = vec![[orbit.end.r, orbit.end.y1, orbit.end.y2]];
+    let mut points = Vec::with_capacity(wanted);
+    points.push(from);
     while points.len() < wanted {
         let from = points[points.len() - 1].map(Dual::constant);
         points.push(values(&returned(&system, from, &cycles, |_| ()).ok()?));

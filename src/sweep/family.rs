@@ -46,8 +46,8 @@ pub struct Neighbours<'a, S> {
     pub values: [f64; 2],
     /// The cells.
     pub cells: [&'a Cell; 2],
-    /// The direction of each case of a cell, by its place; none where the axis is not followed.
-    pub directions: Vec<Option<Direction>>,
+    /// The directions that the cases of a cell have in turn; none where the axis is not followed.
+    pub directions: &'a [Direction],
 }
 
 impl<S: Locomotion> Neighbours<'_, S> {
@@ -140,7 +140,7 @@ impl<S: Locomotion> Neighbours<'_, S> {
     fn led(&self, links: &mut Links, apart: &Apart) {
         let upward = self.leads(Direction::Upward);
         let downward = self.leads(Direction::Downward);
-        let follows = |direction| self.directions.contains(&Some(direction));
+        let follows = |direction| self.directions.contains(&direction);
         let among = |places: &[Vec<usize>; 2], [a, b]: &[usize; 2]| {
             places[0].contains(a) || places[1].contains(b)
         };
@@ -161,13 +161,19 @@ impl<S: Locomotion> Neighbours<'_, S> {
         }
     }
 
-    /// The attractors of the two cells between which the cases followed in a direction lead.
+    /// The attractors of the two cells between which the cases followed in a direction lead, each pair once.
     fn leads(&self, direction: Direction) -> Vec<[usize; 2]> {
         let [low, high] = self.cells.map(|cell| &cell.of_case);
-        let both = low.iter().zip(high).zip(&self.directions);
-        both.filter(|(_, it)| **it == Some(direction))
-            .filter_map(|((a, b), _)| Some([(*a)?, (*b)?]))
-            .collect()
+        let both = low.iter().zip(high).zip(self.directions.iter().cycle());
+        let mut pairs = Vec::new();
+        for ((a, b), _) in both.filter(|(_, it)| **it == direction) {
+            if let (Some(a), Some(b)) = (a, b)
+                && !pairs.contains(&[*a as usize, *b as usize])
+            {
+                pairs.push([*a as usize, *b as usize]);
+            }
+        }
+        pairs
     }
 
     /// The attractors that do not repeat, where each cell has just one that is not linked.

@@ -12,7 +12,7 @@ use capsulemap::orbit::newton::close;
 use capsulemap::orbit::return_map::Cycles;
 use capsulemap::orbit::{Outcome, Output, Proof, Protocol};
 use capsulemap::store;
-use capsulemap::sweep::{self, AttractorEvent, Attractors, Machine, Record, Study};
+use capsulemap::sweep::{self, AttractorEvent, Attractors, Ending, Machine, Record, Study};
 
 use super::program::Desk;
 
@@ -41,7 +41,11 @@ fn records(study: &Study) -> Vec<Record> {
 }
 
 fn found(study: &Study, records: &[Record]) -> Attractors {
-    sweep::attractors(study, records, Machine::default(), || ()).expect("the threads start")
+    on(study, &sweep::endings(study, records), Machine::default())
+}
+
+fn on(study: &Study, endings: &[Option<Ending>], machine: Machine) -> Attractors {
+    sweep::attractors(study, endings, machine, || ()).expect("the threads start")
 }
 
 /// The frequency of the two motions on an axis, followed as `start` says.
@@ -137,13 +141,14 @@ fn an_attractor_that_no_start_shows_in_between_keeps_its_number() {
     let note = || {
         linked.fetch_add(1, Ordering::Relaxed);
     };
+    let endings = sweep::endings(&study, &records);
     let attractors =
-        sweep::attractors(&study, &records, Machine::default(), note).expect("the threads start");
+        sweep::attractors(&study, &endings, Machine::default(), note).expect("the threads start");
     assert_eq!((linked.into_inner(), sweep::links(&study)), (80, 80));
     let seen: Vec<usize> = (0..study.cases()).filter(|&i| records[i].orbit.period == 3).collect();
     assert!(seen.len() > 10 && seen.windows(2).any(|pair| pair[1] / 2 - pair[0] / 2 > 3));
     for (case, record) in records.iter().enumerate() {
-        let expected = usize::from(record.orbit.period == 3);
+        let expected = u32::from(record.orbit.period == 3);
         assert_eq!(attractors.of_case[case], Some(expected), "{case}");
     }
 }
@@ -195,15 +200,61 @@ fn a_parameter_may_begin_at_zero() {
 #[test]
 fn attractors_do_not_depend_on_the_threads() {
     let study = study(&window(124.0, 126.0, 21, BOTH_WAYS));
-    let records = records(&study);
-    let on = |threads: usize| {
-        let machine = Machine { threads: Some(threads), ..Machine::default() };
-        sweep::attractors(&study, &records, machine, || ()).expect("the threads start")
+    let endings = sweep::endings(&study, &records(&study));
+    let with = |threads: usize| {
+        on(&study, &endings, Machine { threads: Some(threads), ..Machine::default() })
     };
-    let one = on(1);
+    let one = with(1);
     assert!(one.events.len() > 4, "{one:?}");
-    assert_eq!(one, on(2));
-    assert_eq!(one, on(7));
+    assert_eq!(one, with(2));
+    assert_eq!(one, with(7));
+}
+
+#[test]
+fn a_line_among_others_has_the_attractors_that_it_has_alone() {
+    // Frequencies within a line and forces across lines, with so many starts that threads share a cell.
+    let omegas = "values = [\"39.3 rad/s\", \"39.65 rad/s\", \"40.1 rad/s\"]";
+    let starts = "[[axes]]\nname = \"start_y1\"\nfrom = \"-0.3 m/s\"\nto = \"0.3 m/s\"\npoints = 40\n\
+                  [start]\nfollow = \"omega\"\ndirections = [\"afresh\"]";
+    let force = |values: &str| format!("[[axes]]\nname = \"p_d\"\nvalues = {values}\n{starts}");
+    let text = cascade(omegas).replace("p_d = \"3.4 N\"\n", "");
+    let study_at = |values: &str| study(&format!("{text}{}", force(values)));
+    let both = study_at("[\"3.4 N\", \"3.41 N\"]");
+    let endings = sweep::endings(&both, &records(&both));
+    let with = |threads: usize| {
+        on(&both, &endings, Machine { threads: Some(threads), ..Machine::default() })
+    };
+    let together = with(1);
+    assert_eq!(together, with(2));
+    let mut events = Vec::new();
+    for (line, force) in ["[\"3.4 N\"]", "[\"3.41 N\"]"].into_iter().enumerate() {
+        let study = study_at(force);
+        let alone = found(&study, &records(&study));
+        let cells = together.of_case.chunks(40).skip(line).step_by(2);
+        assert!(cells.flatten().eq(&alone.of_case), "{force}");
+        assert!(alone.of_case.contains(&Some(1)), "{force}: just one attractor");
+        events.extend(alone.events);
+    }
+    let values = |events: &[AttractorEvent]| -> Vec<f64> {
+        events.iter().map(|event| event.value).collect()
+    };
+    assert_eq!(values(&together.events), values(&events));
+}
+
+#[test]
+fn a_case_that_is_missing_leaves_the_others_linked() {
+    let study = study(&window(150.0, 166.0, 33, BOTH_WAYS));
+    let records = records(&study);
+    let whole = found(&study, &records);
+    // Single cases of four cells, and both of a fifth: what attracts there is followed on to the next.
+    let gone = [0, 9, 20, 21, 40, 65];
+    let left: Vec<Record> =
+        records.into_iter().filter(|record| !gone.contains(&record.index)).collect();
+    let attractors = found(&study, &left);
+    for (case, expected) in whole.of_case.iter().enumerate() {
+        let expected = expected.filter(|_| !gone.contains(&case));
+        assert_eq!(attractors.of_case[case], expected, "{case}");
+    }
 }
 
 #[test]
@@ -243,7 +294,7 @@ fn given_starts_and_both_directions_meet_in_one_study() {
     let attractors = found(&study, &records(&study));
     for (at, here) in attractors.of_case.chunks(9).enumerate() {
         let omega = study.axes[0].values[at];
-        let mut known: Vec<usize> = here.iter().map(|it| it.expect("an attractor")).collect();
+        let mut known: Vec<u32> = here.iter().map(|it| it.expect("an attractor")).collect();
         known.sort_unstable();
         known.dedup();
         let several = (151.1..164.1).contains(&omega);
