@@ -1,10 +1,11 @@
 //! What a long run must survive: kills, signals, faults of the disk, damaged blocks, a changed study, two runs
 //! at once; and parts that are computed apart and joined.
 
+mod night;
+
 use std::fs;
-use std::io::Read;
 use std::path::PathBuf;
-use std::process::{Child, Stdio};
+use std::process::Child;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -13,141 +14,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 use super::program::{Desk, Ran};
-
-/// A second or two of work in 24 blocks.
-const NIGHT: &str = r#"title = "A night"
-[parameters]
-k2 = "18.96 kN/m"
-delta = "1.5 mm"
-[[axes]]
-name = "p_d"
-from = "2 N"
-to = "8 N"
-points = 96
-[[axes]]
-name = "omega"
-from = "18 rad/s"
-to = "80 rad/s"
-points = 128
-[protocol]
-points = 4
-impact_points = 2
-max_cycles = 300
-exponent_cycles = 64
-"#;
-
-/// A few blocks that lie in stripes across the results, and attractors to link when they are joined.
-const LINES: &str = r#"
-[parameters]
-k2 = "18.96 kN/m"
-delta = "1.5 mm"
-[[axes]]
-name = "omega"
-from = "18 rad/s"
-to = "80 rad/s"
-points = 40
-[[axes]]
-name = "p_d"
-from = "2 N"
-to = "8 N"
-points = 30
-[start]
-follow = "omega"
-directions = ["upward", "downward"]
-[protocol]
-points = 4
-impact_points = 0
-max_cycles = 300
-exponent_cycles = 64
-"#;
-
-/// A desk with the study and the file of a run that nothing has disturbed.
-struct Night {
-    desk: Desk,
-    undisturbed: Vec<u8>,
-}
-
-impl Night {
-    fn new() -> Night {
-        Night::of(NIGHT)
-    }
-
-    fn of(study: &str) -> Night {
-        let night = Night { desk: Desk::new(), undisturbed: Vec::new() };
-        night.desk.put("night.toml", study);
-        night.sweep(&["--output", "whole.h5"]).done();
-        let undisturbed = fs::read(night.desk.path("whole.h5")).expect("a result");
-        assert!(!night.desk.path("whole.blocks").exists(), "joined blocks are removed");
-        Night { undisturbed, ..night }
-    }
-
-    /// The command with a fixed time of creation, so that files can be compared byte for byte.
-    fn command(&self, arguments: &[&str]) -> std::process::Command {
-        let mut command = self.desk.command(arguments);
-        command.env("SOURCE_DATE_EPOCH", "1700000000").env_remove("SLURM_ARRAY_TASK_ID");
-        command
-    }
-
-    fn run(&self, arguments: &[&str]) -> Ran {
-        Ran::from(self.command(arguments).output().expect("the program starts"))
-    }
-
-    fn sweep(&self, more: &[&str]) -> Ran {
-        self.run(&[&["sweep", "night.toml", "--no-figures"], more].concat())
-    }
-
-    fn start(&self, more: &[&str]) -> Child {
-        let mut command = self.command(&[&["sweep", "night.toml", "--no-figures"], more].concat());
-        command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts")
-    }
-
-    fn file(&self) -> PathBuf {
-        self.desk.path("results/night/night.h5")
-    }
-
-    fn block(&self, number: usize) -> PathBuf {
-        self.desk.path(&format!("results/night/night.blocks/block-{number:07}"))
-    }
-
-    /// Names of the blocks that are there.
-    fn blocks(&self) -> Vec<PathBuf> {
-        let entries = fs::read_dir(self.desk.path("results/night/night.blocks"));
-        let paths = entries.into_iter().flatten().map(|entry| entry.expect("an entry").path());
-        let is_block = |path: &PathBuf| {
-            path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("block-"))
-        };
-        paths.filter(is_block).collect()
-    }
-
-    /// Waits until so many blocks are there.
-    fn wait_for(&self, blocks: usize) {
-        let begun = Instant::now();
-        while self.blocks().len() < blocks {
-            assert!(begun.elapsed() < Duration::from_secs(120), "no {blocks} blocks came");
-            sleep(Duration::from_millis(5));
-        }
-    }
-
-    fn assert_undisturbed(&self) {
-        let bytes = fs::read(self.file()).expect("a result");
-        assert!(bytes == self.undisturbed, "the file differs from that of an undisturbed run");
-        assert!(!self.desk.path("results/night/night.blocks").exists());
-        let left = self.desk.files();
-        assert!(left.iter().all(|name| !name.ends_with(".tmp")), "{left:?}");
-    }
-
-    fn forget(&self) {
-        fs::remove_dir_all(self.desk.path("results")).expect("results to forget");
-    }
-}
-
-/// What a program has said, once it has ended.
-fn said(child: &mut Child) -> String {
-    let mut text = String::new();
-    let stderr = child.stderr.as_mut().expect("standard error");
-    stderr.read_to_string(&mut text).expect("the program writes UTF-8");
-    text
-}
+use night::{LINES, NIGHT, Night, said};
 
 /// Starts a run again and again, each killed at a random moment, until it ends or has been killed thrice and
 /// may end; returns how often it was killed.

@@ -100,7 +100,8 @@ exponent_cycles = 64
 name = "b"
 along = "omega"
 at = { omega = "20.73 rad/s" }
-range = ["20 rad/s", "24 rad/s"]
+from = "20 rad/s"
+to = "24 rad/s"
 "#;
 
 #[test]

@@ -37,7 +37,8 @@ exponent_cycles = 64
 name = "b"
 along = "omega"
 at = { omega = "39 rad/s" }
-range = ["38 rad/s", "41 rad/s"]
+from = "38 rad/s"
+to = "41 rad/s"
 [[figures]]
 name = "bifurcation"
 kind = "bifurcation"
@@ -56,7 +57,7 @@ of = ["period"]
 [[figures]]
 name = "outcomes"
 kind = "map"
-of = ["outcome", "certificate", "grazing_margin"]
+of = ["outcome"]
 [[figures]]
 name = "trade"
 kind = "trade-off"
