@@ -20,6 +20,6 @@ echo "== ten million cases in less than 1 GiB: while they are computed, stopped,
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 night=("$program" sweep studies/ten-million.toml --output "$folder/night.h5" --formats png)
-scripts/memory.sh timeout --foreground -s INT 60 "${night[@]}" 2>&1 | tail -n 2 || true
+scripts/memory.sh --for 120 "${night[@]}" 2>&1 | tail -n 2 || true
 scripts/memory.sh "${night[@]}" 2>&1 | tail -n 5
 scripts/memory.sh "$program" verify "$folder/night.h5" --cases 10000 2>&1 | tail -n 2

@@ -1,10 +1,18 @@
 #!/usr/bin/env bash
-# Runs a command and says the most memory that it held: scripts/memory.sh COMMAND [ARGUMENT...]
+# Runs a command and says the most memory that it held: scripts/memory.sh [--for SECONDS] COMMAND [ARGUMENT...]
+# With --for the command is interrupted after so long, as by Ctrl-C.
 set -euo pipefail
 
-[ $# -gt 0 ] || { echo "usage: scripts/memory.sh COMMAND [ARGUMENT...]" >&2; exit 2; }
+limit=
+if [ "${1:-}" = --for ]; then
+    limit=${2:-}
+    shift 2
+fi
+[ $# -gt 0 ] || { echo "usage: scripts/memory.sh [--for SECONDS] COMMAND [ARGUMENT...]" >&2; exit 2; }
 [ -r /proc/self/status ] || { echo "memory.sh: needs /proc, as Linux has it" >&2; exit 1; }
 
+# Job control, without which what runs in the background does not hear an interrupt.
+set -m
 "$@" &
 child=$!
 trap 'kill -TERM $child 2>/dev/null' INT TERM
@@ -12,6 +20,10 @@ peak=0
 # The kernel remembers the peak, so that nothing is missed but the last moment.
 while held=$(awk '/^VmHWM/ { print $2 }' "/proc/$child/status" 2>/dev/null) && [ -n "$held" ]; do
     peak=$held
+    if [ -n "$limit" ] && [ "$SECONDS" -ge "$limit" ]; then
+        kill -INT "$child"
+        limit=
+    fi
     sleep 0.05
 done
 wait "$child" && code=0 || code=$?

@@ -40,6 +40,18 @@ pub fn enter(
     })
 }
 
+/// Removes the blocks of `study` that a run has left which was stopped after it had joined them.
+pub fn clear_away(output: &Path, study: &Study) -> Result<(), Failure> {
+    if !block_path(output).is_dir() {
+        return Ok(());
+    }
+    match BlockFolder::enter(&block_path(output), study, Company::Alone, false) {
+        Ok(joined) => joined.remove().map_err(Failure::machine),
+        // They are somebody else's.
+        Err(_) => Ok(()),
+    }
+}
+
 /// Computes the blocks of a task that are missing in `folder`.
 pub fn compute(
     study: &Study,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::blocks::enter;
+use super::blocks::{clear_away, enter};
 use super::figure::{FormatChoice, draw_from};
 use super::progress::Progress;
 use super::result_file::{folder, kept, output_path, prepare, read_study};
@@ -55,6 +55,7 @@ impl Join {
         let (archive, file) = match older {
             Some(archive) if archive.has_cases() => {
                 tell(&format!("{}: is there, whole, from this study", output.display()));
+                clear_away(&output, &study)?;
                 (archive, output)
             }
             older => {

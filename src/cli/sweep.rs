@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::blocks::{compute, enter};
+use super::blocks::{clear_away, compute, enter};
 use super::dry_run::foretell;
 use super::figure::{FormatChoice, draw_from};
 use super::join::Joining;
@@ -75,6 +75,7 @@ impl Sweep {
             Some(archive) if archive.has_cases() && !self.overwrite => {
                 let shown = output.display();
                 tell(&format!("{shown}: already computed, by this program from this study"));
+                clear_away(&output, &study)?;
                 archive
             }
             older => {

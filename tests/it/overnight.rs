@@ -237,6 +237,15 @@ fn stripes_and_attractors_are_joined_from_tasks_as_well() {
 }
 
 #[test]
+fn blocks_that_a_kill_has_left_beside_the_joined_file_are_cleared_away() {
+    let night = Night::new();
+    night.sweep(&["--task", "1/2"]).done();
+    fs::copy(night.desk.path("whole.h5"), night.file()).expect("the joined file");
+    assert!(night.sweep(&[]).done().err.contains("already computed"));
+    night.assert_undisturbed();
+}
+
+#[test]
 fn a_look_before_the_end_shows_what_is_there() {
     let night = Night::new();
     let figure = "[[figures]]\nname = \"speed\"\nkind = \"map\"\n";

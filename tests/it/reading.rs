@@ -68,9 +68,11 @@ of = ["work_net"]
 [[figures]]
 name = "history"
 kind = "history"
+at = { omega = "39 rad/s", start_y1 = "0.4 m/s" }
 [[figures]]
 name = "portrait"
 kind = "phase-portrait"
+at = { omega = "39 rad/s", start_y1 = "0.4 m/s" }
 "#;
 
 #[test]
