@@ -104,7 +104,7 @@ impl Joining<'_> {
         if !is_partial && !blocks.missing.is_empty() {
             return Err(Failure::request(incomplete(&folder, &blocks.missing)));
         }
-        let mut frame = store::frame(self.study);
+        let mut frame = blocks.frame();
         if has_attractors(self.study) {
             let progress = Progress::new(sweep::links(self.study), "links of attractors");
             let endings = blocks.endings().map_err(Failure::machine)?;
@@ -124,7 +124,7 @@ impl Joining<'_> {
         let progress = std::cell::OnceCell::new();
         let begun = |steps| drop(progress.set(Progress::new(steps, "pieces written")));
         let done = || progress.get().into_iter().for_each(Progress::step);
-        blocks.join(frame, self.file, begun, done).map_err(Failure::machine)?;
+        blocks.join(&frame, self.file, begun, done).map_err(Failure::machine)?;
         progress.get().map(Progress::finish);
         let archive = store::open(self.file).map_err(Failure::machine)?;
         print(&summary(self, &blocks).map_err(Failure::machine)?)?;

@@ -77,18 +77,24 @@ impl<'a> Blocks<'a> {
         Ok(endings)
     }
 
-    /// Puts all blocks into the file at `path` beside what `frame` holds; calls `begun` with the number of
-    /// steps, and `done` after each.
+    /// The study with all that belongs to no case: axes, constants, and who made each block.
+    pub fn frame(&self) -> Dataset {
+        let mut frame = schema::frame(self.study);
+        frame.coordinates.extend(schema::columns(self.study, &[]).coordinates);
+        self.add_makers(&mut frame);
+        frame
+    }
+
+    /// Puts all blocks into the file at `path` beside what `frame` holds, which is that of the blocks and may
+    /// have more; calls `begun` with the number of steps, and `done` after each.
     pub fn join(
         &self,
-        mut frame: Dataset,
+        frame: &Dataset,
         path: &Path,
         begun: impl FnOnce(usize),
         done: impl Fn(),
     ) -> Result<(), StoreError> {
         let models = schema::columns(self.study, &[]);
-        frame.coordinates.extend(models.coordinates.clone());
-        self.add_makers(&mut frame);
         let labels: Vec<Column> =
             models.variables.iter().map(|(name, model)| self.column(name, model)).collect();
         let axes = self.study.shape().len();
@@ -97,7 +103,7 @@ impl<'a> Blocks<'a> {
             let model = &models.variables[&column.name].values;
             self.fill(path, &column.name, model, piece)
         };
-        joined::write(&frame, (&labels, axes), path, numbers, done)
+        joined::write(frame, (&labels, axes), path, numbers, done)
     }
 
     fn column(&self, name: &str, model: &Variable) -> Column {
