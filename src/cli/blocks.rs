@@ -74,7 +74,7 @@ pub fn compute(
     let word = move || {
         let (done, all) = (count(watched.blocks_done()), count(total[0]));
         format!(
-            "capsulemap: {done} of {all} blocks are done and kept in {place}; the same command goes on from there"
+            "{done} of {all} blocks are done and kept in {place}; the same command goes on from there"
         )
     };
     say_when_stopped(word.clone())?;
@@ -95,7 +95,7 @@ pub fn compute(
     .map_err(Failure::machine)?;
     let time = progress.finish();
     match trouble.into_inner().unwrap_or_else(|it| it.into_inner()) {
-        Some(error) => Err(Failure::machine(format!("{error}\n{}", word()))),
+        Some(error) => Err(Failure::machine(format!("{error}\ncapsulemap: {}", word()))),
         None => Ok(Added { cases: cases(&left), time }),
     }
 }

@@ -8,6 +8,7 @@ use super::blocks::{clear_away, enter};
 use super::figure::{FormatChoice, draw_from};
 use super::progress::Progress;
 use super::result_file::{folder, kept, output_path, prepare, read_study};
+use super::stop::say_when_stopped;
 use super::summary::summary;
 use super::words::counted;
 use super::{Failure, print, tell};
@@ -104,6 +105,8 @@ impl Joining<'_> {
         if !is_partial && !blocks.missing.is_empty() {
             return Err(Failure::request(incomplete(&folder, &blocks.missing)));
         }
+        let place = folder.path().display().to_string();
+        say_when_stopped(move || format!("all is kept in {place}; the same command joins it"))?;
         let mut frame = blocks.frame();
         if has_attractors(self.study) {
             let progress = Progress::new(sweep::links(self.study), "links of attractors");
@@ -129,6 +132,8 @@ impl Joining<'_> {
         let archive = store::open(self.file).map_err(Failure::machine)?;
         print(&summary(self, &blocks).map_err(Failure::machine)?)?;
         drop(blocks);
+        let shown = self.file.display().to_string();
+        say_when_stopped(move || format!("{shown} is whole; the same command draws its figures"))?;
         if !is_partial {
             folder.remove().map_err(Failure::machine)?;
         }
