@@ -7,7 +7,7 @@ use clap::Args;
 use super::branch_summary::summary;
 use super::figure::{FormatChoice, draw_from};
 use super::progress::Progress;
-use super::result_file::{folder, kept, output_path, prepare, read_study, rehearse};
+use super::result_file::{Kept, folder, kept, output_path, prepare, read_study, rehearse};
 use super::{Failure, print, tell};
 use crate::store::{self, Archive, Dataset, add_branches, drop_branches, has_branches};
 use crate::sweep::{Study, Unfollowed, follow};
@@ -52,15 +52,15 @@ impl Follow {
         }
         let output = output_path(&self.study, self.output.as_deref())?;
         let archive = match kept(&output, &study, self.overwrite)? {
-            Some(archive) if has_branches(archive.frame()) && !self.overwrite => {
+            Some(Kept { archive, same_words: true })
+                if has_branches(archive.frame()) && !self.overwrite =>
+            {
                 let shown = output.display();
                 tell(&format!("{shown}: already followed, by this program from this study"));
                 archive
             }
             older => {
-                let older = older.map(|archive| archive.dataset(|_, _| true));
-                let older = older.transpose().map_err(Failure::machine)?;
-                let mut dataset = older.unwrap_or_else(|| store::frame(&study));
+                let mut dataset = self.older(older, &study, &output)?;
                 drop_branches(&mut dataset);
                 if !self.no_figures {
                     self.rehearse(&study, &dataset).map_err(|failure| failure.within(&name))?;
@@ -73,6 +73,22 @@ impl Follow {
             draw_from(&archive, &study.drawings, folder(&output), &self.formats)?;
         }
         Ok(())
+    }
+
+    /// What the file holds already, in the words of this study; its cases stay, whatever else has changed.
+    fn older(&self, older: Option<Kept>, study: &Study, output: &Path) -> Result<Dataset, Failure> {
+        let Some(Kept { archive, same_words }) = older else { return Ok(store::frame(study)) };
+        if has_branches(archive.frame()) && !same_words && !self.overwrite {
+            return Err(Failure::request(format!(
+                "{}: holds branches of a study in other words; --overwrite follows anew and keeps the cases",
+                output.display()
+            )));
+        }
+        let mut dataset = archive.dataset(|_, _| true).map_err(Failure::machine)?;
+        let frame = store::frame(study);
+        dataset.texts.extend(frame.texts);
+        dataset.attributes.extend(frame.attributes);
+        Ok(dataset)
     }
 
     /// Draws the figures as if no branch could be followed.

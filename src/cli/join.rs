@@ -7,12 +7,12 @@ use clap::Args;
 use super::blocks::{clear_away, enter};
 use super::figure::{FormatChoice, draw_from};
 use super::progress::Progress;
-use super::result_file::{folder, kept, output_path, prepare, read_study};
+use super::result_file::{Kept, branches_of, folder, kept, output_path, prepare, read_study};
 use super::stop::say_when_stopped;
 use super::summary::summary;
 use super::words::counted;
 use super::{Failure, print, tell};
-use crate::store::{self, Archive, BlockFolder, Blocks, Company, Unusable, keep_branches};
+use crate::store::{self, Archive, BlockFolder, Blocks, Company, Dataset, Unusable, keep_branches};
 use crate::sweep::{self, Machine, Study, has_attractors};
 
 const EXAMPLES: &str = "\
@@ -54,17 +54,18 @@ impl Join {
         let older = kept(&output, &study, false)?;
         let machine = super::machine(self.threads, None)?;
         let (archive, file) = match older {
-            Some(archive) if archive.has_cases() => {
+            Some(Kept { archive, .. }) if archive.has_cases() => {
                 tell(&format!("{}: is there, whole, from this study", output.display()));
                 clear_away(&output, &study)?;
                 (archive, output)
             }
             older => {
+                let branches = branches_of(older, &output, false)?;
                 let company = if self.partial { Company::Anybody } else { Company::Alone };
                 let blocks = enter(&output, &study, company, false)?;
                 let file = if self.partial { partial(&output) } else { output };
                 let joining = Joining { path: &self.study, study: &study, machine, file: &file };
-                (joining.join(blocks, older, self.partial)?, file)
+                (joining.join(blocks, branches, self.partial)?, file)
             }
         };
         if !self.no_figures {
@@ -92,12 +93,12 @@ pub struct Joining<'a> {
 }
 
 impl Joining<'_> {
-    /// Joins the `blocks` into the file, beside the branches of an `older` one if it has any, and removes
+    /// Joins the blocks in `folder` into the file, beside `branches` that were followed before, and removes
     /// them, unless they are only a part.
     pub fn join(
         &self,
         folder: BlockFolder,
-        older: Option<Archive>,
+        branches: Option<Dataset>,
         is_partial: bool,
     ) -> Result<Archive, Failure> {
         prepare(super::result_file::folder(self.file))?;
@@ -117,8 +118,7 @@ impl Joining<'_> {
             progress.finish();
             store::add_attractors(&mut frame, self.study, &attractors);
         }
-        if let Some(older) = older {
-            let branches = older.branches().map_err(Failure::machine)?;
+        if let Some(branches) = branches {
             keep_branches(&mut frame, &branches);
         }
         if !is_partial {

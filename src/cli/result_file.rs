@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::figure::{draw_all, file_stem};
 use super::{Failure, tell};
+use crate::store::schema::FINGERPRINT;
 use crate::store::{self, Archive, Dataset, has_branches, has_cases};
 use crate::sweep::{Drawing, DrawingKind, Study};
 
@@ -48,9 +49,18 @@ pub fn folder(file: &Path) -> &Path {
     folder.unwrap_or(Path::new("."))
 }
 
-/// The file `output` of results, if those of this very study by this very program are there; others
+/// A file of results that is there already.
+pub struct Kept {
+    /// The file.
+    pub archive: Archive,
+    /// Whether its study is word for word the same, and not only one with the same cases, of which titles,
+    /// figures and branches may differ.
+    pub same_words: bool,
+}
+
+/// The file `output` of results, if those of the cases of this study by this very program are there; others
 /// are refused, or given up where they may be overwritten.
-pub fn kept(output: &Path, study: &Study, overwrite: bool) -> Result<Option<Archive>, Failure> {
+pub fn kept(output: &Path, study: &Study, overwrite: bool) -> Result<Option<Kept>, Failure> {
     if !output.exists() {
         return Ok(None);
     }
@@ -66,14 +76,38 @@ pub fn kept(output: &Path, study: &Study, overwrite: bool) -> Result<Option<Arch
     let (frame, now) = (archive.frame(), store::provenance::attributes());
     let same_program =
         ["source", "commit"].iter().all(|&key| frame.attributes.get(key) == now.get(key));
-    if frame.texts.get("study") == Some(&study.text) && same_program {
-        return Ok(Some(archive));
+    let same_words = frame.texts.get("study") == Some(&study.text);
+    let same_cases = frame.attributes.get(FINGERPRINT) == Some(&study.fingerprint());
+    if same_program && (same_words || same_cases) {
+        return Ok(Some(Kept { archive, same_words }));
     }
     if overwrite {
         return Ok(None);
     }
     let what = if same_program { "study" } else { "version of the program or study" };
     Err(Failure::request(format!("{shown}: holds results of another {what}; {advice}")))
+}
+
+/// The branches that a file of results holds beside which cases are to be put; those of a study in other
+/// words are refused, or given up where they may be overwritten.
+pub fn branches_of(
+    kept: Option<Kept>,
+    output: &Path,
+    overwrite: bool,
+) -> Result<Option<Dataset>, Failure> {
+    match kept {
+        Some(Kept { archive, same_words: true }) => {
+            archive.branches().map(Some).map_err(Failure::machine)
+        }
+        Some(Kept { archive, .. }) if has_branches(archive.frame()) && !overwrite => {
+            Err(Failure::request(format!(
+                "{}: holds branches of a study in other words; name another --output, or give them up with \
+                 --overwrite",
+                output.display()
+            )))
+        }
+        _ => Ok(None),
+    }
 }
 
 /// Makes the folder of the results, and sees that a file can be written there before a long run.

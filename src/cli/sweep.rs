@@ -8,7 +8,9 @@ use super::blocks::{clear_away, compute, enter};
 use super::dry_run::foretell;
 use super::figure::{FormatChoice, draw_from};
 use super::join::Joining;
-use super::result_file::{folder, kept, output_path, prepare, read_study, rehearse};
+use super::result_file::{
+    Kept, branches_of, folder, kept, output_path, prepare, read_study, rehearse,
+};
 use super::task::Task;
 use super::words::{counted, time};
 use super::{Failure, machine, named, tell};
@@ -72,13 +74,15 @@ impl Sweep {
         }
         let task = self.task()?;
         let archive = match kept(&output, &study, self.overwrite)? {
-            Some(archive) if archive.has_cases() && !self.overwrite => {
+            Some(Kept { archive, same_words }) if archive.has_cases() && !self.overwrite => {
+                let words = if same_words { "this study" } else { "a study with the same cases" };
                 let shown = output.display();
-                tell(&format!("{shown}: already computed, by this program from this study"));
+                tell(&format!("{shown}: already computed, by this program from {words}"));
                 clear_away(&output, &study)?;
                 archive
             }
             older => {
+                let branches = branches_of(older, &output, self.overwrite)?;
                 if !self.no_figures {
                     rehearse(&without_cases(&study), &study.drawings)
                         .map_err(|failure| failure.within(&name))?;
@@ -98,7 +102,7 @@ impl Sweep {
                     return self.part_with(task, &blocks);
                 }
                 let joining = Joining { path: &self.study, study: &study, machine, file: &output };
-                joining.join(blocks, older, false)?
+                joining.join(blocks, branches, false)?
             }
         };
         if !self.no_figures {

@@ -13,6 +13,9 @@ use super::{Dataset, Values, Variable, provenance};
 /// The dimension of the cases of a block, which in a whole dataset gives way to the axes.
 pub const CASE: &str = "case";
 
+/// Attribute: tells studies apart whose cases differ, see [`Study::fingerprint`].
+pub const FINGERPRINT: &str = "study_fingerprint";
+
 /// The dataset of a study; `records` holds one record per case, in any order, or fewer.
 ///
 /// Dimensions: the axes of the study, slowest first, then `direction` where the attractor was followed
@@ -83,6 +86,7 @@ pub fn frame(study: &Study) -> Dataset {
         .attributes
         .insert("friction_switching".to_owned(), study.base.switching.name().to_owned());
     dataset.attributes.insert("resistance".to_owned(), study.base.resistance.name().to_owned());
+    dataset.attributes.insert(FINGERPRINT.to_owned(), study.fingerprint());
     dataset.texts.insert("study".to_owned(), study.text.clone());
     dataset
 }

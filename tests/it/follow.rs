@@ -279,6 +279,33 @@ fn following_and_sweeping_share_a_file_in_either_order() {
 }
 
 #[test]
+fn other_words_for_the_same_cases_keep_them() {
+    let desk = Desk::new();
+    desk.put("s.toml", STUDY);
+    desk.run(&["sweep", "s.toml", "--no-figures"]).done();
+    let words = format!("# Another figure.\n{STUDY}").replace("name = \"m\"", "name = \"other\"");
+    desk.put("s.toml", &words);
+    let told = desk.run(&["sweep", "s.toml", "--formats", "svg"]).done().err;
+    assert!(
+        told.contains("from a study with the same cases") && told.contains("other.svg"),
+        "{told}"
+    );
+    let follow = |more: &[&str]| desk.run(&[&["follow", "s.toml", "--no-figures"], more].concat());
+    follow(&[]).done();
+    let both = kept(&desk.path("results/s/s.h5"));
+    assert!(store::has_branches(&both) && store::has_cases(&both));
+    assert_eq!(both.texts["study"], words);
+    // Branches are of their words.
+    desk.put("s.toml", STUDY);
+    follow(&[]).refused(&["holds branches of a study in other words", "--overwrite"]);
+    follow(&["--overwrite"]).done();
+    desk.put("s.toml", words);
+    desk.run(&["follow", "s.toml", "--output", "b.h5", "--no-figures"]).done();
+    desk.put("s.toml", STUDY);
+    desk.run(&["sweep", "s.toml", "--output", "b.h5"]).refused(&["branches of a study in other"]);
+}
+
+#[test]
 fn results_of_others_are_not_followed_into() {
     let desk = Desk::new();
     desk.put("s.toml", STUDY);

@@ -16,30 +16,35 @@ use rand_chacha::rand_core::{RngCore, SeedableRng};
 use super::program::{Desk, Ran};
 use night::{LINES, NIGHT, Night, said};
 
+/// How often runs were killed while cases were computed, and while blocks were joined.
+type Kills = [u32; 2];
+
 /// Starts a run again and again, each killed at a random moment, until it ends or has been killed thrice and
-/// may end; returns how often it was killed.
-fn kill_and_resume(night: &Night, whole: Duration, random: &mut ChaCha8Rng) -> u32 {
-    for times in 0..3 {
+/// may end.
+fn kill_and_resume(night: &Night, whole: Duration, random: &mut ChaCha8Rng) -> Kills {
+    let mut kills = [0, 0];
+    for times in 1..=3 {
         let mut child = night.start(&[]);
         let share = f64::from(random.next_u32()) / f64::from(u32::MAX);
         // Later starts have less to do, so that kills must come sooner to come in time.
-        sleep(whole.mul_f64(share * 1.1 / f64::from(times + 1)));
+        sleep(whole.mul_f64(share / f64::from(times)));
         let ended = child.try_wait().expect("a process");
         child.kill().expect("it is killed or has ended");
         let status = child.wait().expect("a process");
         if ended.is_some() {
             assert!(status.success(), "{}", said(&mut child));
-            return times;
+            return kills;
         }
+        kills[usize::from(night.is_being_joined())] += 1;
     }
     night.sweep(&[]).done();
-    3
+    kills
 }
 
-/// In the long form `KILLS=100`.
+/// In the long form `KILLS=100`; a run that ends before it is killed does not count.
 #[test]
 fn runs_that_are_killed_at_random_and_resumed_end_in_the_same_bytes() {
-    let kills = std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(4);
+    let wanted = std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(4);
     let nights = [NIGHT, LINES].map(|study| {
         let night = Night::of(study);
         let begun = Instant::now();
@@ -49,19 +54,24 @@ fn runs_that_are_killed_at_random_and_resumed_end_in_the_same_bytes() {
         (night, begun.elapsed())
     });
     let mut random = ChaCha8Rng::seed_from_u64(5);
-    let mut killed = 0;
-    for run in 0..kills {
-        let (night, whole) = &nights[run % 2];
-        let times = kill_and_resume(night, *whole, &mut random);
+    let (mut runs, mut kills) = (0, [0, 0]);
+    for attempt in 0..10 * wanted {
+        let (night, whole) = &nights[attempt % 2];
+        let more = kill_and_resume(night, *whole, &mut random);
         night.assert_undisturbed();
         night.forget();
-        killed += times;
-        if kills > 10 {
-            println!("run {run}: killed {times} times, the same {} bytes", night.undisturbed.len());
+        kills = [kills[0] + more[0], kills[1] + more[1]];
+        runs += usize::from(more != [0, 0]);
+        if runs == wanted {
+            break;
         }
     }
-    println!("{kills} runs were killed {killed} times in all and ended in the same bytes");
-    assert!(killed > 0, "no kill came in time");
+    let [computing, joining] = kills;
+    println!(
+        "{runs} runs were killed, {computing} times while cases were computed and {joining} times while \
+         blocks were joined, and ended in the same bytes"
+    );
+    assert_eq!(runs, wanted, "kills come too late");
 }
 
 #[cfg(unix)]

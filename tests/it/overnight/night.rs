@@ -123,6 +123,12 @@ impl Night {
         paths.filter(is_block).collect()
     }
 
+    /// Whether the joined file has been begun, and has no name yet.
+    pub fn is_being_joined(&self) -> bool {
+        let begun = |name: &String| name.contains("/.night.h5.") && name.ends_with(".tmp");
+        self.desk.files().iter().any(begun)
+    }
+
     /// Waits until so many blocks are there.
     pub fn wait_for(&self, blocks: usize) {
         let begun = Instant::now();
