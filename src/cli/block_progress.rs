@@ -14,6 +14,8 @@ use crate::sweep::{Forecast, Record};
 
 /// "Now" is the time since as long ago.
 const NOW: Duration = Duration::from_secs(20);
+/// A time left shorter than this is no use to anybody [s].
+const LAST: f64 = 1.0;
 /// The bar is brought up to date this often.
 const TICK: Duration = Duration::from_millis(200);
 
@@ -27,13 +29,11 @@ pub struct BlockProgress {
 }
 
 struct State {
-    /// Blocks and cases that are done.
-    done: [usize; 2],
-    /// Cycles of the cases that are done.
-    cycles: u64,
-    /// Cases and cycles that were there before.
-    before: (usize, u64),
+    /// Blocks that are done.
+    blocks: usize,
     forecast: Forecast,
+    /// Cases and cycles that were done before the run.
+    before: (usize, u64),
     /// When how many cases were done, the latest last.
     recent: VecDeque<(Instant, usize)>,
 }
@@ -42,19 +42,10 @@ impl BlockProgress {
     /// Begins to watch a run of so many blocks and cases, of which those `kept` were there before.
     pub fn new(total: [usize; 2], kept: &[Summary]) -> Self {
         let mut forecast = Forecast::new(total[1]);
-        kept.iter().for_each(|block| forecast.add(block.cases, block.cycles));
-        let before = (
-            kept.iter().map(|block| block.cases).sum(),
-            kept.iter().map(|block| block.cycles).sum(),
-        );
-        let begun = Instant::now();
-        let state = State {
-            done: [kept.len(), before.0],
-            cycles: before.1,
-            before,
-            forecast,
-            recent: VecDeque::from([(begun, before.0)]),
-        };
+        kept.iter().for_each(|it| forecast.add(it.number, it.cases, (it.cases, it.cycles)));
+        let (begun, before) = (Instant::now(), forecast.done());
+        let recent = VecDeque::from([(begun, before.0)]);
+        let state = State { blocks: kept.len(), forecast, before, recent };
         let bar = std::io::stderr().is_terminal().then(|| {
             let style = ProgressStyle::with_template("{wide_bar} {msg}");
             let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
@@ -67,59 +58,67 @@ impl BlockProgress {
         self.state.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    /// Notes that a case is done.
-    pub fn case(&self, record: &Record) {
+    /// Notes that a case of block `number`, which has so many, is done.
+    pub fn case(&self, number: usize, cases: usize, record: &Record) {
         let mut state = self.state();
-        state.done[1] += 1;
-        state.cycles += record.orbit.cycles;
+        state.forecast.add(number, cases, (1, record.orbit.cycles));
+        let done = state.forecast.done().0;
         let last = state.recent.back().map_or(self.begun, |(at, _)| *at);
-        if last.elapsed() >= TICK {
-            let entry = (Instant::now(), state.done[1]);
-            state.recent.push_back(entry);
-            while state.recent.len() > 2 && state.recent[1].0.elapsed() > NOW {
-                state.recent.pop_front();
-            }
-            if let Some(bar) = &self.bar {
-                bar.set_position(state.done[1] as u64);
-                bar.set_message(self.words(&state));
-            }
+        if last.elapsed() < TICK {
+            return;
+        }
+        state.recent.push_back((Instant::now(), done));
+        while state.recent.len() > 2 && state.recent[1].0.elapsed() > NOW {
+            state.recent.pop_front();
+        }
+        let words = self.words(&state);
+        // Whoever reads the terminal may be slow, and nobody is to wait for that.
+        drop(state);
+        if let Some(bar) = &self.bar {
+            bar.set_position(done as u64);
+            bar.set_message(words);
         }
     }
 
     /// Notes that a block is on disk.
     pub fn block(&self, block: &Summary) {
         let mut state = self.state();
-        state.done[0] += 1;
-        state.forecast.add(block.cases, block.cycles);
+        state.blocks += 1;
+        let words = self.words(&state);
+        drop(state);
         if self.bar.is_none() {
             let cases = counted(block.cases, "case");
             let cycles = counted(block.cycles as usize, "cycle");
-            let words = self.words(&state);
             tell(&format!("block {}: {cases}, {cycles}; {words}", block.number));
         }
     }
 
     /// How far the run is, in a line.
     fn words(&self, state: &State) -> String {
-        let share = |i: usize| format!("{}/{}", count(state.done[i]), count(self.total[i]));
+        let (done, cycles) = state.forecast.done();
         let seconds = self.begun.elapsed().as_secs_f64();
-        let average = (state.done[1] - state.before.0) as f64 / seconds;
+        let average = (done - state.before.0) as f64 / seconds;
         let (then, before) = state.recent.front().copied().unwrap_or((self.begun, 0));
-        let now = (state.done[1] - before) as f64 / then.elapsed().as_secs_f64();
-        let pace = seconds / (state.cycles - state.before.1) as f64;
-        let left = state.forecast.seconds_left(state.cycles, pace);
-        let left = left.filter(|left| left.value.is_finite());
-        let left = left.map_or("time left not known yet".to_owned(), |left| {
-            format!("{} left", estimated(left))
-        });
-        let [blocks, cases] = [0, 1].map(share);
+        let now = (done - before) as f64 / then.elapsed().as_secs_f64();
+        let pace = seconds / (cycles - state.before.1) as f64;
+        let left = state.forecast.seconds_left(pace).filter(|left| left.value.is_finite());
+        let under_way = self.total[1] - done;
+        let left = match left {
+            None => "time left not known yet".to_owned(),
+            Some(left) if left.value < LAST && under_way > 0 => {
+                format!("the last {} under way", counted(under_way, "case"))
+            }
+            Some(left) => format!("{} left", estimated(left)),
+        };
+        let blocks = format!("{}/{}", count(state.blocks), count(self.total[0]));
+        let cases = format!("{}/{}", count(done), count(self.total[1]));
         let [now, average] = [now, average].map(rate);
         format!("{blocks} blocks, {cases} cases, {now}/s now, {average}/s on average, {left}")
     }
 
     /// Blocks that are done.
     pub fn blocks_done(&self) -> usize {
-        self.state().done[0]
+        self.state().blocks
     }
 
     /// Ends the watch; returns the time it took.

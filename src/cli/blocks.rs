@@ -33,16 +33,16 @@ pub fn enter(
     company: Company,
     replace: bool,
 ) -> Result<BlockFolder, Failure> {
-    use crate::store::StoreError::{Busy, Changed};
+    use crate::store::StoreError::{Busy, Changed, Occupied};
     BlockFolder::enter(&block_path(output), study, company, replace).map_err(|error| match error {
-        Busy { .. } | Changed { .. } => Failure::request(error),
+        Busy { .. } | Changed { .. } | Occupied { .. } => Failure::request(error),
         _ => Failure::machine(error),
     })
 }
 
 /// Removes the blocks of `study` that a run has left which was stopped after it had joined them.
 pub fn clear_away(output: &Path, study: &Study) -> Result<(), Failure> {
-    if !block_path(output).is_dir() {
+    if !BlockFolder::is_begun(&block_path(output)) {
         return Ok(());
     }
     match BlockFolder::enter(&block_path(output), study, Company::Alone, false) {
@@ -79,7 +79,10 @@ pub fn compute(
     };
     say_when_stopped(word.clone())?;
     let trouble = Mutex::new(None);
-    let each = |record: &_| progress.case(record);
+    let each = |block: usize, record: &_| {
+        progress.case(block, study.cases_of_block(block), record);
+        ControlFlow::Continue(())
+    };
     run_blocks(study, machine, &left, each, |block, records| {
         match folder.keep(study, block, &records) {
             Ok((summary, _)) => {
@@ -109,7 +112,10 @@ fn survey(folder: &BlockFolder, found: &Blocks<'_>, all: usize) -> Result<(), Fa
             Unusable::Torn | Unusable::Foreign(_) => {
                 tell(&format!("{shown}: {why}; it is computed again"));
             }
-            Unusable::Refused(_) => return Err(Failure::machine(format!("{shown}: {why}"))),
+            Unusable::Refused(_) => {
+                let advice = "make it readable or remove it, and run again";
+                return Err(Failure::machine(format!("{shown}: {why}; {advice}")));
+            }
         }
     }
     let kept = all - found.missing.len();

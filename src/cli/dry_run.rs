@@ -1,5 +1,6 @@
 //! What a sweep would take: cases, time and room, foretold from a probe.
 
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Mutex;
@@ -8,46 +9,46 @@ use std::time::{Duration, Instant};
 use super::words::{count, counted, estimated, size, time};
 use super::{Failure, print};
 use crate::store::packed_bytes;
-use crate::sweep::{Estimate, Forecast, Machine, Study, has_attractors, run_blocks, spread};
+use crate::sweep::{
+    Estimate, Forecast, Machine, Record, Study, has_attractors, run_blocks, spread,
+};
 
-/// The probe begins no more blocks after this time.
+/// The probe ends after this time, with what has been begun.
 const PROBE: Duration = Duration::from_secs(5);
+/// So many records are looked at for the room that they take.
+const WEIGHED: usize = 512;
 
 /// What the probe has found.
 struct Probe {
     forecast: Forecast,
-    blocks: usize,
-    cases: usize,
-    bytes: usize,
+    /// Blocks that it has begun.
+    blocks: BTreeSet<usize>,
+    /// Some of the records.
+    records: Vec<Record>,
 }
 
 /// Computes a few blocks, spread over the study, and says what all would take. Writes nothing.
 pub fn foretell(study: &Study, machine: Machine, output: &Path) -> Result<(), Failure> {
     let forecast = Forecast::new(study.cases());
-    let found = Mutex::new(Probe { forecast, blocks: 0, cases: 0, bytes: 0 });
-    let cycles = Mutex::new(0);
+    let probe = Mutex::new(Probe { forecast, blocks: BTreeSet::new(), records: Vec::new() });
+    let lock = || probe.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let begun = Instant::now();
-    let lock = || found.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    let each = |record: &crate::sweep::Record| {
-        *cycles.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) += record.orbit.cycles;
-    };
-    run_blocks(study, machine, &spread(study.blocks()), each, |_, records| {
-        let cycles = records.iter().map(|record| record.orbit.cycles).sum();
-        let bytes = packed_bytes(study, &records).unwrap_or(0);
+    let each = |block: usize, record: &Record| {
         let mut probe = lock();
-        probe.forecast.add(records.len(), cycles);
-        probe.blocks += 1;
-        probe.cases += records.len();
-        probe.bytes += bytes;
+        probe.forecast.add(block, study.cases_of_block(block), (1, record.orbit.cycles));
+        probe.blocks.insert(block);
+        if probe.records.len() < WEIGHED {
+            probe.records.push(record.clone());
+        }
         match begun.elapsed() < PROBE {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),
         }
-    })
-    .map_err(Failure::machine)?;
+    };
+    let go_on = |_, _| ControlFlow::Continue(());
+    run_blocks(study, machine, &spread(study.blocks()), each, go_on).map_err(Failure::machine)?;
     let took = begun.elapsed();
-    let cycles = cycles.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
-    print(&words(study, machine, output, &lock(), (cycles, took)))
+    print(&words(study, machine, output, &lock(), took).map_err(Failure::machine)?)
 }
 
 fn words(
@@ -55,28 +56,30 @@ fn words(
     machine: Machine,
     output: &Path,
     probe: &Probe,
-    (cycles, took): (u64, Duration),
-) -> String {
+    took: Duration,
+) -> std::io::Result<String> {
     let (cases, blocks) = (count(study.cases()), counted(study.blocks(), "block"));
+    let (done, cycles) = probe.forecast.done();
     let pace = took.as_secs_f64() / cycles as f64;
     let whole = probe.forecast.cycles();
     let whole = whole.map(|it| Estimate { value: it.value * pace, error: it.error * pace });
     let whole = whole.map_or("not known".to_owned(), estimated);
-    let bytes = probe.bytes as f64 / probe.cases as f64 * study.cases() as f64;
+    let weighed = packed_bytes(study, &probe.records)? as f64 / probe.records.len() as f64;
+    let bytes = weighed * study.cases() as f64;
     let threads = match machine.threads {
         Some(threads) => threads,
         None => std::thread::available_parallelism().map_or(1, usize::from),
     };
     let threads = counted(threads, "thread");
     let more = if has_attractors(study) { ", and more to search for attractors" } else { "" };
-    format!(
+    Ok(format!(
         "{}\n  cases  {cases} in {blocks}\n  time   {whole} with {threads}{more}\n  \
          room   {} for the blocks, and as much again while they are joined\n  \
          foretold by {} in {}, computed in {}; nothing was written\n",
         output.display(),
         size(bytes),
-        counted(probe.cases, "case"),
-        counted(probe.blocks, "block"),
+        counted(done, "case"),
+        counted(probe.blocks.len(), "block"),
         time(took.as_secs_f64())
-    )
+    ))
 }

@@ -60,13 +60,13 @@ impl Follow {
                 archive
             }
             older => {
-                let mut dataset = self.older(older, &study, &output)?;
-                drop_branches(&mut dataset);
                 if !self.no_figures {
+                    let mut dataset = self.older(older, &study, &output)?;
+                    drop_branches(&mut dataset);
                     self.rehearse(&study, &dataset).map_err(|failure| failure.within(&name))?;
                 }
                 prepare(folder(&output))?;
-                self.follow(&study, dataset, &output)?
+                self.follow(&study, &output)?
             }
         };
         if !self.no_figures {
@@ -99,17 +99,16 @@ impl Follow {
         rehearse(&empty, &study.drawings)
     }
 
-    /// Follows the branches and writes them beside what `dataset` holds.
-    fn follow(
-        &self,
-        study: &Study,
-        mut dataset: Dataset,
-        output: &Path,
-    ) -> Result<Archive, Failure> {
+    /// Follows the branches and writes them beside what the file holds by then.
+    fn follow(&self, study: &Study, output: &Path) -> Result<Archive, Failure> {
         let progress = Progress::new(study.branches.len(), "branches");
         let threads = self.threads.map(usize::from);
         let followed = follow(study, threads, || progress.step()).map_err(Failure::machine)?;
         let seconds = progress.finish().as_secs_f64();
+        // Cases that were joined meanwhile are in the file, and none can come before it is replaced.
+        let _held = store::hold(output).map_err(Failure::machine)?;
+        let mut dataset = self.older(kept(output, study, self.overwrite)?, study, output)?;
+        drop_branches(&mut dataset);
         add_branches(&mut dataset, study, &followed);
         store::write(&dataset, output).map_err(Failure::machine)?;
         print(&summary(study, &followed, output, seconds))?;

@@ -35,7 +35,10 @@ pub struct Join {
     /// Join what there is, for a look before the end; the blocks stay.
     #[arg(long)]
     partial: bool,
-    /// Worker threads for the search for attractors; one per core by default.
+    /// Replace a file of results that another study left under that name.
+    #[arg(long, conflicts_with = "partial")]
+    overwrite: bool,
+    /// Worker threads for the search for attractors; one per core by default, or SLURM_CPUS_PER_TASK.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// Do not draw the study's figures.
@@ -51,21 +54,30 @@ impl Join {
     pub fn run(&self) -> Result<(), Failure> {
         let study = read_study(&self.study)?;
         let output = output_path(&self.study, self.output.as_deref())?;
-        let older = kept(&output, &study, false)?;
+        let older = kept(&output, &study, self.overwrite || self.partial)?;
         let machine = super::machine(self.threads, None)?;
         let (archive, file) = match older {
             Some(Kept { archive, .. }) if archive.has_cases() => {
                 tell(&format!("{}: is there, whole, from this study", output.display()));
-                clear_away(&output, &study)?;
+                if !self.partial {
+                    clear_away(&output, &study)?;
+                }
                 (archive, output)
             }
             older => {
-                let branches = branches_of(older, &output, false)?;
+                branches_of(older, &output, self.overwrite || self.partial)?;
                 let company = if self.partial { Company::Anybody } else { Company::Alone };
                 let blocks = enter(&output, &study, company, false)?;
-                let file = if self.partial { partial(&output) } else { output };
-                let joining = Joining { path: &self.study, study: &study, machine, file: &file };
-                (joining.join(blocks, branches, self.partial)?, file)
+                let file = if self.partial { partial(&output) } else { output.clone() };
+                let joining = Joining {
+                    path: &self.study,
+                    study: &study,
+                    machine,
+                    file: &file,
+                    beside: &output,
+                    overwrite: self.overwrite || self.partial,
+                };
+                (joining.join(blocks, self.partial)?, file)
             }
         };
         if !self.no_figures {
@@ -90,17 +102,16 @@ pub struct Joining<'a> {
     pub machine: Machine,
     /// The file to write.
     pub file: &'a Path,
+    /// The file whose branches it takes over, which it replaces unless it is only a look.
+    pub beside: &'a Path,
+    /// Whether a file of another study is given up.
+    pub overwrite: bool,
 }
 
 impl Joining<'_> {
-    /// Joins the blocks in `folder` into the file, beside `branches` that were followed before, and removes
-    /// them, unless they are only a part.
-    pub fn join(
-        &self,
-        folder: BlockFolder,
-        branches: Option<Dataset>,
-        is_partial: bool,
-    ) -> Result<Archive, Failure> {
+    /// Joins the blocks in `folder` into the file, beside branches that have been followed by then, and
+    /// removes them, unless they are only a part.
+    pub fn join(&self, folder: BlockFolder, is_partial: bool) -> Result<Archive, Failure> {
         prepare(super::result_file::folder(self.file))?;
         let blocks = Blocks::open(&folder, self.study, 0..self.study.blocks());
         if !is_partial && !blocks.missing.is_empty() {
@@ -109,21 +120,14 @@ impl Joining<'_> {
         let place = folder.path().display().to_string();
         say_when_stopped(move || format!("all is kept in {place}; the same command joins it"))?;
         let mut frame = blocks.frame();
-        if has_attractors(self.study) {
-            let progress = Progress::new(sweep::links(self.study), "links of attractors");
-            let endings = blocks.endings().map_err(Failure::machine)?;
-            let attractors =
-                sweep::attractors(self.study, &endings, self.machine, || progress.step())
-                    .map_err(Failure::machine)?;
-            progress.finish();
-            store::add_attractors(&mut frame, self.study, &attractors);
-        }
-        if let Some(branches) = branches {
+        self.add_attractors(&mut frame, &blocks)?;
+        // Branches that were followed meanwhile are in the file, and none can come before it is replaced.
+        let _held = store::hold(self.file).map_err(Failure::machine)?;
+        let older = kept(self.beside, self.study, self.overwrite)?;
+        if let Some(branches) = branches_of(older, self.beside, self.overwrite)? {
             keep_branches(&mut frame, &branches);
         }
-        if !is_partial {
-            store::discard_unfinished(self.file).map_err(Failure::machine)?;
-        }
+        store::discard_unfinished(self.file).map_err(Failure::machine)?;
         let progress = std::cell::OnceCell::new();
         let begun = |steps| drop(progress.set(Progress::new(steps, "pieces written")));
         let done = || progress.get().into_iter().for_each(Progress::step);
@@ -138,6 +142,20 @@ impl Joining<'_> {
             folder.remove().map_err(Failure::machine)?;
         }
         Ok(archive)
+    }
+
+    /// Searches for the attractors that the cases of `blocks` have ended on, if any are to be told apart.
+    fn add_attractors(&self, frame: &mut Dataset, blocks: &Blocks<'_>) -> Result<(), Failure> {
+        if !has_attractors(self.study) {
+            return Ok(());
+        }
+        let progress = Progress::new(sweep::links(self.study), "links of attractors");
+        let endings = blocks.endings().map_err(Failure::machine)?;
+        let attractors = sweep::attractors(self.study, &endings, self.machine, || progress.step());
+        let attractors = attractors.map_err(Failure::machine)?;
+        progress.finish();
+        store::add_attractors(frame, self.study, &attractors);
+        Ok(())
     }
 }
 

@@ -35,6 +35,13 @@ pub fn output_path(study: &Path, output: Option<&Path>) -> Result<PathBuf, Failu
         let message = format!("{}: is {what}; name a file", output.display());
         return Err(Failure::request(message));
     }
+    if output.extension().is_some_and(|ending| ending == "blocks") {
+        let message = format!("{}: that ending is for the folder of blocks", output.display());
+        return Err(Failure::request(message));
+    }
+    // Where a link leads, so that not the link is replaced.
+    let output =
+        std::fs::canonicalize(&output).ok().filter(|_| output.is_symlink()).unwrap_or(output);
     let same = |path: &Path| std::fs::canonicalize(path).ok();
     if same(&output).is_some_and(|output| Some(output) == same(study)) {
         let message = format!("{}: is the study itself; name another file", output.display());

@@ -28,8 +28,8 @@ A number without a unit is in SI. What is not given is as in the paper's Table 1
 #[command(after_help = EXAMPLES)]
 pub struct Simulate {
     /// Take a case of this study, with its parameters, its start and the study's protocol.
-    #[arg(long, value_name = "STUDY", requires = "case", conflicts_with_all = ["omega", "p_d", "k2", "delta", "set",
-        "phase", "tolerance", "max_cycles", "friction_switching", "resistance"])]
+    #[arg(long, value_name = "STUDY", requires = "case", conflicts_with_all = ["omega", "p_d", "k2",
+        "delta", "set", "phase", "tolerance", "max_cycles", "friction_switching", "resistance"])]
     study: Option<PathBuf>,
     /// Its number, counted from 0 with the last axis fastest, as failures are told.
     #[arg(long, requires = "study")]

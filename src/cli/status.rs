@@ -1,17 +1,17 @@
 //! `capsulemap status`: how far a sweep is, told from what lies on disk.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use clap::Args;
 
 use super::blocks::block_path;
-use super::result_file::{output_path, read_study};
+use super::result_file::{Kept, kept, output_path, read_study};
 use super::summary::outcomes;
 use super::words::{count, counted, estimated, rate, size, time};
 use super::{Failure, print};
-use crate::store::{self, BlockFolder, Company, StoreError, Summary, Unusable, provenance};
+use crate::store::{Archive, BlockFolder, Company, StoreError, Summary, Unusable, provenance};
 use crate::sweep::{Forecast, Study};
 
 const EXAMPLES: &str = "\
@@ -61,8 +61,10 @@ impl Status {
             })?;
             text.push_str(&on_the_way(&study, &folder, BlockFolder::is_busy(&path)));
         }
-        if output.exists() {
-            text.push_str(&whole(&output)?);
+        match kept(&output, &study, false) {
+            Ok(None) => {}
+            Ok(Some(Kept { archive, .. })) => text.push_str(&whole(&output, &archive)),
+            Err(refused) => text.push_str(&format!("{refused}\n")),
         }
         if text.is_empty() {
             text = format!("{}: nothing is there yet\n", path.display());
@@ -71,15 +73,14 @@ impl Status {
     }
 }
 
-/// A file that is there.
-fn whole(output: &std::path::Path) -> Result<String, Failure> {
-    let archive = store::open(output).map_err(Failure::request)?;
+/// A file of this study.
+fn whole(output: &Path, archive: &Archive) -> String {
     let made = archive.frame().attributes.get("created").map_or("", String::as_str);
     let holds = match archive.has_cases() {
         true => "all cases",
         false => "branches only",
     };
-    Ok(format!("{}: {holds}, written {made}\n", output.display()))
+    format!("{}: {holds}, written {made}\n", output.display())
 }
 
 /// A run that has not come to its end.
@@ -124,10 +125,9 @@ fn pace(study: &Study, there: &There) -> String {
         return text;
     }
     let mut forecast = Forecast::new(study.cases());
-    there.blocks.iter().for_each(|block| forecast.add(block.cases, block.cycles));
-    let done = there.blocks.iter().map(|block| block.cycles).sum();
+    there.blocks.iter().for_each(|it| forecast.add(it.number, it.cases, (it.cases, it.cycles)));
     text.push_str(&format!(", {} cases/s lately", rate(cases as f64 / span)));
-    if let Some(left) = forecast.seconds_left(done, span / cycles as f64) {
+    if let Some(left) = forecast.seconds_left(span / cycles as f64) {
         text.push_str(&format!(", {} left at that pace", estimated(left)));
     }
     text

@@ -28,6 +28,9 @@ Examples:
 A run that was stopped, by whatever, goes on with the same command. Without --task, a job of a Slurm array
 takes its part by itself; scripts/slurm has the array script.";
 
+/// More values on an axis than this are alike to every figure.
+const MOST_VALUES: usize = 16;
+
 /// Compute a study.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -69,20 +72,24 @@ impl Sweep {
         let name = self.study.display().to_string();
         let study = read_study(&self.study)?;
         let output = output_path(&self.study, self.output.as_deref())?;
+        let older = kept(&output, &study, self.overwrite)?;
         if self.dry_run {
             return foretell(&study, machine, &output);
         }
         let task = self.task()?;
-        let archive = match kept(&output, &study, self.overwrite)? {
+        let archive = match older {
             Some(Kept { archive, same_words }) if archive.has_cases() && !self.overwrite => {
                 let words = if same_words { "this study" } else { "a study with the same cases" };
                 let shown = output.display();
                 tell(&format!("{shown}: already computed, by this program from {words}"));
                 clear_away(&output, &study)?;
+                if task.of > 1 {
+                    return Ok(());
+                }
                 archive
             }
             older => {
-                let branches = branches_of(older, &output, self.overwrite)?;
+                branches_of(older, &output, self.overwrite)?;
                 if !self.no_figures {
                     rehearse(&without_cases(&study), &study.drawings)
                         .map_err(|failure| failure.within(&name))?;
@@ -101,8 +108,15 @@ impl Sweep {
                 if task.of > 1 {
                     return self.part_with(task, &blocks);
                 }
-                let joining = Joining { path: &self.study, study: &study, machine, file: &output };
-                joining.join(blocks, branches, false)?
+                let joining = Joining {
+                    path: &self.study,
+                    study: &study,
+                    machine,
+                    file: &output,
+                    beside: &output,
+                    overwrite: self.overwrite,
+                };
+                joining.join(blocks, false)?
             }
         };
         if !self.no_figures {
@@ -114,16 +128,21 @@ impl Sweep {
     /// Which part of the study to compute.
     fn task(&self) -> Result<Task, Failure> {
         let from_slurm = || Task::of_slurm(|name| std::env::var(name).ok());
-        match self.task.map(Ok).or_else(from_slurm) {
-            None => Ok(Task::WHOLE),
-            Some(task) => {
-                let task = task.map_err(Failure::request)?;
-                if task.of > 1 {
-                    tell(&format!("{task}: every {}th block", task.of));
+        let task = match self.task {
+            Some(task) => task,
+            None => match from_slurm() {
+                None => return Ok(Task::WHOLE),
+                Some(task) => {
+                    let task = task.map_err(Failure::request)?;
+                    tell(&format!("{task}, as SLURM_ARRAY_TASK_ID says; --task 1/1 computes all"));
+                    task
                 }
-                Ok(task)
-            }
+            },
+        };
+        if task.of > 1 {
+            tell(&format!("{task}: one block in {}", task.of));
         }
+        Ok(task)
     }
 
     /// The end of a task.
@@ -136,10 +155,17 @@ impl Sweep {
     }
 }
 
-/// The results of a study of which no case is done, without the room that those would take.
+/// The results of a study of which no case is done, with no more values than figures look at, as each has
+/// room for what its cases would have.
 fn without_cases(study: &Study) -> Dataset {
     let mut small = study.clone();
     small.protocol.points = small.protocol.points.min(1);
     small.protocol.impact_points = small.protocol.impact_points.min(1);
+    for axis in &mut small.axes {
+        axis.values.truncate(MOST_VALUES);
+    }
+    if let Some(span) = &mut small.protocol.history {
+        span.per_cycle = span.per_cycle.min(2);
+    }
     store::dataset(&small, &[])
 }

@@ -61,6 +61,10 @@ impl Verify {
         let chains = sample(&study, self.cases as usize, seed);
         let compared = compare(&study, machine, &archive, &chains)?;
         let cases = counted(compared.cases, "case");
+        if compared.cases == 0 {
+            let message = format!("{shown}: none of the cases drawn with --seed {seed} is done");
+            return Err(Failure::request(message));
+        }
         if compared.differences.is_empty() {
             let numbers = count(compared.numbers);
             return print(&format!(
@@ -139,9 +143,18 @@ fn compare(
     for (name, column) in store::schema::columns(study, &records).variables {
         let now = column.values.to_real();
         let kept = read(&name, &at)?;
+        if kept.len() != records.len() {
+            compared.differences.push(format!("the variable {name} is not there"));
+        }
         for ((record, now), kept) in records.iter().zip(now.outer_iter()).zip(kept) {
             let kept = kept.to_real();
             compared.numbers += now.len();
+            if kept.len() != now.len() {
+                let (index, found) = (record.index, kept.len());
+                let difference =
+                    format!("case {index}: {found} numbers of {name}, not {}", now.len());
+                compared.differences.push(difference);
+            }
             let differs =
                 |(a, b): &(&f64, &f64)| a.to_bits() != b.to_bits() && !(a.is_nan() && b.is_nan());
             let differences = now.iter().zip(&kept).filter(differs);

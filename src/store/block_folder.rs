@@ -1,28 +1,37 @@
 //! The folder in which the finished blocks of a study are kept until they are joined.
 //!
-//! Beside the blocks lie `study.toml`, the study as it was when the first was begun, `begun.json`, which
-//! tells it and the program from others, and `lock`, which whoever works there holds.
+//! Beside the blocks lie `begun.toml`, the study as it was when the first was begun, `begun.json`, which
+//! tells it and the program from others, and `lock`, which whoever works there holds. Blocks prove by
+//! themselves whose they are; the lock keeps others from clearing away what is under way.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use crate::orbit::Outcome;
 use crate::sweep::{Record, Study};
 
-use super::file::{discard_unfinished_in, sync_folder, temporary};
+use super::file::{discard_unfinished_in, has_no_locks, sync_folder, temporary};
 use super::shard::{self, Column, Head, Numbers, Shard, Summary, Unusable};
 use super::{StoreError, Values, provenance, schema};
 
 /// What the folder was begun with.
 const BEGUN: &str = "begun.json";
 /// The study as it was then.
-const STUDY: &str = "study.toml";
+const STUDY: &str = "begun.toml";
 /// Held by whoever works in the folder.
 const LOCK: &str = "lock";
+/// What the name of every block begins with.
+const BLOCK: &str = "block-";
+/// How often a lock is tried that somebody holds, who may only have looked whether it is held.
+const TRIES: u32 = 10;
+/// How long between.
+const PAUSE: Duration = Duration::from_millis(100);
 /// Lines that are shown of a change of the study.
 const LINES_SHOWN: usize = 6;
 
@@ -49,8 +58,8 @@ pub enum Company {
 pub struct BlockFolder {
     path: PathBuf,
     fingerprint: String,
-    /// Its lock ends with it.
-    _lock: Option<File>,
+    /// The lock, which ends with it.
+    lock: Option<File>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -78,13 +87,9 @@ impl BlockFolder {
         let program = provenance::attributes();
         let [source, commit] = ["source", "commit"].map(|key| program[key].clone());
         let now = Begun { fingerprint: study.fingerprint(), source, commit };
-        let folder = BlockFolder {
-            path: path.to_owned(),
-            fingerprint: now.fingerprint.clone(),
-            _lock: lock,
-        };
-        let changes = folder.changes(&now, study)?;
-        match changes {
+        let folder =
+            BlockFolder { path: path.to_owned(), fingerprint: now.fingerprint.clone(), lock };
+        match folder.changes(&now, study)? {
             Some(changes) if changes.is_empty() => {}
             Some(changes) if !replace => {
                 return Err(StoreError::Changed { folder: path.to_owned(), changes });
@@ -93,10 +98,13 @@ impl BlockFolder {
                 let said = io::ErrorKind::NotFound.into();
                 return Err(StoreError::system(path, "looking for blocks", said));
             }
+            None if folder.has_others().map_err(failed("looking for blocks"))? => {
+                return Err(StoreError::Occupied { folder: path.to_owned() });
+            }
             _ => folder.begin(&now, study).map_err(failed("beginning the folder of the blocks"))?,
         }
         if company == Company::Alone {
-            discard_unfinished_in(path, "block-")
+            discard_unfinished_in(path, BLOCK)
                 .map_err(failed("clearing away unfinished blocks"))?;
         }
         Ok(folder)
@@ -107,9 +115,14 @@ impl BlockFolder {
         &self.path
     }
 
+    /// Whether blocks have been begun in the folder at `path`.
+    pub fn is_begun(path: &Path) -> bool {
+        path.join(BEGUN).is_file()
+    }
+
     /// Whether anybody works in the folder at `path`.
     pub fn is_busy(path: &Path) -> bool {
-        let lock = File::open(path.join(LOCK));
+        let lock = File::options().read(true).write(true).open(path.join(LOCK));
         lock.is_ok_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)))
     }
 
@@ -121,9 +134,8 @@ impl BlockFolder {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(said) => return Err(StoreError::system(&path, "reading", said)),
         };
-        let Ok(begun) = serde_json::from_slice::<Begun>(&begun) else {
-            return Err(StoreError::Damaged { path });
-        };
+        // What cannot be read tells nothing; the blocks tell themselves whose they are.
+        let Ok(begun) = serde_json::from_slice::<Begun>(&begun) else { return Ok(None) };
         let mut changes = Vec::new();
         if (&begun.source, &begun.commit) != (&now.source, &now.commit) {
             changes.push(format!(
@@ -139,12 +151,20 @@ impl BlockFolder {
         Ok(Some(changes))
     }
 
-    /// Gives up all blocks and notes for what the folder is.
-    fn begin(&self, now: &Begun, study: &Study) -> io::Result<()> {
+    /// Whether anything is in the folder that is not of this program.
+    fn has_others(&self) -> io::Result<bool> {
+        let mut others = false;
         for entry in fs::read_dir(&self.path)? {
-            let path = entry?.path();
-            if path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("block-")) {
-                fs::remove_file(path)?;
+            others |= !is_own(&entry?.file_name().to_string_lossy());
+        }
+        Ok(others)
+    }
+
+    /// Notes for what the folder is, and gives up the blocks that are of something else.
+    fn begin(&self, now: &Begun, study: &Study) -> io::Result<()> {
+        for number in 0..study.blocks() {
+            if let Err(Unusable::Foreign(_)) = self.glance(number) {
+                remove_if_there(&self.file(number))?;
             }
         }
         self.put(STUDY, study.text.as_bytes())?;
@@ -190,10 +210,43 @@ impl BlockFolder {
         Ok((summary, bytes))
     }
 
-    /// Removes the folder with all blocks, once they are not needed any more.
-    pub fn remove(self) -> Result<(), StoreError> {
-        let failed = |said| StoreError::system(&self.path, "removing the joined blocks", said);
-        fs::remove_dir_all(&self.path).map_err(failed)
+    /// Removes all blocks, once they are not needed any more, and the folder with them unless somebody else
+    /// has put something there.
+    pub fn remove(mut self) -> Result<(), StoreError> {
+        let failed =
+            |path: &Path, said| StoreError::system(path, "removing the joined blocks", said);
+        let entries = fs::read_dir(&self.path).map_err(|said| failed(&self.path, said))?;
+        for path in entries.flatten().map(|entry| entry.path()) {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            if is_own(&name) && name != LOCK {
+                remove_if_there(&path).map_err(|said| failed(&path, said))?;
+            }
+        }
+        // A network disk does not let go of a file that is open.
+        drop(self.lock.take());
+        let lock = self.path.join(LOCK);
+        remove_if_there(&lock).map_err(|said| failed(&lock, said))?;
+        match fs::remove_dir(&self.path) {
+            Err(said) if said.kind() != io::ErrorKind::DirectoryNotEmpty => {
+                Err(failed(&self.path, said))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Whether a file in a folder of blocks, by its name, is one of this program.
+fn is_own(name: &str) -> bool {
+    let name = name.strip_prefix('.').unwrap_or(name);
+    [BEGUN, STUDY, LOCK].contains(&name)
+        || [BLOCK, BEGUN, STUDY].iter().any(|own| name.starts_with(own))
+}
+
+/// Removes a file; another task may have done so already.
+fn remove_if_there(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(said) if said.kind() == io::ErrorKind::NotFound => Ok(()),
+        done => done,
     }
 }
 
@@ -210,16 +263,24 @@ fn lock(path: &Path, company: Company) -> Result<Option<File>, StoreError> {
     }
     let file = path.join(LOCK);
     let failed = |said| StoreError::system(&file, "taking the lock", said);
-    let lock = File::options().create(true).append(true).open(&file).map_err(failed)?;
-    let taken = match company {
-        Company::Alone => lock.try_lock(),
-        _ => lock.try_lock_shared(),
-    };
-    match taken {
-        Ok(()) => Ok(Some(lock)),
-        Err(TryLockError::WouldBlock) => Err(StoreError::Busy { folder: path.to_owned() }),
-        Err(TryLockError::Error(_)) => Ok(None),
+    // Network disks lend a lock only to those who may write, and one that is shared to those who may read.
+    let mut options = File::options();
+    let lock = options.create(true).read(true).write(true).truncate(false).open(&file);
+    let lock = lock.map_err(failed)?;
+    for tried in 1.. {
+        let taken = match company {
+            Company::Alone => lock.try_lock(),
+            _ => lock.try_lock_shared(),
+        };
+        match taken {
+            Ok(()) => return Ok(Some(lock)),
+            Err(TryLockError::WouldBlock) if tried == TRIES => break,
+            Err(TryLockError::WouldBlock) => sleep(PAUSE),
+            Err(TryLockError::Error(said)) if has_no_locks(&said) => return Ok(None),
+            Err(TryLockError::Error(said)) => return Err(failed(said)),
+        }
     }
+    Err(StoreError::Busy { folder: path.to_owned() })
 }
 
 /// A block in a few numbers.
@@ -271,6 +332,9 @@ fn changed_lines(older: &str, newer: &str) -> Vec<String> {
     let more = lines.len().saturating_sub(LINES_SHOWN);
     lines.truncate(LINES_SHOWN);
     lines.extend((more > 0).then(|| format!("  and {more} lines more")));
+    if lines.is_empty() {
+        lines.push("  lines have changed places".to_owned());
+    }
     lines
 }
 

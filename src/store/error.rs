@@ -60,6 +60,11 @@ pub enum StoreError {
         /// What has changed, a line each.
         changes: Vec<String>,
     },
+    /// The folder for the blocks holds other things.
+    Occupied {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// Another run works on the same study.
     Busy {
         /// The folder of its blocks.
@@ -106,13 +111,15 @@ impl fmt::Display for StoreError {
             StoreError::Encoding { path, doing, said } => write!(
                 f,
                 "{}: {doing}: {said}; nothing was written: free some memory and run again, and \
-                 report it if it happens twice",
+                 report it if it happens twice (on a network disk without locks set \
+                 HDF5_USE_FILE_LOCKING=FALSE)",
                 path.display()
             ),
             StoreError::Decoding { path, doing, said } => write!(
                 f,
                 "{}: {doing}: {said}; the file may be cut short, damaged or changed by another \
-                 program: restore a copy or make it again (on a network disk without locks set HDF5_USE_FILE_LOCKING=FALSE)",
+                 program: restore a copy or make it again (on a network disk without locks set \
+                 HDF5_USE_FILE_LOCKING=FALSE)",
                 path.display()
             ),
             StoreError::Foreign { path, why } => write!(
@@ -132,10 +139,17 @@ impl fmt::Display for StoreError {
                 write!(
                     f,
                     "they are kept, and not mixed with others: go back to the study and program that they \
-                     belong to (the study is in {}), name another --output, or give them up with --overwrite",
-                    folder.join("study.toml").display()
+                     belong to (the study is in {}), name another --output, or give them up with \
+                     --overwrite",
+                    folder.join("begun.toml").display()
                 )
             }
+            StoreError::Occupied { folder } => write!(
+                f,
+                "{}: is where the blocks of this study go, and holds other things; move them, or name \
+                 another --output",
+                folder.display()
+            ),
             StoreError::Busy { folder } => write!(
                 f,
                 "{}: another run is at work on this study; wait for it, or stop it and run again (what it \

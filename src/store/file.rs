@@ -83,11 +83,38 @@ pub(super) fn temporary(path: &Path, folder: &Path) -> io::Result<NamedTempFile>
     builder.tempfile_in(folder)
 }
 
-/// Removes what runs that were killed have left of the file at `path`.
+/// Keeps others that write results in the folder of `path` waiting as long as the answer lives, so that what
+/// two of them put into one file is not lost; on a disk without locks it keeps nobody.
+pub fn hold(path: &Path) -> Result<File, StoreError> {
+    let failed = |said| StoreError::system(path, "waiting for others that write there", said);
+    let folder = File::open(folder(path)).map_err(failed)?;
+    match folder.lock() {
+        // A network disk may lend no lock on a folder.
+        Err(said) if !has_no_locks(&said) && said.raw_os_error() != Some(9) => Err(failed(said)),
+        _ => Ok(folder),
+    }
+}
+
+/// Whether a disk has said that it has no locks.
+pub(super) fn has_no_locks(said: &io::Error) -> bool {
+    // Linux says ENOLCK where a network disk has no server for them.
+    said.kind() == io::ErrorKind::Unsupported || said.raw_os_error() == Some(37)
+}
+
+/// Removes what runs that were killed have left of the file at `path`; to be called by who [holds](hold) it.
 pub fn discard_unfinished(path: &Path) -> Result<(), StoreError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let failed = |said| StoreError::system(path, "clearing away what is unfinished", said);
-    discard_unfinished_in(folder(path), &format!("{name}.")).map_err(failed)
+    let folder = folder(path);
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let other = entry.map_err(failed)?.path();
+        let found = other.file_name().unwrap_or_default().to_string_lossy();
+        let middle = found.strip_prefix(&format!(".{name}."));
+        if middle.and_then(|it| it.strip_suffix(".tmp")).is_some_and(|it| !it.contains('.')) {
+            std::fs::remove_file(other).map_err(failed)?;
+        }
+    }
+    Ok(())
 }
 
 /// Removes what runs that were killed have left of files in `folder` whose names begin with `name`.

@@ -233,18 +233,18 @@ impl Shard {
         unpack(file.take(columns[at].bytes), real).map(Some).map_err(failed)
     }
 
-    /// The numbers of a column of reals.
-    pub fn reals(&self, name: &str) -> Result<Vec<f64>, StoreError> {
+    /// The numbers of a column of reals, of which each case has so many.
+    pub fn reals(&self, name: &str, width: usize) -> Result<Vec<f64>, StoreError> {
         match self.column(name)? {
-            Some(Numbers::Real(reals)) => Ok(reals),
+            Some(Numbers::Real(all)) if all.len() == self.head.block.cases * width => Ok(all),
             _ => Err(StoreError::Damaged { path: self.path.clone() }),
         }
     }
 
-    /// The numbers of a column of integers.
-    pub fn integers(&self, name: &str) -> Result<Vec<i64>, StoreError> {
+    /// The numbers of a column of integers, of which each case has so many.
+    pub fn integers(&self, name: &str, width: usize) -> Result<Vec<i64>, StoreError> {
         match self.column(name)? {
-            Some(Numbers::Integer(integers)) => Ok(integers),
+            Some(Numbers::Integer(all)) if all.len() == self.head.block.cases * width => Ok(all),
             _ => Err(StoreError::Damaged { path: self.path.clone() }),
         }
     }

@@ -62,9 +62,9 @@ fn greatest_divisor(a: usize, b: usize) -> usize {
     if b == 0 { a } else { greatest_divisor(b, a % b) }
 }
 
-/// Runs the `blocks` of a study, each named once, on `machine`, tells `done` of each record, and hands the records of each, in the order
-/// of their indices, to `finished` when the last of them is done, until that says to stop; from any thread, and
-/// in any order.
+/// Runs the `blocks` of a study, each named once, on `machine`. Tells `done` of each record with the number of
+/// its block, and hands the records of a block, in the order of their indices, to `finished` when the last of
+/// them is done; from any thread, in any order, and until one of the two says to stop.
 ///
 /// Threads go on to the next block before the last cases of one are done, so that their lanes stay full: as
 /// many blocks are unfinished at a time as hold slow cases, and a few more.
@@ -72,7 +72,7 @@ pub fn run_blocks(
     study: &Study,
     machine: Machine,
     blocks: &[usize],
-    done: impl Fn(&Record) + Sync,
+    done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
     finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
     let mut ends = Vec::with_capacity(blocks.len());
@@ -85,7 +85,7 @@ pub fn run_blocks(
     };
     let unfinished: Mutex<BTreeMap<usize, Vec<Record>>> = Mutex::default();
     let keep = |block: usize, record: Record| {
-        done(&record);
+        done(block, &record)?;
         let Some(mut records) = whole(study, &unfinished, block, record) else {
             return ControlFlow::Continue(());
         };

@@ -1,16 +1,30 @@
 //! How much is left of a run whose cases take unequal time.
 
+use std::collections::BTreeMap;
+
 /// What has been done of a run, and what that says of the rest.
 ///
-/// Assumptions: time goes with the drive cycles that cases are followed, and the blocks that are done are a
-/// fair sample of all, which [`super::spread`] sees to. Cases that are done are no such sample, as the slow
-/// ones are still under way; so the mean is that of whole blocks.
+/// Assumptions: time goes with the drive cycles that cases are followed, and the blocks that have been begun
+/// are a fair sample of all, which [`super::spread`] sees to. Those that are done already are none, as the
+/// quick ones end first; so a block that is under way counts with what it will take if it goes on as it has
+/// begun. It breaks where a few cases take most of the time: they are under way until the end, and nothing is
+/// known of them before.
 #[derive(Debug, Clone, Default)]
 pub struct Forecast {
     /// Cases of the whole run.
     cases: usize,
-    /// Cycles per case of each block that is done, with its number of cases.
-    blocks: Vec<(f64, usize)>,
+    /// The blocks that have been begun, by number.
+    blocks: BTreeMap<usize, Begun>,
+    /// Cases and cycles that are done.
+    done: (usize, u64),
+}
+
+/// A block that has been begun: its cases, those that are done, and their cycles.
+#[derive(Debug, Clone, Copy)]
+struct Begun {
+    cases: usize,
+    done: usize,
+    cycles: u64,
 }
 
 /// A number with its standard error.
@@ -25,42 +39,56 @@ pub struct Estimate {
 impl Forecast {
     /// The forecast of a run of so many cases, of which nothing is known.
     pub fn new(cases: usize) -> Self {
-        Forecast { cases, blocks: Vec::new() }
+        Forecast { cases, ..Forecast::default() }
     }
 
-    /// Takes note of a block that is done.
-    pub fn add(&mut self, cases: usize, cycles: u64) {
-        self.blocks.push((cycles as f64 / cases as f64, cases));
+    /// Takes note that `done` more of the `cases` of block `number` are done, in so many cycles.
+    pub fn add(&mut self, number: usize, cases: usize, (done, cycles): (usize, u64)) {
+        let nothing = Begun { cases, done: 0, cycles: 0 };
+        let block = self.blocks.entry(number).or_insert(nothing);
+        block.done += done;
+        block.cycles += cycles;
+        self.done = (self.done.0 + done, self.done.1 + cycles);
     }
 
-    /// Cycles of the whole run; none before the first block is done.
+    /// Cases that are done, and their cycles.
+    pub fn done(&self) -> (usize, u64) {
+        self.done
+    }
+
+    /// Cycles of the whole run; none before the first case is done.
     ///
-    /// Method: mean and standard error of a sample of blocks out of a finite number of them.
+    /// Method: mean and standard error of a sample of blocks out of a finite number of them, each with what
+    /// its cases take on average.
     pub fn cycles(&self) -> Option<Estimate> {
-        let done: usize = self.blocks.iter().map(|(_, cases)| cases).sum();
-        if done == 0 {
+        let begun: usize = self.blocks.values().map(|block| block.cases).sum();
+        if begun == 0 {
             return None;
         }
-        let weight = |cases: usize| cases as f64 / done as f64;
-        let mean: f64 = self.blocks.iter().map(|(mean, cases)| mean * weight(*cases)).sum();
-        let squares = self.blocks.iter().map(|(it, cases)| {
-            let off = (it - mean) * weight(*cases);
+        let mean = |block: &Begun| block.cycles as f64 / block.done.max(1) as f64;
+        let weight = |block: &Begun| block.cases as f64 / begun as f64;
+        let all: f64 = self.blocks.values().map(|block| mean(block) * weight(block)).sum();
+        let squares = self.blocks.values().map(|block| {
+            let off = (mean(block) - all) * weight(block);
             off * off
         });
         let count = self.blocks.len() as f64;
-        let unseen = (1.0 - done as f64 / self.cases as f64).max(0.0);
-        let error = (squares.sum::<f64>() * count / (count - 1.0) * unseen).sqrt();
+        let unknown = (1.0 - self.done.0 as f64 / self.cases as f64).max(0.0);
+        let error = (squares.sum::<f64>() * count / (count - 1.0) * unknown).sqrt();
         let whole = self.cases as f64;
-        // A single block says nothing of how blocks differ, unless it is all there is.
-        let error = if unseen == 0.0 { 0.0 } else { error };
-        Some(Estimate { value: mean * whole, error: error * whole })
+        // A single block says nothing of how blocks differ, unless it is all there is and done.
+        let error = if unknown == 0.0 { 0.0 } else { error };
+        Some(Estimate { value: all * whole, error: error * whole })
     }
 
-    /// Seconds left when so many cycles have been done, each of which takes `pace` seconds; none before the
-    /// first block is done.
-    pub fn seconds_left(&self, cycles: u64, pace: f64) -> Option<Estimate> {
+    /// Seconds left when a cycle takes `pace` seconds; none before the first case is done.
+    ///
+    /// It is never less than what as many cases have taken until now.
+    pub fn seconds_left(&self, pace: f64) -> Option<Estimate> {
         let Estimate { value, error } = self.cycles()?;
-        let left = (value - cycles as f64).max(0.0);
+        let (done, cycles) = self.done;
+        let alike = cycles as f64 / done as f64 * self.cases.saturating_sub(done) as f64;
+        let left = (value - cycles as f64).max(alike);
         Some(Estimate { value: pace * left, error: pace * error })
     }
 }
@@ -74,15 +102,13 @@ mod tests {
     fn equal_blocks_are_foretold_exactly() {
         let mut forecast = Forecast::new(1000);
         assert_eq!(forecast.cycles(), None);
-        forecast.add(100, 5000);
+        forecast.add(0, 100, (100, 5000));
         let first = forecast.cycles().expect("an estimate");
         assert!(first.value == 50_000.0 && first.error.is_nan());
-        forecast.add(100, 5000);
+        forecast.add(7, 100, (100, 5000));
         assert_eq!(forecast.cycles(), Some(Estimate { value: 50_000.0, error: 0.0 }));
-        assert_eq!(
-            forecast.seconds_left(10_000, 0.002),
-            Some(Estimate { value: 80.0, error: 0.0 })
-        );
+        assert_eq!(forecast.seconds_left(0.002), Some(Estimate { value: 80.0, error: 0.0 }));
+        assert_eq!(forecast.done(), (200, 10_000));
     }
 
     #[test]
@@ -91,11 +117,27 @@ mod tests {
         let truth: u64 = costs.iter().sum();
         let mut forecast = Forecast::new(200 * 512);
         for (done, block) in spread(costs.len()).into_iter().enumerate() {
-            forecast.add(512, costs[block]);
+            forecast.add(block, 512, (512, costs[block]));
             let Estimate { value, error } = forecast.cycles().expect("an estimate");
             assert!(done < 9 || (value - truth as f64).abs() <= 3.0 * error + 1.0, "{done}");
         }
         let end = forecast.cycles().expect("an estimate");
         assert!((end.value - truth as f64).abs() < 1e-3 && end.error == 0.0);
+    }
+
+    #[test]
+    fn slow_blocks_that_are_under_way_count_with_what_they_will_take() {
+        // Forty blocks at once, each as many times slower than the first as its number; the quick are done.
+        let cases = 1000;
+        let cycles = |block: u64| 10 * (block + 1);
+        let truth: u64 = (0..40).map(|block| cycles(block) * cases as u64).sum();
+        let mut forecast = Forecast::new(40 * cases);
+        let budget = 100_000;
+        for block in 0..40 {
+            let done = (budget / cycles(block)).min(cases as u64);
+            forecast.add(block as usize, cases, (done as usize, done * cycles(block)));
+        }
+        let Estimate { value, .. } = forecast.cycles().expect("an estimate");
+        assert!((value - truth as f64).abs() < 1e-6 * truth as f64, "{value} {truth}");
     }
 }

@@ -39,7 +39,7 @@ fn blocks(study: &Study, numbers: &[usize], machine: Machine) -> BTreeMap<usize,
         study,
         machine,
         numbers,
-        |_| (),
+        |_, _| ControlFlow::Continue(()),
         |block, records| {
             let before = found.lock().expect("a lock").insert(block, records);
             assert!(before.is_none(), "block {block} came twice");
@@ -95,7 +95,7 @@ fn a_run_stops_when_it_is_told_to() {
         study,
         machine,
         &numbers,
-        |_| (),
+        |_, _| ControlFlow::Continue(()),
         |_, _| {
             *count.lock().expect("a lock") += 1;
             ControlFlow::Break(())

@@ -8,6 +8,7 @@ mod branch;
 mod branch_curves;
 mod branch_ends;
 mod branch_figure;
+mod bystanders;
 mod certificates;
 mod cli;
 mod closed_forms;

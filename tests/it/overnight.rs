@@ -1,5 +1,4 @@
-//! What a long run must survive: kills, signals, faults of the disk, damaged blocks, a changed study, two runs
-//! at once; and parts that are computed apart and joined.
+//! What a long run must survive: kills, signals, damaged blocks, a changed study, two runs at once; and parts that are computed apart and joined.
 
 mod night;
 
@@ -14,7 +13,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 use super::program::{Desk, Ran};
-use night::{LINES, NIGHT, Night, said};
+pub use night::{LINES, NIGHT};
+use night::{Night, said};
 
 /// How often runs were killed while cases were computed, and while blocks were joined.
 type Kills = [u32; 2];
@@ -165,7 +165,7 @@ fn a_changed_study_does_not_mix_with_older_blocks() {
         "night.blocks: holds blocks of another run",
         "- to = \"8 N\"",
         "+ to = \"7 N\"",
-        "study.toml",
+        "begun.toml",
         "--overwrite",
     ]);
     night.run(&["join", "night.toml"]).refused(&["- to = \"8 N\""]);
