@@ -14,6 +14,8 @@ use crate::sweep::{Forecast, Record};
 
 /// "Now" is the time since as long ago.
 const NOW: Duration = Duration::from_secs(20);
+/// So few cases may all be under way at a time.
+const FEW: usize = 128;
 /// A time left shorter than this is no use to anybody [s].
 const LAST: f64 = 1.0;
 /// The bar is brought up to date this often.
@@ -105,7 +107,7 @@ impl BlockProgress {
         let under_way = self.total[1] - done;
         let left = match left {
             None => "time left not known yet".to_owned(),
-            Some(left) if left.value < LAST && under_way > 0 => {
+            Some(left) if left.value < LAST && (1..=FEW).contains(&under_way) => {
                 format!("the last {} under way", counted(under_way, "case"))
             }
             Some(left) => format!("{} left", estimated(left)),

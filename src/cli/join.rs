@@ -117,6 +117,9 @@ impl Joining<'_> {
         if !is_partial && !blocks.missing.is_empty() {
             return Err(Failure::request(incomplete(&folder, &blocks.missing)));
         }
+        for (number, why) in blocks.missing.iter().filter(|(_, why)| !is_missing(why)) {
+            tell(&format!("{}: {why}; it is left out", folder.file(*number).display()));
+        }
         let place = folder.path().display().to_string();
         say_when_stopped(move || format!("all is kept in {place}; the same command joins it"))?;
         let mut frame = blocks.frame();
@@ -159,6 +162,10 @@ impl Joining<'_> {
     }
 }
 
+fn is_missing(why: &Unusable) -> bool {
+    matches!(why, Unusable::Missing)
+}
+
 /// What is missing, and how to get it.
 fn incomplete(folder: &BlockFolder, missing: &[(usize, Unusable)]) -> String {
     let shown = folder.path().display();
@@ -167,7 +174,7 @@ fn incomplete(folder: &BlockFolder, missing: &[(usize, Unusable)]) -> String {
         counted(missing.len(), "block"),
         ranges(missing.iter().map(|(number, _)| *number))
     );
-    for (number, why) in missing.iter().filter(|(_, why)| !matches!(why, Unusable::Missing)) {
+    for (number, why) in missing.iter().filter(|(_, why)| !is_missing(why)) {
         text.push_str(&format!("\n{}: {why}", folder.file(*number).display()));
     }
     text.push_str(

@@ -18,6 +18,10 @@ fn text(path: &Path) -> Result<String, Failure> {
     let name = path.display();
     let bytes = std::fs::read(path)
         .map_err(|error| Failure::request(format!("{name}: cannot be read: {error}")))?;
+    if bytes.starts_with(b"\x89HDF") {
+        let message = format!("{name}: is a file of results; give the study, a TOML file");
+        return Err(Failure::request(message));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = valid.iter().filter(|&&byte| byte == b'\n').count() + 1;
@@ -127,10 +131,11 @@ pub fn prepare(folder: &Path) -> Result<(), Failure> {
             file.display()
         )));
     }
+    let advice = "choose a place that you may use with --output";
     std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::machine(format!("{shown}: cannot be made: {error}")))?;
+        .map_err(|error| Failure::machine(format!("{shown}: cannot be made: {error}; {advice}")))?;
     tempfile::tempfile_in(folder).map(drop).map_err(|error| {
-        Failure::machine(format!("{shown}: no file can be written there: {error}"))
+        Failure::machine(format!("{shown}: no file can be written there: {error}; {advice}"))
     })
 }
 

@@ -13,6 +13,7 @@ use crate::orbit::{
     Case, Certificate, Orbit, Output, Proof, Protocol, Simulation, settle, simulate,
 };
 use crate::sweep::document::unknown;
+use crate::sweep::{Machine, Study, run_sample};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -111,7 +112,7 @@ impl Simulate {
         }
     }
 
-    /// A case of a study; another start may be given, as that of a case which follows its neighbour.
+    /// A case of a study, from another start if one is given.
     fn studied(&self, path: &Path) -> Result<Request, Failure> {
         let study = read_study(path)?;
         let index = self.case.unwrap_or(0);
@@ -126,6 +127,8 @@ impl Simulate {
             if !faults.is_empty() {
                 return Err(Failure::requests(&faults));
             }
+        } else {
+            case.start = followed_start(&study, index)?;
         }
         Ok(Request { case, protocol: study.protocol })
     }
@@ -202,6 +205,22 @@ impl Simulate {
         }
         start
     }
+}
+
+/// Where a case of a study starts, which may be where its neighbour settles.
+fn followed_start(study: &Study, index: usize) -> Result<State<f64>, Failure> {
+    let before = |chain: usize| study.chain(chain).position(|case| case == index);
+    let found = (0..study.chains()).find_map(|chain| Some((chain, before(chain)?)));
+    let Some((chain, before)) = found.filter(|(_, before)| *before > 0) else {
+        return Ok(study.case(index).start);
+    };
+    tell(&format!(
+        "case {index} starts where its neighbour settles: {before} cases come before it"
+    ));
+    let records = run_sample(study, Machine::default(), &[chain], || ());
+    let records = records.map_err(Failure::machine)?;
+    let record = records.iter().find(|record| record.index == index);
+    Ok(record.map_or(study.case(index).start, |record| record.start))
 }
 
 /// The NAME=VALUE pairs among `texts`.

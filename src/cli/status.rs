@@ -95,6 +95,8 @@ fn on_the_way(study: &Study, folder: &BlockFolder, is_busy: bool) -> String {
     text.push_str(&outcomes(&there.blocks));
     if is_busy {
         text.push_str("at work now");
+    } else if there.blocks.len() == study.blocks() {
+        text.push_str("all blocks are there: `capsulemap join` puts them together");
     } else {
         text.push_str("nobody is at work: `capsulemap sweep` goes on");
     }

@@ -27,13 +27,18 @@ pub fn summary(joining: &Joining<'_>, blocks: &Blocks<'_>) -> Result<String, Sto
     for failed in blocks.failures(FAILURES_SHOWN)? {
         let (index, path) = (failed.index, joining.path.display());
         let _ =
-            writeln!(text, "  case {index} failed: {}, at t = {} s", failed.reason, failed.time);
+            writeln!(text, "  case {index} failed: {}, at t = {:e} s", failed.reason, failed.time);
         let _ = write!(text, "    replay: capsulemap simulate --study {path} --case {index}");
         let (start, usual) = (failed.start, joining.study.case(index).start);
         if (start.r, start.y1, start.y2) != (usual.r, usual.y1, usual.y2) {
             let _ = write!(text, " --start r={},y1={},y2={}", start.r, start.y1, start.y2);
         }
         text.push('\n');
+    }
+    let failed = by_outcome(&summaries).into_iter().find(|it| it.0 == Outcome::Failed);
+    if let Some((_, failed)) = failed.filter(|(_, failed)| *failed > FAILURES_SHOWN) {
+        let more = counted(failed - FAILURES_SHOWN, "case");
+        let _ = writeln!(text, "  and {more} more, where the file has the outcome `failed`");
     }
     Ok(text)
 }

@@ -78,9 +78,7 @@ impl Verify {
             counted(compared.differences.len(), "number"),
             differences.join("\n"),
             notice.unwrap_or_else(|| {
-                "the file or a machine is faulty: compute the study again, and \
-                find out which machine made those blocks (variable block_maker)"
-                    .to_owned()
+                "the file or a machine is faulty: compute the study again".to_owned()
             })
         )))
     }

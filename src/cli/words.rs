@@ -21,7 +21,7 @@ pub fn time(seconds: f64) -> String {
 /// A time that is not known well, with how far off it may be: two standard errors.
 pub fn estimated(Estimate { value, error }: Estimate) -> String {
     match 2.0 * error {
-        off if off.is_nan() => format!("{}, perhaps", time(value)),
+        off if off.is_nan() => format!("perhaps {}", time(value)),
         off if off > 0.05 * value && off > 1.0 => format!("{} ± {}", time(value), time(off)),
         _ => time(value),
     }
@@ -70,7 +70,7 @@ mod tests {
         assert_eq!(times[..6], ["0.2 s", "10 s", "119 s", "2 min", "2 h 1 min", "2 d 7 h"]);
         assert_eq!(estimated(Estimate { value: 100.0, error: 10.0 }), "100 s ± 20 s");
         assert_eq!(estimated(Estimate { value: 100.0, error: 0.5 }), "100 s");
-        assert_eq!(estimated(Estimate { value: 30.0, error: f64::NAN }), "30 s, perhaps");
+        assert_eq!(estimated(Estimate { value: 30.0, error: f64::NAN }), "perhaps 30 s");
         assert_eq!([0, 999, 1000, 1_234_567].map(count), ["0", "999", "1 000", "1 234 567"]);
         assert_eq!([1, 24].map(|it| counted(it, "block")), ["1 block", "24 blocks"]);
         assert_eq!([0.5, 5230.4].map(rate), ["0.50", "5 230"]);

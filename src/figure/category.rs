@@ -7,7 +7,9 @@ use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Mark, draw_mark};
 use super::outcome::Outcomes;
-use super::style::{CHAOTIC, LONG_PERIOD, PAPER, PERIODS, QUASI_PERIODIC, SMALL_SIZE, UNDECIDED};
+use super::style::{
+    CHAOTIC, LONG_PERIOD, NOT_YET, PAPER, PERIODS, QUASI_PERIODIC, SMALL_SIZE, UNDECIDED,
+};
 use super::text::Text;
 use super::view::View;
 
@@ -106,6 +108,7 @@ fn by_name(name: &str) -> Option<(usize, Kind)> {
         "chaotic" => (21, Some(CHAOTIC)),
         "undecided" => (22, Some(UNDECIDED)),
         "failed" => (23, None),
+        "missing" => (24, Some(NOT_YET)),
         _ => return None,
     };
     Some((rank, Kind { name: name.to_string(), colour }))

@@ -110,5 +110,7 @@ pub const COEXISTENCE: RGBColor = RGBColor(244, 237, 218);
 pub const CHAOTIC: RGBColor = RGBColor(20, 20, 20);
 /// Quasi-periodic motion.
 pub const QUASI_PERIODIC: RGBColor = RGBColor(238, 119, 51);
+/// Cases that have not been computed yet.
+pub const NOT_YET: RGBColor = RGBColor(228, 228, 228);
 /// Motion that could not be told within the budget of cycles.
 pub const UNDECIDED: RGBColor = RGBColor(136, 136, 136);

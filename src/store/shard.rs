@@ -196,7 +196,7 @@ fn read_head(file: File) -> Result<(Head, u64), Unusable> {
     };
     let (format, first) = line()?;
     if format.strip_suffix(b"\n") != Some(FORMAT.as_bytes()) {
-        return Err(Unusable::Foreign(format!("it does not begin with \"{FORMAT}\"")));
+        return Err(Unusable::Torn);
     }
     let (head, second) = line()?;
     let head = serde_json::from_slice(&head).map_err(|_| Unusable::Torn)?;

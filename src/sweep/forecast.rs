@@ -2,13 +2,16 @@
 
 use std::collections::BTreeMap;
 
+/// Fewer blocks tell nothing of how much they differ.
+const SAMPLE: usize = 8;
+
 /// What has been done of a run, and what that says of the rest.
 ///
 /// Assumptions: time goes with the drive cycles that cases are followed, and the blocks that have been begun
 /// are a fair sample of all, which [`super::spread`] sees to. Those that are done already are none, as the
 /// quick ones end first; so a block that is under way counts with what it will take if it goes on as it has
-/// begun. It breaks where a few cases take most of the time: they are under way until the end, and nothing is
-/// known of them before.
+/// begun. It breaks where a few cases take most of the time, as nothing is known of them until they are done,
+/// and where the first cases of a line that is followed are unlike the last.
 #[derive(Debug, Clone, Default)]
 pub struct Forecast {
     /// Cases of the whole run.
@@ -76,8 +79,12 @@ impl Forecast {
         let unknown = (1.0 - self.done.0 as f64 / self.cases as f64).max(0.0);
         let error = (squares.sum::<f64>() * count / (count - 1.0) * unknown).sqrt();
         let whole = self.cases as f64;
-        // A single block says nothing of how blocks differ, unless it is all there is and done.
-        let error = if unknown == 0.0 { 0.0 } else { error };
+        // A few blocks say little of how blocks differ, unless they are all there is and done.
+        let error = match () {
+            () if unknown == 0.0 => 0.0,
+            () if self.blocks.len() < SAMPLE => f64::NAN,
+            () => error,
+        };
         Some(Estimate { value: all * whole, error: error * whole })
     }
 
@@ -105,10 +112,10 @@ mod tests {
         forecast.add(0, 100, (100, 5000));
         let first = forecast.cycles().expect("an estimate");
         assert!(first.value == 50_000.0 && first.error.is_nan());
-        forecast.add(7, 100, (100, 5000));
+        (1..8).for_each(|block| forecast.add(block, 100, (100, 5000)));
         assert_eq!(forecast.cycles(), Some(Estimate { value: 50_000.0, error: 0.0 }));
-        assert_eq!(forecast.seconds_left(0.002), Some(Estimate { value: 80.0, error: 0.0 }));
-        assert_eq!(forecast.done(), (200, 10_000));
+        assert_eq!(forecast.seconds_left(0.002), Some(Estimate { value: 20.0, error: 0.0 }));
+        assert_eq!(forecast.done(), (800, 40_000));
     }
 
     #[test]

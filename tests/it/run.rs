@@ -170,6 +170,11 @@ fn following_begins_where_the_neighbour_settled() {
         let expected = orbit.outputs[Output::ProgressionSpeed];
         assert_eq!(speed(&followed)[[i, 1, 0]].to_bits(), expected.to_bits());
     }
+    // The same case by itself, with all that it follows.
+    let told = desk.run(&["simulate", "--study", "rich.toml", "--case", "14", "--json"]).done();
+    let alone = told.printed("progression_speed");
+    assert_eq!(speed(&followed)[[2, 1, 0]].to_bits(), alone.to_bits());
+    assert!(told.err.contains("2 cases come before it"), "{}", told.err);
     let direction = followed.coordinate("direction").expect("directions");
     assert_eq!(direction.flags, [(0, "upward".to_owned()), (1, "downward".to_owned())]);
 }
