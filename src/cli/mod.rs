@@ -118,7 +118,7 @@ fn tell(line: &str) {
 
 /// What to run on, as far as this machine has it.
 fn machine(threads: Option<u16>, instructions: Option<Instructions>) -> Result<Machine, Failure> {
-    let granted = || Some(std::env::var("SLURM_CPUS_PER_TASK").ok()?.trim().parse().ok()?);
+    let granted = || std::env::var("SLURM_CPUS_PER_TASK").ok()?.trim().parse().ok();
     let threads = threads.map(usize::from).or_else(|| granted().filter(|&count: &usize| count > 0));
     let Some(missing) = instructions.filter(|it| !it.is_available()) else {
         return Ok(Machine { threads, instructions });

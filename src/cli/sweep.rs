@@ -15,7 +15,7 @@ use super::task::Task;
 use super::words::{counted, time};
 use super::{Failure, machine, named, tell};
 use crate::lane::Instructions;
-use crate::store::{self, BlockFolder, Company, Dataset};
+use crate::store::{self, Archive, BlockFolder, Company, Dataset};
 use crate::sweep::Study;
 
 const EXAMPLES: &str = "\
@@ -69,7 +69,6 @@ impl Sweep {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let machine = machine(self.threads, self.instructions)?;
-        let name = self.study.display().to_string();
         let study = read_study(&self.study)?;
         let output = output_path(&self.study, self.output.as_deref())?;
         let older = kept(&output, &study, self.overwrite)?;
@@ -77,52 +76,70 @@ impl Sweep {
             return foretell(&study, machine, &output);
         }
         let task = self.task()?;
+        let joining = Joining {
+            path: &self.study,
+            study: &study,
+            machine,
+            file: &output,
+            beside: &output,
+            overwrite: self.overwrite,
+        };
         let archive = match older {
-            Some(Kept { archive, same_words }) if archive.has_cases() && !self.overwrite => {
-                let words = if same_words { "this study" } else { "a study with the same cases" };
-                let shown = output.display();
-                tell(&format!("{shown}: already computed, by this program from {words}"));
-                clear_away(&output, &study)?;
-                if task.of > 1 {
-                    return Ok(());
-                }
-                archive
-            }
+            Some(older) if self.suffices(&older) => self.already(&joining, older)?,
             older => {
                 branches_of(older, &output, self.overwrite)?;
-                if !self.no_figures {
-                    rehearse(&without_cases(&study), &study.drawings)
-                        .map_err(|failure| failure.within(&name))?;
+                match self.compute(&joining, task)? {
+                    Some(archive) => archive,
+                    None => return Ok(()),
                 }
-                prepare(folder(&output))?;
-                let company = if task.of > 1 { Company::Tasks } else { Company::Alone };
-                let blocks = enter(&output, &study, company, self.overwrite)?;
-                let added = compute(&study, machine, &blocks, task)?;
-                if added.cases > 0 {
-                    tell(&format!(
-                        "{} computed in {}",
-                        counted(added.cases, "case"),
-                        time(added.time.as_secs_f64())
-                    ));
-                }
-                if task.of > 1 {
-                    return self.part_with(task, &blocks);
-                }
-                let joining = Joining {
-                    path: &self.study,
-                    study: &study,
-                    machine,
-                    file: &output,
-                    beside: &output,
-                    overwrite: self.overwrite,
-                };
-                joining.join(blocks, false)?
             }
         };
-        if !self.no_figures {
+        if !self.no_figures && task.of == 1 {
             draw_from(&archive, &study.drawings, folder(&output), &self.formats)?;
         }
         Ok(())
+    }
+
+    /// Whether a file that is there has all cases and is to stay.
+    fn suffices(&self, older: &Kept) -> bool {
+        older.archive.has_cases() && !self.overwrite
+    }
+
+    /// Says that a file is there, and clears away what a run has left that was stopped at its very end.
+    fn already(&self, joining: &Joining<'_>, older: Kept) -> Result<Archive, Failure> {
+        let words = if older.same_words { "this study" } else { "a study with the same cases" };
+        let shown = joining.file.display();
+        tell(&format!("{shown}: already computed, by this program from {words}"));
+        clear_away(joining.file, joining.study)?;
+        Ok(older.archive)
+    }
+
+    /// Computes the blocks of a task, and joins them if it is the only one.
+    fn compute(&self, joining: &Joining<'_>, task: Task) -> Result<Option<Archive>, Failure> {
+        let Joining { study, machine, file, .. } = *joining;
+        if !self.no_figures {
+            rehearse(&without_cases(study), &study.drawings)
+                .map_err(|failure| failure.within(&self.study.display().to_string()))?;
+        }
+        prepare(folder(file))?;
+        let company = if task.of > 1 { Company::Tasks } else { Company::Alone };
+        let blocks = enter(file, study, company, self.overwrite)?;
+        // A run that has just ended may have joined all while this one waited for it.
+        let older = kept(file, study, self.overwrite)?;
+        if let Some(older) = older.filter(|older| self.suffices(older)) {
+            drop(blocks);
+            return self.already(joining, older).map(Some);
+        }
+        let added = compute(study, machine, &blocks, task)?;
+        if added.cases > 0 {
+            let seconds = added.time.as_secs_f64();
+            tell(&format!("{} computed in {}", counted(added.cases, "case"), time(seconds)));
+        }
+        if task.of > 1 {
+            self.part_with(task, &blocks);
+            return Ok(None);
+        }
+        joining.join(blocks, false).map(Some)
     }
 
     /// Which part of the study to compute.
@@ -146,12 +163,11 @@ impl Sweep {
     }
 
     /// The end of a task.
-    fn part_with(&self, task: Task, blocks: &BlockFolder) -> Result<(), Failure> {
+    fn part_with(&self, task: Task, blocks: &BlockFolder) {
         let (shown, study) = (blocks.path().display(), self.study.display());
         tell(&format!(
             "{task}: its blocks are in {shown}; once all tasks are done: capsulemap join {study}"
         ));
-        Ok(())
     }
 }
 

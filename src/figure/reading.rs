@@ -18,11 +18,10 @@ pub fn reads(drawing: &Drawing, name: &str) -> bool {
     if shown.into_iter().any(|it| it == name) || USUAL.iter().any(|it| it.name() == name) {
         return true;
     }
-    if Output::ALL.iter().any(|output| output.name() == name) || NAMED.iter().any(|it| begins(&it))
-    {
+    if Output::ALL.iter().any(|output| output.name() == name) || NAMED.iter().any(begins) {
         return false;
     }
-    if ROWS.iter().any(|it| begins(&it)) {
+    if ROWS.iter().any(begins) {
         return match drawing.kind {
             DrawingKind::PhasePortrait => true,
             DrawingKind::History => name.starts_with("history_"),

@@ -80,10 +80,10 @@ impl BlockFolder {
         replace: bool,
     ) -> Result<BlockFolder, StoreError> {
         let failed = |doing| move |said| StoreError::system(path, doing, said);
-        if company != Company::Anybody {
-            fs::create_dir_all(path).map_err(failed("making the folder of the blocks"))?;
-        }
-        let lock = lock(path, company)?;
+        let lock = match company {
+            Company::Anybody => None,
+            _ => lock(path, company)?,
+        };
         let program = provenance::attributes();
         let [source, commit] = ["source", "commit"].map(|key| program[key].clone());
         let now = Begun { fingerprint: study.fingerprint(), source, commit };
@@ -256,24 +256,29 @@ pub fn packed_bytes(study: &Study, records: &[Record]) -> io::Result<usize> {
     image.map(|image| image.len())
 }
 
-/// Takes the lock of a folder; none where the file system has no locks, as blocks are whole without them.
+/// Takes the lock of a folder, which is made if need be; none where the file system has no locks, as blocks
+/// are whole without them.
 fn lock(path: &Path, company: Company) -> Result<Option<File>, StoreError> {
-    if company == Company::Anybody {
-        return Ok(None);
-    }
     let file = path.join(LOCK);
     let failed = |said| StoreError::system(&file, "taking the lock", said);
-    // Network disks lend a lock only to those who may write, and one that is shared to those who may read.
-    let mut options = File::options();
-    let lock = options.create(true).read(true).write(true).truncate(false).open(&file);
-    let lock = lock.map_err(failed)?;
     for tried in 1.. {
+        fs::create_dir_all(path)
+            .map_err(|said| StoreError::system(path, "making the folder of the blocks", said))?;
+        // Network disks lend a lock only to those who may write, and one that is shared to those who may read.
+        let mut options = File::options();
+        let opened = options.create(true).read(true).write(true).truncate(false).open(&file);
+        let lock = match opened {
+            Err(said) if said.kind() == io::ErrorKind::NotFound && tried < TRIES => continue,
+            opened => opened.map_err(failed)?,
+        };
         let taken = match company {
             Company::Alone => lock.try_lock(),
             _ => lock.try_lock_shared(),
         };
         match taken {
-            Ok(()) => return Ok(Some(lock)),
+            // Whoever held it before may have removed the folder with the file that is locked now.
+            Ok(()) if file.exists() => return Ok(Some(lock)),
+            Ok(()) => {}
             Err(TryLockError::WouldBlock) if tried == TRIES => break,
             Err(TryLockError::WouldBlock) => sleep(PAUSE),
             Err(TryLockError::Error(said)) if has_no_locks(&said) => return Ok(None),

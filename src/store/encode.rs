@@ -240,10 +240,11 @@ fn create<T: H5Type>(builder: DatasetBuilder, name: &str, shape: &[usize]) -> hd
     builder.empty::<T>().shape(shape).create(name)
 }
 
-fn write<T: H5Type>(array: &Array, values: &ArrayD<T>, part: Option<Hyperslab>) -> hdf5::Result<()>
-where
-    T: Clone,
-{
+fn write<T: H5Type + Clone>(
+    array: &Array,
+    values: &ArrayD<T>,
+    part: Option<Hyperslab>,
+) -> hdf5::Result<()> {
     let values = values.as_standard_layout();
     match part {
         Some(part) => array.write_slice(values.view(), part),

@@ -188,7 +188,7 @@ fn a_changed_study_does_not_mix_with_older_blocks() {
 
 #[test]
 fn a_second_run_on_the_same_study_stops_at_once() {
-    let night = Night::new();
+    let night = Night::of(&NIGHT.replace("points = 128", "points = 640"));
     let mut first = night.start(&[]);
     night.wait_for(1);
     let begun = Instant::now();
