@@ -78,7 +78,7 @@ fn sweeping_and_following_at_once_lose_nothing() {
 #[test]
 fn a_log_that_nobody_reads_does_not_keep_a_run_from_stopping() {
     let desk = Desk::new();
-    desk.put("night.toml", &NIGHT.replace("points = 128", "points = 1280"));
+    desk.put("night.toml", NIGHT.replace("points = 128", "points = 1280"));
     let mut command = desk.command(&["sweep", "night.toml"]);
     let mut child = command.stderr(Stdio::piped()).spawn().expect("the program starts");
     // The pipe is never read, so that it is full after some hundred lines.
