@@ -22,6 +22,6 @@ trap 'rm -rf "$folder"' EXIT
 night=("$program" sweep studies/ten-million.toml --output "$folder/night.h5" --formats png)
 memory=(scripts/memory.sh --most 1024)
 # The first is stopped by the signal of Ctrl-C, whose status is 130.
-{ "${memory[@]}" --for 120 "${night[@]}" 2>&1 || [ $? -eq 130 ]; } | tail -n 2
+{ "${memory[@]}" --for 120 "${night[@]}" 2>&1 || [ $? -eq 130 ]; } | tail -n 3
 "${memory[@]}" "${night[@]}" 2>&1 | tail -n 5
 "${memory[@]}" "$program" verify "$folder/night.h5" --cases 10000 2>&1 | tail -n 2
