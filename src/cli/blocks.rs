@@ -85,7 +85,7 @@ pub fn compute(
     };
     run_blocks(study, machine, &left, each, |block, records| {
         match folder.keep(study, block, &records) {
-            Ok((summary, _)) => {
+            Ok(summary) => {
                 progress.block(&summary);
                 ControlFlow::Continue(())
             }

@@ -7,9 +7,9 @@ use clap::Args;
 use super::branch_summary::summary;
 use super::figure::{FormatChoice, draw_from};
 use super::progress::Progress;
-use super::result_file::{Kept, folder, kept, output_path, prepare, read_study, rehearse};
+use super::result_file::{Kept, kept, output_path, prepare, read_study, rehearse};
 use super::{Failure, print, tell};
-use crate::store::{self, Archive, Dataset, add_branches, drop_branches, has_branches};
+use crate::store::{self, Archive, Dataset, add_branches, drop_branches, folder, has_branches};
 use crate::sweep::{Study, Unfollowed, follow};
 
 const EXAMPLES: &str = "\

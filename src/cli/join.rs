@@ -7,7 +7,7 @@ use clap::Args;
 use super::blocks::{clear_away, enter};
 use super::figure::{FormatChoice, draw_from};
 use super::progress::Progress;
-use super::result_file::{Kept, branches_of, folder, kept, output_path, prepare, read_study};
+use super::result_file::{Kept, branches_of, kept, output_path, prepare, read_study};
 use super::stop::say_when_stopped;
 use super::summary::summary;
 use super::words::counted;
@@ -81,7 +81,7 @@ impl Join {
             }
         };
         if !self.no_figures {
-            draw_from(&archive, &study.drawings, folder(&file), &self.formats)?;
+            draw_from(&archive, &study.drawings, store::folder(&file), &self.formats)?;
         }
         Ok(())
     }
@@ -89,7 +89,7 @@ impl Join {
 
 /// Where a look before the end goes.
 fn partial(output: &Path) -> PathBuf {
-    folder(output).join("partial").join(output.file_name().unwrap_or_default())
+    store::folder(output).join("partial").join(output.file_name().unwrap_or_default())
 }
 
 /// Blocks on their way into a file.
@@ -112,7 +112,7 @@ impl Joining<'_> {
     /// Joins the blocks in `folder` into the file, beside branches that have been followed by then, and
     /// removes them, unless they are only a part.
     pub fn join(&self, folder: BlockFolder, is_partial: bool) -> Result<Archive, Failure> {
-        prepare(super::result_file::folder(self.file))?;
+        prepare(store::folder(self.file))?;
         let blocks = Blocks::open(&folder, self.study, 0..self.study.blocks());
         if !is_partial && !blocks.missing.is_empty() {
             return Err(Failure::request(incomplete(&folder, &blocks.missing)));

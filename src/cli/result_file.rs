@@ -54,12 +54,6 @@ pub fn output_path(study: &Path, output: Option<&Path>) -> Result<PathBuf, Failu
     Ok(output)
 }
 
-/// The folder of a file.
-pub fn folder(file: &Path) -> &Path {
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-    folder.unwrap_or(Path::new("."))
-}
-
 /// A file of results that is there already.
 pub struct Kept {
     /// The file.
@@ -84,9 +78,8 @@ pub fn kept(output: &Path, study: &Study, overwrite: bool) -> Result<Option<Kept
             return Err(Failure::request(format!("{error}\n{shown} is kept: {advice}")));
         }
     };
-    let (frame, now) = (archive.frame(), store::provenance::attributes());
-    let same_program =
-        ["source", "commit"].iter().all(|&key| frame.attributes.get(key) == now.get(key));
+    let frame = archive.frame();
+    let same_program = store::provenance::is_ours(&frame.attributes);
     let same_words = frame.texts.get("study") == Some(&study.text);
     let same_cases = frame.attributes.get(FINGERPRINT) == Some(&study.fingerprint());
     if same_program && (same_words || same_cases) {

@@ -8,14 +8,12 @@ use super::blocks::{clear_away, compute, enter};
 use super::dry_run::foretell;
 use super::figure::{FormatChoice, draw_from};
 use super::join::Joining;
-use super::result_file::{
-    Kept, branches_of, folder, kept, output_path, prepare, read_study, rehearse,
-};
+use super::result_file::{Kept, branches_of, kept, output_path, prepare, read_study, rehearse};
 use super::task::Task;
 use super::words::{counted, time};
 use super::{Failure, machine, named, tell};
 use crate::lane::Instructions;
-use crate::store::{self, Archive, BlockFolder, Company, Dataset};
+use crate::store::{self, Archive, BlockFolder, Company, Dataset, folder};
 use crate::sweep::Study;
 
 const EXAMPLES: &str = "\

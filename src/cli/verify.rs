@@ -87,12 +87,8 @@ impl Verify {
 /// A word on a file that another version has made.
 fn versions(archive: &Archive) -> Option<String> {
     let (made, now) = (&archive.frame().attributes, provenance::attributes());
-    let other = ["source", "commit"].iter().any(|&key| made.get(key) != now.get(key));
-    let name = |of: &std::collections::BTreeMap<String, String>| {
-        let word = |key: &str| of.get(key).map_or("unknown", String::as_str).to_owned();
-        format!("{} (commit {})", word("source"), word("commit"))
-    };
-    other.then(|| format!("was made by {}, this is {}", name(made), name(&now)))
+    let [by, this] = [made, &now].map(provenance::program);
+    (!provenance::is_ours(made)).then(|| format!("was made by {by}, this is {this}"))
 }
 
 /// Chains drawn at random that have at least so many cases, or all.

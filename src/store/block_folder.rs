@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::Duration;
@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use crate::orbit::Outcome;
 use crate::sweep::{Record, Study};
 
-use super::file::{discard_unfinished_in, has_no_locks, sync_folder, temporary};
+use super::file::{discard_unfinished_in, has_no_locks, put};
 use super::shard::{self, Column, Head, Numbers, Shard, Summary, Unusable};
 use super::{StoreError, Values, provenance, schema};
 
@@ -65,8 +65,8 @@ pub struct BlockFolder {
 #[derive(Debug, Serialize, Deserialize)]
 struct Begun {
     fingerprint: String,
-    source: String,
-    commit: String,
+    /// By whom and when.
+    made: BTreeMap<String, String>,
 }
 
 impl BlockFolder {
@@ -84,9 +84,7 @@ impl BlockFolder {
             Company::Anybody => None,
             _ => lock(path, company)?,
         };
-        let program = provenance::attributes();
-        let [source, commit] = ["source", "commit"].map(|key| program[key].clone());
-        let now = Begun { fingerprint: study.fingerprint(), source, commit };
+        let now = Begun { fingerprint: study.fingerprint(), made: provenance::attributes() };
         let folder =
             BlockFolder { path: path.to_owned(), fingerprint: now.fingerprint.clone(), lock };
         match folder.changes(&now, study)? {
@@ -101,10 +99,10 @@ impl BlockFolder {
             None if folder.has_others().map_err(failed("looking for blocks"))? => {
                 return Err(StoreError::Occupied { folder: path.to_owned() });
             }
-            _ => folder.begin(&now, study).map_err(failed("beginning the folder of the blocks"))?,
+            _ => folder.begin(&now, study)?,
         }
         if company == Company::Alone {
-            discard_unfinished_in(path, BLOCK)
+            discard_unfinished_in(path, |of| of.starts_with(BLOCK))
                 .map_err(failed("clearing away unfinished blocks"))?;
         }
         Ok(folder)
@@ -137,11 +135,9 @@ impl BlockFolder {
         // What cannot be read tells nothing; the blocks tell themselves whose they are.
         let Ok(begun) = serde_json::from_slice::<Begun>(&begun) else { return Ok(None) };
         let mut changes = Vec::new();
-        if (&begun.source, &begun.commit) != (&now.source, &now.commit) {
-            changes.push(format!(
-                "the blocks were made by {} (commit {}), this is {} (commit {})",
-                begun.source, begun.commit, now.source, now.commit
-            ));
+        if !provenance::is_ours(&begun.made) {
+            let [made, now] = [&begun.made, &now.made].map(provenance::program);
+            changes.push(format!("the blocks were made by {made}, this is {now}"));
         }
         if begun.fingerprint != now.fingerprint {
             let older = fs::read_to_string(self.path.join(STUDY)).unwrap_or_default();
@@ -161,24 +157,17 @@ impl BlockFolder {
     }
 
     /// Notes for what the folder is, and gives up the blocks that are of something else.
-    fn begin(&self, now: &Begun, study: &Study) -> io::Result<()> {
+    fn begin(&self, now: &Begun, study: &Study) -> Result<(), StoreError> {
+        let failed =
+            |said| StoreError::system(&self.path, "beginning the folder of the blocks", said);
         for number in 0..study.blocks() {
             if let Err(Unusable::Foreign(_)) = self.glance(number) {
-                remove_if_there(&self.file(number))?;
+                remove_if_there(&self.file(number)).map_err(failed)?;
             }
         }
-        self.put(STUDY, study.text.as_bytes())?;
-        self.put(BEGUN, &serde_json::to_vec_pretty(now)?)?;
-        sync_folder(&self.path)
-    }
-
-    fn put(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        let path = self.path.join(name);
-        let mut file = temporary(&path, &self.path)?;
-        file.write_all(bytes)?;
-        file.as_file().sync_all()?;
-        file.persist(&path)?;
-        Ok(())
+        let begun = serde_json::to_vec_pretty(now).map_err(io::Error::from).map_err(failed)?;
+        put(&self.path.join(STUDY), study.text.as_bytes())?;
+        put(&self.path.join(BEGUN), &begun)
     }
 
     /// The file of a block.
@@ -196,18 +185,17 @@ impl BlockFolder {
         shard::glance(&self.path, &self.fingerprint, block)
     }
 
-    /// Keeps the records of block `number`, whole or not at all; returns what it says of itself, and the
-    /// bytes that it takes.
+    /// Keeps the records of block `number`, whole or not at all; returns what it says of itself.
     pub fn keep(
         &self,
         study: &Study,
         number: usize,
         records: &[Record],
-    ) -> Result<(Summary, u64), StoreError> {
+    ) -> Result<Summary, StoreError> {
         let summary = summary(number, records);
         let columns = columns(study, records);
-        let bytes = shard::write(&self.path, &self.fingerprint, summary.clone(), &columns)?;
-        Ok((summary, bytes))
+        shard::write(&self.path, &self.fingerprint, summary.clone(), &columns)?;
+        Ok(summary)
     }
 
     /// Removes all blocks, once they are not needed any more, and the folder with them unless somebody else

@@ -24,14 +24,10 @@ pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
     if !faults.is_empty() {
         return Err(StoreError::Unfit { path: path.to_owned(), faults });
     }
-    let failed = |doing| move |said| StoreError::system(path, doing, said);
-    let folder = folder(path);
-    let mut file = temporary(path, folder).map_err(failed("starting a new file"))?;
     let mut image = encode::image(dataset, path)?;
     seal::put(&mut image);
-    file.write_all(&image).map_err(failed("writing"))?;
+    let file = unnamed(path, &image)?;
     drop(image);
-    file.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
     let unequal = match read(file.path()) {
         Ok(kept) => difference(dataset, &kept),
         Err(refused) => Some(refused.to_string()),
@@ -39,8 +35,28 @@ pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
     if let Some(difference) = unequal {
         return Err(StoreError::Unequal { path: path.to_owned(), difference });
     }
+    name(file, path)
+}
+
+/// Keeps bytes in the file at `path`, replacing an older one only by all of them.
+pub(super) fn put(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    name(unnamed(path, bytes)?, path)
+}
+
+/// Bytes on the disk, in a new file beside `path` that has not got its name yet.
+fn unnamed(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
+    let failed = |doing| move |said| StoreError::system(path, doing, said);
+    let mut file = temporary(path, folder(path)).map_err(failed("starting a new file"))?;
+    file.write_all(bytes).map_err(failed("writing"))?;
+    file.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
+    Ok(file)
+}
+
+/// Gives a file that is on the disk its name.
+pub(super) fn name(file: NamedTempFile, path: &Path) -> Result<(), StoreError> {
+    let failed = |doing| move |said| StoreError::system(path, doing, said);
     file.persist(path).map_err(|refused| failed("giving the file its name")(refused.error))?;
-    sync_folder(folder).map_err(failed("forcing the folder to the disk"))
+    sync_folder(folder(path)).map_err(failed("forcing the folder to the disk"))
 }
 
 /// The dataset in the file at `path`, exactly as it was written.
@@ -66,7 +82,7 @@ pub fn open(path: &Path) -> Result<Archive, StoreError> {
 }
 
 /// The folder of a file.
-pub(super) fn folder(path: &Path) -> &Path {
+pub fn folder(path: &Path) -> &Path {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     folder.unwrap_or(Path::new("."))
 }
@@ -104,25 +120,20 @@ pub(super) fn has_no_locks(said: &io::Error) -> bool {
 /// Removes what runs that were killed have left of the file at `path`; to be called by who [holds](hold) it.
 pub fn discard_unfinished(path: &Path) -> Result<(), StoreError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let failed = |said| StoreError::system(path, "clearing away what is unfinished", said);
-    let folder = folder(path);
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        let other = entry.map_err(failed)?.path();
-        let found = other.file_name().unwrap_or_default().to_string_lossy();
-        let middle = found.strip_prefix(&format!(".{name}."));
-        if middle.and_then(|it| it.strip_suffix(".tmp")).is_some_and(|it| !it.contains('.')) {
-            std::fs::remove_file(other).map_err(failed)?;
-        }
-    }
-    Ok(())
+    discard_unfinished_in(folder(path), |of| *of == name)
+        .map_err(|said| StoreError::system(path, "clearing away what is unfinished", said))
 }
 
-/// Removes what runs that were killed have left of files in `folder` whose names begin with `name`.
-pub(super) fn discard_unfinished_in(folder: &Path, name: &str) -> io::Result<()> {
+/// Removes what runs that were killed have left in `folder` of those files that `is_ours` by their names.
+pub(super) fn discard_unfinished_in(
+    folder: &Path,
+    is_ours: impl Fn(&str) -> bool,
+) -> io::Result<()> {
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
         let found = path.file_name().unwrap_or_default().to_string_lossy();
-        if found.starts_with(&format!(".{name}")) && found.ends_with(".tmp") {
+        let inside = found.strip_prefix('.').and_then(|it| it.strip_suffix(".tmp"));
+        if inside.and_then(|it| it.rsplit_once('.')).is_some_and(|(of, _)| is_ours(of)) {
             std::fs::remove_file(path)?;
         }
     }

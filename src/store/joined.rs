@@ -10,7 +10,7 @@ use tempfile::NamedTempFile;
 use super::decode::{Archive, hyperslab};
 use super::encode::{self, Element, Scales};
 use super::faults::faults;
-use super::file::{folder, sync_folder, temporary};
+use super::file::{folder, temporary};
 use super::piece::{MOST_NUMBERS, Piece, pieces};
 use super::{Dataset, StoreError, Values, Variable, difference, file, seal};
 
@@ -71,8 +71,7 @@ pub fn write(
     seal::put_on(temporary.as_file_mut()).map_err(failed("sealing the file"))?;
     temporary.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
     check(&temporary, frame, (columns, axes), &sums, path)?;
-    temporary.persist(path).map_err(|refused| failed("giving the file its name")(refused.error))?;
-    sync_folder(folder(path)).map_err(failed("forcing the folder to the disk"))
+    file::name(temporary, path)
 }
 
 impl Column {

@@ -29,7 +29,7 @@ pub use dataset::{Dataset, Values, Variable};
 pub use decode::Archive;
 pub use difference::difference;
 pub use error::StoreError;
-pub use file::{discard_unfinished, hold, open, read, write};
+pub use file::{discard_unfinished, folder, hold, open, read, write};
 pub use join::{Blocks, FailedCase};
 pub use schema::{dataset, frame};
 pub use shard::{Summary, Unusable};

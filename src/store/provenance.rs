@@ -17,6 +17,18 @@ pub fn attributes() -> BTreeMap<String, String> {
     .collect()
 }
 
+/// Whether this very program made something.
+pub fn is_ours(made: &BTreeMap<String, String>) -> bool {
+    let now = attributes();
+    ["source", "commit"].iter().all(|&key| made.get(key) == now.get(key))
+}
+
+/// The program that made something: name, version and commit.
+pub fn program(made: &BTreeMap<String, String>) -> String {
+    let word = |key: &str| made.get(key).map_or("unknown", String::as_str);
+    format!("{} (commit {})", word("source"), word("commit"))
+}
+
 /// Who made something, in one word: program, commit, architecture and the widest vector instructions.
 pub fn maker(made: &BTreeMap<String, String>) -> String {
     let keys = ["source", "commit", "host_architecture", "host_instruction_set"];

@@ -13,10 +13,9 @@ use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use serde::{Deserialize, Serialize};
 
-use super::StoreError;
-use super::file::{sync_folder, temporary};
 use super::provenance;
 use super::seal::{self, Seal};
+use super::{StoreError, file};
 
 /// The first line of every shard; its number grows with the layout.
 const FORMAT: &str = "capsulemap shard 1";
@@ -115,25 +114,17 @@ pub fn path(folder: &Path, number: usize) -> PathBuf {
     folder.join(format!("block-{number:07}"))
 }
 
-/// Keeps the columns of a block in its file in `folder`, whole or not at all; returns the bytes it takes.
+/// Keeps the columns of a block in its file in `folder`, whole or not at all.
 pub fn write(
     folder: &Path,
     fingerprint: &str,
     block: Summary,
     columns: &[Column],
-) -> Result<u64, StoreError> {
+) -> Result<(), StoreError> {
     let path = path(folder, block.number);
-    let failed = |doing| {
-        let path = &path;
-        move |said| StoreError::system(path, doing, said)
-    };
-    let image = image(fingerprint, block, columns).map_err(failed("packing"))?;
-    let mut file = temporary(&path, folder).map_err(failed("starting a new file"))?;
-    file.write_all(&image).map_err(failed("writing"))?;
-    file.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
-    file.persist(&path).map_err(|refused| failed("giving the file its name")(refused.error))?;
-    sync_folder(folder).map_err(failed("forcing the folder to the disk"))?;
-    Ok(image.len() as u64)
+    let image = image(fingerprint, block, columns);
+    let image = image.map_err(|said| StoreError::system(&path, "packing", said))?;
+    file::put(&path, &image)
 }
 
 /// The bytes of a shard.
@@ -205,11 +196,8 @@ fn read_head(file: File) -> Result<(Head, u64), Unusable> {
 
 /// Why a shard is not the one that was looked for, if it is not.
 fn foreign(head: &Head, fingerprint: &str, number: usize) -> Option<String> {
-    let now = provenance::attributes();
-    let program = ["source", "commit"].map(|key| [head.made.get(key), now.get(key)]);
-    if program.iter().any(|[made, now]| made != now) {
-        let named = program.map(|[made, _]| made.map_or("unknown", String::as_str));
-        return Some(format!("made by another version, {} (commit {})", named[0], named[1]));
+    if !provenance::is_ours(&head.made) {
+        return Some(format!("made by another version, {}", provenance::program(&head.made)));
     }
     if head.fingerprint != fingerprint {
         return Some("made for another study".to_owned());
