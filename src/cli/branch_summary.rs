@@ -137,7 +137,9 @@ fn end_words(end: End) -> Option<&'static str> {
 
 /// From where to where a branch leads, and why it ends there.
 fn reach(along: Parameter, branch: &Branch) -> String {
-    let values = branch.points.iter().map(|point| point.parameter);
+    let folds = branch.special.iter().filter(|special| special.kind == SpecialKind::Fold);
+    let folds = folds.map(|special| special.point.parameter);
+    let values = branch.points.iter().map(|point| point.parameter).chain(folds);
     let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
         (least.min(value), most.max(value))
     });
@@ -147,7 +149,12 @@ fn reach(along: Parameter, branch: &Branch) -> String {
     // Where a branch left another is told above.
     let left = if branch.parent.is_some() { End::Bound } else { branch.ends[0] };
     let ends = told_ends([left, branch.ends[1]]);
-    format!("from {} to {}{ends}", quantity(along, from), quantity(along, to))
+    let beyond = least < from.min(to) || most > from.max(to);
+    let range = match beyond {
+        true => format!(", over the range {} to {}", quantity(along, least), quantity(along, most)),
+        false => String::new(),
+    };
+    format!("from {} to {}{range}{ends}", quantity(along, from), quantity(along, to))
 }
 
 fn kind_name(kind: SpecialKind) -> &'static str {
@@ -257,7 +264,7 @@ to = \"5 N\"
 a.h5: 2 branches, 8 points in 2.0 s
 
 a, branch 1: period 1, though 2 was asked for
-  3 points, 2 stable, 1 unstable, from 1 N to 3 N, last end at a corner of the return map
+  3 points, 2 stable, 1 unstable, from 1 N to 3 N, over the range 1 N to 4.123456789 N, last end at a corner of the return map
                             p_d [N]  period   speed [mm/s]
   fold                  4.123456789       1      12.500000
 

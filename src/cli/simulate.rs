@@ -10,7 +10,7 @@ use super::result_file::read_study;
 use super::{Failure, named, plain_or_quantity, print, tell};
 use crate::model::{Dimension, Parameter, Parameters, Resistance, State, Switching};
 use crate::orbit::{
-    Case, Certificate, Orbit, Output, Proof, Protocol, Simulation, settle, simulate,
+    Case, Certificate, Orbit, Outcome, Output, Proof, Protocol, Simulation, settle, simulate,
 };
 use crate::sweep::document::unknown;
 use crate::sweep::{Machine, Study, run_sample};
@@ -272,10 +272,11 @@ fn orbit_json(orbit: &Orbit) -> Value {
     for &output in Output::ALL {
         object.insert(output.name().to_owned(), json!(orbit.outputs[output]));
     }
-    let Certificate { proof, multipliers, .. } = orbit.certificate;
+    let Certificate { proof, multipliers, neutral, .. } = orbit.certificate;
     object.insert("certificate".to_owned(), json!(Proof::NAMES[proof as usize].0));
     let parts = multipliers.map(|multiplier| [multiplier.re, multiplier.im]);
     object.insert("multipliers".to_owned(), json!(parts));
+    object.insert("neutral_direction".to_owned(), json!(neutral));
     let failure = orbit.failure.map(|failure| failure.to_string());
     object.insert("failure".to_owned(), json!(failure));
     Value::Object(object)
@@ -320,7 +321,57 @@ fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> S
         let unit = if output.unit() == "1" { "" } else { output.unit() };
         let _ = writeln!(text, "  {:<26} {:>16.9e} {unit}", output.name(), orbit.outputs[output]);
     }
+    for remark in remarks(parameters, orbit) {
+        let _ = writeln!(text, "  {remark}");
+    }
     text
+}
+
+/// What the numbers of an orbit do not say by themselves.
+fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
+    let mut remarks = Vec::new();
+    if let Some([r, y1, y2]) = orbit.certificate.neutral {
+        remarks.push(format!(
+            "neutral: one of a family of periodic orbits along (omega r, y1, y2) = ({r:.4}, {y1:.4}, \
+             {y2:.4}); the start decides which, and with it the speed"
+        ));
+    }
+    let rests = orbit.section.first().is_some_and(|&[_, _, y2]| y2 == 0.0);
+    if orbit.outcome == Outcome::Periodic && rests && parameters.break_away() > 0.0 {
+        remarks.push(
+            "the capsule rests at the section: its multiplier 0 is that of pushes after which it rests again"
+                .to_owned(),
+        );
+    }
+    let [exponent, uncertainty, excluded, defect] = [
+        Output::LyapunovExponent,
+        Output::LyapunovUncertainty,
+        Output::ExcludedPeriod,
+        Output::IntegrationDefect,
+    ]
+    .map(|output| orbit.outputs[output]);
+    match orbit.outcome {
+        Outcome::QuasiPeriodic => {
+            remarks.push(format!("no period up to {excluded} cycles, as far as the section tells"));
+        }
+        Outcome::Undecided if excluded.is_nan() => remarks.push(format!(
+            "undecided: an orbit was found, but its steps do not satisfy the equations (defect {defect:.1e}), \
+             or it does not close without derivatives"
+        )),
+        Outcome::Undecided if exponent + 5.0 * uncertainty < 0.0 => {
+            let cycles = 25.0 / (-exponent * parameters.drive_period());
+            remarks.push(format!(
+                "undecided: neighbours approach each other by e in {:.3} s, too slowly to settle in the cycles \
+                 given; some {cycles:.0} would do (--max-cycles)",
+                -1.0 / exponent
+            ));
+        }
+        Outcome::Undecided => remarks.push(format!(
+            "undecided: neighbours neither part nor approach each other clearly; no period up to {excluded} cycles"
+        )),
+        Outcome::Periodic | Outcome::Chaotic | Outcome::Failed => {}
+    }
+    remarks
 }
 
 fn verdict(orbit: &Orbit) -> String {

@@ -77,6 +77,8 @@ const TABLE: &[Row] = &[
     ("lyapunov_exponent", "Lyapunov exponent", "", "1/s", 1.0),
     ("lyapunov_uncertainty", "Uncertainty of the exponent", "", "1/s", 1.0),
     ("largest_multiplier", "Largest multiplier", "", "", 1.0),
+    ("integration_defect", "Integration defect", "", "", 1.0),
+    ("excluded_period", "Longest period excluded", "", "", 1.0),
     ("section_residual", "Section residual", "", "", 1.0),
 ];
 

@@ -1,5 +1,6 @@
 //! Moved: advances any switched system by Taylor steps and locates every event on the way.
 
+pub mod defect;
 pub mod guard;
 pub mod motion;
 mod pace;

@@ -118,7 +118,9 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let left = until - self.time;
         let [first, second] = system.pace(&step.jet);
         let allowed = longest_step(first, tolerance).min(longest_step(second, tolerance));
-        let end = self.locate(system, step, allowed.min(left.plain()));
+        let allowed = allowed.min(left.plain());
+        let length = system.step_bound(&self.mode, &step.jet, allowed, tolerance);
+        let end = self.locate(system, step, length);
 
         let arrives = left.plain().le(end.length);
         let cut = L::select(arrives, left, L::from_plain(end.length));

@@ -5,7 +5,7 @@ use crate::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 
 use super::drive::reduced;
 use super::resistance::Drag;
-use super::switched::{Locomotion, Stroboscopic, Switched, Zeros};
+use super::switched::{Field, Locomotion, Stroboscopic, Switched, Zeros};
 use super::{Contact, Drive, EventKind, Jet, Parameter, Parameters, Resistance, State, StickSlip};
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.
@@ -146,6 +146,17 @@ impl<L: Lane> Switched<L> for Capsule<L> {
     }
 
     #[inline(always)]
+    fn step_bound(
+        &self,
+        mode: &Mode<L>,
+        jet: &Jet<L>,
+        length: L::Plain,
+        tolerance: f64,
+    ) -> L::Plain {
+        self.drag.step_bound(mode.slip, &jet.decay, &jet.y2, length, tolerance)
+    }
+
+    #[inline(always)]
     fn watched(&self, which: usize, mode: &Mode<L>) -> L::Mask {
         match which {
             BACKWARD => (mode.slip * mode.slip).lt(L::splat(0.5)),
@@ -242,6 +253,31 @@ impl<L: Lane> Stroboscopic<L, 3> for Capsule<L> {
     /// A displacement r counts as the velocity omega r.
     fn scales(&self) -> [f64; 3] {
         [self.drive.omega.lane(0), 1.0, 1.0]
+    }
+}
+
+impl Field<4> for Capsule<f64> {
+    fn coordinates<'a>(&self, jet: &'a Jet<f64>) -> [&'a Series<f64>; 4] {
+        jet.coordinates()
+    }
+
+    fn rates(&self, mode: &Mode<f64>, time: f64, &[r, y1, x2, y2]: &[f64; 4]) -> [f64; 4] {
+        let force = self.force(mode, &State { r, y1, x2, y2 });
+        let acceleration = (self.drive.force(time) - force) * self.inverse_m1;
+        if mode.slip == 0.0 {
+            return [y1, acceleration, 0.0, 0.0];
+        }
+        let push = force - self.drag.force(mode.slip, y2);
+        [y1 - y2, acceleration, y2, push * self.inverse_m2]
+    }
+
+    /// A displacement r or x2 counts as the velocity omega r.
+    fn weights(&self) -> [f64; 4] {
+        [self.drive.omega, 1.0, self.drive.omega, 1.0]
+    }
+
+    fn layered<'a>(&self, mode: &Mode<f64>, jet: &'a Jet<f64>) -> Option<&'a Series<f64>> {
+        (mode.slip != 0.0 && self.drag.has_layer()).then_some(&jet.y2)
     }
 }
 

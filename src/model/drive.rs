@@ -42,3 +42,11 @@ impl<L: Lane> Drive<L> {
         }
     }
 }
+
+impl Drive<f64> {
+    /// The force of the drive at `time` since the start of its cycle, by a library's functions [N].
+    pub fn force(&self, time: f64) -> f64 {
+        let (sin, cos) = libm::sincos(self.omega * time);
+        self.amplitude * (cos * self.cos_phase - sin * self.sin_phase)
+    }
+}

@@ -15,4 +15,4 @@ pub use parameter::{Allowed, Dimension, Fault, Parameter, Parameters};
 pub use printed::PrintedCapsule;
 pub use resistance::{Resistance, Switching};
 pub use state::{Contact, EventKind, Jet, State, StickSlip};
-pub use switched::{Locomotion, Stroboscopic, Switched, Zeros};
+pub use switched::{Field, Locomotion, Stroboscopic, Switched, Zeros};

@@ -9,7 +9,7 @@ use crate::lane::{Lane, ORDER, Series, elementary::not_finite, series};
 use super::drive::reduced;
 use super::regime::{PrintedMode, Regime};
 use super::resistance::Drag;
-use super::switched::{Locomotion, Stroboscopic, Switched, Zeros};
+use super::switched::{Field, Locomotion, Stroboscopic, Switched, Zeros};
 use super::{Contact, Drive, EventKind, Jet, Parameter, Parameters, Resistance, State, StickSlip};
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.
@@ -172,6 +172,22 @@ impl<L: Lane<Mask = bool>> Switched<L> for PrintedCapsule<L> {
         [&jet.motion.y1, &jet.motion.y2]
     }
 
+    fn step_bound(
+        &self,
+        mode: &PrintedMode,
+        jet: &PrintedJet<L>,
+        length: L::Plain,
+        tolerance: f64,
+    ) -> L::Plain {
+        match mode.regime {
+            Regime::Frozen | Regime::Held { .. } => length,
+            Regime::Moving { slip, .. } | Regime::Creeping { slip, .. } => {
+                let Jet { decay, y2, .. } = &jet.motion;
+                self.drag.step_bound(L::splat(slip), decay, y2, length, tolerance)
+            }
+        }
+    }
+
     fn watched(&self, which: usize, mode: &PrintedMode) -> bool {
         which < 3 || matches!(mode.regime, Regime::Creeping { .. })
     }
@@ -255,6 +271,40 @@ impl<L: Lane<Mask = bool>> Stroboscopic<L, 3> for PrintedCapsule<L> {
     /// A displacement r counts as the velocity omega r.
     fn scales(&self) -> [f64; 3] {
         [self.drive.omega.lane(0), 1.0, 1.0]
+    }
+}
+
+impl Field<4> for PrintedCapsule<f64> {
+    fn coordinates<'a>(&self, jet: &'a PrintedJet<f64>) -> [&'a Series<f64>; 4] {
+        jet.motion.coordinates()
+    }
+
+    fn rates(&self, mode: &PrintedMode, time: f64, &[r, y1, x2, y2]: &[f64; 4]) -> [f64; 4] {
+        let PrintedMode { closed, regime } = *mode;
+        let force = self.force(closed, &State { r, y1, x2, y2 });
+        let acceleration = (self.drive.force(time) - force) / self.m1;
+        // The rate of y2 with H = 1.
+        let moving = |slip| (force - self.drag.force(slip, y2)) / self.m2;
+        match regime {
+            Regime::Frozen | Regime::Held { .. } => [y1, acceleration, 0.0, 0.0],
+            Regime::Moving { slip, .. } => [y1 - y2, acceleration, y2, moving(slip)],
+            Regime::Creeping { slip, .. } => {
+                // F' = k (y1 - H y2) + c (y1' - H y2') vanishes.
+                let (k, full) = (self.stiffness(closed), moving(slip));
+                let share = (k * y1 + self.c * acceleration) / (k * y2 + self.c * full);
+                [y1 - share * y2, acceleration, share * y2, share * full]
+            }
+        }
+    }
+
+    /// A displacement r or x2 counts as the velocity omega r.
+    fn weights(&self) -> [f64; 4] {
+        [self.drive.omega, 1.0, self.drive.omega, 1.0]
+    }
+
+    fn layered<'a>(&self, mode: &PrintedMode, jet: &'a PrintedJet<f64>) -> Option<&'a Series<f64>> {
+        let slides = matches!(mode.regime, Regime::Moving { .. } | Regime::Creeping { .. });
+        (slides && self.drag.has_layer()).then_some(&jet.motion.y2)
     }
 }
 

@@ -1,8 +1,13 @@
 //! What resists the capsule: dry friction by two laws, or a resistive medium.
 
-use crate::lane::{Lane, Series, elementary::exp_decay, series, side_by_side};
+use crate::lane::{Lane, Mask, ORDER, Series, elementary::exp_decay, series, side_by_side};
 
 use super::Parameter;
+
+/// Far from rest a step may at least change |y2|/v_s by this much.
+const NARROWEST: f64 = 2.0;
+/// Chords by which the length of a step is approached at which |y2| has fallen by what is allowed.
+const CHORDS: usize = 4;
 
 /// The law of resistance to the capsule's motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -135,6 +140,60 @@ impl<L: Lane> Drag<L> {
         }
     }
 
+    /// The longest step within `length` over which the series of exp(-|y2|/v_s) has its value, for a motion
+    /// with the direction `slip` and the velocity `y2`.
+    ///
+    /// Method: let u = |y2|/v_s and U = -ln tolerance. From u0 > U the step may last until u falls to U, or by
+    /// `NARROWEST`, whichever is farther. The fall of |y2| is at most the sum D(h) of those of its terms that
+    /// are negative; D is convex, so that each chord from 0 meets the bound before D does, and false position
+    /// approaches that root from the side of shorter steps.
+    /// Guarantees: exp(-u) and the sum of its truncated series, which has terms of one sign there, are
+    /// both below the tolerance as long as u > U, so that the error of the friction is below mu_d N times the
+    /// tolerance. From u0 <= U the terms of y2 itself show the exponential: its terms of order p
+    /// relative to |y2| are u0^-1 exp(-u0) x^p/p! for a change x of u, and where the last two are below the
+    /// tolerance, so is what follows them, relative to |y2|, up to a factor of ten.
+    #[inline(always)]
+    pub fn step_bound(
+        &self,
+        slip: L,
+        decay: &Series<L>,
+        y2: &Series<L>,
+        length: L::Plain,
+        tolerance: f64,
+    ) -> L::Plain {
+        if self.law != Resistance::CoulombStribeck {
+            return length;
+        }
+        let zero = L::Plain::splat(0.0);
+        let (slip, dynamic) = (slip.plain(), self.dynamic.plain());
+        let slides = zero.lt(slip * slip) & zero.lt(dynamic);
+        let far = slides & decay[0].plain().lt(L::Plain::splat(tolerance));
+        if !far.any() {
+            return length;
+        }
+        // -ln 2 times the logarithm to base 2, which is known within 0.09.
+        let edge = std::f64::consts::LN_2 * (0.09 - tolerance.rough_log());
+        let speed = y2[0].plain().abs() * self.inverse_stribeck.plain();
+        let fall = (speed - L::Plain::splat(edge)).max(L::Plain::splat(NARROWEST));
+        let allowed = fall / self.inverse_stribeck.plain();
+        let mut terms = [zero; ORDER + 1];
+        for (term, y2) in terms.iter_mut().zip(y2).skip(1) {
+            *term = zero.max(-(slip * y2.plain()));
+        }
+        let at_end = series::value(&terms, length);
+        let cuts = far & allowed.lt(at_end);
+        if !cuts.any() {
+            return length;
+        }
+        let (mut low, mut at_low) = (zero, zero);
+        for _ in 0..CHORDS {
+            let share = (allowed - at_low) / (at_end - at_low);
+            low = low + (length - low) * share;
+            at_low = series::value(&terms, low);
+        }
+        L::Plain::select(cuts, low, length)
+    }
+
     /// Coefficient `k + 1` of exp(-|y2|/v_s), from `e' = -(slip/v_s) e y2'`.
     #[inline(always)]
     pub fn decay_term(&self, slip: L, decay: &Series<L>, acceleration: &Series<L>, k: usize) -> L {
@@ -145,5 +204,23 @@ impl<L: Lane> Drag<L> {
             }
             Resistance::Coulomb | Resistance::Medium => L::splat(0.0),
         }
+    }
+}
+
+impl Drag<f64> {
+    /// The resistance to a motion with the direction `slip`, as the law is written [N].
+    pub fn force(&self, slip: f64, y2: f64) -> f64 {
+        match self.law {
+            Resistance::CoulombStribeck => {
+                slip * self.dynamic * (1.0 + libm::exp(-y2.abs() * self.inverse_stribeck))
+            }
+            Resistance::Coulomb => slip * self.dynamic,
+            Resistance::Medium => self.linear * y2 + self.quadratic * slip * y2 * y2,
+        }
+    }
+
+    /// Whether the law has a layer around rest, in which the resistance changes with the speed.
+    pub fn has_layer(&self) -> bool {
+        self.law == Resistance::CoulombStribeck && self.dynamic > 0.0
     }
 }

@@ -124,6 +124,11 @@ impl<L: Lane> Default for Jet<L> {
 }
 
 impl<L: Lane> Jet<L> {
+    /// The series of r, y1, x2 and y2.
+    pub fn coordinates(&self) -> [&Series<L>; 4] {
+        [&self.r, &self.y1, &self.x2, &self.y2]
+    }
+
     /// The state `h` after the start of the step.
     #[inline(always)]
     pub fn state(&self, h: L) -> State<L> {

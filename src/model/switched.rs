@@ -37,7 +37,26 @@ pub trait Switched<L: Lane> {
     fn expand(&self, mode: &Self::Mode, time: L, state: &Self::State, jet: &mut Self::Jet);
 
     /// The series whose decay sets the length of a step.
+    ///
+    /// They must contain every coordinate whose rate depends on the state in another way than by a constant
+    /// factor; a coordinate that is the integral of one of them may be left out.
     fn pace<'a>(&self, jet: &'a Self::Jet) -> [&'a Series<L>; 2];
+
+    /// The longest step within `length` that the series of `pace` describe to `tolerance`.
+    ///
+    /// A pace sees a term of the field by its coefficients. A term that is far below the rounding of the
+    /// others where the step begins and grows to their size within the step (friction near rest, seen from
+    /// far above the Stribeck velocity) has coefficients too small to be seen, however many are computed. A
+    /// system with such a term bounds the step here, from the law of the term; any other returns `length`.
+    /// The contract of systems checks both: the defect of the steps ([`Field`]) is of the order of the
+    /// tolerance.
+    fn step_bound(
+        &self,
+        mode: &Self::Mode,
+        jet: &Self::Jet,
+        length: L::Plain,
+        tolerance: f64,
+    ) -> L::Plain;
 
     /// Whether guard `which` can end `mode`.
     fn watched(&self, which: usize, mode: &Self::Mode) -> L::Mask;
@@ -77,8 +96,31 @@ pub trait Stroboscopic<L: Lane, const D: usize>: Switched<L> {
     fn scales(&self) -> [f64; D];
 }
 
+/// A switched system whose equations can be evaluated at a point, so that its steps can be checked by them.
+pub trait Field<const D: usize>: Switched<f64> {
+    /// The series of the `D` coordinates during a step.
+    fn coordinates<'a>(&self, jet: &'a Self::Jet) -> [&'a Series<f64>; D];
+
+    /// The rates of the coordinates in `mode` at `time` since the start of the cycle [s].
+    ///
+    /// They are written as the equations are, with the elementary functions of a library: what the series
+    /// and the functions of the lanes get wrong shows against them.
+    fn rates(&self, mode: &Self::Mode, time: f64, coordinates: &[f64; D]) -> [f64; D];
+
+    /// What the coordinates are multiplied with to be compared.
+    fn weights(&self) -> [f64; D];
+
+    /// The coordinate near whose turning points a term of the field may rise and vanish again within a step,
+    /// if `mode` has such a term.
+    fn layered<'a>(&self, _mode: &Self::Mode, _jet: &'a Self::Jet) -> Option<&'a Series<f64>> {
+        None
+    }
+}
+
 /// A switched system that is a capsule, so that speed and energies can be told from its motion.
-pub trait Locomotion: Switched<f64, State = State<f64>> {
+///
+/// The coordinates of its field are r, y1, x2 and y2.
+pub trait Locomotion: Field<4, State = State<f64>> {
     /// The same capsule in numbers of another kind.
     type With<L: Lane<Mask = bool>>: Stroboscopic<L, 3, State = State<L>>;
     /// The capsule with these parameters under one law, whose drive starts at `phase` [rad].

@@ -1,9 +1,10 @@
 //! What a settled case is measured to be, over the cycles that are kept.
 
+use crate::flow::defect::{defect, greater};
 use crate::lane::Dual;
 use crate::model::{EventKind, Locomotion, Parameter, Parameters, State};
 
-use super::certificate::certify;
+use super::certificate::{SAME, certify};
 use super::matrix::Complex;
 use super::recurrence::{RESOLUTION, Settled, size};
 use super::wandering::{Wandering, wander};
@@ -14,6 +15,11 @@ use super::{
 
 /// An extremum this near to the stop, relative to the motion, is taken for one that touches it.
 const GRAZES: f64 = 1e-9;
+
+/// A defect of so many tolerances is none that the end of the series explains.
+const UNSOUND: f64 = 1e4;
+/// The defect of rounding alone, which no tolerance undercuts.
+const ROUNDING: f64 = 1e-14;
 
 /// What a case has been found to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,26 +46,31 @@ struct Verdict {
     cycles: u64,
     certificate: Certificate,
     exponent: Exponent,
+    /// The longest period that is excluded, with all shorter ones [cycles].
+    excluded: f64,
     /// Size of the motion that led there, beside which what is left of it may be nothing [m/s].
     size: f64,
 }
 
 impl Verdict {
-    /// A periodic orbit that Newton's method has closed.
+    /// A periodic orbit that Newton's method has closed, with its multipliers and the direction of the
+    /// family that it belongs to, if it does.
     fn periodic(
         period: u64,
-        multipliers: [Complex; 3],
+        (multipliers, neutral): ([Complex; 3], Option<Section>),
         parameters: &Parameters,
         size: f64,
     ) -> Self {
         let time = period as f64 * parameters.drive_period();
         let value = libm::log(multipliers[0].abs()) / time;
+        let proof = if neutral.is_some() { Proof::Neutral } else { Proof::Newton };
         Verdict {
             outcome: Outcome::Periodic,
             period,
             cycles: period,
-            certificate: Certificate { proof: Proof::Newton, residual: f64::NAN, multipliers },
+            certificate: Certificate { proof, residual: f64::NAN, multipliers, neutral },
             exponent: Exponent { value, uncertainty: 0.0 },
+            excluded: (period - 1) as f64,
             size,
         }
     }
@@ -89,8 +100,8 @@ pub(super) fn conclude<S: Locomotion>(
     let (cycles, end) = (trajectory.cycles, trajectory.state());
     match measured {
         Ok((verdict, measures, history)) => Orbit {
-            outcome: verdict.outcome,
-            period: verdict.period,
+            outcome: measures.outcome,
+            period: if measures.outcome == Outcome::Periodic { verdict.period } else { 0 },
             certificate: measures.certificate,
             cycles,
             outputs: measures.outputs,
@@ -123,20 +134,30 @@ fn judge<S: Locomotion>(
     protocol: &Protocol,
 ) -> Result<Verdict, Failure> {
     match found {
-        Found::Repeats(settled) => match certified(trajectory, case, settled, protocol) {
-            Some(verdict) => Ok(verdict),
-            None => judge(trajectory, case, Found::Wanders, protocol),
-        },
+        Found::Repeats(settled) => {
+            let section = trajectory.section();
+            match certified(trajectory, case, (&section, settled), protocol) {
+                Some(verdict) => Ok(verdict),
+                None => judge(trajectory, case, Found::Wanders, protocol),
+            }
+        }
         Found::Followed(wandering) => {
             trajectory.cycles += wandering.cycles;
-            Ok(Verdict {
-                outcome: wandering.outcome(),
+            let outcome = wandering.outcome();
+            // A period too long for the recurrence of sections, or one that is approached slowly.
+            let recurs = wandering.recurs.filter(|_| outcome != Outcome::Chaotic);
+            let periodic = recurs.and_then(|settled| {
+                certified(trajectory, case, (&wandering.last, settled), protocol)
+            });
+            Ok(periodic.unwrap_or_else(|| Verdict {
+                outcome,
                 period: 0,
                 cycles: protocol.measured_cycles,
                 certificate: Certificate::none(),
                 exponent: wandering.exponent,
+                excluded: wandering.excluded as f64,
                 size: 0.0,
-            })
+            }))
         }
         Found::Wanders => {
             let parameters = &case.parameters;
@@ -161,19 +182,20 @@ fn judge<S: Locomotion>(
 fn certified<S: Locomotion>(
     trajectory: &mut Trajectory<'_, S>,
     case: &Case,
-    settled: Settled,
+    (section, settled): (&Section, Settled),
     protocol: &Protocol,
 ) -> Option<Verdict> {
-    let repeats_after = settled.repeats_after as u64;
-    let section = trajectory.section();
-    let orbit = certify::<S>(case, &section, repeats_after, settled.size, protocol)?;
+    let orbit = certify::<S>(case, section, &settled, protocol)?;
     trajectory.leap(orbit.section);
     trajectory.cycles += orbit.cycles;
-    Some(Verdict::periodic(orbit.period, orbit.multipliers, &case.parameters, settled.size))
+    let linear = (orbit.multipliers, orbit.neutral);
+    Some(Verdict::periodic(orbit.period, linear, &case.parameters, settled.size))
 }
 
 /// What is measured over the kept cycles.
 struct Measures {
+    /// What the case is, as far as its steps can be trusted.
+    outcome: Outcome,
     outputs: Outputs,
     section: Vec<Section>,
     impacts: Vec<Impact>,
@@ -191,7 +213,7 @@ pub fn over_cycles<S: Locomotion>(
     let start = State { r, y1, x2: 0.0, y2 };
     let mut trajectory = Trajectory::new(system, start, parameters.drive_period(), tolerance);
     let protocol = Protocol { points: period as usize, ..Protocol::with_tolerance(tolerance) };
-    let verdict = Verdict::periodic(period, multipliers, parameters, 0.0);
+    let verdict = Verdict::periodic(period, (multipliers, None), parameters, 0.0);
     let measures = measure(&mut trajectory, parameters, &verdict, &protocol)?;
     Ok((measures.outputs, measures.section))
 }
@@ -208,14 +230,20 @@ fn measure<S: Locomotion>(
     let mut account = Account::new(parameters);
     let (mut section, mut impacts) = (Vec::new(), Vec::new());
     let x2 = trajectory.state().x2;
-    let mut speed: f64 = 0.0;
+    // The largest velocity at the section, and at any step.
+    let (mut speed, mut swing): (f64, f64) = (0.0, 0.0);
+    let mut largest_defect = 0.0;
+    let omega = parameters[Parameter::Omega];
     for _ in 0..cycles {
-        speed = speed.max(size(parameters[Parameter::Omega], &trajectory.section()));
+        speed = speed.max(size(omega, &trajectory.section()));
         if section.len() < protocol.points {
             section.push(trajectory.section());
         }
         trajectory.cycle(|step| {
             account.add(system, step);
+            largest_defect = greater(largest_defect, defect(system, step));
+            let [r, y1, _, y2] = system.coordinates(&step.jet).map(|series| series[0]);
+            swing = swing.max(size(omega, &[r, y1, y2]));
             let closes = system.event(step.event) == Some(EventKind::ContactClosed);
             if closes && impacts.len() < protocol.impact_points {
                 let State { y1, y2, .. } = system.at(&step.jet, step.length);
@@ -228,12 +256,24 @@ fn measure<S: Locomotion>(
     let resolved = RESOLUTION * protocol.recurrence * speed * parameters.drive_period();
     let moves = progression.abs() > resolved;
     let mut outputs = outputs(&account, parameters, progression, moves, cycles as f64);
-    let certificate = seal(verdict, &begins, &trajectory.section(), speed, &account, parameters);
+    let motion = swing.max(verdict.size);
+    let relative_defect = if largest_defect == 0.0 { 0.0 } else { largest_defect / motion };
+    let sealed = seal(verdict, &begins, &trajectory.section(), speed, &account, parameters);
+    // An orbit that Newton's method has closed with derivatives closes without them, too.
+    let closes = sealed.proof == Proof::None || sealed.residual <= SAME;
+    let is_sound = relative_defect <= UNSOUND * protocol.tolerance.max(ROUNDING) && closes;
+    let (outcome, certificate) = if is_sound {
+        (verdict.outcome, sealed)
+    } else {
+        (Outcome::Undecided, Certificate::none())
+    };
     outputs[Output::LyapunovExponent] = verdict.exponent.value;
     outputs[Output::LyapunovUncertainty] = verdict.exponent.uncertainty;
     outputs[Output::LargestMultiplier] = certificate.multipliers[0].abs();
-    outputs[Output::SectionResidual] = certificate.residual;
-    Ok(Measures { outputs, section, impacts, certificate })
+    outputs[Output::IntegrationDefect] = relative_defect;
+    outputs[Output::ExcludedPeriod] = if is_sound { verdict.excluded } else { f64::NAN };
+    outputs[Output::SectionResidual] = sealed.residual;
+    Ok(Measures { outcome, outputs, section, impacts, certificate })
 }
 
 /// The certificate with what the measured cycles say of it: how well they close, and whether the mass just
@@ -246,7 +286,7 @@ fn seal(
     account: &Account,
     parameters: &Parameters,
 ) -> Certificate {
-    let Certificate { proof, multipliers, .. } = verdict.certificate;
+    let Certificate { proof, multipliers, neutral, .. } = verdict.certificate;
     if proof == Proof::None {
         return verdict.certificate;
     }
@@ -255,7 +295,8 @@ fn seal(
     let gap = size(omega, &gap);
     let residual = if gap == 0.0 { 0.0 } else { gap / speed.max(verdict.size) };
     let touches = omega * account.touching_margin <= GRAZES * speed;
-    Certificate { proof: if touches { Proof::Grazing } else { proof }, residual, multipliers }
+    let proof = if touches { Proof::Grazing } else { proof };
+    Certificate { proof, residual, multipliers, neutral }
 }
 
 /// The outputs per cycle, from the sums over `cycles` and the `progression` per cycle [m], which is

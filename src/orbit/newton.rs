@@ -25,6 +25,8 @@ pub struct Closed<const D: usize> {
     pub jacobian: Matrix<D>,
     /// How far it is from where the search began, relative to the motion [-].
     pub moved: f64,
+    /// How far the image of the point where the search began is from that point, relative to the motion [-].
+    pub first_residual: f64,
     /// How far the true orbit may be: the next correction, relative to the motion [-].
     pub error: f64,
     /// Cycles followed in all.
@@ -59,20 +61,25 @@ where
     let mut point = *start;
     let mut best: Option<Closed<D>> = None;
     let mut followed = 0;
-    for _ in 0..=CORRECTIONS {
+    let mut first_residual = f64::INFINITY;
+    for correction in 0..=CORRECTIONS {
         let image = returned(system, seeded(&point), cycles, |_| ())?;
         followed += cycles.count;
         let jacobian = jacobian(&image);
         let image = values(&image);
         let gap: [f64; D] = std::array::from_fn(|i| image[i] - point[i]);
         let residual = relative(&gap, &scales, size);
+        if correction == 0 {
+            first_residual = residual;
+        }
         let Some(step) = solve(less_identity(&jacobian), gap.map(|x| -x)) else { break };
         let error = relative(&step, &scales, size);
         let before = best.map_or(f64::INFINITY, |best| best.residual);
         if residual < before {
             let away = std::array::from_fn(|i| point[i] - start[i]);
             let moved = relative(&away, &scales, size);
-            best = Some(Closed { point, residual, jacobian, moved, error, cycles: 0 });
+            best =
+                Some(Closed { point, residual, jacobian, moved, first_residual, error, cycles: 0 });
         }
         let away = std::array::from_fn(|i| point[i] + step[i] - start[i]);
         let leaves =

@@ -52,6 +52,8 @@ outputs! {
     LyapunovExponent "lyapunov_exponent" "1/s" "largest Lyapunov exponent";
     LyapunovUncertainty "lyapunov_uncertainty" "1/s" "standard error of the largest Lyapunov exponent";
     LargestMultiplier "largest_multiplier" "1" "largest magnitude of a Floquet multiplier of the period";
+    IntegrationDefect "integration_defect" "1" "largest defect of a step of the measured cycles, times its length and relative to the motion";
+    ExcludedPeriod "excluded_period" "1" "longest period in drive cycles that is excluded, with all shorter ones";
     SectionResidual "section_residual" "1" "how far the section is from repeating after the period, relative to the motion";
 }
 

@@ -22,6 +22,8 @@ const FADED: f64 = 1e-3;
 pub struct Settled {
     /// Cycles after which the section repeats to tolerance, the least such number: a period is proposed.
     pub repeats_after: usize,
+    /// How closely it repeats, relative to the size of the motion [-].
+    pub within: f64,
     /// Size of the motion lately, in the units of the section's scales [m/s].
     pub size: f64,
 }
@@ -113,7 +115,7 @@ impl Recurrence {
                 found = Some(k);
             }
         }
-        Some(Settled { repeats_after: found?, size: scale })
+        Some(Settled { repeats_after: found?, within: self.tolerance, size: scale })
     }
 
     fn converged(&self, k: usize, now: f64, scale: f64) -> bool {

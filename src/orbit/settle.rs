@@ -154,7 +154,8 @@ pub fn settle(
     }
 }
 
-fn settle_on<S: Locomotion>(system: &S, case: &Case, protocol: &Protocol) -> Orbit {
+/// Follows a capsule, given as its own `system`, as [`settle`] does.
+pub fn settle_on<S: Locomotion>(system: &S, case: &Case, protocol: &Protocol) -> Orbit {
     let Case { parameters, start, .. } = case;
     let mut trajectory =
         Trajectory::new(system, *start, parameters.drive_period(), protocol.tolerance);

@@ -6,6 +6,7 @@ use crate::model::{Capsule, Parameter, Parameters, Stroboscopic};
 
 use super::exponent::{Exponent, Stretching};
 use super::newton::relative;
+use super::recurrence::Settled;
 use super::trajectory::STEPS_PER_CYCLE;
 use super::{Outcome, Protocol, Reason, Section};
 
@@ -21,7 +22,7 @@ const REGULAR: f64 = 1e-6;
 /// A point that comes so near to an earlier one, relative to the motion, may be on its way to a period.
 const RECURS: f64 = 1e-5;
 /// Periods up to this are looked at for that.
-const LONGEST: usize = 256;
+const LONGEST: usize = 1024;
 
 /// A motion followed for many cycles with its linearised flow.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,8 +33,13 @@ pub struct Wandering {
     pub growth: f64,
     /// How far the averages over its two halves differ, relative to the motion [-].
     pub irregularity: f64,
-    /// How near its last point is to an earlier one, relative to the motion [-].
-    pub nearest: f64,
+    /// The number of cycles after which its last point recurs, the least such number, if it does: a period
+    /// is proposed.
+    pub recurs: Option<Settled>,
+    /// No shorter period is left: the last point is away from all those within so many cycles before it.
+    pub excluded: usize,
+    /// Its last point.
+    pub last: Section,
     /// Cycles followed.
     pub cycles: u64,
 }
@@ -50,7 +56,7 @@ impl Wandering {
             return Outcome::Chaotic;
         }
         let regular = self.growth.abs() <= GROWTH && self.irregularity <= REGULAR;
-        if regular && self.nearest > RECURS { Outcome::QuasiPeriodic } else { Outcome::Undecided }
+        if regular && self.recurs.is_none() { Outcome::QuasiPeriodic } else { Outcome::Undecided }
     }
 }
 
@@ -208,11 +214,15 @@ impl Wanderer {
         let size =
             self.points.iter().map(|point| relative(point, &scales, 1.0)).fold(0.0, f64::max);
         let [exponent] = self.stretching.exponents(drive_period);
+        let recurs = recurrence(&self.points, &scales, size);
+        let longest = LONGEST.min(self.points.len().saturating_sub(1));
         Ok(Wandering {
             exponent,
             growth: self.stretching.total(0),
             irregularity: irregularity(&self.points, &scales, size),
-            nearest: nearest(&self.points, &scales, size),
+            excluded: recurs.map_or(longest, |recurs| recurs.repeats_after - 1),
+            recurs,
+            last: self.points.last().copied().unwrap_or_default(),
             cycles: self.points.len() as u64,
         })
     }
@@ -243,10 +253,12 @@ fn smooth_mean(points: &[Section]) -> Section {
     sum.map(|sum| sum / weights)
 }
 
-/// The least distance of the last point from those shortly before it, relative to `size`.
-fn nearest(points: &[Section], scales: &Section, size: f64) -> f64 {
-    let Some((last, before)) = points.split_last() else { return f64::NAN };
+/// The latest return of the last point to one before it, relative to `size`; none within [`LONGEST`] cycles.
+fn recurrence(points: &[Section], scales: &Section, size: f64) -> Option<Settled> {
+    let (last, before) = points.split_last()?;
     let distance =
         |point: &Section| relative(&std::array::from_fn(|i| point[i] - last[i]), scales, size);
-    before.iter().rev().take(LONGEST).map(distance).fold(f64::INFINITY, f64::min)
+    let distances = before.iter().rev().take(LONGEST).map(distance);
+    let (cycles, within) = (1..).zip(distances).find(|&(_, distance)| distance <= RECURS)?;
+    Some(Settled { repeats_after: cycles, within, size })
 }

@@ -285,6 +285,21 @@ fn add_certificates(dataset: &mut Dataset, table: &Table<'_>) {
         ("multiplier_imag", "1", "imaginary part of a Floquet multiplier", of(|m| m.im)),
     ];
     table.add_rows(dataset, "multiplier", rows);
+    let along = |i: usize| {
+        table.reals(move |orbit| orbit.certificate.neutral.map_or(f64::NAN, |along| along[i]))
+    };
+    let directions = [
+        (
+            "neutral_r",
+            "part of omega r in the direction of the family of a neutral orbit",
+            along(0),
+        ),
+        ("neutral_y1", "part of y1 in the direction of the family of a neutral orbit", along(1)),
+        ("neutral_y2", "part of y2 in the direction of the family of a neutral orbit", along(2)),
+    ];
+    for (name, long_name, values) in directions {
+        dataset.variables.insert(name.to_owned(), table.variable("1", long_name, values));
+    }
 }
 
 fn add_section(dataset: &mut Dataset, table: &Table<'_>) {

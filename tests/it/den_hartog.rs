@@ -4,20 +4,22 @@ use std::f64::consts::PI;
 
 use capsulemap::lane::elementary::{not_finite, sin_cos};
 use capsulemap::lane::{Dual, Lane, ORDER, Series, series};
-use capsulemap::model::{Stroboscopic, Switched, Zeros};
+use capsulemap::model::{Field, Stroboscopic, Switched, Zeros};
 
 use super::differences::followed;
 use super::oscillators::{Point, PointJet, repeated};
 
 /// x'' + x + f sign(x') = cos(wt): a mass on a spring under a force, with Coulomb friction.
 #[derive(Debug, Clone, Copy)]
-struct DryFriction<L> {
-    omega: L,
-    friction: L,
+pub struct DryFriction<L> {
+    /// Frequency of the drive, w.
+    pub omega: L,
+    /// Coulomb friction, f.
+    pub friction: L,
 }
 
 /// The series of a step, and of what the spring leaves of the drive, which friction holds at rest.
-struct DryJet<L> {
+pub struct DryJet<L> {
     motion: PointJet<L>,
     push: Series<L>,
 }
@@ -79,6 +81,10 @@ impl<L: Lane<Mask = bool>> Switched<L> for DryFriction<L> {
         [&jet.push, &jet.motion.v]
     }
 
+    fn step_bound(&self, _mode: &i8, _jet: &DryJet<L>, length: L::Plain, _: f64) -> L::Plain {
+        length
+    }
+
     fn watched(&self, which: usize, mode: &i8) -> bool {
         which == 0 || *mode == 0
     }
@@ -122,6 +128,22 @@ impl<L: Lane<Mask = bool>> Switched<L> for DryFriction<L> {
 
     fn lost(&self, state: &Point<L>) -> bool {
         not_finite(state.x + state.v)
+    }
+}
+
+impl Field<2> for DryFriction<f64> {
+    fn coordinates<'a>(&self, jet: &'a DryJet<f64>) -> [&'a Series<f64>; 2] {
+        [&jet.motion.x, &jet.motion.v]
+    }
+
+    fn rates(&self, mode: &i8, time: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
+        let friction = f64::from(*mode) * self.friction;
+        let acceleration = libm::cos(self.omega * time) - x - friction;
+        if *mode == 0 { [0.0, 0.0] } else { [v, acceleration] }
+    }
+
+    fn weights(&self) -> [f64; 2] {
+        [self.omega, 1.0]
     }
 }
 

@@ -1,17 +1,71 @@
 //! Cases drawn at random over everything that users vary, and all of them settled side by side.
 
 use capsulemap::lane::Instructions;
-use capsulemap::model::{Parameter, Parameters, State};
+use capsulemap::model::{Parameter, Parameters, Resistance, State};
 use capsulemap::orbit::{Case, Orbit, Protocol, Queue, settle_side_by_side};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
+/// Uniform random numbers.
+struct Random(ChaCha8Rng);
+
+impl Random {
+    fn new(seed: u64) -> Self {
+        Random(ChaCha8Rng::seed_from_u64(seed))
+    }
+
+    fn uniform(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Uniform in the logarithm.
+    fn logarithmic(&mut self, low: f64, high: f64) -> f64 {
+        libm::exp(self.uniform(libm::log(low), libm::log(high)))
+    }
+
+    /// Uniform, but for one draw in sixteen that is the lower bound itself.
+    fn or_least(&mut self, low: f64, high: f64) -> f64 {
+        if self.uniform(0.0, 16.0) < 1.0 { low } else { self.uniform(low, high) }
+    }
+}
+
+/// Parameters, phases and starts over the whole box that users may set, under one law of resistance; its
+/// sides, such as no friction, are drawn too.
+pub fn wide(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
+    let mut random = Random::new(seed);
+    let mut draw = || {
+        let mut parameters = Parameters::with(&[
+            (Parameter::Omega, random.logarithmic(1.0, 300.0)),
+            (Parameter::Pd, random.or_least(0.0, 15.0)),
+            (Parameter::K2, random.logarithmic(1e2, 1e6)),
+            (Parameter::Delta, random.or_least(0.0, 1e-2)),
+            (Parameter::C, random.logarithmic(0.05, 10.0)),
+            (Parameter::MuS, random.or_least(0.0, 1.0)),
+            (Parameter::MuD, random.or_least(0.0, 1.0)),
+            (Parameter::M2, random.logarithmic(0.05, 3.0)),
+            (Parameter::Vs, random.logarithmic(1e-4, 5.0)),
+            (Parameter::C1, random.logarithmic(1e-2, 10.0)),
+            (Parameter::C2, random.or_least(0.0, 30.0)),
+        ]);
+        parameters.resistance = law;
+        let phase = random.uniform(0.0, 2.0 * std::f64::consts::PI);
+        let rests = random.uniform(0.0, 1.0) < 0.25;
+        let y2 = random.uniform(-1.0, 1.0);
+        let start = State {
+            r: random.uniform(-1e-2, 1e-2),
+            y1: random.uniform(-1.0, 1.0),
+            x2: 0.0,
+            y2: if rests { 0.0 } else { y2 },
+        };
+        Case { parameters, start, phase }
+    };
+    (0..count).map(|_| draw()).collect()
+}
+
 /// Parameters and starts over the ranges in which the motion is rich.
 pub fn cases(count: usize, seed: u64) -> Vec<Case> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut uniform = |low: f64, high: f64| {
-        low + (high - low) * (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = Random::new(seed);
+    let mut uniform = |low, high| random.uniform(low, high);
     let mut draw = || {
         let mu_s = uniform(0.02, 0.66);
         let parameters = Parameters::with(&[

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use capsulemap::lane::{
     Dual, Instructions, Lane, Mask, ORDER, Series, elementary::sin_cos, series,
 };
-use capsulemap::model::{Capsule, Parameter, State, Stroboscopic, Switched, Zeros};
+use capsulemap::model::{Capsule, Field, Parameter, State, Stroboscopic, Switched, Zeros};
 use capsulemap::orbit::exponent::stretching;
 use capsulemap::orbit::return_map::Cycles;
 use capsulemap::orbit::wandering::{Wanders, irregularity, wander_side_by_side};
@@ -14,15 +14,17 @@ use capsulemap::orbit::{Case, Outcome, Output, Protocol, Section, Trajectory, se
 use super::draws;
 
 /// Duffing's oscillator with two wells, x'' = 0.3 cos t + x - x^3 - 0.2 x'; it has no modes and no guards.
-struct Duffing;
+pub struct Duffing;
 
+/// Its place and velocity.
 #[derive(Clone, Copy)]
-struct Point<L> {
+pub struct Point<L> {
     x: L,
     v: L,
 }
 
-struct Jet<L> {
+/// Their series over a step.
+pub struct Jet<L> {
     x: Series<L>,
     v: Series<L>,
     square: Series<L>,
@@ -60,6 +62,10 @@ impl<L: Lane> Switched<L> for Duffing {
         [&jet.x, &jet.v]
     }
 
+    fn step_bound(&self, _mode: &(), _jet: &Jet<L>, length: L::Plain, _: f64) -> L::Plain {
+        length
+    }
+
     fn watched(&self, _which: usize, _mode: &()) -> L::Mask {
         L::Mask::splat(false)
     }
@@ -95,6 +101,20 @@ impl<L: Lane> Stroboscopic<L, 2> for Duffing {
         Point { x, v }
     }
     fn scales(&self) -> [f64; 2] {
+        [1.0, 1.0]
+    }
+}
+
+impl Field<2> for Duffing {
+    fn coordinates<'a>(&self, jet: &'a Jet<f64>) -> [&'a Series<f64>; 2] {
+        [&jet.x, &jet.v]
+    }
+
+    fn rates(&self, _mode: &(), time: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
+        [v, 0.3 * libm::cos(time) + x - x * x * x - 0.2 * v]
+    }
+
+    fn weights(&self) -> [f64; 2] {
         [1.0, 1.0]
     }
 }

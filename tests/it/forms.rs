@@ -14,16 +14,31 @@ pub fn simulate(
     cycles: u64,
     tolerance: f64,
 ) -> Simulation {
+    simulate_by(&[Instructions::widest()], parameters, phase, start, cycles, tolerance)
+}
+
+/// The same, compared in the lanes of all these instructions.
+pub fn simulate_by(
+    instructions: &[Instructions],
+    parameters: &Parameters,
+    phase: f64,
+    start: State<f64>,
+    cycles: u64,
+    tolerance: f64,
+) -> Simulation {
     let alone = orbit::simulate(parameters, phase, start, cycles, tolerance);
     if parameters.switching == Switching::AsPrinted {
         return alone;
     }
     let case = Case { parameters: parameters.clone(), start, phase };
-    let others = Instructions::widest().run(Among { case: &case, cycles, tolerance });
     let bits = |state: [f64; 4]| state.map(f64::to_bits);
     let states: Vec<_> = alone.section.iter().map(|s| bits([s.r, s.y1, s.x2, s.y2])).collect();
     let events: Vec<_> = alone.events.iter().map(|event| (event.t.to_bits(), event.kind)).collect();
-    assert!(others == (states, events), "in lanes another motion: {case:?}");
+    let expected = (states, events);
+    for instructions in instructions {
+        let others = instructions.run(Among { case: &case, cycles, tolerance });
+        assert!(others == expected, "{} lanes, another motion: {case:?}", instructions.name());
+    }
     alone
 }
 

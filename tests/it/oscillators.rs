@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use capsulemap::flow::{Breakdown, Motion, Step};
 use capsulemap::lane::elementary::{not_finite, sin_cos};
 use capsulemap::lane::{Dual, Lane, ORDER, Series, series};
-use capsulemap::model::{Stroboscopic, Switched, Zeros};
+use capsulemap::model::{Field, Stroboscopic, Switched, Zeros};
 use capsulemap::orbit::matrix::{Matrix, solve};
 use capsulemap::orbit::return_map::{Cycles, jacobian, returned, seeded, values};
 
@@ -91,6 +91,10 @@ impl<L: Lane<Mask = bool>> Switched<L> for Impact<L> {
         [&jet.x, &jet.v]
     }
 
+    fn step_bound(&self, _mode: &(), _jet: &PointJet<L>, length: L::Plain, _: f64) -> L::Plain {
+        length
+    }
+
     fn watched(&self, _which: usize, _mode: &()) -> bool {
         true
     }
@@ -137,6 +141,21 @@ impl<L: Lane<Mask = bool>> Stroboscopic<L, 2> for Impact<L> {
     /// A displacement x counts as the velocity w x.
     fn scales(&self) -> [f64; 2] {
         [self.omega.lane(0), 1.0]
+    }
+}
+
+impl Field<2> for Impact<f64> {
+    fn coordinates<'a>(&self, jet: &'a PointJet<f64>) -> [&'a Series<f64>; 2] {
+        [&jet.x, &jet.v]
+    }
+
+    fn rates(&self, _mode: &(), time: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
+        let drive = self.drive * libm::cos(self.omega * time);
+        [v, drive + self.gravity - self.k * x - self.c * v]
+    }
+
+    fn weights(&self) -> [f64; 2] {
+        [self.omega, 1.0]
     }
 }
 

@@ -1,6 +1,8 @@
-//! The thirty reference trajectories, computed in 113-bit arithmetic by another code.
+//! Reference trajectories, computed in 113-bit arithmetic by another code: thirty capsules like the paper's, and
+//! 44 over a wide box of parameters.
 
-use super::forms::simulate;
+use super::forms::{simulate, simulate_by};
+use capsulemap::lane::Instructions;
 use capsulemap::model::{Parameter, Parameters, State};
 use serde_json::Value;
 
@@ -67,4 +69,50 @@ fn every_reference_trajectory_is_reproduced() {
         }
     }
     println!("worst: {worst_state:.1e} of the scales, {worst_event:.1e} s");
+}
+
+/// Agreement asked for, relative to the velocity scale (displacements: to that over omega).
+const WIDE: f64 = 2e-9;
+
+#[test]
+fn every_reference_trajectory_over_the_wide_box_is_reproduced() {
+    let text = include_str!("../data/wide.json");
+    let file: Value = serde_json::from_str(text).expect("the reference file is JSON");
+    let cases = file["cases"].as_array().expect("cases");
+    assert_eq!(cases.len(), 44);
+    let instructions: Vec<_> = Instructions::available().collect();
+    let mut errors = Vec::new();
+    for case in cases {
+        let of = |symbol| number(&case["parameters"], symbol);
+        let mut parameters = Parameters::default();
+        for &parameter in Parameter::ALL {
+            if !matches!(parameter, Parameter::C1 | Parameter::C2) {
+                parameters[parameter] = of(parameter.symbol());
+            }
+        }
+        let start = |key| number(&case["start"], key);
+        let start = State { r: start("r"), y1: start("y1"), x2: start("x2"), y2: start("y2") };
+        let cycles = case["cycles"].as_u64().expect("cycles");
+        let simulation = simulate_by(&instructions, &parameters, of("phase"), start, cycles, 1e-12);
+        assert!(simulation.failure.is_none(), "case {}", case["id"]);
+        let velocity = number(case, "velocity_scale");
+        let length = velocity / parameters[Parameter::Omega];
+        let mut worst = 0.0_f64;
+        for (n, expected) in case["section"].as_object().expect("sections") {
+            let sample = &simulation.section[n.parse::<usize>().expect("a number of cycles")];
+            for (key, value, scale) in [
+                ("r", sample.r, length),
+                ("y1", sample.y1, velocity),
+                ("x2", sample.x2, length),
+                ("y2", sample.y2, velocity),
+            ] {
+                worst = worst.max((value - number(expected, key)).abs() / scale);
+            }
+        }
+        errors.push((worst, case["id"].to_string()));
+    }
+    errors.sort_by(|a, b| b.0.total_cmp(&a.0));
+    println!("worst: {:?}", &errors[..6]);
+    let wrong: Vec<_> = errors.iter().filter(|(error, _)| !(*error <= WIDE)).collect();
+    assert!(wrong.is_empty(), "{wrong:?}");
 }

@@ -1,0 +1,147 @@
+//! What every system owes the integrator: its steps satisfy its equations, and one that hides a scale from the
+//! step control is found out.
+
+use std::f64::consts::PI;
+
+use capsulemap::flow::defect::{defect, greater};
+use capsulemap::flow::{Motion, Step};
+use capsulemap::model::{
+    Capsule, Field, Parameter, Parameters, PrintedCapsule, Resistance, State, Stroboscopic,
+};
+use capsulemap::orbit::{Case, Outcome, Output, Proof, Protocol, settle_on};
+
+use super::den_hartog::DryFriction;
+use super::draws;
+use super::exponents::Duffing;
+use super::forms::settle;
+use super::oscillators::Impact;
+use super::unbounded::Unbounded;
+
+const TOLERANCE: f64 = 1e-12;
+/// The defect of a step is that of the terms left out: of the order of the tolerance.
+const SOUND: f64 = 1e4 * TOLERANCE;
+
+/// The largest defect of a step over so many cycles, relative to the largest coordinate met.
+fn largest_defect<S, const D: usize>(system: &S, start: S::State, period: f64, cycles: u32) -> f64
+where
+    S: Field<D>,
+{
+    let mut motion = Motion::new(system, 0.0, start);
+    let mut step = Step::default();
+    let (mut largest, mut size, mut done) = (0.0, 0.0_f64, 0);
+    while done < cycles {
+        motion.step(system, period, TOLERANCE, &mut step);
+        assert_eq!(motion.breakdown(system, 0), None);
+        largest = greater(largest, defect(system, &step));
+        for (series, weight) in system.coordinates(&step.jet).iter().zip(system.weights()) {
+            size = size.max((weight * series[0]).abs());
+        }
+        if motion.time >= period {
+            motion.begin_cycle(true);
+            done += 1;
+        }
+    }
+    if largest == 0.0 { 0.0 } else { largest / size }
+}
+
+#[test]
+fn the_steps_of_every_system_satisfy_its_equations() {
+    let impact = Impact {
+        k: 1.0,
+        c: 0.05,
+        drive: 1.0,
+        omega: 2.6,
+        gravity: 0.0,
+        stop: 0.1,
+        restitution: 0.8,
+    };
+    let start = Impact::<f64>::state([0.0, 0.3]);
+    let found = largest_defect(&impact, start, 2.0 * PI / 2.6, 200);
+    assert!(found < 1e-10, "rigid impact: {found:e}");
+
+    let dry = DryFriction { omega: 0.45, friction: 0.4 };
+    let start = DryFriction::<f64>::state([0.1, 0.0]);
+    let found = largest_defect(&dry, start, 2.0 * PI / 0.45, 50);
+    assert!(found < 1e-10, "dry friction: {found:e}");
+
+    let start = <Duffing as Stroboscopic<f64, 2>>::state([0.1, 0.1]);
+    let found = largest_defect(&Duffing, start, 2.0 * PI, 200);
+    assert!(found < 1e-10, "Duffing: {found:e}");
+}
+
+#[test]
+fn the_steps_of_the_capsule_satisfy_its_equations_over_the_whole_box() {
+    for (_, law) in Resistance::NAMES {
+        for case in draws::wide(150, 12, law) {
+            let Case { parameters, start, phase } = &case;
+            let period = parameters.drive_period();
+            let capsule = Capsule::single(parameters, *phase);
+            let found = largest_defect(&capsule, *start, period, 5);
+            assert!(found < SOUND, "{found:e}: {case:?}");
+            // As printed a capsule without static friction would switch at F = 0 without end.
+            if parameters.drag().static_limit > 0.0 {
+                let printed = PrintedCapsule::single(parameters, *phase);
+                let found = largest_defect(&printed, *start, period, 5);
+                assert!(found < SOUND, "as printed {found:e}: {case:?}");
+            }
+        }
+    }
+}
+
+/// A capsule whose steps, paced by its series alone, jump over the layer around rest.
+fn example() -> Case {
+    let parameters = Parameters::with(&[
+        (Parameter::Omega, 20.0),
+        (Parameter::Pd, 8.0),
+        (Parameter::K2, 2420.0),
+        (Parameter::Delta, 3.5e-3),
+        (Parameter::M2, 0.2),
+        (Parameter::MuS, 0.33),
+        (Parameter::MuD, 0.165),
+        (Parameter::Vs, 0.002),
+    ]);
+    Case { parameters, start: State::default(), phase: 0.0 }
+}
+
+#[test]
+fn a_layer_that_steps_jump_over_is_refused_a_certificate() {
+    let case = example();
+    let Case { parameters, start, phase } = &case;
+    let protocol = Protocol::default();
+    let blind = Unbounded::single(parameters, *phase);
+    let orbit = settle_on(&blind, &case, &protocol);
+    // Its energies balance and its section repeats: the series agree with themselves.
+    assert!(orbit.outputs[Output::EnergyResidual].abs() < 1e-12);
+    assert!(orbit.outputs[Output::SectionResidual] < 1e-11);
+    assert!(orbit.outputs[Output::ProgressionSpeed] > 1e-4);
+    assert!(orbit.outputs[Output::IntegrationDefect] > 1e-3);
+    assert_eq!((orbit.outcome, orbit.period), (Outcome::Undecided, 0));
+    assert_eq!(orbit.certificate.proof, Proof::None);
+
+    let orbit = settle(parameters, *phase, *start, &protocol);
+    assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+    assert!(orbit.outputs[Output::IntegrationDefect] < 1e-10);
+    // The limit of the reference in 80 bits after 300 cycles (own.cpp, tolerance 1e-17).
+    let speed = orbit.outputs[Output::ProgressionSpeed];
+    assert!((speed + 2.283_396_033_344_7e-4).abs() < 1e-12, "{speed:e}");
+}
+
+#[test]
+fn no_blind_step_is_certified_over_the_whole_box() {
+    let protocol = Protocol { exponent_cycles: 0, measured_cycles: 1, ..Protocol::default() };
+    let (mut wrong, mut refused) = (0, 0);
+    for case in draws::wide(120, 5, Resistance::CoulombStribeck) {
+        let Case { parameters, start, phase } = &case;
+        let seeing = capsulemap::orbit::settle(parameters, *phase, *start, &protocol);
+        let blind = settle_on(&Unbounded::single(parameters, *phase), &case, &protocol);
+        let [right, found] = [&seeing, &blind].map(|it| it.outputs[Output::ProgressionSpeed]);
+        let size = seeing.section.iter().flatten().fold(0.0_f64, |size, x| size.max(x.abs()));
+        let is_isolated = seeing.certificate.proof == Proof::Newton;
+        if is_isolated && (found - right).abs() > 1e-6 * size {
+            wrong += 1;
+            refused += usize::from(blind.certificate.proof == Proof::None);
+        }
+    }
+    println!("{wrong} wrong speeds, {refused} of them refused");
+    assert!(wrong >= 5 && refused == wrong, "{refused} of {wrong}");
+}

@@ -1,0 +1,140 @@
+//! The capsule without the bound on its steps: a system that breaks the contract, for the checks to find.
+
+use capsulemap::lane::{Lane, Series};
+use capsulemap::model::{
+    Capsule, Contact, Field, Jet, Locomotion, Parameter, Parameters, Resistance, State, StickSlip,
+    Stroboscopic, Switched, Zeros,
+};
+
+/// A capsule whose steps are paced by its series alone, so that they can jump over the layer around rest.
+#[derive(Debug, Clone, Copy)]
+pub struct Unbounded<L>(Capsule<L>);
+
+impl Unbounded<f64> {
+    /// One capsule whose drive starts at `phase` [rad].
+    pub fn single(parameters: &Parameters, phase: f64) -> Self {
+        Unbounded(Capsule::single(parameters, phase))
+    }
+}
+
+impl<L: Lane> Switched<L> for Unbounded<L> {
+    type State = State<L>;
+    type Mode = <Capsule<L> as Switched<L>>::Mode;
+    type Jet = Jet<L>;
+
+    const GUARDS: usize = <Capsule<L> as Switched<L>>::GUARDS;
+
+    fn start(&self, time: L, state: &mut State<L>) -> Self::Mode {
+        self.0.start(time, state)
+    }
+
+    fn expand(&self, mode: &Self::Mode, time: L, state: &State<L>, jet: &mut Jet<L>) {
+        self.0.expand(mode, time, state, jet);
+    }
+
+    fn pace<'a>(&self, jet: &'a Jet<L>) -> [&'a Series<L>; 2] {
+        self.0.pace(jet)
+    }
+
+    fn step_bound(
+        &self,
+        _mode: &Self::Mode,
+        _jet: &Jet<L>,
+        length: L::Plain,
+        _tolerance: f64,
+    ) -> L::Plain {
+        length
+    }
+
+    fn watched(&self, which: usize, mode: &Self::Mode) -> L::Mask {
+        self.0.watched(which, mode)
+    }
+
+    fn guard(&self, which: usize, mode: &Self::Mode, jet: &Jet<L>, guard: &mut Series<L>) {
+        self.0.guard(which, mode, jet, guard);
+    }
+
+    fn at(&self, jet: &Jet<L>, h: L) -> State<L> {
+        self.0.at(jet, h)
+    }
+
+    fn switch(
+        &self,
+        which: usize,
+        due: L::Mask,
+        mode: &mut Self::Mode,
+        state: &mut State<L>,
+        zeros: &mut Zeros<L>,
+        time: L,
+    ) -> L {
+        self.0.switch(which, due, mode, state, zeros, time)
+    }
+
+    fn lost(&self, state: &State<L>) -> L::Mask {
+        self.0.lost(state)
+    }
+}
+
+impl<L: Lane> Stroboscopic<L, 3> for Unbounded<L> {
+    fn point(state: &State<L>) -> [L; 3] {
+        Capsule::point(state)
+    }
+
+    fn state(point: [L; 3]) -> State<L> {
+        Capsule::state(point)
+    }
+
+    fn scales(&self) -> [f64; 3] {
+        self.0.scales()
+    }
+}
+
+impl Field<4> for Unbounded<f64> {
+    fn coordinates<'a>(&self, jet: &'a Jet<f64>) -> [&'a Series<f64>; 4] {
+        self.0.coordinates(jet)
+    }
+
+    fn rates(&self, mode: &Self::Mode, time: f64, coordinates: &[f64; 4]) -> [f64; 4] {
+        self.0.rates(mode, time, coordinates)
+    }
+
+    fn weights(&self) -> [f64; 4] {
+        self.0.weights()
+    }
+
+    fn layered<'a>(&self, mode: &Self::Mode, jet: &'a Jet<f64>) -> Option<&'a Series<f64>> {
+        self.0.layered(mode, jet)
+    }
+}
+
+impl Locomotion for Unbounded<f64> {
+    type With<L: Lane<Mask = bool>> = Unbounded<L>;
+
+    fn with<L: Lane<Mask = bool>>(
+        of: impl Fn(Parameter) -> L,
+        law: Resistance,
+        phase: f64,
+    ) -> Unbounded<L> {
+        Unbounded(Capsule::new(of, law, phase))
+    }
+
+    fn motion<'a>(&self, jet: &'a Jet<f64>) -> &'a Jet<f64> {
+        jet
+    }
+
+    fn friction(&self, mode: &Self::Mode, jet: &Jet<f64>) -> Series<f64> {
+        self.0.friction(mode, jet)
+    }
+
+    fn slip_rate(&self, mode: &Self::Mode, jet: &Jet<f64>) -> Series<f64> {
+        self.0.slip_rate(mode, jet)
+    }
+
+    fn contact(&self, mode: &Self::Mode) -> Contact {
+        self.0.contact(mode)
+    }
+
+    fn stick_slip(&self, mode: &Self::Mode) -> StickSlip {
+        self.0.stick_slip(mode)
+    }
+}
