@@ -69,7 +69,8 @@ pub struct Protocol {
     pub recurrence: f64,
     /// Cycles after which a case that has not settled is undecided.
     pub max_cycles: u64,
-    /// Longest period looked for [cycles].
+    /// Longest period looked for while the motion settles [cycles]; longer ones, up to 1024, are looked for
+    /// where it has not settled within the budget of cycles.
     pub max_period: usize,
     /// Cycles over which a case that does not repeat is measured.
     pub measured_cycles: u64,

@@ -10,24 +10,32 @@ use proptest::test_runner::RngSeed;
 
 use super::forms::{settle, simulate};
 
-/// Parameters over the ranges that the program is used in.
+/// Parameters over the whole box that users may set; where a range spans decades, uniform in the logarithm.
 fn parameters() -> impl Strategy<Value = Parameters> {
-    let ranges = (5.0..200.0, 0.0..10.0, 0.0..1e5, 0.0..6e-3, 0.0..1.0, 0.01..10.0, 0.0..1.2);
-    ranges.prop_map(|(omega, p_d, k2, delta, mu_d, v_s, mu_s)| {
-        Parameters::with(&[
-            (Parameter::Omega, omega),
-            (Parameter::Pd, p_d),
-            (Parameter::K2, k2),
-            (Parameter::Delta, delta),
-            (Parameter::MuD, mu_d),
-            (Parameter::Vs, v_s),
-            (Parameter::MuS, mu_s),
-        ])
-    })
+    let decades = |low: f64, high: f64| (low.log10()..high.log10()).prop_map(|x| 10_f64.powf(x));
+    let drive = (decades(1.0, 300.0), 0.0..15.0);
+    let stop = (decades(1e2, 1e6), 0.0..1e-2);
+    let friction = (0.0..1.0, 0.0..1.0, decades(1e-4, 5.0));
+    let rest = (decades(0.05, 10.0), decades(0.05, 3.0));
+    (drive, stop, friction, rest).prop_map(
+        |((omega, p_d), (k2, delta), (mu_s, mu_d, v_s), (c, m2))| {
+            Parameters::with(&[
+                (Parameter::Omega, omega),
+                (Parameter::Pd, p_d),
+                (Parameter::K2, k2),
+                (Parameter::Delta, delta),
+                (Parameter::MuS, mu_s),
+                (Parameter::MuD, mu_d),
+                (Parameter::Vs, v_s),
+                (Parameter::C, c),
+                (Parameter::M2, m2),
+            ])
+        },
+    )
 }
 
 fn start() -> impl Strategy<Value = State<f64>> {
-    let moving = (-5e-3..5e-3, -0.3..0.3, -0.2..0.2);
+    let moving = (-1e-2..1e-2, -1.0..1.0, -1.0..1.0);
     prop_oneof![Just(State::default()), moving.prop_map(|(r, y1, y2)| State { r, y1, x2: 0.0, y2 }),]
 }
 
@@ -57,8 +65,15 @@ proptest! {
         let mut trajectory = Trajectory::new(&system, start, p.drive_period(), 1e-12);
         let mut account = Account::new(&p);
         let mut largest = stored_energy(&p, &start);
+        let momentum = |state: &State<f64>| p[Parameter::M1] * state.y1 + p[Parameter::M2] * state.y2;
+        // Each step may be off by some tolerances of the momentum and the energy that it begins with.
+        let (mut allowed, mut allowed_energy) = (0.0, 0.0);
         for _ in 0..20 {
-            trajectory.cycle(|step| account.add(&system, step)).expect("it can be followed");
+            trajectory.cycle(|step| {
+                account.add(&system, step);
+                allowed += 1e-11 * momentum(&step.jet.state(0.0)).abs();
+                allowed_energy += 1e-12 * stored_energy(&p, &step.jet.state(0.0));
+            }).expect("it can be followed");
             largest = largest.max(stored_energy(&p, &trajectory.state()));
         }
         let end = trajectory.state();
@@ -67,14 +82,17 @@ proptest! {
         let spent = energies.friction_loss + energies.damper_loss;
         let turnover = energies.work_absolute + spent + largest;
         let energy = energies.work_net - spent - stored;
-        prop_assert!(energy.abs() <= 1e-11 * turnover, "energy {energy:e} of {turnover:e}");
+        prop_assert!(
+            energy.abs() <= 1e-11 * turnover + allowed_energy,
+            "energy {energy:e} of {turnover:e}, {allowed_energy:e}"
+        );
         prop_assert!(energies.friction_loss >= 0.0 && energies.damper_loss >= 0.0);
         prop_assert!(energies.work_positive >= energies.work_net.max(0.0) - 1e-15);
         // The drive's impulse over whole cycles is zero.
-        let momentum = |state: &State<f64>| p[Parameter::M1] * state.y1 + p[Parameter::M2] * state.y2;
         let lost = momentum(&start) - momentum(&end) - account.friction_impulse;
         let force = p[Parameter::Pd] + p[Parameter::MuS].max(2.0 * p[Parameter::MuD]) * p.normal_load();
-        prop_assert!(lost.abs() <= 1e-11 * (force * account.time), "momentum {lost:e}");
+        let rounding = 1e-11 * (force * account.time);
+        prop_assert!(lost.abs() <= rounding + allowed, "momentum {lost:e} of {rounding:e}, {allowed:e}");
     }
 
     #[test]
@@ -113,8 +131,8 @@ proptest! {
         let there = simulate(&p, 0.0, State { x2: shift, ..start }, 10, 1e-12);
         prop_assert_eq!(&here.events, &there.events);
         for (a, b) in here.section.iter().zip(&there.section) {
-            // Each of the up to some thousand steps rounds x2 once, by 1e-16 at most.
-            prop_assert!((b.x2 - a.x2 - shift).abs() <= 1e-13);
+            // Each of the up to some ten thousand steps rounds x2 once, by 1e-16 of it at most.
+            prop_assert!((b.x2 - a.x2 - shift).abs() <= 1e-12 * (1.0 + a.x2.abs()));
             let back = capsulemap::orbit::Sample { x2: a.x2, ..*b };
             prop_assert_eq!(*a, back);
         }
@@ -140,13 +158,20 @@ proptest! {
         let simulation = simulate(&p, share * turn, State::default(), 1, 1e-12);
         let system = Capsule::single(&p, share * turn);
         let late = Capsule::single(&p, share * turn + turn);
-        let follow = |system: &Capsule<f64>| {
-            let mut trajectory = Trajectory::new(system, State::default(), p.drive_period(), 1e-12);
+        let follow = |system: &Capsule<f64>, tolerance: f64| {
+            let mut trajectory =
+                Trajectory::new(system, State::default(), p.drive_period(), tolerance);
             trajectory.cycle(|_| ()).expect("it can be followed");
             trajectory.state()
         };
-        let (a, b) = (follow(&system), follow(&late));
-        prop_assert!((a.r - b.r).abs() <= 1e-12 && (a.y1 - b.y1).abs() <= 1e-10);
+        let (a, b) = (follow(&system, 1e-12), follow(&late, 1e-12));
+        // The two phases differ by rounding, which a cycle of many impacts makes as much of as of tolerances.
+        let other = follow(&system, 1e-13);
+        let apart = |a: &State<f64>, b: &State<f64>| {
+            let r = p[Parameter::Omega] * (a.r - b.r).abs();
+            r.max((a.y1 - b.y1).abs()).max((a.y2 - b.y2).abs())
+        };
+        prop_assert!(apart(&a, &b) <= 1e-10 + 10.0 * apart(&a, &other), "{a:?} {b:?}");
         prop_assert_eq!(simulation.section[1].r, a.r);
     }
 
