@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The long forms of proofs whose short forms are among the tests; takes about an hour on two cores.
+# The long forms of proofs whose short forms are among the tests; takes about two hours on two cores.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -15,6 +15,12 @@ CASES=20000 cargo test --release --test it -- certificates --nocapture
 
 echo "== leaping against waiting in 200 000 cases"
 CASES=200000 cargo test --release --test it -- acceleration --nocapture
+
+echo "== periods and defects of 10 000 cases of each law over the whole box, and a second integrator on 3000"
+CASES=10000 cargo test --release --test it -- wide_box --nocapture
+
+echo "== invariants of 4096 motions over the whole box"
+PROPTEST_CASES=4096 cargo test --release --test it -- invariants --nocapture
 
 echo "== ten million cases in less than 1 GiB: while they are computed, stopped, and while they are joined"
 folder=$(mktemp -d)

@@ -143,15 +143,17 @@ impl<L: Lane> Drag<L> {
     /// The longest step within `length` over which the series of exp(-|y2|/v_s) has its value, for a motion
     /// with the direction `slip` and the velocity `y2`.
     ///
-    /// Method: let u = |y2|/v_s and U = -ln tolerance. From u0 > U the step may last until u falls to U, or by
-    /// `NARROWEST`, whichever is farther. The fall of |y2| is at most the sum D(h) of those of its terms that
-    /// are negative; D is convex, so that each chord from 0 meets the bound before D does, and false position
-    /// approaches that root from the side of shorter steps.
-    /// Guarantees: exp(-u) and the sum of its truncated series, which has terms of one sign there, are
-    /// both below the tolerance as long as u > U, so that the error of the friction is below mu_d N times the
-    /// tolerance. From u0 <= U the terms of y2 itself show the exponential: its terms of order p
-    /// relative to |y2| are u0^-1 exp(-u0) x^p/p! for a change x of u, and where the last two are below the
-    /// tolerance, so is what follows them, relative to |y2|, up to a factor of ten.
+    /// With u = |y2|/v_s, u0 its value where the step begins, and U = -ln tolerance:
+    ///
+    /// Method: from u0 > U the step may last until u falls to U, or by `NARROWEST`, whichever is farther.
+    /// |y2| falls by no more than D(h), the sum of those of its terms that are negative. D is convex, so that
+    /// false position approaches the root of D(h) = allowed from the side of shorter steps.
+    /// Guarantees: as long as u > U, exp(-u) is below the tolerance, and the error of the friction below
+    /// mu_d N times the tolerance. A truncated series that is larger than that is so by its last terms; these
+    /// are terms of y2, and the pace bounds them. From u0 <= U the terms of y2 show the exponential: for a
+    /// change x of u those of order p are exp(-u0) x^p/(u0 p!) of |y2|, and where the last two are below the
+    /// tolerance, so is the sum of all that follow, up to a factor of ten.
+    /// Breaks: nothing is known of a law with another layer than the one around rest.
     #[inline(always)]
     pub fn step_bound(
         &self,

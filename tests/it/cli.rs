@@ -41,6 +41,23 @@ fn fig5_prints_the_published_numbers() {
 }
 
 #[test]
+fn the_summary_says_what_the_numbers_do_not() {
+    let said = |more: &[&str]| {
+        let arguments = [&["simulate", "--cycles", "0"], more].concat();
+        Desk::new().run(&arguments).out
+    };
+    let frictionless = ["--omega", "268 rad/s", "--p-d", "12 N", "--set", "mu_d=0"];
+    let text = said(&[&frictionless[..], &["--set", "mu_s=0.1", "--set", "c=0.1"]].concat());
+    assert!(text.contains("neutral: one of a family of periodic orbits"), "{text}");
+    let text = said(&["--p-d", "0.5 N"]);
+    assert!(text.contains("the capsule rests at the section"), "{text}");
+    let coasting =
+        ["--resistance", "medium", "--set", "c1=0.01", "--p-d", "0", "--start", "y2=0.5"];
+    let text = said(&[&coasting[..], &["--max-cycles", "200"]].concat());
+    assert!(text.contains("undecided: neighbours approach each other"), "{text}");
+}
+
+#[test]
 fn every_key_of_the_contract_is_there() {
     let told = fig5(&["--cycles", "2"]);
     for symbol in ["m1", "m2", "k1", "c", "k2", "delta", "p_d", "omega", "mu_s", "mu_d", "v_s", "g"]

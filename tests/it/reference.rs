@@ -113,6 +113,7 @@ fn every_reference_trajectory_over_the_wide_box_is_reproduced() {
     }
     errors.sort_by(|a, b| b.0.total_cmp(&a.0));
     println!("worst: {:?}", &errors[..6]);
-    let wrong: Vec<_> = errors.iter().filter(|(error, _)| !(*error <= WIDE)).collect();
+    let wrong: Vec<_> =
+        errors.iter().filter(|(error, _)| error.is_nan() || *error > WIDE).collect();
     assert!(wrong.is_empty(), "{wrong:?}");
 }
