@@ -2,6 +2,7 @@
 //! curves.
 
 use crate::model::{Capsule, EventKind, Switching};
+use crate::orbit::neutral::may_be_neutral;
 use crate::orbit::{Output, Outputs, Section, over_cycles};
 
 use super::arclength::{Plane, corrected, tangent};
@@ -121,7 +122,11 @@ fn first_orbit(request: &Request) -> Result<(Orbits, OrbitStation), NotFollowed>
             let section = orbits.section(&station.at);
             orbits.units = [r, y1, y2, width];
             let met = corrected(&orbits, &plane, &orbits.unknowns(&section, value), &plane.normal);
-            return met.map(|(station, _)| (orbits, station)).ok_or(NotFollowed::NoOrbit);
+            let (station, _) = met.ok_or(NotFollowed::NoOrbit)?;
+            if may_be_neutral(&station.seen.multipliers()) {
+                return Err(NotFollowed::Neutral);
+            }
+            return Ok((orbits, station));
         }
         let ahead = orbits.with_period(APPROACH * request.period).family;
         section = ahead.passage(section, &[]).map_err(NotFollowed::Failed)?.end;

@@ -186,4 +186,7 @@ pub enum NotFollowed {
     Failed(Reason),
     /// The equation as printed is not followed, only the capsule with friction read in Filippov's sense.
     AsPrinted,
+    /// A multiplier of the orbit cannot be told from one: it belongs to a family of orbits at one value of the
+    /// parameter, along which a branch in the parameter has no direction of its own, or lies in a fold.
+    Neutral,
 }

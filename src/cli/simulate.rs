@@ -63,7 +63,8 @@ pub struct Simulate {
     /// Relative local error of a step.
     #[arg(long, default_value = "1e-12")]
     tolerance: f64,
-    /// Drive cycles within which the motion must settle; if it does not, 128 more are measured.
+    /// Drive cycles within which the motion must settle; if it does not, up to 2048 more are followed with the
+    /// linearised flow to tell chaos from long periods, and 128 are measured.
     #[arg(long, default_value_t = 2000)]
     max_cycles: u64,
     /// Reading of the switching between stick and slip.
@@ -331,9 +332,12 @@ fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> S
 fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Some([r, y1, y2]) = orbit.certificate.neutral {
+        let [r, y1, y2] = [r, y1, y2].map(|x| (x * 1e4).round() / 1e4 + 0.0);
+        let speed =
+            if orbit.outputs[Output::StickShare] < 1.0 { ", and with it the speed" } else { "" };
         remarks.push(format!(
-            "neutral: one of a family of periodic orbits along (omega r, y1, y2) = ({r:.4}, {y1:.4}, \
-             {y2:.4}); the start decides which, and with it the speed"
+            "neutral: as far as rounding tells (a multiplier within 1e-7 of one) this is one of a family of \
+             periodic orbits along (omega r, y1, y2) = ({r}, {y1}, {y2}); the start decides which{speed}"
         ));
     }
     let rests = orbit.section.first().is_some_and(|&[_, _, y2]| y2 == 0.0);
@@ -354,21 +358,26 @@ fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
         Outcome::QuasiPeriodic => {
             remarks.push(format!("no period up to {excluded} cycles, as far as the section tells"));
         }
-        Outcome::Undecided if excluded.is_nan() => remarks.push(format!(
-            "undecided: an orbit was found, but its steps do not satisfy the equations (defect {defect:.1e}), \
-             or it does not close without derivatives"
-        )),
+        Outcome::Undecided if excluded.is_nan() => {
+            let residual = orbit.outputs[Output::SectionResidual];
+            remarks.push(format!(
+                "undecided: what was found is not certified; its largest defect is {defect:.1e} (allowed: \
+                 10 000 tolerances), and followed without derivatives it closes to {residual:.1e} (allowed: \
+                 100 000 tolerances)"
+            ));
+        }
         Outcome::Undecided if exponent + 5.0 * uncertainty < 0.0 => {
             let cycles = 25.0 / (-exponent * parameters.drive_period());
             remarks.push(format!(
-                "undecided: neighbours approach each other by e in {:.3} s, too slowly to settle in the cycles \
-                 given; some {cycles:.0} would do (--max-cycles)",
+                "undecided: the motion approaches an orbit too slowly for the cycles given, by e in {:.3} s; \
+                 at that rate some {cycles:.0} cycles would do (--max-cycles), and more if it slows down",
                 -1.0 / exponent
             ));
         }
-        Outcome::Undecided => remarks.push(format!(
-            "undecided: neighbours neither part nor approach each other clearly; no period up to {excluded} cycles"
-        )),
+        Outcome::Undecided => remarks.push(
+            "undecided: whether neighbours part does not show in the cycles given (--max-cycles)"
+                .to_owned(),
+        ),
         Outcome::Periodic | Outcome::Chaotic | Outcome::Failed => {}
     }
     remarks

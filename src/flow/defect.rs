@@ -61,7 +61,7 @@ fn is_monotone(series: &Series<f64>, h: f64) -> bool {
     change * h < series[1].abs()
 }
 
-/// The greater of two numbers, of which one that is not known is greater than any.
+/// The greater of two numbers; NaN where either is.
 #[inline]
 pub fn greater(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }

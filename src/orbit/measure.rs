@@ -4,7 +4,7 @@ use crate::flow::defect::{defect, greater};
 use crate::lane::Dual;
 use crate::model::{EventKind, Locomotion, Parameter, Parameters, State};
 
-use super::certificate::{SAME, certify};
+use super::certificate::{certify, same};
 use super::matrix::Complex;
 use super::recurrence::{RESOLUTION, Settled, size};
 use super::wandering::{Wandering, wander};
@@ -260,15 +260,19 @@ fn measure<S: Locomotion>(
     let relative_defect = if largest_defect == 0.0 { 0.0 } else { largest_defect / motion };
     let sealed = seal(verdict, &begins, &trajectory.section(), speed, &account, parameters);
     // An orbit that Newton's method has closed with derivatives closes without them, too.
-    let closes = sealed.proof == Proof::None || sealed.residual <= SAME;
+    let closes = sealed.proof == Proof::None || sealed.residual <= same(protocol.tolerance);
     let is_sound = relative_defect <= UNSOUND * protocol.tolerance.max(ROUNDING) && closes;
     let (outcome, certificate) = if is_sound {
         (verdict.outcome, sealed)
     } else {
         (Outcome::Undecided, Certificate::none())
     };
-    outputs[Output::LyapunovExponent] = verdict.exponent.value;
-    outputs[Output::LyapunovUncertainty] = verdict.exponent.uncertainty;
+    // The exponent of an orbit is that of its multipliers, and goes with its certificate.
+    let withdrawn = !is_sound && verdict.outcome == Outcome::Periodic;
+    let Exponent { value, uncertainty } = verdict.exponent;
+    let known = |number: f64| if withdrawn { f64::NAN } else { number };
+    outputs[Output::LyapunovExponent] = known(value);
+    outputs[Output::LyapunovUncertainty] = known(uncertainty);
     outputs[Output::LargestMultiplier] = certificate.multipliers[0].abs();
     outputs[Output::IntegrationDefect] = relative_defect;
     outputs[Output::ExcludedPeriod] = if is_sound { verdict.excluded } else { f64::NAN };

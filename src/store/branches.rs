@@ -122,6 +122,8 @@ fn result(followed: &Followed) -> i64 {
         Err(Unfollowed::Failed(reason)) => *reason as i64,
         Err(Unfollowed::NoOrbit) => reasons + 1,
         Err(Unfollowed::AsPrinted) => reasons + 2,
+        Err(Unfollowed::Neutral) => reasons + 3,
+        // No outcome that is told here has the number zero.
         Err(Unfollowed::Unsettled(outcome)) => reasons + 3 + *outcome as i64,
     }
 }
@@ -132,11 +134,12 @@ fn results_by_name() -> Vec<(i64, String)> {
         Reason::NAMES.map(|(reason, name)| (Err(Unfollowed::Failed(reason)), name.to_owned()));
     let no_orbit = (Err(Unfollowed::NoOrbit), "no-orbit".to_owned());
     let as_printed = (Err(Unfollowed::AsPrinted), "as-printed".to_owned());
+    let neutral = (Err(Unfollowed::Neutral), "neutral".to_owned());
     let unsettled = Outcome::ALL
         .into_iter()
         .filter(|outcome| !matches!(outcome, Outcome::Periodic | Outcome::Failed))
         .map(|outcome| (Err(Unfollowed::Unsettled(outcome)), outcome.name().to_owned()));
-    let failures = reasons.into_iter().chain([no_orbit, as_printed]).chain(unsettled);
+    let failures = reasons.into_iter().chain([no_orbit, as_printed, neutral]).chain(unsettled);
     let followed = std::iter::once((0, "followed".to_owned()));
     followed.chain(failures.map(|(why, name)| (result(&why), name))).collect()
 }

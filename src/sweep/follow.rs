@@ -28,6 +28,8 @@ pub enum Unfollowed {
     Failed(Reason),
     /// The equation as printed is not followed.
     AsPrinted,
+    /// The first orbit belongs to a family of orbits.
+    Neutral,
 }
 
 impl fmt::Display for Unfollowed {
@@ -48,6 +50,10 @@ impl fmt::Display for Unfollowed {
                 write!(f, "the motion could not be followed there ({name})")
             }
             Unfollowed::AsPrinted => f.write_str(AS_PRINTED),
+            Unfollowed::Neutral => f.write_str(
+                "the first orbit has a multiplier that cannot be told from one: it belongs to a family of \
+                 orbits, as without friction of sliding, or lies in a fold; give it friction or another start",
+            ),
         }
     }
 }
@@ -82,6 +88,7 @@ fn follow_one(continuation: &Continuation, protocol: &Protocol) -> Followed {
         NotFollowed::NoOrbit => Unfollowed::NoOrbit,
         NotFollowed::Failed(reason) => Unfollowed::Failed(reason),
         NotFollowed::AsPrinted => Unfollowed::AsPrinted,
+        NotFollowed::Neutral => Unfollowed::Neutral,
     })
 }
 

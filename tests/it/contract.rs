@@ -127,6 +127,20 @@ fn a_layer_that_steps_jump_over_is_refused_a_certificate() {
 }
 
 #[test]
+fn a_sound_orbit_is_certified_at_every_tolerance() {
+    let tolerances = [1e-14, 1e-12, 1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
+    let cases: Vec<Case> = std::iter::once(example()).chain(draws::cases(12, 8)).collect();
+    for case in &cases {
+        let Case { parameters, start, phase } = case;
+        for tolerance in tolerances {
+            let protocol = Protocol::with_tolerance(tolerance);
+            let orbit = settle(parameters, *phase, *start, &protocol);
+            assert_eq!(orbit.outcome, Outcome::Periodic, "{tolerance:e}: {case:?}");
+        }
+    }
+}
+
+#[test]
 fn no_blind_step_is_certified_over_the_whole_box() {
     let protocol = Protocol { exponent_cycles: 0, measured_cycles: 1, ..Protocol::default() };
     let (mut wrong, mut refused) = (0, 0);

@@ -1,12 +1,14 @@
 //! Families of periodic orbits: without friction of sliding every orbit has neighbours that move faster and
 //! slower.
 
+use capsulemap::branch::{NotFollowed, follow};
 use capsulemap::lane::Dual;
 use capsulemap::model::{Capsule, Parameter, Parameters, State};
 use capsulemap::orbit::neutral::close_neutral;
 use capsulemap::orbit::return_map::Cycles;
 use capsulemap::orbit::{Case, Orbit, Outcome, Output, Proof, Protocol};
 
+use super::branch::request;
 use super::draws;
 use super::forms::settle;
 
@@ -51,6 +53,14 @@ fn a_capsule_without_friction_of_sliding_is_neutral_and_of_least_period() {
         let gain = other.outputs[Output::ProgressionSpeed] - speed;
         assert!((gain - faster).abs() < 1e-12, "{faster}: {gain}");
     }
+}
+
+#[test]
+fn a_family_is_not_followed_as_if_it_were_a_branch() {
+    let p = frictionless();
+    let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
+    let request = request(&p, orbit.section[0], 1, Parameter::Pd, [10.0, 13.0]);
+    assert_eq!(follow(&request).err(), Some(NotFollowed::Neutral));
 }
 
 #[test]
