@@ -89,7 +89,7 @@ fn the_steps_of_the_capsule_satisfy_its_equations_over_the_whole_box() {
 }
 
 /// A capsule whose steps, paced by its series alone, jump over the layer around rest.
-fn example() -> Case {
+pub fn example() -> Case {
     let parameters = Parameters::with(&[
         (Parameter::Omega, 20.0),
         (Parameter::Pd, 8.0),

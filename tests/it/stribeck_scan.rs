@@ -1,7 +1,8 @@
 //! The motion at every width of the friction layer, against a second method that shares no code with the series.
 
-use capsulemap::model::{Parameter, Parameters, State};
+use capsulemap::model::{Parameter, State};
 
+use super::contract::example;
 use super::forms::simulate;
 use super::second_method::follow;
 
@@ -12,16 +13,8 @@ fn the_motion_is_that_of_a_second_method_at_every_stribeck_velocity() {
     let mut worst = (0.0, 0.0);
     for i in 0..=28 {
         let v_s = 1e-4 * libm::pow(5e4, f64::from(i) / 28.0);
-        let p = Parameters::with(&[
-            (Parameter::Omega, 20.0),
-            (Parameter::Pd, 8.0),
-            (Parameter::K2, 2420.0),
-            (Parameter::Delta, 3.5e-3),
-            (Parameter::M2, 0.2),
-            (Parameter::MuS, 0.33),
-            (Parameter::MuD, 0.165),
-            (Parameter::Vs, v_s),
-        ]);
+        let mut p = example().parameters;
+        p[Parameter::Vs] = v_s;
         let ours = simulate(&p, 0.0, State::default(), CYCLES, 1e-12);
         let theirs = follow(&p, 0.0, State::default(), CYCLES);
         let omega = p[Parameter::Omega];
