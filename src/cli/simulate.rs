@@ -366,7 +366,7 @@ fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
                  100 000 tolerances)"
             ));
         }
-        Outcome::Undecided if exponent + 5.0 * uncertainty < 0.0 => {
+        Outcome::Undecided if exponent.is_finite() && exponent + 5.0 * uncertainty < 0.0 => {
             let cycles = 25.0 / (-exponent * parameters.drive_period());
             remarks.push(format!(
                 "undecided: the motion approaches an orbit too slowly for the cycles given, by e in {:.3} s; \

