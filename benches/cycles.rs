@@ -9,8 +9,8 @@ mod works;
 use std::hint::black_box;
 use std::time::Instant;
 
+use capsulemap::capsule::Parameters;
 use capsulemap::lane::Instructions;
-use capsulemap::model::Parameters;
 use works::{CYCLES, TOLERANCE, follow, works};
 
 const REPETITIONS: usize = 5;

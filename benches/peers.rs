@@ -16,8 +16,8 @@ use std::io;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use capsulemap::capsule::Parameters;
 use capsulemap::lane::Instructions;
-use capsulemap::model::Parameters;
 use serde_json::json;
 use works::{CYCLES, End, TOLERANCE, follow, parameters, works};
 

@@ -7,7 +7,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::available_parallelism;
 use std::time::Instant;
 
-use capsulemap::sweep::{Machine, Study, run};
+use capsulemap::run::{Machine, run};
+
+use capsulemap::study::Study;
 
 const REPETITIONS: usize = 3;
 

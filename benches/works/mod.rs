@@ -1,8 +1,8 @@
 //! What the benches measure: the cases of Figs 5 to 7 and a grid, followed from rest side by side.
 
+use capsulemap::capsule::{Capsule, Parameter, Parameters, State};
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
-use capsulemap::model::{Capsule, Parameter, Parameters, State};
 
 /// Each case is followed for so many drive cycles.
 pub const CYCLES: u64 = 100;

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
+use crate::capsule::{Capsule, EventKind, Parameter, Parameters};
 use crate::flow::guard::crossings;
 use crate::lane::{Lane, Series, series};
-use crate::model::{Capsule, EventKind, Parameter, Parameters};
 use crate::orbit::Reason;
 use crate::orbit::return_map::returned_in;
 

@@ -1,7 +1,7 @@
 //! From a request to what is found: the first orbit, its branch both ways, the doubled branches and the
 //! curves.
 
-use crate::model::{Capsule, EventKind, Switching};
+use crate::capsule::{Capsule, EventKind, Switching};
 use crate::orbit::neutral::may_be_neutral;
 use crate::orbit::{Output, Outputs, Section, over_cycles};
 

@@ -1,7 +1,7 @@
 //! The equations of an orbit to which one thing happens, in two parameters.
 
+use crate::capsule::Parameter;
 use crate::lane::{Dual, Lane};
-use crate::model::Parameter;
 use crate::orbit::Reason;
 
 use super::SpecialKind;

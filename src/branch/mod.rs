@@ -19,7 +19,7 @@ mod way;
 pub use curve::is_followed;
 pub use follow::follow;
 
-use crate::model::{Parameter, Parameters};
+use crate::capsule::{Parameter, Parameters};
 use crate::orbit::matrix::Complex;
 use crate::orbit::{Outputs, Reason, Section};
 

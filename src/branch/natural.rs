@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 use std::marker::PhantomData;
 
+use crate::capsule::{Locomotion, Parameter};
 use crate::lane::Dual;
-use crate::model::{Locomotion, Parameter};
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues, solve};
 use crate::orbit::newton::close;
 use crate::orbit::recurrence::{RESOLUTION, size};

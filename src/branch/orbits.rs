@@ -1,7 +1,7 @@
 //! The equations of a periodic orbit in one parameter, and the test functions of what may happen to it.
 
+use crate::capsule::{EventKind, Parameter};
 use crate::lane::Dual;
-use crate::model::{EventKind, Parameter};
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 use crate::orbit::{Reason, Section};
 

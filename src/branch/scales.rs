@@ -1,6 +1,6 @@
 //! What the section point and the parameters are measured by, so that arclength means something.
 
-use crate::model::{Parameter, Parameters};
+use crate::capsule::{Parameter, Parameters};
 use crate::orbit::Section;
 use crate::orbit::recurrence::size;
 

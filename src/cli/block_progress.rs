@@ -9,8 +9,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::tell;
 use super::words::{count, counted, estimated, rate};
+use crate::run::{Forecast, Record};
 use crate::store::Summary;
-use crate::sweep::{Forecast, Record};
 
 /// "Now" is the time since as long ago.
 const NOW: Duration = Duration::from_secs(20);

@@ -10,8 +10,9 @@ use super::stop::say_when_stopped;
 use super::task::Task;
 use super::words::count;
 use super::{Failure, tell};
+use crate::run::{Machine, run_blocks};
 use crate::store::{BlockFolder, Blocks, Company, Unusable};
-use crate::sweep::{Machine, Study, run_blocks, spread};
+use crate::study::{Study, spread};
 
 /// The folder of the blocks that will be joined to the file `output`.
 pub fn block_path(output: &Path) -> PathBuf {

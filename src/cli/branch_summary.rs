@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::branch::{Branch, Curve, End, Found, Special, SpecialKind, is_followed};
-use crate::model::Parameter;
+use crate::capsule::Parameter;
 use crate::orbit::Output;
-use crate::sweep::{Continuation, FirstOrbit, Followed, Study};
+use crate::run::Followed;
+use crate::study::{Continuation, FirstOrbit, Study};
 
 /// What came of the branches of `study`, and which file keeps it.
 pub fn summary(study: &Study, followed: &[Followed], output: &Path, seconds: f64) -> String {
@@ -189,7 +190,7 @@ mod tests {
     use crate::branch::Point;
     use crate::orbit::Outputs;
     use crate::orbit::matrix::Complex;
-    use crate::sweep::Unfollowed;
+    use crate::run::Unfollowed;
 
     const STUDY: &str = "\
 [parameters]

@@ -8,10 +8,9 @@ use std::time::{Duration, Instant};
 
 use super::words::{count, counted, estimated, size, time};
 use super::{Failure, print};
+use crate::run::{Estimate, Forecast, Machine, Record, has_attractors, run_blocks};
 use crate::store::packed_bytes;
-use crate::sweep::{
-    Estimate, Forecast, Machine, Record, Study, has_attractors, run_blocks, spread,
-};
+use crate::study::{Study, spread};
 
 /// The probe ends after this time, with what has been begun.
 const PROBE: Duration = Duration::from_secs(5);

@@ -9,8 +9,8 @@ use super::result_file::ready;
 use super::{Failure, named, plain_or_quantity, tell};
 use crate::figure::{FigureError, Format, draw, reads};
 use crate::store::{self, Archive, Dataset};
-use crate::sweep::document::unknown;
-use crate::sweep::{Coordinate, Drawing, DrawingKind, Study};
+use crate::study::document::unknown;
+use crate::study::{Coordinate, Drawing, DrawingKind, Study};
 
 const EXAMPLES: &str = "\
 Examples:

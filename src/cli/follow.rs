@@ -9,8 +9,9 @@ use super::figure::{FormatChoice, draw_from};
 use super::progress::Progress;
 use super::result_file::{Kept, kept, output_path, prepare, read_study, rehearse};
 use super::{Failure, print, tell};
+use crate::run::{Unfollowed, follow};
 use crate::store::{self, Archive, Dataset, add_branches, drop_branches, folder, has_branches};
-use crate::sweep::{Study, Unfollowed, follow};
+use crate::study::Study;
 
 const EXAMPLES: &str = "\
 Examples:

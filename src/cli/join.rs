@@ -12,8 +12,9 @@ use super::stop::say_when_stopped;
 use super::summary::summary;
 use super::words::counted;
 use super::{Failure, print, tell};
+use crate::run::{self, Machine, has_attractors};
 use crate::store::{self, Archive, BlockFolder, Blocks, Company, Dataset, Unusable, keep_branches};
-use crate::sweep::{self, Machine, Study, has_attractors};
+use crate::study::Study;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -152,9 +153,9 @@ impl Joining<'_> {
         if !has_attractors(self.study) {
             return Ok(());
         }
-        let progress = Progress::new(sweep::links(self.study), "links of attractors");
+        let progress = Progress::new(run::links(self.study), "links of attractors");
         let endings = blocks.endings().map_err(Failure::machine)?;
-        let attractors = sweep::attractors(self.study, &endings, self.machine, || progress.step());
+        let attractors = run::attractors(self.study, &endings, self.machine, || progress.step());
         let attractors = attractors.map_err(Failure::machine)?;
         progress.finish();
         store::add_attractors(frame, self.study, &attractors);

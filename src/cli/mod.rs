@@ -27,9 +27,10 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
+use crate::capsule::Dimension;
 use crate::lane::Instructions;
-use crate::model::Dimension;
-use crate::sweep::{Machine, parse_quantity};
+use crate::run::Machine;
+use crate::study::parse_quantity;
 use failure::Failure;
 
 const EXAMPLES: &str = "\

@@ -6,7 +6,7 @@ use super::figure::{draw_all, file_stem};
 use super::{Failure, tell};
 use crate::store::schema::FINGERPRINT;
 use crate::store::{self, Archive, Dataset, has_branches, has_cases};
-use crate::sweep::{Drawing, DrawingKind, Study};
+use crate::study::{Drawing, DrawingKind, Study};
 
 /// The study in the file at `path`.
 pub fn read_study(path: &Path) -> Result<Study, Failure> {

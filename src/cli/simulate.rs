@@ -8,12 +8,13 @@ use serde_json::{Map, Value, json};
 
 use super::result_file::read_study;
 use super::{Failure, named, plain_or_quantity, print, tell};
-use crate::model::{Dimension, Parameter, Parameters, Resistance, State, Switching};
+use crate::capsule::{Dimension, Parameter, Parameters, Resistance, State, Switching};
 use crate::orbit::{
     Case, Certificate, Orbit, Outcome, Output, Proof, Protocol, Simulation, settle, simulate,
 };
-use crate::sweep::document::unknown;
-use crate::sweep::{Machine, Study, run_sample};
+use crate::run::{Machine, run_sample};
+use crate::study::Study;
+use crate::study::document::unknown;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -11,8 +11,9 @@ use super::result_file::{Kept, kept, output_path, read_study};
 use super::summary::outcomes;
 use super::words::{count, counted, estimated, rate, size, time};
 use super::{Failure, print};
+use crate::run::Forecast;
 use crate::store::{Archive, BlockFolder, Company, StoreError, Summary, Unusable, provenance};
-use crate::sweep::{Forecast, Study};
+use crate::study::Study;
 
 const EXAMPLES: &str = "\
 Examples:

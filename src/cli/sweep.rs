@@ -14,7 +14,7 @@ use super::words::{counted, time};
 use super::{Failure, machine, named, tell};
 use crate::lane::Instructions;
 use crate::store::{self, Archive, BlockFolder, Company, Dataset, folder};
-use crate::sweep::Study;
+use crate::study::Study;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -9,8 +9,9 @@ use super::progress::Progress;
 use super::words::{count, counted};
 use super::{Failure, machine, named, print, tell};
 use crate::lane::Instructions;
+use crate::run::{Machine, Record, run_sample};
 use crate::store::{self, Archive, provenance};
-use crate::sweep::{Machine, Record, Study, run_sample};
+use crate::study::Study;
 
 const EXAMPLES: &str = "\
 Examples:

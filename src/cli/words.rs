@@ -1,6 +1,6 @@
 //! Times and sizes as people say them.
 
-use crate::sweep::Estimate;
+use crate::run::Estimate;
 
 /// A time in words: "37 s", "12 min", "3 h 20 min", "2 d 4 h".
 pub fn time(seconds: f64) -> String {

@@ -11,7 +11,7 @@ use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
 use super::track::{Track, tracks};
 use super::view::View;
-use crate::model::Parameter;
+use crate::capsule::Parameter;
 use crate::store::dataset::Dataset;
 
 /// Two values of a parameter closer than this, relative to their size, are the same.

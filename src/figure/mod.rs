@@ -42,7 +42,7 @@ pub use output::Format;
 pub use reading::reads;
 
 use crate::store::dataset::Dataset;
-use crate::sweep::{Drawing, DrawingKind};
+use crate::study::{Drawing, DrawingKind};
 use output::Figure;
 use view::View;
 

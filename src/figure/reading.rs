@@ -1,7 +1,7 @@
 //! What a figure reads of the results, so that no more has to be held in memory.
 
 use crate::orbit::Output;
-use crate::sweep::{Drawing, DrawingKind};
+use crate::study::{Drawing, DrawingKind};
 
 /// Outputs that figures show by default or judge cases by.
 const USUAL: [Output; 4] =

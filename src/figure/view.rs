@@ -8,7 +8,7 @@ use super::quantity::Quantity;
 use super::text::Text;
 use crate::store::branches::DIMENSIONS;
 use crate::store::dataset::{Dataset, Variable};
-use crate::sweep::Drawing;
+use crate::study::Drawing;
 
 /// Dimensions within a case or beside the cases, which are not axes of the study.
 const INNER: [&str; 6] = ["point", "impact_point", "history_time", "multiplier", "event", "block"];

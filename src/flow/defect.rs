@@ -1,8 +1,8 @@
 //! The defect of a step: how far its polynomials are from solving the equations.
 
+use crate::capsule::Field;
 use crate::lane::series::derivative;
 use crate::lane::{ORDER, Series};
-use crate::model::Field;
 
 use super::Step;
 use super::guard::crossings;

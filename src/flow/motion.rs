@@ -2,8 +2,8 @@
 
 use std::fmt;
 
+use crate::capsule::switched::{MAX_GUARDS, Switched, Zeros};
 use crate::lane::{Lane, Mask, ORDER, Series, SideBySide, series};
-use crate::model::switched::{MAX_GUARDS, Switched, Zeros};
 
 use super::guard::{divide_by_time, first_fall, stays_positive};
 use super::pace::longest_step;

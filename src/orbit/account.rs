@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 
+use crate::capsule::{Contact, EventKind, Locomotion, Parameter, Parameters, StickSlip};
 use crate::flow::Step;
 use crate::flow::guard::crossings;
 use crate::lane::quadrature::{integral_of_product, values};
 use crate::lane::{Series, series};
-use crate::model::{Contact, EventKind, Locomotion, Parameter, Parameters, StickSlip};
 
 /// A point of the impact section: where contact closes.
 #[derive(Debug, Clone, Copy, PartialEq)]

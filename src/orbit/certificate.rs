@@ -1,8 +1,8 @@
 //! What is proven of a periodic orbit: that it closes, how it answers to small pushes, and that its period
 //! is the least.
 
+use crate::capsule::{Locomotion, Parameter};
 use crate::lane::Dual;
-use crate::model::{Locomotion, Parameter};
 
 use super::matrix::{Complex, eigenvalues};
 use super::neutral::{Neutral, close_neutral, may_be_neutral};

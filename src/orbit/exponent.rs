@@ -1,8 +1,8 @@
 //! How fast neighbouring motions part: Lyapunov exponents from the linearised flow.
 
+use crate::capsule::Stroboscopic;
 use crate::flow::Motion;
 use crate::lane::{Dual, Lane};
-use crate::model::Stroboscopic;
 
 use super::Reason;
 use super::return_map::{Cycles, cycle};

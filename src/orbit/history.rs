@@ -1,7 +1,7 @@
 //! A stretch of motion, sampled evenly for a figure.
 
+use crate::capsule::{Locomotion, Parameter, Parameters, State};
 use crate::lane::series;
-use crate::model::{Locomotion, Parameter, Parameters, State};
 
 use super::{Failure, Trajectory};
 

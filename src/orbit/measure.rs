@@ -1,8 +1,8 @@
 //! What a settled case is measured to be, over the cycles that are kept.
 
+use crate::capsule::{EventKind, Locomotion, Parameter, Parameters, State};
 use crate::flow::defect::{defect, greater};
 use crate::lane::Dual;
-use crate::model::{EventKind, Locomotion, Parameter, Parameters, State};
 
 use super::certificate::{certify, same};
 use super::matrix::Complex;

@@ -1,8 +1,8 @@
 //! Families of periodic orbits: a multiplier of one belongs to a direction along which the neighbours are
 //! periodic too.
 
+use crate::capsule::Stroboscopic;
 use crate::lane::Dual;
-use crate::model::Stroboscopic;
 
 use super::Reason;
 use super::certificate::least_from_one;

@@ -1,7 +1,7 @@
 //! Newton's method on the return map: from a section point near a periodic orbit onto it.
 
+use crate::capsule::Stroboscopic;
 use crate::lane::Dual;
-use crate::model::Stroboscopic;
 
 use super::Reason;
 use super::matrix::{Matrix, solve};

@@ -1,8 +1,8 @@
 //! The map from one section point to a later one, with its derivatives.
 
+use crate::capsule::{Stroboscopic, Switched};
 use crate::flow::{Motion, Step};
 use crate::lane::{Dual, Lane, Mask};
-use crate::model::{Stroboscopic, Switched};
 
 use super::Reason;
 use super::matrix::Matrix;

@@ -4,7 +4,9 @@ use std::ops::RangeInclusive;
 
 use serde::Serialize;
 
-use crate::model::{Capsule, Locomotion, Parameter, Parameters, PrintedCapsule, State, Switching};
+use crate::capsule::{
+    Capsule, Locomotion, Parameter, Parameters, PrintedCapsule, State, Switching,
+};
 
 use super::measure::{Found, conclude};
 use super::recurrence::Settled;

@@ -1,8 +1,8 @@
 //! Many cases side by side in the lanes of one thread, each lane refilled the moment its case settles.
 
+use crate::capsule::{Capsule, Parameter, Parameters, Resistance, State};
 use crate::flow::{Motion, Step};
 use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
-use crate::model::{Capsule, Parameter, Parameters, Resistance, State};
 
 use super::measure::{Found, conclude};
 use super::settle::find_period;

@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
-use crate::model::{Capsule, EventKind, Locomotion, Parameters, PrintedCapsule, State, Switching};
+use crate::capsule::{
+    Capsule, EventKind, Locomotion, Parameters, PrintedCapsule, State, Switching,
+};
 
 use super::{Account, Energies, Failure, Trajectory};
 

@@ -4,8 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::capsule::{Locomotion, State};
 use crate::flow::{Breakdown, Motion, Step};
-use crate::model::{Locomotion, State};
 
 /// A cycle of so many steps is taken for a motion that cannot be followed.
 pub(super) const STEPS_PER_CYCLE: u64 = 200_000;

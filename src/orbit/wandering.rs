@@ -1,8 +1,8 @@
 //! What a motion does that does not repeat: whether neighbours part, or time averages settle all the same.
 
+use crate::capsule::{Capsule, Parameter, Parameters, Stroboscopic};
 use crate::flow::{Motion, Step};
 use crate::lane::{Dual, Instructions, Lane, Mask, SideBySide, Work};
-use crate::model::{Capsule, Parameter, Parameters, Stroboscopic};
 
 use super::exponent::{Exponent, Stretching};
 use super::newton::relative;

@@ -3,7 +3,8 @@
 use ndarray::{ArrayD, IxDyn};
 
 use crate::branch::SpecialKind;
-use crate::sweep::{AttractorEvent, Attractors, Coordinate, Study};
+use crate::run::{AttractorEvent, Attractors};
+use crate::study::{Coordinate, Study};
 
 use super::{Dataset, Values, Variable};
 

@@ -14,7 +14,8 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use crate::orbit::Outcome;
-use crate::sweep::{Record, Study};
+use crate::run::Record;
+use crate::study::Study;
 
 use super::file::{discard_unfinished_in, has_no_locks, put};
 use super::shard::{self, Column, Head, Numbers, Shard, Summary, Unusable};

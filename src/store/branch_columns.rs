@@ -3,7 +3,7 @@
 use ndarray::{ArrayD, IxDyn};
 
 use crate::branch::Point;
-use crate::model::Parameter;
+use crate::capsule::Parameter;
 use crate::orbit::Output;
 use crate::orbit::matrix::Complex;
 

@@ -1,9 +1,10 @@
 //! Which variables the followed orbits have in a file of results, beside those of the sweep.
 
 use crate::branch::{End, SpecialKind};
-use crate::model::Parameter;
+use crate::capsule::Parameter;
 use crate::orbit::{Outcome, Reason};
-use crate::sweep::{Continuation, Followed, Study, Unfollowed};
+use crate::run::{Followed, Unfollowed};
+use crate::study::{Continuation, Study};
 
 use super::branch_columns::{CYCLE, Columns, MULTIPLIER, Place, add_points};
 use super::flat::Flat;

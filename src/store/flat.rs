@@ -1,8 +1,9 @@
 //! The branches of a study one after another, as they lie in a file: what referred within one refers to all.
 
 use crate::branch::{Branch, Curve, End, SpecialKind};
-use crate::model::Parameter;
-use crate::sweep::{Continuation, Followed};
+use crate::capsule::Parameter;
+use crate::run::Followed;
+use crate::study::Continuation;
 
 use super::branch_columns::Row;
 

@@ -5,10 +5,11 @@ use std::path::Path;
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::model::State;
+use crate::capsule::State;
 use crate::orbit::matrix::Complex;
 use crate::orbit::{Outcome, Reason};
-use crate::sweep::{Ending, Study};
+use crate::run::Ending;
+use crate::study::Study;
 
 use super::block_folder::{BlockFolder, END, RESIDUAL, START};
 use super::joined::{self, Column};

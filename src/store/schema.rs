@@ -2,10 +2,11 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::model::{Parameter, State};
+use crate::capsule::{Parameter, State};
 use crate::orbit::matrix::Complex;
 use crate::orbit::{Certificate, History, Impact, Orbit, Outcome, Proof, Reason};
-use crate::sweep::{Coordinate, Direction, Record, Study};
+use crate::run::Record;
+use crate::study::{Coordinate, Direction, Study};
 
 use super::piece::{Filling, MISSING, Piece};
 use super::{Dataset, Values, Variable, provenance};

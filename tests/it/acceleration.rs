@@ -1,7 +1,7 @@
 //! Leaping to where the section tends reaches what waiting reaches.
 
+use capsulemap::capsule::State;
 use capsulemap::lane::Instructions;
-use capsulemap::model::State;
 use capsulemap::orbit::{Outcome, Output, Protocol, settle};
 
 use super::draws;

@@ -5,14 +5,15 @@ use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use capsulemap::branch::SpecialKind;
+use capsulemap::capsule::{Capsule, Parameter};
 use capsulemap::lane::Dual;
-use capsulemap::model::{Capsule, Parameter};
 use capsulemap::orbit::matrix::eigenvalues;
 use capsulemap::orbit::newton::close;
 use capsulemap::orbit::return_map::Cycles;
 use capsulemap::orbit::{Outcome, Output, Proof, Protocol};
+use capsulemap::run::{self, AttractorEvent, Attractors, Ending, Machine, Record};
 use capsulemap::store;
-use capsulemap::sweep::{self, AttractorEvent, Attractors, Ending, Machine, Record, Study};
+use capsulemap::study::Study;
 
 use super::program::Desk;
 
@@ -33,7 +34,7 @@ fn study(text: &str) -> Study {
 
 fn records(study: &Study) -> Vec<Record> {
     let records = std::sync::Mutex::new(Vec::new());
-    sweep::run(study, Machine::default(), |record| records.lock().expect("a lock").push(record))
+    run::run(study, Machine::default(), |record| records.lock().expect("a lock").push(record))
         .expect("the study runs");
     let mut records = records.into_inner().expect("a lock");
     records.sort_by_key(|record| record.index);
@@ -41,11 +42,11 @@ fn records(study: &Study) -> Vec<Record> {
 }
 
 fn found(study: &Study, records: &[Record]) -> Attractors {
-    on(study, &sweep::endings(study, records), Machine::default())
+    on(study, &run::endings(study, records), Machine::default())
 }
 
 fn on(study: &Study, endings: &[Option<Ending>], machine: Machine) -> Attractors {
-    sweep::attractors(study, endings, machine, || ()).expect("the threads start")
+    run::attractors(study, endings, machine, || ()).expect("the threads start")
 }
 
 /// The frequency of the two motions on an axis, followed as `start` says.
@@ -141,10 +142,10 @@ fn an_attractor_that_no_start_shows_in_between_keeps_its_number() {
     let note = || {
         linked.fetch_add(1, Ordering::Relaxed);
     };
-    let endings = sweep::endings(&study, &records);
+    let endings = run::endings(&study, &records);
     let attractors =
-        sweep::attractors(&study, &endings, Machine::default(), note).expect("the threads start");
-    assert_eq!((linked.into_inner(), sweep::links(&study)), (80, 80));
+        run::attractors(&study, &endings, Machine::default(), note).expect("the threads start");
+    assert_eq!((linked.into_inner(), run::links(&study)), (80, 80));
     let seen: Vec<usize> = (0..study.cases()).filter(|&i| records[i].orbit.period == 3).collect();
     assert!(seen.len() > 10 && seen.windows(2).any(|pair| pair[1] / 2 - pair[0] / 2 > 3));
     for (case, record) in records.iter().enumerate() {
@@ -200,7 +201,7 @@ fn a_parameter_may_begin_at_zero() {
 #[test]
 fn attractors_do_not_depend_on_the_threads() {
     let study = study(&window(124.0, 126.0, 21, BOTH_WAYS));
-    let endings = sweep::endings(&study, &records(&study));
+    let endings = run::endings(&study, &records(&study));
     let with = |threads: usize| {
         on(&study, &endings, Machine { threads: Some(threads), ..Machine::default() })
     };
@@ -220,7 +221,7 @@ fn a_line_among_others_has_the_attractors_that_it_has_alone() {
     let text = cascade(omegas).replace("p_d = \"3.4 N\"\n", "");
     let study_at = |values: &str| study(&format!("{text}{}", force(values)));
     let both = study_at("[\"3.4 N\", \"3.41 N\"]");
-    let endings = sweep::endings(&both, &records(&both));
+    let endings = run::endings(&both, &records(&both));
     let with = |threads: usize| {
         on(&both, &endings, Machine { threads: Some(threads), ..Machine::default() })
     };

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::forms::simulate;
-use capsulemap::model::{Parameter, Parameters, State, Switching};
+use capsulemap::capsule::{Parameter, Parameters, State, Switching};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 

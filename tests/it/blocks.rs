@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use capsulemap::sweep::{self, Machine, Record, Study};
+use capsulemap::run::{self, Machine, Record};
+
+use capsulemap::study::Study;
 
 /// Studies that are cut differently: not followed, followed one way, and in all directions.
 fn studies() -> Vec<Study> {
@@ -27,7 +29,7 @@ fn studies() -> Vec<Study> {
 fn whole(study: &Study) -> Vec<Record> {
     let records = Mutex::new(Vec::new());
     let keep = |record| records.lock().expect("a lock").push(record);
-    sweep::run(study, Machine::default(), keep).expect("the study runs");
+    run::run(study, Machine::default(), keep).expect("the study runs");
     let mut records = records.into_inner().expect("a lock");
     records.sort_by_key(|record: &Record| record.index);
     records
@@ -35,7 +37,7 @@ fn whole(study: &Study) -> Vec<Record> {
 
 fn blocks(study: &Study, numbers: &[usize], machine: Machine) -> BTreeMap<usize, Vec<Record>> {
     let found = Mutex::new(BTreeMap::new());
-    sweep::run_blocks(
+    run::run_blocks(
         study,
         machine,
         numbers,
@@ -91,7 +93,7 @@ fn a_run_stops_when_it_is_told_to() {
     let numbers: Vec<usize> = (0..study.blocks()).collect();
     let machine = Machine { threads: Some(1), ..Machine::default() };
     let count = Mutex::new(0);
-    sweep::run_blocks(
+    run::run_blocks(
         study,
         machine,
         &numbers,
@@ -108,7 +110,7 @@ fn a_run_stops_when_it_is_told_to() {
 #[test]
 fn the_first_blocks_are_spread_over_the_study() {
     for blocks in [1, 2, 3, 8, 60, 1000, 8192] {
-        let order = sweep::spread(blocks);
+        let order = capsulemap::study::spread(blocks);
         assert_eq!(order.iter().collect::<BTreeSet<_>>().len(), blocks);
         for part in [blocks / 10, blocks / 3] {
             let mean = order[..part].iter().sum::<usize>() as f64 / part as f64;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use capsulemap::branch::{Branch, Found, NotFollowed, Request, Special, SpecialKind, follow};
-use capsulemap::model::{Parameter, Parameters, State, Switching};
+use capsulemap::capsule::{Parameter, Parameters, State, Switching};
 use capsulemap::orbit::recurrence::size;
 use capsulemap::orbit::{Orbit, Outcome, Output, Protocol, Section, settle, simulate};
 

@@ -1,7 +1,7 @@
 //! Curves in two parameters: both sorts of grazing, each curve once, and none that leads elsewhere.
 
 use capsulemap::branch::{Curve, End, Found, Request, SpecialKind, follow};
-use capsulemap::model::{Parameter, Parameters};
+use capsulemap::capsule::{Parameter, Parameters};
 use capsulemap::orbit::Section;
 
 use super::branch::{assert_closed, of_kind, relative, request, settled};

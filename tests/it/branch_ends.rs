@@ -1,7 +1,7 @@
 //! Why branches end where they do, and how little that depends on how the first orbit was found.
 
 use capsulemap::branch::{Branch, End, SpecialKind, follow};
-use capsulemap::model::Parameter;
+use capsulemap::capsule::Parameter;
 
 use super::branch::{assert_closed, moving, relative, request};
 use super::branch_curves::folding;

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use capsulemap::figure::{Format, draw};
+use capsulemap::run::Followed;
 use capsulemap::store::{self, Dataset};
-use capsulemap::sweep::{Drawing, DrawingKind, Followed, Study};
+use capsulemap::study::{Drawing, DrawingKind, Study};
 
 use super::figure::made::Made;
 use super::figure::{drawing, folder};

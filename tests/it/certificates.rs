@@ -1,7 +1,7 @@
 //! Periods are what they are called: against a stricter run, a known false one, and the motion itself.
 
+use capsulemap::capsule::State;
 use capsulemap::lane::Instructions;
-use capsulemap::model::State;
 use capsulemap::orbit::{Case, Outcome, Output, Proof, Protocol, settle, simulate};
 
 use super::draws;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::model::{Parameter, Parameters, State};
+use capsulemap::capsule::{Parameter, Parameters, State};
 use capsulemap::orbit::{Output, Protocol, settle};
 use serde_json::Value;
 

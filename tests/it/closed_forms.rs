@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::model::{EventKind, Parameter, Parameters, Resistance, State};
+use capsulemap::capsule::{EventKind, Parameter, Parameters, Resistance, State};
 use capsulemap::orbit::{Outcome, Output, Protocol};
 
 use super::forms::{settle, simulate};

@@ -3,11 +3,11 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::flow::defect::{defect, greater};
-use capsulemap::flow::{Motion, Step};
-use capsulemap::model::{
+use capsulemap::capsule::{
     Capsule, Field, Parameter, Parameters, PrintedCapsule, Resistance, State, Stroboscopic,
 };
+use capsulemap::flow::defect::{defect, greater};
+use capsulemap::flow::{Motion, Step};
 use capsulemap::orbit::{Case, Outcome, Output, Proof, Protocol, settle_on};
 
 use super::den_hartog::DryFriction;

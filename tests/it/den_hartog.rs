@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
+use capsulemap::capsule::{Field, Stroboscopic, Switched, Zeros};
 use capsulemap::lane::elementary::{not_finite, sin_cos};
 use capsulemap::lane::{Dual, Lane, ORDER, Series, series};
-use capsulemap::model::{Field, Stroboscopic, Switched, Zeros};
 
 use super::differences::followed;
 use super::oscillators::{Point, PointJet, repeated};

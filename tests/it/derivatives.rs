@@ -1,7 +1,7 @@
 //! The linearised return map, jumps included, against differences of the map itself.
 
+use capsulemap::capsule::{Capsule, Parameter, Parameters, PrintedCapsule, State, Stroboscopic};
 use capsulemap::lane::Dual;
-use capsulemap::model::{Capsule, Parameter, Parameters, PrintedCapsule, State, Stroboscopic};
 use capsulemap::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 use capsulemap::orbit::return_map::{Cycles, jacobian, returned, seeded};
 use capsulemap::orbit::{Case, Outcome, Protocol, Section, settle};

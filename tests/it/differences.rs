@@ -1,8 +1,8 @@
 //! Derivatives of a return map by differences: the second method for everything that is linearised.
 
+use capsulemap::capsule::Stroboscopic;
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::Lane;
-use capsulemap::model::Stroboscopic;
 
 /// Tight enough that differences of the map see its slope rather than its rounding.
 pub const TOLERANCE: f64 = 1e-15;

@@ -1,7 +1,7 @@
 //! Derivatives along parameters, and derivatives of derivatives, against differences.
 
+use capsulemap::capsule::{Capsule, Parameter, Stroboscopic};
 use capsulemap::lane::{Dual, Lane};
-use capsulemap::model::{Capsule, Parameter, Stroboscopic};
 use capsulemap::orbit::Section;
 
 use super::derivatives::{Periodic, dual_capsule, linearised, periodic};

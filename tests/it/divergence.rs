@@ -1,7 +1,7 @@
 //! The product rule: the determinant of the return map is what the divergence of the field makes of volumes.
 
+use capsulemap::capsule::{Capsule, Parameter, Parameters, Resistance};
 use capsulemap::lane::{Series, quadrature, series};
-use capsulemap::model::{Capsule, Parameter, Parameters, Resistance};
 use capsulemap::orbit::matrix::determinant;
 
 use super::derivatives::{Periodic, dual_capsule, linearised, periodic};

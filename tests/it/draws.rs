@@ -1,7 +1,7 @@
 //! Cases drawn at random over everything that users vary, and all of them settled side by side.
 
+use capsulemap::capsule::{Parameter, Parameters, Resistance, State};
 use capsulemap::lane::Instructions;
-use capsulemap::model::{Parameter, Parameters, Resistance, State};
 use capsulemap::orbit::{Case, Orbit, Protocol, Queue, settle_side_by_side};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};

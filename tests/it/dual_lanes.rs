@@ -1,8 +1,8 @@
 //! Numbers with derivatives have the same bits alone and in the lanes of every instruction set.
 
+use capsulemap::capsule::{Capsule, State, Stroboscopic};
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Dual, Instructions, Lane, Mask, Work};
-use capsulemap::model::{Capsule, State, Stroboscopic};
 use capsulemap::orbit::{Case, Section};
 
 use super::derivatives::dual_capsule;

@@ -1,6 +1,6 @@
 //! Starts on a guard, tangencies, simultaneous events and degenerate parameters.
 
-use capsulemap::model::{
+use capsulemap::capsule::{
     Capsule, Contact, EventKind, Locomotion, Parameter, Parameters, State, StickSlip, Switched,
 };
 use capsulemap::orbit::{Event, Outcome, Output, Protocol};
@@ -106,7 +106,7 @@ fn simultaneous_events_are_both_obeyed() {
         (Parameter::MuD, mu_d),
     ];
     let mut p = Parameters::with(&base);
-    p.resistance = capsulemap::model::Resistance::Coulomb;
+    p.resistance = capsulemap::capsule::Resistance::Coulomb;
     let deceleration = mu_d * p.normal_load() / p[Parameter::M2];
     let stop = v0 / deceleration;
     // The mass keeps its speed v; r = v t - (v0 t - a t^2/2) is v stop - v0 stop / 2 at the stop.

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
+use capsulemap::capsule::{Capsule, Field, Parameter, State, Stroboscopic, Switched, Zeros};
 use capsulemap::lane::{
     Dual, Instructions, Lane, Mask, ORDER, Series, elementary::sin_cos, series,
 };
-use capsulemap::model::{Capsule, Field, Parameter, State, Stroboscopic, Switched, Zeros};
 use capsulemap::orbit::exponent::stretching;
 use capsulemap::orbit::return_map::Cycles;
 use capsulemap::orbit::wandering::{Wanders, irregularity, wander_side_by_side};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use capsulemap::figure::{Format, draw};
 use capsulemap::store::dataset::Dataset;
-use capsulemap::sweep::{Drawing, DrawingKind};
+use capsulemap::study::{Drawing, DrawingKind};
 
 pub mod made;
 

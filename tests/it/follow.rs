@@ -5,9 +5,10 @@ use std::path::Path;
 use std::process::Command;
 
 use capsulemap::branch::SpecialKind;
-use capsulemap::model::Parameter;
+use capsulemap::capsule::Parameter;
+use capsulemap::run::follow;
 use capsulemap::store::{self, Dataset, Values};
-use capsulemap::sweep::{FirstOrbit, Study, follow};
+use capsulemap::study::{FirstOrbit, Study};
 
 use super::program::{Desk, FIG5};
 

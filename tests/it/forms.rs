@@ -1,9 +1,9 @@
 //! The integrator's two forms at once: what a test follows alone is followed among others in lanes too, to
 //! the same bits.
 
+use capsulemap::capsule::{Capsule, EventKind, Parameters, State, Switching};
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
-use capsulemap::model::{Capsule, EventKind, Parameters, State, Switching};
 use capsulemap::orbit::{self, Case, Orbit, Protocol, Queue, Simulation, settle_side_by_side};
 
 /// [`orbit::simulate`], compared with the same case in the last lane of a vector of others.

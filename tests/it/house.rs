@@ -4,12 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 9] =
-    ["lane", "model", "flow", "orbit", "branch", "sweep", "store", "figure", "cli"];
+const FLOORS: [&str; 10] =
+    ["lane", "capsule", "flow", "orbit", "branch", "study", "run", "store", "figure", "cli"];
 
 /// Crates that one floor alone may use.
-const RESERVED: [(&str, &[&str]); 4] = [
-    ("sweep", &["rayon", "toml"]),
+const RESERVED: [(&str, &[&str]); 5] = [
+    ("run", &["rayon"]),
+    ("study", &["toml"]),
     ("store", &["hdf5", "hdf5_sys"]),
     (
         "figure",
@@ -248,13 +249,13 @@ fn files_open_with_a_sentence_and_stay_short_and_safe() {
 fn a_floor_that_looks_up_is_seen() {
     for code in [
         "use crate::figure::Style;",
-        "use crate::{model, figure::{a, b}};",
+        "use crate::{capsule, figure::{a, b}};",
         "fn f() { crate :: cli::run() }",
     ] {
         assert_eq!(floor_faults(&Source::new("src/store/a.rs", code)).len(), 1, "{code}");
     }
     for code in [
-        "use crate::{model::A, store};",
+        "use crate::{capsule::A, store};",
         "// use crate::figure;",
         "let a = \"crate::figure\";",
         "use crate::figures;",
@@ -268,7 +269,7 @@ fn a_crate_on_the_wrong_floor_is_seen() {
     let cases = [
         ("src/cli/run.rs", "use rayon::prelude::*;"),
         ("src/figure/a.rs", "let file = hdf5::File::open(path);"),
-        ("src/sweep/a.rs", "use png;"),
+        ("src/run/a.rs", "use png;"),
         ("src/main.rs", "use clap::Parser;"),
         ("src/orbit.rs", "#[derive(clap::Parser)] struct A;"),
     ];
@@ -289,21 +290,22 @@ fn a_crate_on_the_wrong_floor_is_seen() {
 fn bad_form_is_seen() {
     let long = format!("//! A sentence.\n{}", "\n".repeat(LONGEST_FILE));
     for text in ["fn f() {}", "//! no stop\n", "//! A sentence.\nunsafe fn f() {}", &long] {
-        assert_eq!(form_faults(&Source::new("src/model/a.rs", text)).len(), 1, "{text}");
+        assert_eq!(form_faults(&Source::new("src/capsule/a.rs", text)).len(), 1, "{text}");
     }
     let fine =
         "//! A sentence.\n#![deny(unsafe_code)]\n// unsafe\nlet a = '\"'; let b = \"unsafe\";";
-    assert_clean(form_faults(&Source::new("src/model/a.rs", fine)));
+    assert_clean(form_faults(&Source::new("src/capsule/a.rs", fine)));
     let foreign = "//! A sentence.\nunsafe fn f() {}";
     assert_clean(form_faults(&Source::new(UNSAFE_ALLOWED[0], foreign)));
 }
 
 #[test]
 fn a_wrong_order_of_floors_is_seen() {
-    let present = ["store", "model", "cli"];
-    assert_clean(order_faults("pub mod model; pub mod store; pub mod cli;", &present));
-    for code in ["pub mod store; pub mod model; pub mod cli;", "pub mod model; pub mod store;"] {
+    let present = ["store", "capsule", "cli"];
+    assert_clean(order_faults("pub mod capsule; pub mod store; pub mod cli;", &present));
+    for code in ["pub mod store; pub mod capsule; pub mod cli;", "pub mod capsule; pub mod store;"]
+    {
         assert_eq!(order_faults(code, &present).len(), 1, "{code}");
     }
-    assert_eq!(order_faults("mod model; mod util; mod store; mod cli;", &present).len(), 1);
+    assert_eq!(order_faults("mod capsule; mod util; mod store; mod cli;", &present).len(), 1);
 }

@@ -1,9 +1,9 @@
 //! What must hold for every motion, over random parameters and starts.
 
-use capsulemap::lane::series;
-use capsulemap::model::{
+use capsulemap::capsule::{
     Capsule, Contact, Locomotion, Parameter, Parameters, State, StickSlip, Switching,
 };
+use capsulemap::lane::series;
 use capsulemap::orbit::{Account, Outcome, Protocol, Trajectory};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

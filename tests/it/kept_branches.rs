@@ -3,10 +3,10 @@
 use std::fs;
 
 use capsulemap::branch::{End, SpecialKind};
-use capsulemap::model::{Parameter, State};
+use capsulemap::capsule::{Parameter, State};
 use capsulemap::orbit::{Outcome, Protocol, settle};
 use capsulemap::store::{self, Dataset};
-use capsulemap::sweep::Study;
+use capsulemap::study::Study;
 
 use super::program::Desk;
 

@@ -1,8 +1,8 @@
 //! The same source serves one case or many side by side, to the same bits.
 
+use capsulemap::capsule::{Capsule, Parameter, Parameters, State};
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
-use capsulemap::model::{Capsule, Parameter, Parameters, State};
 use capsulemap::orbit::{Case, Orbit, Outcome, Protocol, settle};
 
 use super::draws;

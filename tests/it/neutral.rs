@@ -2,8 +2,8 @@
 //! slower.
 
 use capsulemap::branch::{NotFollowed, follow};
+use capsulemap::capsule::{Capsule, Parameter, Parameters, State};
 use capsulemap::lane::Dual;
-use capsulemap::model::{Capsule, Parameter, Parameters, State};
 use capsulemap::orbit::neutral::close_neutral;
 use capsulemap::orbit::return_map::Cycles;
 use capsulemap::orbit::{Case, Orbit, Outcome, Output, Proof, Protocol};

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
+use capsulemap::capsule::{Field, Stroboscopic, Switched, Zeros};
 use capsulemap::flow::{Breakdown, Motion, Step};
 use capsulemap::lane::elementary::{not_finite, sin_cos};
 use capsulemap::lane::{Dual, Lane, ORDER, Series, series};
-use capsulemap::model::{Field, Stroboscopic, Switched, Zeros};
 use capsulemap::orbit::matrix::{Matrix, solve};
 use capsulemap::orbit::return_map::{Cycles, jacobian, returned, seeded, values};
 

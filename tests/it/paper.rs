@@ -1,6 +1,6 @@
 //! The six cases of the paper and what its text says of them.
 
-use capsulemap::model::{Parameter, Parameters, State, Switching};
+use capsulemap::capsule::{Parameter, Parameters, State, Switching};
 use capsulemap::orbit::{Orbit, Outcome, Output, Protocol};
 
 use super::forms::settle;

@@ -4,7 +4,7 @@ use std::fs;
 
 use capsulemap::figure::{Format, draw, reads};
 use capsulemap::store;
-use capsulemap::sweep::Study;
+use capsulemap::study::Study;
 
 use super::program::Desk;
 

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use capsulemap::store;
-use capsulemap::sweep::Study;
+use capsulemap::study::Study;
 
 const README: &str = include_str!("../../README.md");
 
@@ -150,7 +150,7 @@ fn every_study_that_is_kept_can_be_read() {
 
 #[test]
 fn the_reference_of_studies_names_every_parameter_and_output() {
-    use capsulemap::model::Parameter;
+    use capsulemap::capsule::Parameter;
     use capsulemap::orbit::{Output, Protocol};
     let reference = include_str!("../../studies/README.md");
     let parameters = Parameter::ALL.iter().map(|parameter| parameter.symbol());

@@ -2,8 +2,8 @@
 //! 44 over a wide box of parameters.
 
 use super::forms::{simulate, simulate_by};
+use capsulemap::capsule::{Parameter, Parameters, State};
 use capsulemap::lane::Instructions;
-use capsulemap::model::{Parameter, Parameters, State};
 use serde_json::Value;
 
 fn number(value: &Value, key: &str) -> f64 {

@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::Path;
 
+use capsulemap::capsule::{Parameter, State};
 use capsulemap::lane::Instructions;
-use capsulemap::model::{Parameter, State};
 use capsulemap::orbit::{Output, settle};
 use capsulemap::store::{self, Dataset, Values, Variable};
-use capsulemap::sweep::Study;
+use capsulemap::study::Study;
 use serde_json::Value;
 
 use super::program::{Desk, FIG5};

@@ -1,6 +1,6 @@
 //! A second method that shares no code with the series: extrapolation of Gragg's rule, events by bracketing.
 
-use capsulemap::model::{Parameter, Parameters, Resistance, State};
+use capsulemap::capsule::{Parameter, Parameters, Resistance, State};
 
 /// r, y1, x2, y2.
 type Vector = [f64; 4];

@@ -1,6 +1,6 @@
 //! The motion at every width of the friction layer, against a second method that shares no code with the series.
 
-use capsulemap::model::{Parameter, State};
+use capsulemap::capsule::{Parameter, State};
 
 use super::contract::example;
 use super::forms::simulate;

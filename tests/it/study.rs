@@ -1,6 +1,6 @@
 //! The study file: every way of writing one, and every fault with its line and key.
 
-use capsulemap::sweep::Study;
+use capsulemap::study::Study;
 
 use super::program::{Desk, FIG5};
 

@@ -1,10 +1,10 @@
 //! The capsule without the bound on its steps: a system that breaks the contract, for the checks to find.
 
-use capsulemap::lane::{Lane, Series};
-use capsulemap::model::{
+use capsulemap::capsule::{
     Capsule, Contact, Field, Jet, Locomotion, Parameter, Parameters, Resistance, State, StickSlip,
     Stroboscopic, Switched, Zeros,
 };
+use capsulemap::lane::{Lane, Series};
 
 /// A capsule whose steps are paced by its series alone, so that they can jump over the layer around rest.
 #[derive(Debug, Clone, Copy)]

@@ -1,7 +1,7 @@
 //! Outcomes over the whole box of parameters that users may set: periods that hold, and few undecided.
 
+use capsulemap::capsule::{Parameter, Resistance, State};
 use capsulemap::lane::Instructions;
-use capsulemap::model::{Parameter, Resistance, State};
 use capsulemap::orbit::{Case, Orbit, Outcome, Output, Proof, Protocol, Section, simulate};
 
 use super::draws;

@@ -3,8 +3,9 @@
 use capsulemap::branch::{Branch, Curve, End, Found, Point, Special, SpecialKind};
 use capsulemap::orbit::matrix::Complex;
 use capsulemap::orbit::{Output, Outputs};
+use capsulemap::run::{Followed, Unfollowed};
 use capsulemap::store::{self, Dataset};
-use capsulemap::sweep::{Followed, Study, Unfollowed};
+use capsulemap::study::Study;
 
 /// A study of three branches, the last of which leads nowhere.
 pub const STUDY: &str = r#"title = "Followed"

@@ -6,17 +6,18 @@ use std::sync::Mutex;
 use rayon::prelude::*;
 
 use crate::branch::SpecialKind;
-use crate::model::{Capsule, Locomotion, PrintedCapsule, Switching};
+use crate::capsule::{Capsule, Locomotion, PrintedCapsule, Switching};
 use crate::orbit::Section;
 
 use super::bridge::{Bridge, bridges};
+use super::cases::{RunError, pool};
 use super::cell::Cell;
 use super::change::Change;
 use super::family::{Links, Neighbours};
-use super::layout::{Layout, is_start, linked_axis};
-use super::run::{RunError, pool};
-use super::{Coordinate, Ending, Machine, Study};
+use super::{Ending, Machine};
 use crate::branch::natural::{Along, ROUNDING};
+use crate::study::layout::{Layout, is_start, linked_axis};
+use crate::study::{Coordinate, Study};
 
 /// A change of an attractor along the axis, or its beginning or end.
 #[derive(Debug, Clone, PartialEq)]

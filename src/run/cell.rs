@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
+use crate::capsule::{Locomotion, Parameter};
 use crate::lane::Dual;
-use crate::model::{Locomotion, Parameter};
 use crate::orbit::certificate::OBLIQUE;
 use crate::orbit::recurrence::size;
 use crate::orbit::return_map::{Cycles, returned, values};

@@ -1,6 +1,6 @@
 //! An axis of a study: a parameter or a coordinate of the start, and the values it takes.
 
-use crate::model::{Allowed, Dimension, Parameter};
+use crate::capsule::{Allowed, Dimension, Parameter};
 
 /// What varies along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,7 +8,7 @@ const SAMPLE: usize = 8;
 /// What has been done of a run, and what that says of the rest.
 ///
 /// Assumptions: time goes with the drive cycles that cases are followed, and the blocks that have been begun
-/// are a fair sample of all, which [`super::spread`] sees to. Those that are done already are none, as the
+/// are a fair sample of all, which [`crate::study::spread`] sees to. Those that are done already are none, as the
 /// quick ones end first; so a block that is under way counts with what it will take if it goes on as it has
 /// begun. It breaks where a few cases take most of the time, as nothing is known of them until they are done,
 /// and where the first cases of a line that is followed are unlike the last.
@@ -102,8 +102,8 @@ impl Forecast {
 
 #[cfg(test)]
 mod tests {
-    use super::super::spread;
     use super::*;
+    use crate::study::spread;
 
     #[test]
     fn equal_blocks_are_foretold_exactly() {

@@ -6,7 +6,7 @@ use std::fmt;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::model::Dimension;
+use crate::capsule::Dimension;
 
 use super::quantity::{expectation, parse_quantity};
 

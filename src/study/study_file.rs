@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use toml::de::DeTable;
 
-use crate::model::{Allowed, Dimension, Parameter, Parameters, Resistance, State, Switching};
+use crate::capsule::{Allowed, Dimension, Parameter, Parameters, Resistance, State, Switching};
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Output, Protocol};
 

@@ -1,11 +1,12 @@
 //! Endings: what the search for attractors needs of a case, small enough to hold one for each of millions.
 
-use crate::model::State;
+use crate::capsule::State;
 use crate::orbit::certificate::least_from_one;
 use crate::orbit::matrix::Complex;
 use crate::orbit::{Orbit, Outcome, Section};
 
-use super::{Record, Study};
+use super::Record;
+use crate::study::Study;
 
 /// How a case has ended.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,7 +4,7 @@ use std::hash::Hash;
 
 use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 
-use crate::model::{Parameters, State};
+use crate::capsule::{Parameters, State};
 use crate::orbit::{Case, Output, Protocol};
 
 use super::{Axis, Continuation, Coordinate, Drawing};

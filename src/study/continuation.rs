@@ -1,7 +1,7 @@
 //! What a study asks to have followed: periodic orbits, stable or not, through a parameter.
 
 use crate::branch::Request;
-use crate::model::{Parameter, Parameters, State};
+use crate::capsule::{Parameter, Parameters, State};
 use crate::orbit::Section;
 
 /// How the first orbit of a branch is found.

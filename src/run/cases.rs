@@ -5,12 +5,12 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use crate::capsule::{State, Switching};
 use crate::lane::Instructions;
-use crate::model::{State, Switching};
 use crate::orbit::{Case, Orbit, Outcome, Queue, Underway, settle, settle_side_by_side};
 
-use super::Study;
-use super::study::Chain;
+use crate::study::Study;
+use crate::study::study::Chain;
 
 /// What came of one case.
 #[derive(Debug, Clone, PartialEq)]

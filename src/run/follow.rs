@@ -7,12 +7,9 @@ use rayon::prelude::*;
 use crate::branch::{self, Found, NotFollowed};
 use crate::orbit::{Outcome, Protocol, Reason, Section, settle};
 
-use super::run::{RunError, pool};
-use super::{Continuation, FirstOrbit, Study};
-
-/// What is said of a study with branches that reads friction as printed.
-pub(super) const AS_PRINTED: &str =
-    "the equation as printed is not followed; it takes `friction_switching = \"filippov\"`";
+use super::cases::{RunError, pool};
+use crate::study::branch_file::AS_PRINTED;
+use crate::study::{Continuation, FirstOrbit, Study};
 
 /// What came of one branch of a study.
 pub type Followed = Result<Found, Unfollowed>;

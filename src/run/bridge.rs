@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::branch::natural::End;
-use crate::model::Locomotion;
+use crate::capsule::Locomotion;
 
 use super::cell::Cell;
 use super::change::{Change, changes};

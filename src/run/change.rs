@@ -1,7 +1,7 @@
 //! Where an orbit changes its character along a parameter: located by bisection.
 
 use crate::branch::SpecialKind;
-use crate::model::{EventKind, Locomotion};
+use crate::capsule::{EventKind, Locomotion};
 use crate::orbit::Section;
 use crate::orbit::certificate::least_from_one;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::model::{Dimension, Parameter};
+use crate::capsule::{Dimension, Parameter};
 use crate::orbit::Output;
 
 use super::document::{Entry, Table, unknown};

@@ -1,13 +1,13 @@
 //! Which attractors of two neighbouring cells are one, and what happens to them in between.
 
 use crate::branch::SpecialKind;
-use crate::model::Locomotion;
+use crate::capsule::Locomotion;
 use crate::orbit::Outcome;
 
-use super::Direction;
 use super::cell::{Attractor, Cell, coincide};
 use super::change::{Change, changes, ending, straddles};
 use crate::branch::natural::{Along, End, Solution};
+use crate::study::Direction;
 
 /// How the attractors of a cell go on in the next.
 #[derive(Debug, Clone, PartialEq, Default)]

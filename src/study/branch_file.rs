@@ -2,13 +2,17 @@
 
 use std::collections::BTreeMap;
 
-use crate::model::{Allowed, Dimension, Parameter, Parameters, State, Switching};
+use crate::capsule::{Allowed, Dimension, Parameter, Parameters, State, Switching};
 
 use super::continuation::{Continuation, FirstOrbit};
 use super::document::{Entry, Table, unknown};
-use super::follow::AS_PRINTED;
+
 use super::study_file::allowed_quantity;
 use super::{Axis, Coordinate};
+
+/// What is said of a study with branches that reads friction as printed.
+pub(crate) const AS_PRINTED: &str =
+    "the equation as printed is not followed; it takes `friction_switching = \"filippov\"`";
 
 /// Longest step unless another is asked for, as a share of the range.
 const LONGEST_STEP: f64 = 0.02;

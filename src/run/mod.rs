@@ -1,0 +1,19 @@
+//! Repeated: turns the cases of a study into records, in parallel, in any order.
+
+pub mod attractor;
+pub mod block;
+mod bridge;
+pub mod cases;
+mod cell;
+mod change;
+pub mod ending;
+mod family;
+pub mod follow;
+pub mod forecast;
+
+pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors, links};
+pub use block::run_blocks;
+pub use cases::{Machine, Record, RunError, run, run_sample};
+pub use ending::{Ending, endings};
+pub use follow::{Followed, Unfollowed, follow};
+pub use forecast::{Estimate, Forecast};
