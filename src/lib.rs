@@ -4,10 +4,10 @@
 //! saying what it does. A reader starts at `capsule`, which defines what is computed.
 
 pub mod lane;
-pub mod capsule;
 pub mod flow;
 pub mod orbit;
 pub mod branch;
+pub mod capsule;
 pub mod study;
 pub mod run;
 pub mod store;

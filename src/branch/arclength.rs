@@ -1,6 +1,6 @@
 //! Curves of solutions by pseudo-arclength: the corrector and the tangent.
 
-use crate::orbit::Reason;
+use crate::flow::Reason;
 use crate::orbit::matrix::{Matrix, solve};
 
 /// Newton's steps at most.

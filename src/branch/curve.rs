@@ -1,9 +1,11 @@
 //! Curves of special points in two parameters.
 
+use crate::flow::System;
+
 use super::arclength::{Plane, Station, between, corrected, norm, tangent};
 use super::corner::is_corner;
-use super::locus::{Locus, LocusStation, SECOND, Touch};
-use super::orbits::{Orbits, PARAMETER};
+use super::locus::{Locus, LocusStation, Touch};
+use super::orbits::Orbits;
 use super::periodic::{Goal, Periodic, passes};
 use super::walk::{Bounds, Stride, Walk};
 use super::{Curve, End, Request, Special, SpecialKind};
@@ -17,26 +19,26 @@ const ACROSS: f64 = 0.03;
 
 /// A curve with the orbits on it.
 #[derive(Debug, Clone)]
-pub struct Trace {
-    locus: Locus,
+pub struct Trace<M: System<D>, const D: usize, const W: usize> {
+    locus: Locus<M, D, W>,
     through: (usize, usize),
-    points: Vec<[f64; 5]>,
+    points: Vec<[f64; W]>,
     ends: [End; 2],
 }
 
-impl Trace {
+impl<M: System<D>, const D: usize, const W: usize> Trace<M, D, W> {
     /// What is kept of it.
     pub fn curve(&self) -> Curve {
-        let value = |at: &[f64; 5]| [PARAMETER, SECOND].map(|i| at[i] * self.locus.units[i]);
+        let value = |at: &[f64; W]| [D, D + 1].map(|i| at[i] * self.locus.units[i]);
         let points = self.points.iter().map(value).collect();
         let (kind, period) = (self.locus.kind, self.locus.family.period);
         Curve { kind, through: self.through, period, points, ends: self.ends }
     }
 
     /// Whether it goes through an orbit, from whichever of its section points.
-    fn passes(&self, station: &LocusStation) -> bool {
+    fn passes(&self, station: &LocusStation<W>) -> bool {
         let images = self.locus.images(station);
-        let through = |ends: &[[f64; 5]], at| passes(&self.locus, [&ends[0], &ends[1]], at);
+        let through = |ends: &[[f64; W]], at| passes(&self.locus, [&ends[0], &ends[1]], at);
         self.points.windows(2).any(|ends| images.iter().any(|image| through(ends, &image.at)))
     }
 }
@@ -51,33 +53,34 @@ pub fn is_followed(kind: SpecialKind) -> bool {
 ///
 /// None for what is not followed, where no second parameter is asked for, and where the equations of the
 /// curve do not hold at the special point.
-pub fn trace(
-    request: &Request,
-    orbits: &Orbits,
+pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
+    request: &Request<M, D>,
+    orbits: &Orbits<M, D, U>,
     through: (usize, usize),
-    special: &Special,
-    traces: &mut Vec<Trace>,
+    special: &Special<O, D>,
+    traces: &mut Vec<Trace<M, D, W>>,
 ) -> Option<usize> {
     let (second, range) = request.second?;
     let width = range[1] - range[0];
-    let value = request.parameters[second];
+    let value = request.system.value(second);
     let inside = (range[0]..=range[1]).contains(&value) && width > 0.0;
     if !is_followed(special.kind) || !inside || second == request.along {
         return None;
     }
-    let [r, y1, y2, along] = orbits.units;
-    let units = [r, y1, y2, along, width];
+    let along = orbits.units[D];
+    let units = std::array::from_fn(|i| *orbits.units.get(i).unwrap_or(&width));
     let free = [request.along, second];
     let locus = Locus { family: orbits.family.clone(), free, units, kind: special.kind };
     let start = start(&locus, special, value)?;
-    let alike =
-        |trace: &Trace| (trace.locus.kind, trace.locus.period()) == (locus.kind, locus.period());
+    let alike = |trace: &Trace<M, D, W>| {
+        (trace.locus.kind, trace.locus.period()) == (locus.kind, locus.period())
+    };
     if let Some(known) = traces.iter().position(|trace| alike(trace) && trace.passes(&start)) {
         return Some(known);
     }
     let bounds = Bounds::none()
-        .with(PARAMETER, request.range.map(|end| end / along))
-        .with(SECOND, range.map(|end| end / width));
+        .with(D, request.range.map(|end| end / along))
+        .with(D + 1, range.map(|end| end / width));
     let walk = Walk::new(bounds, request.longest_step);
     let (points, ends) = both_ways(&locus, &start, walk, request.most_points);
     traces.push(Trace { locus, through, points, ends });
@@ -85,25 +88,32 @@ pub fn trace(
 }
 
 /// The special point as a point of its curve, with the tangent there.
-fn start(locus: &Locus, special: &Special, second: f64) -> Option<LocusStation> {
-    let [r, y1, y2] = *special.point.section.first()?;
-    let raw = [r, y1, y2, special.point.parameter, second];
-    let at: [f64; 5] = std::array::from_fn(|i| raw[i] / locus.units[i]);
-    let plane = Plane::fixing(SECOND, at[SECOND]);
+fn start<M: System<D>, O, const D: usize, const W: usize>(
+    locus: &Locus<M, D, W>,
+    special: &Special<O, D>,
+    second: f64,
+) -> Option<LocusStation<W>> {
+    let section = special.point.section.first()?;
+    let parameters = [special.point.parameter, second];
+    let at: [f64; W] = std::array::from_fn(|i| {
+        let raw = section.get(i).unwrap_or_else(|| &parameters[i - D]);
+        raw / locus.units[i]
+    });
+    let plane = Plane::fixing(D + 1, at[D + 1]);
     let (start, _) = corrected(locus, &plane, &at, &plane.normal)?;
     let away = between(&at, &start.at);
     let near = |i: usize| away[i].abs() <= AT_SPECIAL * at[i].abs().max(1.0);
     let tangent = tangent(start.rows, &plane.normal)?;
-    (0..5).all(near).then_some(Station { tangent, ..start })
+    (0..W).all(near).then_some(Station { tangent, ..start })
 }
 
 /// The curve through an orbit from one end to the other, of so many points at most.
-fn both_ways(
-    locus: &Locus,
-    start: &LocusStation,
-    walk: Walk<5>,
+fn both_ways<M: System<D>, const D: usize, const W: usize>(
+    locus: &Locus<M, D, W>,
+    start: &LocusStation<W>,
+    walk: Walk<W>,
     most: usize,
-) -> (Vec<[f64; 5]>, [End; 2]) {
+) -> (Vec<[f64; W]>, [End; 2]) {
     let back = turned(start);
     let (mut points, last, end) =
         one_way(locus, &back, walk, most.div_ceil(2), &Goal::at(locus, &back));
@@ -120,18 +130,18 @@ fn both_ways(
 }
 
 /// A point of a curve, from which it leads the other way.
-fn turned(station: &LocusStation) -> LocusStation {
+fn turned<const W: usize>(station: &LocusStation<W>) -> LocusStation<W> {
     Station { tangent: station.tangent.map(|part| -part), ..station.clone() }
 }
 
 /// The curve from a point on along its tangent, its last point with the tangent, and why it ends.
-fn one_way(
-    locus: &Locus,
-    start: &LocusStation,
-    mut walk: Walk<5>,
+fn one_way<M: System<D>, const D: usize, const W: usize>(
+    locus: &Locus<M, D, W>,
+    start: &LocusStation<W>,
+    mut walk: Walk<W>,
     most: usize,
-    goal: &Goal<5, Option<Touch>>,
-) -> (Vec<[f64; 5]>, LocusStation, End) {
+    goal: &Goal<W, Option<Touch>>,
+) -> (Vec<[f64; W]>, LocusStation<W>, End) {
     let mut points = vec![start.at];
     let mut last = start.clone();
     while points.len() < most {
@@ -166,7 +176,10 @@ fn one_way(
 }
 
 /// Why no step leads on from an orbit.
-fn dead_end(locus: &Locus, last: &LocusStation) -> End {
+fn dead_end<M: System<D>, const D: usize, const W: usize>(
+    locus: &Locus<M, D, W>,
+    last: &LocusStation<W>,
+) -> End {
     if locus.vanishes(last) {
         End::Vanishes
     } else if is_corner(locus, last) {
@@ -179,6 +192,10 @@ fn dead_end(locus: &Locus, last: &LocusStation) -> End {
 /// Whether a curve passes an orbit of half the period and leads back as the other half of its orbits.
 ///
 /// A grazing does not: half a period later another extremum touches.
-fn comes_back(locus: &Locus, from: &LocusStation, to: &LocusStation) -> bool {
+fn comes_back<M: System<D>, const D: usize, const W: usize>(
+    locus: &Locus<M, D, W>,
+    from: &LocusStation<W>,
+    to: &LocusStation<W>,
+) -> bool {
     locus.kind != SpecialKind::Grazing && locus.halves(&from.at, &to.at)
 }

@@ -1,10 +1,15 @@
 //! From a period doubling onto the branch of twice the period.
 
+use crate::flow::System;
 use crate::orbit::matrix::Matrix;
 
 use super::arclength::{Equations, Plane, Station, between, corrected, dot, moved, norm, unit};
 use super::orbits::{OrbitStation, Orbits, shifted};
 use super::periodic::Periodic;
+
+/// The orbits of twice the period, and the first two of them.
+pub type Doubled<M, const D: usize, const U: usize> =
+    (Orbits<M, D, U>, [OrbitStation<<M as System<D>>::Event, D, U>; 2]);
 
 /// First steps off the branch that are tried, as shares of the longest.
 const FIRST_STEPS: [f64; 7] = [0.1, 0.03, 0.3, 0.01, 1e-3, 1e-4, 1e-5];
@@ -16,14 +21,14 @@ const OTHER_SIDE: f64 = 1.0;
 ///
 /// Method: a step along the eigenvector of -1 at constant parameter, corrected at right angles to it, and
 /// accepted if the orbit needs both halves of its period.
-pub fn doubled(
-    orbits: &Orbits,
-    at: &OrbitStation,
+pub fn doubled<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    at: &OrbitStation<M::Event, D, U>,
     longest: f64,
-) -> Option<(Orbits, [OrbitStation; 2])> {
-    let [r, y1, y2] = annihilated(&shifted(&at.seen.jacobian, 1.0))?;
+) -> Option<Doubled<M, D, U>> {
+    let direction = annihilated(&shifted(&at.seen.jacobian, 1.0))?;
     let twice = orbits.with_period(2 * orbits.family.period);
-    let tangent = [r, y1, y2, 0.0];
+    let tangent: [f64; U] = std::array::from_fn(|i| *direction.get(i).unwrap_or(&0.0));
     let linear = twice.at(&at.at).ok()?;
     let start = Station { at: at.at, tangent, rows: linear.rows, seen: linear.seen };
     FIRST_STEPS.into_iter().find_map(|share| {
@@ -33,19 +38,40 @@ pub fn doubled(
         let (met, _) = corrected(&twice, &plane, &predicted, &tangent)?;
         let near = norm(&between(&predicted, &met.at)) <= length;
         let apart = twice.halfway(&met.at)?;
-        let across = -dot(&apart, &[r, y1, y2]) >= OTHER_SIDE * length;
+        let across = -dot(&apart, &direction) >= OTHER_SIDE * length;
         (near && across).then(|| (twice.clone(), [start.clone(), met]))
     })
 }
 
-/// The unit vector that a singular matrix sends to zero: the longest product of two of its rows.
-fn annihilated(matrix: &Matrix<3>) -> Option<[f64; 3]> {
-    let [a, b, c] = matrix;
-    let products = [crossed(a, b), crossed(b, c), crossed(c, a)];
-    let longest = products.into_iter().max_by(|a, b| norm(a).total_cmp(&norm(b)))?;
+/// The unit vector that a singular matrix sends to zero: the longest row of cofactors.
+fn annihilated<const D: usize>(matrix: &Matrix<D>) -> Option<[f64; D]> {
+    // Begun with the last row, of rows of equal length the last counts.
+    let rows = (0..D).map(|i| cofactors(matrix, (i + D - 1) % D));
+    let longest = rows.max_by(|a, b| norm(a).total_cmp(&norm(b)))?;
     (norm(&longest) > 0.0).then(|| unit(&longest))
 }
 
-fn crossed(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+/// The cofactors of a row.
+fn cofactors<const D: usize>(matrix: &Matrix<D>, row: usize) -> [f64; D] {
+    let rows: Vec<&[f64; D]> = (0..D).filter(|i| *i != row).map(|i| &matrix[i]).collect();
+    std::array::from_fn(|column| {
+        let columns: Vec<usize> = (0..D).filter(|j| *j != column).collect();
+        let minor = minor(&rows, &columns);
+        if (row + column).is_multiple_of(2) { minor } else { -minor }
+    })
+}
+
+/// The determinant of the `columns` of some rows, expanded along the first.
+fn minor<const D: usize>(rows: &[&[f64; D]], columns: &[usize]) -> f64 {
+    let Some((first, below)) = rows.split_first() else { return 1.0 };
+    if let [a, b] = columns {
+        return first[*a] * below[0][*b] - first[*b] * below[0][*a];
+    }
+    let mut sum = 0.0;
+    for (place, column) in columns.iter().enumerate() {
+        let others: Vec<usize> = columns.iter().copied().filter(|other| other != column).collect();
+        let term = first[*column] * minor(below, &others);
+        sum += if place.is_multiple_of(2) { term } else { -term };
+    }
+    sum
 }

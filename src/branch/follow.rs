@@ -1,20 +1,23 @@
 //! From a request to what is found: the first orbit, its branch both ways, the doubled branches and the
 //! curves.
 
-use crate::capsule::{Capsule, EventKind, Switching};
+use crate::flow::{Event, System};
+use crate::orbit::measured;
 use crate::orbit::neutral::may_be_neutral;
-use crate::orbit::{Output, Outputs, Section, over_cycles};
 
 use super::arclength::{Plane, corrected, tangent};
 use super::curve::{Trace, trace};
 use super::doubling::doubled;
 use super::family::Family;
-use super::orbits::{OrbitStation, Orbits, PARAMETER};
+use super::orbits::{OrbitStation, Orbits};
 use super::periodic::{Goal, Periodic};
 use super::scales::units;
 use super::walk::{Bounds, Walk};
 use super::way::Way;
-use super::{Branch, End, Found, NotFollowed, Point, Request, Special, SpecialKind};
+use super::{
+    Branch, BranchOf, End, Found, FoundOf, NotFollowed, Point, PointOf, Request, Special,
+    SpecialKind,
+};
 
 /// Cycles after which Newton's method is tried again from where the motion then is.
 const APPROACH: u64 = 4;
@@ -24,21 +27,38 @@ const APPROACHES: u64 = 8;
 const REPEATS: f64 = 1e-8;
 
 /// A branch with what is needed to go on from it.
-struct Followed {
-    orbits: Orbits,
+struct Followed<M: System<D>, const D: usize, const U: usize> {
+    orbits: Orbits<M, D, U>,
     level: u32,
-    way: Way,
+    way: Way<M::Event, D, U>,
     /// Why it begins where it does.
     beginning: End,
 }
 
 /// Follows a branch of periodic orbits both ways from the one that is given, and what leaves it.
-pub fn follow(request: &Request) -> Result<Found, NotFollowed> {
-    if request.parameters.switching == Switching::AsPrinted {
-        return Err(NotFollowed::AsPrinted);
+///
+/// # Errors
+/// Where no periodic orbit is found near the point that is given, or none that a branch goes through.
+pub fn follow<M: System<D>, const D: usize>(
+    request: &Request<M, D>,
+) -> Result<FoundOf<M, D>, NotFollowed> {
+    // The unknowns are one more than the coordinates, those of curves two more.
+    match const { D } {
+        1 => follow_with::<M, D, 2, 3>(request),
+        2 => follow_with::<M, D, 3, 4>(request),
+        3 => follow_with::<M, D, 4, 5>(request),
+        4 => follow_with::<M, D, 5, 6>(request),
+        5 => follow_with::<M, D, 6, 7>(request),
+        6 => follow_with::<M, D, 7, 8>(request),
+        _ => panic!("a section has one to six coordinates, not {D}"),
     }
-    let (orbits, first) = first_orbit(request)?;
-    let mut found = Found::default();
+}
+
+fn follow_with<M: System<D>, const D: usize, const U: usize, const W: usize>(
+    request: &Request<M, D>,
+) -> Result<FoundOf<M, D>, NotFollowed> {
+    let (orbits, first) = first_orbit::<M, D, U>(request)?;
+    let mut found = Found { branches: Vec::new(), curves: Vec::new() };
     let (way, beginning) = both_ways(request, &orbits, first);
     let mut followed = vec![Followed { orbits, level: 0, way, beginning }];
     found.branches.push(branch(&followed[0], None));
@@ -47,7 +67,7 @@ pub fn follow(request: &Request) -> Result<Found, NotFollowed> {
         leave(request, &mut followed, next, &mut found);
         next += 1;
     }
-    let mut traces = Vec::new();
+    let mut traces: Vec<Trace<M, D, W>> = Vec::new();
     let branches = found.branches.iter_mut().zip(&followed);
     for (i, (branch, Followed { orbits, .. })) in branches.enumerate() {
         for (j, special) in branch.special.iter_mut().enumerate() {
@@ -59,7 +79,12 @@ pub fn follow(request: &Request) -> Result<Found, NotFollowed> {
 }
 
 /// Follows the branches that leave a branch at its period doublings.
-fn leave(request: &Request, followed: &mut Vec<Followed>, parent: usize, found: &mut Found) {
+fn leave<M: System<D>, const D: usize, const U: usize>(
+    request: &Request<M, D>,
+    followed: &mut Vec<Followed<M, D, U>>,
+    parent: usize,
+    found: &mut FoundOf<M, D>,
+) {
     let level = followed[parent].level + 1;
     if level > request.doublings {
         return;
@@ -80,7 +105,9 @@ fn leave(request: &Request, followed: &mut Vec<Followed>, parent: usize, found: 
 }
 
 /// The period doublings of a branch with their places, the first last.
-fn doublings(way: &Way) -> Vec<(usize, OrbitStation)> {
+fn doublings<E: Event, const D: usize, const U: usize>(
+    way: &Way<E, D, U>,
+) -> Vec<(usize, OrbitStation<E, D, U>)> {
     let happenings = way.happenings.iter().enumerate().rev();
     let doublings = happenings
         .filter(|(_, (_, happening))| happening.kind == SpecialKind::PeriodDoubling)
@@ -88,28 +115,32 @@ fn doublings(way: &Way) -> Vec<(usize, OrbitStation)> {
     doublings.collect()
 }
 
-fn walk(request: &Request, orbits: &Orbits) -> Walk<4> {
-    let range = request.range.map(|end| end / orbits.units[PARAMETER]);
-    Walk::new(Bounds::none().with(PARAMETER, range), request.longest_step)
+fn walk<M: System<D>, const D: usize, const U: usize>(
+    request: &Request<M, D>,
+    orbits: &Orbits<M, D, U>,
+) -> Walk<U> {
+    let range = request.range.map(|end| end / orbits.units[D]);
+    Walk::new(Bounds::none().with(D, range), request.longest_step)
 }
 
 /// The orbit near the point that is given, of the least period that it has.
-fn first_orbit(request: &Request) -> Result<(Orbits, OrbitStation), NotFollowed> {
-    let Request { parameters, range: [low, high], along, .. } = request;
-    let value = parameters[*along];
+fn first_orbit<M: System<D>, const D: usize, const U: usize>(
+    request: &Request<M, D>,
+) -> Result<(Orbits<M, D, U>, OrbitStation<M::Event, D, U>), NotFollowed> {
+    let Request { system, range: [low, high], along, .. } = request;
+    let value = system.value(*along);
     let width = high - low;
     if !(*low..=*high).contains(&value) || width <= 0.0 || request.period == 0 {
         return Err(NotFollowed::NoOrbit);
     }
-    let family = Family {
-        parameters: parameters.clone(),
-        phase: request.phase,
-        period: request.period,
-        tolerance: request.tolerance,
+    let Request { period, tolerance, .. } = *request;
+    let family = Family { system: system.clone(), period, tolerance };
+    let in_units = |section: &[f64; D]| -> [f64; U] {
+        std::array::from_fn(|i| *section.get(i).unwrap_or(&width))
     };
-    let [r, y1, y2] = units(request, &[request.section]);
-    let mut orbits = Orbits { family, along: *along, units: [r, y1, y2, width] };
-    let plane = Plane::fixing(PARAMETER, value / width);
+    let mut orbits =
+        Orbits { family, along: *along, units: in_units(&units(request, &[request.section])) };
+    let plane = Plane::fixing(D, value / width);
     let mut section = request.section;
     for _ in 0..APPROACHES {
         let guess = orbits.unknowns(&section, value);
@@ -117,10 +148,9 @@ fn first_orbit(request: &Request) -> Result<(Orbits, OrbitStation), NotFollowed>
             orbits.family.period = least_period(&orbits, &station);
             // The guess may be far away: only the orbit knows the scale of its motion.
             let points = orbits.section_points(&station.at);
-            let points: Vec<Section> = points.iter().map(|at| orbits.section(at)).collect();
-            let [r, y1, y2] = units(request, &points);
+            let points: Vec<[f64; D]> = points.iter().map(|at| orbits.section(at)).collect();
             let section = orbits.section(&station.at);
-            orbits.units = [r, y1, y2, width];
+            orbits.units = in_units(&units(request, &points));
             let met = corrected(&orbits, &plane, &orbits.unknowns(&section, value), &plane.normal);
             let (station, _) = met.ok_or(NotFollowed::NoOrbit)?;
             if may_be_neutral(&station.seen.multipliers()) {
@@ -135,7 +165,10 @@ fn first_orbit(request: &Request) -> Result<(Orbits, OrbitStation), NotFollowed>
 }
 
 /// The smallest divisor of the period after which the orbit repeats.
-fn least_period(orbits: &Orbits, station: &OrbitStation) -> u64 {
+fn least_period<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    station: &OrbitStation<M::Event, D, U>,
+) -> u64 {
     let period = orbits.family.period;
     let repeats = |part: &u64| {
         let apart = orbits.with_period(*part).displacement(&station.at);
@@ -145,16 +178,19 @@ fn least_period(orbits: &Orbits, station: &OrbitStation) -> u64 {
 }
 
 /// The branch through an orbit, down to the lesser end first, and why it begins there.
-fn both_ways(request: &Request, orbits: &Orbits, first: OrbitStation) -> (Way, End) {
+fn both_ways<M: System<D>, const D: usize, const U: usize>(
+    request: &Request<M, D>,
+    orbits: &Orbits<M, D, U>,
+    first: OrbitStation<M::Event, D, U>,
+) -> (Way<M::Event, D, U>, End) {
     let most = request.most_points.div_ceil(2);
-    let mut rising = [0.0; 4];
-    rising[PARAMETER] = 1.0;
+    let mut rising = [0.0; U];
+    rising[D] = 1.0;
     let ahead = tangent(first.rows, &rising).unwrap_or(rising);
-    let turned = |station: &OrbitStation, ahead: [f64; 4], sign: f64| OrbitStation {
-        tangent: ahead.map(|part| sign * part),
-        ..station.clone()
+    let turned = |station: &OrbitStation<M::Event, D, U>, ahead: [f64; U], sign: f64| {
+        OrbitStation { tangent: ahead.map(|part| sign * part), ..station.clone() }
     };
-    let leaving = |start: OrbitStation, most: usize, goal: &OrbitStation| {
+    let leaving = |start: OrbitStation<_, D, U>, most: usize, goal: &OrbitStation<_, D, U>| {
         let mut way = Way::new(vec![start]);
         way.follow(orbits, &mut walk(request, orbits), most, &Goal::at(orbits, goal));
         way
@@ -174,7 +210,10 @@ fn both_ways(request: &Request, orbits: &Orbits, first: OrbitStation) -> (Way, E
 }
 
 /// Two ways from one orbit as one, the first turned round.
-fn joined(mut downward: Way, upward: Way) -> Way {
+fn joined<E: Event, const D: usize, const U: usize>(
+    mut downward: Way<E, D, U>,
+    upward: Way<E, D, U>,
+) -> Way<E, D, U> {
     let last = downward.stations.len() - 1;
     downward.end = upward.end;
     downward.stations.reverse();
@@ -189,10 +228,13 @@ fn joined(mut downward: Way, upward: Way) -> Way {
 }
 
 /// A way as a branch: every orbit measured by the plain motion.
-fn branch(followed: &Followed, parent: Option<(usize, usize)>) -> Branch {
+fn branch<M: System<D>, const D: usize, const U: usize>(
+    followed: &Followed<M, D, U>,
+    parent: Option<(usize, usize)>,
+) -> BranchOf<M, D> {
     let Followed { orbits, way, .. } = followed;
     let mut sequences = Vec::new();
-    let points: Vec<Point> =
+    let points: Vec<PointOf<M, D>> =
         way.stations.iter().map(|station| point(orbits, station, &mut sequences)).collect();
     let special = way.happenings.iter().map(|(after, happening)| Special {
         kind: happening.kind,
@@ -205,23 +247,24 @@ fn branch(followed: &Followed, parent: Option<(usize, usize)>) -> Branch {
     Branch { period: orbits.family.period, parent, points, special, ends }
 }
 
-/// An orbit with what the plain motion from it costs and yields.
-fn point(orbits: &Orbits, station: &OrbitStation, sequences: &mut Vec<Vec<EventKind>>) -> Point {
-    let Family { parameters, phase, period, tolerance } = &orbits.family;
+/// An orbit with what is measured of it by the plain motion from it.
+fn point<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    station: &OrbitStation<M::Event, D, U>,
+    sequences: &mut Vec<Vec<M::Event>>,
+) -> PointOf<M, D> {
+    let Family { system, period, tolerance } = &orbits.family;
     let parameter = orbits.parameter(&station.at);
-    let mut parameters = parameters.clone();
-    parameters[orbits.along] = parameter;
     let from = orbits.section(&station.at);
-    let system = Capsule::single(&parameters, *phase);
     let multipliers = station.seen.multipliers();
-    let cycles = (*period, multipliers);
-    let (outputs, section) = over_cycles(&system, &parameters, from, cycles, *tolerance)
-        .unwrap_or_else(|_| (Outputs::unknown(), vec![from]));
-    let residual = outputs[Output::SectionResidual];
+    let system = system.with(orbits.along, parameter);
+    let orbit = measured(&system, from, (*period, multipliers), *tolerance).ok();
+    let section = orbit.as_ref().map_or_else(|| vec![from], |orbit| orbit.section.clone());
+    let residual = orbit.as_ref().map_or(f64::NAN, |orbit| orbit.residual);
     let events = station.seen.events.clone();
     let sequence = sequences.iter().position(|known| *known == events).unwrap_or_else(|| {
         sequences.push(events);
         sequences.len() - 1
     });
-    Point { parameter, section, multipliers, residual, outputs, sequence }
+    Point { parameter, section, multipliers, residual, measured: orbit, sequence }
 }

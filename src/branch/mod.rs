@@ -8,7 +8,7 @@ mod doubling;
 mod family;
 mod follow;
 mod locus;
-pub mod natural;
+
 mod orbits;
 mod periodic;
 mod scales;
@@ -19,29 +19,27 @@ mod way;
 pub use curve::is_followed;
 pub use follow::follow;
 
-use crate::capsule::{Parameter, Parameters};
+use crate::flow::{Reason, System};
+use crate::orbit::OrbitOf;
 use crate::orbit::matrix::Complex;
-use crate::orbit::{Outputs, Reason, Section};
 
 /// What to follow.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Request {
-    /// The parameters at which the first orbit is known.
-    pub parameters: Parameters,
-    /// Phase of the drive at the section [rad].
-    pub phase: f64,
+pub struct Request<M: System<D>, const D: usize> {
+    /// The system with the parameters at which the first orbit is known.
+    pub system: M,
     /// A point of the section near the first orbit.
-    pub section: Section,
+    pub section: [f64; D],
     /// Its period [cycles].
     pub period: u64,
     /// The parameter to follow it in.
-    pub along: Parameter,
+    pub along: M::Parameter,
     /// Where to stop, the lesser first.
     pub range: [f64; 2],
     /// How often to switch to the branch of twice the period where a multiplier passes -1.
     pub doublings: u32,
     /// A second parameter with its range, in which the special points are followed as curves.
-    pub second: Option<(Parameter, [f64; 2])>,
+    pub second: Option<(M::Parameter, [f64; 2])>,
     /// Longest step, as a share of the range.
     pub longest_step: f64,
     /// Points of a branch or curve at most.
@@ -50,22 +48,29 @@ pub struct Request {
     pub tolerance: f64,
 }
 
-/// A periodic orbit on a branch.
+/// A periodic orbit on a branch, with an `O` that was measured of it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Point {
+pub struct Point<O, const D: usize> {
     /// Value of the parameter that is followed.
     pub parameter: f64,
     /// The section points of one period.
-    pub section: Vec<Section>,
+    pub section: Vec<[f64; D]>,
     /// Floquet multipliers of the period, the largest magnitude first.
-    pub multipliers: [Complex; 3],
+    pub multipliers: [Complex; D],
     /// How far the section is from repeating, relative to the motion [-].
     pub residual: f64,
-    /// Per-cycle sums and the like.
-    pub outputs: Outputs,
+    /// What was measured over the period.
+    pub measured: O,
     /// Which of the branch's sequences of events it has.
     pub sequence: usize,
 }
+
+/// A point of a branch of a system, with the orbit measured by the plain motion, if that can be followed.
+pub type PointOf<M, const D: usize> = Point<Option<OrbitOf<M, D>>, D>;
+/// A branch of a system.
+pub type BranchOf<M, const D: usize> = Branch<Option<OrbitOf<M, D>>, D>;
+/// What was found of a system.
+pub type FoundOf<M, const D: usize> = Found<Option<OrbitOf<M, D>>, D>;
 
 /// What happens at a special point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,7 +81,7 @@ pub enum SpecialKind {
     PeriodDoubling,
     /// A pair of complex multipliers passes the unit circle.
     NeimarkSacker,
-    /// The mass begins or ceases to touch the stop.
+    /// An extremum touches the surface of an impact, which begins or ceases there.
     Grazing,
     /// The sequence of events changes in another way.
     EventSequence,
@@ -95,13 +100,13 @@ impl SpecialKind {
 
 /// A special point of a branch.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Special {
+pub struct Special<O, const D: usize> {
     /// What happens there.
     pub kind: SpecialKind,
     /// It lies between this point of the branch and the next.
     pub after: usize,
     /// The orbit there.
-    pub point: Point,
+    pub point: Point<O, D>,
     /// The curve in two parameters that goes through it.
     pub curve: Option<usize>,
 }
@@ -119,7 +124,7 @@ pub enum End {
     MostPoints,
     /// The return map has a kink or a jump there, and beyond it no orbit goes on.
     Corner,
-    /// The maximum of r that touches the stop meets a minimum there, and both vanish.
+    /// The extremum that touches its surface meets another there, and both vanish.
     Vanishes,
     /// It could not be followed further.
     Stopped,
@@ -140,15 +145,15 @@ impl End {
 
 /// A branch of periodic orbits, from one end to the other.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Branch {
+pub struct Branch<O, const D: usize> {
     /// Period of its orbits [cycles].
     pub period: u64,
     /// The branch that it left at a period doubling, and which of its special points that was.
     pub parent: Option<(usize, usize)>,
     /// Its orbits in order.
-    pub points: Vec<Point>,
+    pub points: Vec<Point<O, D>>,
     /// Its special points in order.
-    pub special: Vec<Special>,
+    pub special: Vec<Special<O, D>>,
     /// Why it ends at its first orbit and at its last.
     pub ends: [End; 2],
 }
@@ -169,10 +174,10 @@ pub struct Curve {
 }
 
 /// What was found.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Found {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found<O, const D: usize> {
     /// The branch through the first orbit, then those that doubling leads to.
-    pub branches: Vec<Branch>,
+    pub branches: Vec<Branch<O, D>>,
     /// Curves in two parameters, where a second was asked for.
     pub curves: Vec<Curve>,
 }
@@ -184,9 +189,35 @@ pub enum NotFollowed {
     NoOrbit,
     /// The motion could not be followed there.
     Failed(Reason),
-    /// The equation as printed is not followed, only the capsule with friction read in Filippov's sense.
-    AsPrinted,
     /// A multiplier of the orbit cannot be told from one: it belongs to a family of orbits at one value of the
     /// parameter, along which a branch in the parameter has no direction of its own, or lies in a fold.
     Neutral,
+}
+
+impl<O, const D: usize> Found<O, D> {
+    /// The same with something else that is `measured` of each orbit.
+    pub fn map<P>(self, measured: impl Fn(f64, O) -> P) -> Found<P, D> {
+        let point = |it: Point<O, D>| Point {
+            measured: measured(it.parameter, it.measured),
+            parameter: it.parameter,
+            section: it.section,
+            multipliers: it.multipliers,
+            residual: it.residual,
+            sequence: it.sequence,
+        };
+        let special = |it: Special<O, D>| Special {
+            kind: it.kind,
+            after: it.after,
+            point: point(it.point),
+            curve: it.curve,
+        };
+        let branch = |it: Branch<O, D>| Branch {
+            period: it.period,
+            parent: it.parent,
+            points: it.points.into_iter().map(point).collect(),
+            special: it.special.into_iter().map(special).collect(),
+            ends: it.ends,
+        };
+        Found { branches: self.branches.into_iter().map(branch).collect(), curves: self.curves }
+    }
 }

@@ -1,112 +1,110 @@
 //! The equations of a periodic orbit in one parameter, and the test functions of what may happen to it.
 
-use crate::capsule::{EventKind, Parameter};
+use crate::flow::{Event, Reason, System};
 use crate::lane::Dual;
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
-use crate::orbit::{Reason, Section};
 
 use super::arclength::{Equations, Linear, Station};
 use super::family::{Family, cyclic, nearest};
 use super::periodic::Periodic;
 
-/// Place of the parameter among the unknowns r, y1, y2 and parameter.
-pub const PARAMETER: usize = 3;
-
-/// Periodic orbits in one parameter: a zero of P^k(s) - s, with s = (r, y1, y2) and P the return map.
+/// Periodic orbits in one parameter: a zero of P^k(s) - s, with s the section point and P the return map.
+///
+/// The `U` unknowns are the `D` coordinates of s and, last, the parameter.
 #[derive(Debug, Clone)]
-pub struct Orbits {
+pub struct Orbits<M: System<D>, const D: usize, const U: usize> {
     /// The motions.
-    pub family: Family,
-    /// The parameter they are followed in.
-    pub along: Parameter,
-    /// Units of r, y1, y2 and of the parameter.
-    pub units: [f64; 4],
+    pub family: Family<M, D>,
+    /// The parameter that varies.
+    pub along: M::Parameter,
+    /// Units of the coordinates and of the parameter.
+    pub units: [f64; U],
 }
 
 /// Where the return map is steeper than this, rounding makes too much of an orbit to follow it.
 const STEEPEST: f64 = 1e3;
+/// Pairs of two of six coordinates.
+const MOST_PAIRS: usize = 15;
 
 /// What is seen of an orbit.
 #[derive(Debug, Clone)]
-pub struct Seen {
+pub struct Seen<E, const D: usize, const U: usize> {
     /// Derivative of P^k in units of the section.
-    pub jacobian: Matrix<3>,
+    pub jacobian: Matrix<D>,
     /// Its cyclic sequence of events.
-    pub events: Vec<EventKind>,
-    /// Distance of the local extremum of r that is nearest to the stop from it in units of r, with its
-    /// derivatives along the unknowns.
-    pub margin: Option<Dual<f64, 4>>,
+    pub events: Vec<E>,
+    /// Distance of the local extremum that is nearest to the surface that it may touch, in units of the first
+    /// coordinate, with its derivatives along the unknowns.
+    pub margin: Option<Dual<f64, U>>,
 }
 
 /// An orbit on a branch.
-pub type OrbitStation = Station<4, Seen>;
+pub type OrbitStation<E, const D: usize, const U: usize> = Station<U, Seen<E, D, U>>;
 
-impl Orbits {
+impl<M: System<D>, const D: usize, const U: usize> Orbits<M, D, U> {
     /// The parameter's value in its own unit.
-    pub fn parameter(&self, at: &[f64; 4]) -> f64 {
-        at[PARAMETER] * self.units[PARAMETER]
+    pub fn parameter(&self, at: &[f64; U]) -> f64 {
+        at[D] * self.units[D]
     }
 
     /// The section point in its own units.
-    pub fn section(&self, at: &[f64; 4]) -> Section {
+    pub fn section(&self, at: &[f64; U]) -> [f64; D] {
         std::array::from_fn(|i| at[i] * self.units[i])
     }
 
     /// The unknowns of an orbit.
-    pub fn unknowns(&self, section: &Section, parameter: f64) -> [f64; 4] {
-        let [r, y1, y2] = *section;
-        let raw = [r, y1, y2, parameter];
-        std::array::from_fn(|i| raw[i] / self.units[i])
+    pub fn unknowns(&self, section: &[f64; D], parameter: f64) -> [f64; U] {
+        std::array::from_fn(|i| section.get(i).unwrap_or(&parameter) / self.units[i])
     }
 
     /// The unknowns at every section point of an orbit, in order.
-    pub fn section_points(&self, at: &[f64; 4]) -> Vec<[f64; 4]> {
+    pub fn section_points(&self, at: &[f64; U]) -> Vec<[f64; U]> {
         let once = self.with_period(1);
-        let next = |at: &[f64; 4]| {
-            let [r, y1, y2] = once.displacement(at)?;
-            Some([at[0] + r, at[1] + y1, at[2] + y2, at[3]])
+        let next = |at: &[f64; U]| {
+            let step = once.displacement(at)?;
+            Some(std::array::from_fn(|i| at[i] + step.get(i).unwrap_or(&0.0)))
         };
         std::iter::successors(Some(*at), next).take(self.family.period as usize).collect()
     }
 }
 
-impl Periodic<4> for Orbits {
+impl<M: System<D>, const D: usize, const U: usize> Periodic<D, U> for Orbits<M, D, U> {
     fn period(&self) -> u64 {
         self.family.period
     }
 
-    fn with_period(&self, period: u64) -> Orbits {
+    fn with_period(&self, period: u64) -> Self {
         let mut orbits = self.clone();
         orbits.family.period = period;
         orbits
     }
 
-    fn displacement(&self, at: &[f64; 4]) -> Option<[f64; 3]> {
+    fn displacement(&self, at: &[f64; U]) -> Option<[f64; D]> {
         let section = self.section(at);
         let passage = self.family.passage(section, &[(self.along, self.parameter(at))]).ok()?;
         Some(std::array::from_fn(|i| (passage.end[i] - section[i]) / self.units[i]))
     }
 }
 
-impl Equations<4> for Orbits {
-    type Seen = Seen;
+impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<M, D, U> {
+    type Seen = Seen<M::Event, D, U>;
 
-    fn at(&self, at: &[f64; 4]) -> Result<Linear<4, Seen>, Reason> {
-        if !self.along.allowed().admits(self.parameter(at)) {
+    fn at(&self, at: &[f64; U]) -> Result<Linear<U, Self::Seen>, Reason> {
+        if !self.family.system.admits(self.along, self.parameter(at)) {
             return Err(Reason::NotFinite);
         }
-        let seeded: [Dual<f64, 4>; 4] = std::array::from_fn(|i| {
+        let seeded: [Dual<f64, U>; U] = std::array::from_fn(|i| {
             let mut seeded = Dual::constant(at[i] * self.units[i]);
             seeded.gradient[i] = self.units[i];
             seeded
         });
-        let [r, y1, y2, parameter] = seeded;
-        let passage = self.family.passage([r, y1, y2], &[(self.along, parameter)])?;
-        let (mut residual, mut rows, mut jacobian) = ([0.0; 4], [[0.0; 4]; 4], [[0.0; 3]; 3]);
+        let point = std::array::from_fn(|i| seeded[i]);
+        let passage = self.family.passage(point, &[(self.along, seeded[D])])?;
+        let (mut residual, mut rows, mut jacobian) = ([0.0; U], [[0.0; U]; U], [[0.0; D]; D]);
         for (i, end) in passage.end.iter().enumerate() {
             residual[i] = (end.value - at[i] * self.units[i]) / self.units[i];
             rows[i] = end.gradient.map(|part| part / self.units[i]);
-            jacobian[i].copy_from_slice(&rows[i][..3]);
+            jacobian[i].copy_from_slice(&rows[i][..D]);
             rows[i][i] -= 1.0;
         }
         let in_unit = |part: f64| part / self.units[0];
@@ -118,41 +116,51 @@ impl Equations<4> for Orbits {
         Ok(Linear { residual, rows, seen })
     }
 
-    fn belongs(&self, _: &OrbitStation, met: &OrbitStation) -> bool {
+    fn belongs(&self, _: &Station<U, Self::Seen>, met: &Station<U, Self::Seen>) -> bool {
         let steep = met.seen.jacobian.iter().flatten().any(|slope| slope.abs() > STEEPEST);
         !steep && self.is_whole(&met.at)
     }
 }
 
-impl Seen {
+impl<E: Event, const D: usize, const U: usize> Seen<E, D, U> {
     /// det(J + I), which vanishes at a period doubling.
     pub fn doubling(&self) -> f64 {
         determinant(shifted(&self.jacobian, 1.0))
     }
 
-    /// The product of one less than each product of two multipliers, which vanishes where a complex pair
+    /// The product of one less each product of two multipliers, which vanishes where a complex pair
     /// passes the unit circle: det(C - I), C the second compound of J.
     pub fn torus(&self) -> f64 {
         let j = &self.jacobian;
-        let pairs = [(0, 1), (0, 2), (1, 2)];
-        let compound =
-            pairs.map(|(a, b)| pairs.map(|(c, d)| j[a][c] * j[b][d] - j[a][d] * j[b][c]));
-        determinant(shifted(&compound, -1.0))
+        let pairs: Vec<(usize, usize)> =
+            (0..D).flat_map(|a| (a + 1..D).map(move |b| (a, b))).collect();
+        // Places beyond the pairs hold ones on the diagonal, which do not change the determinant.
+        let mut compound = [[0.0; MOST_PAIRS]; MOST_PAIRS];
+        for (row, of_row) in compound.iter_mut().enumerate() {
+            of_row[row] = 1.0;
+        }
+        for (row, &(a, b)) in pairs.iter().enumerate() {
+            for (column, &(c, d)) in pairs.iter().enumerate() {
+                compound[row][column] = j[a][c] * j[b][d] - j[a][d] * j[b][c];
+            }
+            compound[row][row] -= 1.0;
+        }
+        determinant(compound)
     }
 
     /// The Floquet multipliers, the largest magnitude first.
-    pub fn multipliers(&self) -> [Complex; 3] {
+    pub fn multipliers(&self) -> [Complex; D] {
         eigenvalues(&self.jacobian)
     }
 
-    /// How often contact closes in a period.
+    /// How often the surface is met in a period that a grazing only touches.
     pub fn impacts(&self) -> usize {
-        self.events.iter().filter(|&&kind| kind == EventKind::ContactClosed).count()
+        self.events.iter().filter(|event| event.is_impact()).count()
     }
 }
 
 /// A matrix with `by` added to its diagonal.
-pub fn shifted(matrix: &Matrix<3>, by: f64) -> Matrix<3> {
+pub fn shifted<const D: usize>(matrix: &Matrix<D>, by: f64) -> Matrix<D> {
     let mut shifted = *matrix;
     for (i, row) in shifted.iter_mut().enumerate() {
         row[i] += by;

@@ -12,8 +12,8 @@ const SAME: f64 = 1e-6;
 /// Steps before a curve may close.
 const LEAST_STEPS: usize = 3;
 
-/// Equations of periodic orbits, whose first three unknowns are the section point.
-pub trait Periodic<const U: usize>: Equations<U> + Sized {
+/// Equations of periodic orbits, whose first `D` unknowns are the section point.
+pub trait Periodic<const D: usize, const U: usize>: Equations<U> + Sized {
     /// Their period [cycles].
     fn period(&self) -> u64;
 
@@ -21,10 +21,10 @@ pub trait Periodic<const U: usize>: Equations<U> + Sized {
     fn with_period(&self, period: u64) -> Self;
 
     /// How far the return is from a point, in units of the section.
-    fn displacement(&self, at: &[f64; U]) -> Option<[f64; 3]>;
+    fn displacement(&self, at: &[f64; U]) -> Option<[f64; D]>;
 
     /// How far an orbit moves in half its period, in units of the section; none for an odd period.
-    fn halfway(&self, at: &[f64; U]) -> Option<[f64; 3]> {
+    fn halfway(&self, at: &[f64; U]) -> Option<[f64; D]> {
         let even = self.period().is_multiple_of(2);
         even.then(|| self.with_period(self.period() / 2).displacement(at))?
     }
@@ -55,7 +55,7 @@ pub trait Periodic<const U: usize>: Equations<U> + Sized {
     ) -> Option<Station<U, Self::Seen>> {
         let Linear { residual, rows, .. } = self.with_period(cycles).at(&station.at).ok()?;
         let (mut at, mut tangent) = (station.at, station.tangent);
-        for i in 0..3 {
+        for i in 0..D {
             at[i] += residual[i];
             tangent[i] += dot(&rows[i], &station.tangent);
         }
@@ -94,12 +94,15 @@ pub struct Goal<const U: usize, T>(Vec<Station<U, T>>);
 
 impl<const U: usize, T: Clone> Goal<U, T> {
     /// The goal at a solution whose tangent is the direction of arrival.
-    pub fn at<E: Periodic<U, Seen = T>>(equations: &E, station: &Station<U, T>) -> Self {
+    pub fn at<const D: usize, E: Periodic<D, U, Seen = T>>(
+        equations: &E,
+        station: &Station<U, T>,
+    ) -> Self {
         Goal(equations.images(station))
     }
 
     /// The solution at which the curve has closed between two that are `steps` from its beginning.
-    pub fn met<E: Periodic<U, Seen = T>>(
+    pub fn met<const D: usize, E: Periodic<D, U, Seen = T>>(
         &self,
         equations: &E,
         [from, to]: [&Station<U, T>; 2],

@@ -1,44 +1,57 @@
 //! What happens on a branch between two neighbouring orbits, and where.
 
+use crate::flow::{Event, System};
+
 use super::SpecialKind;
 use super::arc::{Arc, Placed};
 use super::arclength::{between, corrected_by, norm};
-use super::orbits::{OrbitStation, Orbits, PARAMETER, Seen};
+use super::orbits::{OrbitStation, Orbits, Seen};
 
 /// Changes of the event sequence between two neighbouring orbits at most.
 const CHANGES: usize = 16;
-/// The orbit that just touches the stop lies so near to where contact was seen to begin.
+/// The orbit that just touches the surface lies so near to where contact was seen to begin.
 const NEAR: f64 = 1e-5;
 
 /// A special orbit on its arc.
 #[derive(Debug, Clone)]
-pub struct Happening {
+pub struct Happening<E, const D: usize, const U: usize> {
     /// What happens.
     pub kind: SpecialKind,
     /// How far along the arc.
     pub distance: f64,
     /// The orbit.
-    pub station: OrbitStation,
+    pub station: OrbitStation<E, D, U>,
 }
 
-type Test = fn(&OrbitStation) -> f64;
+/// The function that changes its sign where something happens smoothly.
+fn test<E: Event, const D: usize, const U: usize>(
+    kind: SpecialKind,
+    station: &OrbitStation<E, D, U>,
+) -> f64 {
+    match kind {
+        SpecialKind::Fold => station.tangent[D],
+        SpecialKind::PeriodDoubling => station.seen.doubling(),
+        _ => station.seen.torus(),
+    }
+}
 
-/// What happens smoothly, with the function that changes its sign there.
-const TESTS: [(SpecialKind, Test); 3] = [
-    (SpecialKind::Fold, |station| station.tangent[PARAMETER]),
-    (SpecialKind::PeriodDoubling, |station| station.seen.doubling()),
-    (SpecialKind::NeimarkSacker, |station| station.seen.torus()),
-];
+/// What happens smoothly.
+const SMOOTH: [SpecialKind; 3] =
+    [SpecialKind::Fold, SpecialKind::PeriodDoubling, SpecialKind::NeimarkSacker];
 
 /// Everything that happens between two neighbouring orbits, in order.
-pub fn happenings(orbits: &Orbits, from: &OrbitStation, to: &OrbitStation) -> Vec<Happening> {
+pub fn happenings<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    from: &OrbitStation<M::Event, D, U>,
+    to: &OrbitStation<M::Event, D, U>,
+) -> Vec<Happening<M::Event, D, U>> {
     let arc = Arc::from(orbits, from);
     let ends = [arc.place(from), arc.place(to)];
-    let mut found: Vec<Happening> = TESTS
-        .iter()
-        .filter(|(_, test)| test(from) * test(to) < 0.0)
-        .filter_map(|&(kind, test)| {
-            let (distance, station) = arc.zero([&ends[0], &ends[1]], test)?;
+    let mut found: Vec<Happening<M::Event, D, U>> = SMOOTH
+        .into_iter()
+        .filter(|kind| test(*kind, from) * test(*kind, to) < 0.0)
+        .filter_map(|kind| {
+            let (distance, station) = arc.zero([&ends[0], &ends[1]], |it| test(kind, it))?;
             let holds = kind != SpecialKind::NeimarkSacker || turns(&station.seen);
             holds.then_some(Happening { kind, distance, station })
         })
@@ -49,22 +62,25 @@ pub fn happenings(orbits: &Orbits, from: &OrbitStation, to: &OrbitStation) -> Ve
 }
 
 /// Whether the pair of multipliers whose product is nearest to one is complex.
-fn turns(seen: &Seen) -> bool {
+fn turns<E: Event, const D: usize, const U: usize>(seen: &Seen<E, D, U>) -> bool {
     let multipliers = seen.multipliers();
     let complex = multipliers.iter().filter(|multiplier| multiplier.im != 0.0);
     complex.map(|multiplier| (multiplier.abs() - 1.0).abs()).any(|away| away < NEAR)
 }
 
+/// An orbit with its place on the arc.
+type OnArc<E, const D: usize, const U: usize> = Placed<U, Seen<E, D, U>>;
+
 /// Where the sequence of events changes.
-fn changes(
-    orbits: &Orbits,
-    arc: &Arc<'_, 4, Orbits>,
-    [from, to]: [Placed<4, Seen>; 2],
-) -> Vec<Happening> {
+fn changes<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    arc: &Arc<'_, U, Orbits<M, D, U>>,
+    [from, to]: [OnArc<M::Event, D, U>; 2],
+) -> Vec<Happening<M::Event, D, U>> {
     let (mut found, mut last) = (Vec::new(), from);
     while last.1.seen.events != to.1.seen.events && found.len() < CHANGES {
         let before = last.1.seen.events.clone();
-        let same = |station: &OrbitStation| station.seen.events == before;
+        let same = |station: &OrbitStation<M::Event, D, U>| station.seen.events == before;
         let Some([a, b]) = arc.change([&last, &to], same) else { break };
         found.push(changed(orbits, arc, &a, &b));
         last = b;
@@ -73,12 +89,12 @@ fn changes(
 }
 
 /// What the change from one orbit to the next, rounding apart, is: contact that begins or ceases, or another.
-fn changed(
-    orbits: &Orbits,
-    arc: &Arc<'_, 4, Orbits>,
-    a: &Placed<4, Seen>,
-    b: &Placed<4, Seen>,
-) -> Happening {
+fn changed<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    arc: &Arc<'_, U, Orbits<M, D, U>>,
+    a: &OnArc<M::Event, D, U>,
+    b: &OnArc<M::Event, D, U>,
+) -> Happening<M::Event, D, U> {
     let (kind, station) = if a.1.seen.impacts() == b.1.seen.impacts() {
         (SpecialKind::EventSequence, a.1.clone())
     } else {
@@ -88,12 +104,15 @@ fn changed(
     Happening { kind, distance: arc.place(&station).0, station }
 }
 
-/// The orbit near another whose nearest local extremum of r lies on the stop: a maximum where contact
-/// begins, a minimum where contact opens.
+/// The orbit near another whose nearest local extremum lies on the surface that it may touch: a maximum where
+/// contact begins, a minimum where contact opens.
 ///
 /// Method: Newton's on the orbit and that margin together, whose derivatives are exact and continuous there.
-fn grazed(orbits: &Orbits, near: &OrbitStation) -> Option<OrbitStation> {
-    let margin = |_: &[f64; 4], seen: &Seen| {
+fn grazed<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    near: &OrbitStation<M::Event, D, U>,
+) -> Option<OrbitStation<M::Event, D, U>> {
+    let margin = |_: &[f64; U], seen: &Seen<M::Event, D, U>| {
         let nearest = seen.margin?;
         Some((nearest.value, nearest.gradient))
     };

@@ -1,5 +1,7 @@
 //! One way along a branch, from an orbit to where the branch ends.
 
+use crate::flow::{Event, System};
+
 use super::End;
 use super::arclength::{Equations, Linear, between, norm};
 use super::corner::{is_corner, rounded};
@@ -17,11 +19,11 @@ const MERGES: f64 = 1.5;
 
 /// A stretch of a branch.
 #[derive(Debug, Clone)]
-pub struct Way {
+pub struct Way<E, const D: usize, const U: usize> {
     /// Its orbits in order, that at the beginning included.
-    pub stations: Vec<OrbitStation>,
+    pub stations: Vec<OrbitStation<E, D, U>>,
     /// What happens, each between the orbit with this index and the next.
-    pub happenings: Vec<(usize, Happening)>,
+    pub happenings: Vec<(usize, Happening<E, D, U>)>,
     /// Why it ends.
     pub end: End,
     /// Which of the doublings it ends at.
@@ -30,9 +32,9 @@ pub struct Way {
     last_step: f64,
 }
 
-impl Way {
+impl<E: Event, const D: usize, const U: usize> Way<E, D, U> {
     /// A way that has yet to leave these orbits.
-    pub fn new(stations: Vec<OrbitStation>) -> Self {
+    pub fn new(stations: Vec<OrbitStation<E, D, U>>) -> Self {
         let (happenings, end) = (Vec::new(), End::MostPoints);
         Way { stations, happenings, end, merged: None, last_step: 0.0 }
     }
@@ -41,12 +43,12 @@ impl Way {
     ///
     /// It ends at a bound, where it merges with a branch of half its period, and where no step leads on: at a
     /// discontinuity of the return map, say.
-    pub fn follow(
+    pub fn follow<M: System<D, Event = E>>(
         &mut self,
-        orbits: &Orbits,
-        walk: &mut Walk<4>,
+        orbits: &Orbits<M, D, U>,
+        walk: &mut Walk<U>,
         most: usize,
-        goal: &Goal<4, Seen>,
+        goal: &Goal<U, Seen<E, D, U>>,
     ) {
         let mut corners_left = CORNERS;
         while self.stations.len() < most
@@ -74,7 +76,11 @@ impl Way {
     }
 
     /// Ends at the one of these period doublings of the branch it left that it has run into, if it has.
-    pub fn merge(&mut self, orbits: &Orbits, doublings: &[(usize, OrbitStation)]) {
+    pub fn merge<M: System<D, Event = E>>(
+        &mut self,
+        orbits: &Orbits<M, D, U>,
+        doublings: &[(usize, OrbitStation<E, D, U>)],
+    ) {
         let Some(last) = self.stations.last() else { return };
         let parent = orbits.with_period(orbits.family.period / 2);
         let ends = doublings.iter().flat_map(|(place, station)| {
@@ -91,12 +97,12 @@ impl Way {
     }
 
     /// Adds the next orbit and what happens before it; why the branch ends with it, if it does.
-    fn add(
+    fn add<M: System<D, Event = E>>(
         &mut self,
-        orbits: &Orbits,
-        from: &OrbitStation,
-        next: OrbitStation,
-        goal: &Goal<4, Seen>,
+        orbits: &Orbits<M, D, U>,
+        from: &OrbitStation<E, D, U>,
+        next: OrbitStation<E, D, U>,
+        goal: &Goal<U, Seen<E, D, U>>,
     ) -> Option<End> {
         self.last_step = norm(&between(&from.at, &next.at));
         if orbits.halves(&from.at, &next.at) {

@@ -1,12 +1,14 @@
 //! The vibro-impact capsule, its friction read in Filippov's sense.
 
+use crate::flow::{Event, Field, Stroboscopic, Switched, Zeros};
 use crate::lane::elementary::not_finite;
 use crate::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 
-use super::drive::reduced;
-use super::resistance::Drag;
-use super::switched::{Field, Locomotion, Stroboscopic, Switched, Zeros};
-use super::{Contact, Drive, EventKind, Jet, Parameter, Parameters, Resistance, State, StickSlip};
+use super::drive::{Drive, reduced};
+use super::locomotion::Locomotion;
+use super::parameter::{Parameter, Parameters};
+use super::resistance::{Drag, Resistance};
+use super::state::{Contact, EventKind, Jet, State, StickSlip};
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.
 const CONTACT: usize = 0;
@@ -86,8 +88,14 @@ impl<L: Lane> Switched<L> for Capsule<L> {
     type State = State<L>;
     type Mode = Mode<L>;
     type Jet = Jet<L>;
+    type Event = EventKind;
 
     const GUARDS: usize = 3;
+
+    #[inline(always)]
+    fn period(&self) -> L {
+        self.drive.period()
+    }
 
     fn start(&self, _time: L, state: &mut State<L>) -> Mode<L> {
         let zero = L::splat(0.0);
@@ -237,6 +245,11 @@ impl<L: Lane> Switched<L> for Capsule<L> {
         // Whatever goes wrong reaches the velocities through the forces.
         not_finite(state.y1 + state.y2)
     }
+
+    #[inline(always)]
+    fn touching<'a>(&self, jet: &'a Jet<L>) -> Option<(&'a Series<L>, L)> {
+        Some((&jet.r, self.delta))
+    }
 }
 
 impl<L: Lane> Stroboscopic<L, 3> for Capsule<L> {
@@ -250,25 +263,36 @@ impl<L: Lane> Stroboscopic<L, 3> for Capsule<L> {
         State { r, y1, x2: L::splat(0.0), y2 }
     }
 
-    /// A displacement r counts as the velocity omega r.
-    fn scales(&self) -> [f64; 3] {
-        [self.drive.omega.lane(0), 1.0, 1.0]
+    #[inline(always)]
+    fn moved_to(from: State<L>, [r, y1, y2]: [L; 3]) -> State<L> {
+        State { r, y1, y2, ..from }
     }
 }
 
-impl Field<4> for Capsule<f64> {
-    fn coordinates<'a>(&self, jet: &'a Jet<f64>) -> [&'a Series<f64>; 4] {
-        jet.coordinates()
+impl Field for Capsule<f64> {
+    type Coordinates = [f64; 4];
+
+    fn coordinates(state: &State<f64>) -> [f64; 4] {
+        state.coordinates()
     }
 
-    fn rates(&self, mode: &Mode<f64>, time: f64, &[r, y1, x2, y2]: &[f64; 4]) -> [f64; 4] {
-        let force = self.force(mode, &State { r, y1, x2, y2 });
+    fn motion(&self, jet: &Jet<f64>, h: f64) -> (State<f64>, State<f64>) {
+        jet.motion(h)
+    }
+
+    fn beginning(&self, jet: &Jet<f64>) -> State<f64> {
+        jet.beginning()
+    }
+
+    fn rates(&self, mode: &Mode<f64>, time: f64, state: &State<f64>) -> State<f64> {
+        let State { y1, y2, .. } = *state;
+        let force = self.force(mode, state);
         let acceleration = (self.drive.force(time) - force) * self.inverse_m1;
         if mode.slip == 0.0 {
-            return [y1, acceleration, 0.0, 0.0];
+            return State { r: y1, y1: acceleration, x2: 0.0, y2: 0.0 };
         }
         let push = force - self.drag.force(mode.slip, y2);
-        [y1 - y2, acceleration, y2, push * self.inverse_m2]
+        State { r: y1 - y2, y1: acceleration, x2: y2, y2: push * self.inverse_m2 }
     }
 
     /// A displacement r or x2 counts as the velocity omega r.
@@ -282,17 +306,7 @@ impl Field<4> for Capsule<f64> {
 }
 
 impl Locomotion for Capsule<f64> {
-    type With<L: Lane<Mask = bool>> = Capsule<L>;
-
-    fn with<L: Lane<Mask = bool>>(
-        of: impl Fn(Parameter) -> L,
-        law: Resistance,
-        phase: f64,
-    ) -> Capsule<L> {
-        Capsule::new(of, law, phase)
-    }
-
-    fn motion<'a>(&self, jet: &'a Jet<f64>) -> &'a Jet<f64> {
+    fn jet<'a>(&self, jet: &'a Jet<f64>) -> &'a Jet<f64> {
         jet
     }
 

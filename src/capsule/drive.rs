@@ -2,7 +2,7 @@
 
 use crate::lane::{Lane, Series, elementary::sin_cos, series, side_by_side};
 
-use super::Parameter;
+use super::parameter::Parameter;
 
 /// The same phase within 0..2 pi [rad].
 pub fn reduced(phase: f64) -> f64 {
@@ -27,6 +27,12 @@ impl<L: Lane> Drive<L> {
     pub fn new(of: impl Fn(Parameter) -> L, phase: L) -> Self {
         let (sin_phase, cos_phase) = sin_cos(phase);
         Drive { amplitude: of(Parameter::Pd), omega: of(Parameter::Omega), sin_phase, cos_phase }
+    }
+
+    /// The period, 2 pi / omega [s].
+    #[inline(always)]
+    pub fn period(&self) -> L {
+        L::splat(2.0 * std::f64::consts::PI) / self.omega
     }
 
     /// Writes the series of `cos(omega t + phase)` from `time` since the start of the drive's cycle [s].

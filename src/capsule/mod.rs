@@ -1,18 +1,33 @@
-//! Defined: the vibro-impact capsule, its parameters, forces, modes and what ends each of them.
+//! Defined: the vibro-impact capsule, its parameters, forces and modes, and what its motion costs and yields.
 
+pub mod account;
+pub mod branch;
 pub mod capsule;
 pub mod drive;
+mod failure;
+pub mod history;
+mod locomotion;
+pub mod output;
 pub mod parameter;
 pub mod printed;
 pub mod regime;
 pub mod resistance;
+pub mod settle;
+pub mod simulate;
 pub mod state;
-pub mod switched;
+pub mod system;
 
+pub use account::{Account, Energies, Impact};
 pub use capsule::Capsule;
 pub use drive::Drive;
+pub use failure::{Failure, REASONS, Section};
+pub use history::History;
+pub use locomotion::Locomotion;
+pub use output::{Output, Outputs};
 pub use parameter::{Allowed, Dimension, Fault, Parameter, Parameters};
 pub use printed::PrintedCapsule;
 pub use resistance::{Resistance, Switching};
+pub use settle::{Case, Orbit, outputs, settle, settle_all, settle_as};
+pub use simulate::{Event, Sample, Simulation, simulate};
 pub use state::{Contact, EventKind, Jet, State, StickSlip};
-pub use switched::{Field, Locomotion, Stroboscopic, Switched, Zeros};
+pub use system::{AsPrinted, CapsuleSystem, Filippov, Reading};

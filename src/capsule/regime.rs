@@ -1,163 +1,257 @@
 //! The regimes of the capsule as printed, and what follows each of them.
 
-use crate::lane::{Lane, series};
+use crate::flow::Zeros;
+use crate::lane::{Lane, Mask, series, side_by_side};
 
-use super::printed::{CONTACT, PrintedCapsule};
-use super::{EventKind, State, StickSlip, Zeros};
+use super::drive::Drive;
+use super::resistance::Drag;
+use super::state::State;
 
-/// Which field acts on the capsule; `side` is the sign of F, `slip` that of y2.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// Guard of the contact, `r - delta` while closed and `delta - r` while open.
+pub(super) const CONTACT: usize = 0;
+
+/// Which field acts on the capsule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Regime {
     /// H = 0: x2 and y2 stand still, y2 not necessarily at zero. Guards 1, 2: f_s - F, f_s + F.
-    #[default]
     Frozen,
     /// H = 1. Guards 1, 2: the speed, |F| - f_s.
-    Moving { slip: f64, side: f64 },
+    Moving,
     /// H = 1, held at y2 = 0 by f_d(0+) > |F|. Guards 1, 2: |F| - f_s, f_d(0+) - |F|.
-    Held { side: f64 },
+    Held,
     /// 0 < H < 1 on |F| = f_s. Guards 1, 2, 3: H, 1 - H, the speed.
-    Creeping { slip: f64, side: f64 },
+    Creeping,
 }
 
-/// The mode of the capsule as printed.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PrintedMode {
+/// The mode of the capsule as printed, in each lane.
+#[derive(Debug, Clone, Copy)]
+pub struct PrintedMode<L: Lane> {
     /// Whether the mass touches the stop.
-    pub(super) closed: bool,
-    /// Which field acts on the capsule.
-    pub(super) regime: Regime,
+    pub(super) closed: L::Mask,
+    /// Number of the regime.
+    regime: L,
+    /// Direction of sliding, +1 or -1; 0 where the capsule does not slide.
+    pub(super) slip: L,
+    /// Sign of F where it matters, else 0.
+    pub(super) side: L,
 }
 
-impl Regime {
-    /// Whether and where the capsule slides.
-    pub(super) fn stick_slip(self) -> StickSlip {
-        match self {
-            Regime::Frozen | Regime::Held { .. } => StickSlip::Stick,
-            Regime::Moving { slip, .. } | Regime::Creeping { slip, .. } if slip > 0.0 => {
-                StickSlip::Forward
-            }
-            _ => StickSlip::Backward,
-        }
+side_by_side!(PrintedMode { regime, slip, side } masks { closed });
+
+impl<L: Lane> Default for PrintedMode<L> {
+    fn default() -> Self {
+        let zero = L::splat(0.0);
+        PrintedMode { closed: L::Mask::splat(false), regime: zero, slip: zero, side: zero }
+    }
+}
+
+impl<L: Lane> PrintedMode<L> {
+    /// A regime with its signs in all lanes, and contact as given.
+    #[inline(always)]
+    pub(super) fn new(closed: L::Mask, regime: Regime, slip: L, side: L) -> Self {
+        PrintedMode { closed, regime: L::splat(f64::from(regime as u8)), slip, side }
     }
 
-    /// The event that a change to another regime amounts to.
-    pub(super) fn event_to(self, after: Regime) -> Option<EventKind> {
-        use StickSlip::{Backward, Forward, Stick};
-        match (self.stick_slip(), after.stick_slip()) {
-            (Stick, Forward) => Some(EventKind::SlipForward),
-            (Stick, Backward) => Some(EventKind::SlipBackward),
-            (Forward | Backward, Stick) => Some(EventKind::Stick),
-            (Forward, Backward) | (Backward, Forward) => Some(EventKind::Reversal),
-            _ => None,
+    /// Where this regime rules.
+    #[inline(always)]
+    pub(super) fn is(&self, regime: Regime) -> L::Mask {
+        (self.regime - L::splat(f64::from(regime as u8))).abs().lt(L::splat(0.5))
+    }
+
+    /// One mode where the mask is true, another elsewhere.
+    #[inline(always)]
+    pub(super) fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
+        PrintedMode {
+            closed: (mask & yes.closed) | (!mask & no.closed),
+            regime: L::select(mask, yes.regime, no.regime),
+            slip: L::select(mask, yes.slip, no.slip),
+            side: L::select(mask, yes.side, no.side),
         }
     }
+}
+
+/// A mode that follows another, and which of its guards start at zero.
+#[derive(Clone, Copy)]
+struct Next<L: Lane> {
+    mode: PrintedMode<L>,
+    zeros: Zeros<L>,
+}
+
+impl<L: Lane> Next<L> {
+    #[inline(always)]
+    fn new(mode: PrintedMode<L>, zeros: Zeros<L>) -> Self {
+        Next { mode, zeros }
+    }
+
+    #[inline(always)]
+    fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
+        Next {
+            mode: PrintedMode::select(mask, yes.mode, no.mode),
+            zeros: std::array::from_fn(|i| L::select(mask, yes.zeros[i], no.zeros[i])),
+        }
+    }
+}
+
+/// What decides how the regimes follow each other: the constants of the capsule.
+pub(super) struct Rules<'a, L> {
+    pub(super) drive: &'a Drive<L>,
+    pub(super) drag: &'a Drag<L>,
+    pub(super) stiffness: L,
+    pub(super) c: L,
+    pub(super) m1: L,
+    pub(super) m2: L,
+}
+
+/// +1, or -1 for negative numbers.
+#[inline(always)]
+pub(super) fn sign<L: Lane>(x: L) -> L {
+    L::select(x.lt(L::splat(0.0)), L::splat(-1.0), L::splat(1.0))
 }
 
 /// Whether y2 is zero: on the surface of rest it is so by the guard that led there, derivatives included.
-fn at_rest<L: Lane<Mask = bool>>(state: &State<L>) -> bool {
-    state.y2.lane(0) == 0.0
+#[inline(always)]
+fn at_rest<L: Lane>(state: &State<L>) -> L::Mask {
+    state.y2.abs().le(L::splat(0.0))
 }
 
-impl<L: Lane<Mask = bool>> PrintedCapsule<L> {
+impl<L: Lane> Rules<'_, L> {
     /// What follows on |F| = f_s, from the rates of |F| in the frozen and in the moving field.
-    fn on_limit(&self, closed: bool, state: &State<L>, side: f64, time: L) -> Regime {
-        let limit = L::splat(side) * self.drag.static_limit;
-        let at_rest = at_rest(state);
-        let slip = if at_rest { side } else { state.y2.lane(0).signum() };
-        let stiffness = self.stiffness(closed);
+    #[inline(always)]
+    fn on_limit(&self, closed: L::Mask, state: &State<L>, side: L, time: L) -> PrintedMode<L> {
+        let zero = L::splat(0.0);
+        let limit = side * self.drag.static_limit;
+        let rests = at_rest(state);
+        let slip = L::select(rests, side, sign(state.y2));
         let mut cos = series::zero();
         self.drive.cos(time, &mut cos);
         let push = self.drive.amplitude * cos[0] - limit;
-        let frozen_rate = L::splat(side) * (stiffness * state.y1 + self.c * push / self.m1);
-        if frozen_rate.le(L::splat(0.0)) {
-            return Regime::Frozen;
-        }
-        if at_rest && self.drag.static_limit.lt(self.drag.at_onset) {
-            return Regime::Held { side };
-        }
+        let frozen_rate = side * (self.stiffness * state.y1 + self.c * push / self.m1);
         let (mut decay, mut y2) = (series::zero(), series::zero());
         (decay[0], y2[0]) = (self.drag.decay_start(state.y2), state.y2);
-        let friction = self.drag.force_term(L::splat(slip), &decay, &y2, 0);
+        let friction = self.drag.force_term(slip, &decay, &y2, 0);
         let acceleration = (limit - friction) / self.m2;
-        let moving_rate =
-            frozen_rate - L::splat(side) * (stiffness * state.y2 + self.c * acceleration);
-        if moving_rate.lt(L::splat(0.0)) {
-            Regime::Creeping { slip, side }
-        } else {
-            Regime::Moving { slip, side }
-        }
+        let moving_rate = frozen_rate - side * (self.stiffness * state.y2 + self.c * acceleration);
+        let mode = |regime, slip, side| PrintedMode::new(closed, regime, slip, side);
+        let slides = PrintedMode::select(
+            moving_rate.lt(zero),
+            mode(Regime::Creeping, slip, side),
+            mode(Regime::Moving, slip, side),
+        );
+        let holds = rests & self.drag.static_limit.lt(self.drag.at_onset);
+        let leaves = PrintedMode::select(holds, mode(Regime::Held, zero, side), slides);
+        let freezes = frozen_rate.le(zero);
+        PrintedMode::select(freezes, mode(Regime::Frozen, zero, zero), leaves)
     }
 
-    /// What follows where |F| = f_s is met at a first-order zero of its guard, and which guards start at
-    /// zero.
-    pub(super) fn limit_met(
+    /// What follows where |F| = f_s is met at a first-order zero of its guard.
+    #[inline(always)]
+    fn limit_met(&self, closed: L::Mask, state: &State<L>, side: L, time: L) -> Next<L> {
+        let mode = self.on_limit(closed, state, side, time);
+        Next::new(mode, self.zeros_on_limit(&mode, side, at_rest(state), 1.0))
+    }
+
+    /// Which guards of a mode start at zero when it begins on |F| = f_s, and with what power.
+    #[inline(always)]
+    fn zeros_on_limit(
         &self,
-        closed: bool,
-        state: &State<L>,
-        side: f64,
-        time: L,
-    ) -> (Regime, Zeros<L>) {
-        let regime = self.on_limit(closed, state, side, time);
-        (regime, self.zeros_on_limit(regime, side, at_rest(state), 1.0))
-    }
-
-    /// Which guards of `regime` start at zero when it begins on |F| = f_s, and with what power.
-    fn zeros_on_limit(&self, regime: Regime, side: f64, at_rest: bool, power: f64) -> Zeros<L> {
+        mode: &PrintedMode<L>,
+        side: L,
+        rests: L::Mask,
+        power: f64,
+    ) -> Zeros<L> {
         let (none, power) = (L::splat(0.0), L::splat(power));
-        match regime {
-            Regime::Frozen if side > 0.0 => [none, power, none, none],
-            Regime::Frozen => [none, none, power, none],
-            Regime::Held { .. } => [none, power, none, none],
-            Regime::Moving { .. } if at_rest => [none, self.drag.onset_zeros(), power, none],
-            Regime::Moving { .. } => [none, none, power, none],
-            Regime::Creeping { .. } if at_rest => [none, none, none, L::splat(1.0)],
-            Regime::Creeping { .. } => [none; 4],
-        }
+        let forward = none.lt(side);
+        let [frozen, moving, held, creeping] =
+            [Regime::Frozen, Regime::Moving, Regime::Held, Regime::Creeping].map(|it| mode.is(it));
+        let first = L::select((frozen & forward) | held, power, none);
+        let first = L::select(moving & rests, self.drag.onset_zeros(), first);
+        let second = L::select((frozen & !forward) | moving, power, none);
+        let third = L::select(creeping & rests, L::splat(1.0), none);
+        [none, first, second, third]
     }
 
-    /// What follows a guard other than the contact's.
-    pub(super) fn switch_motion(
+    /// Obeys the guard of the contact where `due`.
+    #[inline(always)]
+    pub(super) fn switch_contact(
         &self,
-        which: usize,
-        mode: &mut PrintedMode,
-        state: &mut State<L>,
+        due: L::Mask,
+        mode: &mut PrintedMode<L>,
+        state: &State<L>,
         zeros: &mut Zeros<L>,
         time: L,
     ) {
+        let creeps = due & mode.is(Regime::Creeping);
+        mode.closed = (mode.closed & !due) | (!mode.closed & due);
+        if creeps.any() {
+            let next = self.limit_met(mode.closed, state, mode.side, time);
+            let chosen = Next::select(creeps, next, Next::new(*mode, *zeros));
+            (*mode, *zeros) = (chosen.mode, chosen.zeros);
+        }
+        zeros[CONTACT] = L::select(due, L::splat(1.0), zeros[CONTACT]);
+    }
+
+    /// Obeys another guard where `due`; `force` tells F of a state in the mode.
+    #[inline(always)]
+    pub(super) fn switch_motion(
+        &self,
+        (which, due): (usize, L::Mask),
+        mode: &mut PrintedMode<L>,
+        state: &mut State<L>,
+        zeros: &mut Zeros<L>,
+        (time, force): (L, impl Fn(&State<L>) -> L),
+    ) {
         let zero = L::splat(0.0);
-        let contact_zero = zeros[CONTACT];
-        let before = mode.regime;
-        let limit_reached = |regime: Regime, side: f64, power: f64| {
-            (regime, self.zeros_on_limit(regime, side, at_rest(state), power))
+        let none = [zero; 4];
+        let before = *mode;
+        let PrintedMode { closed, slip, side, .. } = before;
+        let [frozen, moving, held, creeping] =
+            [Regime::Frozen, Regime::Moving, Regime::Held, Regime::Creeping]
+                .map(|it| due & before.is(it));
+        let stops = match which {
+            1 => moving,
+            2 => L::Mask::splat(false),
+            _ => creeping,
         };
-        (mode.regime, *zeros) = match (which, before) {
-            (_, Regime::Frozen) => {
-                let side = if which == 1 { 1.0 } else { -1.0 };
-                self.limit_met(mode.closed, state, side, time)
-            }
-            (2, Regime::Moving { side, .. }) => self.limit_met(mode.closed, state, side, time),
-            (1, Regime::Held { side }) => limit_reached(Regime::Frozen, side, 1.0),
-            (_, Regime::Held { side }) => {
-                (Regime::Moving { slip: side, side }, [zero, L::splat(2.0), zero, zero])
-            }
-            (1, Regime::Creeping { side, .. }) => limit_reached(Regime::Frozen, side, 2.0),
-            (2, Regime::Creeping { slip, side }) => {
-                limit_reached(Regime::Moving { slip, side }, side, 2.0)
-            }
-            (_, Regime::Moving { side, .. }) => {
-                state.y2 = zero;
-                let force = self.force(mode.closed, state).abs();
-                if self.drag.at_onset.lt(force) {
-                    (Regime::Moving { slip: side, side }, [zero, L::splat(1.0), zero, zero])
-                } else {
-                    (Regime::Held { side }, [zero; 4])
-                }
-            }
-            (_, Regime::Creeping { side, .. }) => {
-                state.y2 = zero;
-                self.limit_met(mode.closed, state, side, time)
-            }
+        state.y2 = L::select(stops, zero, state.y2);
+        let rests = at_rest(state);
+        let met_side = match which {
+            1 => L::select(frozen, L::splat(1.0), side),
+            _ => L::select(frozen, L::splat(-1.0), side),
         };
-        zeros[CONTACT] = contact_zero;
+        let met = self.limit_met(closed, state, met_side, time);
+        let begins = |regime, slip, side| PrintedMode::new(closed, regime, slip, side);
+        let reached = |mode: PrintedMode<L>, power: f64| {
+            Next::new(mode, self.zeros_on_limit(&mode, side, rests, power))
+        };
+        let freezes = begins(Regime::Frozen, zero, zero);
+        let leaves = begins(Regime::Moving, side, side);
+        let from = |zeros: f64| [zero, L::splat(zeros), zero, zero];
+        // Frozen is left by what is met at the limit, and so is creeping whose speed has come to zero.
+        let next = match which {
+            1 => {
+                let breaks = self.drag.at_onset.lt(force(state).abs());
+                let held_on = Next::new(begins(Regime::Held, zero, side), none);
+                let stopped = Next::select(breaks, Next::new(leaves, from(1.0)), held_on);
+                let next = Next::select(held, reached(freezes, 1.0), met);
+                let next = Next::select(creeping, reached(freezes, 2.0), next);
+                Next::select(moving, stopped, next)
+            }
+            2 => {
+                let next = Next::select(held, Next::new(leaves, from(2.0)), met);
+                Next::select(creeping, reached(begins(Regime::Moving, slip, side), 2.0), next)
+            }
+            _ => met,
+        };
+        let contact = zeros[CONTACT];
+        let next = Next::select(due, next, Next::new(before, *zeros));
+        (*mode, *zeros) = (next.mode, next.zeros);
+        zeros[CONTACT] = contact;
+    }
+}
+
+impl PrintedMode<f64> {
+    /// Whether the capsule creeps, with a share of H.
+    pub fn creeps(&self) -> bool {
+        self.is(Regime::Creeping)
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::lane::{Lane, Mask, ORDER, Series, elementary::exp_decay, series, side_by_side};
 
-use super::Parameter;
+use super::parameter::Parameter;
 
 /// Far from rest a step may at least change |y2|/v_s by this much.
 const NARROWEST: f64 = 2.0;

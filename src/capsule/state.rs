@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::flow::Event;
 use crate::lane::{Lane, Series, series, side_by_side};
 
 /// Positions and velocities [m, m/s].
@@ -18,6 +19,13 @@ pub struct State<L> {
 }
 
 side_by_side!(State { r, y1, x2, y2 });
+
+impl State<f64> {
+    /// r, y1, x2 and y2.
+    pub fn coordinates(&self) -> [f64; 4] {
+        [self.r, self.y1, self.x2, self.y2]
+    }
+}
 
 impl<L: Lane> State<L> {
     /// The state of each lane.
@@ -69,19 +77,23 @@ pub enum EventKind {
     Reversal,
 }
 
-impl EventKind {
-    /// The kind as a number that a lane can hold; zero stands for no event.
+impl Event for EventKind {
+    const ALL: &'static [Self] = &[
+        EventKind::ContactClosed,
+        EventKind::ContactOpened,
+        EventKind::SlipForward,
+        EventKind::SlipBackward,
+        EventKind::Stick,
+        EventKind::Reversal,
+    ];
+
     #[inline(always)]
-    pub fn code<L: Lane>(self) -> L {
-        L::splat(f64::from(self as u8))
+    fn number(self) -> u8 {
+        self as u8
     }
 
-    /// The kind with this number, none for zero.
-    pub fn from_code(code: f64) -> Option<EventKind> {
-        use EventKind::{ContactClosed, ContactOpened, Reversal, SlipBackward, SlipForward, Stick};
-        [ContactClosed, ContactOpened, SlipForward, SlipBackward, Stick, Reversal]
-            .into_iter()
-            .find(|&kind| f64::from(kind as u8) == code)
+    fn is_impact(self) -> bool {
+        self == EventKind::ContactClosed
     }
 }
 
@@ -124,11 +136,6 @@ impl<L: Lane> Default for Jet<L> {
 }
 
 impl<L: Lane> Jet<L> {
-    /// The series of r, y1, x2 and y2.
-    pub fn coordinates(&self) -> [&Series<L>; 4] {
-        [&self.r, &self.y1, &self.x2, &self.y2]
-    }
-
     /// The state `h` after the start of the step.
     #[inline(always)]
     pub fn state(&self, h: L) -> State<L> {
@@ -138,5 +145,29 @@ impl<L: Lane> Jet<L> {
             x2: series::value(&self.x2, h),
             y2: series::value(&self.y2, h),
         }
+    }
+}
+
+impl Jet<f64> {
+    /// The state at the start of the step.
+    #[inline]
+    pub fn beginning(&self) -> State<f64> {
+        State { r: self.r[0], y1: self.y1[0], x2: self.x2[0], y2: self.y2[0] }
+    }
+
+    /// The state `h` after the start of the step, and the slopes of the series there; side by side, as they
+    /// do not wait for each other.
+    #[inline]
+    pub fn motion(&self, h: f64) -> (State<f64>, State<f64>) {
+        let series = [&self.r, &self.y1, &self.x2, &self.y2];
+        let (mut values, mut slopes) = ([0.0; 4], [0.0; 4]);
+        for k in (0..=series::ORDER).rev() {
+            for i in 0..4 {
+                slopes[i] = slopes[i] * h + values[i];
+                values[i] = values[i] * h + series[i][k];
+            }
+        }
+        let state = |[r, y1, x2, y2]: [f64; 4]| State { r, y1, x2, y2 };
+        (state(values), state(slopes))
     }
 }

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::branch::{Branch, Curve, End, Found, Special, SpecialKind, is_followed};
-use crate::capsule::Parameter;
-use crate::orbit::Output;
+use crate::branch::{Curve, End, SpecialKind, is_followed};
+use crate::capsule::branch::{Branch, Found, Special};
+use crate::capsule::{Output, Parameter};
 use crate::run::Followed;
 use crate::study::{Continuation, FirstOrbit, Study};
 
@@ -79,7 +79,8 @@ fn tell_without_curve(text: &mut String, found: &Found) {
 }
 
 fn tell_branch(text: &mut String, along: Parameter, branch: &Branch) {
-    let is_stable = |it: &&crate::branch::Point| it.multipliers.iter().all(|m| m.abs() < 1.0);
+    let is_stable =
+        |it: &&crate::capsule::branch::Point| it.multipliers.iter().all(|m| m.abs() < 1.0);
     let stable = branch.points.iter().filter(is_stable).count();
     let points = branch.points.len();
     let _ = writeln!(
@@ -103,7 +104,7 @@ fn tell_branch(text: &mut String, along: Parameter, branch: &Branch) {
             kind_name(*kind),
             ten_digits(point.parameter),
             branch.period,
-            point.outputs[Output::ProgressionSpeed] * 1e3
+            point.measured[Output::ProgressionSpeed] * 1e3
         );
     }
 }
@@ -187,8 +188,8 @@ fn ten_digits(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::branch::Point;
-    use crate::orbit::Outputs;
+    use crate::capsule::Outputs;
+    use crate::capsule::branch::Point;
     use crate::orbit::matrix::Complex;
     use crate::run::Unfollowed;
 
@@ -223,7 +224,7 @@ to = \"5 N\"
             section: vec![[0.0; 3]],
             multipliers,
             residual: 0.0,
-            outputs,
+            measured: outputs,
             sequence: 0,
         }
     }

@@ -8,10 +8,11 @@ use serde_json::{Map, Value, json};
 
 use super::result_file::read_study;
 use super::{Failure, named, plain_or_quantity, print, tell};
-use crate::capsule::{Dimension, Parameter, Parameters, Resistance, State, Switching};
-use crate::orbit::{
-    Case, Certificate, Orbit, Outcome, Output, Proof, Protocol, Simulation, settle, simulate,
+use crate::capsule::{
+    Case, Dimension, Orbit, Output, Parameter, Parameters, Resistance, Simulation, State,
+    Switching, settle, simulate,
 };
+use crate::orbit::{Certificate, Outcome, Proof, Protocol};
 use crate::run::{Machine, run_sample};
 use crate::study::Study;
 use crate::study::document::unknown;

@@ -1,6 +1,6 @@
 //! What a figure reads of the results, so that no more has to be held in memory.
 
-use crate::orbit::Output;
+use crate::capsule::Output;
 use crate::study::{Drawing, DrawingKind};
 
 /// Outputs that figures show by default or judge cases by.

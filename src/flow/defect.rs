@@ -1,11 +1,13 @@
 //! The defect of a step: how far its polynomials are from solving the equations.
 
-use crate::capsule::Field;
+use crate::lane::ORDER;
+use crate::lane::Series;
 use crate::lane::series::derivative;
-use crate::lane::{ORDER, Series};
 
-use super::Step;
 use super::guard::crossings;
+use super::metric::greater;
+use super::motion::Step;
+use super::switched::Field;
 
 /// The largest difference on a step between the rates of its polynomials and those of the equations, times
 /// its length, in the units of the field's weights.
@@ -19,14 +21,16 @@ use super::guard::crossings;
 /// faded beside a slow one, 2100.
 /// NaN where a rate is not a number.
 #[inline]
-pub fn defect<S: Field<D>, const D: usize>(system: &S, step: &Step<f64, S>) -> f64 {
-    let (series, weights) = (system.coordinates(&step.jet), system.weights());
+pub fn defect<S: Field>(system: &S, step: &Step<f64, S>) -> f64 {
+    let weights = system.weights();
     let mut largest = 0.0;
     let mut look_at = |h: f64| {
-        let (coordinates, rates) = values_and_slopes(series, h);
-        let exact = system.rates(&step.mode, step.start + h, &coordinates);
-        for i in 0..D {
-            largest = greater(largest, (weights[i] * (rates[i] - exact[i]) * step.length).abs());
+        let (state, slopes) = system.motion(&step.jet, h);
+        let exact = S::coordinates(&system.rates(&step.mode, step.start + h, &state));
+        let slopes = S::coordinates(&slopes);
+        let rates = slopes.as_ref().iter().zip(exact.as_ref());
+        for ((slope, exact), weight) in rates.zip(weights.as_ref()) {
+            largest = greater(largest, (weight * (slope - exact) * step.length).abs());
         }
     };
     look_at(0.5 * step.length);
@@ -38,20 +42,6 @@ pub fn defect<S: Field<D>, const D: usize>(system: &S, step: &Step<f64, S>) -> f
     largest
 }
 
-/// The values and the slopes of several polynomials at a time, side by side as they do not wait for each
-/// other.
-#[inline]
-fn values_and_slopes<const D: usize>(series: [&Series<f64>; D], h: f64) -> ([f64; D], [f64; D]) {
-    let (mut values, mut slopes) = ([0.0; D], [0.0; D]);
-    for k in (0..=ORDER).rev() {
-        for i in 0..D {
-            slopes[i] = slopes[i] * h + values[i];
-            values[i] = values[i] * h + series[i][k];
-        }
-    }
-    (values, slopes)
-}
-
 /// Whether the slope at the start outweighs all that it can change by on [0, h].
 #[inline]
 fn is_monotone(series: &Series<f64>, h: f64) -> bool {
@@ -60,10 +50,4 @@ fn is_monotone(series: &Series<f64>, h: f64) -> bool {
         change = change * h + k as f64 * series[k].abs();
     }
     change * h < series[1].abs()
-}
-
-/// The greater of two numbers; NaN where either is.
-#[inline]
-pub fn greater(a: f64, b: f64) -> f64 {
-    if a >= b || a.is_nan() { a } else { b }
 }

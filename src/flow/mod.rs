@@ -1,8 +1,20 @@
 //! Moved: advances any switched system by Taylor steps and locates every event on the way.
 
+pub mod cycle;
 pub mod defect;
 pub mod guard;
+pub mod metric;
 pub mod motion;
+pub mod observer;
 mod pace;
+pub mod switched;
+pub mod system;
+mod taylor;
 
+pub use cycle::{Reason, STEPS_PER_CYCLE, cycle};
+pub use metric::Metric;
 pub use motion::{Breakdown, Motion, Step};
+pub use observer::Observer;
+pub use switched::{Event, Field, MAX_GUARDS, NoEvent, Stroboscopic, Switched, Zeros};
+pub use system::System;
+pub use taylor::Taylor;

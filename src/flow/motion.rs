@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use crate::capsule::switched::{MAX_GUARDS, Switched, Zeros};
 use crate::lane::{Lane, Mask, ORDER, Series, SideBySide, series};
 
 use super::guard::{divide_by_time, first_fall, stays_positive};
 use super::pace::longest_step;
+use super::switched::{MAX_GUARDS, Switched, Zeros};
 
 /// So many steps in a row may pass without getting anywhere: simultaneous events need a few.
 const PATIENCE: f64 = 64.0;
@@ -24,6 +24,8 @@ pub struct Motion<L: Lane, S: Switched<L>> {
     pub mode: S::Mode,
     zeros: Zeros<L>,
     idle: L,
+    /// The sign of the section's function of an autonomous system; zero until it is known.
+    side: L,
 }
 
 /// One step that was taken; the next is written over it, so that nothing large is moved or cleared.
@@ -39,17 +41,22 @@ pub struct Step<L: Lane, S: Switched<L>> {
     pub jet: S::Jet,
     /// The event at its end, as `Switched::switch` numbers it; zero for none.
     pub event: L,
+    /// Whether a cycle ends with it.
+    pub arrives: L::Mask,
     guards: [Series<L>; MAX_GUARDS],
     chosen: Series<L>,
 }
 
 impl<L: Lane, S: Switched<L>> Step<L, S> {
+    /// The guards of the system, and the section of an autonomous one.
+    const GUARDS: usize = S::GUARDS + if S::AUTONOMOUS { 1 } else { 0 };
+
     /// Copies the guard that each lane has `chosen`, by its number.
     #[inline(always)]
     fn choose(&mut self, chosen: L::Plain) {
         for k in 0..=ORDER {
             let mut term = self.guards[0][k];
-            for which in 1..S::GUARDS {
+            for which in 1..Self::GUARDS {
                 let taken = L::Plain::splat(which as f64).le(chosen);
                 term = L::select(taken, self.guards[which][k], term);
             }
@@ -67,6 +74,7 @@ impl<L: Lane, S: Switched<L>> Default for Step<L, S> {
             mode: S::Mode::default(),
             jet: S::Jet::default(),
             event: zero,
+            arrives: L::Mask::splat(false),
             guards: [series::zero(); MAX_GUARDS],
             chosen: series::zero(),
         }
@@ -80,6 +88,8 @@ pub enum Breakdown {
     NoProgress,
     /// The state is no longer a finite number.
     NotFinite,
+    /// An autonomous system does not come back to its section in time.
+    NoReturn,
 }
 
 impl fmt::Display for Breakdown {
@@ -87,6 +97,7 @@ impl fmt::Display for Breakdown {
         f.write_str(match self {
             Breakdown::NoProgress => "events follow each other without time passing",
             Breakdown::NotFinite => "the state is no longer a finite number",
+            Breakdown::NoReturn => "the motion does not come back to its section",
         })
     }
 }
@@ -99,11 +110,16 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let zero = L::splat(0.0);
         let mut state = state;
         let mode = system.start(time, &mut state);
-        let mut motion = Motion { time, state, mode, zeros: [zero; MAX_GUARDS], idle: zero };
+        let mut motion =
+            Motion { time, state, mode, zeros: [zero; MAX_GUARDS], idle: zero, side: zero };
         let mut step = Step::default();
         for _ in 0..MAX_GUARDS {
             system.expand(&motion.mode, time, &motion.state, &mut step.jet);
             motion.locate(system, &mut step, zero.plain()).switch(system, &mut motion);
+        }
+        if S::AUTONOMOUS {
+            system.expand(&motion.mode, time, &motion.state, &mut step.jet);
+            motion.side = side_of_section(system, &step.jet);
         }
         motion
     }
@@ -135,6 +151,16 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let idles = length.le(until * L::splat(STANDSTILL)) & length.lt(left);
         self.idle = L::select(idles, self.idle + L::splat(1.0), L::splat(0.0));
         step.event = end.switch(system, self);
+        step.arrives = if S::AUTONOMOUS { self.pass_section(&end) } else { until.le(self.time) };
+    }
+
+    /// Where the function of the section has just fallen through zero.
+    #[inline(always)]
+    fn pass_section(&mut self, end: &StepEnd<L>) -> L::Mask {
+        let passes = end.is_due(S::GUARDS);
+        let falls = passes & L::splat(0.0).lt(self.side);
+        self.side = L::select(passes, -self.side, self.side);
+        falls
     }
 
     /// Starts the next cycle where `mask`: time counts from zero again.
@@ -146,7 +172,8 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     /// Where a motion cannot go on; [`Motion::breakdown`] tells why.
     #[inline(always)]
     pub fn broken(&self, system: &S) -> L::Mask {
-        L::splat(PATIENCE).lt(self.idle) | system.lost(&self.state)
+        let broken = L::splat(PATIENCE).lt(self.idle) | system.lost(&self.state);
+        if S::AUTONOMOUS { broken | system.period().le(self.time) } else { broken }
     }
 
     /// What keeps the motion in lane `index` from going on, if anything.
@@ -155,7 +182,11 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         if system.lost(&self.state).lane(index) {
             return Some(Breakdown::NotFinite);
         }
-        L::splat(PATIENCE).lt(self.idle).lane(index).then_some(Breakdown::NoProgress)
+        if L::splat(PATIENCE).lt(self.idle).lane(index) {
+            return Some(Breakdown::NoProgress);
+        }
+        let is_late = S::AUTONOMOUS && system.period().le(self.time).lane(index);
+        is_late.then_some(Breakdown::NoReturn)
     }
 
     /// The first guard to fall within `length`.
@@ -169,7 +200,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         let mut open = self.open_guards(system, step, length);
         loop {
             let mut chosen = none;
-            for which in (0..S::GUARDS).rev() {
+            for which in (0..Step::<L, S>::GUARDS).rev() {
                 let this = L::Plain::splat(which as f64);
                 chosen = L::Plain::select(open[which], this, chosen);
             }
@@ -203,13 +234,22 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         length: L::Plain,
     ) -> [L::Mask; MAX_GUARDS] {
         let mut open = [L::Mask::splat(false); MAX_GUARDS];
-        for (which, open) in open.iter_mut().enumerate().take(S::GUARDS) {
-            let watched = system.watched(which, &self.mode);
+        for (which, open) in open.iter_mut().enumerate().take(Step::<L, S>::GUARDS) {
+            let is_section = S::AUTONOMOUS && which == S::GUARDS;
+            let watched = match is_section {
+                true => L::splat(0.0).lt(self.side * self.side),
+                false => system.watched(which, &self.mode),
+            };
             if !watched.any() {
                 continue;
             }
             let guard = &mut step.guards[which];
-            system.guard(which, &self.mode, &step.jet, guard);
+            if is_section {
+                system.section(&step.jet, guard);
+                guard.iter_mut().for_each(|term| *term = self.side * *term);
+            } else {
+                system.guard(which, &self.mode, &step.jet, guard);
+            }
             for vanished in [0.5, 1.5] {
                 let drop = L::splat(vanished).lt(self.zeros[which]);
                 if drop.any() {
@@ -220,6 +260,19 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         }
         open
     }
+}
+
+/// The sign of the section's function at the start of a step; on the section, the sign that it takes next.
+fn side_of_section<L: Lane, S: Switched<L>>(system: &S, jet: &S::Jet) -> L {
+    let zero = L::splat(0.0);
+    let mut section = series::zero();
+    system.section(jet, &mut section);
+    let mut side = zero;
+    for term in section.iter().rev() {
+        side = L::select(zero.lt(*term), L::splat(1.0), side);
+        side = L::select(term.lt(zero), L::splat(-1.0), side);
+    }
+    side
 }
 
 impl<L, S> SideBySide for Motion<L, S>
@@ -239,6 +292,7 @@ where
             mode: SideBySide::splat(&one.mode),
             zeros: one.zeros.map(L::splat),
             idle: L::splat(one.idle),
+            side: L::splat(one.side),
         }
     }
 
@@ -250,6 +304,7 @@ where
             mode: self.mode.lane(index),
             zeros: self.zeros.map(|zeros| zeros.lane(index)),
             idle: self.idle.lane(index),
+            side: self.side.lane(index),
         }
     }
 
@@ -262,6 +317,7 @@ where
             *zeros = zeros.with_lane(index, of_one);
         }
         self.idle = self.idle.with_lane(index, one.idle);
+        self.side = self.side.with_lane(index, one.side);
     }
 }
 
@@ -280,13 +336,19 @@ impl<L: Lane> StepEnd<L> {
         L::Plain::splat(-0.5).lt(self.guard)
     }
 
+    /// Where this guard ends the step.
+    #[inline(always)]
+    fn is_due(&self, which: usize) -> L::Mask {
+        let away = self.guard - L::Plain::splat(which as f64);
+        away.abs().lt(L::Plain::splat(0.5))
+    }
+
     /// Obeys the guard that ended the step; returns the kind of event.
     #[inline(always)]
     fn switch<S: Switched<L>>(&self, system: &S, motion: &mut Motion<L, S>) -> L {
         let mut event = L::splat(0.0);
         for which in 0..S::GUARDS {
-            let away = self.guard - L::Plain::splat(which as f64);
-            let due = away.abs().lt(L::Plain::splat(0.5));
+            let due = self.is_due(which);
             if due.any() {
                 let Motion { mode, state, zeros, .. } = motion;
                 event = event + system.switch(which, due, mode, state, zeros, motion.time);

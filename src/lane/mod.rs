@@ -32,7 +32,9 @@ const LOG_ONE: f64 = 0x3FF0_0000 as f64;
 const LOG_UNIT: f64 = 0x0010_0000 as f64;
 
 /// A truth value per lane.
-pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+pub trait Mask:
+    Copy + Send + Sync + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
     /// How many there are, at most 64.
     const WIDTH: usize;
     /// The truths from bits, that of lane 0 the lowest.
@@ -74,8 +76,39 @@ pub trait SideBySide {
     fn put(&mut self, index: usize, one: &Self::One);
 }
 
+impl SideBySide for () {
+    type One = ();
+
+    #[inline(always)]
+    fn splat(_one: &()) {}
+    #[inline(always)]
+    fn lane(&self, _index: usize) {}
+    #[inline(always)]
+    fn put(&mut self, _index: usize, _one: &()) {}
+}
+
+impl<L: Lane, const N: usize> SideBySide for [L; N] {
+    type One = [f64; N];
+
+    #[inline(always)]
+    fn splat(one: &[f64; N]) -> Self {
+        one.map(L::splat)
+    }
+    #[inline(always)]
+    fn lane(&self, index: usize) -> [f64; N] {
+        self.map(|number| number.lane(index))
+    }
+    #[inline(always)]
+    fn put(&mut self, index: usize, one: &[f64; N]) {
+        for (number, of_one) in self.iter_mut().zip(one) {
+            *number = number.with_lane(index, *of_one);
+        }
+    }
+}
+
 /// Implements [`SideBySide`] for a struct over lanes: its numbers, its masks, its structs over lanes, and
 /// what all lanes have alike.
+#[macro_export]
 macro_rules! side_by_side {
     (
         $name:ident { $($number:ident),* }
@@ -114,11 +147,13 @@ macro_rules! side_by_side {
         }
     };
 }
-pub(crate) use side_by_side;
+pub use side_by_side;
 
 /// A number per lane.
 pub trait Lane:
     Copy
+    + Send
+    + Sync
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>

@@ -1,15 +1,15 @@
 //! What is proven of a periodic orbit: that it closes, how it answers to small pushes, and that its period
 //! is the least.
 
-use crate::capsule::{Locomotion, Parameter};
+use crate::flow::System;
 use crate::lane::Dual;
 
+use super::Protocol;
 use super::matrix::{Complex, eigenvalues};
 use super::neutral::{Neutral, close_neutral, may_be_neutral};
 use super::newton::{Closed, close};
 use super::recurrence::Settled;
 use super::return_map::Cycles;
-use super::{Case, Protocol, Section};
 
 /// How much farther an orbit may be than a residual and multipliers say, as they do not tell how oblique
 /// the directions are that the multipliers belong to.
@@ -29,12 +29,6 @@ pub fn same(tolerance: f64) -> f64 {
 /// events is rounding of ten of them.
 const CLOSES: f64 = 10.0;
 
-/// The least distance of a multiplier from one, over which a residual is how far the orbit is.
-pub fn least_from_one(multipliers: &[Complex; 3]) -> f64 {
-    let from_one = multipliers.iter().map(|it| libm::hypot(1.0 - it.re, it.im));
-    from_one.fold(f64::INFINITY, f64::min)
-}
-
 /// How a period was proven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Proof {
@@ -42,12 +36,12 @@ pub enum Proof {
     None = 0,
     /// Newton's method on the return map ended on an orbit that closes to rounding.
     Newton,
-    /// The orbit closes, but the mass just touches the stop, where the derivatives are those of one side.
+    /// The orbit closes, but just touches a surface, where the derivatives are those of one side.
     Grazing,
     /// The orbit closes, and so do its neighbours on both sides along a direction whose multiplier is within
     /// 1e-7 of one: as far as rounding tells it belongs to a family of orbits, of which the start decides the
-    /// member. A resistance so small that it slows the capsule by less than that in a period is not told
-    /// from none.
+    /// member. A damping so small that it slows the motion by less than that in a period is not told from
+    /// none.
     Neutral,
 }
 
@@ -63,7 +57,7 @@ impl Proof {
 
 /// What is proven of a periodic orbit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Certificate {
+pub struct Certificate<const D: usize> {
     /// How.
     pub proof: Proof,
     /// How far the section is from repeating after a period, relative to the motion [-]; NaN without an
@@ -71,20 +65,19 @@ pub struct Certificate {
     pub residual: f64,
     /// Floquet multipliers of the period, the largest magnitude first [-]; NaN where they are not known.
     ///
-    /// Of an orbit that is at rest on the ground at the section one of them is 0. It is that of pushes along
-    /// y2 as far as they end on the stick surface y2 = 0, |F| <= f_b again; where |F| is above the friction
-    /// of sliding, f_d(0+) < |F| <= f_b, a push off the surface, however small, makes the capsule slide away.
-    pub multipliers: [Complex; 3],
-    /// The direction (r, y1, y2) of the family that a neutral orbit belongs to, of length one with r counted
-    /// as omega r [-]; none of any other.
-    pub neutral: Option<Section>,
+    /// Of an orbit that sticks on a surface at the section one of them is 0: that of pushes off the surface,
+    /// as far as they end on it again.
+    pub multipliers: [Complex; D],
+    /// The direction of the family that a neutral orbit belongs to, of length one in the units of the metric
+    /// [-]; none of any other.
+    pub neutral: Option<[f64; D]>,
 }
 
-impl Certificate {
+impl<const D: usize> Certificate<D> {
     /// Nothing is proven.
     pub fn none() -> Self {
         let unknown = Complex { re: f64::NAN, im: f64::NAN };
-        let multipliers = [unknown; 3];
+        let multipliers = [unknown; D];
         Certificate { proof: Proof::None, residual: f64::NAN, multipliers, neutral: None }
     }
 
@@ -96,15 +89,15 @@ impl Certificate {
 
 /// A periodic orbit that Newton's method has closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Certified {
+pub struct Certified<const D: usize> {
     /// The least period [cycles].
     pub period: u64,
     /// Its point of the section.
-    pub section: Section,
+    pub section: [f64; D],
     /// Its multipliers, the largest magnitude first [-].
-    pub multipliers: [Complex; 3],
+    pub multipliers: [Complex; D],
     /// The direction of the family that it belongs to, if it does.
-    pub neutral: Option<Section>,
+    pub neutral: Option<[f64; D]>,
     /// Cycles followed to find it.
     pub cycles: u64,
 }
@@ -121,26 +114,20 @@ pub struct Certified {
 /// seen to repeat. That is the recurrence met, or the first residual with derivatives where it is no more
 /// than two integrations may differ by. Where a multiplier is one, the orbit counts if it belongs to a
 /// family and its other multipliers are stable.
-pub fn certify<S: Locomotion>(
-    case: &Case,
-    section: &Section,
+pub fn certify<M: System<D>, const D: usize>(
+    system: &M,
+    section: &[f64; D],
     settled: &Settled,
     protocol: &Protocol,
-) -> Option<Certified> {
-    let parameters = &case.parameters;
-    let constant = |parameter: Parameter| Dual::<f64, 3>::constant(parameters[parameter]);
-    let system = S::with(constant, parameters.resistance, case.phase);
+) -> Option<Certified<D>> {
+    let metric = system.metric();
+    let system = system.constant::<Dual<f64, D>>();
     let repeats_after = settled.repeats_after as u64;
-    let mut cycles = Cycles {
-        drive_period: Dual::constant(parameters.drive_period()),
-        count: 0,
-        tolerance: protocol.tolerance,
-    };
     let mut followed = 0;
     for period in (1..=repeats_after).filter(|&j| repeats_after.is_multiple_of(j)) {
-        cycles.count = period;
+        let cycles = Cycles { count: period, tolerance: protocol.tolerance };
         // What cannot be followed cannot be closed either.
-        let Ok(closed) = close(&system, section, &cycles, settled.size) else { continue };
+        let Ok(closed) = close(&system, &metric, section, &cycles, settled.size) else { continue };
         let multipliers = closed.map(|it| eigenvalues(&it.jacobian));
         followed += closed.map_or(0, |it| it.cycles);
         let found = match (closed, multipliers) {
@@ -150,7 +137,8 @@ pub fn certify<S: Locomotion>(
             // A singular matrix has left Newton's method without a step.
             _ => {
                 let accuracy = (settled.size, CLOSES * protocol.recurrence);
-                let Ok(Some(it)) = close_neutral(&system, section, &cycles, accuracy) else {
+                let Ok(Some(it)) = close_neutral(&system, &metric, section, &cycles, accuracy)
+                else {
                     continue;
                 };
                 followed += it.cycles;
@@ -177,17 +165,17 @@ pub fn certify<S: Locomotion>(
 }
 
 /// An orbit that closes, isolated or of a family.
-struct Found {
-    point: Section,
+struct Found<const D: usize> {
+    point: [f64; D],
     residual: f64,
     moved: f64,
     first_residual: f64,
-    multipliers: [Complex; 3],
-    neutral: Option<Section>,
+    multipliers: [Complex; D],
+    neutral: Option<[f64; D]>,
 }
 
-impl Found {
-    fn isolated(closed: &Closed<3>, multipliers: [Complex; 3]) -> Found {
+impl<const D: usize> Found<D> {
+    fn isolated(closed: &Closed<D>, multipliers: [Complex; D]) -> Self {
         let Closed { point, residual, moved, first_residual, .. } = *closed;
         Found { point, residual, moved, first_residual, multipliers, neutral: None }
     }
@@ -214,10 +202,10 @@ impl Found {
 }
 
 /// The multipliers of an orbit of a family: the one nearest to one is one.
-fn with_one(mut multipliers: [Complex; 3]) -> [Complex; 3] {
+fn with_one<const D: usize>(mut multipliers: [Complex; D]) -> [Complex; D] {
     let from_one = |it: &Complex| libm::hypot(1.0 - it.re, it.im);
     let nearest =
-        (0..3).min_by(|&i, &j| from_one(&multipliers[i]).total_cmp(&from_one(&multipliers[j])));
+        (0..D).min_by(|&i, &j| from_one(&multipliers[i]).total_cmp(&from_one(&multipliers[j])));
     if let Some(nearest) = nearest {
         multipliers[nearest] = Complex { re: 1.0, im: 0.0 };
     }

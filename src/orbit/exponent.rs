@@ -1,11 +1,9 @@
 //! How fast neighbouring motions part: Lyapunov exponents from the linearised flow.
 
-use crate::capsule::Stroboscopic;
-use crate::flow::Motion;
+use crate::flow::{Metric, Motion, Reason, Step, Stroboscopic, cycle};
 use crate::lane::{Dual, Lane};
 
-use super::Reason;
-use super::return_map::{Cycles, cycle};
+use super::return_map::Cycles;
 
 /// Stretches are averaged in so many batches, whose spread tells the uncertainty.
 pub const BATCHES: usize = 16;
@@ -22,22 +20,22 @@ pub struct Exponent {
 /// The stretching of `N` directions, cycle by cycle.
 #[derive(Debug, Clone)]
 pub struct Stretching<const D: usize, const N: usize> {
-    scales: [f64; D],
+    metric: Metric<D>,
     /// Logarithm of the stretch in each cycle.
     logs: Vec<[f64; N]>,
 }
 
 impl<const D: usize, const N: usize> Stretching<D, N> {
-    /// Nothing met yet; coordinates are compared by `scales`.
-    pub fn new(scales: [f64; D]) -> Self {
-        Stretching { scales, logs: Vec::new() }
+    /// Nothing met yet.
+    pub fn new(metric: Metric<D>) -> Self {
+        Stretching { metric, logs: Vec::new() }
     }
 
     /// Directions to begin with: orthogonal, and none of them along a coordinate.
     pub fn first(&self) -> [[f64; N]; D] {
         let mut directions: [[f64; N]; D] = std::array::from_fn(|i| {
             std::array::from_fn(
-                |j| if i == j { 2.0 } else { 1.0 / (i + j + 1) as f64 } / self.scales[i],
+                |j| if i == j { 2.0 } else { 1.0 / (i + j + 1) as f64 } / self.metric.scales[i],
             )
         });
         self.normalise(&mut directions);
@@ -55,7 +53,7 @@ impl<const D: usize, const N: usize> Stretching<D, N> {
 
     /// Makes the directions orthonormal; tells the length of each before.
     fn normalise(&self, directions: &mut [[f64; N]; D]) -> [f64; N] {
-        for (row, scale) in directions.iter_mut().zip(&self.scales) {
+        for (row, scale) in directions.iter_mut().zip(&self.metric.scales) {
             row.iter_mut().for_each(|x| *x *= scale);
         }
         let lengths = std::array::from_fn(|j| {
@@ -69,7 +67,7 @@ impl<const D: usize, const N: usize> Stretching<D, N> {
             }
             length
         });
-        for (row, scale) in directions.iter_mut().zip(&self.scales) {
+        for (row, scale) in directions.iter_mut().zip(&self.metric.scales) {
             row.iter_mut().for_each(|x| *x /= scale);
         }
         lengths
@@ -80,18 +78,18 @@ impl<const D: usize, const N: usize> Stretching<D, N> {
         self.logs.iter().map(|logs| logs[j]).sum()
     }
 
-    /// The exponents under a drive of this period [s], the first that of the direction that grows most.
+    /// The exponents for cycles of this mean duration [s], the first that of the direction that grows most.
     ///
     /// The first batch is left out: in it the directions turn to where they belong. The uncertainty is the
     /// standard error over the other batches, which are long against the memory of the motion or should be.
-    pub fn exponents(&self, drive_period: f64) -> [Exponent; N] {
+    pub fn exponents(&self, duration: f64) -> [Exponent; N] {
         let length = self.logs.len() / BATCHES;
         let batches = self.logs[self.logs.len() - length * BATCHES..].chunks_exact(length.max(1));
         let batches: Vec<_> = batches.skip(1).collect();
         let count = batches.len() as f64;
         std::array::from_fn(|j| {
             let rate = |batch: &[[f64; N]]| {
-                batch.iter().map(|logs| logs[j]).sum::<f64>() / (length as f64 * drive_period)
+                batch.iter().map(|logs| logs[j]).sum::<f64>() / (length as f64 * duration)
             };
             let rates: Vec<f64> = batches.iter().map(|batch| rate(batch)).collect();
             let value = rates.iter().sum::<f64>() / count;
@@ -104,35 +102,33 @@ impl<const D: usize, const N: usize> Stretching<D, N> {
     }
 }
 
-/// The stretching of `N` directions over whole cycles from a point of the section.
+/// The stretching of `N` directions over whole cycles from a point of the section, and the mean duration of a
+/// cycle [s].
 pub fn stretching<S, const D: usize, const N: usize>(
     system: &S,
+    metric: Metric<D>,
     from: &[f64; D],
-    cycles: &Cycles<N>,
-) -> Result<Stretching<D, N>, Reason>
+    cycles: &Cycles,
+) -> Result<(Stretching<D, N>, f64), Reason>
 where
     S: Stroboscopic<Dual<f64, N>, D>,
 {
-    let mut stretching = Stretching::new(system.scales());
-    let mut directions = stretching.first();
+    let mut stretching = Stretching::new(metric);
+    let directions = stretching.first();
     let start = std::array::from_fn(|i| Dual { value: from[i], gradient: directions[i] });
     let mut motion = Motion::new(system, Dual::splat(0.0), S::state(start));
-    let mut step = Default::default();
+    let mut step = Step::default();
+    let mut elapsed = 0.0;
     for _ in 0..cycles.count {
-        cycle(
-            system,
-            &mut motion,
-            &mut step,
-            (cycles.drive_period, cycles.tolerance),
-            &mut |_| (),
-        )?;
+        elapsed += cycle(system, &mut motion, &mut step, (0, cycles.tolerance), |_| ())?.value;
         let mut point = S::point(&motion.state);
-        directions = point.map(|coordinate| coordinate.gradient);
+        let mut directions = point.map(|coordinate| coordinate.gradient);
         stretching.meet(&mut directions);
         for (coordinate, gradient) in point.iter_mut().zip(directions) {
             coordinate.gradient = gradient;
         }
         motion.state = S::state(point);
     }
-    Ok(stretching)
+    let mean = elapsed / cycles.count as f64;
+    Ok((stretching, if S::AUTONOMOUS { mean } else { system.period().value }))
 }

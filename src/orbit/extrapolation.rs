@@ -1,11 +1,11 @@
 //! Where a sequence of section points tends to, from the rates at which its differences shrink.
 
-use super::Section;
-
 /// Points that a limit is told from.
 pub const WINDOW: usize = 6;
-/// Directions in which a section point can approach: the section has three coordinates.
+/// Directions in which an approach is told: of a section with more coordinates the others have died out.
 const DIRECTIONS: usize = 3;
+/// Coordinates of a section at most.
+const MOST: usize = 6;
 /// The rates must hold from one difference to the next this well.
 const CONSTANCY: f64 = 1e-4;
 /// A direction that adds less than this share to those before it is none of its own.
@@ -23,10 +23,11 @@ const GAIN: f64 = 0.01;
 /// polynomial with these coefficients. The least m that fits is used, and all its roots must lie inside
 /// the unit circle: an orbit that repels in a direction which the points show is not their limit.
 /// Error: the misfit times the distance, over the product of 1 minus each rate.
-pub fn limit(points: &[Section; WINDOW]) -> Option<Section> {
-    let differences: [Section; WINDOW - 1] =
+pub fn limit<const D: usize>(points: &[[f64; D]; WINDOW]) -> Option<[f64; D]> {
+    const { assert!(D <= MOST) };
+    let differences: [[f64; D]; WINDOW - 1] =
         std::array::from_fn(|i| std::array::from_fn(|j| points[i + 1][j] - points[i][j]));
-    let mut fits = (1..=DIRECTIONS).filter_map(|m| Fit::new(&differences, m));
+    let mut fits = (1..=DIRECTIONS.min(D)).filter_map(|m| Fit::new(&differences, m));
     let fit = fits.find(|fit| fit.misfit <= CONSTANCY)?;
     let worth_it = fit.contracts() && fit.misfit <= GAIN * fit.sum();
     worth_it.then(|| fit.mean(&points[WINDOW - 1 - fit.directions..]))
@@ -43,10 +44,10 @@ struct Fit {
 
 impl Fit {
     /// Least squares over all relations, each relative to its last term, by orthogonal columns.
-    fn new(differences: &[Section; WINDOW - 1], m: usize) -> Option<Fit> {
+    fn new<const D: usize>(differences: &[[f64; D]; WINDOW - 1], m: usize) -> Option<Fit> {
         let relations = differences.len() - m;
         // Columns 0..m are u_i to u_{i+m-1} of each relation i, column m is u_{i+m}.
-        let mut columns = [[0.0; 3 * (WINDOW - 2)]; DIRECTIONS + 1];
+        let mut columns = [[0.0; MOST * (WINDOW - 2)]; DIRECTIONS + 1];
         for i in 0..relations {
             let last = norm(&differences[i + m]);
             if last == 0.0 {
@@ -54,7 +55,7 @@ impl Fit {
             }
             for (j, column) in columns.iter_mut().enumerate().take(m + 1) {
                 for (k, value) in differences[i + j].iter().enumerate() {
-                    column[3 * i + k] = value / last;
+                    column[D * i + k] = value / last;
                 }
             }
         }
@@ -109,7 +110,7 @@ impl Fit {
     }
 
     /// The mean of the last points, weighted with the coefficients.
-    fn mean(&self, points: &[Section]) -> Section {
+    fn mean<const D: usize>(&self, points: &[[f64; D]]) -> [f64; D] {
         let sum = self.sum();
         let newest = points[self.directions];
         // Relative to the newest point, so that coordinates which stand still keep their bits.
@@ -140,7 +141,7 @@ mod tests {
     use super::*;
 
     /// Points of s -> limit + A (s - limit), with the eigenvalues of A on its diagonal.
-    fn points(rates: [f64; 3]) -> [Section; WINDOW] {
+    fn points(rates: [f64; 3]) -> [[f64; 3]; WINDOW] {
         let a = [[rates[0], 0.3, -0.2], [0.0, rates[1], 0.4], [0.0, 0.0, rates[2]]];
         let mut deviation = [1e-4, -2e-4, 1.5e-4];
         std::array::from_fn(|_| {
@@ -150,7 +151,7 @@ mod tests {
         })
     }
 
-    const LIMIT: Section = [0.5, -1.0, 2.0];
+    const LIMIT: [f64; 3] = [0.5, -1.0, 2.0];
 
     #[test]
     fn a_linear_approach_is_followed_to_its_end() {

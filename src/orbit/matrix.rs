@@ -19,6 +19,12 @@ impl Complex {
     }
 }
 
+/// The least distance of a multiplier from one, over which a residual is how far the orbit is.
+pub fn least_from_one(multipliers: &[Complex]) -> f64 {
+    let from_one = multipliers.iter().map(|it| libm::hypot(1.0 - it.re, it.im));
+    from_one.fold(f64::INFINITY, f64::min)
+}
+
 /// The solution x of `a x = b`, by elimination with the largest pivot; none where a pivot vanishes.
 pub fn solve<const D: usize>(mut a: Matrix<D>, mut b: [f64; D]) -> Option<[f64; D]> {
     for column in 0..D {

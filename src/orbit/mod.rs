@@ -1,7 +1,6 @@
-//! Understood: says what a motion is, from its sections, its energies and what it settles to.
+//! Understood: says what a motion is, from its sections and from what it settles to.
 
-pub mod account;
-pub mod history;
+mod case;
 pub mod certificate;
 pub mod exponent;
 mod extrapolation;
@@ -9,23 +8,20 @@ pub mod matrix;
 mod measure;
 pub mod neutral;
 pub mod newton;
-pub mod output;
 pub mod recurrence;
 pub mod return_map;
 pub mod settle;
+mod settle_all;
 mod settling;
 pub mod side_by_side;
-pub mod simulate;
 pub mod trajectory;
 pub mod wandering;
 
-pub use account::{Account, Energies, Impact};
+pub use case::{Case, HistorySpan, Orbit, OrbitOf, Outcome, Protocol};
 pub use certificate::{Certificate, Proof};
 pub use exponent::Exponent;
-pub use history::{History, HistorySpan};
-pub use measure::over_cycles;
-pub use output::{Output, Outputs};
-pub use settle::{Case, Orbit, Outcome, Protocol, settle, settle_on};
+pub use measure::measured;
+pub use settle::settle;
+pub use settle_all::{Machine, settle_all};
 pub use side_by_side::{Queue, Underway, settle_side_by_side};
-pub use simulate::{Event, Sample, Simulation, simulate};
-pub use trajectory::{Failure, Reason, Section, Trajectory};
+pub use trajectory::{Failure, Trajectory};

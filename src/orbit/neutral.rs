@@ -1,13 +1,10 @@
 //! Families of periodic orbits: a multiplier of one belongs to a direction along which the neighbours are
 //! periodic too.
 
-use crate::capsule::Stroboscopic;
+use crate::flow::{Metric, Reason, Stroboscopic};
 use crate::lane::Dual;
 
-use super::Reason;
-use super::certificate::least_from_one;
-use super::matrix::{Complex, Matrix, solve};
-use super::newton::relative;
+use super::matrix::{Complex, Matrix, least_from_one, solve};
 use super::return_map::{Cycles, jacobian, returned, seeded, values};
 
 /// A multiplier this near to one may be one: neither the rounding of a long period nor the time that a motion
@@ -38,14 +35,14 @@ pub struct Neutral<const D: usize> {
     pub moved: f64,
     /// How far the image of the point where the search began is from that point, relative to the motion [-].
     pub first_residual: f64,
-    /// The direction of the family, of length one in units of the system's scales.
+    /// The direction of the family, of length one in units of the metric.
     pub direction: [f64; D],
     /// Cycles followed in all.
     pub cycles: u64,
 }
 
 /// Whether these are the multipliers of an orbit that may belong to a family.
-pub fn may_be_neutral(multipliers: &[Complex; 3]) -> bool {
+pub fn may_be_neutral<const D: usize>(multipliers: &[Complex; D]) -> bool {
     least_from_one(multipliers) < ONE
 }
 
@@ -59,19 +56,20 @@ pub fn may_be_neutral(multipliers: &[Complex; 3]) -> bool {
 /// Assumes: the multiplier one is simple; where two coincide, none is returned.
 pub fn close_neutral<S, const D: usize>(
     system: &S,
+    metric: &Metric<D>,
     start: &[f64; D],
-    cycles: &Cycles<D>,
+    cycles: &Cycles,
     (size, tolerance): (f64, f64),
 ) -> Result<Option<Neutral<D>>, Reason>
 where
     S: Stroboscopic<Dual<f64, D>, D>,
 {
-    let mut search = Search { system, cycles, size, followed: 0 };
+    let mut search = Search { system, metric, cycles, size, followed: 0 };
     let repeats = |it: &Neutral<D>| it.residual <= tolerance;
     let Some(member) = search.closed(start)?.filter(repeats) else { return Ok(None) };
     for side in [BESIDE, -BESIDE] {
         let beside = std::array::from_fn(|i| {
-            member.point[i] + side * size * member.direction[i] / system.scales()[i]
+            member.point[i] + side * size * member.direction[i] / metric.scales[i]
         });
         if search.closed(&beside)?.filter(repeats).is_none() {
             return Ok(None);
@@ -83,7 +81,8 @@ where
 /// A search for members of a family.
 struct Search<'a, S, const D: usize> {
     system: &'a S,
-    cycles: &'a Cycles<D>,
+    metric: &'a Metric<D>,
+    cycles: &'a Cycles,
     size: f64,
     followed: u64,
 }
@@ -94,7 +93,7 @@ where
 {
     /// The point nearest to a periodic orbit that was met, with the direction in which it is neutral.
     fn closed(&mut self, start: &[f64; D]) -> Result<Option<Neutral<D>>, Reason> {
-        let scales = self.system.scales();
+        let Metric { scales } = self.metric;
         let mut point = *start;
         let mut best: Option<Neutral<D>> = None;
         let mut first_residual = f64::INFINITY;
@@ -104,7 +103,7 @@ where
             let jacobian = jacobian(&image);
             let image = values(&image);
             let gap: [f64; D] = std::array::from_fn(|i| image[i] - point[i]);
-            let residual = relative(&gap, &scales, self.size);
+            let residual = self.metric.relative(&gap, self.size);
             if correction == 0 {
                 first_residual = residual;
             }
@@ -121,7 +120,7 @@ where
             let Some(step) = solve(deflated, scaled) else { break };
             let before = best.map_or(f64::INFINITY, |best| best.residual);
             let away = std::array::from_fn(|i| point[i] - start[i]);
-            let moved = relative(&away, &scales, self.size);
+            let moved = self.metric.relative(&away, self.size);
             if residual < before {
                 best = Some(Neutral {
                     point,

@@ -1,9 +1,8 @@
 //! Newton's method on the return map: from a section point near a periodic orbit onto it.
 
-use crate::capsule::Stroboscopic;
+use crate::flow::{Metric, Reason, Stroboscopic};
 use crate::lane::Dual;
 
-use super::Reason;
 use super::matrix::{Matrix, solve};
 use super::return_map::{Cycles, jacobian, returned, seeded, values};
 
@@ -33,31 +32,23 @@ pub struct Closed<const D: usize> {
     pub cycles: u64,
 }
 
-/// Largest coordinate of a difference, in units of `size`; zero for none, also of a motion at rest.
-pub fn relative<const D: usize>(difference: &[f64; D], scales: &[f64; D], size: f64) -> f64 {
-    let scaled = difference.iter().zip(scales).map(|(x, scale)| (x * scale).abs());
-    // A number that is not known is larger than any.
-    let largest = scaled.fold(0.0, |largest, x| if x <= largest { largest } else { x });
-    if largest == 0.0 { 0.0 } else { largest / size }
-}
-
 /// The periodic orbit nearest to `start` under the map over `cycles`, or the point nearest to one that was
 /// met before Newton's method left the neighbourhood; none where the first derivative is singular already.
 ///
-/// `size` is that of the motion, in the units of the system's scales. Method: s <- s + (I - J)^-1 (P(s) -
+/// `size` is that of the motion, in the units of the metric. Method: s <- s + (I - J)^-1 (P(s) -
 /// s) with the exact Jacobian, until the residual is at rounding or no longer halved; the best point is
 /// kept. Error: see [`Closed::error`]. Where the map has a kink (an event falls on another) the steps need
 /// not converge, and the residual says so.
 pub fn close<S, const D: usize>(
     system: &S,
+    metric: &Metric<D>,
     start: &[f64; D],
-    cycles: &Cycles<D>,
+    cycles: &Cycles,
     size: f64,
 ) -> Result<Option<Closed<D>>, Reason>
 where
     S: Stroboscopic<Dual<f64, D>, D>,
 {
-    let scales = system.scales();
     let mut point = *start;
     let mut best: Option<Closed<D>> = None;
     let mut followed = 0;
@@ -68,22 +59,22 @@ where
         let jacobian = jacobian(&image);
         let image = values(&image);
         let gap: [f64; D] = std::array::from_fn(|i| image[i] - point[i]);
-        let residual = relative(&gap, &scales, size);
+        let residual = metric.relative(&gap, size);
         if correction == 0 {
             first_residual = residual;
         }
         let Some(step) = solve(less_identity(&jacobian), gap.map(|x| -x)) else { break };
-        let error = relative(&step, &scales, size);
+        let error = metric.relative(&step, size);
         let before = best.map_or(f64::INFINITY, |best| best.residual);
         if residual < before {
             let away = std::array::from_fn(|i| point[i] - start[i]);
-            let moved = relative(&away, &scales, size);
+            let moved = metric.relative(&away, size);
             best =
                 Some(Closed { point, residual, jacobian, moved, first_residual, error, cycles: 0 });
         }
         let away = std::array::from_fn(|i| point[i] + step[i] - start[i]);
         let leaves =
-            relative(&away, &scales, size).partial_cmp(&NEARBY) != Some(std::cmp::Ordering::Less);
+            metric.relative(&away, size).partial_cmp(&NEARBY) != Some(std::cmp::Ordering::Less);
         if residual <= ROUNDING || residual > 0.5 * before || leaves {
             break;
         }

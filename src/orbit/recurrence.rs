@@ -2,7 +2,8 @@
 
 use std::collections::VecDeque;
 
-use super::Section;
+use crate::flow::Metric;
+
 use super::extrapolation::WINDOW;
 
 /// A recurrence this many times closer than asked for needs no proof that it still converges.
@@ -24,36 +25,35 @@ pub struct Settled {
     pub repeats_after: usize,
     /// How closely it repeats, relative to the size of the motion [-].
     pub within: f64,
-    /// Size of the motion lately, in the units of the section's scales [m/s].
+    /// Size of the motion lately, in the units of the metric.
     pub size: f64,
 }
 
 /// The last section points of a case and how well they repeat.
 #[derive(Debug, Clone)]
-pub struct Recurrence {
+pub struct Recurrence<const D: usize> {
     tolerance: f64,
     longest: usize,
-    omega: f64,
+    metric: Metric<D>,
     /// So many points are kept.
     memory: usize,
-    points: VecDeque<Section>,
+    points: VecDeque<[f64; D]>,
     /// For each period, how many points in a row have repeated to tolerance.
     repeats: Vec<usize>,
     largest: f64,
-    /// The velocity that distances are measured against: the size of the motion lately [m/s].
+    /// What distances are measured against: the size of the motion lately.
     scale: f64,
     /// The number of cycles after which the last point is nearest to an earlier one, and how near.
     nearest: Option<(usize, f64)>,
 }
 
-impl Recurrence {
-    /// Looks for periods up to `longest`, to `tolerance` relative to the size of the motion under a
-    /// drive of frequency `omega` [rad/s].
-    pub fn new(longest: usize, tolerance: f64, omega: f64) -> Self {
+impl<const D: usize> Recurrence<D> {
+    /// Looks for periods up to `longest`, to `tolerance` relative to the size of the motion.
+    pub fn new(longest: usize, tolerance: f64, metric: Metric<D>) -> Self {
         Recurrence {
             tolerance,
             longest,
-            omega,
+            metric,
             memory: (2 * longest).max((WINDOW - 1) * longest.min(LONGEST_LEAP)) + 1,
             points: VecDeque::new(),
             repeats: vec![0; longest + 1],
@@ -64,7 +64,7 @@ impl Recurrence {
     }
 
     /// Forgets the points met, and goes on from another.
-    pub fn restart(&mut self, point: Section) {
+    pub fn restart(&mut self, point: [f64; D]) {
         self.points.clear();
         self.repeats.fill(0);
         self.meet(point);
@@ -76,13 +76,13 @@ impl Recurrence {
         self.nearest
     }
 
-    /// The velocity that distances are relative to [m/s].
+    /// What distances are relative to.
     pub fn scale(&self) -> f64 {
         self.scale
     }
 
     /// The last `N` points that are `k` cycles apart, oldest first, if there are so many.
-    pub fn last<const N: usize>(&self, k: usize) -> Option<[Section; N]> {
+    pub fn last<const N: usize>(&self, k: usize) -> Option<[[f64; D]; N]> {
         let first = self.points.len().checked_sub((N - 1) * k + 1)?;
         Some(std::array::from_fn(|i| self.points[first + i * k]))
     }
@@ -92,7 +92,7 @@ impl Recurrence {
     /// A recurrence after k cycles is accepted when a whole period of points has repeated to tolerance, and
     /// either the last repeat is a hundred times closer, or the remaining distance d q/(1 - q), with q
     /// the ratio of the last two distances k cycles apart, is within tolerance too.
-    pub fn meet(&mut self, point: Section) -> Option<Settled> {
+    pub fn meet(&mut self, point: [f64; D]) -> Option<Settled> {
         self.points.push_back(point);
         if self.points.len() > self.memory {
             self.points.pop_front();
@@ -130,27 +130,19 @@ impl Recurrence {
         ratio < 1.0 && now * ratio / (1.0 - ratio) <= self.tolerance
     }
 
-    fn update_scale(&mut self, point: &Section) -> f64 {
-        self.largest = self.largest.max(size(self.omega, point));
+    fn update_scale(&mut self, point: &[f64; D]) -> f64 {
+        self.largest = self.largest.max(self.metric.size(point));
         let recent = self.points.iter().rev().take(self.longest);
-        let recent = recent.map(|point| size(self.omega, point));
+        let recent = recent.map(|point| self.metric.size(point));
         self.scale = recent.fold(FADED * self.largest, f64::max);
         self.scale
     }
 
-    /// Largest difference of two section points relative to the scale [-].
+    /// How far two section points are apart, relative to the scale [-].
     fn distance(&self, a: usize, b: usize, scale: f64) -> f64 {
         let (a, b) = (&self.points[a], &self.points[b]);
-        let r = self.omega * (a[0] - b[0]).abs();
-        let difference = r.max((a[1] - b[1]).abs()).max((a[2] - b[2]).abs());
-        if difference == 0.0 { 0.0 } else { difference / scale }
+        self.metric.relative(&std::array::from_fn(|i| a[i] - b[i]), scale)
     }
-}
-
-/// Size of the motion at a section point [m/s]; a displacement r counts as omega r, so that a section
-/// where y1 passes zero has a size too.
-pub fn size(omega: f64, [r, y1, y2]: &Section) -> f64 {
-    (omega * r.abs()).max(y1.abs()).max(y2.abs())
 }
 
 #[cfg(test)]
@@ -158,7 +150,7 @@ mod tests {
     use super::*;
 
     fn period_of(point: impl Fn(usize) -> f64, cycles: usize) -> Option<usize> {
-        let mut recurrence = Recurrence::new(16, 1e-11, 1.0);
+        let mut recurrence = Recurrence::new(16, 1e-11, Metric { scales: [1.0; 3] });
         (0..cycles)
             .find_map(|n| recurrence.meet([point(n), 1.0, 0.0]))
             .map(|found| found.repeats_after)

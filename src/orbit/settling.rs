@@ -1,8 +1,10 @@
 //! When a case has settled, and how it gets there sooner.
 
+use crate::flow::Metric;
+
+use super::Protocol;
 use super::extrapolation::{WINDOW, limit};
-use super::recurrence::{Recurrence, Settled, size};
-use super::{Protocol, Section};
+use super::recurrence::{Recurrence, Settled};
 
 /// Section points this close, relative to the motion, may be near enough to their limit to leap there.
 const NEAR: f64 = 1e-3;
@@ -15,30 +17,30 @@ const LEAPS: u32 = 20;
 
 /// What follows from a section point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Verdict {
+pub enum Verdict<const D: usize> {
     /// The motion goes on.
     Unsettled,
     /// It goes on from another point of the section, which it would have approached.
-    Leap(Section),
+    Leap([f64; D]),
     /// It has settled.
     Settled(Settled),
 }
 
 /// A case on the way to settling.
 #[derive(Debug, Clone)]
-pub struct Settling {
-    recurrence: Recurrence,
-    omega: f64,
+pub struct Settling<const D: usize> {
+    recurrence: Recurrence<D>,
+    metric: Metric<D>,
     tolerance: f64,
     leaps_left: u32,
 }
 
-impl Settling {
-    /// Nothing met yet, under a drive of frequency `omega` [rad/s].
-    pub fn new(protocol: &Protocol, omega: f64) -> Self {
+impl<const D: usize> Settling<D> {
+    /// Nothing met yet.
+    pub fn new(protocol: &Protocol, metric: Metric<D>) -> Self {
         Settling {
-            recurrence: Recurrence::new(protocol.max_period, protocol.recurrence, omega),
-            omega,
+            recurrence: Recurrence::new(protocol.max_period, protocol.recurrence, metric),
+            metric,
             tolerance: protocol.recurrence,
             leaps_left: if protocol.accelerate { LEAPS } else { 0 },
         }
@@ -48,7 +50,7 @@ impl Settling {
     ///
     /// A leap does not decide anything: the motion goes on from where it leads, and whether it has settled is
     /// judged by the points after it alone.
-    pub fn meet(&mut self, point: Section) -> Verdict {
+    pub fn meet(&mut self, point: [f64; D]) -> Verdict<D> {
         if let Some(settled) = self.recurrence.meet(point) {
             return Verdict::Settled(settled);
         }
@@ -65,7 +67,7 @@ impl Settling {
         }
     }
 
-    fn leap(&self) -> Option<Section> {
+    fn leap(&self) -> Option<[f64; D]> {
         let (k, distance) = self.recurrence.nearest()?;
         if distance > NEAR || distance <= CLOSE * self.tolerance {
             return None;
@@ -73,7 +75,6 @@ impl Settling {
         let points = self.recurrence.last::<WINDOW>(k)?;
         let target = limit(&points)?;
         let newest = points[WINDOW - 1];
-        let apart = std::array::from_fn(|j| target[j] - newest[j]);
-        (size(self.omega, &apart) <= LEAP * self.recurrence.scale()).then_some(target)
+        (self.metric.distance(&target, &newest) <= LEAP * self.recurrence.scale()).then_some(target)
     }
 }

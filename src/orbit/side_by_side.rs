@@ -1,44 +1,39 @@
 //! Many cases side by side in the lanes of one thread, each lane refilled the moment its case settles.
 
-use crate::capsule::{Capsule, Parameter, Parameters, Resistance, State};
-use crate::flow::{Motion, Step};
+use crate::flow::{Motion, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
 use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
 use super::measure::{Found, conclude};
 use super::settle::find_period;
 use super::settling::{Settling, Verdict};
-use super::trajectory::{STEPS_PER_CYCLE, leap, section};
-use super::wandering::{Wanders, wander_side_by_side};
-use super::{Case, Failure, Orbit, Protocol, Trajectory};
+use super::trajectory::{Progress, leap};
+use super::wandering::wander_side_by_side;
+use super::{Case, Failure, OrbitOf, Protocol, Trajectory};
 
 /// What a case has settled to, if it has, or why it could not be followed.
-type Finding = Result<Found, Failure>;
+type Finding<M, const D: usize> = Result<Found<D>, Failure<<M as System<D>>::State<f64>>>;
 
 /// With no more than one lane in so many at work, cases are followed faster one by one.
 const WORTHWHILE: usize = 4;
 
 /// A case between its departure and its settling, under the number that its owner knows it by.
-pub struct Underway {
+pub struct Underway<M: System<D>, const D: usize> {
     number: usize,
-    case: Case,
-    system: Capsule<f64>,
-    motion: Motion<f64, Capsule<f64>>,
-    settling: Settling,
-    cycles: u64,
-    /// Steps taken in the cycle so far.
-    steps: u64,
+    case: Case<M, D>,
+    system: M::Single,
+    motion: Motion<f64, M::Single>,
+    settling: Settling<D>,
+    progress: Progress,
 }
 
-impl Underway {
+impl<M: System<D>, const D: usize> Underway<M, D> {
     /// A case about to depart.
-    pub fn new(number: usize, case: Case, protocol: &Protocol) -> Self {
-        let Case { parameters, phase, start } = &case;
-        let omega = parameters[Parameter::Omega];
-        let mut settling = Settling::new(protocol, omega);
-        let system = Capsule::single(parameters, *phase);
-        let motion = Motion::new(&system, 0.0, *start);
-        settling.meet(section(&motion.state));
-        Underway { number, case, system, motion, settling, cycles: 0, steps: 0 }
+    pub fn new(number: usize, case: Case<M, D>, protocol: &Protocol) -> Self {
+        let mut settling = Settling::new(protocol, case.system.metric());
+        let system = case.system.single();
+        let motion = Motion::new(&system, 0.0, case.start);
+        settling.meet(M::Single::point(&motion.state));
+        Underway { number, case, system, motion, settling, progress: Progress::default() }
     }
 
     /// The number that its owner knows it by.
@@ -47,103 +42,92 @@ impl Underway {
     }
 
     /// Follows the case by itself until it settles, and measures it.
-    pub fn finish(self, protocol: &Protocol) -> (usize, Orbit) {
+    pub fn finish(self, protocol: &Protocol) -> (usize, OrbitOf<M, D>) {
         self.conclude(protocol, |trajectory, settling| {
-            find_period(trajectory, settling, protocol).map(Found::from)
+            find_period::<M, D>(trajectory, settling, protocol).map(Found::from)
         })
-    }
-
-    /// Where and how it moves, for its linearised flow.
-    fn wanders(&self) -> Wanders<'_> {
-        let start = section(&self.motion.state);
-        Wanders { system: &self.system, start, parameters: &self.case.parameters }
     }
 
     /// Measures the case, going on from where it is with what it is found to have settled to.
     fn conclude(
         mut self,
         protocol: &Protocol,
-        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Settling) -> Finding,
-    ) -> (usize, Orbit) {
-        let drive_period = self.case.parameters.drive_period();
-        let mut trajectory = Trajectory::resume(
-            &self.system,
-            self.motion,
-            [self.cycles, self.steps],
-            drive_period,
-            protocol.tolerance,
-        );
+        found: impl FnOnce(&mut Trajectory<'_, M::Single, D>, &mut Settling<D>) -> Finding<M, D>,
+    ) -> (usize, OrbitOf<M, D>) {
+        let mut trajectory =
+            Trajectory::resume(&self.system, self.motion, self.progress, protocol.tolerance);
         let found = found(&mut trajectory, &mut self.settling);
         (self.number, conclude(&mut trajectory, &self.case, found, protocol))
     }
 }
 
 /// Where cases come from and where they go when they have settled.
-pub trait Queue {
+pub trait Queue<M: System<D>, const D: usize> {
     /// Takes the case of a number that has been `done`, if one has, and yields one to follow in its place.
-    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)>;
+    fn next(&mut self, done: Option<(usize, OrbitOf<M, D>)>) -> Option<(usize, Case<M, D>)>;
 }
 
-/// Settles the cases of `queue`, which share one law of resistance, as many at a time as there are lanes,
+/// Settles the cases of `queue`, which are alike ([`System::is_alike`]), as many at a time as there are lanes,
 /// until there are no more.
 ///
 /// The orbits have the bits that [`super::settle`] gives, whatever the instructions. Returns the last few
 /// cases unfinished, each to be finished by itself and on any thread.
-pub fn settle_side_by_side(
+pub fn settle_side_by_side<M: System<D>, const D: usize>(
     instructions: Instructions,
     protocol: &Protocol,
-    queue: &mut dyn Queue,
-) -> Vec<Underway> {
+    queue: &mut dyn Queue<M, D>,
+) -> Vec<Underway<M, D>> {
     let (wandering, ready) = (Vec::new(), Vec::new());
     instructions.run(Supply { instructions, protocol, queue, wandering, ready })
 }
 
 /// Where the lanes take their cases from.
-struct Supply<'a> {
+struct Supply<'a, M: System<D>, const D: usize> {
     instructions: Instructions,
     protocol: &'a Protocol,
     // Not generic over the queue: the lanes are compiled once for each kind, which takes long.
-    queue: &'a mut dyn Queue,
+    queue: &'a mut dyn Queue<M, D>,
     /// Cases that have not settled, gathered until there are enough to follow their linearised flow side by
     /// side.
-    wandering: Vec<Underway>,
+    wandering: Vec<Underway<M, D>>,
     /// Cases that could depart, had they a lane.
-    ready: Vec<Underway>,
+    ready: Vec<Underway<M, D>>,
 }
 
-impl Work for Supply<'_> {
-    type Output = Vec<Underway>;
+impl<M: System<D>, const D: usize> Work for Supply<'_, M, D> {
+    type Output = Vec<Underway<M, D>>;
 
     #[inline(always)]
-    fn run<L: Lane>(mut self) -> Vec<Underway> {
+    fn run<L: Lane>(mut self) -> Self::Output {
         let cases: Vec<_> = (0..L::WIDTH).map(|_| self.next(None)).collect();
         let Some(first) = cases.iter().flatten().next() else {
             return Vec::new();
         };
-        let mut convoy = Convoy::<L>::new(first.case.parameters.resistance, self);
+        let spare = Underway::new(0, first.case.clone(), self.protocol);
+        let mut lanes = Lanes::<L, M, D>::new(spare, self);
         for (lane, case) in cases.into_iter().enumerate() {
-            convoy.seat(lane, case);
+            lanes.fill_lane(lane, case);
         }
         let mut step = Step::default();
         let worthwhile = |cases: usize| cases * WORTHWHILE > L::WIDTH;
         loop {
-            let moving = worthwhile(convoy.occupied.count_ones() as usize);
-            let wandering = convoy.cases.wandering.len();
+            let moving = worthwhile(lanes.occupied.count_ones() as usize);
+            let wandering = lanes.cases.wandering.len();
             if wandering >= L::WIDTH || (!moving && worthwhile(wandering)) {
-                convoy.cases.follow_wandering();
-                convoy.fill();
+                lanes.cases.follow_wandering();
+                lanes.fill();
             } else if moving {
-                convoy.advance(&mut step);
-                convoy.attend();
+                lanes.advance(&mut step);
+                lanes.attend(step.arrives);
             } else {
-                return convoy.unfinished();
+                return lanes.unfinished();
             }
         }
     }
 }
 
-impl Supply<'_> {
-    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<Underway> {
+impl<M: System<D>, const D: usize> Supply<'_, M, D> {
+    fn next(&mut self, done: Option<(usize, OrbitOf<M, D>)>) -> Option<Underway<M, D>> {
         if done.is_none()
             && let Some(ready) = self.ready.pop()
         {
@@ -156,7 +140,8 @@ impl Supply<'_> {
     /// Follows the cases that wander with their linearised flow, side by side, and concludes them.
     fn follow_wandering(&mut self) {
         let cases = std::mem::take(&mut self.wandering);
-        let motions: Vec<_> = cases.iter().map(Underway::wanders).collect();
+        let start = |it: &Underway<M, D>| M::Single::point(&it.motion.state);
+        let motions: Vec<_> = cases.iter().map(|it| (&it.case.system, start(it))).collect();
         let followed = wander_side_by_side(self.instructions, &motions, self.protocol);
         for (case, followed) in cases.into_iter().zip(followed) {
             let done = case.conclude(self.protocol, |trajectory, _| {
@@ -168,15 +153,15 @@ impl Supply<'_> {
     }
 }
 
-/// The lanes and who is in them.
-struct Convoy<'a, L: Lane> {
-    cases: Supply<'a>,
+/// The lanes and the cases in them.
+struct Lanes<'a, L: Lane, M: System<D>, const D: usize> {
+    cases: Supply<'a, M, D>,
     /// What moves to no purpose in an empty lane.
-    spare: Underway,
-    system: Capsule<L>,
-    motion: Motion<L, Capsule<L>>,
-    drive_periods: L,
-    seats: Vec<Option<Underway>>,
+    spare: Underway<M, D>,
+    system: M::In<L>,
+    motion: Motion<L, M::In<L>>,
+    periods: L,
+    occupants: Vec<Option<Underway<M, D>>>,
     /// The lanes with a case, as bits.
     occupied: u64,
     /// Steps taken, and how many had been when the cycle of each lane began.
@@ -186,20 +171,16 @@ struct Convoy<'a, L: Lane> {
     deadline: u64,
 }
 
-impl<'a, L: Lane> Convoy<'a, L> {
-    /// Empty lanes, in which a capsule with the usual parameters moves.
-    fn new(resistance: Resistance, cases: Supply<'a>) -> Self {
-        let mut parameters = Parameters::default();
-        parameters.resistance = resistance;
-        let case = Case { parameters, phase: 0.0, start: State::default() };
-        let spare = Underway::new(0, case, cases.protocol);
-        Convoy {
+impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
+    /// Empty lanes.
+    fn new(spare: Underway<M, D>, cases: Supply<'a, M, D>) -> Self {
+        Lanes {
             cases,
             motion: Motion::splat(&spare.motion),
-            system: Capsule::splat(&spare.system),
-            drive_periods: L::splat(spare.case.parameters.drive_period()),
+            system: M::In::<L>::splat(&spare.system),
+            periods: L::splat(spare.system.period()),
             spare,
-            seats: (0..L::WIDTH).map(|_| None).collect(),
+            occupants: (0..L::WIDTH).map(|_| None).collect(),
             occupied: 0,
             steps: 0,
             cycle_began: vec![0; L::WIDTH],
@@ -209,27 +190,27 @@ impl<'a, L: Lane> Convoy<'a, L> {
 
     /// Moves every lane by a step.
     #[inline(always)]
-    fn advance(&mut self, step: &mut Step<L, Capsule<L>>) {
+    fn advance(&mut self, step: &mut Step<L, M::In<L>>) {
         let tolerance = self.cases.protocol.tolerance;
-        self.motion.step(&self.system, self.drive_periods, tolerance, step);
+        self.motion.step(&self.system, self.periods, tolerance, step);
         self.steps += 1;
     }
 
     /// Looks after the lanes whose case cannot go on or whose cycle has ended.
     #[inline(always)]
-    fn attend(&mut self) {
+    fn attend(&mut self, ended: L::Mask) {
         let mut broken = self.motion.broken(&self.system).bits() & self.occupied;
-        let ended = self.drive_periods.le(self.motion.time);
         let mut at_end = ended.bits() & self.occupied & !broken;
         while let Some(lane) = take_lowest(&mut broken) {
             self.give_up(lane);
         }
         if ended.any() {
+            let durations = self.motion.time;
             self.motion.begin_cycle(ended);
-        }
-        while let Some(lane) = take_lowest(&mut at_end) {
-            let state = self.motion.state.lane(lane);
-            self.end_cycle(lane, &state);
+            while let Some(lane) = take_lowest(&mut at_end) {
+                let state = self.motion.state.lane(lane);
+                self.end_cycle(lane, &state, durations.lane(lane));
+            }
         }
         if self.steps >= self.deadline {
             self.give_up_the_slow();
@@ -237,19 +218,20 @@ impl<'a, L: Lane> Convoy<'a, L> {
     }
 
     /// Takes note of the section point that the case in `lane` has reached.
-    fn end_cycle(&mut self, lane: usize, state: &State<f64>) {
-        let case = self.seats[lane].as_mut().expect("the lane is occupied");
-        case.cycles += 1;
+    fn end_cycle(&mut self, lane: usize, state: &M::State<f64>, duration: f64) {
+        let case = self.occupants[lane].as_mut().expect("the lane is occupied");
+        case.progress.cycles += 1;
+        case.progress.elapsed += duration;
         self.cycle_began[lane] = self.steps;
-        let exhausted = case.cycles >= self.cases.protocol.max_cycles;
-        match case.settling.meet(section(state)) {
-            Verdict::Settled(settled) => self.relieve(lane, |_, _| Ok(Found::Repeats(settled))),
+        let exhausted = case.progress.cycles >= self.cases.protocol.max_cycles;
+        match case.settling.meet(M::Single::point(state)) {
+            Verdict::Settled(settled) => self.replace(lane, |_, _| Ok(Found::Repeats(settled))),
             // At the end of the budget the motion is measured where it is.
             _ if exhausted => {
-                let case = self.leave(lane).expect("the lane is occupied");
+                let case = self.take(lane).expect("the lane is occupied");
                 self.cases.wandering.push(case);
                 let next = self.cases.next(None);
-                self.seat(lane, next);
+                self.fill_lane(lane, next);
             }
             Verdict::Leap(section) => self.motion.put(lane, &leap(&case.system, state, section)),
             Verdict::Unsettled => {}
@@ -258,9 +240,7 @@ impl<'a, L: Lane> Convoy<'a, L> {
 
     /// Concludes the case in `lane`, which cannot go on.
     fn give_up(&mut self, lane: usize) {
-        self.relieve(lane, |trajectory, _| {
-            Err(trajectory.look().expect_err("the lane cannot go on"))
-        });
+        self.replace(lane, |trajectory, _| Err(trajectory.stuck()));
     }
 
     /// Concludes the cases whose cycle has taken too many steps.
@@ -276,56 +256,55 @@ impl<'a, L: Lane> Convoy<'a, L> {
         self.deadline = earliest + STEPS_PER_CYCLE;
     }
 
-    /// Concludes the case in `lane` as `found` says, and seats the next.
-    fn relieve(
+    /// Concludes the case in `lane` as `found` says, and puts the next one there.
+    fn replace(
         &mut self,
         lane: usize,
-        found: impl FnOnce(&mut Trajectory<'_, Capsule<f64>>, &mut Settling) -> Finding,
+        found: impl FnOnce(&mut Trajectory<'_, M::Single, D>, &mut Settling<D>) -> Finding<M, D>,
     ) {
-        let case = self.leave(lane).expect("the lane is occupied");
+        let case = self.take(lane).expect("the lane is occupied");
         let done = case.conclude(self.cases.protocol, found);
         let next = self.cases.next(Some(done));
-        self.seat(lane, next);
+        self.fill_lane(lane, next);
     }
 
-    /// Seats a case in `lane`, or leaves the lane empty.
-    fn seat(&mut self, lane: usize, case: Option<Underway>) {
+    /// Puts a case into `lane`, or leaves the lane empty.
+    fn fill_lane(&mut self, lane: usize, case: Option<Underway<M, D>>) {
         let spare = &self.spare;
-        let seated = case.as_ref().map(|case| (&case.system, &case.motion, &case.case.parameters));
-        let (system, motion, parameters) =
-            seated.unwrap_or((&spare.system, &spare.motion, &spare.case.parameters));
-        let law = spare.case.parameters.resistance;
-        assert_eq!(law, parameters.resistance, "cases side by side share one law of resistance");
+        let Underway { system, motion, case: Case { system: parameters, .. }, .. } =
+            case.as_ref().unwrap_or(spare);
+        assert!(parameters.is_alike(&spare.case.system), "cases side by side are alike");
         self.system.put(lane, system);
         self.motion.put(lane, motion);
-        self.drive_periods = self.drive_periods.with_lane(lane, parameters.drive_period());
+        self.periods = self.periods.with_lane(lane, system.period());
         self.cycle_began[lane] = self.steps;
         self.occupied &= !(1 << lane);
         self.occupied |= u64::from(case.is_some()) << lane;
-        self.seats[lane] = case;
+        self.occupants[lane] = case;
     }
 
     /// Takes the case out of `lane`, as it is.
-    fn leave(&mut self, lane: usize) -> Option<Underway> {
+    fn take(&mut self, lane: usize) -> Option<Underway<M, D>> {
         let motion = self.motion.lane(lane);
         let steps = self.steps - self.cycle_began[lane];
-        let case = self.seats[lane].take()?;
-        Some(Underway { motion, steps, ..case })
+        let case = self.occupants[lane].take()?;
+        let progress = Progress { steps, ..case.progress };
+        Some(Underway { motion, progress, ..case })
     }
 
-    /// Seats cases in the empty lanes, as far as there are any.
+    /// Puts cases into the empty lanes, as far as there are any.
     fn fill(&mut self) {
         for lane in 0..L::WIDTH {
             if self.occupied >> lane & 1 == 0 {
                 let next = self.cases.next(None);
-                self.seat(lane, next);
+                self.fill_lane(lane, next);
             }
         }
     }
 
     /// The cases that are still under way.
-    fn unfinished(mut self) -> Vec<Underway> {
-        let mut cases: Vec<_> = (0..L::WIDTH).filter_map(|lane| self.leave(lane)).collect();
+    fn unfinished(mut self) -> Vec<Underway<M, D>> {
+        let mut cases: Vec<_> = (0..L::WIDTH).filter_map(|lane| self.take(lane)).collect();
         cases.append(&mut self.cases.wandering);
         cases.append(&mut self.cases.ready);
         cases

@@ -1,114 +1,56 @@
-//! A case on its way, one drive cycle at a time.
+//! A case on its way, one cycle at a time.
 
-use std::fmt;
-
-use serde::Serialize;
-
-use crate::capsule::{Locomotion, State};
-use crate::flow::{Breakdown, Motion, Step};
-
-/// A cycle of so many steps is taken for a motion that cannot be followed.
-pub(super) const STEPS_PER_CYCLE: u64 = 200_000;
-
-/// A point of the stroboscopic section: r [m], y1 [m/s], y2 [m/s].
-pub type Section = [f64; 3];
-
-/// Why a case could not be followed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Reason {
-    /// Events follow each other without time passing.
-    NoProgress = 1,
-    /// The state is no longer a finite number.
-    NotFinite,
-    /// A single drive cycle takes too many steps.
-    TooManySteps,
-}
-
-impl Reason {
-    /// Every reason with its name in files.
-    pub const NAMES: [(Reason, &str); 3] = [
-        (Reason::NoProgress, "no-progress"),
-        (Reason::NotFinite, "not-finite"),
-        (Reason::TooManySteps, "too-many-steps"),
-    ];
-}
-
-impl From<Breakdown> for Reason {
-    fn from(breakdown: Breakdown) -> Self {
-        match breakdown {
-            Breakdown::NoProgress => Reason::NoProgress,
-            Breakdown::NotFinite => Reason::NotFinite,
-        }
-    }
-}
+use crate::flow::{Motion, Reason, Step, Stroboscopic, cycle};
 
 /// Where and why a case failed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Failure {
+pub struct Failure<S> {
     /// Why.
     pub reason: Reason,
     /// Time since the start [s].
     pub time: f64,
     /// Where it was.
-    pub state: State<f64>,
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let State { r, y1, x2, y2 } = self.state;
-        let reason = match self.reason {
-            Reason::NoProgress => Breakdown::NoProgress.to_string(),
-            Reason::NotFinite => Breakdown::NotFinite.to_string(),
-            Reason::TooManySteps => format!("a drive cycle takes over {STEPS_PER_CYCLE} steps"),
-        };
-        write!(
-            f,
-            "{reason}, at t = {} s, r = {r} m, y1 = {y1} m/s, x2 = {x2} m, y2 = {y2} m/s",
-            self.time
-        )
-    }
+    pub state: S,
 }
 
 /// A case on its way.
-pub struct Trajectory<'a, S: Locomotion> {
+pub struct Trajectory<'a, S: Stroboscopic<f64, D>, const D: usize> {
     system: &'a S,
     motion: Motion<f64, S>,
     step: Step<f64, S>,
-    drive_period: f64,
     tolerance: f64,
     /// Whole cycles since the start.
     pub cycles: u64,
     /// Steps taken in the cycle so far.
     steps: u64,
+    /// Duration of the whole cycles of an autonomous system [s].
+    elapsed: f64,
 }
 
-/// The point of the section of a state at the end of a cycle.
-pub fn section(state: &State<f64>) -> Section {
-    [state.r, state.y1, state.y2]
+/// The motion from another point of the section than that of `state`; what the section leaves out stays.
+pub fn leap<S: Stroboscopic<f64, D>, const D: usize>(
+    system: &S,
+    state: &S::State,
+    target: [f64; D],
+) -> Motion<f64, S> {
+    Motion::new(system, 0.0, S::moved_to(*state, target))
 }
 
-/// The motion from another point of the section than that of `state`, as far along the ground.
-pub fn leap<S: Locomotion>(system: &S, state: &State<f64>, [r, y1, y2]: Section) -> Motion<f64, S> {
-    Motion::new(system, 0.0, State { r, y1, y2, ..*state })
-}
-
-impl<'a, S: Locomotion> Trajectory<'a, S> {
-    /// Sets out from `start` at t = 0; `drive_period` [s], relative local `tolerance`.
-    pub fn new(system: &'a S, start: State<f64>, drive_period: f64, tolerance: f64) -> Self {
-        let motion = Motion::new(system, 0.0, start);
-        Trajectory::resume(system, motion, [0, 0], drive_period, tolerance)
+impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
+    /// Sets out from `start` at the section; relative local `tolerance`.
+    pub fn new(system: &'a S, start: S::State, tolerance: f64) -> Self {
+        Trajectory::resume(system, Motion::new(system, 0.0, start), Progress::default(), tolerance)
     }
 
-    /// Goes on with a `motion` under way for so many whole cycles and steps of the next.
+    /// Goes on with a `motion` under way.
     pub fn resume(
         system: &'a S,
         motion: Motion<f64, S>,
-        [cycles, steps]: [u64; 2],
-        drive_period: f64,
+        progress: Progress,
         tolerance: f64,
     ) -> Self {
-        Trajectory { system, motion, step: Step::default(), drive_period, tolerance, cycles, steps }
+        let Progress { cycles, steps, elapsed } = progress;
+        Trajectory { system, motion, step: Step::default(), tolerance, cycles, steps, elapsed }
     }
 
     /// The system that moves.
@@ -117,52 +59,59 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
     }
 
     /// Where it is.
-    pub fn state(&self) -> State<f64> {
+    pub fn state(&self) -> S::State {
         self.motion.state
     }
 
     /// The point of the section, when a cycle has just ended.
-    pub fn section(&self) -> Section {
-        section(&self.motion.state)
+    pub fn section(&self) -> [f64; D] {
+        S::point(&self.motion.state)
+    }
+
+    /// Time since the start, whole cycles only [s].
+    pub fn elapsed(&self) -> f64 {
+        if S::AUTONOMOUS { self.elapsed } else { self.cycles as f64 * self.system.period() }
     }
 
     /// Goes on from another point of the section, at the beginning of a cycle.
-    pub fn leap(&mut self, target: Section) {
+    pub fn leap(&mut self, target: [f64; D]) {
         self.motion = leap(self.system, &self.motion.state, target);
     }
 
-    /// Goes on to the end of the drive cycle and shows each step to `see`.
-    pub fn cycle(&mut self, mut see: impl FnMut(&Step<f64, S>)) -> Result<(), Failure> {
-        loop {
-            self.motion.step(self.system, self.drive_period, self.tolerance, &mut self.step);
-            self.steps += 1;
-            see(&self.step);
-            if self.look()? {
-                return Ok(());
+    /// Goes on to the end of the cycle and shows each step to `see`.
+    pub fn cycle(&mut self, see: impl FnMut(&Step<f64, S>)) -> Result<(), Failure<S::State>> {
+        let Trajectory { system, motion, step, steps, tolerance, .. } = self;
+        match cycle(*system, motion, step, (*steps, *tolerance), see) {
+            Ok(duration) => {
+                self.cycles += 1;
+                self.steps = 0;
+                self.elapsed += duration;
+                Ok(())
             }
+            Err(reason) => Err(self.failure(reason)),
         }
     }
 
-    /// Looks where the last step has led: whether to the end of a cycle, and if not, what is in the way.
-    pub fn look(&mut self) -> Result<bool, Failure> {
-        if let Some(breakdown) = self.motion.breakdown(self.system, 0) {
-            return Err(self.failure(breakdown.into()));
-        }
-        if self.motion.time >= self.drive_period {
-            self.motion.begin_cycle(true);
-            self.cycles += 1;
-            self.steps = 0;
-            return Ok(true);
-        }
-        if self.steps >= STEPS_PER_CYCLE {
-            return Err(self.failure(Reason::TooManySteps));
-        }
-        Ok(false)
+    /// Tells where it is when it cannot go on, and why.
+    pub fn stuck(&self) -> Failure<S::State> {
+        let breakdown = self.motion.breakdown(self.system, 0);
+        self.failure(breakdown.map_or(Reason::TooManySteps, Reason::from))
     }
 
     /// Tells where it is when it cannot go on.
-    pub(super) fn failure(&self, reason: Reason) -> Failure {
-        let time = self.cycles as f64 * self.drive_period + self.motion.time;
+    pub(super) fn failure(&self, reason: Reason) -> Failure<S::State> {
+        let time = self.elapsed() + self.motion.time;
         Failure { reason, time, state: self.motion.state }
     }
+}
+
+/// How far a case has come.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Progress {
+    /// Whole cycles since the start.
+    pub cycles: u64,
+    /// Steps of the next.
+    pub steps: u64,
+    /// Duration of the whole cycles [s].
+    pub elapsed: f64,
 }

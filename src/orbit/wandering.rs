@@ -1,14 +1,11 @@
 //! What a motion does that does not repeat: whether neighbours part, or time averages settle all the same.
 
-use crate::capsule::{Capsule, Parameter, Parameters, Stroboscopic};
-use crate::flow::{Motion, Step};
+use crate::flow::{Metric, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, System};
 use crate::lane::{Dual, Instructions, Lane, Mask, SideBySide, Work};
 
 use super::exponent::{Exponent, Stretching};
-use super::newton::relative;
 use super::recurrence::Settled;
-use super::trajectory::STEPS_PER_CYCLE;
-use super::{Outcome, Protocol, Reason, Section};
+use super::{Outcome, Protocol};
 
 /// A positive exponent counts from so many of its uncertainties.
 const CERTAINTY: f64 = 5.0;
@@ -26,7 +23,7 @@ const LONGEST: usize = 1024;
 
 /// A motion followed for many cycles with its linearised flow.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wandering {
+pub struct Wandering<const D: usize> {
     /// The largest Lyapunov exponent.
     pub exponent: Exponent,
     /// Logarithm of how much farther apart neighbours are in the end.
@@ -39,12 +36,12 @@ pub struct Wandering {
     /// No shorter period is left: the last point is away from all those within so many cycles before it.
     pub excluded: usize,
     /// Its last point.
-    pub last: Section,
+    pub last: [f64; D],
     /// Cycles followed.
     pub cycles: u64,
 }
 
-impl Wandering {
+impl<const D: usize> Wandering<D> {
     /// What the motion is: chaotic, quasi-periodic, or undecided.
     ///
     /// Chaotic: the exponent is positive by five of its uncertainties, and neighbours have parted by more
@@ -61,51 +58,46 @@ impl Wandering {
 }
 
 /// One motion on the way.
-struct Wanderer {
-    stretching: Stretching<3, 1>,
-    points: Vec<Section>,
+struct Wanderer<const D: usize> {
+    metric: Metric<D>,
+    stretching: Stretching<D, 1>,
+    points: Vec<[f64; D]>,
     steps: u64,
+    /// Duration of the cycles met [s].
+    elapsed: f64,
     done: Option<Result<(), Reason>>,
 }
 
-/// Follows motions from `starts`, one in each lane of `system` and no more than there are lanes, for so many
-/// `cycles` or until it is clear that neighbours part.
+/// Follows motions from the points of `starts`, each with its metric, one in each lane of `system` and no
+/// more than there are lanes, for so many `cycles` or until it is clear that neighbours part.
 ///
 /// The bits of each do not depend on the others.
 #[inline(always)]
-pub fn wander<L, S>(
+pub fn wander<L, S, const D: usize>(
     system: &S,
-    starts: &[Section],
-    (drive_periods, omegas): (L, L),
+    starts: &[([f64; D], Metric<D>)],
     cycles: u64,
     tolerance: f64,
-) -> Vec<Result<Wandering, Reason>>
+) -> Vec<Result<Wandering<D>, Reason>>
 where
     L: Lane,
-    S: Stroboscopic<Dual<L, 1>, 3>,
+    S: Stroboscopic<Dual<L, 1>, D>,
 {
-    let mut wanderers: Vec<Wanderer> = (0..starts.len())
-        .map(|lane| Wanderer {
-            stretching: Stretching::new([omegas.lane(lane), 1.0, 1.0]),
-            points: Vec::new(),
-            steps: 0,
-            done: (cycles == 0).then_some(Ok(())),
-        })
-        .collect();
+    let mut wanderers: Vec<Wanderer<D>> =
+        starts.iter().map(|(_, metric)| Wanderer::new(*metric, cycles)).collect();
     let start = |i: usize| Dual {
-        value: L::from_fn(|lane| starts[lane.min(starts.len() - 1)][i]),
+        value: L::from_fn(|lane| starts[lane.min(starts.len() - 1)].0[i]),
         gradient: [L::from_fn(|lane| match wanderers.get(lane) {
             Some(wanderer) => wanderer.stretching.first()[i][0],
             None => 0.0,
         })],
     };
-    let mut motion =
-        Motion::new(system, Dual::splat(0.0), S::state([start(0), start(1), start(2)]));
+    let from = std::array::from_fn(start);
+    let mut motion = Motion::new(system, Dual::splat(0.0), S::state(from));
     let mut step = Step::default();
-    let until = Dual::constant(drive_periods);
+    let until = system.period();
     while wanderers.iter().any(|wanderer| wanderer.done.is_none()) {
         motion.step(system, until, tolerance, &mut step);
-        let ended = until.le(motion.time);
         let broken = motion.broken(system);
         let mut point = S::point(&motion.state);
         for (lane, wanderer) in wanderers.iter_mut().enumerate() {
@@ -116,77 +108,80 @@ where
             if broken.lane(lane) || wanderer.steps >= STEPS_PER_CYCLE {
                 let why = motion.breakdown(system, lane).map_or(Reason::TooManySteps, Reason::from);
                 wanderer.done = Some(Err(why));
-            } else if ended.lane(lane) {
+            } else if step.arrives.lane(lane) {
                 wanderer.steps = 0;
-                wanderer.meet(lane, &mut point, cycles, drive_periods.lane(lane));
+                wanderer.elapsed += motion.time.lane(lane);
+                let period = until.lane(lane);
+                wanderer.meet(lane, &mut point, cycles, |it| it.duration::<S, _>(period));
             }
         }
-        if ended.any() {
-            motion.begin_cycle(ended);
+        if step.arrives.any() {
+            motion.begin_cycle(step.arrives);
             motion.state = S::state(point);
         }
     }
     let told = wanderers.iter().enumerate();
-    told.map(|(lane, wanderer)| wanderer.tell(drive_periods.lane(lane), omegas.lane(lane)))
-        .collect()
+    told.map(|(lane, it)| it.tell(it.duration::<S, _>(until.lane(lane)))).collect()
 }
 
-/// A capsule to be followed with its linearised flow.
-#[derive(Debug, Clone, Copy)]
-pub struct Wanders<'a> {
-    /// The capsule.
-    pub system: &'a Capsule<f64>,
-    /// Its point of the section.
-    pub start: Section,
-    /// Its parameters.
-    pub parameters: &'a Parameters,
-}
-
-/// Follows capsules under one law of resistance as [`wander`] does, as many at a time as there are lanes.
-pub fn wander_side_by_side(
+/// Follows motions from points of the section as [`wander`] does, as many at a time as there are lanes.
+pub fn wander_side_by_side<M: System<D>, const D: usize>(
     instructions: Instructions,
-    capsules: &[Wanders<'_>],
+    starts: &[(&M, [f64; D])],
     protocol: &Protocol,
-) -> Vec<Result<Wandering, Reason>> {
-    instructions.run(Crowd { capsules, protocol })
+) -> Vec<Result<Wandering<D>, Reason>> {
+    instructions.run(Crowd { starts, protocol })
 }
 
-struct Crowd<'a> {
-    capsules: &'a [Wanders<'a>],
+struct Crowd<'a, M, const D: usize> {
+    starts: &'a [(&'a M, [f64; D])],
     protocol: &'a Protocol,
 }
 
-impl Work for Crowd<'_> {
-    type Output = Vec<Result<Wandering, Reason>>;
+impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
+    type Output = Vec<Result<Wandering<D>, Reason>>;
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Self::Output {
         let Protocol { exponent_cycles, tolerance, .. } = *self.protocol;
-        let mut followed = Vec::with_capacity(self.capsules.len());
-        for group in self.capsules.chunks(L::WIDTH) {
-            let of = |lane: usize| &group[lane.min(group.len() - 1)];
-            let mut system = Capsule::<Dual<L, 1>>::splat(of(0).system);
-            for (lane, capsule) in group.iter().enumerate() {
-                system.put(lane, capsule.system);
+        let mut followed = Vec::with_capacity(self.starts.len());
+        for group in self.starts.chunks(L::WIDTH) {
+            let mut system = M::In::<Dual<L, 1>>::splat(&group[0].0.single());
+            for (lane, (one, _)) in group.iter().enumerate() {
+                system.put(lane, &one.single());
             }
-            let starts: Vec<_> = group.iter().map(|capsule| capsule.start).collect();
-            let periods = L::from_fn(|lane| of(lane).parameters.drive_period());
-            let omegas = L::from_fn(|lane| of(lane).parameters[Parameter::Omega]);
-            let frame = (periods, omegas);
-            followed.extend(wander(&system, &starts, frame, exponent_cycles, tolerance));
+            let starts: Vec<_> =
+                group.iter().map(|(system, start)| (*start, system.metric())).collect();
+            followed.extend(wander(&system, &starts, exponent_cycles, tolerance));
         }
         followed
     }
 }
 
-impl Wanderer {
+impl<const D: usize> Wanderer<D> {
+    fn new(metric: Metric<D>, cycles: u64) -> Self {
+        Wanderer {
+            metric,
+            stretching: Stretching::new(metric),
+            points: Vec::new(),
+            steps: 0,
+            elapsed: 0.0,
+            done: (cycles == 0).then_some(Ok(())),
+        }
+    }
+
+    /// Mean duration of the cycles, which is the period of the drive where there is one [s].
+    fn duration<S: Stroboscopic<L, D>, L: Lane>(&self, period: f64) -> f64 {
+        if S::AUTONOMOUS { self.elapsed / self.points.len() as f64 } else { period }
+    }
+
     /// Takes note of the section point in a lane and makes its direction one of unit length again.
     fn meet<L: Lane>(
         &mut self,
         lane: usize,
-        point: &mut [Dual<L, 1>; 3],
+        point: &mut [Dual<L, 1>; D],
         cycles: u64,
-        drive_period: f64,
+        duration: impl Fn(&Self) -> f64,
     ) {
         let mut direction = point.map(|coordinate| [coordinate.gradient[0].lane(lane)]);
         self.stretching.meet(&mut direction);
@@ -195,34 +190,33 @@ impl Wanderer {
         }
         self.points.push(point.map(|coordinate| coordinate.value.lane(lane)));
         let met = self.points.len();
-        if met as u64 >= cycles || (met.is_multiple_of(LOOK) && self.parts(drive_period)) {
+        if met as u64 >= cycles || (met.is_multiple_of(LOOK) && self.parts(duration(self))) {
             self.done = Some(Ok(()));
         }
     }
 
-    /// Whether it is clear already that neighbours part.
-    fn parts(&self, drive_period: f64) -> bool {
-        let [Exponent { value, uncertainty }] = self.stretching.exponents(drive_period);
+    /// Whether it is clear already that neighbours part, in cycles of this mean duration.
+    fn parts(&self, duration: f64) -> bool {
+        let [Exponent { value, uncertainty }] = self.stretching.exponents(duration);
         value > 2.0 * CERTAINTY * uncertainty && self.stretching.total(0) > 2.0 * GROWTH
     }
 
-    fn tell(&self, drive_period: f64, omega: f64) -> Result<Wandering, Reason> {
+    fn tell(&self, duration: f64) -> Result<Wandering<D>, Reason> {
         if let Some(Err(why)) = self.done {
             return Err(why);
         }
-        let scales = [omega, 1.0, 1.0];
-        let size =
-            self.points.iter().map(|point| relative(point, &scales, 1.0)).fold(0.0, f64::max);
-        let [exponent] = self.stretching.exponents(drive_period);
-        let recurs = recurrence(&self.points, &scales, size);
+        let metric = &self.metric;
+        let size = self.points.iter().map(|point| metric.size(point)).fold(0.0, f64::max);
+        let [exponent] = self.stretching.exponents(duration);
+        let recurs = recurrence(&self.points, metric, size);
         let longest = LONGEST.min(self.points.len().saturating_sub(1));
         Ok(Wandering {
             exponent,
             growth: self.stretching.total(0),
-            irregularity: irregularity(&self.points, &scales, size),
+            irregularity: irregularity(&self.points, metric, size),
             excluded: recurs.map_or(longest, |recurs| recurs.repeats_after - 1),
             recurs,
-            last: self.points.last().copied().unwrap_or_default(),
+            last: self.points.last().copied().unwrap_or([0.0; D]),
             cycles: self.points.len() as u64,
         })
     }
@@ -233,14 +227,14 @@ impl Wanderer {
 /// Method: the weighted Birkhoff average of Das, Saiki, Sander and Yorke (2017), whose weights
 /// exp(-1/(t (1 - t))) vanish smoothly at both ends: on a quasi-periodic orbit it converges faster than
 /// any power of the length, on a chaotic one with the inverse root of it.
-pub fn irregularity(points: &[Section], scales: &Section, size: f64) -> f64 {
+pub fn irregularity<const D: usize>(points: &[[f64; D]], metric: &Metric<D>, size: f64) -> f64 {
     let (first, second) = points.split_at(points.len() / 2);
     let [a, b] = [first, second].map(smooth_mean);
-    relative(&std::array::from_fn(|i| a[i] - b[i]), scales, size)
+    metric.relative(&std::array::from_fn(|i| a[i] - b[i]), size)
 }
 
-fn smooth_mean(points: &[Section]) -> Section {
-    let mut sum = [0.0; 3];
+fn smooth_mean<const D: usize>(points: &[[f64; D]]) -> [f64; D] {
+    let mut sum = [0.0; D];
     let mut weights = 0.0;
     for (n, point) in points.iter().enumerate() {
         let t = (n as f64 + 1.0) / (points.len() as f64 + 1.0);
@@ -254,10 +248,14 @@ fn smooth_mean(points: &[Section]) -> Section {
 }
 
 /// The latest return of the last point to one before it, relative to `size`; none within [`LONGEST`] cycles.
-fn recurrence(points: &[Section], scales: &Section, size: f64) -> Option<Settled> {
+fn recurrence<const D: usize>(
+    points: &[[f64; D]],
+    metric: &Metric<D>,
+    size: f64,
+) -> Option<Settled> {
     let (last, before) = points.split_last()?;
     let distance =
-        |point: &Section| relative(&std::array::from_fn(|i| point[i] - last[i]), scales, size);
+        |point: &[f64; D]| metric.relative(&std::array::from_fn(|i| point[i] - last[i]), size);
     let distances = before.iter().rev().take(LONGEST).map(distance);
     let (cycles, within) = (1..).zip(distances).find(|&(_, distance)| distance <= RECURS)?;
     Some(Settled { repeats_after: cycles, within, size })

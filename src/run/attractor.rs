@@ -6,16 +6,15 @@ use std::sync::Mutex;
 use rayon::prelude::*;
 
 use crate::branch::SpecialKind;
-use crate::capsule::{Capsule, Locomotion, PrintedCapsule, Switching};
-use crate::orbit::Section;
+use crate::capsule::{AsPrinted, Filippov, Reading, Section, Switching};
 
 use super::bridge::{Bridge, bridges};
 use super::cases::{RunError, pool};
 use super::cell::Cell;
 use super::change::Change;
 use super::family::{Links, Neighbours};
+use super::natural::{Along, ROUNDING};
 use super::{Ending, Machine};
-use crate::branch::natural::{Along, ROUNDING};
 use crate::study::layout::{Layout, is_start, linked_axis};
 use crate::study::{Coordinate, Study};
 
@@ -88,12 +87,12 @@ pub fn attractors(
         return Ok(Attractors { of_case: vec![None; study.cases()], ..Attractors::default() });
     }
     Ok(pool(machine.threads)?.install(|| match study.base.switching {
-        Switching::Filippov => find::<Capsule<f64>>(study, endings, &linked),
-        Switching::AsPrinted => find::<PrintedCapsule<f64>>(study, endings, &linked),
+        Switching::Filippov => find::<Filippov>(study, endings, &linked),
+        Switching::AsPrinted => find::<AsPrinted>(study, endings, &linked),
     }))
 }
 
-fn find<S: Locomotion>(
+fn find<R: Reading>(
     study: &Study,
     endings: &[Option<Ending>],
     linked: impl Fn() + Sync,
@@ -102,8 +101,8 @@ fn find<S: Locomotion>(
     let of_case = Mutex::new(vec![None; study.cases()]);
     let search = |number: usize| {
         let line = Line { study, layout: &layout, number };
-        let cells = line.cells::<S>(endings);
-        let (links, bridges) = line.links::<S>(&cells, &linked);
+        let cells = line.cells::<R>(endings);
+        let (links, bridges) = line.links::<R>(&cells, &linked);
         let numbers = numbers(&cells, &links, &bridges);
         let events = events(&cells, &links, &bridges, &numbers);
         line.note(&cells, &numbers, &mut of_case.lock().expect("no thread has panicked"));
@@ -124,7 +123,7 @@ struct Line<'a> {
 
 impl<'a> Line<'a> {
     /// The cells, their cases sorted by attractor.
-    fn cells<S: Locomotion>(&self, endings: &[Option<Ending>]) -> Vec<Cell> {
+    fn cells<R: Reading>(&self, endings: &[Option<Ending>]) -> Vec<Cell> {
         let Line { study, layout, number } = *self;
         let sort = |at: usize| {
             let ending = |place: usize| {
@@ -132,18 +131,18 @@ impl<'a> Line<'a> {
                 (case, endings[case])
             };
             let first = study.case(layout.case(number, at, 0));
-            Cell::sort::<S>(layout.cases(), ending, &first, &study.protocol)
+            Cell::sort::<R>(layout.cases(), ending, &first, &study.protocol)
         };
         (0..layout.cells()).into_par_iter().map(sort).collect()
     }
 
     /// How the attractors of each cell go on in the next, and those that go on beyond it.
-    fn links<S: Locomotion>(
+    fn links<R: Reading>(
         &self,
         cells: &[Cell],
         linked: impl Fn() + Sync,
     ) -> (Vec<Links>, Vec<Bridge>) {
-        let between = |at: usize| self.neighbours::<S>(cells, at);
+        let between = |at: usize| self.neighbours::<R>(cells, at);
         let link = |at: usize| {
             let links = between(at).map_or_else(Links::default, |it| it.link());
             linked();
@@ -156,11 +155,7 @@ impl<'a> Line<'a> {
     }
 
     /// The cells at a place of the axis and at the next; none where the axis is no parameter.
-    fn neighbours<'b, S: Locomotion>(
-        &self,
-        cells: &'b [Cell],
-        at: usize,
-    ) -> Option<Neighbours<'b, S>>
+    fn neighbours<'b, R: Reading>(&self, cells: &'b [Cell], at: usize) -> Option<Neighbours<'b, R>>
     where
         'a: 'b,
     {
@@ -168,7 +163,7 @@ impl<'a> Line<'a> {
         let axis = &study.axes[layout.axis?];
         let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
         let case = study.case(layout.case(number, at, 0));
-        let along = Along { case, parameter, protocol: &study.protocol, system: PhantomData };
+        let along = Along { case, parameter, protocol: &study.protocol, reading: PhantomData };
         let values = [axis.values[at], axis.values[at + 1]];
         let directions = study.follow.as_ref().map_or(&[][..], |follow| &follow.directions);
         Some(Neighbours { along, values, cells: [&cells[at], &cells[at + 1]], directions })

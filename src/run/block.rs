@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use super::cases::{Machine, Record, RunError, run_chains};
+use super::cases::{Record, RunError, run_chains};
+use crate::orbit::Machine;
 use crate::study::Study;
 
 /// Runs the `blocks` of a study, each named once, on `machine`. Tells `done` of each record with the number of

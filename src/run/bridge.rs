@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::branch::natural::End;
-use crate::capsule::Locomotion;
+use crate::capsule::Reading;
 
 use super::cell::Cell;
 use super::change::{Change, changes};
 use super::family::{Links, Neighbours, Unseen, doubles};
+use super::natural::End;
 
 /// A periodic attractor of one cell that is seen again in a later one, but in none between them.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,10 +26,10 @@ pub struct Bridge {
 /// until one has it, or until it ends or repels. One that has doubled its period is followed on past cells
 /// that show nothing new, as cases settle slowly there. `between` gives what is held between a cell and the
 /// next.
-pub fn bridges<'a, S: Locomotion>(
+pub fn bridges<'a, R: Reading>(
     cells: &[Cell],
     links: &[Links],
-    between: impl Fn(usize) -> Option<Neighbours<'a, S>> + Sync,
+    between: impl Fn(usize) -> Option<Neighbours<'a, R>> + Sync,
 ) -> Vec<Bridge> {
     let unseen = links.iter().enumerate().flat_map(|(at, links)| {
         links.unseen.iter().map(move |(place, unseen)| ([at, *place], unseen))
@@ -49,12 +49,12 @@ pub fn bridges<'a, S: Locomotion>(
 }
 
 /// Follows an orbit, which is at the cell after `from`, to the next cell that shows it.
-fn cross<'a, S: Locomotion>(
+fn cross<'a, R: Reading>(
     cells: &[Cell],
     links: &[Links],
     from: [usize; 2],
     mut here: Unseen,
-    between: impl Fn(usize) -> Option<Neighbours<'a, S>>,
+    between: impl Fn(usize) -> Option<Neighbours<'a, R>>,
 ) -> Option<Bridge> {
     let mut found = Vec::new();
     for at in from[0] + 1..links.len() {
@@ -66,10 +66,10 @@ fn cross<'a, S: Locomotion>(
             found.extend(changed);
         }
         here.orbit = path.pop().filter(|_| end == End::Reached)?;
-        let omega = along.omega(here.orbit.value);
+        let metric = along.metric(here.orbit.value);
         let next = &cells[at + 1].attractors;
         let is_new = |place: usize| links[at].pairs.iter().all(|pair| pair[1] != place);
-        if let Some(place) = next.iter().position(|it| here.belongs_to(it, omega)) {
+        if let Some(place) = next.iter().position(|it| here.belongs_to(it, &metric)) {
             return is_new(place).then_some(Bridge { from, to: [at + 1, place], changes: found });
         }
         let something_new = || (0..next.len()).any(is_new);

@@ -5,10 +5,9 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use crate::capsule::{State, Switching};
+use crate::capsule::{AsPrinted, CapsuleSystem, Case, Filippov, Orbit, Reading, State, Switching};
 use crate::lane::Instructions;
-use crate::orbit::{Case, Orbit, Outcome, Queue, Underway, settle, settle_side_by_side};
-
+use crate::orbit::{self, Machine, OrbitOf, Outcome, Queue, Underway, settle_side_by_side};
 use crate::study::Study;
 use crate::study::study::Chain;
 
@@ -21,15 +20,6 @@ pub struct Record {
     pub start: State<f64>,
     /// What it settled to.
     pub orbit: Orbit,
-}
-
-/// What a study is run on; its records do not depend on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Machine {
-    /// Number of threads; all cores for none.
-    pub threads: Option<usize>,
-    /// By which each thread moves its cases; those that suit their number for none.
-    pub instructions: Option<Instructions>,
 }
 
 /// Runs every case of `study` on `machine` and hands each record to `keep`, which is called from any
@@ -79,30 +69,17 @@ pub(super) fn run_chains(
     }
     let pool = pool(machine.threads)?;
     let (taken, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let last_cases = Mutex::new(Vec::new());
     let share = count.div_ceil(pool.current_num_threads());
-    let instructions = machine.instructions.unwrap_or_else(|| Instructions::suited_to(share));
+    let instructions = machine.instructions_for(share);
+    let last_cases = (Mutex::default(), Mutex::default());
     pool.broadcast(|_| {
         let links = BTreeMap::new();
         let queue = (count, chains);
-        let mut worker =
+        let worker =
             Worker { study, queue, taken: &taken, stopped: &stopped, share, keep: &keep, links };
         match study.base.switching {
-            Switching::AsPrinted => worker.settle_one_by_one(),
-            Switching::Filippov => {
-                let last = settle_side_by_side(instructions, &study.protocol, &mut worker);
-                let lock = || last_cases.lock().expect("no thread has panicked");
-                lock().extend(last.into_iter().map(|case| worker.part_with(case)));
-                loop {
-                    // In a statement of its own, so that the lock is free again.
-                    let case = lock().pop();
-                    let Some((link, case)) = case else { break };
-                    if stopped.load(Ordering::Relaxed) {
-                        break;
-                    }
-                    worker.finish_chain(link, case);
-                }
-            }
+            Switching::Filippov => worker.work::<Filippov>(instructions, &last_cases.0),
+            Switching::AsPrinted => worker.work::<AsPrinted>(instructions, &last_cases.1),
         }
     });
     Ok(())
@@ -125,9 +102,12 @@ pub(super) type Chains<'a> = &'a (dyn Fn(usize) -> (usize, usize) + Sync);
 struct Link {
     block: usize,
     index: usize,
-    start: State<f64>,
+    case: Case,
     rest: Chain,
 }
+
+/// A case that has left the lanes unfinished.
+type Unfinished<R> = (Link, Underway<CapsuleSystem<R>, 3>);
 
 /// A thread with its part of the queue.
 struct Worker<'a, K> {
@@ -145,20 +125,25 @@ struct Worker<'a, K> {
     links: BTreeMap<usize, Link>,
 }
 
-impl<K: Fn(usize, Record) -> ControlFlow<()>> Queue for Worker<'_, K> {
-    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
+impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Queue<CapsuleSystem<R>, 3>
+    for Worker<'_, K>
+{
+    fn next(
+        &mut self,
+        done: Option<(usize, OrbitOf<CapsuleSystem<R>, 3>)>,
+    ) -> Option<(usize, orbit::Case<CapsuleSystem<R>, 3>)> {
         let next = match done {
             Some((index, orbit)) => {
                 let link = self.links.remove(&index).expect("the case was under way");
-                self.follow(link, orbit).or_else(|| self.take())
+                self.follow::<R>(link, orbit).or_else(|| self.take())
             }
             None => {
                 self.share = self.share.checked_sub(1)?;
                 self.take()
             }
         };
-        let (link, case) = next?;
-        let index = link.index;
+        let link = next?;
+        let (index, case) = (link.index, link.case.read());
         self.links.insert(index, link);
         Some((index, case))
     }
@@ -166,7 +151,7 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Queue for Worker<'_, K> {
 
 impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     /// The first case of the next chain.
-    fn take(&self) -> Option<(Link, Case)> {
+    fn take(&self) -> Option<Link> {
         let place = self.taken.fetch_add(1, Ordering::Relaxed);
         let (count, chains) = self.queue;
         if place >= count {
@@ -177,25 +162,21 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     }
 
     /// Keeps the record of a case and yields the next of its chain.
-    fn follow(
+    fn follow<R: Reading>(
         &self,
-        Link { block, index, start, rest }: Link,
-        orbit: Orbit,
-    ) -> Option<(Link, Case)> {
+        Link { block, index, case, rest }: Link,
+        orbit: OrbitOf<CapsuleSystem<R>, 3>,
+    ) -> Option<Link> {
+        let orbit = Orbit::of::<R>(orbit, &case, &self.study.protocol);
         // After a failure the next case starts afresh.
         let settled = (orbit.outcome != Outcome::Failed).then_some(orbit.end);
-        if (self.keep)(block, Record { index, start, orbit }).is_break() {
+        if (self.keep)(block, Record { index, start: case.start, orbit }).is_break() {
             self.stopped.store(true, Ordering::Relaxed);
         }
         self.depart(block, rest, settled)
     }
 
-    fn depart(
-        &self,
-        block: usize,
-        mut chain: Chain,
-        from: Option<State<f64>>,
-    ) -> Option<(Link, Case)> {
+    fn depart(&self, block: usize, mut chain: Chain, from: Option<State<f64>>) -> Option<Link> {
         if self.stopped.load(Ordering::Relaxed) {
             return None;
         }
@@ -204,30 +185,40 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
         if let Some(from) = from {
             case.start = State { x2: case.start.x2, ..from };
         }
-        Some((Link { block, index, start: case.start, rest: chain }, case))
+        Some(Link { block, index, case, rest: chain })
+    }
+
+    /// Settles cases in lanes, and then the last ones of all threads by themselves.
+    fn work<R: Reading>(mut self, instructions: Instructions, last: &Mutex<Vec<Unfinished<R>>>) {
+        let protocol = &self.study.protocol;
+        let left = settle_side_by_side::<CapsuleSystem<R>, 3>(instructions, protocol, &mut self);
+        let lock = || last.lock().expect("no thread has panicked");
+        lock().extend(left.into_iter().map(|case| self.part_with(case)));
+        loop {
+            // In a statement of its own, so that the lock is free again.
+            let case = lock().pop();
+            let Some((link, case)) = case else { break };
+            if self.stopped.load(Ordering::Relaxed) {
+                break;
+            }
+            self.finish_chain(link, case);
+        }
     }
 
     /// A case that leaves the lanes unfinished, with what follows it.
-    fn part_with(&mut self, case: Underway) -> (Link, Underway) {
+    fn part_with<R: Reading>(&mut self, case: Underway<CapsuleSystem<R>, 3>) -> Unfinished<R> {
         let link = self.links.remove(&case.number()).expect("the case was under way");
         (link, case)
     }
 
     /// Settles a case by itself, and all that follow it.
-    fn finish_chain(&self, mut link: Link, case: Underway) {
+    fn finish_chain<R: Reading>(&self, mut link: Link, case: Underway<CapsuleSystem<R>, 3>) {
         let protocol = &self.study.protocol;
         let (_, mut orbit) = case.finish(protocol);
-        while let Some((next, case)) = self.follow(link, orbit) {
+        while let Some(next) = self.follow::<R>(link, orbit) {
             link = next;
-            (_, orbit) = Underway::new(link.index, case, protocol).finish(protocol);
-        }
-    }
-
-    fn settle_one_by_one(&mut self) {
-        let mut case = self.next(None);
-        while let Some((index, Case { parameters, start, phase })) = case {
-            let orbit = settle(&parameters, phase, start, &self.study.protocol);
-            case = self.next(Some((index, orbit)));
+            (_, orbit) =
+                Underway::new(link.index, link.case.read::<R>(), protocol).finish(protocol);
         }
     }
 }

@@ -2,15 +2,13 @@
 
 use rayon::prelude::*;
 
-use crate::capsule::{Locomotion, Parameter};
-use crate::lane::Dual;
+use crate::capsule::{Case, Reading, Section};
+use crate::flow::{Metric, System};
 use crate::orbit::certificate::OBLIQUE;
-use crate::orbit::recurrence::size;
-use crate::orbit::return_map::{Cycles, returned, values};
-use crate::orbit::{Case, Outcome, Protocol, Section};
+use crate::orbit::return_map::{Cycles, returned};
+use crate::orbit::{Outcome, Protocol};
 
 use super::Ending;
-use crate::branch::natural::apart;
 
 /// Points by which two motions that do not repeat are compared.
 const SAMPLE: usize = 64;
@@ -53,25 +51,25 @@ impl Cell {
     /// The threads follow many cases at a time and compare each with the attractors that are known by then;
     /// what is new is sorted in turn. A case belongs to the first attractor that it matches, and attractors
     /// are only added at the end, so that it does not matter how many were known.
-    pub fn sort<S: Locomotion>(
+    pub fn sort<R: Reading>(
         cases: usize,
         ending: impl Fn(usize) -> (usize, Option<Ending>) + Sync,
         case: &Case,
         protocol: &Protocol,
     ) -> Cell {
-        let omega = case.parameters[Parameter::Omega];
+        let metric = case.read::<R>().system.metric();
         let mut cell = Cell { of_case: Vec::with_capacity(cases), attractors: Vec::new() };
         for first in (0..cases).step_by(TOGETHER) {
             let meet = |place: usize| {
                 let (index, ending) = ending(place);
-                let found = Attractor::of::<S>(index, case, &ending?, protocol)?;
-                Some(cell.place(&found, omega).ok_or(found))
+                let found = Attractor::of::<R>(index, case, &ending?, protocol)?;
+                Some(cell.place(&found, &metric).ok_or(found))
             };
             let places = first..cases.min(first + TOGETHER);
             let places = places.into_par_iter().with_min_len(SHARE);
             let met: Vec<Option<Result<usize, Attractor>>> = places.map(meet).collect();
             for met in met {
-                let place = met.map(|met| met.unwrap_or_else(|new| cell.add(new, omega)));
+                let place = met.map(|met| met.unwrap_or_else(|new| cell.add(new, &metric)));
                 cell.of_case.push(place.map(|place| place as u32));
             }
         }
@@ -84,13 +82,13 @@ impl Cell {
     }
 
     /// The place of an attractor, if it is known.
-    fn place(&self, found: &Attractor, omega: f64) -> Option<usize> {
-        self.attractors.iter().position(|known| known.is(found, omega))
+    fn place(&self, found: &Attractor, metric: &Metric<3>) -> Option<usize> {
+        self.attractors.iter().position(|known| known.is(found, metric))
     }
 
     /// The place of an attractor, which is added if it is not known.
-    fn add(&mut self, found: Attractor, omega: f64) -> usize {
-        self.place(&found, omega).unwrap_or_else(|| {
+    fn add(&mut self, found: Attractor, metric: &Metric<3>) -> usize {
+        self.place(&found, metric).unwrap_or_else(|| {
             self.attractors.push(found);
             self.attractors.len() - 1
         })
@@ -103,7 +101,7 @@ impl Attractor {
     /// The bound of a periodic orbit: its residual, or the error of the integrator if that is larger, over
     /// the least distance of a multiplier from one, is how far the true orbit is along the slowest
     /// direction.
-    fn of<S: Locomotion>(
+    fn of<R: Reading>(
         index: usize,
         case: &Case,
         ending: &Ending,
@@ -114,9 +112,9 @@ impl Attractor {
             Outcome::Chaotic | Outcome::QuasiPeriodic => SAMPLE,
             Outcome::Periodic | Outcome::Undecided | Outcome::Failed => return None,
         };
-        let points = points::<S>(case, ending.section, wanted, protocol)?;
-        let omega = case.parameters[Parameter::Omega];
-        let size = points.iter().map(|point| size(omega, point)).fold(0.0, f64::max);
+        let points = points::<R>(case, ending.section, wanted, protocol)?;
+        let metric = case.read::<R>().system.metric();
+        let size = points.iter().map(|point| metric.size(point)).fold(0.0, f64::max);
         let residual = ending.residual.max(protocol.tolerance);
         let bound = OBLIQUE * residual / ending.from_one * size;
         Some(Attractor { case: index, outcome: ending.outcome, points, bound, size })
@@ -128,31 +126,31 @@ impl Attractor {
     /// Others: by the nearest neighbours of the two samples (Schilling 1986). It breaks where two
     /// attractors interleave more closely than their samples lie, and where a motion drifts so slowly that
     /// its two samples do not meet.
-    fn is(&self, other: &Attractor, omega: f64) -> bool {
+    fn is(&self, other: &Attractor, metric: &Metric<3>) -> bool {
         if self.outcome != other.outcome {
             return false;
         }
         match self.outcome {
             Outcome::Periodic => {
-                coincide(&self.points, &other.points, self.bound + other.bound, omega)
+                coincide(&self.points, &other.points, self.bound + other.bound, metric)
             }
-            _ => same_neighbours(&self.points, &other.points, omega) <= MIXED,
+            _ => same_neighbours(&self.points, &other.points, metric) <= MIXED,
         }
     }
 }
 
 /// Whether two orbits are one up to where they begin.
-pub fn coincide(a: &[Section], b: &[Section], bound: f64, omega: f64) -> bool {
+pub fn coincide(a: &[Section], b: &[Section], bound: f64, metric: &Metric<3>) -> bool {
     let k = a.len();
     k == b.len()
-        && (0..k).any(|shift| (0..k).all(|i| apart(&a[i], &b[(i + shift) % k], omega) <= bound))
+        && (0..k).any(|shift| (0..k).all(|i| metric.distance(&a[i], &b[(i + shift) % k]) <= bound))
 }
 
 /// The share of points, of both samples, whose nearest neighbour is of their own sample.
-fn same_neighbours(a: &[Section], b: &[Section], omega: f64) -> f64 {
+fn same_neighbours(a: &[Section], b: &[Section], metric: &Metric<3>) -> f64 {
     let nearest = |i: usize, own: &[Section], point: &Section| {
         let others = own.iter().enumerate().filter(|(j, _)| *j != i);
-        others.map(|(_, other)| apart(point, other, omega)).fold(f64::INFINITY, f64::min)
+        others.map(|(_, other)| metric.distance(point, other)).fold(f64::INFINITY, f64::min)
     };
     let own = |own: &[Section], other: &[Section]| {
         let is_own = |(i, point): &(usize, &Section)| {
@@ -164,22 +162,19 @@ fn same_neighbours(a: &[Section], b: &[Section], omega: f64) -> f64 {
 }
 
 /// So many section points of the motion from one of them on.
-fn points<S: Locomotion>(
+fn points<R: Reading>(
     case: &Case,
     from: Section,
     wanted: usize,
     protocol: &Protocol,
 ) -> Option<Vec<Section>> {
-    let parameters = &case.parameters;
-    let of = |parameter| Dual::<f64, 0>::constant(parameters[parameter]);
-    let system = S::with(of, parameters.resistance, case.phase);
-    let drive_period = Dual::constant(parameters.drive_period());
-    let cycles = Cycles { drive_period, count: 1, tolerance: protocol.tolerance };
+    let system = case.read::<R>().system.single();
+    let cycles = Cycles { count: 1, tolerance: protocol.tolerance };
     let mut points = Vec::with_capacity(wanted);
     points.push(from);
     while points.len() < wanted {
-        let from = points[points.len() - 1].map(Dual::constant);
-        points.push(values(&returned(&system, from, &cycles, |_| ()).ok()?));
+        let from = points[points.len() - 1];
+        points.push(returned(&system, from, &cycles, |_| ()).ok()?);
     }
     Some(points)
 }

@@ -1,11 +1,11 @@
 //! Where an orbit changes its character along a parameter: located by bisection.
 
 use crate::branch::SpecialKind;
-use crate::capsule::{EventKind, Locomotion};
-use crate::orbit::Section;
-use crate::orbit::certificate::least_from_one;
+use crate::capsule::{EventKind, Reading, Section};
+use crate::flow::Metric;
+use crate::orbit::matrix::least_from_one;
 
-use crate::branch::natural::{Along, ROUNDING, Solution, apart, left_to_fold};
+use super::natural::{Along, ROUNDING, Solution, left_to_fold};
 
 /// Changes at most between two neighbouring values; a motion that changes more often is not resolved by them.
 const MOST: usize = 16;
@@ -56,7 +56,7 @@ impl Change {
 /// properties: whether a real multiplier is below -1 (the sign of det(J + I)), whether a complex pair is
 /// outside the unit circle, and the sequence of events in a period; if the number of impacts changes there
 /// it is a grazing. Two changes of one property that undo each other between two neighbours are not seen.
-pub fn changes<S: Locomotion>(along: &Along<'_, S>, path: &[Solution]) -> Vec<Change> {
+pub fn changes<R: Reading>(along: &Along<'_, R>, path: &[Solution]) -> Vec<Change> {
     let spirals = |a: &Solution, b: &Solution| a.spirals() != b.spirals();
     let order = |a: &Solution, b: &Solution| a.events != b.events;
     let spiral = |_: &Solution, _: &Solution| SpecialKind::NeimarkSacker;
@@ -118,9 +118,9 @@ fn of_events(low: &Solution, high: &Solution) -> SpecialKind {
 
 impl Property<'_> {
     /// Every place between two orbits where it changes.
-    fn every<S: Locomotion>(
+    fn every<R: Reading>(
         &self,
-        along: &Along<'_, S>,
+        along: &Along<'_, R>,
         low: &Solution,
         high: &Solution,
     ) -> Vec<Change> {
@@ -137,9 +137,9 @@ impl Property<'_> {
     }
 
     /// The orbits just before and after the first place between two orbits where it changes.
-    fn first<S: Locomotion>(
+    fn first<R: Reading>(
         &self,
-        along: &Along<'_, S>,
+        along: &Along<'_, R>,
         low: &Solution,
         high: &Solution,
     ) -> Option<(Solution, Solution)> {
@@ -147,9 +147,9 @@ impl Property<'_> {
     }
 
     /// The narrowest pair of orbits between which it begins to differ from the first.
-    fn bisect<S: Locomotion>(
+    fn bisect<R: Reading>(
         &self,
-        along: &Along<'_, S>,
+        along: &Along<'_, R>,
         mut low: Solution,
         mut high: Solution,
     ) -> (Solution, Solution) {
@@ -194,8 +194,8 @@ impl Property<'_> {
 /// shorter orbit, and a fold if a multiplier tends to +1; else it ends at a change of its events. Near a
 /// fold Newton's method gives up before the orbit ends: the last two orbits foretell how much is left,
 /// which then is the uncertainty if it is more than the step.
-pub fn ending<S: Locomotion>(
-    along: &Along<'_, S>,
+pub fn ending<R: Reading>(
+    along: &Along<'_, R>,
     path: &[Solution],
     (to, step): (f64, f64),
 ) -> Option<Change> {
@@ -224,8 +224,8 @@ pub fn ending<S: Locomotion>(
 
 /// The period doubling of the orbit that a longer one on the way from the first value to the second has run
 /// into. Near it the two are hard to tell apart, so that it may lie before or behind.
-fn doubling<S: Locomotion>(
-    along: &Along<'_, S>,
+fn doubling<R: Reading>(
+    along: &Along<'_, R>,
     shorter: &Solution,
     [from, to]: [f64; 2],
 ) -> Option<Change> {
@@ -237,26 +237,26 @@ fn doubling<S: Locomotion>(
 }
 
 /// The orbit of half the period in the middle of this one, if there is one.
-fn merged<S: Locomotion>(along: &Along<'_, S>, orbit: &Solution) -> Option<Solution> {
+fn merged<R: Reading>(along: &Along<'_, R>, orbit: &Solution) -> Option<Solution> {
     let half = orbit.period() / 2;
     if half == 0 || !orbit.period().is_multiple_of(2) {
         return None;
     }
     let middle = std::array::from_fn(|i| 0.5 * (orbit.points[0][i] + orbit.points[half][i]));
     let shorter = along.close(orbit.value, &middle, half, orbit.size)?;
-    let omega = along.omega(orbit.value);
-    straddles(&orbit.points, &shorter.points, omega).then_some(shorter)
+    let metric = along.metric(orbit.value);
+    straddles(&orbit.points, &shorter.points, &metric).then_some(shorter)
 }
 
 /// Whether an orbit of twice the period lies on both sides of the shorter one, up to where they begin, as
 /// it does beside a period doubling.
-pub fn straddles(longer: &[Section], shorter: &[Section], omega: f64) -> bool {
+pub fn straddles(longer: &[Section], shorter: &[Section], metric: &Metric<3>) -> bool {
     let k = shorter.len();
     let beside = |shift: usize| {
         (0..k).all(|i| {
             let (a, b) = (&longer[(i + shift) % k], &longer[(i + shift) % k + k]);
             let middle = std::array::from_fn(|j| 0.5 * (a[j] + b[j]));
-            apart(&middle, &shorter[i], omega) < 0.5 * apart(a, b, omega)
+            metric.distance(&middle, &shorter[i]) < 0.5 * metric.distance(a, b)
         })
     };
     longer.len() == 2 * k && (0..k).any(beside)

@@ -1,9 +1,9 @@
 //! Endings: what the search for attractors needs of a case, small enough to hold one for each of millions.
 
-use crate::capsule::State;
-use crate::orbit::certificate::least_from_one;
+use crate::capsule::{Orbit, Section, State};
+use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
-use crate::orbit::{Orbit, Outcome, Section};
+use crate::orbit::matrix::least_from_one;
 
 use super::Record;
 use crate::study::Study;

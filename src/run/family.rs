@@ -1,12 +1,13 @@
 //! Which attractors of two neighbouring cells are one, and what happens to them in between.
 
 use crate::branch::SpecialKind;
-use crate::capsule::Locomotion;
+use crate::capsule::Reading;
+use crate::flow::Metric;
 use crate::orbit::Outcome;
 
 use super::cell::{Attractor, Cell, coincide};
 use super::change::{Change, changes, ending, straddles};
-use crate::branch::natural::{Along, End, Solution};
+use super::natural::{Along, End, Solution};
 use crate::study::Direction;
 
 /// How the attractors of a cell go on in the next.
@@ -39,9 +40,9 @@ pub struct Unseen {
 }
 
 /// Two neighbouring cells along a parameter.
-pub struct Neighbours<'a, S> {
+pub struct Neighbours<'a, R> {
     /// What is held, and the parameter.
-    pub along: Along<'a, S>,
+    pub along: Along<'a, R>,
     /// Its two values.
     pub values: [f64; 2],
     /// The cells.
@@ -50,7 +51,7 @@ pub struct Neighbours<'a, S> {
     pub directions: &'a [Direction],
 }
 
-impl<S: Locomotion> Neighbours<'_, S> {
+impl<R: Reading> Neighbours<'_, R> {
     /// Links the attractors of the two cells.
     ///
     /// Periodic orbits by continuation, the shortest first, to the other cell; where an orbit has lost
@@ -122,9 +123,9 @@ impl<S: Locomotion> Neighbours<'_, S> {
 
     /// The attractor of the other cell that belongs to an orbit that was followed there.
     fn successor(&self, side: usize, links: &Links, here: &Unseen) -> Option<usize> {
-        let omega = self.along.omega(here.orbit.value);
+        let metric = self.along.metric(here.orbit.value);
         let is_next = |(place, other): &(usize, &Attractor)| {
-            !links.has(1 - side, *place) && here.belongs_to(other, omega)
+            !links.has(1 - side, *place) && here.belongs_to(other, &metric)
         };
         let mut others = self.cells[1 - side].attractors.iter().enumerate();
         others.find(is_next).map(|(place, _)| place)
@@ -204,13 +205,13 @@ impl Unseen {
     }
 
     /// Whether the attractor at the same parameters is its own.
-    pub fn belongs_to(&self, attractor: &Attractor, omega: f64) -> bool {
+    pub fn belongs_to(&self, attractor: &Attractor, metric: &Metric<3>) -> bool {
         let Attractor { outcome, points, bound, size, .. } = attractor;
         let Unseen { orbit, doubled } = self;
         let bound = bound + orbit.size * orbit.error.max(bound / size);
         *outcome == Outcome::Periodic
-            && (coincide(&orbit.points, points, bound, omega)
-                || (*doubled && straddles(points, &orbit.points, omega)))
+            && (coincide(&orbit.points, points, bound, metric)
+                || (*doubled && straddles(points, &orbit.points, metric)))
     }
 }
 

@@ -4,11 +4,13 @@ use std::fmt;
 
 use rayon::prelude::*;
 
-use crate::branch::{self, Found, NotFollowed};
-use crate::orbit::{Outcome, Protocol, Reason, Section, settle};
+use crate::branch::NotFollowed;
+use crate::capsule::branch::{self, Found};
+use crate::capsule::{REASONS, Section, settle};
+use crate::flow::Reason;
+use crate::orbit::{Outcome, Protocol};
 
 use super::cases::{RunError, pool};
-use crate::study::branch_file::AS_PRINTED;
 use crate::study::{Continuation, FirstOrbit, Study};
 
 /// What came of one branch of a study.
@@ -23,8 +25,6 @@ pub enum Unfollowed {
     NoOrbit,
     /// The motion could not be followed.
     Failed(Reason),
-    /// The equation as printed is not followed.
-    AsPrinted,
     /// The first orbit belongs to a family of orbits.
     Neutral,
 }
@@ -42,11 +42,10 @@ impl fmt::Display for Unfollowed {
                 f.write_str("no periodic orbit was found near the start; give one closer to it")
             }
             Unfollowed::Failed(reason) => {
-                let name = Reason::NAMES.iter().find(|(known, _)| known == reason);
+                let name = REASONS.iter().find(|(known, _)| known == reason);
                 let name = name.map_or("", |(_, name)| name);
                 write!(f, "the motion could not be followed there ({name})")
             }
-            Unfollowed::AsPrinted => f.write_str(AS_PRINTED),
             Unfollowed::Neutral => f.write_str(
                 "the first orbit has a multiplier that cannot be told from one: it belongs to a family of \
                  orbits, as without friction of sliding, or lies in a fold; give it friction or another start",
@@ -84,7 +83,6 @@ fn follow_one(continuation: &Continuation, protocol: &Protocol) -> Followed {
     branch::follow(&request).map_err(|why| match why {
         NotFollowed::NoOrbit => Unfollowed::NoOrbit,
         NotFollowed::Failed(reason) => Unfollowed::Failed(reason),
-        NotFollowed::AsPrinted => Unfollowed::AsPrinted,
         NotFollowed::Neutral => Unfollowed::Neutral,
     })
 }

@@ -8,12 +8,14 @@ mod cell;
 mod change;
 pub mod ending;
 mod family;
+mod natural;
 pub mod follow;
 pub mod forecast;
 
+pub use crate::orbit::Machine;
 pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors, links};
 pub use block::run_blocks;
-pub use cases::{Machine, Record, RunError, run, run_sample};
+pub use cases::{Record, RunError, run, run_sample};
 pub use ending::{Ending, endings};
 pub use follow::{Followed, Unfollowed, follow};
 pub use forecast::{Estimate, Forecast};

@@ -2,9 +2,8 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::branch::Point;
-use crate::capsule::Parameter;
-use crate::orbit::Output;
+use crate::capsule::branch::Point;
+use crate::capsule::{Output, Parameter};
 use crate::orbit::matrix::Complex;
 
 use super::{Dataset, Values, Variable};
@@ -146,7 +145,7 @@ pub fn add_points(
     let sequences = rows.iter().map(|row| row.point.sequence as i64);
     columns.integers(&named("sequence"), "which sequence of events of its branch", sequences);
     for &output in outputs {
-        let values = rows.iter().map(|row| row.point.outputs[output]);
+        let values = rows.iter().map(|row| row.point.measured[output]);
         columns.reals(&named(output.name()), output.unit(), output.meaning(), values);
     }
     add_sections(&mut columns, prefix, rows, length);

@@ -1,8 +1,8 @@
 //! Which variables the followed orbits have in a file of results, beside those of the sweep.
 
 use crate::branch::{End, SpecialKind};
-use crate::capsule::Parameter;
-use crate::orbit::{Outcome, Reason};
+use crate::capsule::{Parameter, REASONS};
+use crate::orbit::Outcome;
 use crate::run::{Followed, Unfollowed};
 use crate::study::{Continuation, Study};
 
@@ -117,12 +117,12 @@ fn add_requests(dataset: &mut Dataset, study: &Study, followed: &[Followed]) {
 
 /// The number of what came of a branch.
 fn result(followed: &Followed) -> i64 {
-    let reasons = Reason::NAMES.len() as i64;
+    let reasons = REASONS.len() as i64;
     match followed {
         Ok(_) => 0,
         Err(Unfollowed::Failed(reason)) => *reason as i64,
         Err(Unfollowed::NoOrbit) => reasons + 1,
-        Err(Unfollowed::AsPrinted) => reasons + 2,
+        // Two more has stood for the equation as printed in files of earlier versions.
         Err(Unfollowed::Neutral) => reasons + 3,
         // No outcome that is told here has the number zero.
         Err(Unfollowed::Unsettled(outcome)) => reasons + 3 + *outcome as i64,
@@ -131,16 +131,14 @@ fn result(followed: &Followed) -> i64 {
 
 /// Everything that may come of a branch.
 fn results_by_name() -> Vec<(i64, String)> {
-    let reasons =
-        Reason::NAMES.map(|(reason, name)| (Err(Unfollowed::Failed(reason)), name.to_owned()));
+    let reasons = REASONS.map(|(reason, name)| (Err(Unfollowed::Failed(reason)), name.to_owned()));
     let no_orbit = (Err(Unfollowed::NoOrbit), "no-orbit".to_owned());
-    let as_printed = (Err(Unfollowed::AsPrinted), "as-printed".to_owned());
     let neutral = (Err(Unfollowed::Neutral), "neutral".to_owned());
     let unsettled = Outcome::ALL
         .into_iter()
         .filter(|outcome| !matches!(outcome, Outcome::Periodic | Outcome::Failed))
         .map(|outcome| (Err(Unfollowed::Unsettled(outcome)), outcome.name().to_owned()));
-    let failures = reasons.into_iter().chain([no_orbit, as_printed, neutral]).chain(unsettled);
+    let failures = reasons.into_iter().chain([no_orbit, neutral]).chain(unsettled);
     let followed = std::iter::once((0, "followed".to_owned()));
     followed.chain(failures.map(|(why, name)| (result(&why), name))).collect()
 }

@@ -1,7 +1,8 @@
 //! The branches of a study one after another, as they lie in a file: what referred within one refers to all.
 
-use crate::branch::{Branch, Curve, End, SpecialKind};
+use crate::branch::{Curve, End, SpecialKind};
 use crate::capsule::Parameter;
+use crate::capsule::branch::Branch;
 use crate::run::Followed;
 use crate::study::Continuation;
 

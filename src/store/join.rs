@@ -5,9 +5,9 @@ use std::path::Path;
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::capsule::State;
+use crate::capsule::{REASONS, State};
+use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
-use crate::orbit::{Outcome, Reason};
 use crate::run::Ending;
 use crate::study::Study;
 
@@ -193,7 +193,7 @@ fn failures(shard: &Shard, cases: &[usize]) -> Result<Vec<FailedCase>, StoreErro
     let (r, y1, y2, times) = (r?, y1?, y2?, times?);
     let reasons = shard.integers("failure_reason", 1)?;
     let failed = |(place, code): (usize, &i64)| {
-        let (_, reason) = Reason::NAMES.iter().find(|(reason, _)| *reason as i64 == *code)?;
+        let (_, reason) = REASONS.iter().find(|(reason, _)| *reason as i64 == *code)?;
         let start = State { r: r[place], y1: y1[place], y2: y2[place], ..State::default() };
         Some(FailedCase { index: cases[place], start, reason, time: times[place] })
     };

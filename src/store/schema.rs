@@ -2,9 +2,9 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::capsule::{Parameter, State};
+use crate::capsule::{History, Impact, Orbit, Parameter, REASONS, State};
 use crate::orbit::matrix::Complex;
-use crate::orbit::{Certificate, History, Impact, Orbit, Outcome, Proof, Reason};
+use crate::orbit::{Certificate, Outcome, Proof};
 use crate::run::Record;
 use crate::study::{Coordinate, Direction, Study};
 
@@ -257,7 +257,7 @@ fn add_verdicts(dataset: &mut Dataset, table: &Table<'_>) {
 fn add_failures(dataset: &mut Dataset, table: &Table<'_>) {
     let reasons = table.integers(|orbit| orbit.failure.map_or(0, |why| why.reason as i64));
     let mut reason = table.variable("1", "why the case could not be followed", reasons);
-    let names = Reason::NAMES.map(|(reason, name)| (reason as i64, name.to_owned()));
+    let names = REASONS.map(|(reason, name)| (reason as i64, name.to_owned()));
     reason.flags = std::iter::once((0, "none".to_owned())).chain(names).collect();
     let times = table.reals(|orbit| orbit.failure.map_or(f64::NAN, |why| why.time));
     let time = table.variable("s", "time at which the case could not be followed on", times);
@@ -271,7 +271,7 @@ fn add_certificates(dataset: &mut Dataset, table: &Table<'_>) {
     let mut proof = table.variable("1", "how the period was proven", proofs);
     proof.flags = Proof::NAMES.map(|(name, proof)| (proof as i64, name.to_owned())).to_vec();
     dataset.variables.insert("certificate".to_owned(), proof);
-    let count = Certificate::none().multipliers.len();
+    let count = Certificate::<3>::none().multipliers.len();
     dataset.coordinates.push(coordinate(
         "multiplier",
         "1",

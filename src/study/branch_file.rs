@@ -2,17 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Allowed, Dimension, Parameter, Parameters, State, Switching};
+use crate::capsule::{Allowed, Dimension, Parameter, Parameters, State};
 
 use super::continuation::{Continuation, FirstOrbit};
 use super::document::{Entry, Table, unknown};
 
 use super::study_file::allowed_quantity;
 use super::{Axis, Coordinate};
-
-/// What is said of a study with branches that reads friction as printed.
-pub(crate) const AS_PRINTED: &str =
-    "the equation as printed is not followed; it takes `friction_switching = \"filippov\"`";
 
 /// Longest step unless another is asked for, as a share of the range.
 const LONGEST_STEP: f64 = 0.02;
@@ -58,9 +54,6 @@ impl Surroundings<'_> {
 pub(super) fn read_branches(top: &Table<'_, '_>, study: &Surroundings<'_>) -> Vec<Continuation> {
     let mut branches: Vec<Continuation> = Vec::new();
     let list = top.entry("branches");
-    if let (Some(list), Switching::AsPrinted) = (&list, study.base.switching) {
-        list.fault(AS_PRINTED);
-    }
     let entries = list.map(|list| list.list()).unwrap_or_default();
     for table in entries.iter().filter_map(Entry::table) {
         let name = read_name(&table);

@@ -1,8 +1,7 @@
 //! What a study asks to have followed: periodic orbits, stable or not, through a parameter.
 
-use crate::branch::Request;
-use crate::capsule::{Parameter, Parameters, State};
-use crate::orbit::Section;
+use crate::capsule::branch::Request;
+use crate::capsule::{Parameter, Parameters, Section, State};
 
 /// How the first orbit of a branch is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

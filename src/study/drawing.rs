@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::orbit::Output;
+use crate::capsule::Output;
 
 /// What there is for each case besides the outputs.
 const VERDICTS: [&str; 3] = ["outcome", "period", "cycles"];

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Dimension, Parameter};
-use crate::orbit::Output;
+use crate::capsule::{Dimension, Output, Parameter};
 
 use super::document::{Entry, Table, unknown};
 use super::{Axis, Continuation, Drawing, DrawingKind};

@@ -2,7 +2,7 @@
 
 pub mod axis;
 pub mod block;
-pub(crate) mod branch_file;
+mod branch_file;
 pub mod continuation;
 pub mod document;
 pub mod drawing;

@@ -4,8 +4,8 @@ use std::hash::Hash;
 
 use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 
-use crate::capsule::{Parameters, State};
-use crate::orbit::{Case, Output, Protocol};
+use crate::capsule::{Case, Output, Parameters, State};
+use crate::orbit::Protocol;
 
 use super::{Axis, Continuation, Coordinate, Drawing};
 

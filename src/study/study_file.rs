@@ -4,9 +4,11 @@ use std::collections::BTreeSet;
 
 use toml::de::DeTable;
 
-use crate::capsule::{Allowed, Dimension, Parameter, Parameters, Resistance, State, Switching};
+use crate::capsule::{
+    Allowed, Dimension, Output, Parameter, Parameters, Resistance, State, Switching,
+};
 use crate::orbit::exponent::BATCHES;
-use crate::orbit::{HistorySpan, Output, Protocol};
+use crate::orbit::{HistorySpan, Protocol};
 
 use super::axis::{linear, logarithmic};
 use super::branch_file::{Surroundings, read_branches};

@@ -1,8 +1,8 @@
 //! Leaping to where the section tends reaches what waiting reaches.
 
-use capsulemap::capsule::State;
+use capsulemap::capsule::{Output, State, settle};
 use capsulemap::lane::Instructions;
-use capsulemap::orbit::{Outcome, Output, Protocol, settle};
+use capsulemap::orbit::{Outcome, Protocol};
 
 use super::draws;
 

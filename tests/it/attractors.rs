@@ -5,12 +5,13 @@ use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use capsulemap::branch::SpecialKind;
-use capsulemap::capsule::{Capsule, Parameter};
+use capsulemap::capsule::{CapsuleSystem, Filippov, Output, Parameter};
+use capsulemap::flow::System;
 use capsulemap::lane::Dual;
 use capsulemap::orbit::matrix::eigenvalues;
 use capsulemap::orbit::newton::close;
 use capsulemap::orbit::return_map::Cycles;
-use capsulemap::orbit::{Outcome, Output, Proof, Protocol};
+use capsulemap::orbit::{Outcome, Proof, Protocol};
 use capsulemap::run::{self, AttractorEvent, Attractors, Ending, Machine, Record};
 use capsulemap::store;
 use capsulemap::study::Study;
@@ -268,12 +269,11 @@ fn a_multiplier_is_minus_one_where_the_period_doubles() {
     for event in events {
         let mut parameters = study.base.clone();
         parameters[Parameter::Omega] = event.value;
-        let of = |parameter| Dual::<f64, 3>::constant(parameters[parameter]);
-        let system = Capsule::new(of, parameters.resistance, 0.0);
-        let drive_period = Dual::constant(parameters.drive_period());
+        let capsule = CapsuleSystem::<Filippov>::new(parameters, 0.0);
+        let (system, metric) = (capsule.constant::<Dual<f64, 3>>(), capsule.metric());
         let tolerance = Protocol::default().tolerance;
-        let cycles = Cycles { drive_period, count: event.period, tolerance };
-        let orbit = close(&system, &event.section, &cycles, 0.5).expect("it goes on");
+        let cycles = Cycles { count: event.period, tolerance };
+        let orbit = close(&system, &metric, &event.section, &cycles, 0.5).expect("it goes on");
         let orbit = orbit.expect("an orbit");
         assert!(orbit.residual < 1e-11, "{orbit:?}");
         let from = |it: &capsulemap::orbit::matrix::Complex| f64::hypot(it.re + 1.0, it.im);

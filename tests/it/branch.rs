@@ -2,14 +2,22 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::branch::{Branch, Found, NotFollowed, Request, Special, SpecialKind, follow};
-use capsulemap::capsule::{Parameter, Parameters, State, Switching};
-use capsulemap::orbit::recurrence::size;
-use capsulemap::orbit::{Orbit, Outcome, Output, Protocol, Section, settle, simulate};
+use capsulemap::branch::{NotFollowed, SpecialKind};
+use capsulemap::capsule::branch::{Branch, Found, Request, Special, follow};
+use capsulemap::capsule::{
+    Orbit, Output, Parameter, Parameters, Section, State, Switching, settle, simulate,
+};
+use capsulemap::flow::Metric;
+use capsulemap::orbit::{Outcome, Protocol};
 
 use super::draws;
 
 const TOLERANCE: f64 = 1e-12;
+
+/// The size of a section point under a drive of this frequency [m/s].
+fn size(omega: f64, point: &Section) -> f64 {
+    (Metric { scales: [omega, 1.0, 1.0] }).size(point)
+}
 
 /// The request to follow the orbit near a section point.
 pub fn request(
@@ -130,7 +138,7 @@ fn slip_begins_where_the_closed_form_says() {
         assert!(error < 1e-9, "{omega}: {error:e}");
         let last = found.branches[0].points.last().expect("orbits");
         assert_eq!(last.parameter, range[1]);
-        assert!(last.outputs[Output::StickShare] < 1.0);
+        assert!(last.measured[Output::StickShare] < 1.0);
     }
 }
 
@@ -209,7 +217,7 @@ fn hysteresis_is_bounded_by_folds_with_an_unstable_branch_between() {
         let orbit = settled(&two_attractors(omega), upper.point.section[0]);
         orbit.outputs[Output::ProgressionSpeed].abs()
     };
-    let at_fold = upper.point.outputs[Output::ProgressionSpeed].abs();
+    let at_fold = upper.point.measured[Output::ProgressionSpeed].abs();
     let edge = upper.point.parameter;
     assert!((speed(edge - 1e-4) - at_fold).abs() < 0.02 * at_fold);
     assert!(speed(edge + 1e-2) < 0.5 * at_fold);
@@ -333,10 +341,30 @@ fn whatever_is_followed_closes_and_ends() {
 
 #[test]
 fn what_cannot_be_followed_is_said() {
-    let mut p = Parameters::default();
+    let p = Parameters::default();
     let nowhere = request(&p, [0.0; 3], 1, Parameter::Pd, [5.0, 6.0]);
     assert_eq!(follow(&nowhere), Err(NotFollowed::NoOrbit));
+}
+
+#[test]
+fn the_equation_as_printed_is_followed_too() {
+    let mut p = Parameters::with(&[(Parameter::MuS, 0.2), (Parameter::MuD, 0.1)]);
     p.switching = Switching::AsPrinted;
-    let printed = request(&p, [0.0; 3], 1, Parameter::Pd, [3.0, 6.0]);
-    assert_eq!(follow(&printed), Err(NotFollowed::AsPrinted));
+    let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
+    assert_eq!(orbit.outcome, Outcome::Periodic);
+    let range = [3.6, 4.4];
+    let request = request(&p, orbit.section[0], orbit.period, Parameter::Pd, range);
+    let found = follow(&request).expect("a branch");
+    assert_closed(&found);
+    let points = &found.branches[0].points;
+    assert!(points.len() > 5, "{}", points.len());
+    // Where the orbits attract, the motion from near them settles to the same speed.
+    for point in points.iter().filter(|it| it.multipliers[0].abs() < 0.9).step_by(3) {
+        p[Parameter::Pd] = point.parameter;
+        let [r, y1, y2] = point.section[0];
+        let start = State { r, y1: y1 * 1.000_1, x2: 0.0, y2 };
+        let orbit = settle(&p, 0.0, start, &Protocol::default());
+        let speeds = [&orbit.outputs, &point.measured].map(|it| it[Output::ProgressionSpeed]);
+        assert!((speeds[0] - speeds[1]).abs() < 1e-9, "{}: {speeds:?}", point.parameter);
+    }
 }

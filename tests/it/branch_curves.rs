@@ -1,8 +1,8 @@
 //! Curves in two parameters: both sorts of grazing, each curve once, and none that leads elsewhere.
 
-use capsulemap::branch::{Curve, End, Found, Request, SpecialKind, follow};
-use capsulemap::capsule::{Parameter, Parameters};
-use capsulemap::orbit::Section;
+use capsulemap::branch::{Curve, End, SpecialKind};
+use capsulemap::capsule::branch::{Found, Request, follow};
+use capsulemap::capsule::{Parameter, Parameters, Section};
 
 use super::branch::{assert_closed, of_kind, relative, request, settled};
 

@@ -1,7 +1,8 @@
 //! Why branches end where they do, and how little that depends on how the first orbit was found.
 
-use capsulemap::branch::{Branch, End, SpecialKind, follow};
+use capsulemap::branch::{End, SpecialKind};
 use capsulemap::capsule::Parameter;
+use capsulemap::capsule::branch::{Branch, follow};
 
 use super::branch::{assert_closed, moving, relative, request};
 use super::branch_curves::folding;

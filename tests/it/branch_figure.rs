@@ -112,7 +112,8 @@ fn the_cycles_of_an_orbit_may_begin_anywhere() {
     for (step, point) in straight.branches[1].points.iter_mut().enumerate() {
         point.section.rotate_right(usize::from(step % 7 == 3));
     }
-    let apart = |point: &capsulemap::branch::Point| point.section[0][0] - point.section[1][0];
+    let apart =
+        |point: &capsulemap::capsule::branch::Point| point.section[0][0] - point.section[1][0];
     assert!(straight.branches[1].points.iter().all(|point| apart(point) >= 0.0));
     let mut others = followed();
     assert_ne!(others[0], Ok(straight.clone()));

@@ -1,8 +1,8 @@
 //! Periods are what they are called: against a stricter run, a known false one, and the motion itself.
 
-use capsulemap::capsule::State;
+use capsulemap::capsule::{Case, Output, State, settle, simulate};
 use capsulemap::lane::Instructions;
-use capsulemap::orbit::{Case, Outcome, Output, Proof, Protocol, settle, simulate};
+use capsulemap::orbit::{Outcome, Proof, Protocol};
 
 use super::draws;
 

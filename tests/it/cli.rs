@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::capsule::{Parameter, Parameters, State};
-use capsulemap::orbit::{Output, Protocol, settle};
+use capsulemap::capsule::{Output, Parameter, Parameters, State, settle};
+use capsulemap::orbit::Protocol;
 use serde_json::Value;
 
 use super::program::{Desk, FIG5, Ran};

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::capsule::{EventKind, Parameter, Parameters, Resistance, State};
-use capsulemap::orbit::{Outcome, Output, Protocol};
+use capsulemap::capsule::{EventKind, Output, Parameter, Parameters, Resistance, State};
+use capsulemap::orbit::{Outcome, Protocol};
 
 use super::forms::{settle, simulate};
 

@@ -2,15 +2,15 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::capsule::{Field, Stroboscopic, Switched, Zeros};
+use capsulemap::flow::{Event, Field, Metric, Stroboscopic, Switched, System, Taylor, Zeros};
 use capsulemap::lane::elementary::{not_finite, sin_cos};
-use capsulemap::lane::{Dual, Lane, ORDER, Series, series};
+use capsulemap::lane::{Dual, Lane, Mask, ORDER, Series, SideBySide, side_by_side};
 
 use super::differences::followed;
-use super::oscillators::{Point, PointJet, repeated};
+use super::oscillators::repeated;
 
 /// x'' + x + f sign(x') = cos(wt): a mass on a spring under a force, with Coulomb friction.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DryFriction<L> {
     /// Frequency of the drive, w.
     pub omega: L,
@@ -18,128 +18,179 @@ pub struct DryFriction<L> {
     pub friction: L,
 }
 
-/// The series of a step, and of what the spring leaves of the drive, which friction holds at rest.
-pub struct DryJet<L> {
-    motion: PointJet<L>,
-    push: Series<L>,
+side_by_side!(DryFriction { omega, friction });
+
+/// What ends a mode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Turn {
+    /// The mass begins to slide from rest.
+    Slip = 1,
+    /// Its velocity comes to zero, where it rests or turns.
+    Stop,
 }
 
-impl<L: Lane> Default for DryJet<L> {
+impl Event for Turn {
+    const ALL: &'static [Turn] = &[Turn::Slip, Turn::Stop];
+    fn number(self) -> u8 {
+        self as u8
+    }
+}
+
+/// Direction of sliding, +1 or -1; zero at rest.
+#[derive(Debug, Clone, Copy)]
+pub struct Slip<L>(L);
+
+impl<L: Lane> Default for Slip<L> {
     fn default() -> Self {
-        DryJet { motion: PointJet::default(), push: series::zero() }
+        Slip(L::splat(0.0))
     }
 }
 
-impl<L: Lane<Mask = bool>> DryFriction<L> {
-    fn push(&self, time: L, state: &Point<L>) -> L {
-        sin_cos(self.omega * time).1 - state.x
+impl<L: Lane> SideBySide for Slip<L> {
+    type One = Slip<f64>;
+    #[inline(always)]
+    fn splat(one: &Slip<f64>) -> Self {
+        Slip(L::splat(one.0))
     }
+    #[inline(always)]
+    fn lane(&self, index: usize) -> Slip<f64> {
+        Slip(self.0.lane(index))
+    }
+    #[inline(always)]
+    fn put(&mut self, index: usize, one: &Slip<f64>) {
+        self.0 = self.0.with_lane(index, one.0);
+    }
+}
 
+impl<L: Lane> Slip<L> {
+    #[inline(always)]
+    fn rests(&self) -> L::Mask {
+        (self.0 * self.0).lt(L::splat(0.5))
+    }
+}
+
+/// Place of the series of what the spring leaves of the drive, which friction holds at rest.
+const PUSH: usize = 2;
+
+impl<L: Lane> DryFriction<L> {
     /// The direction in which the mass leaves a moment of rest, zero where friction holds it.
-    fn direction(&self, time: L, state: &Point<L>) -> i8 {
-        let push = self.push(time, state);
-        match self.friction.lt(push.abs()) {
-            true if push.lt(L::splat(0.0)) => -1,
-            true => 1,
-            false => 0,
-        }
+    #[inline(always)]
+    fn direction(&self, time: L, [x, _]: &[L; 2]) -> L {
+        let zero = L::splat(0.0);
+        let push = sin_cos(self.omega * time).1 - *x;
+        let side = L::select(push.lt(zero), L::splat(-1.0), L::splat(1.0));
+        L::select(self.friction.lt(push.abs()), side, zero)
     }
 }
 
-impl<L: Lane<Mask = bool>> Switched<L> for DryFriction<L> {
-    type State = Point<L>;
-    /// The direction of sliding, zero at rest. Guards while sliding: the speed; at rest: f - push, f + push.
-    type Mode = i8;
-    type Jet = DryJet<L>;
+impl<L: Lane> Switched<L> for DryFriction<L> {
+    /// Place and velocity.
+    type State = [L; 2];
+    /// Guards while sliding: the speed; at rest: f - push, f + push.
+    type Mode = Slip<L>;
+    type Jet = Taylor<L, 3>;
+    type Event = Turn;
     const GUARDS: usize = 2;
 
-    fn start(&self, time: L, state: &mut Point<L>) -> i8 {
-        let v = state.v.lane(0);
-        if v == 0.0 { self.direction(time, state) } else { v.signum() as i8 }
+    #[inline(always)]
+    fn period(&self) -> L {
+        L::splat(2.0 * PI) / self.omega
     }
 
-    fn expand(&self, mode: &i8, time: L, state: &Point<L>, jet: &mut DryJet<L>) {
-        let DryJet { motion: PointJet { x, v }, push } = jet;
-        (*x, *v) = (series::zero(), series::zero());
+    #[inline(always)]
+    fn start(&self, time: L, state: &mut [L; 2]) -> Slip<L> {
+        let (zero, v) = (L::splat(0.0), state[1]);
+        let moving = L::select(v.lt(zero), L::splat(-1.0), L::splat(1.0));
+        Slip(L::select(v.abs().le(zero), self.direction(time, state), moving))
+    }
+
+    #[inline(always)]
+    fn expand(&self, slip: &Slip<L>, time: L, state: &[L; 2], jet: &mut Taylor<L, 3>) {
+        let zero = L::splat(0.0);
         let (mut s, mut c) = sin_cos(self.omega * time);
-        (x[0], v[0]) = (state.x, state.v);
+        jet.begin(state);
+        let rests = slip.rests();
         for k in 0..ORDER {
             let per = L::splat(1.0 / (k + 1) as f64);
-            push[k] = c - x[k];
-            if *mode != 0 {
-                let friction = if k == 0 { self.friction } else { L::splat(0.0) };
-                x[k + 1] = v[k] * per;
-                v[k + 1] = (push[k] - L::splat(f64::from(*mode)) * friction) * per;
-            }
+            let push = c - jet[0][k];
+            let friction = if k == 0 { self.friction } else { zero };
+            let force = (push - slip.0 * friction) * per;
+            jet[PUSH][k] = push;
+            jet[0][k + 1] = L::select(rests, zero, jet[1][k] * per);
+            jet[1][k + 1] = L::select(rests, zero, force);
             (c, s) = (-(self.omega * s * per), self.omega * c * per);
         }
-        push[ORDER] = c - x[ORDER];
+        jet[PUSH][ORDER] = c - jet[0][ORDER];
     }
 
     /// At rest the drive alone moves, and so sets the pace.
-    fn pace<'a>(&self, jet: &'a DryJet<L>) -> [&'a Series<L>; 2] {
-        [&jet.push, &jet.motion.v]
+    #[inline(always)]
+    fn pace<'a>(&self, jet: &'a Taylor<L, 3>) -> [&'a Series<L>; 2] {
+        [&jet[PUSH], &jet[1]]
     }
 
-    fn step_bound(&self, _mode: &i8, _jet: &DryJet<L>, length: L::Plain, _: f64) -> L::Plain {
-        length
+    #[inline(always)]
+    fn watched(&self, which: usize, slip: &Slip<L>) -> L::Mask {
+        if which == 0 { L::Mask::splat(true) } else { slip.rests() }
     }
 
-    fn watched(&self, which: usize, mode: &i8) -> bool {
-        which == 0 || *mode == 0
-    }
-
-    fn guard(&self, which: usize, mode: &i8, jet: &DryJet<L>, guard: &mut Series<L>) {
-        if *mode != 0 {
-            *guard = jet.motion.v.map(|term| L::splat(f64::from(*mode)) * term);
-            return;
-        }
+    #[inline(always)]
+    fn guard(&self, which: usize, slip: &Slip<L>, jet: &Taylor<L, 3>, guard: &mut Series<L>) {
         let side = L::splat(if which == 0 { -1.0 } else { 1.0 });
-        *guard = jet.push.map(|term| side * term);
-        guard[0] = guard[0] + self.friction;
+        let rests = slip.rests();
+        for (k, term) in guard.iter_mut().enumerate() {
+            *term = L::select(rests, side * jet[PUSH][k], slip.0 * jet[1][k]);
+        }
+        guard[0] = guard[0] + L::select(rests, self.friction, L::splat(0.0));
     }
 
-    fn at(&self, jet: &DryJet<L>, h: L) -> Point<L> {
-        Point { x: series::value(&jet.motion.x, h), v: series::value(&jet.motion.v, h) }
+    #[inline(always)]
+    fn at(&self, jet: &Taylor<L, 3>, h: L) -> [L; 2] {
+        jet.at(h)
     }
 
+    #[inline(always)]
     fn switch(
         &self,
         which: usize,
-        due: bool,
-        mode: &mut i8,
-        state: &mut Point<L>,
+        due: L::Mask,
+        slip: &mut Slip<L>,
+        state: &mut [L; 2],
         zeros: &mut Zeros<L>,
         time: L,
     ) -> L {
-        if !due {
-            return L::splat(0.0);
-        }
-        state.v = L::splat(0.0);
-        if *mode == 0 {
-            // Friction is the same at rest and in motion, so the acceleration starts from zero.
-            (*mode, zeros[0]) = (if which == 0 { 1 } else { -1 }, L::splat(2.0));
-            return L::splat(1.0);
-        }
-        *mode = self.direction(time, state);
-        zeros[0] = L::splat(if *mode == 0 { 0.0 } else { 1.0 });
-        L::splat(2.0)
+        let zero = L::splat(0.0);
+        let (leaves, stops) = (due & slip.rests(), due & !slip.rests());
+        state[1] = L::select(due, zero, state[1]);
+        let next = self.direction(time, state);
+        let away = L::splat(if which == 0 { 1.0 } else { -1.0 });
+        slip.0 = L::select(leaves, away, L::select(stops, next, slip.0));
+        // Friction is the same at rest and in motion, so the acceleration starts from zero.
+        let turned = L::select(slip.rests(), zero, L::splat(1.0));
+        zeros[0] = L::select(leaves, L::splat(2.0), L::select(stops, turned, zeros[0]));
+        L::select(leaves, Turn::Slip.code(), L::select(stops, Turn::Stop.code(), zero))
     }
 
-    fn lost(&self, state: &Point<L>) -> bool {
-        not_finite(state.x + state.v)
+    #[inline(always)]
+    fn lost(&self, [x, v]: &[L; 2]) -> L::Mask {
+        not_finite(*x + *v)
     }
 }
 
-impl Field<2> for DryFriction<f64> {
-    fn coordinates<'a>(&self, jet: &'a DryJet<f64>) -> [&'a Series<f64>; 2] {
-        [&jet.motion.x, &jet.motion.v]
+impl Field for DryFriction<f64> {
+    type Coordinates = [f64; 2];
+
+    fn coordinates(state: &[f64; 2]) -> [f64; 2] {
+        *state
     }
 
-    fn rates(&self, mode: &i8, time: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
-        let friction = f64::from(*mode) * self.friction;
-        let acceleration = libm::cos(self.omega * time) - x - friction;
-        if *mode == 0 { [0.0, 0.0] } else { [v, acceleration] }
+    fn motion(&self, jet: &Taylor<f64, 3>, h: f64) -> ([f64; 2], [f64; 2]) {
+        jet.motion(h)
+    }
+
+    fn rates(&self, slip: &Slip<f64>, time: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
+        let acceleration = libm::cos(self.omega * time) - x - slip.0 * self.friction;
+        if slip.0 == 0.0 { [0.0, 0.0] } else { [v, acceleration] }
     }
 
     fn weights(&self) -> [f64; 2] {
@@ -147,28 +198,59 @@ impl Field<2> for DryFriction<f64> {
     }
 }
 
-impl<L: Lane<Mask = bool>> Stroboscopic<L, 2> for DryFriction<L> {
-    fn point(state: &Point<L>) -> [L; 2] {
-        [state.x, state.v]
+impl<L: Lane> Stroboscopic<L, 2> for DryFriction<L> {
+    #[inline(always)]
+    fn point(state: &[L; 2]) -> [L; 2] {
+        *state
     }
 
-    fn state([x, v]: [L; 2]) -> Point<L> {
-        Point { x, v }
+    #[inline(always)]
+    fn state(point: [L; 2]) -> [L; 2] {
+        point
+    }
+}
+
+impl System<2> for DryFriction<f64> {
+    /// Zero for the frequency, one for the friction.
+    type Parameter = usize;
+    type Event = Turn;
+    type State<L: Lane> = [L; 2];
+    type Mode<L: Lane> = Slip<L>;
+    type Single = DryFriction<f64>;
+    type In<L: Lane> = DryFriction<L>;
+    type Observer = ();
+
+    fn single(&self) -> DryFriction<f64> {
+        *self
+    }
+
+    fn system<L: Lane>(&self, of: impl Fn(usize) -> L) -> DryFriction<L> {
+        DryFriction { omega: of(0), friction: of(1) }
+    }
+
+    fn value(&self, parameter: usize) -> f64 {
+        [self.omega, self.friction][parameter]
+    }
+
+    fn with(&self, parameter: usize, value: f64) -> Self {
+        self.system(|other| if other == parameter { value } else { self.value(other) })
     }
 
     /// A displacement x counts as the velocity w x.
-    fn scales(&self) -> [f64; 2] {
-        [self.omega.lane(0), 1.0]
+    fn metric(&self) -> Metric<2> {
+        Metric { scales: [self.omega, 1.0] }
     }
+
+    fn observer(&self, _points: usize) {}
 }
 
 /// The places at which the mass turns, over `count` cycles from a point of the section, and the end.
 fn turns(omega: f64, friction: f64, from: [f64; 2], count: u64) -> (Vec<f64>, [f64; 2]) {
     let system = DryFriction { omega, friction };
     let mut turns = Vec::new();
-    let end = followed(&system, from, 2.0 * PI / omega, count, |step| {
+    let end = followed(&system, from, count, |step| {
         if step.event == 2.0 {
-            turns.push(system.at(&step.jet, step.length).x);
+            turns.push(system.at(&step.jet, step.length)[0]);
         }
     });
     (turns, end)
@@ -179,10 +261,9 @@ fn den_hartogs_amplitude_is_met_exactly() {
     for (omega, friction) in
         [(0.6, 0.2), (0.8, 0.3), (1.2, 0.5), (1.5, 0.2), (2.0, 0.15), (2.5, 0.1)]
     {
-        let system =
-            DryFriction { omega: Dual::constant(omega), friction: Dual::constant(friction) };
+        let system = DryFriction { omega, friction }.constant::<Dual<f64, 2>>();
         let (_, near) = turns(omega, friction, [1.0 / (1.0 - omega * omega), 0.0], 60);
-        let (point, jacobian) = repeated(&system, near, omega, 1);
+        let (point, jacobian) = repeated(&system, near, 1);
         let (turns, end) = turns(omega, friction, point, 1);
         assert!((end[0] - point[0]).abs().max((end[1] - point[1]).abs()) < 1e-13, "{end:?}");
         let v = 1.0 / (1.0 - omega * omega);

@@ -1,10 +1,14 @@
 //! The linearised return map, jumps included, against differences of the map itself.
 
-use capsulemap::capsule::{Capsule, Parameter, Parameters, PrintedCapsule, State, Stroboscopic};
+use capsulemap::flow::Stroboscopic;
+
+use capsulemap::capsule::{
+    Capsule, Case, Parameter, Parameters, PrintedCapsule, Section, State, settle,
+};
 use capsulemap::lane::Dual;
 use capsulemap::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 use capsulemap::orbit::return_map::{Cycles, jacobian, returned, seeded};
-use capsulemap::orbit::{Case, Outcome, Protocol, Section, settle};
+use capsulemap::orbit::{Outcome, Protocol};
 
 use super::differences::{TOLERANCE, distance, followed, size, slope};
 use super::draws;
@@ -37,12 +41,11 @@ pub fn periodic(count: usize, seed: u64, change: impl Fn(&mut Case)) -> Vec<Peri
 }
 
 /// The Jacobian of the k-cycle map by the linearised flow.
-pub fn linearised<S>(system: &S, parameters: &Parameters, point: &Section, k: u64) -> Matrix<3>
+pub fn linearised<S>(system: &S, point: &Section, k: u64) -> Matrix<3>
 where
     S: Stroboscopic<Dual<f64, 3>, 3>,
 {
-    let drive_period = Dual::constant(parameters.drive_period());
-    let cycles = Cycles { drive_period, count: k, tolerance: TOLERANCE };
+    let cycles = Cycles { count: k, tolerance: TOLERANCE };
     jacobian(&returned(system, seeded(point), &cycles, |_| ()).expect("it goes on"))
 }
 
@@ -50,6 +53,11 @@ where
 pub fn dual_capsule(case: &Case) -> Capsule<Dual<f64, 3>> {
     let p = &case.parameters;
     Capsule::new(|q| Dual::constant(p[q]), p.resistance, case.phase)
+}
+
+/// What the coordinates of the section are multiplied with to be compared.
+pub fn weights(parameters: &Parameters) -> [f64; 3] {
+    [parameters[Parameter::Omega], 1.0, 1.0]
 }
 
 /// A matrix over coordinates that are multiplied with `weights`; its eigenvalues are the same.
@@ -64,11 +72,10 @@ fn largest(a: &Matrix<3>) -> f64 {
 /// The weighted Jacobian by differences and its doubt; the column of y2 stays zero where the capsule rests.
 fn by_differences<S: Stroboscopic<f64, 3>>(
     system: &S,
-    period: f64,
+    weights: [f64; 3],
     point: &Section,
     k: u64,
 ) -> (Matrix<3>, f64) {
-    let weights = system.scales();
     let reach = 1e-3 * size(point, &weights);
     let (mut matrix, mut doubt) = ([[0.0; 3]; 3], 0.0_f64);
     for column in 0..3 {
@@ -78,7 +85,7 @@ fn by_differences<S: Stroboscopic<f64, 3>>(
         let image = |h: f64| {
             let mut from = *point;
             from[column] += h / weights[column];
-            followed(system, from, period, k, |_| ())
+            followed(system, from, k, |_| ())
         };
         let along = slope(image, reach, &weights);
         for row in 0..3 {
@@ -103,11 +110,9 @@ fn multipliers_are_those_of_differences() {
     let (mut agree, mut touched) = (0, 0);
     for Periodic { case, point, period: k } in periodic(100, 9, |_| ()) {
         let system = Capsule::single(&case.parameters, case.phase);
-        let weights = Stroboscopic::<f64, 3>::scales(&system);
-        let drive_period = case.parameters.drive_period();
-        let exact =
-            weighted(&linearised(&dual_capsule(&case), &case.parameters, &point, k), &weights);
-        let (differences, doubt) = by_differences(&system, drive_period, &point, k);
+        let weights = weights(&case.parameters);
+        let exact = weighted(&linearised(&dual_capsule(&case), &point, k), &weights);
+        let (differences, doubt) = by_differences(&system, weights, &point, k);
         let (multipliers, second) = (eigenvalues(&exact), eigenvalues(&differences));
         let error = apart(&multipliers, &second) / multipliers[0].abs();
         if doubt > RESOLVED * largest(&exact) {
@@ -133,8 +138,7 @@ fn a_guard_nearly_touched_shows_in_the_differences() {
         p[Parameter::Pd] = amplitude * libm::hypot(spring, damper);
         let lag = libm::atan2(damper, spring);
         let point = [amplitude * libm::cos(lag), omega * amplitude * libm::sin(lag), 0.0];
-        let (matrix, doubt) =
-            by_differences(&Capsule::single(&p, 0.0), p.drive_period(), &point, 1);
+        let (matrix, doubt) = by_differences(&Capsule::single(&p, 0.0), weights(&p), &point, 1);
         doubt / largest(&matrix)
     };
     assert!(doubt(0.1) < 1e-2 * RESOLVED, "{:e}", doubt(0.1));
@@ -148,13 +152,11 @@ fn a_push_at_rest_is_forgotten_to_second_order() {
         if point[2] != 0.0 {
             continue;
         }
-        let jacobian = linearised(&dual_capsule(&case), &case.parameters, &point, k);
+        let jacobian = linearised(&dual_capsule(&case), &point, k);
         assert!(jacobian.iter().all(|row| row[2] == 0.0), "{case:?}");
         let system = Capsule::single(&case.parameters, case.phase);
-        let weights = Stroboscopic::<f64, 3>::scales(&system);
-        let pushed = |y2: f64| {
-            followed(&system, [point[0], point[1], y2], case.parameters.drive_period(), k, |_| ())
-        };
+        let weights = weights(&case.parameters);
+        let pushed = |y2: f64| followed(&system, [point[0], point[1], y2], k, |_| ());
         let reach = size(&point, &weights);
         let still = pushed(0.0);
         for h in [1e-2, 1e-3, 1e-4, -1e-2, -1e-3, -1e-4].map(|share| share * reach) {
@@ -177,15 +179,14 @@ fn sticking_takes_a_direction_out() {
     for Periodic { case, point, period: k } in periodic(100, 17, |_| ()) {
         let system = Capsule::single(&case.parameters, case.phase);
         let mut sticks = false;
-        followed(&system, point, case.parameters.drive_period(), k, |step| {
+        followed(&system, point, k, |step| {
             sticks |= step.jet.y2.iter().all(|term| *term == 0.0);
         });
         if !sticks {
             continue;
         }
-        let weights = Stroboscopic::<f64, 3>::scales(&system);
-        let jacobian =
-            weighted(&linearised(&dual_capsule(&case), &case.parameters, &point, k), &weights);
+        let weights = weights(&case.parameters);
+        let jacobian = weighted(&linearised(&dual_capsule(&case), &point, k), &weights);
         if point[2] == 0.0 {
             assert_eq!(determinant(jacobian), 0.0, "{case:?}");
             assert_eq!(eigenvalues(&jacobian)[2], Complex::default(), "{case:?}");
@@ -214,15 +215,15 @@ fn the_equation_as_printed_is_linearised_too() {
         let system = PrintedCapsule::single(p, case.phase);
         let carried =
             PrintedCapsule::<Dual<f64, 3>>::new(|q| Dual::constant(p[q]), p.resistance, case.phase);
-        let weights = Stroboscopic::<f64, 3>::scales(&system);
-        let exact = weighted(&linearised(&carried, p, &point, 2), &weights);
-        let (differences, doubt) = by_differences(&system, p.drive_period(), &point, 2);
+        let weights = weights(&case.parameters);
+        let exact = weighted(&linearised(&carried, &point, 2), &weights);
+        let (differences, doubt) = by_differences(&system, weights, &point, 2);
         if doubt > RESOLVED * largest(&exact) {
             continue;
         }
         let mut creeps = false;
-        followed(&system, point, p.drive_period(), 2, |step| {
-            creeps |= format!("{:?}", step.mode).contains("Creeping");
+        followed(&system, point, 2, |step| {
+            creeps |= step.mode.creeps();
         });
         let rows = (0..3).map(|i| distance(&exact[i], &differences[i], &[1.0; 3]));
         let error = rows.fold(0.0, f64::max) / largest(&exact);

@@ -1,7 +1,6 @@
 //! Derivatives of a return map by differences: the second method for everything that is linearised.
 
-use capsulemap::capsule::Stroboscopic;
-use capsulemap::flow::{Motion, Step};
+use capsulemap::flow::{Motion, Step, Stroboscopic};
 use capsulemap::lane::Lane;
 
 /// Tight enough that differences of the map see its slope rather than its rounding.
@@ -15,7 +14,6 @@ const WIDTHS: usize = 11;
 pub fn followed<L, S, const D: usize>(
     system: &S,
     from: [L; D],
-    period: L,
     k: u64,
     mut see: impl FnMut(&Step<L, S>),
 ) -> [L; D]
@@ -25,6 +23,7 @@ where
 {
     let mut motion = Motion::new(system, L::splat(0.0), S::state(from));
     let mut step = Step::default();
+    let period = system.period();
     for _ in 0..k {
         loop {
             motion.step(system, period, TOLERANCE, &mut step);

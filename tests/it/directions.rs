@@ -1,10 +1,9 @@
 //! Derivatives along parameters, and derivatives of derivatives, against differences.
 
-use capsulemap::capsule::{Capsule, Parameter, Stroboscopic};
+use capsulemap::capsule::{Capsule, Parameter, Section};
 use capsulemap::lane::{Dual, Lane};
-use capsulemap::orbit::Section;
 
-use super::derivatives::{Periodic, dual_capsule, linearised, periodic};
+use super::derivatives::{Periodic, dual_capsule, linearised, periodic, weights};
 use super::differences::{distance, followed, size, slope};
 
 /// What acts under the Coulomb-Stribeck law.
@@ -28,9 +27,8 @@ fn image<L: Lane<Mask = bool>>(of: &Periodic, direction: Parameter, value: L) ->
     let p = &of.case.parameters;
     let with = |q: Parameter| if q == direction { value } else { L::splat(p[q]) };
     let system = Capsule::new(with, p.resistance, of.case.phase);
-    let turn = L::splat(2.0 * std::f64::consts::PI);
     let from = of.point.map(L::splat);
-    followed(&system, from, turn / with(Parameter::Omega), of.period, |_| ())
+    followed(&system, from, of.period, |_| ())
 }
 
 /// The derivative along a parameter, of that parameter's relative change, carried and by differences; the
@@ -76,7 +74,7 @@ fn second_derivatives(of: &Periodic) -> [[[f64; 3]; 3]; 3] {
     let system = Capsule::<Twice>::new(|q| Twice::splat(p[q]), p.resistance, of.case.phase);
     let from: [Twice; 3] =
         std::array::from_fn(|i| Dual::variable(Dual::variable(of.point[i], i), i));
-    let end = followed(&system, from, Twice::splat(p.drive_period()), of.period, |_| ());
+    let end = followed(&system, from, of.period, |_| ());
     end.map(|coordinate| coordinate.gradient.map(|derivative| derivative.gradient))
 }
 
@@ -85,7 +83,7 @@ fn second_derivatives_are_differences_of_first_ones() {
     for of in periodic(24, 43, |_| ()) {
         let Periodic { case, point, period } = &of;
         let carried = second_derivatives(&of);
-        let weights = dual_capsule(case).scales();
+        let weights = weights(&case.parameters);
         let reach = 1e-3 * size(point, &weights);
         // Along y2 a capsule at rest has a map with a corner.
         let moving = if point[2] == 0.0 { 2 } else { 3 };
@@ -93,7 +91,7 @@ fn second_derivatives_are_differences_of_first_ones() {
             let jacobian = |h: f64| -> [f64; 9] {
                 let mut moved = *point;
                 moved[j] += h / weights[j];
-                let a = linearised(&dual_capsule(case), &case.parameters, &moved, *period);
+                let a = linearised(&dual_capsule(case), &moved, *period);
                 std::array::from_fn(|e| a[e / 3][e % 3] * weights[e / 3] / weights[e % 3])
             };
             let second: [f64; 9] = std::array::from_fn(|e| {

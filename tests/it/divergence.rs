@@ -46,7 +46,7 @@ fn volume(of: &Periodic) -> Option<Volume> {
     let p = &of.case.parameters;
     let system = Capsule::single(p, of.case.phase);
     let (mut exponent, mut jumps, mut before, mut sticks) = (0.0, 1.0, None, false);
-    followed(&system, of.point, p.drive_period(), of.period, |step| {
+    followed(&system, of.point, of.period, |step| {
         let (y2, acceleration) = (&step.jet.y2, series::derivative(&step.jet.y2));
         sticks |= acceleration.iter().all(|term| *term == 0.0);
         if let Some(before) = before.take() {
@@ -79,7 +79,7 @@ fn volumes_shrink_by_the_divergence() {
         for orbit in sliding(resistance) {
             let Some(volume) = volume(&orbit) else { continue };
             let Periodic { case, point, period } = &orbit;
-            let jacobian = linearised(&dual_capsule(case), &case.parameters, point, *period);
+            let jacobian = linearised(&dual_capsule(case), point, *period);
             let error = determinant(jacobian) / (volume.shrunk * volume.jumps) - 1.0;
             assert!(error.abs() < 1e-10, "{error:e}: {case:?}");
             met += 1;

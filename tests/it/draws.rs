@@ -1,8 +1,8 @@
 //! Cases drawn at random over everything that users vary, and all of them settled side by side.
 
-use capsulemap::capsule::{Parameter, Parameters, Resistance, State};
+use capsulemap::capsule::{Case, Orbit, Parameter, Parameters, Resistance, State, settle_all};
 use capsulemap::lane::Instructions;
-use capsulemap::orbit::{Case, Orbit, Protocol, Queue, settle_side_by_side};
+use capsulemap::orbit::{Machine, Protocol};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
@@ -85,29 +85,8 @@ pub fn cases(count: usize, seed: u64) -> Vec<Case> {
     (0..count).map(|_| draw()).collect()
 }
 
-/// What each case settles to.
+/// What each case settles to, on one thread.
 pub fn settled(cases: &[Case], protocol: &Protocol, instructions: Instructions) -> Vec<Orbit> {
-    let mut list = List { cases, dealt: 0, orbits: vec![None; cases.len()] };
-    for case in settle_side_by_side(instructions, protocol, &mut list) {
-        let (index, orbit) = case.finish(protocol);
-        list.orbits[index] = Some(orbit);
-    }
-    list.orbits.into_iter().map(|orbit| orbit.expect("every case is done")).collect()
-}
-
-struct List<'a> {
-    cases: &'a [Case],
-    dealt: usize,
-    orbits: Vec<Option<Orbit>>,
-}
-
-impl Queue for List<'_> {
-    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
-        if let Some((index, orbit)) = done {
-            self.orbits[index] = Some(orbit);
-        }
-        let index = self.dealt;
-        self.dealt += 1;
-        Some((index, self.cases.get(index)?.clone()))
-    }
+    let machine = Machine { threads: Some(1), instructions: Some(instructions) };
+    settle_all(cases, protocol, machine)
 }

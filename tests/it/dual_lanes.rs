@@ -1,9 +1,9 @@
 //! Numbers with derivatives have the same bits alone and in the lanes of every instruction set.
 
-use capsulemap::capsule::{Capsule, State, Stroboscopic};
-use capsulemap::flow::{Motion, Step};
+use capsulemap::flow::{Motion, Step, Stroboscopic};
+
+use capsulemap::capsule::{Capsule, Case, Section, State};
 use capsulemap::lane::{Dual, Instructions, Lane, Mask, Work};
-use capsulemap::orbit::{Case, Section};
 
 use super::derivatives::dual_capsule;
 use super::draws;

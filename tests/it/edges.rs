@@ -1,9 +1,11 @@
 //! Starts on a guard, tangencies, simultaneous events and degenerate parameters.
 
+use capsulemap::flow::Switched;
+
 use capsulemap::capsule::{
-    Capsule, Contact, EventKind, Locomotion, Parameter, Parameters, State, StickSlip, Switched,
+    Capsule, Contact, Event, EventKind, Locomotion, Output, Parameter, Parameters, State, StickSlip,
 };
-use capsulemap::orbit::{Event, Outcome, Output, Protocol};
+use capsulemap::orbit::{Outcome, Protocol};
 
 use super::forms::{settle, simulate};
 
@@ -148,7 +150,7 @@ fn a_stop_without_stiffness_is_as_none() {
     assert_eq!(hollow.outputs[Output::PeakContactForce], 0.0);
     let speed = hollow.outputs[Output::ProgressionSpeed];
     assert!(speed.abs() < 1e-12, "a stop without force moves nothing: {speed:e}");
-    let work = |orbit: &capsulemap::orbit::Orbit| orbit.outputs[Output::WorkNet];
+    let work = |orbit: &capsulemap::capsule::Orbit| orbit.outputs[Output::WorkNet];
     assert!((work(&hollow) / work(&absent) - 1.0).abs() < 1e-9);
 }
 

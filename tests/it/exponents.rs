@@ -2,112 +2,121 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::capsule::{Capsule, Field, Parameter, State, Stroboscopic, Switched, Zeros};
+use capsulemap::capsule::{
+    Capsule, CapsuleSystem, Case, Filippov, Output, Parameter, Section, State, settle,
+};
+use capsulemap::flow::{Field, Metric, NoEvent, Stroboscopic, Switched, System, Taylor, Zeros};
 use capsulemap::lane::{
-    Dual, Instructions, Lane, Mask, ORDER, Series, elementary::sin_cos, series,
+    Dual, Instructions, Lane, Mask, ORDER, Series, SideBySide, elementary::sin_cos, series,
 };
 use capsulemap::orbit::exponent::stretching;
 use capsulemap::orbit::return_map::Cycles;
-use capsulemap::orbit::wandering::{Wanders, irregularity, wander_side_by_side};
-use capsulemap::orbit::{Case, Outcome, Output, Protocol, Section, Trajectory, settle};
+use capsulemap::orbit::wandering::{irregularity, wander_side_by_side};
+use capsulemap::orbit::{Outcome, Protocol, Trajectory};
 
 use super::draws;
 
 /// Duffing's oscillator with two wells, x'' = 0.3 cos t + x - x^3 - 0.2 x'; it has no modes and no guards.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Duffing;
 
-/// Its place and velocity.
-#[derive(Clone, Copy)]
-pub struct Point<L> {
-    x: L,
-    v: L,
-}
-
-/// Their series over a step.
-pub struct Jet<L> {
-    x: Series<L>,
-    v: Series<L>,
-    square: Series<L>,
-}
-
-impl<L: Lane> Default for Jet<L> {
-    fn default() -> Self {
-        Jet { x: series::zero(), v: series::zero(), square: series::zero() }
+impl SideBySide for Duffing {
+    type One = Duffing;
+    fn splat(_one: &Duffing) -> Self {
+        Duffing
     }
+    fn lane(&self, _index: usize) -> Duffing {
+        Duffing
+    }
+    fn put(&mut self, _index: usize, _one: &Duffing) {}
 }
 
 impl<L: Lane> Switched<L> for Duffing {
-    type State = Point<L>;
+    /// Place and velocity.
+    type State = [L; 2];
     type Mode = ();
-    type Jet = Jet<L>;
+    /// Those and the square of the place.
+    type Jet = Taylor<L, 3>;
+    type Event = NoEvent;
     const GUARDS: usize = 0;
 
-    fn start(&self, _time: L, _state: &mut Point<L>) {}
+    #[inline(always)]
+    fn period(&self) -> L {
+        L::splat(2.0 * PI)
+    }
 
-    fn expand(&self, _mode: &(), time: L, state: &Point<L>, jet: &mut Jet<L>) {
+    #[inline(always)]
+    fn start(&self, _time: L, _state: &mut [L; 2]) {}
+
+    #[inline(always)]
+    fn expand(&self, _mode: &(), time: L, state: &[L; 2], jet: &mut Taylor<L, 3>) {
         let (mut s, mut c) = sin_cos(time);
-        (jet.x[0], jet.v[0]) = (state.x, state.v);
+        jet.begin(state);
         for k in 0..ORDER {
             let per = L::splat(series::INVERSE[k + 1]);
-            jet.square[k] = series::product_term(&jet.x, &jet.x, k);
-            let cube = series::product_term(&jet.square, &jet.x, k);
-            let force = L::splat(0.3) * c + jet.x[k] - cube - L::splat(0.2) * jet.v[k];
-            jet.x[k + 1] = jet.v[k] * per;
-            jet.v[k + 1] = force * per;
+            jet[2][k] = series::product_term(&jet[0], &jet[0], k);
+            let cube = series::product_term(&jet[2], &jet[0], k);
+            let force = L::splat(0.3) * c + jet[0][k] - cube - L::splat(0.2) * jet[1][k];
+            jet[0][k + 1] = jet[1][k] * per;
+            jet[1][k + 1] = force * per;
             (c, s) = (-(s * per), c * per);
         }
     }
 
-    fn pace<'a>(&self, jet: &'a Jet<L>) -> [&'a Series<L>; 2] {
-        [&jet.x, &jet.v]
+    #[inline(always)]
+    fn pace<'a>(&self, jet: &'a Taylor<L, 3>) -> [&'a Series<L>; 2] {
+        [&jet[0], &jet[1]]
     }
 
-    fn step_bound(&self, _mode: &(), _jet: &Jet<L>, length: L::Plain, _: f64) -> L::Plain {
-        length
-    }
-
+    #[inline(always)]
     fn watched(&self, _which: usize, _mode: &()) -> L::Mask {
         L::Mask::splat(false)
     }
 
-    fn guard(&self, _which: usize, _mode: &(), _jet: &Jet<L>, _guard: &mut Series<L>) {}
+    fn guard(&self, _which: usize, _mode: &(), _jet: &Taylor<L, 3>, _guard: &mut Series<L>) {}
 
-    fn at(&self, jet: &Jet<L>, h: L) -> Point<L> {
-        Point { x: series::value(&jet.x, h), v: series::value(&jet.v, h) }
+    #[inline(always)]
+    fn at(&self, jet: &Taylor<L, 3>, h: L) -> [L; 2] {
+        jet.at(h)
     }
 
+    #[inline(always)]
     fn switch(
         &self,
         _which: usize,
         _due: L::Mask,
         _mode: &mut (),
-        _state: &mut Point<L>,
+        _state: &mut [L; 2],
         _zeros: &mut Zeros<L>,
         _time: L,
     ) -> L {
         L::splat(0.0)
     }
 
-    fn lost(&self, state: &Point<L>) -> L::Mask {
-        !(state.x + state.v).abs().le(L::splat(f64::MAX))
+    #[inline(always)]
+    fn lost(&self, [x, v]: &[L; 2]) -> L::Mask {
+        !(*x + *v).abs().le(L::splat(f64::MAX))
     }
 }
 
 impl<L: Lane> Stroboscopic<L, 2> for Duffing {
-    fn point(state: &Point<L>) -> [L; 2] {
-        [state.x, state.v]
+    fn point(state: &[L; 2]) -> [L; 2] {
+        *state
     }
-    fn state([x, v]: [L; 2]) -> Point<L> {
-        Point { x, v }
-    }
-    fn scales(&self) -> [f64; 2] {
-        [1.0, 1.0]
+    fn state(point: [L; 2]) -> [L; 2] {
+        point
     }
 }
 
-impl Field<2> for Duffing {
-    fn coordinates<'a>(&self, jet: &'a Jet<f64>) -> [&'a Series<f64>; 2] {
-        [&jet.x, &jet.v]
+impl Field for Duffing {
+    type Coordinates = [f64; 2];
+
+    fn coordinates(state: &[f64; 2]) -> [f64; 2] {
+        *state
+    }
+
+    fn motion(&self, jet: &Taylor<f64, 3>, h: f64) -> ([f64; 2], [f64; 2]) {
+        jet.motion(h)
     }
 
     fn rates(&self, _mode: &(), time: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
@@ -119,12 +128,46 @@ impl Field<2> for Duffing {
     }
 }
 
+impl System<2> for Duffing {
+    /// It has none.
+    type Parameter = ();
+    type Event = NoEvent;
+    type State<L: Lane> = [L; 2];
+    type Mode<L: Lane> = ();
+    type Single = Duffing;
+    type In<L: Lane> = Duffing;
+    type Observer = ();
+
+    fn single(&self) -> Duffing {
+        Duffing
+    }
+
+    fn system<L: Lane>(&self, _of: impl Fn(()) -> L) -> Duffing {
+        Duffing
+    }
+
+    fn value(&self, _parameter: ()) -> f64 {
+        f64::NAN
+    }
+
+    fn with(&self, _parameter: (), _value: f64) -> Self {
+        Duffing
+    }
+
+    fn metric(&self) -> Metric<2> {
+        Metric { scales: [1.0, 1.0] }
+    }
+
+    fn observer(&self, _points: usize) {}
+}
+
 #[test]
 fn the_duffing_oscillator_has_its_published_exponents() {
-    let cycles =
-        Cycles::<2> { drive_period: Dual::splat(2.0 * PI), count: 60_000, tolerance: 1e-10 };
-    let stretching = stretching(&Duffing, &[0.1, 0.1], &cycles).expect("it goes on");
-    let [first, second] = stretching.exponents(2.0 * PI);
+    let cycles = Cycles { count: 60_000, tolerance: 1e-10 };
+    let (stretching, period) =
+        stretching::<_, 2, 2>(&Duffing, Duffing.metric(), &[0.1, 0.1], &cycles)
+            .expect("it goes on");
+    let [first, second] = stretching.exponents(period);
     assert!((first.value - 0.159).abs() < 0.001, "{first:?}");
     assert!(first.uncertainty < 0.001, "{first:?}");
     // The field's divergence is -0.2 everywhere.
@@ -143,15 +186,15 @@ fn an_orbit_stretches_as_its_largest_multiplier_says() {
             continue;
         }
         let p = &case.parameters;
-        let system =
-            Capsule::<Dual<f64, 1>>::new(|q| Dual::constant(p[q]), p.resistance, case.phase);
+        let capsule = case.read::<Filippov>().system;
+        let system = capsule.constant::<Dual<f64, 1>>();
         let State { r, y1, y2, .. } = orbit.end;
         let count = 3200 * orbit.period;
-        let cycles =
-            Cycles { drive_period: Dual::constant(p.drive_period()), count, tolerance: 1e-12 };
-        let [exponent] = stretching::<_, 3, 1>(&system, &[r, y1, y2], &cycles)
-            .expect("it goes on")
-            .exponents(p.drive_period());
+        let cycles = Cycles { count, tolerance: 1e-12 };
+        let metric = capsule.metric();
+        let (stretching, period) =
+            stretching::<_, 3, 1>(&system, metric, &[r, y1, y2], &cycles).expect("it goes on");
+        let [exponent] = stretching.exponents(period);
         let told = orbit.outputs[Output::LyapunovExponent];
         assert!(told < 0.0, "{told}");
         let scale = 1.0 / p.drive_period();
@@ -186,17 +229,10 @@ fn chaotic(count: usize) -> Vec<(Case, Section)> {
 #[test]
 fn neighbouring_trajectories_part_at_the_rate_of_the_exponent() {
     let cases = chaotic(6);
-    let systems: Vec<_> =
-        cases.iter().map(|(case, _)| Capsule::single(&case.parameters, case.phase)).collect();
-    let capsules: Vec<_> = cases
-        .iter()
-        .zip(&systems)
-        .map(|((case, start), system)| Wanders {
-            system,
-            start: *start,
-            parameters: &case.parameters,
-        })
-        .collect();
+    let systems: Vec<CapsuleSystem<Filippov>> =
+        cases.iter().map(|(case, _)| case.read().system).collect();
+    let capsules: Vec<_> =
+        cases.iter().zip(&systems).map(|((_, start), system)| (system, *start)).collect();
     let protocol = Protocol::default();
     let followed = wander_side_by_side(Instructions::widest(), &capsules, &protocol);
     for ((case, start), followed) in cases.iter().zip(followed) {
@@ -223,8 +259,8 @@ fn parting(case: &Case, start: Section, cycles: usize) -> (f64, f64) {
     let apart = 1e-8;
     let mut neighbour = start;
     neighbour[1] += apart;
-    let mut first = Trajectory::new(&system, state(start), period, 1e-13);
-    let mut second = Trajectory::new(&system, state(neighbour), period, 1e-13);
+    let mut first = Trajectory::new(&system, state(start), 1e-13);
+    let mut second = Trajectory::new(&system, state(neighbour), 1e-13);
     let mut logs = Vec::new();
     for _ in 0..cycles {
         first.cycle(|_| ()).expect("it goes on");
@@ -265,24 +301,19 @@ fn smooth_means_tell_a_rotation_from_chaos() {
             [x, 0.0, 0.0]
         })
         .collect();
-    let scales = [1.0; 3];
-    assert!(irregularity(&rotation, &scales, 1.0) < 1e-9);
-    assert!(irregularity(&logistic, &scales, 1.0) > 1e-3);
+    let metric = Metric { scales: [1.0; 3] };
+    assert!(irregularity(&rotation, &metric, 1.0) < 1e-9);
+    assert!(irregularity(&logistic, &metric, 1.0) > 1e-3);
 }
 
 #[test]
 fn a_stretch_has_the_same_bits_by_any_instructions() {
     let cases = draws::cases(20, 13);
-    let systems: Vec<_> =
-        cases.iter().map(|case| Capsule::single(&case.parameters, case.phase)).collect();
-    let capsules: Vec<_> = cases
-        .iter()
-        .zip(&systems)
-        .map(|(case, system)| {
-            let State { r, y1, y2, .. } = case.start;
-            Wanders { system, start: [r, y1, y2], parameters: &case.parameters }
-        })
-        .collect();
+    let systems: Vec<CapsuleSystem<Filippov>> =
+        cases.iter().map(|case| case.read().system).collect();
+    let start = |case: &Case| [case.start.r, case.start.y1, case.start.y2];
+    let capsules: Vec<_> =
+        cases.iter().zip(&systems).map(|(case, system)| (system, start(case))).collect();
     let protocol = Protocol { exponent_cycles: 200, ..Protocol::default() };
     let alone = wander_side_by_side(Instructions::Scalar, &capsules, &protocol);
     for instructions in Instructions::available() {

@@ -1,12 +1,17 @@
 //! The integrator's two forms at once: what a test follows alone is followed among others in lanes too, to
 //! the same bits.
 
-use capsulemap::capsule::{Capsule, EventKind, Parameters, State, Switching};
-use capsulemap::flow::{Motion, Step};
-use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
-use capsulemap::orbit::{self, Case, Orbit, Protocol, Queue, Simulation, settle_side_by_side};
+use std::marker::PhantomData;
 
-/// [`orbit::simulate`], compared with the same case in the last lane of a vector of others.
+use capsulemap::capsule::{
+    self, AsPrinted, CapsuleSystem, Case, EventKind, Filippov, Orbit, Parameters, Reading,
+    Simulation, State, Switching,
+};
+use capsulemap::flow::{Event, Motion, Step, Switched};
+use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
+use capsulemap::orbit::{OrbitOf, Protocol, Queue, settle_side_by_side};
+
+/// [`capsule::simulate`], compared with the same case in the last lane of a vector of others.
 pub fn simulate(
     parameters: &Parameters,
     phase: f64,
@@ -26,40 +31,50 @@ pub fn simulate_by(
     cycles: u64,
     tolerance: f64,
 ) -> Simulation {
-    let alone = orbit::simulate(parameters, phase, start, cycles, tolerance);
-    if parameters.switching == Switching::AsPrinted {
-        return alone;
-    }
+    let alone = capsule::simulate(parameters, phase, start, cycles, tolerance);
     let case = Case { parameters: parameters.clone(), start, phase };
     let bits = |state: [f64; 4]| state.map(f64::to_bits);
     let states: Vec<_> = alone.section.iter().map(|s| bits([s.r, s.y1, s.x2, s.y2])).collect();
     let events: Vec<_> = alone.events.iter().map(|event| (event.t.to_bits(), event.kind)).collect();
     let expected = (states, events);
     for instructions in instructions {
-        let others = instructions.run(Among { case: &case, cycles, tolerance });
+        let others = match parameters.switching {
+            Switching::Filippov => {
+                among_others::<Filippov>(*instructions, &case, cycles, tolerance)
+            }
+            Switching::AsPrinted => {
+                among_others::<AsPrinted>(*instructions, &case, cycles, tolerance)
+            }
+        };
         assert!(others == expected, "{} lanes, another motion: {case:?}", instructions.name());
     }
     alone
 }
 
-/// [`orbit::settle`], compared with the same case side by side with others.
+/// [`capsule::settle`], compared with the same case side by side with others.
 pub fn settle(
     parameters: &Parameters,
     phase: f64,
     start: State<f64>,
     protocol: &Protocol,
 ) -> Orbit {
-    let alone = orbit::settle(parameters, phase, start, protocol);
-    if parameters.switching == Switching::AsPrinted {
-        return alone;
-    }
+    let alone = capsule::settle(parameters, phase, start, protocol);
     let case = Case { parameters: parameters.clone(), start, phase };
-    let mut queue = Crowd { case: &case, dealt: 0, orbit: None };
-    settle_side_by_side(Instructions::widest(), protocol, &mut queue);
-    let among = queue.orbit.expect("the case has been in the lanes to its end");
+    let among = match parameters.switching {
+        Switching::Filippov => among::<Filippov>(&case, protocol),
+        Switching::AsPrinted => among::<AsPrinted>(&case, protocol),
+    };
     // Text, because a number that is not known does not equal itself.
     assert_eq!(format!("{alone:?}"), format!("{among:?}"), "in lanes another orbit: {case:?}");
     alone
+}
+
+/// What a case settles to among others.
+fn among<R: Reading>(case: &Case, protocol: &Protocol) -> Orbit {
+    let mut queue = Crowd::<R> { case, dealt: 0, orbit: None };
+    settle_side_by_side::<CapsuleSystem<R>, 3>(Instructions::widest(), protocol, &mut queue);
+    let orbit = queue.orbit.expect("the case has been in the lanes to its end");
+    Orbit::of::<R>(orbit, case, protocol)
 }
 
 /// Another case, under the same law of resistance.
@@ -70,37 +85,50 @@ fn neighbour(case: &Case, number: usize) -> Case {
 }
 
 /// Deals one case and then others until it is done.
-struct Crowd<'a> {
+struct Crowd<'a, R: Reading> {
     case: &'a Case,
     dealt: usize,
-    orbit: Option<Orbit>,
+    orbit: Option<OrbitOf<CapsuleSystem<R>, 3>>,
 }
 
-impl Queue for Crowd<'_> {
-    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
+impl<R: Reading> Queue<CapsuleSystem<R>, 3> for Crowd<'_, R> {
+    fn next(
+        &mut self,
+        done: Option<(usize, OrbitOf<CapsuleSystem<R>, 3>)>,
+    ) -> Option<(usize, capsulemap::orbit::Case<CapsuleSystem<R>, 3>)> {
         if let Some((0, orbit)) = done {
             self.orbit = Some(orbit);
         }
         let number = self.dealt;
         self.dealt += 1;
         match number {
-            0 => Some((0, self.case.clone())),
-            _ if self.orbit.is_none() => Some((number, neighbour(self.case, number))),
+            0 => Some((0, self.case.read())),
+            _ if self.orbit.is_none() => Some((number, neighbour(self.case, number).read())),
             _ => None,
         }
     }
 }
 
+fn among_others<R: Reading>(
+    instructions: Instructions,
+    case: &Case,
+    cycles: u64,
+    tolerance: f64,
+) -> Course {
+    instructions.run(Among::<R> { case, cycles, tolerance, reading: PhantomData })
+}
+
 /// A case in the last lane, with others before it.
-struct Among<'a> {
+struct Among<'a, R> {
     case: &'a Case,
     cycles: u64,
     tolerance: f64,
+    reading: PhantomData<R>,
 }
 
 type Course = (Vec<[u64; 4]>, Vec<(u64, EventKind)>);
 
-impl Work for Among<'_> {
+impl<R: Reading> Work for Among<'_, R> {
     /// States at the section and events, until the case is done or cannot go on.
     type Output = Course;
 
@@ -109,15 +137,15 @@ impl Work for Among<'_> {
         let last = L::WIDTH - 1;
         let cases: Vec<Case> =
             (0..last).map(|lane| neighbour(self.case, lane)).chain([self.case.clone()]).collect();
-        let own = Capsule::single(&self.case.parameters, self.case.phase);
-        let mut system = Capsule::<L>::splat(&own);
-        let mut motion = Motion::<L, Capsule<L>>::splat(&Motion::new(&own, 0.0, self.case.start));
+        let own = R::single(&self.case.parameters, self.case.phase);
+        let mut system = R::In::<L>::splat(&own);
+        let mut motion = Motion::<L, R::In<L>>::splat(&Motion::new(&own, 0.0, self.case.start));
         for (lane, case) in cases.iter().enumerate() {
-            let one = Capsule::single(&case.parameters, case.phase);
+            let one = R::single(&case.parameters, case.phase);
             system.put(lane, &one);
             motion.put(lane, &Motion::new(&one, 0.0, case.start));
         }
-        let periods = L::from_fn(|lane| cases[lane].parameters.drive_period());
+        let periods = system.period();
         let period = periods.lane(last);
         let section = |state: State<f64>| [state.r, state.y1, state.x2, state.y2].map(f64::to_bits);
         let mut states = vec![section(motion.state.lane(last))];

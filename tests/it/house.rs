@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The floors from the ground up; a floor uses only those before it.
 const FLOORS: [&str; 10] =
-    ["lane", "capsule", "flow", "orbit", "branch", "study", "run", "store", "figure", "cli"];
+    ["lane", "flow", "orbit", "branch", "capsule", "study", "run", "store", "figure", "cli"];
 
 /// Crates that one floor alone may use.
 const RESERVED: [(&str, &[&str]); 5] = [

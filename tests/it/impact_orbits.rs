@@ -2,6 +2,9 @@
 
 use std::f64::consts::PI;
 
+use capsulemap::flow::System;
+use capsulemap::lane::Dual;
+
 use super::oscillators::{Impact, mapped, repeated};
 
 /// An orbit of one impact per n drive periods of x'' + c x' + x = cos(wt) with a stop at x = 0.
@@ -106,8 +109,8 @@ fn one_impact_orbits_and_their_multipliers_are_in_closed_form() {
 /// Follows an orbit from its section through n periods, with derivatives.
 fn check(orbit: &OneImpact) {
     let point = orbit.section();
-    let system = orbit.oscillator.carried::<2>();
-    let (image, [[a, b], [c, d]]) = mapped(&system, point, orbit.oscillator.omega, orbit.n);
+    let system = orbit.oscillator.constant::<Dual<f64, 2>>();
+    let (image, [[a, b], [c, d]]) = mapped(&system, point, orbit.n);
     let scale = orbit.speed.max(1e-3);
     let miss = (image[0] - point[0]).abs().max((image[1] - point[1]).abs()) / scale;
     let about = format!("n {} {:?}", orbit.n, orbit.oscillator);
@@ -158,7 +161,7 @@ impl Bounce {
     fn above_flip(drive: f64, r: f64) -> (f64, f64) {
         let Bounce { system, point } = Bounce::new(drive, r);
         let guess = [point[0] * (1.0 + 1e-3), point[1] * (1.0 - 1e-3)];
-        let (found, [[a, b], [c, d]]) = repeated(&system.carried::<2>(), guess, 1.0, 1);
+        let (found, [[a, b], [c, d]]) = repeated(&system.constant::<Dual<f64, 2>>(), guess, 1);
         let miss = (found[0] - point[0]).abs().max((found[1] - point[1]).abs());
         let product = a * d - b * c;
         assert!((product - r * r).abs() < 1e-12, "r {r}: {product}");

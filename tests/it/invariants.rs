@@ -1,10 +1,11 @@
 //! What must hold for every motion, over random parameters and starts.
 
 use capsulemap::capsule::{
-    Capsule, Contact, Locomotion, Parameter, Parameters, State, StickSlip, Switching,
+    Account, Capsule, Contact, Locomotion, Parameter, Parameters, State, StickSlip, Switching,
 };
+use capsulemap::flow::Observer;
 use capsulemap::lane::series;
-use capsulemap::orbit::{Account, Outcome, Protocol, Trajectory};
+use capsulemap::orbit::{Outcome, Protocol, Trajectory};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -62,15 +63,15 @@ proptest! {
     #[test]
     fn energy_and_momentum_balance(p in parameters(), start in start()) {
         let system = Capsule::single(&p, 0.0);
-        let mut trajectory = Trajectory::new(&system, start, p.drive_period(), 1e-12);
-        let mut account = Account::new(&p);
+        let mut trajectory = Trajectory::new(&system, start, 1e-12);
+        let mut account = Account::new(&p, 0);
         let mut largest = stored_energy(&p, &start);
         let momentum = |state: &State<f64>| p[Parameter::M1] * state.y1 + p[Parameter::M2] * state.y2;
         // Each step may be off by some tolerances of the momentum and the energy that it begins with.
         let (mut allowed, mut allowed_energy) = (0.0, 0.0);
         for _ in 0..20 {
             trajectory.cycle(|step| {
-                account.add(&system, step);
+                account.see(&system, step);
                 allowed += 1e-11 * momentum(&step.jet.state(0.0)).abs();
                 allowed_energy += 1e-12 * stored_energy(&p, &step.jet.state(0.0));
             }).expect("it can be followed");
@@ -98,7 +99,7 @@ proptest! {
     #[test]
     fn no_guard_has_the_wrong_sign_between_events(p in parameters(), start in start()) {
         let system = Capsule::single(&p, 0.0);
-        let mut trajectory = Trajectory::new(&system, start, p.drive_period(), 1e-12);
+        let mut trajectory = Trajectory::new(&system, start, 1e-12);
         let limit = p[Parameter::MuS].max(2.0 * p[Parameter::MuD]) * p.normal_load();
         for _ in 0..20 {
             let mut wrong = None;
@@ -133,7 +134,7 @@ proptest! {
         for (a, b) in here.section.iter().zip(&there.section) {
             // Each of the up to some ten thousand steps rounds x2 once, by 1e-16 of it at most.
             prop_assert!((b.x2 - a.x2 - shift).abs() <= 1e-12 * (1.0 + a.x2.abs()));
-            let back = capsulemap::orbit::Sample { x2: a.x2, ..*b };
+            let back = capsulemap::capsule::Sample { x2: a.x2, ..*b };
             prop_assert_eq!(*a, back);
         }
     }
@@ -160,7 +161,7 @@ proptest! {
         let late = Capsule::single(&p, share * turn + turn);
         let follow = |system: &Capsule<f64>, tolerance: f64| {
             let mut trajectory =
-                Trajectory::new(system, State::default(), p.drive_period(), tolerance);
+                Trajectory::new(system, State::default(), tolerance);
             trajectory.cycle(|_| ()).expect("it can be followed");
             trajectory.state()
         };

@@ -3,8 +3,8 @@
 use std::fs;
 
 use capsulemap::branch::{End, SpecialKind};
-use capsulemap::capsule::{Parameter, State};
-use capsulemap::orbit::{Outcome, Protocol, settle};
+use capsulemap::capsule::{Parameter, State, settle};
+use capsulemap::orbit::{Outcome, Protocol};
 use capsulemap::store::{self, Dataset};
 use capsulemap::study::Study;
 
@@ -131,7 +131,7 @@ fn the_hysteresis_has_an_unstable_branch_between_its_folds() {
             let [r, y1, y2] = section;
             let start = State { r, y1: y1 + push, x2: 0.0, y2 };
             let orbit = settle(&parameters, 0.0, start, &Protocol::default());
-            orbit.outputs[capsulemap::orbit::Output::ProgressionSpeed].abs() > 0.05
+            orbit.outputs[capsulemap::capsule::Output::ProgressionSpeed].abs() > 0.05
         });
         assert_ne!(reached[0], reached[1], "{}", omega[i]);
     }

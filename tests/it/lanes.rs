@@ -1,9 +1,9 @@
 //! The same source serves one case or many side by side, to the same bits.
 
-use capsulemap::capsule::{Capsule, Parameter, Parameters, State};
+use capsulemap::capsule::{Capsule, Case, Orbit, Parameter, Parameters, State, settle};
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
-use capsulemap::orbit::{Case, Orbit, Outcome, Protocol, settle};
+use capsulemap::orbit::{Outcome, Protocol};
 
 use super::draws;
 

@@ -1,12 +1,14 @@
 //! Families of periodic orbits: without friction of sliding every orbit has neighbours that move faster and
 //! slower.
 
-use capsulemap::branch::{NotFollowed, follow};
-use capsulemap::capsule::{Capsule, Parameter, Parameters, State};
+use capsulemap::branch::NotFollowed;
+use capsulemap::capsule::branch::follow;
+use capsulemap::capsule::{Case, Filippov, Orbit, Output, Parameter, Parameters, State};
+use capsulemap::flow::System;
 use capsulemap::lane::Dual;
 use capsulemap::orbit::neutral::close_neutral;
 use capsulemap::orbit::return_map::Cycles;
-use capsulemap::orbit::{Case, Orbit, Outcome, Output, Proof, Protocol};
+use capsulemap::orbit::{Outcome, Proof, Protocol};
 
 use super::branch::request;
 use super::draws;
@@ -90,12 +92,11 @@ fn an_orbit_that_attracts_belongs_to_no_family() {
         if orbit.certificate.proof != Proof::Newton {
             continue;
         }
-        let of = |parameter| Dual::<f64, 3>::constant(p[parameter]);
-        let system = Capsule::new(of, p.resistance, *phase);
-        let drive_period = Dual::constant(p.drive_period());
-        let cycles = Cycles { drive_period, count: orbit.period, tolerance: 1e-12 };
+        let capsule = case.read::<Filippov>().system;
+        let (system, metric) = (capsule.constant::<Dual<f64, 3>>(), capsule.metric());
+        let cycles = Cycles { count: orbit.period, tolerance: 1e-12 };
         let size = orbit.section[0].iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-        let family = close_neutral(&system, &orbit.section[0], &cycles, (size, 1e-10));
+        let family = close_neutral(&system, &metric, &orbit.section[0], &cycles, (size, 1e-10));
         assert_eq!(family, Ok(None), "{case:?}");
     }
 }

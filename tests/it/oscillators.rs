@@ -2,15 +2,16 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::capsule::{Field, Stroboscopic, Switched, Zeros};
-use capsulemap::flow::{Breakdown, Motion, Step};
+use capsulemap::flow::{
+    Breakdown, Event, Field, Metric, Motion, Step, Stroboscopic, Switched, System, Taylor, Zeros,
+};
 use capsulemap::lane::elementary::{not_finite, sin_cos};
-use capsulemap::lane::{Dual, Lane, ORDER, Series, series};
+use capsulemap::lane::{Dual, Lane, Mask, ORDER, Series, side_by_side};
 use capsulemap::orbit::matrix::{Matrix, solve};
 use capsulemap::orbit::return_map::{Cycles, jacobian, returned, seeded, values};
 
 /// A mass on a spring, thrown back by a rigid stop: x'' + c x' + k x = p cos(wt) + g, x' -> -e x' at x = s.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact<L> {
     /// Stiffness k.
     pub k: L,
@@ -28,125 +29,124 @@ pub struct Impact<L> {
     pub restitution: L,
 }
 
-impl Impact<f64> {
-    /// The same over numbers with derivatives, none of its constants being a direction.
-    pub fn carried<const N: usize>(&self) -> Impact<Dual<f64, N>> {
-        Impact {
-            k: Dual::constant(self.k),
-            c: Dual::constant(self.c),
-            drive: Dual::constant(self.drive),
-            omega: Dual::constant(self.omega),
-            gravity: Dual::constant(self.gravity),
-            stop: Dual::constant(self.stop),
-            restitution: Dual::constant(self.restitution),
-        }
+side_by_side!(Impact { k, c, drive, omega, gravity, stop, restitution });
+
+/// The mass meets the stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Bounce {
+    /// It is thrown back.
+    Impact = 1,
+}
+
+impl Event for Bounce {
+    const ALL: &'static [Bounce] = &[Bounce::Impact];
+    fn number(self) -> u8 {
+        self as u8
+    }
+    fn is_impact(self) -> bool {
+        true
     }
 }
 
-/// Place and velocity of a mass point.
-#[derive(Clone, Copy, Debug)]
-pub struct Point<L> {
-    /// Place.
-    pub x: L,
-    /// Velocity.
-    pub v: L,
-}
-
-/// Their series over a step.
-pub struct PointJet<L> {
-    /// Place.
-    pub x: Series<L>,
-    /// Velocity.
-    pub v: Series<L>,
-}
-
-impl<L: Lane> Default for PointJet<L> {
-    fn default() -> Self {
-        PointJet { x: series::zero(), v: series::zero() }
-    }
-}
-
-impl<L: Lane<Mask = bool>> Switched<L> for Impact<L> {
-    type State = Point<L>;
+impl<L: Lane> Switched<L> for Impact<L> {
+    /// Place and velocity.
+    type State = [L; 2];
     type Mode = ();
-    type Jet = PointJet<L>;
+    type Jet = Taylor<L, 2>;
+    type Event = Bounce;
     const GUARDS: usize = 1;
 
-    fn start(&self, _time: L, _state: &mut Point<L>) {}
+    #[inline(always)]
+    fn period(&self) -> L {
+        L::splat(2.0 * PI) / self.omega
+    }
 
-    fn expand(&self, _mode: &(), time: L, state: &Point<L>, jet: &mut PointJet<L>) {
+    #[inline(always)]
+    fn start(&self, _time: L, _state: &mut [L; 2]) {}
+
+    #[inline(always)]
+    fn expand(&self, _mode: &(), time: L, state: &[L; 2], jet: &mut Taylor<L, 2>) {
         let (mut s, mut c) = sin_cos(self.omega * time);
-        (jet.x[0], jet.v[0]) = (state.x, state.v);
+        jet.begin(state);
         for k in 0..ORDER {
             let per = L::splat(1.0 / (k + 1) as f64);
             let weight = if k == 0 { self.gravity } else { L::splat(0.0) };
-            let push = self.drive * c + weight - self.k * jet.x[k] - self.c * jet.v[k];
-            jet.x[k + 1] = jet.v[k] * per;
-            jet.v[k + 1] = push * per;
+            let push = self.drive * c + weight - self.k * jet[0][k] - self.c * jet[1][k];
+            jet[0][k + 1] = jet[1][k] * per;
+            jet[1][k + 1] = push * per;
             (c, s) = (-(self.omega * s * per), self.omega * c * per);
         }
     }
 
-    fn pace<'a>(&self, jet: &'a PointJet<L>) -> [&'a Series<L>; 2] {
-        [&jet.x, &jet.v]
+    #[inline(always)]
+    fn pace<'a>(&self, jet: &'a Taylor<L, 2>) -> [&'a Series<L>; 2] {
+        [&jet[0], &jet[1]]
     }
 
-    fn step_bound(&self, _mode: &(), _jet: &PointJet<L>, length: L::Plain, _: f64) -> L::Plain {
-        length
+    #[inline(always)]
+    fn watched(&self, _which: usize, _mode: &()) -> L::Mask {
+        L::Mask::splat(true)
     }
 
-    fn watched(&self, _which: usize, _mode: &()) -> bool {
-        true
+    #[inline(always)]
+    fn guard(&self, _which: usize, _mode: &(), jet: &Taylor<L, 2>, gap: &mut Series<L>) {
+        *gap = jet[0].map(|a| -a);
+        gap[0] = self.stop - jet[0][0];
     }
 
-    fn guard(&self, _which: usize, _mode: &(), jet: &PointJet<L>, gap: &mut Series<L>) {
-        *gap = jet.x.map(|a| -a);
-        gap[0] = self.stop - jet.x[0];
+    #[inline(always)]
+    fn at(&self, jet: &Taylor<L, 2>, h: L) -> [L; 2] {
+        jet.at(h)
     }
 
-    fn at(&self, jet: &PointJet<L>, h: L) -> Point<L> {
-        Point { x: series::value(&jet.x, h), v: series::value(&jet.v, h) }
-    }
-
+    #[inline(always)]
     fn switch(
         &self,
         _which: usize,
-        due: bool,
+        due: L::Mask,
         _mode: &mut (),
-        state: &mut Point<L>,
+        [x, v]: &mut [L; 2],
         zeros: &mut Zeros<L>,
         _time: L,
     ) -> L {
-        if due {
-            *state = Point { x: self.stop, v: -(self.restitution * state.v) };
-            zeros[0] = L::splat(1.0);
-        }
-        L::splat(f64::from(u8::from(due)))
+        *x = L::select(due, self.stop, *x);
+        *v = L::select(due, -(self.restitution * *v), *v);
+        zeros[0] = L::select(due, L::splat(1.0), zeros[0]);
+        L::select(due, Bounce::Impact.code(), L::splat(0.0))
     }
 
-    fn lost(&self, state: &Point<L>) -> bool {
-        not_finite(state.x + state.v)
-    }
-}
-
-impl<L: Lane<Mask = bool>> Stroboscopic<L, 2> for Impact<L> {
-    fn point(state: &Point<L>) -> [L; 2] {
-        [state.x, state.v]
+    #[inline(always)]
+    fn lost(&self, [x, v]: &[L; 2]) -> L::Mask {
+        not_finite(*x + *v)
     }
 
-    fn state([x, v]: [L; 2]) -> Point<L> {
-        Point { x, v }
-    }
-
-    /// A displacement x counts as the velocity w x.
-    fn scales(&self) -> [f64; 2] {
-        [self.omega.lane(0), 1.0]
+    #[inline(always)]
+    fn touching<'a>(&self, jet: &'a Taylor<L, 2>) -> Option<(&'a Series<L>, L)> {
+        Some((&jet[0], self.stop))
     }
 }
 
-impl Field<2> for Impact<f64> {
-    fn coordinates<'a>(&self, jet: &'a PointJet<f64>) -> [&'a Series<f64>; 2] {
-        [&jet.x, &jet.v]
+impl<L: Lane> Stroboscopic<L, 2> for Impact<L> {
+    #[inline(always)]
+    fn point(state: &[L; 2]) -> [L; 2] {
+        *state
+    }
+
+    #[inline(always)]
+    fn state(point: [L; 2]) -> [L; 2] {
+        point
+    }
+}
+
+impl Field for Impact<f64> {
+    type Coordinates = [f64; 2];
+
+    fn coordinates(state: &[f64; 2]) -> [f64; 2] {
+        *state
+    }
+
+    fn motion(&self, jet: &Taylor<f64, 2>, h: f64) -> ([f64; 2], [f64; 2]) {
+        jet.motion(h)
     }
 
     fn rates(&self, _mode: &(), time: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
@@ -159,25 +159,85 @@ impl Field<2> for Impact<f64> {
     }
 }
 
+/// The parameters of the oscillator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Of {
+    K,
+    C,
+    Drive,
+    Omega,
+    Gravity,
+    Stop,
+    Restitution,
+}
+
+impl System<2> for Impact<f64> {
+    type Parameter = Of;
+    type Event = Bounce;
+    type State<L: Lane> = [L; 2];
+    type Mode<L: Lane> = ();
+    type Single = Impact<f64>;
+    type In<L: Lane> = Impact<L>;
+    type Observer = ();
+
+    fn single(&self) -> Impact<f64> {
+        *self
+    }
+
+    fn system<L: Lane>(&self, of: impl Fn(Of) -> L) -> Impact<L> {
+        Impact {
+            k: of(Of::K),
+            c: of(Of::C),
+            drive: of(Of::Drive),
+            omega: of(Of::Omega),
+            gravity: of(Of::Gravity),
+            stop: of(Of::Stop),
+            restitution: of(Of::Restitution),
+        }
+    }
+
+    fn value(&self, parameter: Of) -> f64 {
+        match parameter {
+            Of::K => self.k,
+            Of::C => self.c,
+            Of::Drive => self.drive,
+            Of::Omega => self.omega,
+            Of::Gravity => self.gravity,
+            Of::Stop => self.stop,
+            Of::Restitution => self.restitution,
+        }
+    }
+
+    fn with(&self, parameter: Of, value: f64) -> Self {
+        self.system(|other| if other == parameter { value } else { self.value(other) })
+    }
+
+    /// A displacement x counts as the velocity w x.
+    fn metric(&self) -> Metric<2> {
+        Metric { scales: [self.omega, 1.0] }
+    }
+
+    fn observer(&self, _points: usize) {}
+}
+
 /// The point of the section after `count` cycles of the drive, and the Jacobian.
-pub fn mapped<S>(system: &S, point: [f64; 2], omega: f64, count: u64) -> ([f64; 2], Matrix<2>)
+pub fn mapped<S>(system: &S, point: [f64; 2], count: u64) -> ([f64; 2], Matrix<2>)
 where
     S: Stroboscopic<Dual<f64, 2>, 2>,
 {
-    let drive_period = Dual::constant(2.0 * PI / omega);
-    let cycles = Cycles { drive_period, count, tolerance: 1e-15 };
+    let cycles = Cycles { count, tolerance: 1e-15 };
     let end = returned(system, seeded(&point), &cycles, |_| ()).expect("it goes on");
     (values(&end), jacobian(&end))
 }
 
 /// The point near `guess` that repeats after `count` cycles, by Newton's method, and the Jacobian there.
-pub fn repeated<S>(system: &S, guess: [f64; 2], omega: f64, count: u64) -> ([f64; 2], Matrix<2>)
+pub fn repeated<S>(system: &S, guess: [f64; 2], count: u64) -> ([f64; 2], Matrix<2>)
 where
     S: Stroboscopic<Dual<f64, 2>, 2>,
 {
     let mut point = guess;
     for _ in 0..20 {
-        let (image, jacobian) = mapped(system, point, omega, count);
+        let (image, jacobian) = mapped(system, point, count);
         let [[a, b], [c, d]] = jacobian;
         let miss = [image[0] - point[0], image[1] - point[1]];
         let [x, v] = solve([[1.0 - a, -b], [-c, 1.0 - d]], miss).expect("no multiplier is one");
@@ -186,7 +246,7 @@ where
             break;
         }
     }
-    (point, mapped(system, point, omega, count).1)
+    (point, mapped(system, point, count).1)
 }
 
 #[test]
@@ -201,14 +261,14 @@ fn a_bouncing_ball_never_falls_through_the_floor() {
         stop: 0.0,
         restitution: 0.5,
     };
-    let mut motion = Motion::new(&ball, 0.0, Point { x: -1.0, v: 0.0 });
+    let mut motion = Motion::new(&ball, 0.0, [-1.0, 0.0]);
     let mut step = Step::default();
     let fall = (2.0_f64 / 10.0).sqrt();
     let (mut bounces, mut breakdown) = (Vec::new(), None);
     while motion.time < 10.0 && breakdown.is_none() {
         motion.step(&ball, 10.0, 1e-12, &mut step);
         for i in 0..=8 {
-            let height = -ball.at(&step.jet, step.length * f64::from(i) / 8.0).x;
+            let height = -ball.at(&step.jet, step.length * f64::from(i) / 8.0)[0];
             assert!(height >= -1e-15, "{height:e} at {}", step.start);
         }
         if step.event != 0.0 {

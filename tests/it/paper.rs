@@ -1,7 +1,7 @@
 //! The six cases of the paper and what its text says of them.
 
-use capsulemap::capsule::{Parameter, Parameters, State, Switching};
-use capsulemap::orbit::{Orbit, Outcome, Output, Protocol};
+use capsulemap::capsule::{Orbit, Output, Parameter, Parameters, State, Switching};
+use capsulemap::orbit::{Outcome, Protocol};
 
 use super::forms::settle;
 
@@ -125,7 +125,7 @@ fn the_equation_as_printed_agrees_with_tiny_steps_of_its_own_right_hand_side() {
         let mut p = parameters(i);
         p.switching = Switching::AsPrinted;
         let cycles = 3;
-        let ours = capsulemap::orbit::simulate(&p, 0.0, State::default(), cycles, 1e-12);
+        let ours = capsulemap::capsule::simulate(&p, 0.0, State::default(), cycles, 1e-12);
         let steps = 400_000;
         let h = p.drive_period() / f64::from(steps);
         let mut state = [0.0; 4];

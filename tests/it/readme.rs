@@ -150,8 +150,9 @@ fn every_study_that_is_kept_can_be_read() {
 
 #[test]
 fn the_reference_of_studies_names_every_parameter_and_output() {
+    use capsulemap::capsule::Output;
     use capsulemap::capsule::Parameter;
-    use capsulemap::orbit::{Output, Protocol};
+    use capsulemap::orbit::Protocol;
     let reference = include_str!("../../studies/README.md");
     let parameters = Parameter::ALL.iter().map(|parameter| parameter.symbol());
     for name in parameters.chain(Output::ALL.iter().map(|output| output.name())) {

@@ -3,9 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use capsulemap::capsule::{Parameter, State};
+use capsulemap::capsule::{Output, Parameter, State, settle};
 use capsulemap::lane::Instructions;
-use capsulemap::orbit::{Output, settle};
 use capsulemap::store::{self, Dataset, Values, Variable};
 use capsulemap::study::Study;
 use serde_json::Value;

@@ -1,10 +1,11 @@
 //! The capsule without the bound on its steps: a system that breaks the contract, for the checks to find.
 
 use capsulemap::capsule::{
-    Capsule, Contact, Field, Jet, Locomotion, Parameter, Parameters, Resistance, State, StickSlip,
-    Stroboscopic, Switched, Zeros,
+    Capsule, Contact, EventKind, Jet, Locomotion, Parameter, Parameters, Reading, Resistance,
+    State, StickSlip, capsule,
 };
-use capsulemap::lane::{Lane, Series};
+use capsulemap::flow::{Field, Stroboscopic, Switched, Zeros};
+use capsulemap::lane::{Lane, Series, SideBySide};
 
 /// A capsule whose steps are paced by its series alone, so that they can jump over the layer around rest.
 #[derive(Debug, Clone, Copy)]
@@ -17,12 +18,33 @@ impl Unbounded<f64> {
     }
 }
 
+impl<L: Lane> SideBySide for Unbounded<L> {
+    type One = Unbounded<f64>;
+
+    fn splat(one: &Unbounded<f64>) -> Self {
+        Unbounded(Capsule::splat(&one.0))
+    }
+
+    fn lane(&self, index: usize) -> Unbounded<f64> {
+        Unbounded(self.0.lane(index))
+    }
+
+    fn put(&mut self, index: usize, one: &Unbounded<f64>) {
+        self.0.put(index, &one.0);
+    }
+}
+
 impl<L: Lane> Switched<L> for Unbounded<L> {
     type State = State<L>;
     type Mode = <Capsule<L> as Switched<L>>::Mode;
     type Jet = Jet<L>;
+    type Event = EventKind;
 
     const GUARDS: usize = <Capsule<L> as Switched<L>>::GUARDS;
+
+    fn period(&self) -> L {
+        self.0.period()
+    }
 
     fn start(&self, time: L, state: &mut State<L>) -> Self::Mode {
         self.0.start(time, state)
@@ -34,16 +56,6 @@ impl<L: Lane> Switched<L> for Unbounded<L> {
 
     fn pace<'a>(&self, jet: &'a Jet<L>) -> [&'a Series<L>; 2] {
         self.0.pace(jet)
-    }
-
-    fn step_bound(
-        &self,
-        _mode: &Self::Mode,
-        _jet: &Jet<L>,
-        length: L::Plain,
-        _tolerance: f64,
-    ) -> L::Plain {
-        length
     }
 
     fn watched(&self, which: usize, mode: &Self::Mode) -> L::Mask {
@@ -84,18 +96,24 @@ impl<L: Lane> Stroboscopic<L, 3> for Unbounded<L> {
         Capsule::state(point)
     }
 
-    fn scales(&self) -> [f64; 3] {
-        self.0.scales()
+    fn moved_to(from: State<L>, point: [L; 3]) -> State<L> {
+        Capsule::moved_to(from, point)
     }
 }
 
-impl Field<4> for Unbounded<f64> {
-    fn coordinates<'a>(&self, jet: &'a Jet<f64>) -> [&'a Series<f64>; 4] {
-        self.0.coordinates(jet)
+impl Field for Unbounded<f64> {
+    type Coordinates = [f64; 4];
+
+    fn coordinates(state: &State<f64>) -> [f64; 4] {
+        state.coordinates()
     }
 
-    fn rates(&self, mode: &Self::Mode, time: f64, coordinates: &[f64; 4]) -> [f64; 4] {
-        self.0.rates(mode, time, coordinates)
+    fn motion(&self, jet: &Jet<f64>, h: f64) -> (State<f64>, State<f64>) {
+        jet.motion(h)
+    }
+
+    fn rates(&self, mode: &Self::Mode, time: f64, state: &State<f64>) -> State<f64> {
+        self.0.rates(mode, time, state)
     }
 
     fn weights(&self) -> [f64; 4] {
@@ -107,18 +125,26 @@ impl Field<4> for Unbounded<f64> {
     }
 }
 
-impl Locomotion for Unbounded<f64> {
-    type With<L: Lane<Mask = bool>> = Unbounded<L>;
+/// The reading that moves a capsule so.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Blind;
 
-    fn with<L: Lane<Mask = bool>>(
-        of: impl Fn(Parameter) -> L,
-        law: Resistance,
-        phase: f64,
-    ) -> Unbounded<L> {
-        Unbounded(Capsule::new(of, law, phase))
+impl Reading for Blind {
+    type Mode<L: Lane> = capsule::Mode<L>;
+    type Single = Unbounded<f64>;
+    type In<L: Lane> = Unbounded<L>;
+
+    fn single(parameters: &Parameters, phase: f64) -> Unbounded<f64> {
+        Unbounded::single(parameters, phase)
     }
 
-    fn motion<'a>(&self, jet: &'a Jet<f64>) -> &'a Jet<f64> {
+    fn capsule<L: Lane>(of: impl Fn(Parameter) -> L, law: Resistance, phase: f64) -> Unbounded<L> {
+        Unbounded(Capsule::new(of, law, phase))
+    }
+}
+
+impl Locomotion for Unbounded<f64> {
+    fn jet<'a>(&self, jet: &'a Jet<f64>) -> &'a Jet<f64> {
         jet
     }
 

@@ -1,8 +1,8 @@
 //! Outcomes over the whole box of parameters that users may set: periods that hold, and few undecided.
 
-use capsulemap::capsule::{Parameter, Resistance, State};
+use capsulemap::capsule::{Case, Orbit, Output, Parameter, Resistance, Section, State, simulate};
 use capsulemap::lane::Instructions;
-use capsulemap::orbit::{Case, Orbit, Outcome, Output, Proof, Protocol, Section, simulate};
+use capsulemap::orbit::{Outcome, Proof, Protocol};
 
 use super::draws;
 use super::second_method::follow;

@@ -1,8 +1,9 @@
 //! Made-up branches for the tests of what is around following.
 
-use capsulemap::branch::{Branch, Curve, End, Found, Point, Special, SpecialKind};
+use capsulemap::branch::{Curve, End, SpecialKind};
+use capsulemap::capsule::branch::{Branch, Found, Point, Special};
+use capsulemap::capsule::{Output, Outputs};
 use capsulemap::orbit::matrix::Complex;
-use capsulemap::orbit::{Output, Outputs};
 use capsulemap::run::{Followed, Unfollowed};
 use capsulemap::store::{self, Dataset};
 use capsulemap::study::Study;
@@ -59,7 +60,7 @@ pub fn point(parameter: f64, period: usize, height: f64, multiplier: f64) -> Poi
         section: vec![[1e-3 * height, 0.1 * height, 0.0]; period],
         multipliers: [multiplier, 0.1, 0.0].map(|re| Complex { re, im: 0.0 }),
         residual: 1e-13,
-        outputs,
+        measured: outputs,
         sequence: usize::from(height > 2.0),
     }
 }

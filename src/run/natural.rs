@@ -1,15 +1,15 @@
 //! Follows a periodic orbit along one parameter: Newton's method from each value to the next.
 
-use std::f64::consts::PI;
 use std::marker::PhantomData;
 
-use crate::capsule::{Locomotion, Parameter};
+use crate::capsule::{CapsuleSystem, Case, Parameter, Reading, Section};
+use crate::flow::{Metric, System};
 use crate::lane::Dual;
+use crate::orbit::Protocol;
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues, solve};
 use crate::orbit::newton::close;
-use crate::orbit::recurrence::{RESOLUTION, size};
+use crate::orbit::recurrence::RESOLUTION;
 use crate::orbit::return_map::{Cycles, jacobian, returned, seeded, values};
-use crate::orbit::{Case, Protocol, Section};
 
 /// Values of the parameter closer together than this, relative to them, are one value.
 pub const ROUNDING: f64 = 2e-13;
@@ -87,24 +87,24 @@ pub enum End {
 }
 
 /// What is held while one parameter varies.
-pub struct Along<'a, S> {
+pub struct Along<'a, R> {
     /// A case with the values of the others.
     pub case: Case,
     /// The parameter that varies.
     pub parameter: Parameter,
     /// How closely orbits are computed.
     pub protocol: &'a Protocol,
-    /// The system that moves.
-    pub system: PhantomData<S>,
+    /// The reading of the switching.
+    pub reading: PhantomData<R>,
 }
 
-impl<S: Locomotion> Along<'_, S> {
+impl<R: Reading> Along<'_, R> {
     /// The orbit that repeats after `period` cycles, and not before, nearest to `from` at a value of the
     /// parameter; `size` is about that of the motion [m/s].
     pub fn close(&self, value: f64, from: &Section, period: usize, size: f64) -> Option<Solution> {
         let system = self.system(Dual::<f64, 3>::constant(value));
-        let cycles = self.cycles(Dual::constant(value), period);
-        let closed = close(&system, from, &cycles, size).ok()??;
+        let cycles = self.cycles(period);
+        let closed = close(&system, &self.metric(value), from, &cycles, size).ok()??;
         if closed.residual > self.protocol.recurrence {
             return None;
         }
@@ -127,7 +127,7 @@ impl<S: Locomotion> Along<'_, S> {
 
     /// The orbit that is known to have these section points.
     pub fn known(&self, value: f64, points: &[Section], error: f64) -> Option<Solution> {
-        let cycles = self.cycles(Dual::constant(value), points.len());
+        let cycles = self.cycles(points.len());
         let system = self.system(Dual::<f64, 3>::constant(value));
         let image = returned(&system, seeded(&points[0]), &cycles, |_| ()).ok()?;
         let solution = self.trace(value, points[0], points.len())?;
@@ -180,7 +180,7 @@ impl<S: Locomotion> Along<'_, S> {
         let change = target - here.value;
         let from = std::array::from_fn(|i| here.points[0][i] + slope[i] * change);
         // An orbit that begins at rest has no size of its own yet.
-        let size = here.size.max(size(self.omega(target), &from));
+        let size = here.size.max(self.metric(target).size(&from));
         let next = self.close(target, &from, here.period(), size)?;
         (next.passes(1.0) == here.passes(1.0)).then_some(next)
     }
@@ -188,7 +188,7 @@ impl<S: Locomotion> Along<'_, S> {
     /// How fast the first section point moves with the parameter: (I - J)^-1 dP/dp.
     fn slope(&self, here: &Solution) -> Option<Section> {
         let value = Dual::<f64, 4>::variable(here.value, 3);
-        let cycles = self.cycles(value, here.period());
+        let cycles = self.cycles(here.period());
         let start = seeded(&here.points[0]);
         let image = returned(&self.system(value), start, &cycles, |_| ()).ok()?;
         let mut less = jacobian(&image);
@@ -200,26 +200,26 @@ impl<S: Locomotion> Along<'_, S> {
     }
 
     /// The system at a value of the parameter.
-    fn system<const N: usize>(&self, value: Dual<f64, N>) -> S::With<Dual<f64, N>> {
+    fn system<const N: usize>(
+        &self,
+        value: Dual<f64, N>,
+    ) -> <CapsuleSystem<R> as System<3>>::In<Dual<f64, N>> {
+        let Case { parameters, phase, .. } = &self.case;
         let of = |parameter: Parameter| match parameter == self.parameter {
             true => value,
-            false => Dual::constant(self.case.parameters[parameter]),
+            false => Dual::constant(parameters[parameter]),
         };
-        S::with(of, self.case.parameters.resistance, self.case.phase)
+        R::capsule(of, parameters.resistance, *phase)
     }
 
-    fn cycles<const N: usize>(&self, value: Dual<f64, N>, count: usize) -> Cycles<N> {
-        let drive_period = match self.parameter {
-            Parameter::Omega => Dual::constant(2.0 * PI) / value,
-            _ => Dual::constant(self.case.parameters.drive_period()),
-        };
-        Cycles { drive_period, count: count as u64, tolerance: self.protocol.tolerance }
+    fn cycles(&self, count: usize) -> Cycles {
+        Cycles { count: count as u64, tolerance: self.protocol.tolerance }
     }
 
     /// The points and events of a period from a section point, without derivatives.
     fn trace(&self, value: f64, start: Section, period: usize) -> Option<Solution> {
         let system = self.system(Dual::<f64, 0>::constant(value));
-        let cycles = self.cycles(Dual::constant(value), 1);
+        let cycles = self.cycles(1);
         let mut events = Vec::new();
         let mut points = vec![start];
         for n in 0..period {
@@ -230,27 +230,25 @@ impl<S: Locomotion> Along<'_, S> {
         }
         points.pop();
         events.retain(|&event| event > 0);
-        let omega = self.omega(value);
-        let size = points.iter().map(|point| size(omega, point)).fold(0.0, f64::max);
+        let metric = self.metric(value);
+        let size = points.iter().map(|point| metric.size(point)).fold(0.0, f64::max);
         let events = least_rotation(&events);
         Some(Solution { value, points, size, error: 0.0, jacobian: Matrix::default(), events })
     }
 
-    /// The frequency of the drive at a value of the parameter [rad/s].
-    pub fn omega(&self, value: f64) -> f64 {
-        match self.parameter {
-            Parameter::Omega => value,
-            _ => self.case.parameters[Parameter::Omega],
-        }
+    /// How far two section points are apart at a value of the parameter.
+    pub fn metric(&self, value: f64) -> Metric<3> {
+        let system = CapsuleSystem::<R>::new(self.case.parameters.clone(), self.case.phase);
+        system.with(self.parameter, value).metric()
     }
 
     /// Whether an orbit does not repeat after a divisor of its period already.
     fn is_least(&self, solution: &Solution) -> bool {
-        let (points, omega) = (&solution.points, self.omega(solution.value));
+        let (points, metric) = (&solution.points, self.metric(solution.value));
         let near = RESOLUTION * self.protocol.recurrence * solution.size;
         let repeats = |d: usize| {
             points.len().is_multiple_of(d)
-                && (d..points.len()).all(|i| apart(&points[i], &points[i - d], omega) <= near)
+                && (d..points.len()).all(|i| metric.distance(&points[i], &points[i - d]) <= near)
         };
         !(1..points.len()).any(repeats)
     }
@@ -272,11 +270,6 @@ pub fn left_to_fold(before: &Solution, here: &Solution) -> f64 {
     let square = |it: &Solution| it.shifted_determinant(1.0) * it.shifted_determinant(1.0);
     let [first, second] = [before, here].map(square);
     (here.value - before.value).abs() * second / (first - second)
-}
-
-/// How far two section points are apart under a drive of frequency `omega` [m/s].
-pub fn apart(a: &Section, b: &Section, omega: f64) -> f64 {
-    size(omega, &std::array::from_fn(|i| a[i] - b[i]))
 }
 
 /// A cyclic sequence, begun where that makes it the least.

@@ -2,11 +2,14 @@
 
 use serde::Serialize;
 
-use crate::capsule::{Contact, EventKind, Locomotion, Parameter, Parameters, StickSlip};
-use crate::flow::Step;
 use crate::flow::guard::crossings;
+use crate::flow::{Event, Observer, Step};
 use crate::lane::quadrature::{integral_of_product, values};
 use crate::lane::{Series, series};
+
+use super::locomotion::Locomotion;
+use super::parameter::{Parameter, Parameters};
+use super::state::{Contact, EventKind, State, StickSlip};
 
 /// A point of the impact section: where contact closes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,12 +40,15 @@ pub struct Energies {
 }
 
 /// Sums over the steps that it has seen.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Account {
     p_d: f64,
     c: f64,
     k2: f64,
     delta: f64,
+    omega: f64,
+    /// Impacts kept at most.
+    points: usize,
     /// Time seen [s].
     pub time: f64,
     /// Work of the drive and losses.
@@ -59,6 +65,8 @@ pub struct Account {
     pub touching_margin: f64,
     /// How often contact closed.
     pub impacts: u64,
+    /// The first of these impacts, as many as are kept.
+    pub impact_points: Vec<Impact>,
     /// How often the capsule began to slide forward, by onset or by reversal.
     pub forward_slips: u64,
     /// How often the capsule began to slide backward.
@@ -69,13 +77,15 @@ pub struct Account {
 }
 
 impl Account {
-    /// Nothing seen yet.
-    pub fn new(parameters: &Parameters) -> Self {
+    /// Nothing seen yet; of the impacts so many `points` are kept.
+    pub fn new(parameters: &Parameters, points: usize) -> Self {
         Account {
             p_d: parameters[Parameter::Pd],
             c: parameters[Parameter::C],
             k2: parameters[Parameter::K2],
             delta: parameters[Parameter::Delta],
+            omega: parameters[Parameter::Omega],
+            points,
             time: 0.0,
             energies: Energies::default(),
             friction_impulse: 0.0,
@@ -84,6 +94,7 @@ impl Account {
             grazing_margin: f64::INFINITY,
             touching_margin: f64::INFINITY,
             impacts: 0,
+            impact_points: Vec::new(),
             forward_slips: 0,
             backward_slips: 0,
             reversals: 0,
@@ -91,8 +102,7 @@ impl Account {
         }
     }
 
-    /// Adds a step.
-    pub fn add<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
+    fn add<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
         self.time += step.length;
         if step.length > 0.0 {
             self.add_energies(system, step);
@@ -103,7 +113,7 @@ impl Account {
 
     fn add_energies<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
         let h = step.length;
-        let jet = system.motion(&step.jet);
+        let jet = system.jet(&step.jet);
         let (cos, y1) = (values(&jet.cos, h), values(&jet.y1, h));
         let work = self.p_d * integral_of_product(&cos, &y1, h);
         self.energies.work_net += work;
@@ -144,7 +154,7 @@ impl Account {
 
     /// Looks at the local extrema of r, which hold the margins, and the maxima the peak force.
     fn add_extremes<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
-        let r = &system.motion(&step.jet).r;
+        let r = &system.jet(&step.jet).r;
         let rate = series::derivative(r);
         // The printed equation lets r turn with a corner, between two steps.
         if self.rate_of_r * rate[0] < 0.0 {
@@ -171,8 +181,15 @@ impl Account {
     }
 
     fn count<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
-        match system.event(step.event) {
-            Some(EventKind::ContactClosed) => self.impacts += 1,
+        match EventKind::from_code(step.event) {
+            Some(EventKind::ContactClosed) => {
+                self.impacts += 1;
+                if self.impact_points.len() < self.points {
+                    let State { y1, y2, .. } = system.at(&step.jet, step.length);
+                    let phase = self.omega * (step.start + step.length);
+                    self.impact_points.push(Impact { phase, y1, y2 });
+                }
+            }
             Some(EventKind::SlipForward) => self.forward_slips += 1,
             Some(EventKind::SlipBackward) => self.backward_slips += 1,
             Some(EventKind::Reversal) => {
@@ -185,5 +202,15 @@ impl Account {
             }
             Some(EventKind::ContactOpened | EventKind::Stick) | None => {}
         }
+    }
+}
+
+impl<S: Locomotion> Observer<f64, S> for Account {
+    fn see(&mut self, system: &S, step: &Step<f64, S>) {
+        self.add(system, step);
+    }
+
+    fn touching_margin(&self) -> f64 {
+        self.touching_margin
     }
 }

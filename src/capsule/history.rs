@@ -1,27 +1,13 @@
 //! A stretch of motion, sampled evenly for a figure.
 
-use crate::capsule::{Locomotion, Parameter, Parameters, State};
+use crate::flow::Stroboscopic;
 use crate::lane::series;
+use crate::orbit::{HistorySpan, Trajectory};
 
-use super::{Failure, Trajectory};
-
-/// What to sample.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct HistorySpan {
-    /// Drive cycles.
-    pub cycles: u32,
-    /// Samples in each of them.
-    pub per_cycle: u32,
-    /// Whether to begin where the case starts rather than where it has settled.
-    pub from_start: bool,
-}
-
-impl HistorySpan {
-    /// Number of samples, both ends included.
-    pub fn samples(&self) -> usize {
-        self.cycles as usize * self.per_cycle as usize + 1
-    }
-}
+use super::Failure;
+use super::locomotion::Locomotion;
+use super::parameter::{Parameter, Parameters};
+use super::state::State;
 
 /// Samples at even times, both ends included.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -34,7 +20,7 @@ pub struct History {
 
 impl History {
     /// Follows the motion from `start` and samples its series, which are exact to `tolerance` too.
-    pub fn sample<S: Locomotion>(
+    pub fn sample<S: Locomotion + Stroboscopic<f64, 3>>(
         system: &S,
         parameters: &Parameters,
         start: State<f64>,
@@ -44,12 +30,12 @@ impl History {
         let drive_period = parameters.drive_period();
         let between = drive_period / f64::from(span.per_cycle);
         let p_d = parameters[Parameter::Pd];
-        let mut trajectory = Trajectory::new(system, start, drive_period, tolerance);
+        let mut trajectory = Trajectory::new(system, start, tolerance);
         let mut history = History::default();
         for _ in 0..span.cycles {
             let mut next = 0;
             trajectory.cycle(|step| {
-                let jet = system.motion(&step.jet);
+                let jet = system.jet(&step.jet);
                 let end = step.start + step.length;
                 while next < span.per_cycle && f64::from(next) * between <= end {
                     let h = (f64::from(next) * between - step.start).max(0.0);

@@ -2,11 +2,17 @@
 
 use serde::Serialize;
 
-use crate::capsule::{
-    Capsule, EventKind, Locomotion, Parameters, PrintedCapsule, State, Switching,
-};
+use crate::flow::{Event as _, Observer, Stroboscopic};
+use crate::orbit::Trajectory;
 
-use super::{Account, Energies, Failure, Trajectory};
+use super::Failure;
+use super::account::{Account, Energies};
+use super::capsule::Capsule;
+use super::locomotion::Locomotion;
+use super::parameter::Parameters;
+use super::printed::PrintedCapsule;
+use super::resistance::Switching;
+use super::state::{EventKind, State};
 
 /// State and sums at the end of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -70,7 +76,7 @@ pub fn simulate(
     }
 }
 
-fn simulate_on<S: Locomotion>(
+fn simulate_on<S: Locomotion + Stroboscopic<f64, 3>>(
     system: &S,
     parameters: &Parameters,
     start: State<f64>,
@@ -78,16 +84,16 @@ fn simulate_on<S: Locomotion>(
     tolerance: f64,
 ) -> Simulation {
     let drive_period = parameters.drive_period();
-    let mut account = Account::new(parameters);
-    let mut trajectory = Trajectory::new(system, start, drive_period, tolerance);
+    let mut account = Account::new(parameters, 0);
+    let mut trajectory = Trajectory::new(system, start, tolerance);
     let mut events = Vec::new();
     let mut section = vec![sample(&trajectory, &account, drive_period)];
     let mut failure = None;
     for n in 0..cycles {
         let begun = n as f64 * drive_period;
         let followed = trajectory.cycle(|step| {
-            account.add(system, step);
-            if let Some(kind) = system.event(step.event) {
+            account.see(system, step);
+            if let Some(kind) = EventKind::from_code(step.event) {
                 events.push(Event { t: begun + (step.start + step.length), kind });
             }
         });
@@ -100,8 +106,8 @@ fn simulate_on<S: Locomotion>(
     Simulation { section, events, failure }
 }
 
-fn sample<S: Locomotion>(
-    trajectory: &Trajectory<'_, S>,
+fn sample<S: Locomotion + Stroboscopic<f64, 3>>(
+    trajectory: &Trajectory<'_, S, 3>,
     account: &Account,
     drive_period: f64,
 ) -> Sample {

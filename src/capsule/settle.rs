@@ -1,0 +1,236 @@
+//! What a capsule settles to, with its speed, energies and counts.
+
+use crate::orbit::{
+    self, Certificate, Exponent, HistorySpan, Machine, OrbitOf, Outcome, Protocol,
+    recurrence::RESOLUTION,
+};
+
+use super::account::{Account, Impact};
+use super::history::History;
+use super::output::{Output, Outputs};
+use super::parameter::{Parameter, Parameters};
+use super::resistance::Switching;
+use super::state::State;
+use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
+use super::{Failure, Section};
+
+/// One case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// Its parameters.
+    pub parameters: Parameters,
+    /// Where it starts.
+    pub start: State<f64>,
+    /// Phase of the drive at the start [rad].
+    pub phase: f64,
+}
+
+impl Case {
+    /// The case for the engine, its friction read as `R` says.
+    pub fn read<R: Reading>(&self) -> orbit::Case<CapsuleSystem<R>, 3> {
+        let system = CapsuleSystem::new(self.parameters.clone(), self.phase);
+        orbit::Case { system, start: self.start }
+    }
+}
+
+/// What a case settled to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orbit {
+    /// What it turned out to be.
+    pub outcome: Outcome,
+    /// Its period [cycles]; zero unless periodic.
+    pub period: u64,
+    /// What is proven of its period.
+    ///
+    /// Of an orbit that is at rest on the ground at the section one multiplier is 0. It is that of pushes along
+    /// y2 as far as they end on the stick surface y2 = 0, |F| <= f_b again; where |F| is above the friction
+    /// of sliding, f_d(0+) < |F| <= f_b, a push off the surface, however small, makes the capsule slide away.
+    pub certificate: Certificate<3>,
+    /// Cycles followed, measuring included.
+    pub cycles: u64,
+    /// Per-cycle sums and the like; NaN where the case failed.
+    pub outputs: Outputs,
+    /// Section points of the measured cycles, up to `Protocol::points`.
+    pub section: Vec<Section>,
+    /// Impacts of the measured cycles, up to `Protocol::impact_points`.
+    pub impacts: Vec<Impact>,
+    /// Samples of the motion, where the protocol asks for them.
+    pub history: Option<History>,
+    /// Where it was last.
+    pub end: State<f64>,
+    /// Why it could not be followed, if so.
+    pub failure: Option<Failure>,
+}
+
+/// Follows the capsule from `start`, the drive at `phase` [rad], until it settles, and measures it.
+pub fn settle(
+    parameters: &Parameters,
+    phase: f64,
+    start: State<f64>,
+    protocol: &Protocol,
+) -> Orbit {
+    let case = Case { parameters: parameters.clone(), start, phase };
+    match parameters.switching {
+        Switching::Filippov => settle_as::<Filippov>(&case, protocol),
+        Switching::AsPrinted => settle_as::<AsPrinted>(&case, protocol),
+    }
+}
+
+/// Follows a capsule, its friction read as `R` says, as [`settle`] does.
+pub fn settle_as<R: Reading>(case: &Case, protocol: &Protocol) -> Orbit {
+    let orbit = orbit::settle(&case.read::<R>(), protocol);
+    Orbit::of::<R>(orbit, case, protocol)
+}
+
+/// What each of the cases settles to, in their order; see [`orbit::settle_all`].
+///
+/// # Panics
+/// Where the processor does not have the instructions that `machine` asks for.
+pub fn settle_all(cases: &[Case], protocol: &Protocol, machine: Machine) -> Vec<Orbit> {
+    let filippov = settle_read::<Filippov>(cases, Switching::Filippov, protocol, machine);
+    let printed = settle_read::<AsPrinted>(cases, Switching::AsPrinted, protocol, machine);
+    let (mut filippov, mut printed) = (filippov.into_iter(), printed.into_iter());
+    let next = |case: &Case| match case.parameters.switching {
+        Switching::Filippov => filippov.next(),
+        Switching::AsPrinted => printed.next(),
+    };
+    cases.iter().map(next).map(|orbit| orbit.expect("every case is settled")).collect()
+}
+
+/// The orbits of the cases that are read so, in their order.
+fn settle_read<R: Reading>(
+    cases: &[Case],
+    switching: Switching,
+    protocol: &Protocol,
+    machine: Machine,
+) -> Vec<Orbit> {
+    let chosen: Vec<&Case> =
+        cases.iter().filter(|case| case.parameters.switching == switching).collect();
+    let read: Vec<_> = chosen.iter().map(|case| case.read::<R>()).collect();
+    let orbits = orbit::settle_all(&read, protocol, machine).into_iter().zip(chosen);
+    orbits.map(|(orbit, case)| Orbit::of::<R>(orbit, case, protocol)).collect()
+}
+
+impl Orbit {
+    /// A settled case with its outputs, and its history where the protocol asks for it.
+    pub fn of<R: Reading>(
+        orbit: OrbitOf<CapsuleSystem<R>, 3>,
+        case: &Case,
+        protocol: &Protocol,
+    ) -> Orbit {
+        let settled = State { x2: 0.0, ..orbit.end };
+        let wanted = protocol.history.filter(|_| orbit.failure.is_none());
+        let history = wanted.map(|span: HistorySpan| {
+            let from = if span.from_start { case.start } else { settled };
+            let system = R::single(&case.parameters, case.phase);
+            History::sample(&system, &case.parameters, from, span, protocol.tolerance)
+        });
+        match history.transpose() {
+            Ok(history) => Orbit::measured(orbit, &case.parameters, history, protocol),
+            Err(failure) => {
+                let failed = OrbitOf::<CapsuleSystem<R>, 3> {
+                    outcome: Outcome::Failed,
+                    period: 0,
+                    certificate: Certificate::none(),
+                    section: Vec::new(),
+                    failure: Some(failure),
+                    observed: Account::new(&case.parameters, 0),
+                    ..orbit
+                };
+                Orbit::measured(failed, &case.parameters, None, protocol)
+            }
+        }
+    }
+
+    fn measured(
+        orbit: orbit::Orbit<State<f64>, Account, 3>,
+        parameters: &Parameters,
+        history: Option<History>,
+        protocol: &Protocol,
+    ) -> Orbit {
+        Orbit {
+            outputs: outputs(&orbit, parameters, protocol.recurrence),
+            outcome: orbit.outcome,
+            period: orbit.period,
+            certificate: orbit.certificate,
+            cycles: orbit.cycles,
+            section: orbit.section,
+            impacts: orbit.observed.impact_points,
+            history,
+            end: orbit.end,
+            failure: orbit.failure,
+        }
+    }
+}
+
+/// The outputs of what a capsule has settled to; NaN where it failed.
+///
+/// `recurrence` is how closely the section had to repeat, relative to the motion: a progression within a
+/// hundred times that is rounding.
+pub fn outputs(
+    orbit: &orbit::Orbit<State<f64>, Account, 3>,
+    parameters: &Parameters,
+    recurrence: f64,
+) -> Outputs {
+    if orbit.failure.is_some() {
+        return Outputs::unknown();
+    }
+    let cycles = orbit.measured_cycles as f64;
+    let progression = (orbit.end.x2 - orbit.begins.x2) / cycles;
+    let resolved = RESOLUTION * recurrence * orbit.size * parameters.drive_period();
+    let moves = progression.abs() > resolved;
+    let mut outputs = summed(&orbit.observed, parameters, (progression, moves), cycles);
+    let Exponent { value, uncertainty } = orbit.exponent;
+    outputs[Output::LyapunovExponent] = value;
+    outputs[Output::LyapunovUncertainty] = uncertainty;
+    outputs[Output::LargestMultiplier] = orbit.certificate.multipliers[0].abs();
+    outputs[Output::IntegrationDefect] = orbit.defect;
+    outputs[Output::ExcludedPeriod] = orbit.excluded;
+    outputs[Output::SectionResidual] = orbit.residual;
+    outputs
+}
+
+/// The outputs per cycle, from the sums over `cycles` and the `progression` per cycle [m], which is
+/// rounding unless the capsule `moves`.
+fn summed(
+    account: &Account,
+    parameters: &Parameters,
+    (progression, moves): (f64, bool),
+    cycles: f64,
+) -> Outputs {
+    let mut outputs = Outputs::unknown();
+    let energies = account.energies;
+    let losses = energies.friction_loss + energies.damper_loss;
+    let force = parameters[Parameter::Pd] + parameters.break_away();
+    let ratio = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
+    // Without a drive only losses are left to measure against.
+    let exchanged = energies.work_absolute.max(losses);
+    let cost_of_transport = if moves {
+        energies.work_positive / cycles / (parameters.normal_load() * progression.abs())
+    } else {
+        f64::INFINITY
+    };
+    for (output, value) in [
+        (Output::ProgressionSpeed, progression / parameters.drive_period()),
+        (Output::ProgressionPerCycle, progression),
+        (Output::WorkNet, energies.work_net / cycles),
+        (Output::WorkPositive, energies.work_positive / cycles),
+        (Output::WorkAbsolute, energies.work_absolute / cycles),
+        (Output::WorkActuator, energies.work_actuator / cycles),
+        (Output::FrictionLoss, energies.friction_loss / cycles),
+        (Output::DamperLoss, energies.damper_loss / cycles),
+        (Output::EnergyResidual, ratio(energies.work_net - losses, exchanged)),
+        (Output::MomentumResidual, ratio(account.friction_impulse / account.time, force)),
+        (Output::CostOfTransport, cost_of_transport),
+        (Output::ImpactsPerCycle, account.impacts as f64 / cycles),
+        (Output::ForwardSlips, account.forward_slips as f64 / cycles),
+        (Output::BackwardSlips, account.backward_slips as f64 / cycles),
+        (Output::Reversals, account.reversals as f64 / cycles),
+        (Output::StickShare, account.stick_time / account.time),
+        (Output::PeakContactForce, account.peak_contact_force),
+        (Output::GrazingMargin, account.grazing_margin),
+    ] {
+        outputs[output] = value;
+    }
+    outputs
+}

@@ -1,0 +1,143 @@
+//! The capsule as a system for the engine: its parameters, under either reading of the switching.
+
+use std::fmt::Debug;
+use std::marker::PhantomData;
+
+use crate::flow::{Metric, Stroboscopic, System};
+use crate::lane::{Lane, SideBySide};
+
+use super::account::Account;
+use super::capsule::{self, Capsule};
+use super::locomotion::Locomotion;
+use super::parameter::{Parameter, Parameters};
+use super::printed::PrintedCapsule;
+use super::regime::PrintedMode;
+use super::resistance::Resistance;
+use super::state::{EventKind, State};
+
+/// A reading of the switching between stick and slip.
+pub trait Reading: Copy + Debug + PartialEq + Send + Sync + 'static {
+    /// Which field acts.
+    type Mode<L: Lane>: Copy + Default + Send + SideBySide<One = Self::Mode<f64>>;
+    /// The capsule in `f64`.
+    type Single: Locomotion<Mode = Self::Mode<f64>> + Stroboscopic<f64, 3> + Send;
+    /// The capsule in numbers of any kind.
+    type In<L: Lane>: Stroboscopic<L, 3, State = State<L>, Mode = Self::Mode<L>, Event = EventKind>
+        + SideBySide<One = Self::Single>;
+
+    /// The capsule with these parameters, whose drive is at `phase` at the section [rad].
+    fn single(parameters: &Parameters, phase: f64) -> Self::Single;
+    /// The capsule with these parameters under one law, whose drive is at `phase` at the section [rad].
+    fn capsule<L: Lane>(of: impl Fn(Parameter) -> L, law: Resistance, phase: f64) -> Self::In<L>;
+}
+
+/// Friction is set-valued at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Filippov;
+
+/// Eq. (1) of the paper to the letter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AsPrinted;
+
+impl Reading for Filippov {
+    type Mode<L: Lane> = capsule::Mode<L>;
+    type Single = Capsule<f64>;
+    type In<L: Lane> = Capsule<L>;
+
+    fn single(parameters: &Parameters, phase: f64) -> Capsule<f64> {
+        Capsule::single(parameters, phase)
+    }
+
+    fn capsule<L: Lane>(of: impl Fn(Parameter) -> L, law: Resistance, phase: f64) -> Capsule<L> {
+        Capsule::new(of, law, phase)
+    }
+}
+
+impl Reading for AsPrinted {
+    type Mode<L: Lane> = PrintedMode<L>;
+    type Single = PrintedCapsule<f64>;
+    type In<L: Lane> = PrintedCapsule<L>;
+
+    fn single(parameters: &Parameters, phase: f64) -> PrintedCapsule<f64> {
+        PrintedCapsule::single(parameters, phase)
+    }
+
+    fn capsule<L: Lane>(
+        of: impl Fn(Parameter) -> L,
+        law: Resistance,
+        phase: f64,
+    ) -> PrintedCapsule<L> {
+        PrintedCapsule::new(of, law, phase)
+    }
+}
+
+/// A capsule by its parameters, its friction read as `R` says; the reading that they name does not matter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CapsuleSystem<R> {
+    /// Its parameters and the law of resistance.
+    pub parameters: Parameters,
+    /// Phase of the drive at the section [rad].
+    pub phase: f64,
+    reading: PhantomData<R>,
+}
+
+impl<R: Reading> CapsuleSystem<R> {
+    /// The capsule with these parameters, whose drive is at `phase` at the section [rad].
+    pub fn new(parameters: Parameters, phase: f64) -> Self {
+        CapsuleSystem { parameters, phase, reading: PhantomData }
+    }
+}
+
+impl<R: Reading> System<3> for CapsuleSystem<R> {
+    type Parameter = Parameter;
+    type Event = EventKind;
+    type State<L: Lane> = State<L>;
+    type Mode<L: Lane> = R::Mode<L>;
+    type Single = R::Single;
+    type In<L: Lane> = R::In<L>;
+    type Observer = Account;
+
+    fn single(&self) -> R::Single {
+        R::single(&self.parameters, self.phase)
+    }
+
+    fn system<L: Lane>(&self, of: impl Fn(Parameter) -> L) -> R::In<L> {
+        R::capsule(of, self.parameters.resistance, self.phase)
+    }
+
+    fn value(&self, parameter: Parameter) -> f64 {
+        self.parameters[parameter]
+    }
+
+    fn with(&self, parameter: Parameter, value: f64) -> Self {
+        let mut other = self.clone();
+        other.parameters[parameter] = value;
+        other
+    }
+
+    /// A displacement r counts as the velocity omega r, so that a section where y1 passes zero has a size too.
+    fn metric(&self) -> Metric<3> {
+        Metric { scales: [self.parameters[Parameter::Omega], 1.0, 1.0] }
+    }
+
+    fn observer(&self, points: usize) -> Account {
+        Account::new(&self.parameters, points)
+    }
+
+    fn admits(&self, parameter: Parameter, value: f64) -> bool {
+        parameter.allowed().admits(value)
+    }
+
+    /// Lanes share one law of resistance.
+    fn is_alike(&self, other: &Self) -> bool {
+        self.parameters.resistance == other.parameters.resistance
+    }
+
+    /// Amplitude of the velocity of the mass while nothing slips or touches [m/s].
+    fn expected_size(&self) -> f64 {
+        let of = |parameter| self.parameters[parameter];
+        let omega = of(Parameter::Omega);
+        let spring = of(Parameter::K1) - of(Parameter::M1) * omega * omega;
+        of(Parameter::Pd) * omega / libm::hypot(spring, of(Parameter::C) * omega)
+    }
+}

@@ -1,0 +1,72 @@
+//! The loop to the end of a cycle.
+
+use serde::Serialize;
+
+use crate::lane::{Lane, Mask};
+
+use super::motion::{Breakdown, Motion, Step};
+use super::switched::Switched;
+
+/// A cycle of so many steps is taken for a motion that cannot be followed.
+pub const STEPS_PER_CYCLE: u64 = 200_000;
+
+/// Why a motion could not be followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Reason {
+    /// Events follow each other without time passing.
+    NoProgress = 1,
+    /// The state is no longer a finite number.
+    NotFinite,
+    /// A single cycle takes too many steps.
+    TooManySteps,
+    /// An autonomous system does not come back to its section.
+    NoReturn,
+}
+
+impl Reason {
+    /// Every reason with its name in files.
+    pub const NAMES: [(Reason, &str); 4] = [
+        (Reason::NoProgress, "no-progress"),
+        (Reason::NotFinite, "not-finite"),
+        (Reason::TooManySteps, "too-many-steps"),
+        (Reason::NoReturn, "no-return"),
+    ];
+}
+
+impl From<Breakdown> for Reason {
+    fn from(breakdown: Breakdown) -> Self {
+        match breakdown {
+            Breakdown::NoProgress => Reason::NoProgress,
+            Breakdown::NotFinite => Reason::NotFinite,
+            Breakdown::NoReturn => Reason::NoReturn,
+        }
+    }
+}
+
+/// Follows the motion in lane 0 to the end of its cycle, of which so many `steps` are taken already, and
+/// shows each step to `see`; returns the duration of the cycle.
+#[inline]
+pub fn cycle<L: Lane, S: Switched<L>>(
+    system: &S,
+    motion: &mut Motion<L, S>,
+    step: &mut Step<L, S>,
+    (mut steps, tolerance): (u64, f64),
+    mut see: impl FnMut(&Step<L, S>),
+) -> Result<L, Reason> {
+    let period = system.period();
+    while steps < STEPS_PER_CYCLE {
+        motion.step(system, period, tolerance, step);
+        steps += 1;
+        see(step);
+        if let Some(breakdown) = motion.breakdown(system, 0) {
+            return Err(breakdown.into());
+        }
+        if step.arrives.lane(0) {
+            let duration = motion.time;
+            motion.begin_cycle(L::Mask::splat(true));
+            return Ok(duration);
+        }
+    }
+    Err(Reason::TooManySteps)
+}

@@ -1,0 +1,55 @@
+//! The series of several quantities over a step, for systems whose state is an array.
+
+use std::ops::{Index, IndexMut};
+
+use crate::lane::{Lane, Series, series};
+
+/// The series of `N` quantities over a step: first the coordinates, then whatever else the recurrences of the
+/// field or its guards need.
+#[derive(Debug, Clone)]
+pub struct Taylor<L, const N: usize>(pub [Series<L>; N]);
+
+impl<L: Lane, const N: usize> Default for Taylor<L, N> {
+    #[inline(always)]
+    fn default() -> Self {
+        Taylor([series::zero(); N])
+    }
+}
+
+impl<L, const N: usize> Index<usize> for Taylor<L, N> {
+    type Output = Series<L>;
+    #[inline(always)]
+    fn index(&self, which: usize) -> &Series<L> {
+        &self.0[which]
+    }
+}
+
+impl<L, const N: usize> IndexMut<usize> for Taylor<L, N> {
+    #[inline(always)]
+    fn index_mut(&mut self, which: usize) -> &mut Series<L> {
+        &mut self.0[which]
+    }
+}
+
+impl<L: Lane, const N: usize> Taylor<L, N> {
+    /// Sets the first terms to a state.
+    #[inline(always)]
+    pub fn begin<const K: usize>(&mut self, state: &[L; K]) {
+        for (series, coordinate) in self.0.iter_mut().zip(state) {
+            series[0] = *coordinate;
+        }
+    }
+
+    /// The first `K` quantities `h` after the start of the step.
+    #[inline(always)]
+    pub fn at<const K: usize>(&self, h: L) -> [L; K] {
+        std::array::from_fn(|i| series::value(&self.0[i], h))
+    }
+
+    /// The same with the slopes of the series.
+    #[inline(always)]
+    pub fn motion<const K: usize>(&self, h: L) -> ([L; K], [L; K]) {
+        let pairs: [(L, L); K] = std::array::from_fn(|i| series::value_and_slope(&self.0[i], h));
+        (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
+    }
+}

@@ -1,0 +1,125 @@
+//! Many cases settled by one call, on all cores.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use crate::flow::System;
+use crate::lane::Instructions;
+
+use super::case::{Case, OrbitOf, Protocol};
+use super::side_by_side::{Queue, Underway, settle_side_by_side};
+
+/// What cases are settled on; what they settle to does not depend on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Machine {
+    /// Number of threads; all cores for none.
+    pub threads: Option<usize>,
+    /// By which each thread moves its cases; those that suit their number for none.
+    pub instructions: Option<Instructions>,
+}
+
+impl Machine {
+    /// One thread.
+    pub fn single() -> Self {
+        Machine { threads: Some(1), instructions: None }
+    }
+
+    /// The instructions to move so many cases a thread by.
+    pub fn instructions_for(&self, cases: usize) -> Instructions {
+        self.instructions.unwrap_or_else(|| Instructions::suited_to(cases))
+    }
+}
+
+/// What each of the cases settles to, in their order.
+///
+/// Method: every thread fills its lanes from one list; the last cases, too few to fill a vector, are followed
+/// one by one, by whichever thread is free. Cases that are not alike ([`System::is_alike`]) are settled
+/// group after group. Guarantees: the bits of [`super::settle`], on any number of threads and by any
+/// instructions.
+///
+/// # Panics
+/// Where the processor does not have the instructions that `machine` asks for.
+pub fn settle_all<M: System<D>, const D: usize>(
+    cases: &[Case<M, D>],
+    protocol: &Protocol,
+    machine: Machine,
+) -> Vec<OrbitOf<M, D>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (index, case) in cases.iter().enumerate() {
+        let alike = |group: &&mut Vec<usize>| cases[group[0]].system.is_alike(&case.system);
+        match groups.iter_mut().find(alike) {
+            Some(group) => group.push(index),
+            None => groups.push(vec![index]),
+        }
+    }
+    let orbits = Mutex::new((0..cases.len()).map(|_| None).collect());
+    for group in &groups {
+        settle_group(cases, group, protocol, machine, &orbits);
+    }
+    let orbits = orbits.into_inner().expect("no thread has panicked");
+    orbits.into_iter().map(|orbit| orbit.expect("every case is settled")).collect()
+}
+
+/// The orbits of a list of cases, as far as they are known.
+type Orbits<M, const D: usize> = Mutex<Vec<Option<OrbitOf<M, D>>>>;
+
+fn settle_group<M: System<D>, const D: usize>(
+    cases: &[Case<M, D>],
+    group: &[usize],
+    protocol: &Protocol,
+    machine: Machine,
+    orbits: &Orbits<M, D>,
+) {
+    let available = || thread::available_parallelism().map_or(1, usize::from);
+    let threads = machine.threads.unwrap_or_else(available).clamp(1, group.len());
+    let share = group.len().div_ceil(threads);
+    let instructions = machine.instructions_for(share);
+    let (taken, last) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let work = || {
+        let mut list = List { cases, group, taken: &taken, left: share, orbits };
+        let unfinished = settle_side_by_side(instructions, protocol, &mut list);
+        let lock = || last.lock().expect("no thread has panicked");
+        lock().extend(unfinished);
+        loop {
+            // In a statement of its own, so that the lock is free again.
+            let case: Option<Underway<M, D>> = lock().pop();
+            let Some(case) = case else { break };
+            list.keep(case.finish(protocol));
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 1..threads {
+            scope.spawn(work);
+        }
+        work();
+    });
+}
+
+/// A thread's view of the list.
+struct List<'a, M: System<D>, const D: usize> {
+    cases: &'a [Case<M, D>],
+    group: &'a [usize],
+    /// Cases that have been taken by any thread.
+    taken: &'a AtomicUsize,
+    /// Lanes that this thread may still fill at the beginning, so that a few cases are not all with one.
+    left: usize,
+    orbits: &'a Orbits<M, D>,
+}
+
+impl<M: System<D>, const D: usize> List<'_, M, D> {
+    fn keep(&self, (index, orbit): (usize, OrbitOf<M, D>)) {
+        self.orbits.lock().expect("no thread has panicked")[index] = Some(orbit);
+    }
+}
+
+impl<M: System<D>, const D: usize> Queue<M, D> for List<'_, M, D> {
+    fn next(&mut self, done: Option<(usize, OrbitOf<M, D>)>) -> Option<(usize, Case<M, D>)> {
+        match done {
+            Some(done) => self.keep(done),
+            None => self.left = self.left.checked_sub(1)?,
+        }
+        let index = *self.group.get(self.taken.fetch_add(1, Ordering::Relaxed))?;
+        Some((index, self.cases[index].clone()))
+    }
+}
