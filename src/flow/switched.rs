@@ -3,7 +3,7 @@
 
 use std::fmt::Debug;
 
-use crate::lane::{Lane, Series};
+use crate::lane::{Lane, Mask, Series};
 
 /// The most guards a system may have, the section of an autonomous one included.
 pub const MAX_GUARDS: usize = 4;
@@ -59,7 +59,7 @@ impl Event for NoEvent {
 /// A system of ordinary differential equations with modes, guards and resets, in numbers of one kind.
 ///
 /// In each mode the field has a Taylor series of any order, and each guard is a series too, positive
-/// while the mode lasts. The integrator knows a system only through this trait. Every method that is called
+/// while the mode lasts. A system without guards leaves out what is said of them. The integrator knows a system only through this trait. Every method that is called
 /// in a step must be `#[inline(always)]`, see [`crate::lane::Work`].
 pub trait Switched<L: Lane> {
     /// What the field acts on.
@@ -80,9 +80,12 @@ pub trait Switched<L: Lane> {
     /// which it must come back to its section [s].
     fn period(&self) -> L;
 
-    /// The mode a motion starts in, with the state moved onto the surface that the mode lives on; a guard
+    /// The mode a motion starts in, by default the first of all, with the state moved onto the surface that the mode lives on; a guard
     /// that is due at once is then obeyed without an event.
-    fn start(&self, time: L, state: &mut Self::State) -> Self::Mode;
+    #[inline(always)]
+    fn start(&self, _time: L, _state: &mut Self::State) -> Self::Mode {
+        Self::Mode::default()
+    }
 
     /// Writes the series of the motion in `mode` from `state` at `time` into `jet`, all of it.
     fn expand(&self, mode: &Self::Mode, time: L, state: &Self::State, jet: &mut Self::Jet);
@@ -112,11 +115,15 @@ pub trait Switched<L: Lane> {
         length
     }
 
-    /// Whether guard `which` can end `mode`.
-    fn watched(&self, which: usize, mode: &Self::Mode) -> L::Mask;
+    /// Whether guard `which` can end `mode`; every guard can where nothing else is said.
+    #[inline(always)]
+    fn watched(&self, _which: usize, _mode: &Self::Mode) -> L::Mask {
+        L::Mask::splat(true)
+    }
 
     /// Writes guard `which` into `guard`: positive while `mode` lasts, ends it where it falls through zero.
-    fn guard(&self, which: usize, mode: &Self::Mode, jet: &Self::Jet, guard: &mut Series<L>);
+    #[inline(always)]
+    fn guard(&self, _which: usize, _mode: &Self::Mode, _jet: &Self::Jet, _guard: &mut Series<L>) {}
 
     /// The state `h` after the start of the step.
     fn at(&self, jet: &Self::Jet, h: L) -> Self::State;
@@ -124,15 +131,18 @@ pub trait Switched<L: Lane> {
     /// Obeys guard `which` where `due`: sets the next mode, moves the state onto the surface (or
     /// resets it), says which guards of the next mode start at zero, and returns the event
     /// as a number, zero where none is due.
+    #[inline(always)]
     fn switch(
         &self,
-        which: usize,
-        due: L::Mask,
-        mode: &mut Self::Mode,
-        state: &mut Self::State,
-        zeros: &mut Zeros<L>,
-        time: L,
-    ) -> L;
+        _which: usize,
+        _due: L::Mask,
+        _mode: &mut Self::Mode,
+        _state: &mut Self::State,
+        _zeros: &mut Zeros<L>,
+        _time: L,
+    ) -> L {
+        L::splat(0.0)
+    }
 
     /// Where the state is not a finite number.
     fn lost(&self, state: &Self::State) -> L::Mask;
