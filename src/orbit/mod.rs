@@ -5,6 +5,7 @@ pub mod history;
 pub mod certificate;
 pub mod exponent;
 mod extrapolation;
+mod francis;
 pub mod matrix;
 mod measure;
 pub mod neutral;
