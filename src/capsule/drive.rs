@@ -1,6 +1,6 @@
 //! The harmonic drive of the internal mass, p_d cos(omega t + phase).
 
-use crate::lane::{Lane, Series, elementary::sin_cos, series, side_by_side};
+use crate::lane::{Lane, Series, elementary::sin_cos_of_a_turn, series, side_by_side};
 
 use super::parameter::Parameter;
 
@@ -25,7 +25,7 @@ side_by_side!(Drive { amplitude, omega, sin_phase, cos_phase });
 impl<L: Lane> Drive<L> {
     /// The drive of these parameters, started at `phase` within 0..2 pi [rad].
     pub fn new(of: impl Fn(Parameter) -> L, phase: L) -> Self {
-        let (sin_phase, cos_phase) = sin_cos(phase);
+        let (sin_phase, cos_phase) = sin_cos_of_a_turn(phase);
         Drive { amplitude: of(Parameter::Pd), omega: of(Parameter::Omega), sin_phase, cos_phase }
     }
 
@@ -38,7 +38,7 @@ impl<L: Lane> Drive<L> {
     /// Writes the series of `cos(omega t + phase)` from `time` since the start of the drive's cycle [s].
     #[inline(always)]
     pub fn cos(&self, time: L, c: &mut Series<L>) {
-        let (sin, cos) = sin_cos(self.omega * time);
+        let (sin, cos) = sin_cos_of_a_turn(self.omega * time);
         let mut s = sin * self.cos_phase + cos * self.sin_phase;
         c[0] = cos * self.cos_phase - sin * self.sin_phase;
         for k in 0..series::ORDER {

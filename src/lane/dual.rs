@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lane, Series, series};
+use super::{Differentiable, Lane, Series, series};
 
 /// A number per lane with its derivatives along `N` directions.
 ///
@@ -38,6 +38,22 @@ impl<L: Lane, const N: usize> Dual<L, N> {
         let mut dual = Dual::constant(value);
         for (i, derivative) in dual.gradient.iter_mut().enumerate() {
             *derivative = gradient(i);
+        }
+        dual
+    }
+
+    /// A function of this number by the chain rule, from its value and its slope here.
+    ///
+    /// Where the slope is not finite, as that of the square root at zero, a derivative of zero stays zero:
+    /// a constant remains one.
+    #[inline(always)]
+    fn chained(self, value: L, slope: L) -> Self {
+        let zero = L::splat(0.0);
+        let unbounded = !slope.abs().le(L::splat(f64::MAX));
+        let mut dual = Dual { value, gradient: self.gradient };
+        for derivative in &mut dual.gradient {
+            let constant = unbounded & derivative.abs().le(zero);
+            *derivative = L::select(constant, zero, *derivative * slope);
         }
         dual
     }
@@ -142,6 +158,27 @@ impl<L: Lane, const N: usize> Lane for Dual<L, N> {
     #[inline(always)]
     fn rough_log(self) -> Self {
         Dual::constant(self.value.rough_log())
+    }
+    #[inline(always)]
+    fn fraction_and_exponent(self) -> (Self, Self) {
+        let (fraction, exponent) = self.value.fraction_and_exponent();
+        let scale = L::from_plain((fraction / self.value).plain());
+        (self.chained(fraction, scale), Dual::constant(exponent))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        self.chained(root, L::splat(0.5) / root)
+    }
+    #[inline(always)]
+    fn apply<F: Differentiable<M>, const M: usize>(self, function: &F) -> [Self; M] {
+        let values = self.value.apply(function);
+        let slopes = function.slopes(self.value, values);
+        let mut duals = [self; M];
+        for (dual, (value, slope)) in duals.iter_mut().zip(values.into_iter().zip(slopes)) {
+            *dual = self.chained(value, slope);
+        }
+        duals
     }
     #[inline(always)]
     fn rough_exp(self) -> Self {

@@ -1,15 +1,17 @@
 //! Computed: the numbers of the program, one case as an `f64` or several side by side.
 //!
 //! The integrator is written once over [`Lane`]. Besides choices and shifts of bits, only additions,
-//! multiplications and divisions occur, which IEEE 754 rounds the same way on every machine, and no
-//! multiply-add is fused; so a case has the same bits alone, among others, and anywhere.
+//! multiplications, divisions and square roots occur, which IEEE 754 rounds the same way on every machine,
+//! and no multiply-add is fused; so a case has the same bits alone, among others, and anywhere.
 
 pub mod dispatch;
 pub mod dual;
 pub mod elementary;
+mod in_lanes;
 mod pair;
 pub mod quadrature;
 pub mod series;
+mod side_by_side;
 mod wide;
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -20,12 +22,17 @@ pub use dispatch::{Instructions, Work};
 pub use dual::Dual;
 pub use pair::Pair;
 pub use series::{ORDER, Series};
+pub use side_by_side::SideBySide;
 pub use wide::Wide;
+
+pub use crate::{in_lanes, side_by_side};
 
 /// Adding and subtracting this rounds a number of moderate size to the nearest whole one.
 const ROUNDER: f64 = 1.5 * WHOLE;
 /// Added to a whole number of 0..2^52, this leaves it in the low bits of the sum.
 const WHOLE: f64 = 4_503_599_627_370_496.0;
+/// The bits of a number's exponent.
+const INFINITE: u64 = f64::INFINITY.to_bits();
 /// The upper half of the bits of 1.0, where the piecewise linear logarithm is zero.
 const LOG_ONE: f64 = 0x3FF0_0000 as f64;
 /// How much the upper half of the bits grows when a number doubles.
@@ -63,91 +70,6 @@ pub trait Mask:
         self.bits() != 0
     }
 }
-
-/// What lanes hold side by side, one of `One` in each.
-pub trait SideBySide {
-    /// What a single lane holds.
-    type One;
-    /// The same in every lane.
-    fn splat(one: &Self::One) -> Self;
-    /// What lane `index` holds.
-    fn lane(&self, index: usize) -> Self::One;
-    /// Puts `one` into lane `index`; the others keep theirs.
-    fn put(&mut self, index: usize, one: &Self::One);
-}
-
-impl SideBySide for () {
-    type One = ();
-
-    #[inline(always)]
-    fn splat(_one: &()) {}
-    #[inline(always)]
-    fn lane(&self, _index: usize) {}
-    #[inline(always)]
-    fn put(&mut self, _index: usize, _one: &()) {}
-}
-
-impl<L: Lane, const N: usize> SideBySide for [L; N] {
-    type One = [f64; N];
-
-    #[inline(always)]
-    fn splat(one: &[f64; N]) -> Self {
-        one.map(L::splat)
-    }
-    #[inline(always)]
-    fn lane(&self, index: usize) -> [f64; N] {
-        self.map(|number| number.lane(index))
-    }
-    #[inline(always)]
-    fn put(&mut self, index: usize, one: &[f64; N]) {
-        for (number, of_one) in self.iter_mut().zip(one) {
-            *number = number.with_lane(index, *of_one);
-        }
-    }
-}
-
-/// Implements [`SideBySide`] for a struct over lanes: its numbers, its masks, its structs over lanes, and
-/// what all lanes have alike.
-#[macro_export]
-macro_rules! side_by_side {
-    (
-        $name:ident { $($number:ident),* }
-        $(masks { $($mask:ident),* })?
-        $(with { $($part:ident),* })?
-        $(alike { $($alike:ident),* })?
-    ) => {
-        impl<L: $crate::lane::Lane> $crate::lane::SideBySide for $name<L> {
-            type One = $name<f64>;
-
-            #[inline(always)]
-            fn splat(one: &$name<f64>) -> Self {
-                $name {
-                    $($number: L::splat(one.$number),)*
-                    $($($mask: L::Mask::splat(one.$mask),)*)?
-                    $($($part: $crate::lane::SideBySide::splat(&one.$part),)*)?
-                    $($($alike: one.$alike,)*)?
-                }
-            }
-            #[inline(always)]
-            fn lane(&self, index: usize) -> $name<f64> {
-                $name {
-                    $($number: self.$number.lane(index),)*
-                    $($($mask: self.$mask.lane(index),)*)?
-                    $($($part: self.$part.lane(index),)*)?
-                    $($($alike: self.$alike,)*)?
-                }
-            }
-            #[inline(always)]
-            fn put(&mut self, index: usize, one: &$name<f64>) {
-                $(self.$number = self.$number.with_lane(index, one.$number);)*
-                $($(self.$mask = self.$mask.with_lane(index, one.$mask);)*)?
-                $($(self.$part.put(index, &one.$part);)*)?
-                $($(self.$alike = one.$alike;)*)?
-            }
-        }
-    };
-}
-pub use side_by_side;
 
 /// A number per lane.
 pub trait Lane:
@@ -191,6 +113,13 @@ pub trait Lane:
     /// makes a piecewise linear logarithm. It serves step lengths, where a few percent do not matter
     /// but equal bits on every machine do. Zero counts as 2^-1023.
     fn rough_log(self) -> Self;
+    /// The fraction `f` and the whole exponent `n` of a positive normal number, which is `f 2^n` with
+    /// `1 <= f < 2`; both are exact.
+    fn fraction_and_exponent(self) -> (Self, Self);
+    /// The square root, correctly rounded; NaN for negative numbers.
+    fn sqrt(self) -> Self;
+    /// The values of `function` at this number, with the derivatives that the function states.
+    fn apply<F: Differentiable<M>, const M: usize>(self, function: &F) -> [Self; M];
     /// The inverse of `rough_log`, for numbers in -1022..=1023; to 20 bits of the fraction.
     fn rough_exp(self) -> Self;
 
@@ -224,6 +153,17 @@ pub trait Lane:
     }
 }
 
+/// `M` functions of one argument that share their arithmetic, with their derivatives.
+///
+/// [`Lane::apply`] applies them. Numbers with derivatives take those of the functions from `slopes`; the
+/// arithmetic of `values` is not differentiated, so an approximation in it costs the derivatives no digits.
+pub trait Differentiable<const M: usize> {
+    /// The functions at `x`.
+    fn values<L: Lane>(&self, x: L) -> [L; M];
+    /// Their derivatives at `x`, where they have these `values`.
+    fn slopes<L: Lane>(&self, x: L, values: [L; M]) -> [L; M];
+}
+
 impl Mask for bool {
     const WIDTH: usize = 1;
 
@@ -254,6 +194,13 @@ macro_rules! plain {
         #[inline(always)]
         fn root(value: Self, _polynomial: &$crate::lane::Series<Self>) -> Self {
             value
+        }
+        #[inline(always)]
+        fn apply<F: $crate::lane::Differentiable<COUNT>, const COUNT: usize>(
+            self,
+            function: &F,
+        ) -> [Self; COUNT] {
+            function.values(self)
         }
     };
 }
@@ -304,6 +251,16 @@ impl Lane for f64 {
     fn rough_log(self) -> f64 {
         let bits = (self.to_bits() >> 32) | WHOLE.to_bits();
         (f64::from_bits(bits) - (WHOLE + LOG_ONE)) * (1.0 / LOG_UNIT)
+    }
+    #[inline(always)]
+    fn fraction_and_exponent(self) -> (f64, f64) {
+        let bits = self.to_bits();
+        let fraction = f64::from_bits((bits & !INFINITE) | 1.0_f64.to_bits());
+        (fraction, f64::from_bits((bits >> 52) | WHOLE.to_bits()) - (WHOLE + 1023.0))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
     }
     #[inline(always)]
     fn rough_exp(self) -> f64 {

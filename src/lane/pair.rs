@@ -114,6 +114,16 @@ impl Lane for Pair {
         Pair([self.0[0].rough_log(), self.0[1].rough_log()])
     }
     #[inline(always)]
+    fn fraction_and_exponent(self) -> (Self, Self) {
+        let [first, second] = self.0;
+        let (first, second) = (first.fraction_and_exponent(), second.fraction_and_exponent());
+        (Pair([first.0, second.0]), Pair([first.1, second.1]))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Pair([self.0[0].sqrt(), self.0[1].sqrt()])
+    }
+    #[inline(always)]
     fn rough_exp(self) -> Self {
         Pair([self.0[0].rough_exp(), self.0[1].rough_exp()])
     }

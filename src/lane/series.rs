@@ -1,6 +1,11 @@
 //! Taylor series of a step: truncated polynomials in the time since the step began.
+//!
+//! The functions `..._term` give coefficient `k` of a function of series, from the coefficients of the
+//! arguments up to `k` and those of the result below `k`. So they serve a recurrence in which the argument
+//! is itself found term by term.
+//! Source: Griewank and Walther, Evaluating Derivatives, 2nd ed. (SIAM 2008), section 13.2.
 
-use super::Lane;
+use super::{Lane, elementary};
 
 /// Degree at which every series is cut.
 pub const ORDER: usize = 16;
@@ -76,6 +81,109 @@ pub fn product_term<L: Lane>(a: &Series<L>, b: &Series<L>, k: usize) -> L {
         sum = sum + a[j] * b[k - j];
     }
     sum
+}
+
+/// Coefficient `k` of the square of a series, by half the multiplications of a product.
+///
+/// Method: `2 (a_0 a_k + a_1 a_(k-1) + ...)`, the middle term once.
+#[inline(always)]
+pub fn square_term<L: Lane>(a: &Series<L>, k: usize) -> L {
+    let mut half = L::splat(0.0);
+    for j in 0..k.div_ceil(2) {
+        half = half + a[j] * a[k - j];
+    }
+    let sum = half + half;
+    if k.is_multiple_of(2) { sum + a[k / 2] * a[k / 2] } else { sum }
+}
+
+/// Coefficient `k` of the quotient `q = a/b`.
+///
+/// Method: `q_k = (a_k - sum_{j=1..k} b_j q_(k-j)) / b_0`. Breaks: where `b_0` is zero.
+#[inline(always)]
+pub fn quotient_term<L: Lane>(a: &Series<L>, b: &Series<L>, q: &Series<L>, k: usize) -> L {
+    let mut rest = a[k];
+    for j in 1..=k {
+        rest = rest - b[j] * q[k - j];
+    }
+    rest / b[0]
+}
+
+/// Coefficient `k` of the square root `r` of a series.
+///
+/// Method: `r_k = (a_k - sum_{j=1..k-1} r_j r_(k-j)) / (2 r_0)`. Breaks: where `a_0` is not positive.
+#[inline(always)]
+pub fn sqrt_term<L: Lane>(a: &Series<L>, r: &Series<L>, k: usize) -> L {
+    if k == 0 {
+        return a[0].sqrt();
+    }
+    let mut rest = a[k];
+    for j in 1..k {
+        rest = rest - r[j] * r[k - j];
+    }
+    rest / (r[0] + r[0])
+}
+
+/// Coefficient `k` of the exponential `e` of a series.
+///
+/// Method: `e_k = (1/k) sum_{j=1..k} j a_j e_(k-j)`, from `e' = a' e`.
+#[inline(always)]
+pub fn exp_term<L: Lane>(a: &Series<L>, e: &Series<L>, k: usize) -> L {
+    if k == 0 { elementary::exp(a[0]) } else { slope_product_term(a, e, k) }
+}
+
+/// Coefficient `k` of the natural logarithm `l` of a series.
+///
+/// Method: `l_k = (a_k - (1/k) sum_{j=1..k-1} j l_j a_(k-j)) / a_0`, from `a l' = a'`.
+/// Breaks: where `a_0` is not positive.
+#[inline(always)]
+pub fn log_term<L: Lane>(a: &Series<L>, l: &Series<L>, k: usize) -> L {
+    if k == 0 {
+        return elementary::log(a[0]);
+    }
+    let mut sum = L::splat(0.0);
+    for j in 1..k {
+        sum = sum + L::splat(j as f64) * l[j] * a[k - j];
+    }
+    (a[k] - sum * L::splat(INVERSE[k])) / a[0]
+}
+
+/// Coefficient `k` of the sine `s` and of the cosine `c` of a series.
+///
+/// Method: `s_k = (1/k) sum_{j=1..k} j a_j c_(k-j)`, `c_k = -(1/k) sum_{j=1..k} j a_j s_(k-j)`, from
+/// `s' = a' c`, `c' = -a' s`. Breaks: as [`elementary::sin_cos`] for large `a_0`.
+#[inline(always)]
+pub fn sin_cos_terms<L: Lane>(a: &Series<L>, s: &Series<L>, c: &Series<L>, k: usize) -> (L, L) {
+    match k {
+        0 => elementary::sin_cos(a[0]),
+        _ => (slope_product_term(a, c, k), -slope_product_term(a, s, k)),
+    }
+}
+
+/// Coefficient `k` of `p`, a series to the power `exponent`.
+///
+/// Method: `p_k = sum_{j=1..k} (j exponent - (k - j)) a_j p_(k-j) / (k a_0)`, from `a p' = exponent a' p`.
+/// Breaks: where `a_0` is not positive; for whole exponents products are valid there too.
+#[inline(always)]
+pub fn power_term<L: Lane>(a: &Series<L>, exponent: L, p: &Series<L>, k: usize) -> L {
+    if k == 0 {
+        return elementary::power(a[0], exponent);
+    }
+    let mut sum = L::splat(0.0);
+    for j in 1..=k {
+        let weight = L::splat(j as f64) * exponent - L::splat((k - j) as f64);
+        sum = sum + weight * a[j] * p[k - j];
+    }
+    sum * L::splat(INVERSE[k]) / a[0]
+}
+
+/// Coefficient `k > 0` of the integral of `a' b`: `(1/k) sum_{j=1..k} j a_j b_(k-j)`.
+#[inline(always)]
+fn slope_product_term<L: Lane>(a: &Series<L>, b: &Series<L>, k: usize) -> L {
+    let mut sum = L::splat(0.0);
+    for j in 1..=k {
+        sum = sum + L::splat(j as f64) * a[j] * b[k - j];
+    }
+    sum * L::splat(INVERSE[k])
 }
 
 /// The integral of a polynomial from 0 to `h`.

@@ -139,6 +139,18 @@ impl<L: Lane, const M: usize> Lane for Wide<L, M> {
         each!(self, |i: usize| self.0[i].rough_log())
     }
     #[inline(always)]
+    fn fraction_and_exponent(self) -> (Self, Self) {
+        let (mut fractions, mut exponents) = (self, self);
+        for i in 0..M {
+            (fractions.0[i], exponents.0[i]) = self.0[i].fraction_and_exponent();
+        }
+        (fractions, exponents)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        each!(self, |i: usize| self.0[i].sqrt())
+    }
+    #[inline(always)]
     fn rough_exp(self) -> Self {
         each!(self, |i: usize| self.0[i].rough_exp())
     }

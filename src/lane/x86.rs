@@ -10,7 +10,7 @@ use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::dispatch::{AVX2, AVX512, Work};
-use super::{LOG_ONE, LOG_UNIT, Lane, Mask, WHOLE, Wide};
+use super::{INFINITE, LOG_ONE, LOG_UNIT, Lane, Mask, WHOLE, Wide};
 
 /// Runs `work` on vectors of AVX-512, none where the processor lacks it.
 pub(super) fn with_avx512<W: Work>(work: W) -> Option<W::Output> {
@@ -152,7 +152,7 @@ impl Mask for Mask4 {
 macro_rules! lanes_alike {
     (
         $width:literal, $wide:ident, $splat:ident, $load:ident, $store:ident, $or:ident, $right:ident,
-        $left:ident, $to_integer:ident, $to_double:ident, $andnot:ident
+        $left:ident, $to_integer:ident, $to_double:ident, $andnot:ident, $sqrt:ident
     ) => {
         const WIDTH: usize = $width;
 
@@ -199,6 +199,20 @@ macro_rules! lanes_alike {
                 * Self::splat(1.0 / LOG_UNIT)
         }
         #[inline(always)]
+        fn fraction_and_exponent(self) -> (Self, Self) {
+            let (one, whole) = (Self::splat(1.0).0, Self::splat(WHOLE).0);
+            let exponent = Self::splat(f64::from_bits(INFINITE)).0;
+            let fraction = here!($andnot($to_integer(exponent), $to_integer(self.0)));
+            let fraction = here!($or(fraction, $to_integer(one)));
+            let power = here!($or($right::<52>($to_integer(self.0)), $to_integer(whole)));
+            let power = $wide(here!($to_double(power))) - Self::splat(WHOLE + 1023.0);
+            ($wide(here!($to_double(fraction))), power)
+        }
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            $wide(here!($sqrt(self.0)))
+        }
+        #[inline(always)]
         fn rough_exp(self) -> Self {
             let sum = (self * Self::splat(LOG_UNIT) + Self::splat(WHOLE + LOG_ONE)).0;
             $wide(here!($to_double($left::<32>($to_integer(sum)))))
@@ -237,7 +251,8 @@ impl Lane for Avx512 {
         _mm512_slli_epi64,
         _mm512_castpd_si512,
         _mm512_castsi512_pd,
-        _mm512_andnot_si512
+        _mm512_andnot_si512,
+        _mm512_sqrt_pd
     );
 
     #[inline(always)]
@@ -269,7 +284,8 @@ impl Lane for Avx2 {
         _mm256_slli_epi64,
         _mm256_castpd_si256,
         _mm256_castsi256_pd,
-        _mm256_andnot_si256
+        _mm256_andnot_si256,
+        _mm256_sqrt_pd
     );
 
     #[inline(always)]

@@ -4,6 +4,7 @@ mod case;
 pub mod certificate;
 pub mod exponent;
 mod extrapolation;
+mod francis;
 pub mod matrix;
 mod measure;
 pub mod neutral;
