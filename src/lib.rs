@@ -7,6 +7,7 @@ pub mod lane;
 pub mod flow;
 pub mod orbit;
 pub mod branch;
+pub mod attractor;
 pub mod capsule;
 pub mod study;
 pub mod run;

@@ -9,6 +9,7 @@ pub mod observer;
 mod pace;
 pub mod switched;
 pub mod system;
+mod own_system;
 mod taylor;
 
 pub use cycle::{Reason, STEPS_PER_CYCLE, cycle};

@@ -9,12 +9,12 @@ use crate::branch::SpecialKind;
 use crate::capsule::{AsPrinted, Filippov, Reading, Section, Switching};
 
 use super::bridge::{Bridge, bridges};
-use super::cases::{RunError, pool};
-use super::cell::Cell;
+use super::cases::{Rayon, RunError, pool};
 use super::change::Change;
 use super::family::{Links, Neighbours};
 use super::natural::{Along, ROUNDING};
 use super::{Ending, Machine};
+use crate::attractor::Table;
 use crate::study::layout::{Layout, is_start, linked_axis};
 use crate::study::{Coordinate, Study};
 
@@ -74,7 +74,7 @@ pub fn links(study: &Study) -> usize {
 /// Finds the attractors of a study from the `endings` of its cases by index, none for a case that is
 /// missing; calls `linked` after each link.
 ///
-/// A periodic attractor is known by its certified orbit, see `Cell::sort` and `Neighbours::link`. Every line
+/// A periodic attractor is known by its certified orbit, see [`Table::sort`] and `Neighbours::link`. Every line
 /// is a task of its own, of which only numbers and events are kept; so are its cells and every two
 /// neighbours, as there may be a single line. The threads do not matter.
 pub fn attractors(
@@ -123,7 +123,7 @@ struct Line<'a> {
 
 impl<'a> Line<'a> {
     /// The cells, their cases sorted by attractor.
-    fn cells<R: Reading>(&self, endings: &[Option<Ending>]) -> Vec<Cell> {
+    fn cells<R: Reading>(&self, endings: &[Option<Ending>]) -> Vec<Table<3>> {
         let Line { study, layout, number } = *self;
         let sort = |at: usize| {
             let ending = |place: usize| {
@@ -131,7 +131,10 @@ impl<'a> Line<'a> {
                 (case, endings[case])
             };
             let first = study.case(layout.case(number, at, 0));
-            Cell::sort::<R>(layout.cases(), ending, &first, &study.protocol)
+            {
+                let system = first.read::<R>().system;
+                Table::sort(layout.cases(), ending, &system, &study.protocol, &Rayon)
+            }
         };
         (0..layout.cells()).into_par_iter().map(sort).collect()
     }
@@ -139,7 +142,7 @@ impl<'a> Line<'a> {
     /// How the attractors of each cell go on in the next, and those that go on beyond it.
     fn links<R: Reading>(
         &self,
-        cells: &[Cell],
+        cells: &[Table<3>],
         linked: impl Fn() + Sync,
     ) -> (Vec<Links>, Vec<Bridge>) {
         let between = |at: usize| self.neighbours::<R>(cells, at);
@@ -155,7 +158,11 @@ impl<'a> Line<'a> {
     }
 
     /// The cells at a place of the axis and at the next; none where the axis is no parameter.
-    fn neighbours<'b, R: Reading>(&self, cells: &'b [Cell], at: usize) -> Option<Neighbours<'b, R>>
+    fn neighbours<'b, R: Reading>(
+        &self,
+        cells: &'b [Table<3>],
+        at: usize,
+    ) -> Option<Neighbours<'b, R>>
     where
         'a: 'b,
     {
@@ -170,7 +177,7 @@ impl<'a> Line<'a> {
     }
 
     /// Notes the number of each case's attractor.
-    fn note(&self, cells: &[Cell], numbers: &[Vec<u32>], of_case: &mut [Option<u32>]) {
+    fn note(&self, cells: &[Table<3>], numbers: &[Vec<u32>], of_case: &mut [Option<u32>]) {
         for (at, (cell, numbers)) in cells.iter().zip(numbers).enumerate() {
             for (place, attractor) in cell.of_case.iter().enumerate() {
                 let case = self.layout.case(self.number, at, place);
@@ -181,7 +188,7 @@ impl<'a> Line<'a> {
 }
 
 /// The numbers of the attractors of a line, cell by cell.
-fn numbers(cells: &[Cell], links: &[Links], bridges: &[Bridge]) -> Vec<Vec<u32>> {
+fn numbers(cells: &[Table<3>], links: &[Links], bridges: &[Bridge]) -> Vec<Vec<u32>> {
     let mut numbers: Vec<Vec<u32>> = Vec::with_capacity(cells.len());
     let mut count = 0;
     for (at, cell) in cells.iter().enumerate() {
@@ -206,7 +213,7 @@ fn numbers(cells: &[Cell], links: &[Links], bridges: &[Bridge]) -> Vec<Vec<u32>>
 
 /// The events of a line, in the order of the parameter.
 fn events(
-    cells: &[Cell],
+    cells: &[Table<3>],
     links: &[Links],
     bridges: &[Bridge],
     numbers: &[Vec<u32>],

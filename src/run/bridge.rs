@@ -4,10 +4,10 @@ use rayon::prelude::*;
 
 use crate::capsule::Reading;
 
-use super::cell::Cell;
 use super::change::{Change, changes};
 use super::family::{Links, Neighbours, Unseen, doubles};
 use super::natural::End;
+use crate::attractor::Table;
 
 /// A periodic attractor of one cell that is seen again in a later one, but in none between them.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +27,7 @@ pub struct Bridge {
 /// that show nothing new, as cases settle slowly there. `between` gives what is held between a cell and the
 /// next.
 pub fn bridges<'a, R: Reading>(
-    cells: &[Cell],
+    cells: &[Table<3>],
     links: &[Links],
     between: impl Fn(usize) -> Option<Neighbours<'a, R>> + Sync,
 ) -> Vec<Bridge> {
@@ -50,7 +50,7 @@ pub fn bridges<'a, R: Reading>(
 
 /// Follows an orbit, which is at the cell after `from`, to the next cell that shows it.
 fn cross<'a, R: Reading>(
-    cells: &[Cell],
+    cells: &[Table<3>],
     links: &[Links],
     from: [usize; 2],
     mut here: Unseen,

@@ -1,10 +1,13 @@
 //! The parallel run: chains of cases over all cores, in any order, to the same records.
 
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use rayon::prelude::*;
+
+use crate::attractor::Executor;
 use crate::capsule::{AsPrinted, CapsuleSystem, Case, Filippov, Orbit, Reading, State, Switching};
 use crate::lane::Instructions;
 use crate::orbit::{self, Machine, OrbitOf, Outcome, Queue, Underway, settle_side_by_side};
@@ -93,6 +96,18 @@ pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, RunError
     }
     let failed = |error| RunError(format!("the worker threads could not be started: {error}"));
     builder.build().map_err(failed)
+}
+
+/// The threads of the pool in which it is used.
+pub(super) struct Rayon;
+
+/// A thread takes so many numbers of a range at least: fewer are not worth sharing out.
+const SHARE: usize = 16;
+
+impl Executor for Rayon {
+    fn map<T: Send>(&self, range: Range<usize>, each: impl Fn(usize) -> T + Sync) -> Vec<T> {
+        range.into_par_iter().with_min_len(SHARE).map(|number| each(number)).collect()
+    }
 }
 
 /// The block and the number of the chain at each place of the queue.

@@ -5,9 +5,9 @@ use crate::capsule::Reading;
 use crate::flow::Metric;
 use crate::orbit::Outcome;
 
-use super::cell::{Attractor, Cell, coincide};
 use super::change::{Change, changes, ending, straddles};
 use super::natural::{Along, End, Solution};
+use crate::attractor::{Attractor, Table, coincide};
 use crate::study::Direction;
 
 /// How the attractors of a cell go on in the next.
@@ -46,7 +46,7 @@ pub struct Neighbours<'a, R> {
     /// Its two values.
     pub values: [f64; 2],
     /// The cells.
-    pub cells: [&'a Cell; 2],
+    pub cells: [&'a Table<3>; 2],
     /// The directions that the cases of a cell have in turn; none where the axis is not followed.
     pub directions: &'a [Direction],
 }
@@ -116,7 +116,7 @@ impl<R: Reading> Neighbours<'_, R> {
     }
 
     /// The orbit of an attractor at its value of the parameter.
-    fn solution(&self, side: usize, attractor: &Attractor) -> Option<Solution> {
+    fn solution(&self, side: usize, attractor: &Attractor<3>) -> Option<Solution> {
         let Attractor { points, bound, size, .. } = attractor;
         self.along.known(self.values[side], points, bound / size)
     }
@@ -124,7 +124,7 @@ impl<R: Reading> Neighbours<'_, R> {
     /// The attractor of the other cell that belongs to an orbit that was followed there.
     fn successor(&self, side: usize, links: &Links, here: &Unseen) -> Option<usize> {
         let metric = self.along.metric(here.orbit.value);
-        let is_next = |(place, other): &(usize, &Attractor)| {
+        let is_next = |(place, other): &(usize, &Attractor<3>)| {
             !links.has(1 - side, *place) && here.belongs_to(other, &metric)
         };
         let mut others = self.cells[1 - side].attractors.iter().enumerate();
@@ -205,7 +205,7 @@ impl Unseen {
     }
 
     /// Whether the attractor at the same parameters is its own.
-    pub fn belongs_to(&self, attractor: &Attractor, metric: &Metric<3>) -> bool {
+    pub fn belongs_to(&self, attractor: &Attractor<3>, metric: &Metric<3>) -> bool {
         let Attractor { outcome, points, bound, size, .. } = attractor;
         let Unseen { orbit, doubled } = self;
         let bound = bound + orbit.size * orbit.error.max(bound / size);

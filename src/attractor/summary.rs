@@ -1,0 +1,65 @@
+//! What has to be kept of a settled case to tell its attractor.
+
+use crate::orbit::matrix::{Complex, least_from_one};
+use crate::orbit::{Orbit, Outcome};
+
+/// What a case has settled to, without the orbit itself, which can be followed again from its last point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Summary<const D: usize> {
+    /// What the case turned out to be.
+    pub outcome: Outcome,
+    /// Whether small pushes die out, by its multipliers.
+    pub is_stable: bool,
+    /// Its period [cycles]; zero unless periodic.
+    pub period: u32,
+    /// The section point where it was last, from where it can be followed on.
+    pub section: [f64; D],
+    /// How far the section is from repeating after a period, relative to the motion [-].
+    pub residual: f64,
+    /// The least distance of a multiplier from one [-].
+    pub from_one: f64,
+}
+
+impl<const D: usize> Summary<D> {
+    /// The summary of a case with this outcome, period, last section point, and residual and multipliers of
+    /// its certificate, the largest magnitude first; they are NaN where there is none.
+    pub fn new(
+        outcome: Outcome,
+        period: u32,
+        section: [f64; D],
+        residual: f64,
+        multipliers: &[Complex; D],
+    ) -> Self {
+        let is_stable = multipliers[0].abs() < 1.0;
+        let from_one = least_from_one(multipliers);
+        Summary { outcome, is_stable, period, section, residual, from_one }
+    }
+
+    /// The summary of what a case of any system has settled to.
+    pub fn of<S, O>(orbit: &Orbit<S, O, D>, section: [f64; D]) -> Self {
+        let certificate = &orbit.certificate;
+        let (period, multipliers) = (orbit.period as u32, &certificate.multipliers);
+        Summary::new(orbit.outcome, period, section, certificate.residual, multipliers)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_summary_is_small_and_a_missing_one_takes_no_more() {
+        assert_eq!(size_of::<Summary<3>>(), 48);
+        assert_eq!(size_of::<Option<Summary<3>>>(), 48);
+    }
+
+    #[test]
+    fn only_known_multipliers_within_the_unit_circle_are_stable() {
+        let summary = |re: f64| {
+            let multipliers = [re, 0.25, 0.0].map(|re| Complex { re, im: 0.0 });
+            Summary::new(Outcome::Periodic, 1, [0.0; 3], 0.0, &multipliers)
+        };
+        assert_eq!((summary(-0.5).is_stable, summary(-0.5).from_one), (true, 0.75));
+        assert!(!summary(-1.5).is_stable && !summary(f64::NAN).is_stable);
+    }
+}

@@ -1,0 +1,100 @@
+//! The table of the attractors at one set of parameters, and which of them each case has ended on.
+
+use std::ops::Range;
+
+use crate::flow::{Metric, Stroboscopic, System};
+use crate::orbit::{OrbitOf, Outcome, Protocol};
+
+use super::identity::Attractor;
+use super::summary::Summary;
+
+/// So many cases are followed before they are sorted in turn, as there may be millions.
+const TOGETHER: usize = 4096;
+
+/// Calls a function for each number of a range, perhaps on several threads, and returns the results in their
+/// order.
+pub trait Executor: Sync {
+    /// The results of `each` for every number of `range`.
+    fn map<T: Send>(&self, range: Range<usize>, each: impl Fn(usize) -> T + Sync) -> Vec<T>;
+}
+
+/// One thread.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Serial;
+
+impl Executor for Serial {
+    fn map<T: Send>(&self, range: Range<usize>, each: impl Fn(usize) -> T + Sync) -> Vec<T> {
+        range.map(each).collect()
+    }
+}
+
+/// The attractors at one set of parameters.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Table<const D: usize> {
+    /// The attractor of each case, by its place in the list below; none where the case has none.
+    pub of_case: Vec<Option<u32>>,
+    /// The attractors in the order in which the cases show them.
+    pub attractors: Vec<Attractor<D>>,
+}
+
+impl<const D: usize> Table<D> {
+    /// Sorts so many cases of a `system` by attractor: `summary` tells the index and the summary of each.
+    ///
+    /// The executor follows many cases at a time and compares each with the attractors that are known by
+    /// then; what is new is sorted in turn. A case belongs to the first attractor that it matches, and
+    /// attractors are only added at the end, so that it does not matter how many were known.
+    pub fn sort<M: System<D>>(
+        cases: usize,
+        summary: impl Fn(usize) -> (usize, Option<Summary<D>>) + Sync,
+        system: &M,
+        protocol: &Protocol,
+        executor: &impl Executor,
+    ) -> Self {
+        let metric = system.metric();
+        let mut table = Table { of_case: Vec::with_capacity(cases), attractors: Vec::new() };
+        for first in (0..cases).step_by(TOGETHER) {
+            let meet = |place: usize| {
+                let (index, summary) = summary(place);
+                let found = Attractor::of(index, system, &summary?, protocol)?;
+                Some(table.place(&found, &metric).ok_or(found))
+            };
+            let met: Vec<Option<Result<usize, Attractor<D>>>> =
+                executor.map(first..cases.min(first + TOGETHER), meet);
+            for met in met {
+                let place = met.map(|met| met.unwrap_or_else(|new| table.add(new, &metric)));
+                table.of_case.push(place.map(|place| place as u32));
+            }
+        }
+        for attractor in &mut table.attractors {
+            if attractor.outcome != Outcome::Periodic {
+                attractor.points = Vec::new();
+            }
+        }
+        table
+    }
+
+    /// The place of an attractor, if it is known.
+    fn place(&self, found: &Attractor<D>, metric: &Metric<D>) -> Option<usize> {
+        self.attractors.iter().position(|known| known.is(found, metric))
+    }
+
+    /// The place of an attractor, which is added if it is not known.
+    fn add(&mut self, found: Attractor<D>, metric: &Metric<D>) -> usize {
+        self.place(&found, metric).unwrap_or_else(|| {
+            self.attractors.push(found);
+            self.attractors.len() - 1
+        })
+    }
+}
+
+/// The attractors that cases of one system have settled to, which may differ in their starts only.
+pub fn attractors_of<M: System<D>, const D: usize>(
+    system: &M,
+    orbits: &[OrbitOf<M, D>],
+    protocol: &Protocol,
+) -> Table<D> {
+    let summary = |orbit: &OrbitOf<M, D>| Summary::of(orbit, M::Single::point(&orbit.end));
+    let summaries: Vec<_> = orbits.iter().map(summary).collect();
+    let summary = |place: usize| (place, Some(summaries[place]));
+    Table::sort(orbits.len(), summary, system, protocol, &Serial)
+}

@@ -1,0 +1,62 @@
+//! The macro by which a struct of numbers becomes a system by its parameters.
+
+/// Makes a struct of numbers the system of its own parameters: implements
+/// [`SideBySide`](crate::lane::SideBySide) and [`System`](crate::flow::System) for it.
+///
+/// The struct has one parameter, the kind of lane, and no fields but those listed, each of which is a
+/// parameter of the system under its own name. `section` says how many coordinates the section has, `state`
+/// and `mode` name the types of [`Switched`](crate::flow::Switched) over `L`, `event` its events, and `scales`
+/// what the coordinates of the section are multiplied with to be compared. A page that uses it is
+/// `examples/duffing.rs`.
+///
+/// # Panics
+/// The system does where it is asked for a parameter that it does not have.
+#[macro_export]
+macro_rules! own_system {
+    (
+        $name:ident { $($parameter:ident),* $(,)? }
+        section $coordinates:literal
+        state $state:ty,
+        mode $mode:ty,
+        event $event:ty,
+        scales $scales:expr
+    ) => {
+        $crate::side_by_side!($name { $($parameter),* });
+
+        impl $crate::flow::System<$coordinates> for $name<f64> {
+            type Parameter = &'static str;
+            type Event = $event;
+            type State<L: $crate::lane::Lane> = $state;
+            type Mode<L: $crate::lane::Lane> = $mode;
+            type Single = Self;
+            type In<L: $crate::lane::Lane> = $name<L>;
+            type Observer = ();
+
+            fn single(&self) -> Self {
+                *self
+            }
+            fn system<L: $crate::lane::Lane>(&self, of: impl Fn(&'static str) -> L) -> $name<L> {
+                $name { $($parameter: of(stringify!($parameter))),* }
+            }
+            fn value(&self, parameter: &'static str) -> f64 {
+                $(if parameter == stringify!($parameter) {
+                    return self.$parameter;
+                })*
+                panic!("{} has no parameter {parameter}", stringify!($name))
+            }
+            fn with(&self, parameter: &'static str, value: f64) -> Self {
+                let mut other = *self;
+                $(if parameter == stringify!($parameter) {
+                    other.$parameter = value;
+                    return other;
+                })*
+                panic!("{} has no parameter {parameter}", stringify!($name))
+            }
+            fn metric(&self) -> $crate::flow::Metric<$coordinates> {
+                let scales: fn(&Self) -> [f64; $coordinates] = $scales;
+                $crate::flow::Metric { scales: scales(self) }
+            }
+            fn observer(&self, _points: usize) {}
+        }
+    };
+}
