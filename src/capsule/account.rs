@@ -8,7 +8,8 @@ use crate::lane::quadrature::{integral_of_product, values};
 use crate::lane::{Series, series};
 
 use super::locomotion::Locomotion;
-use super::parameter::{Parameter, Parameters};
+use super::parameter::Parameter;
+use super::parameters::Parameters;
 use super::state::{Contact, EventKind, State, StickSlip};
 
 /// A point of the impact section: where contact closes.

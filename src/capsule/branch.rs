@@ -5,7 +5,8 @@ use crate::orbit::Protocol;
 
 use super::failure::Section;
 use super::output::Outputs;
-use super::parameter::{Parameter, Parameters};
+use super::parameter::Parameter;
+use super::parameters::Parameters;
 use super::resistance::Switching;
 use super::settle::outputs;
 use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};

@@ -4,10 +4,12 @@ use crate::flow::{Event, Field, Stroboscopic, Switched, Zeros};
 use crate::lane::elementary::not_finite;
 use crate::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 
+use super::drag::Drag;
 use super::drive::{Drive, reduced};
 use super::locomotion::Locomotion;
-use super::parameter::{Parameter, Parameters};
-use super::resistance::{Drag, Resistance};
+use super::parameter::Parameter;
+use super::parameters::Parameters;
+use super::resistance::Resistance;
 use super::state::{Contact, EventKind, Jet, State, StickSlip};
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.

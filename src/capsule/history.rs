@@ -6,7 +6,8 @@ use crate::orbit::{HistorySpan, Trajectory};
 
 use super::Failure;
 use super::locomotion::Locomotion;
-use super::parameter::{Parameter, Parameters};
+use super::parameter::Parameter;
+use super::parameters::Parameters;
 use super::state::State;
 
 /// Samples at even times, both ends included.

@@ -7,11 +7,13 @@
 use crate::flow::{Event, Field, Stroboscopic, Switched, Zeros};
 use crate::lane::{Lane, Mask, ORDER, Series, elementary::not_finite, series, side_by_side};
 
+use super::drag::Drag;
 use super::drive::{Drive, reduced};
 use super::locomotion::Locomotion;
-use super::parameter::{Parameter, Parameters};
+use super::parameter::Parameter;
+use super::parameters::Parameters;
 use super::regime::{CONTACT, PrintedMode, Regime, Rules, sign};
-use super::resistance::{Drag, Resistance};
+use super::resistance::Resistance;
 use super::state::{Contact, EventKind, Jet, State, StickSlip};
 
 /// The capsule with the switching as printed, one set of parameters per lane.

@@ -3,8 +3,8 @@
 use crate::flow::Zeros;
 use crate::lane::{Lane, Mask, series, side_by_side};
 
+use super::drag::Drag;
 use super::drive::Drive;
-use super::resistance::Drag;
 use super::state::State;
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.

@@ -8,7 +8,8 @@ use crate::orbit::{
 use super::account::{Account, Impact};
 use super::history::History;
 use super::output::{Output, Outputs};
-use super::parameter::{Parameter, Parameters};
+use super::parameter::Parameter;
+use super::parameters::Parameters;
 use super::resistance::Switching;
 use super::state::State;
 use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};

@@ -9,7 +9,7 @@ use super::Failure;
 use super::account::{Account, Energies};
 use super::capsule::Capsule;
 use super::locomotion::Locomotion;
-use super::parameter::Parameters;
+use super::parameters::Parameters;
 use super::printed::PrintedCapsule;
 use super::resistance::Switching;
 use super::state::{EventKind, State};

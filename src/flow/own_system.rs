@@ -7,35 +7,57 @@
 /// parameter of the system under its own name. `section` says how many coordinates the section has, `state`
 /// and `mode` name the types of [`Switched`](crate::flow::Switched) over `L`, `event` its events, and `scales`
 /// what the coordinates of the section are multiplied with to be compared. A page that uses it is
-/// `examples/duffing.rs`.
+/// `examples/duffing.rs`. A second parameter of the struct, a constant, is given its value after the name:
+/// `examples/relief_valve.rs` has one that chooses between two sections.
 ///
 /// # Panics
 /// The system does where it is asked for a parameter that it does not have.
 #[macro_export]
 macro_rules! own_system {
     (
-        $name:ident { $($parameter:ident),* $(,)? }
+        $name:ident $(<$constant:literal>)? { $($parameter:ident),* $(,)? }
         section $coordinates:literal
         state $state:ty,
         mode $mode:ty,
         event $event:ty,
         scales $scales:expr
     ) => {
-        $crate::side_by_side!($name { $($parameter),* });
+        impl<L: $crate::lane::Lane> $crate::lane::SideBySide for $name<L $(, $constant)?> {
+            type One = $name<f64 $(, $constant)?>;
 
-        impl $crate::flow::System<$coordinates> for $name<f64> {
+            #[inline(always)]
+            fn splat(one: &Self::One) -> Self {
+                $name { $($parameter: <L as $crate::lane::Lane>::splat(one.$parameter)),* }
+            }
+            #[inline(always)]
+            fn lane(&self, index: usize) -> Self::One {
+                $name { $($parameter: $crate::lane::Lane::lane(self.$parameter, index)),* }
+            }
+            #[inline(always)]
+            fn put(&mut self, index: usize, one: &Self::One) {
+                $(
+                    let lanes = &mut self.$parameter;
+                    *lanes = $crate::lane::Lane::with_lane(*lanes, index, one.$parameter);
+                )*
+            }
+        }
+
+        impl $crate::flow::System<$coordinates> for $name<f64 $(, $constant)?> {
             type Parameter = &'static str;
             type Event = $event;
             type State<L: $crate::lane::Lane> = $state;
             type Mode<L: $crate::lane::Lane> = $mode;
             type Single = Self;
-            type In<L: $crate::lane::Lane> = $name<L>;
+            type In<L: $crate::lane::Lane> = $name<L $(, $constant)?>;
             type Observer = ();
 
             fn single(&self) -> Self {
                 *self
             }
-            fn system<L: $crate::lane::Lane>(&self, of: impl Fn(&'static str) -> L) -> $name<L> {
+            fn system<L: $crate::lane::Lane>(
+                &self,
+                of: impl Fn(&'static str) -> L,
+            ) -> $name<L $(, $constant)?> {
                 $name { $($parameter: of(stringify!($parameter))),* }
             }
             fn value(&self, parameter: &'static str) -> f64 {

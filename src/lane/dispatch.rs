@@ -1,27 +1,9 @@
 //! Which vectors a piece of work runs on: chosen when the program runs, from what the processor has.
 
+use super::work::{AVX2, AVX512, BASELINE, Work};
 #[cfg(target_arch = "x86_64")]
 use super::x86;
 use super::{Lane, Wide, pair::Pair};
-
-/// Vectors side by side, so that one fills the waits of another; measured in `benches/README.md`.
-pub(super) const BASELINE: usize = 2;
-/// The same for AVX2.
-pub(super) const AVX2: usize = 2;
-/// The same for AVX-512.
-pub(super) const AVX512: usize = 2;
-
-/// A piece of work that is written once for lanes of any kind.
-///
-/// `run` and everything that it calls on lanes in every step must be `#[inline(always)]`: what is not inlined
-/// gives the same bits, but is compiled without the instructions at hand and slow (by a factor of up to
-/// thirty). [`in_lanes!`](crate::in_lanes) puts the attribute on all functions of an `impl` block.
-pub trait Work {
-    /// What it yields.
-    type Output;
-    /// Does it on lanes of the kind `L`.
-    fn run<L: Lane>(self) -> Self::Output;
-}
 
 /// The instructions that lanes are moved by. The bits of a result do not depend on them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

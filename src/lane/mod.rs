@@ -8,22 +8,25 @@ pub mod dispatch;
 pub mod dual;
 pub mod elementary;
 mod in_lanes;
+mod order;
 mod pair;
 pub mod quadrature;
 pub mod series;
 mod side_by_side;
 mod wide;
+mod work;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-pub use dispatch::{Instructions, Work};
+pub use dispatch::Instructions;
 pub use dual::Dual;
+pub use order::{ORDER, Series};
 pub use pair::Pair;
-pub use series::{ORDER, Series};
 pub use side_by_side::SideBySide;
 pub use wide::Wide;
+pub use work::Work;
 
 pub use crate::{in_lanes, side_by_side};
 

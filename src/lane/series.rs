@@ -7,11 +7,7 @@
 
 use super::{Lane, elementary};
 
-/// Degree at which every series is cut.
-pub const ORDER: usize = 16;
-
-/// Coefficients of the powers 0..=ORDER of the time since the step began.
-pub type Series<L> = [L; ORDER + 1];
+pub use super::order::{ORDER, Series};
 
 /// `1/n`, so that the recurrences multiply rather than divide.
 pub const INVERSE: [f64; ORDER + 2] = {

@@ -9,7 +9,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::dispatch::{AVX2, AVX512, Work};
+use super::work::{AVX2, AVX512, Work};
 use super::{INFINITE, LOG_ONE, LOG_UNIT, Lane, Mask, WHOLE, Wide};
 
 /// Runs `work` on vectors of AVX-512, none where the processor lacks it.

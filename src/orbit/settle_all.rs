@@ -7,7 +7,8 @@ use std::thread;
 use crate::flow::System;
 use crate::lane::Instructions;
 
-use super::case::{Case, OrbitOf, Protocol};
+use super::case::{Case, OrbitOf};
+use super::protocol::Protocol;
 use super::side_by_side::{Queue, Underway, settle_side_by_side};
 
 /// What cases are settled on; what they settle to does not depend on it.

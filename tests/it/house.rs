@@ -46,14 +46,18 @@ const LONGEST_FILE: usize = 400;
 
 /// A file of the repository: its path from the root, its text, and its text without comments and
 /// the contents of strings.
-struct Source {
-    path: String,
+#[derive(Clone)]
+pub struct Source {
+    /// Its path from the root.
+    pub path: String,
     text: String,
-    code: String,
+    /// Its text without comments and the contents of strings.
+    pub code: String,
 }
 
 impl Source {
-    fn new(path: &str, text: &str) -> Self {
+    /// A file with this text.
+    pub fn new(path: &str, text: &str) -> Self {
         Source { path: path.into(), text: text.into(), code: code_only(text) }
     }
 
@@ -66,7 +70,8 @@ impl Source {
     }
 }
 
-fn sources(folders: &[&str]) -> Vec<Source> {
+/// Every Rust file in these folders.
+pub fn sources(folders: &[&str]) -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut paths = Vec::new();
     for folder in folders {
@@ -140,7 +145,7 @@ fn string_length(text: &str) -> usize {
 }
 
 /// Every word of `code` with the text before and after it.
-fn words(code: &str) -> impl Iterator<Item = (&str, &str, &str)> {
+pub fn words(code: &str) -> impl Iterator<Item = (&str, &str, &str)> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let starts = code.char_indices().filter(move |(place, c)| {
         is_word(*c) && !code[..*place].chars().next_back().is_some_and(is_word)

@@ -10,6 +10,7 @@ mod branch_ends;
 mod branch_figure;
 mod bystanders;
 mod certificates;
+mod circles;
 mod cli;
 mod closed_forms;
 mod contract;

@@ -1,0 +1,182 @@
+//! What resists the capsule: dry friction by two laws, or a resistive medium.
+
+use crate::lane::{Lane, Mask, ORDER, Series, elementary::exp_decay, series, side_by_side};
+
+use super::parameter::Parameter;
+use super::resistance::Resistance;
+
+/// Far from rest a step may at least change |y2|/v_s by this much.
+const NARROWEST: f64 = 2.0;
+/// Chords by which the length of a step is approached at which |y2| has fallen by what is allowed.
+const CHORDS: usize = 4;
+
+/// A law of resistance with its constants.
+#[derive(Debug, Clone, Copy)]
+pub struct Drag<L> {
+    /// The law.
+    pub law: Resistance,
+    /// `mu_d N`; a medium has no use for it [N].
+    dynamic: L,
+    /// Force needed to leave rest, `f_b` [N].
+    pub break_away: L,
+    /// `f_s = mu_s N`, zero in a medium [N].
+    pub static_limit: L,
+    /// Resistance at vanishing speed, `f_d(0+)` [N].
+    pub at_onset: L,
+    /// `1/v_s` [s/m].
+    inverse_stribeck: L,
+    linear: L,
+    quadratic: L,
+}
+
+// Lanes share one law: the constants differ.
+side_by_side!(Drag {
+    dynamic, break_away, static_limit, at_onset, inverse_stribeck, linear, quadratic
+} alike { law });
+
+impl<L: Lane> Drag<L> {
+    /// The law with the constants of these parameters.
+    ///
+    /// Friction at vanishing speed is 2 mu_d N by the Coulomb-Stribeck law, and rest ends at
+    /// f_b = max(f_s, f_d(0+)): a capsule that left at less would be pushed straight back.
+    pub fn new(of: impl Fn(Parameter) -> L, law: Resistance) -> Self {
+        let (of_rest, rise) = match law {
+            Resistance::CoulombStribeck => (1.0, 2.0),
+            Resistance::Coulomb => (1.0, 1.0),
+            Resistance::Medium => (0.0, 0.0),
+        };
+        let load = (of(Parameter::M1) + of(Parameter::M2)) * of(Parameter::G);
+        let static_limit = L::splat(of_rest) * of(Parameter::MuS) * load;
+        let at_onset = L::splat(rise) * of(Parameter::MuD) * load;
+        Drag {
+            law,
+            dynamic: of(Parameter::MuD) * load,
+            static_limit,
+            at_onset,
+            break_away: static_limit.max(at_onset),
+            inverse_stribeck: L::splat(1.0) / of(Parameter::Vs),
+            linear: of(Parameter::C1),
+            quadratic: of(Parameter::C2),
+        }
+    }
+
+    /// How many leading coefficients of |y2| vanish when the capsule leaves rest at `f_b`.
+    ///
+    /// With a static limit above the dynamic friction the acceleration jumps (one); with none above
+    /// it, it starts from zero and y2 leaves zero with a double root (two).
+    #[inline(always)]
+    pub fn onset_zeros(&self) -> L {
+        L::select(self.at_onset.lt(self.break_away), L::splat(1.0), L::splat(2.0))
+    }
+
+    /// `exp(-|y2|/v_s)` at the start of a step; zero where the law has no such term.
+    #[inline(always)]
+    pub fn decay_start(&self, y2: L) -> L {
+        match self.law {
+            Resistance::CoulombStribeck => exp_decay(-(y2.abs() * self.inverse_stribeck)),
+            Resistance::Coulomb | Resistance::Medium => L::splat(0.0),
+        }
+    }
+
+    /// Coefficient `k` of the resisting force while slipping in direction `slip` (+1 or -1).
+    ///
+    /// `decay` is the series of exp(-|y2|/v_s), known up to `k` like that of `y2`.
+    #[inline(always)]
+    pub fn force_term(&self, slip: L, decay: &Series<L>, y2: &Series<L>, k: usize) -> L {
+        match self.law {
+            Resistance::CoulombStribeck | Resistance::Coulomb => {
+                let unit = if k == 0 { decay[0] + L::splat(1.0) } else { decay[k] };
+                slip * self.dynamic * unit
+            }
+            Resistance::Medium => {
+                self.linear * y2[k] + self.quadratic * (slip * series::product_term(y2, y2, k))
+            }
+        }
+    }
+
+    /// The longest step within `length` over which the series of exp(-|y2|/v_s) has its value, for a motion
+    /// with the direction `slip` and the velocity `y2`.
+    ///
+    /// With u = |y2|/v_s, u0 its value where the step begins, and U = -ln tolerance:
+    ///
+    /// Method: from u0 > U the step may last until u falls to U, or by `NARROWEST`, whichever is farther.
+    /// |y2| falls by no more than D(h), the sum of those of its terms that are negative. D is convex, so that
+    /// false position approaches the root of D(h) = allowed from the side of shorter steps.
+    /// Guarantees: as long as u > U, exp(-u) is below the tolerance, and the error of the friction below
+    /// mu_d N times the tolerance. A truncated series that is larger than that is so by its last terms; these
+    /// are terms of y2, and the pace bounds them. From u0 <= U the terms of y2 show the exponential: for a
+    /// change x of u those of order p are exp(-u0) x^p/(u0 p!) of |y2|, and where the last two are below the
+    /// tolerance, so is the sum of all that follow, up to a factor of ten.
+    /// Breaks: nothing is known of a law with another layer than the one around rest.
+    #[inline(always)]
+    pub fn step_bound(
+        &self,
+        slip: L,
+        decay: &Series<L>,
+        y2: &Series<L>,
+        length: L::Plain,
+        tolerance: f64,
+    ) -> L::Plain {
+        if self.law != Resistance::CoulombStribeck {
+            return length;
+        }
+        let zero = L::Plain::splat(0.0);
+        let (slip, dynamic) = (slip.plain(), self.dynamic.plain());
+        let slides = zero.lt(slip * slip) & zero.lt(dynamic);
+        let far = slides & decay[0].plain().lt(L::Plain::splat(tolerance));
+        if !far.any() {
+            return length;
+        }
+        // -ln 2 times the logarithm to base 2, which is known within 0.09.
+        let edge = std::f64::consts::LN_2 * (0.09 - tolerance.rough_log());
+        let speed = y2[0].plain().abs() * self.inverse_stribeck.plain();
+        let fall = (speed - L::Plain::splat(edge)).max(L::Plain::splat(NARROWEST));
+        let allowed = fall / self.inverse_stribeck.plain();
+        let mut terms = [zero; ORDER + 1];
+        for (term, y2) in terms.iter_mut().zip(y2).skip(1) {
+            *term = zero.max(-(slip * y2.plain()));
+        }
+        let at_end = series::value(&terms, length);
+        let cuts = far & allowed.lt(at_end);
+        if !cuts.any() {
+            return length;
+        }
+        let (mut low, mut at_low) = (zero, zero);
+        for _ in 0..CHORDS {
+            let share = (allowed - at_low) / (at_end - at_low);
+            low = low + (length - low) * share;
+            at_low = series::value(&terms, low);
+        }
+        L::Plain::select(cuts, low, length)
+    }
+
+    /// Coefficient `k + 1` of exp(-|y2|/v_s), from `e' = -(slip/v_s) e y2'`.
+    #[inline(always)]
+    pub fn decay_term(&self, slip: L, decay: &Series<L>, acceleration: &Series<L>, k: usize) -> L {
+        match self.law {
+            Resistance::CoulombStribeck => {
+                let product = series::product_term(decay, acceleration, k);
+                -(slip * self.inverse_stribeck * product) * L::splat(series::INVERSE[k + 1])
+            }
+            Resistance::Coulomb | Resistance::Medium => L::splat(0.0),
+        }
+    }
+}
+
+impl Drag<f64> {
+    /// The resistance to a motion with the direction `slip`, as the law is written [N].
+    pub fn force(&self, slip: f64, y2: f64) -> f64 {
+        match self.law {
+            Resistance::CoulombStribeck => {
+                slip * self.dynamic * (1.0 + libm::exp(-y2.abs() * self.inverse_stribeck))
+            }
+            Resistance::Coulomb => slip * self.dynamic,
+            Resistance::Medium => self.linear * y2 + self.quadratic * slip * y2 * y2,
+        }
+    }
+
+    /// Whether the law has a layer around rest, in which the resistance changes with the speed.
+    pub fn has_layer(&self) -> bool {
+        self.law == Resistance::CoulombStribeck && self.dynamic > 0.0
+    }
+}

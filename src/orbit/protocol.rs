@@ -1,0 +1,115 @@
+//! How a case is followed and judged, and what it may turn out to be.
+
+use std::ops::RangeInclusive;
+
+use serde::Serialize;
+
+/// What a case turned out to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// The section repeats after `period` cycles.
+    Periodic = 0,
+    /// Neighbouring motions part exponentially.
+    Chaotic,
+    /// Neither repeats nor parts.
+    QuasiPeriodic,
+    /// Not settled within the budget of cycles.
+    Undecided,
+    /// Could not be followed.
+    Failed,
+}
+
+impl Outcome {
+    /// Every outcome, in the order of their numbers.
+    pub const ALL: [Outcome; 5] = [
+        Outcome::Periodic,
+        Outcome::Chaotic,
+        Outcome::QuasiPeriodic,
+        Outcome::Undecided,
+        Outcome::Failed,
+    ];
+
+    /// Its name in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Outcome::Periodic => "periodic",
+            Outcome::Chaotic => "chaotic",
+            Outcome::QuasiPeriodic => "quasi-periodic",
+            Outcome::Undecided => "undecided",
+            Outcome::Failed => "failed",
+        }
+    }
+}
+
+/// A stretch of motion to be sampled evenly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct HistorySpan {
+    /// Cycles.
+    pub cycles: u32,
+    /// Samples in each of them.
+    pub per_cycle: u32,
+    /// Whether to begin where the case starts rather than where it has settled.
+    pub from_start: bool,
+}
+
+impl HistorySpan {
+    /// Number of samples, both ends included.
+    pub fn samples(&self) -> usize {
+        self.cycles as usize * self.per_cycle as usize + 1
+    }
+}
+
+/// How a case is followed and judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Protocol {
+    /// Relative local error of a step.
+    pub tolerance: f64,
+    /// How closely the section must repeat, relative to its size.
+    pub recurrence: f64,
+    /// Cycles after which a case that has not settled is undecided.
+    pub max_cycles: u64,
+    /// Longest period looked for while the motion settles [cycles]; longer ones, up to 1024, are looked for
+    /// where it has not settled within the budget of cycles.
+    pub max_period: usize,
+    /// Cycles over which a case that does not repeat is measured.
+    pub measured_cycles: u64,
+    /// Cycles over which its exponent is computed at most; none is for zero.
+    pub exponent_cycles: u64,
+    /// Section points kept at most.
+    pub points: usize,
+    /// Impacts kept at most, by an observer that notes them.
+    pub impact_points: usize,
+    /// Whether to leap to where the section tends, once it is clear, rather than wait until it is there.
+    pub accelerate: bool,
+    /// Time history to keep.
+    pub history: Option<HistorySpan>,
+}
+
+impl Default for Protocol {
+    fn default() -> Self {
+        Protocol {
+            tolerance: 1e-12,
+            recurrence: 1e-11,
+            max_cycles: 2000,
+            max_period: 32,
+            measured_cycles: 128,
+            exponent_cycles: 2048,
+            points: 64,
+            impact_points: 64,
+            accelerate: true,
+            history: None,
+        }
+    }
+}
+
+impl Protocol {
+    /// What a tolerance and a recurrence may be.
+    pub const TOLERANCES: RangeInclusive<f64> = 1e-15..=1e-3;
+
+    /// The usual protocol at another tolerance: the section cannot repeat more closely than the steps are.
+    pub fn with_tolerance(tolerance: f64) -> Self {
+        let usual = Protocol::default();
+        Protocol { tolerance, recurrence: usual.recurrence.max(10.0 * tolerance), ..usual }
+    }
+}
