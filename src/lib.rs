@@ -11,6 +11,9 @@ pub mod attractor;
 pub mod capsule;
 pub mod study;
 pub mod run;
+#[cfg(feature = "cli")]
 pub mod store;
+#[cfg(feature = "cli")]
 pub mod figure;
+#[cfg(feature = "cli")]
 pub mod cli;
