@@ -11,5 +11,6 @@ pub mod branch;
 pub mod study;
 pub mod run;
 pub mod store;
+pub mod campaign;
 pub mod figure;
 pub mod cli;
