@@ -2,7 +2,7 @@
 //!
 //! A [`Campaign`] names a study, the file of its results and what to compute on. `run` computes the blocks that
 //! are missing and joins them, `join` joins those that tasks have computed, `follow` adds the branches, and
-//! `status` tells what is there. [`verify`] and [`Replay`] compute cases again. Each tells a listener of
+//! `status` tells what is there. [`verify()`] and [`Replay`] compute cases again. Each tells a listener of
 //! its [`Event`]s, stops where the listener breaks off, and prints nothing.
 
 mod branches;
