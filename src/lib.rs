@@ -14,6 +14,8 @@ pub mod run;
 #[cfg(feature = "cli")]
 pub mod store;
 #[cfg(feature = "cli")]
+pub mod campaign;
+#[cfg(feature = "cli")]
 pub mod figure;
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::tell;
+use super::terminal::tell;
 use super::words::{count, counted, estimated, rate};
 use crate::run::{Forecast, Record};
 use crate::store::Summary;

@@ -3,6 +3,9 @@
 use std::fmt;
 use std::process::ExitCode;
 
+use super::words::blocks_kept;
+use crate::campaign::{CampaignError, Cause};
+
 /// A command that was not carried out.
 #[derive(Debug)]
 pub struct Failure {
@@ -48,4 +51,43 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
     }
+}
+
+impl From<CampaignError> for Failure {
+    fn from(error: CampaignError) -> Self {
+        let message = format!("{error}{}", advice(&error));
+        match error.cause() {
+            Cause::Request => Failure::request(message),
+            Cause::Machine | Cause::Listener => Failure::machine(message),
+        }
+    }
+}
+
+/// What to do about an error, by the options of the commands.
+fn advice(error: &CampaignError) -> String {
+    let advice = match error {
+        CampaignError::Unreadable { .. } => {
+            ": name another --output, or replace it with --overwrite"
+        }
+        CampaignError::OtherResults { .. } => {
+            "; name another --output, or replace it with --overwrite"
+        }
+        CampaignError::OtherBranches { .. } => {
+            "; name another --output, or give them up with --overwrite"
+        }
+        CampaignError::NoFolder { .. } => "; name another --output",
+        CampaignError::Refused { .. } => "; choose a place that you may use with --output",
+        CampaignError::Missing { .. } => {
+            "\nrun `capsulemap sweep` again, or those tasks that did not end well; --partial joins what \
+             there is"
+        }
+        CampaignError::NotKept { blocks, folder, .. } => {
+            return format!(
+                "\ncapsulemap: {}",
+                blocks_kept(*blocks, &folder.display().to_string())
+            );
+        }
+        _ => "",
+    };
+    advice.to_owned()
 }

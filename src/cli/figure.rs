@@ -3,14 +3,15 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use super::result_file::ready;
-use super::{Failure, named, plain_or_quantity, tell};
-use crate::figure::{FigureError, Format, draw, reads};
+use super::arguments::{named, plain_or_quantity};
+use super::drawing::{FormatChoice, draw_each, draw_from};
+use super::failure::Failure;
+use crate::campaign::study_of;
 use crate::store::{self, Archive, Dataset};
 use crate::study::document::unknown;
-use crate::study::{Coordinate, Drawing, DrawingKind, Study};
+use crate::study::{Coordinate, Drawing, DrawingKind};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -62,39 +63,29 @@ pub struct Figure {
     formats: Vec<FormatChoice>,
 }
 
-/// Formats on the command line.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum FormatChoice {
-    /// Pixels.
-    Png,
-    /// Vectors for the web.
-    Svg,
-    /// Vectors for a paper.
-    Pdf,
-}
-
 impl Figure {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let archive = store::open(&self.file).map_err(Failure::request)?;
         let here = self.file.parent().unwrap_or(Path::new("."));
         let folder = self.folder.as_deref().unwrap_or(here);
-        let frame = archive.frame();
         match self.kind {
-            Some(kind) => draw_each(&archive, &[self.drawing(kind, frame)?], folder, &self.formats),
-            None => draw_from(&archive, &studied(frame, &self.file)?, folder, &self.formats),
+            Some(kind) => {
+                draw_each(&archive, &[self.drawing(kind, &archive)?], folder, &self.formats)
+            }
+            None => draw_from(&archive, &studied(&archive, &self.file)?, folder, &self.formats),
         }
     }
 
-    fn drawing(&self, kind: DrawingKind, dataset: &Dataset) -> Result<Drawing, Failure> {
+    fn drawing(&self, kind: DrawingKind, archive: &Archive) -> Result<Drawing, Failure> {
         Ok(Drawing {
-            name: self.name.clone().unwrap_or_else(|| self.free_name(kind, dataset)),
+            name: self.name.clone().unwrap_or_else(|| self.free_name(kind, archive)),
             kind,
             title: self.title.clone(),
             x: self.x.clone(),
             y: self.y.clone(),
             of: self.of.clone(),
-            at: self.held(dataset)?,
+            at: self.held(archive.frame())?,
             cycles: self.cycles()?,
             branches: !self.no_branches,
             width_mm: self.width,
@@ -102,10 +93,10 @@ impl Figure {
     }
 
     /// The kind and what is drawn, told apart from the figures of the study.
-    fn free_name(&self, kind: DrawingKind, dataset: &Dataset) -> String {
+    fn free_name(&self, kind: DrawingKind, archive: &Archive) -> String {
         let parts = std::iter::once(kind.name()).chain(self.of.iter().map(String::as_str));
         let name = parts.collect::<Vec<_>>().join("-");
-        let studied = studied(dataset, &self.file).unwrap_or_default();
+        let studied = studied(archive, &self.file).unwrap_or_default();
         if studied.iter().any(|drawing| drawing.name == name) {
             format!("{name}-own")
         } else {
@@ -151,84 +142,11 @@ impl Figure {
 }
 
 /// The figures that the study in the file asks for.
-fn studied(dataset: &Dataset, file: &Path) -> Result<Vec<Drawing>, Failure> {
-    let text = dataset.texts.get("study").map_or("", String::as_str);
-    let study = Study::parse(&format!("the study in {}", file.display()), text);
-    let drawings = study.map_err(Failure::request)?.drawings;
+fn studied(archive: &Archive, file: &Path) -> Result<Vec<Drawing>, Failure> {
+    let drawings = study_of(archive, file)?.drawings;
     if drawings.is_empty() {
         let message = format!("{}: its study asks for no figures; name a --kind", file.display());
         return Err(Failure::request(message));
     }
     Ok(drawings)
-}
-
-/// Draws those figures of a study for which there is all that they show.
-pub fn draw_from(
-    archive: &Archive,
-    drawings: &[Drawing],
-    folder: &Path,
-    formats: &[FormatChoice],
-) -> Result<(), Failure> {
-    draw_each(archive, &ready(archive.into(), drawings), folder, formats)
-}
-
-/// Draws figures, each from no more of the results than it shows.
-fn draw_each(
-    archive: &Archive,
-    drawings: &[Drawing],
-    folder: &Path,
-    formats: &[FormatChoice],
-) -> Result<(), Failure> {
-    let mut failures = Vec::new();
-    for drawing in drawings {
-        let dataset = archive.labelled(|name| reads(drawing, name)).map_err(Failure::machine)?;
-        failures.extend(draw_all(&dataset, std::slice::from_ref(drawing), folder, formats).err());
-    }
-    Failure::all(failures).map_or(Ok(()), Err)
-}
-
-/// Draws each figure and says where it went; one that cannot be drawn does not keep the others.
-pub fn draw_all(
-    dataset: &Dataset,
-    drawings: &[Drawing],
-    folder: &Path,
-    formats: &[FormatChoice],
-) -> Result<(), Failure> {
-    let formats: Vec<Format> = formats
-        .iter()
-        .map(|format| match format {
-            FormatChoice::Png => Format::Png,
-            FormatChoice::Svg => Format::Svg,
-            FormatChoice::Pdf => Format::Pdf,
-        })
-        .collect();
-    let mut failures = Vec::new();
-    for drawing in drawings {
-        match draw(dataset, drawing, folder, &formats) {
-            Ok(paths) if paths.is_empty() => {}
-            Ok(paths) => {
-                let names: Vec<String> =
-                    paths.iter().map(|path| path.display().to_string()).collect();
-                tell(&names.join(" "));
-            }
-            Err(error) => failures.push(failure(error)),
-        }
-    }
-    Failure::all(failures).map_or(Ok(()), Err)
-}
-
-fn failure(error: FigureError) -> Failure {
-    match error {
-        FigureError::Missing { .. } | FigureError::Unfit { .. } | FigureError::Glyph { .. } => {
-            Failure::request(error)
-        }
-        FigureError::Render { .. } | FigureError::Write { .. } => Failure::machine(error),
-    }
-}
-
-/// The name of a file without its folder and ending.
-pub fn file_stem(path: &Path) -> Result<String, Failure> {
-    let stem = path.file_stem().and_then(|stem| stem.to_str());
-    let missing = || Failure::request(format!("{}: names no file", path.display()));
-    stem.map(str::to_owned).ok_or_else(missing)
 }

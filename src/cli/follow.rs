@@ -1,17 +1,20 @@
 //! `capsulemap follow`: the branches of a study, into the file of its results.
 
-use std::path::{Path, PathBuf};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
 
 use clap::Args;
 
 use super::branch_summary::summary;
-use super::figure::{FormatChoice, draw_from};
-use super::progress::Progress;
-use super::result_file::{Kept, kept, output_path, prepare, read_study, rehearse};
-use super::{Failure, print, tell};
-use crate::run::{Unfollowed, follow};
-use crate::store::{self, Archive, Dataset, add_branches, drop_branches, folder, has_branches};
-use crate::study::Study;
+use super::drawing::{FormatChoice, draw_from, rehearse};
+use super::failure::Failure;
+use super::terminal::{print, tell};
+use super::watch::Watch;
+use crate::campaign::{
+    BranchesDone, Campaign, CampaignError, Event, Kept, output_path, read_study,
+};
+use crate::run::{Machine, Unfollowed};
+use crate::store::{self, add_branches, folder};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -52,23 +55,31 @@ impl Follow {
             return Err(Failure::request(message));
         }
         let output = output_path(&self.study, self.output.as_deref())?;
-        let archive = match kept(&output, &study, self.overwrite)? {
-            Some(Kept { archive, same_words: true })
-                if has_branches(archive.frame()) && !self.overwrite =>
-            {
+        let machine = Machine { threads: self.threads.map(usize::from), instructions: None };
+        let overwrite = self.overwrite;
+        let campaign = Campaign { study: &study, output: &output, machine, overwrite };
+        let watch = Watch::new(&self.study, &study);
+        let done = campaign.follow(&|event| match event {
+            Event::Before { .. } => {
                 let shown = output.display();
                 tell(&format!("{shown}: already followed, by this program from this study"));
-                archive
+                ControlFlow::Continue(())
             }
-            older => {
-                if !self.no_figures {
-                    let mut dataset = self.older(older, &study, &output)?;
-                    drop_branches(&mut dataset);
-                    self.rehearse(&study, &dataset).map_err(|failure| failure.within(&name))?;
+            Event::Accepted(older) => watch.heed(self.rehearse(&campaign, older)),
+            other => watch.hear(other),
+        });
+        let archive = match done {
+            Err(error @ CampaignError::OtherBranches { .. }) => {
+                let advice = "--overwrite follows anew and keeps the cases";
+                return Err(Failure::request(format!("{error}; {advice}")));
+            }
+            done => match watch.end(done)? {
+                BranchesDone::Before(file) => file.archive,
+                BranchesDone::Now { followed, time } => {
+                    print(&summary(&study, &followed, &output, time.as_secs_f64()))?;
+                    store::open(&output).map_err(Failure::machine)?
                 }
-                prepare(folder(&output))?;
-                self.follow(&study, &output)?
-            }
+            },
         };
         if !self.no_figures {
             draw_from(&archive, &study.drawings, folder(&output), &self.formats)?;
@@ -76,43 +87,16 @@ impl Follow {
         Ok(())
     }
 
-    /// What the file holds already, in the words of this study; its cases stay, whatever else has changed.
-    fn older(&self, older: Option<Kept>, study: &Study, output: &Path) -> Result<Dataset, Failure> {
-        let Some(Kept { archive, same_words }) = older else { return Ok(store::frame(study)) };
-        if has_branches(archive.frame()) && !same_words && !self.overwrite {
-            return Err(Failure::request(format!(
-                "{}: holds branches of a study in other words; --overwrite follows anew and keeps the cases",
-                output.display()
-            )));
-        }
-        let mut dataset = archive.dataset(|_, _| true).map_err(Failure::machine)?;
-        let frame = store::frame(study);
-        dataset.texts.extend(frame.texts);
-        dataset.attributes.extend(frame.attributes);
-        Ok(dataset)
-    }
-
     /// Draws the figures as if no branch could be followed.
-    fn rehearse(&self, study: &Study, dataset: &Dataset) -> Result<(), Failure> {
-        let mut empty = dataset.clone();
+    fn rehearse(&self, campaign: &Campaign<'_>, older: Option<&Kept>) -> Result<(), Failure> {
+        if self.no_figures {
+            return Ok(());
+        }
+        let study = campaign.study;
+        let mut dataset = campaign.without_branches(older)?;
         let nothing = vec![Err(Unfollowed::NoOrbit); study.branches.len()];
-        add_branches(&mut empty, study, &nothing);
-        rehearse(&empty, &study.drawings)
-    }
-
-    /// Follows the branches and writes them beside what the file holds by then.
-    fn follow(&self, study: &Study, output: &Path) -> Result<Archive, Failure> {
-        let progress = Progress::new(study.branches.len(), "branches");
-        let threads = self.threads.map(usize::from);
-        let followed = follow(study, threads, || progress.step()).map_err(Failure::machine)?;
-        let seconds = progress.finish().as_secs_f64();
-        // Cases that were joined meanwhile are in the file, and none can come before it is replaced.
-        let _held = store::hold(output).map_err(Failure::machine)?;
-        let mut dataset = self.older(kept(output, study, self.overwrite)?, study, output)?;
-        drop_branches(&mut dataset);
-        add_branches(&mut dataset, study, &followed);
-        store::write(&dataset, output).map_err(Failure::machine)?;
-        print(&summary(study, &followed, output, seconds))?;
-        store::open(output).map_err(Failure::machine)
+        add_branches(&mut dataset, study, &nothing);
+        let drawn = rehearse(&dataset, &study.drawings);
+        drawn.map_err(|failure| failure.within(&self.study.display().to_string()))
     }
 }

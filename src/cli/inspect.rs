@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use super::{Failure, print};
+use super::failure::Failure;
+use super::terminal::print;
 use crate::store::{self, Dataset, Values, Variable};
 
 const EXAMPLES: &str = "\

@@ -1,8 +1,9 @@
 //! Asked for: connects the floors and talks to the person.
 
+mod arguments;
 mod block_progress;
-mod blocks;
 mod branch_summary;
+mod drawing;
 mod dry_run;
 mod failure;
 mod figure;
@@ -10,28 +11,23 @@ mod follow;
 mod inspect;
 mod join;
 mod progress;
-mod result_file;
 mod simulate;
+mod slurm;
 mod status;
 mod stop;
 mod summary;
 mod sweep;
-mod task;
+mod terminal;
 mod verify;
+mod watch;
 mod words;
 
-use std::io::Write;
 use std::process::ExitCode;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use crate::capsule::Dimension;
-use crate::lane::Instructions;
-use crate::run::Machine;
-use crate::study::parse_quantity;
-use failure::Failure;
+use terminal::{print, tell};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -109,52 +105,4 @@ pub fn main() -> ExitCode {
             failure.exit_code()
         }
     }
-}
-
-/// Tells the person a line; a night's work does not stop because nobody listens any more.
-fn tell(line: &str) {
-    // There is nowhere left to report that the line could not be written.
-    let _ = writeln!(std::io::stderr().lock(), "{line}");
-}
-
-/// What to run on, as far as this machine has it.
-fn machine(threads: Option<u16>, instructions: Option<Instructions>) -> Result<Machine, Failure> {
-    let granted = || std::env::var("SLURM_CPUS_PER_TASK").ok()?.trim().parse().ok();
-    let threads = threads.map(usize::from).or_else(|| granted().filter(|&count: &usize| count > 0));
-    let Some(missing) = instructions.filter(|it| !it.is_available()) else {
-        return Ok(Machine { threads, instructions });
-    };
-    let available: Vec<_> = Instructions::available().map(Instructions::name).collect();
-    Err(Failure::request(format!(
-        "--instructions: this processor has no {} (allowed here: {})",
-        missing.name(),
-        available.join(", ")
-    )))
-}
-
-/// Reads one of a few names, which the help then lists.
-fn named<T: Copy + Send + Sync + 'static>(
-    names: &'static [(&'static str, T)],
-) -> impl TypedValueParser<Value = T> {
-    let find = |given: &str| names.iter().find(|(name, _)| *name == given).map(|&(_, value)| value);
-    PossibleValuesParser::new(names.iter().map(|&(name, _)| name))
-        .map(move |given| find(&given).expect("only known names get here"))
-}
-
-/// Prints to standard output; a reader that has gone away is no fault.
-fn print(text: &str) -> Result<(), Failure> {
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(Failure::machine(format!("cannot write to standard output: {error}")))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// A quantity on the command line, in SI; a plain number is in SI already, and none is infinite.
-fn plain_or_quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
-    let plain = text.trim().parse::<f64>();
-    let value = plain.or_else(|_| parse_quantity(text, dimension))?;
-    if value.is_finite() { Ok(value) } else { Err(format!("{value} is not a finite number")) }
 }

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::terminal::tell;
+
 /// Before the first line of a log, as quick work needs none.
 const FIRST_LINE: Duration = Duration::from_secs(2);
 /// Between two lines of a log at least.
@@ -54,9 +56,7 @@ impl Progress {
             let left = (self.total - lines.done) as f64 / rate;
             let (done, total, what) = (lines.done, self.total, self.what);
             let decimals = if rate < 10.0 { 2 } else { 0 };
-            super::tell(&format!(
-                "{done}/{total} {what}, {rate:.decimals$} a second, {left:.0} s left"
-            ));
+            tell(&format!("{done}/{total} {what}, {rate:.decimals$} a second, {left:.0} s left"));
         }
     }
 

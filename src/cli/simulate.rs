@@ -6,15 +6,16 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use super::result_file::read_study;
-use super::{Failure, named, plain_or_quantity, print, tell};
+use super::arguments::{named, plain_or_quantity};
+use super::failure::Failure;
+use super::terminal::{print, tell};
+use crate::campaign::{CampaignError, Replay, read_study, silent};
 use crate::capsule::{
     Case, Dimension, Orbit, Output, Parameter, Parameters, Resistance, Simulation, State,
     Switching, settle, simulate,
 };
 use crate::orbit::{Certificate, Outcome, Proof, Protocol};
-use crate::run::{Machine, run_sample};
-use crate::study::Study;
+use crate::run::Machine;
 use crate::study::document::unknown;
 
 const EXAMPLES: &str = "\
@@ -119,21 +120,32 @@ impl Simulate {
     fn studied(&self, path: &Path) -> Result<Request, Failure> {
         let study = read_study(path)?;
         let index = self.case.unwrap_or(0);
-        if index >= study.cases() {
-            let message = format!("--case {index}: {} has {} cases", path.display(), study.cases());
-            return Err(Failure::request(message));
-        }
-        let mut case = study.case(index);
-        if self.start.is_some() {
-            let mut faults = Vec::new();
-            case.start = self.start(&mut faults);
-            if !faults.is_empty() {
-                return Err(Failure::requests(&faults));
+        let replay = Replay::new(&study, index).map_err(|error| match error {
+            CampaignError::NoCase { index, cases } => {
+                Failure::request(format!("--case {index}: {} has {cases} cases", path.display()))
             }
-        } else {
-            case.start = followed_start(&study, index)?;
-        }
-        Ok(Request { case, protocol: study.protocol })
+            other => other.into(),
+        })?;
+        let case = match self.start {
+            Some(_) => {
+                let mut faults = Vec::new();
+                let start = self.start(&mut faults);
+                if !faults.is_empty() {
+                    return Err(Failure::requests(&faults));
+                }
+                Case { start, ..replay.as_asked() }
+            }
+            None => {
+                let before = replay.cases_before();
+                if before > 0 {
+                    tell(&format!(
+                        "case {index} starts where its neighbour settles: {before} cases come before it"
+                    ));
+                }
+                replay.as_run(Machine::default(), &silent)?
+            }
+        };
+        Ok(Request { case, protocol: *replay.protocol() })
     }
 
     fn request(&self) -> Result<Request, Failure> {
@@ -208,22 +220,6 @@ impl Simulate {
         }
         start
     }
-}
-
-/// Where a case of a study starts, which may be where its neighbour settles.
-fn followed_start(study: &Study, index: usize) -> Result<State<f64>, Failure> {
-    let before = |chain: usize| study.chain(chain).position(|case| case == index);
-    let found = (0..study.chains()).find_map(|chain| Some((chain, before(chain)?)));
-    let Some((chain, before)) = found.filter(|(_, before)| *before > 0) else {
-        return Ok(study.case(index).start);
-    };
-    tell(&format!(
-        "case {index} starts where its neighbour settles: {before} cases come before it"
-    ));
-    let records = run_sample(study, Machine::default(), &[chain], || ());
-    let records = records.map_err(Failure::machine)?;
-    let record = records.iter().find(|record| record.index == index);
-    Ok(record.map_or(study.case(index).start, |record| record.start))
 }
 
 /// The NAME=VALUE pairs among `texts`.

@@ -4,7 +4,8 @@ use std::sync::{Mutex, mpsc};
 use std::thread;
 use std::time::Duration;
 
-use super::{Failure, tell};
+use super::failure::Failure;
+use super::terminal::tell;
 
 /// What to say.
 type Word = Box<dyn Fn() -> String + Send>;

@@ -1,35 +1,41 @@
 //! What came of the cases of a study, in a few lines.
 
 use std::fmt::Write;
+use std::path::Path;
 
-use super::join::Joining;
 use super::words::{count, counted};
 use crate::orbit::Outcome;
 use crate::store::{Blocks, StoreError, Summary, by_outcome};
+use crate::study::Study;
 
 /// So many failed cases are named; the file names them all.
 const FAILURES_SHOWN: usize = 5;
 
-/// How many cases came out how, and how to look at those that failed.
-pub fn summary(joining: &Joining<'_>, blocks: &Blocks<'_>) -> Result<String, StoreError> {
+/// How many cases in the blocks of a study, which is in the file `path`, came out how, and how to look at those
+/// that failed; they are in the file `output` now.
+pub fn summary(
+    (path, study): (&Path, &Study),
+    output: &Path,
+    blocks: &Blocks<'_>,
+) -> Result<String, StoreError> {
     let summaries = blocks.summaries();
-    let shown = joining.file.display();
+    let shown = output.display();
     let cases = summaries.iter().map(|block| block.cases).sum();
     let cycles = summaries.iter().map(|block| block.cycles).sum::<u64>() as usize;
     let (cases_told, cycles) = (counted(cases, "case"), counted(cycles, "cycle"));
     let mut text = format!("{shown}: {cases_told}, {cycles}\n");
-    let missing = joining.study.cases() - cases;
+    let missing = study.cases() - cases;
     text.push_str(&outcomes(&summaries));
     if missing > 0 {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "  {:<14} {}", "missing", count(missing));
     }
     for failed in blocks.failures(FAILURES_SHOWN)? {
-        let (index, path) = (failed.index, joining.path.display());
+        let (index, path) = (failed.index, path.display());
         let _ =
             writeln!(text, "  case {index} failed: {}, at t = {:e} s", failed.reason, failed.time);
         let _ = write!(text, "    replay: capsulemap simulate --study {path} --case {index}");
-        let (start, usual) = (failed.start, joining.study.case(index).start);
+        let (start, usual) = (failed.start, study.case(index).start);
         if (start.r, start.y1, start.y2) != (usual.r, usual.y1, usual.y2) {
             let _ = write!(text, " --start r={},y1={},y2={}", start.r, start.y1, start.y2);
         }

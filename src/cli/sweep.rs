@@ -1,19 +1,20 @@
 //! `capsulemap sweep`: a study, from its file to its results and figures.
 
-use std::path::PathBuf;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::blocks::{clear_away, compute, enter};
+use super::arguments::{machine, named};
+use super::drawing::{FormatChoice, draw_from, rehearse};
 use super::dry_run::foretell;
-use super::figure::{FormatChoice, draw_from};
-use super::join::Joining;
-use super::result_file::{Kept, branches_of, kept, output_path, prepare, read_study, rehearse};
-use super::task::Task;
-use super::words::{counted, time};
-use super::{Failure, machine, named, tell};
+use super::failure::Failure;
+use super::slurm;
+use super::terminal::tell;
+use super::watch::Watch;
+use crate::campaign::{Campaign, Complete, Done, Event, Task, output_path, read_study};
 use crate::lane::Instructions;
-use crate::store::{self, Archive, BlockFolder, Company, Dataset, folder};
+use crate::store::{self, Dataset, folder};
 use crate::study::Study;
 
 const EXAMPLES: &str = "\
@@ -69,80 +70,48 @@ impl Sweep {
         let machine = machine(self.threads, self.instructions)?;
         let study = read_study(&self.study)?;
         let output = output_path(&self.study, self.output.as_deref())?;
-        let older = kept(&output, &study, self.overwrite)?;
+        let overwrite = self.overwrite;
+        let campaign = Campaign { study: &study, output: &output, machine, overwrite };
         if self.dry_run {
+            campaign.kept()?;
             return foretell(&study, machine, &output);
         }
         let task = self.task()?;
-        let joining = Joining {
-            path: &self.study,
-            study: &study,
-            machine,
-            file: &output,
-            beside: &output,
-            overwrite: self.overwrite,
-        };
-        let archive = match older {
-            Some(older) if self.suffices(&older) => self.already(&joining, older)?,
-            older => {
-                branches_of(older, &output, self.overwrite)?;
-                match self.compute(&joining, task)? {
-                    Some(archive) => archive,
-                    None => return Ok(()),
-                }
+        let watch = Watch::new(&self.study, &study);
+        let done = campaign.run(task, &|event| match event {
+            Event::Before { same_words } => {
+                let words = if same_words { "this study" } else { "a study with the same cases" };
+                let shown = output.display();
+                tell(&format!("{shown}: already computed, by this program from {words}"));
+                ControlFlow::Continue(())
             }
-        };
-        if !self.no_figures && task.of == 1 {
-            draw_from(&archive, &study.drawings, folder(&output), &self.formats)?;
+            Event::Accepted(_) => watch.heed(self.rehearse(&study)),
+            other => watch.hear(other),
+        });
+        match watch.end(done)? {
+            Done::Complete(Complete { archive, .. }) if !self.no_figures && task.of == 1 => {
+                draw_from(&archive, &study.drawings, folder(&output), &self.formats)
+            }
+            Done::Complete(_) => Ok(()),
+            Done::Shared(blocks) => {
+                self.part_with(task, &blocks);
+                Ok(())
+            }
         }
-        Ok(())
     }
 
-    /// Whether a file that is there has all cases and is to stay.
-    fn suffices(&self, older: &Kept) -> bool {
-        older.archive.has_cases() && !self.overwrite
-    }
-
-    /// Says that a file is there, and clears away what a run has left that was stopped at its very end.
-    fn already(&self, joining: &Joining<'_>, older: Kept) -> Result<Archive, Failure> {
-        let words = if older.same_words { "this study" } else { "a study with the same cases" };
-        let shown = joining.file.display();
-        tell(&format!("{shown}: already computed, by this program from {words}"));
-        clear_away(joining.file, joining.study)?;
-        Ok(older.archive)
-    }
-
-    /// Computes the blocks of a task, and joins them if it is the only one.
-    fn compute(&self, joining: &Joining<'_>, task: Task) -> Result<Option<Archive>, Failure> {
-        let Joining { study, machine, file, .. } = *joining;
-        if !self.no_figures {
-            rehearse(&without_cases(study), &study.drawings)
-                .map_err(|failure| failure.within(&self.study.display().to_string()))?;
+    /// Draws the figures as if no case were done.
+    fn rehearse(&self, study: &Study) -> Result<(), Failure> {
+        if self.no_figures {
+            return Ok(());
         }
-        prepare(folder(file))?;
-        let company = if task.of > 1 { Company::Tasks } else { Company::Alone };
-        let blocks = enter(file, study, company, self.overwrite)?;
-        // A run that has just ended may have joined all while this one waited for it.
-        let older = kept(file, study, self.overwrite)?;
-        if let Some(older) = older.filter(|older| self.suffices(older)) {
-            drop(blocks);
-            return self.already(joining, older).map(Some);
-        }
-        let added = compute(study, machine, &blocks, task)?;
-        if added.cases > 0 {
-            let seconds = added.time.as_secs_f64();
-            tell(&format!("{} computed in {}", counted(added.cases, "case"), time(seconds)));
-        }
-        if task.of > 1 {
-            self.part_with(task, &blocks);
-            return Ok(None);
-        }
-        joining.join(blocks, false).map(Some)
+        let drawn = rehearse(&without_cases(study), &study.drawings);
+        drawn.map_err(|failure| failure.within(&self.study.display().to_string()))
     }
 
     /// Which part of the study to compute.
     fn task(&self) -> Result<Task, Failure> {
-        let from_slurm = || Task::of_slurm(|name| std::env::var(name).ok());
+        let from_slurm = || slurm::task(|name| std::env::var(name).ok());
         let task = match self.task {
             Some(task) => task,
             None => match from_slurm() {
@@ -161,8 +130,8 @@ impl Sweep {
     }
 
     /// The end of a task.
-    fn part_with(&self, task: Task, blocks: &BlockFolder) {
-        let (shown, study) = (blocks.path().display(), self.study.display());
+    fn part_with(&self, task: Task, blocks: &Path) {
+        let (shown, study) = (blocks.display(), self.study.display());
         tell(&format!(
             "{task}: its blocks are in {shown}; once all tasks are done: capsulemap join {study}"
         ));

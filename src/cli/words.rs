@@ -1,5 +1,6 @@
 //! Times and sizes as people say them.
 
+pub use crate::campaign::count::{count, counted};
 use crate::run::Estimate;
 
 /// A time in words: "37 s", "12 min", "3 h 20 min", "2 d 4 h".
@@ -27,22 +28,12 @@ pub fn estimated(Estimate { value, error }: Estimate) -> String {
     }
 }
 
-/// A count with blanks between thousands.
-pub fn count(number: usize) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (place, digit) in digits.char_indices() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(' ');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// A count of things: "1 block", "24 blocks".
-pub fn counted(number: usize, what: &str) -> String {
-    format!("{} {what}{}", count(number), if number == 1 { "" } else { "s" })
+/// How many blocks of all are kept in a folder, and how to resume.
+pub fn blocks_kept([done, all]: [usize; 2], folder: &str) -> String {
+    let (done, all) = (count(done), count(all));
+    format!(
+        "{done} of {all} blocks are done and kept in {folder}; the same command goes on from there"
+    )
 }
 
 /// A rate in words.
@@ -71,8 +62,6 @@ mod tests {
         assert_eq!(estimated(Estimate { value: 100.0, error: 10.0 }), "100 s ± 20 s");
         assert_eq!(estimated(Estimate { value: 100.0, error: 0.5 }), "100 s");
         assert_eq!(estimated(Estimate { value: 30.0, error: f64::NAN }), "perhaps 30 s");
-        assert_eq!([0, 999, 1000, 1_234_567].map(count), ["0", "999", "1 000", "1 234 567"]);
-        assert_eq!([1, 24].map(|it| counted(it, "block")), ["1 block", "24 blocks"]);
         assert_eq!([0.5, 5230.4].map(rate), ["0.50", "5 230"]);
         assert_eq!([10.0, 3.4e6, 1.2e10].map(size), ["10 B", "3.4 MB", "12 GB"]);
     }

@@ -16,6 +16,7 @@ use super::{Dataset, StoreError, Values, Variable};
 const LARGEST_COMPRESSION: u64 = 1100;
 
 /// An open file of results, of which each variable can be read by itself.
+#[derive(Debug)]
 pub struct Archive {
     path: PathBuf,
     file: File,

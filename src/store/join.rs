@@ -1,6 +1,7 @@
 //! Joins the blocks of a study into one file of results, a piece of a variable at a time.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use ndarray::{ArrayD, IxDyn};
@@ -91,14 +92,15 @@ impl<'a> Blocks<'a> {
     }
 
     /// Puts all blocks into the file at `path` beside what `frame` holds, which is that of the blocks and may
-    /// have more; calls `begun` with the number of steps, and `done` after each.
+    /// have more; calls `begun` with the number of steps, and `done` after each. If that breaks off, nothing is
+    /// left behind, and an older file is as it was.
     pub fn join(
         &self,
         frame: &Dataset,
         path: &Path,
         begun: impl FnOnce(usize),
-        done: impl Fn(),
-    ) -> Result<(), StoreError> {
+        done: impl Fn() -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, StoreError> {
         let models = schema::columns(self.study, &[]);
         let labels: Vec<Column> =
             models.variables.iter().map(|(name, model)| self.column(name, model)).collect();

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use hdf5::Dataset as Array;
@@ -30,7 +31,8 @@ pub struct Column {
 }
 
 /// Keeps `frame` and the `columns`, which have `axes` axes, in the file at `path`, replacing an older one
-/// only by a complete new one; `numbers` gives what a piece has of a column, and `done` is called after each.
+/// only by a complete new one; `numbers` gives what a piece has of a column, and `done` is called after each and
+/// may break off, which leaves nothing behind.
 ///
 /// The new file grows under a temporary name. Before HDF5 is given a piece, room for it is made sure of, as
 /// HDF5 may not tell of a full disk; at the end every piece is read back and compared by its checksum.
@@ -39,8 +41,8 @@ pub fn write(
     (columns, axes): (&[Column], usize),
     path: &Path,
     numbers: impl Fn(&Column, &Piece) -> Result<Values, StoreError>,
-    done: impl Fn(),
-) -> Result<(), StoreError> {
+    done: impl Fn() -> ControlFlow<()>,
+) -> Result<ControlFlow<()>, StoreError> {
     let faults = faults(frame);
     if !faults.is_empty() {
         return Err(StoreError::Unfit { path: path.to_owned(), faults });
@@ -63,7 +65,9 @@ pub fn write(
                 .map_err(failed("making room for the results"))?;
             let put = column.element().write(&array, &values, hyperslab(&piece, &column.shape));
             put.and_then(|()| file.flush()).map_err(encoding("storing a piece"))?;
-            done();
+            if done().is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
         }
     }
     drop(scales);
@@ -71,7 +75,7 @@ pub fn write(
     seal::put_on(temporary.as_file_mut()).map_err(failed("sealing the file"))?;
     temporary.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
     check(&temporary, frame, (columns, axes), &sums, path)?;
-    file::name(temporary, path)
+    file::name(temporary, path).map(ControlFlow::Continue)
 }
 
 impl Column {

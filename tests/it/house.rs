@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 11] = [
+const FLOORS: [&str; 12] = [
     "lane",
     "flow",
     "orbit",
@@ -14,6 +14,7 @@ const FLOORS: [&str; 11] = [
     "study",
     "run",
     "store",
+    "campaign",
     "figure",
     "cli",
 ];
@@ -41,6 +42,9 @@ const RESERVED: [(&str, &[&str]); 5] = [
 
 /// The one file that calls a foreign library directly.
 const UNSAFE_ALLOWED: [&str; 2] = ["src/lane/x86.rs", "src/store/scale.rs"];
+
+/// What writes to the terminal, which `cli` and `main.rs` alone may.
+const PRINTS: [&str; 4] = ["print", "println", "eprint", "eprintln"];
 
 const LONGEST_FILE: usize = 400;
 
@@ -200,6 +204,19 @@ fn crate_faults(source: &Source) -> Vec<String> {
     faults
 }
 
+fn print_faults(source: &Source) -> Vec<String> {
+    let is_library = source.path.starts_with("src/") && source.path != "src/main.rs";
+    if !is_library || source.floor() == Some("cli") {
+        return Vec::new();
+    }
+    let is_macro = |word: &str, after: &str| PRINTS.contains(&word) && after.starts_with('!');
+    let is_stream = |word: &str| ["stdout", "stderr"].contains(&word);
+    let found = words(&source.code)
+        .filter(|(_, word, after)| is_macro(word, after) || is_stream(word))
+        .map(|(_, word, _)| format!("{}: {word} outside cli", source.path));
+    found.collect()
+}
+
 fn form_faults(source: &Source) -> Vec<String> {
     let mut faults = Vec::new();
     let opening: Vec<&str> = source.text.lines().map_while(|l| l.strip_prefix("//! ")).collect();
@@ -255,6 +272,11 @@ fn crates_stay_on_their_floor() {
 }
 
 #[test]
+fn only_the_command_line_prints() {
+    assert_clean(sources(&["src"]).iter().flat_map(print_faults).collect());
+}
+
+#[test]
 fn files_open_with_a_sentence_and_stay_short_and_safe() {
     let all = sources(&["src", "tests", "benches"]);
     assert!(all.len() > 5, "the source was not found");
@@ -299,6 +321,23 @@ fn a_crate_on_the_wrong_floor_is_seen() {
     ];
     for (path, code) in fine {
         assert_clean(crate_faults(&Source::new(path, code)));
+    }
+}
+
+#[test]
+fn what_prints_outside_the_command_line_is_seen() {
+    let all =
+        ["print!(\"a\")", "println!()", "eprint!(\"a\")", "eprintln!(\"{a}\")", "io::stderr()"];
+    for code in all {
+        for path in ["src/campaign/a.rs", "src/lib.rs"] {
+            assert_eq!(print_faults(&Source::new(path, code)).len(), 1, "{path}: {code}");
+        }
+        for path in ["src/cli/a.rs", "src/main.rs", "tests/it/a.rs"] {
+            assert_clean(print_faults(&Source::new(path, code)));
+        }
+    }
+    for code in ["// println!()", "let a = \"eprintln!\";", "fn print(text: &str) {}", "print(a)"] {
+        assert_clean(print_faults(&Source::new("src/campaign/a.rs", code)));
     }
 }
 

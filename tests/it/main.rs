@@ -9,6 +9,7 @@ mod branch_curves;
 mod branch_ends;
 mod branch_figure;
 mod bystanders;
+mod campaign;
 mod certificates;
 mod circles;
 mod cli;

@@ -1,0 +1,75 @@
+//! Follows the branches of a study and puts them into its file, beside the cases that it holds.
+
+use std::time::Instant;
+
+use crate::run;
+use crate::store::{self, Dataset, add_branches, drop_branches, has_branches};
+
+use super::error::CampaignError;
+use super::kept::{Kept, check_branches};
+use super::report::{Event, Report, Reports, Stage};
+use super::request::{BranchesDone, Campaign, Complete};
+use super::result_file::prepare;
+
+impl Campaign<'_> {
+    /// Follows the branches of the study and puts them into the file; cases that are there stay, and branches of
+    /// this study that are there too, unless they are to be overwritten.
+    ///
+    /// Fails if the study asks for no branches or the file holds results of something else.
+    pub fn follow(&self, report: &Report<'_>) -> Result<BranchesDone, CampaignError> {
+        if self.study.branches.is_empty() {
+            return Err(CampaignError::NoBranches);
+        }
+        let reports = Reports::new(report);
+        let older = match self.kept()? {
+            Some(older) if self.has_its_branches(&older) => {
+                reports.tell(Event::Before { same_words: true })?;
+                let (path, archive) = (self.output.to_owned(), older.archive);
+                return Ok(BranchesDone::Before(Complete { path, archive }));
+            }
+            older => older,
+        };
+        check_branches(older.as_ref(), self.output, self.overwrite)?;
+        reports.tell(Event::Accepted(older.as_ref()))?;
+        drop(older);
+        prepare(store::folder(self.output))?;
+        reports.tell(Event::Begun(Stage::Following, self.study.branches.len()))?;
+        let (begun, threads) = (Instant::now(), self.machine.threads);
+        let done = || reports.step(Stage::Following);
+        let followed = run::follow(self.study, threads, done)?;
+        let time = begun.elapsed();
+        reports.tell(Event::Ended(Stage::Following))?;
+        self.put(&followed)?;
+        Ok(BranchesDone::Now { followed, time })
+    }
+
+    /// Whether a file that is there has the branches of this study and is to stay.
+    fn has_its_branches(&self, older: &Kept) -> bool {
+        older.same_words && has_branches(older.archive.frame()) && !self.overwrite
+    }
+
+    /// Writes the branches beside what the file holds by now.
+    fn put(&self, followed: &[run::Followed]) -> Result<(), CampaignError> {
+        // Cases that were joined meanwhile are in the file, and none can come before it is replaced.
+        let _held = store::hold(self.output)?;
+        let older = self.kept()?;
+        check_branches(older.as_ref(), self.output, self.overwrite)?;
+        let mut dataset = self.without_branches(older.as_ref())?;
+        drop(older);
+        add_branches(&mut dataset, self.study, followed);
+        Ok(store::write(&dataset, self.output)?)
+    }
+
+    /// What the file holds beside branches, in the words of this study, whatever else has changed in it.
+    ///
+    /// Fails if the file cannot be read.
+    pub fn without_branches(&self, older: Option<&Kept>) -> Result<Dataset, CampaignError> {
+        let frame = store::frame(self.study);
+        let Some(older) = older else { return Ok(frame) };
+        let mut dataset = older.archive.dataset(|_, _| true)?;
+        dataset.texts.extend(frame.texts);
+        dataset.attributes.extend(frame.attributes);
+        drop_branches(&mut dataset);
+        Ok(dataset)
+    }
+}

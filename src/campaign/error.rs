@@ -1,0 +1,233 @@
+//! What can keep a campaign from its results, and whether the request or the machine is the cause.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+use crate::run::RunError;
+use crate::store::{StoreError, Unusable};
+use crate::study::Faults;
+
+use super::count::{counted, ranges};
+
+/// A campaign that did not come to its results. Its blocks are kept, whatever the cause.
+#[derive(Debug)]
+pub enum CampaignError {
+    /// A path was given that cannot be what it was given for.
+    Path {
+        /// The path.
+        path: PathBuf,
+        /// Why it cannot, and what is expected.
+        fault: String,
+    },
+    /// The study has faults.
+    Study(Faults),
+    /// The study asks for no branches.
+    NoBranches,
+    /// The study has no case of this number.
+    NoCase {
+        /// The number.
+        index: usize,
+        /// Cases of the study, counted from 0.
+        cases: usize,
+    },
+    /// A file that was given as one of results is none.
+    NoResults(StoreError),
+    /// A file is in the place of the results and cannot be read.
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        error: StoreError,
+    },
+    /// A file is in the place of the results and holds those of something else.
+    OtherResults {
+        /// The file.
+        path: PathBuf,
+        /// Whether this version of the program wrote it.
+        same_program: bool,
+    },
+    /// The file holds branches of a study in other words, which would be lost.
+    OtherBranches {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file is where a folder is needed.
+    NoFolder {
+        /// The folder.
+        folder: PathBuf,
+        /// The file.
+        file: PathBuf,
+    },
+    /// The system lends no place for the results.
+    Refused {
+        /// The folder of the results.
+        folder: PathBuf,
+        /// What it refused.
+        refused: &'static str,
+        /// What it said.
+        said: io::Error,
+    },
+    /// Blocks are missing that are to be joined.
+    Missing {
+        /// Their folder.
+        folder: PathBuf,
+        /// Each by its number and file, and why it cannot be used.
+        blocks: Vec<(usize, PathBuf, Unusable)>,
+    },
+    /// A block is there and cannot be read.
+    Block {
+        /// Its file.
+        file: PathBuf,
+        /// Why not.
+        why: Unusable,
+    },
+    /// A block that was computed could not be kept.
+    NotKept {
+        /// Why not.
+        error: StoreError,
+        /// Blocks that are done, and all, of the task.
+        blocks: [usize; 2],
+        /// Their folder.
+        folder: PathBuf,
+    },
+    /// What is on the disk could not be used.
+    Store(StoreError),
+    /// The computation could not be started.
+    Run(RunError),
+    /// Records could not be packed, to tell their size.
+    Packing(io::Error),
+    /// The listener asked to stop.
+    Stopped,
+}
+
+/// What an error comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cause {
+    /// A mistake in what was asked.
+    Request,
+    /// A fault of the machine: its disk, its memory, its processor.
+    Machine,
+    /// The listener's wish.
+    Listener,
+}
+
+impl CampaignError {
+    /// What it comes from.
+    pub fn cause(&self) -> Cause {
+        use StoreError::{Busy, Changed, Occupied};
+        match self {
+            CampaignError::Path { .. }
+            | CampaignError::Study(_)
+            | CampaignError::NoBranches
+            | CampaignError::NoCase { .. }
+            | CampaignError::NoResults(_)
+            | CampaignError::Unreadable { .. }
+            | CampaignError::OtherResults { .. }
+            | CampaignError::OtherBranches { .. }
+            | CampaignError::NoFolder { .. }
+            | CampaignError::Missing { .. }
+            | CampaignError::Store(Busy { .. } | Changed { .. } | Occupied { .. }) => {
+                Cause::Request
+            }
+            CampaignError::Refused { .. }
+            | CampaignError::Block { .. }
+            | CampaignError::NotKept { .. }
+            | CampaignError::Store(_)
+            | CampaignError::Run(_)
+            | CampaignError::Packing(_) => Cause::Machine,
+            CampaignError::Stopped => Cause::Listener,
+        }
+    }
+}
+
+impl fmt::Display for CampaignError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            CampaignError::Path { path, fault } => write!(f, "{}: {fault}", path.display()),
+            CampaignError::Study(faults) => faults.fmt(f),
+            CampaignError::NoBranches => f.write_str("the study asks for no [[branches]]"),
+            CampaignError::NoCase { index, cases } => {
+                let cases = counted(*cases, "case");
+                write!(f, "there is no case {index}: the study has {cases}, counted from 0")
+            }
+            CampaignError::NoResults(error) | CampaignError::Store(error) => error.fmt(f),
+            CampaignError::Unreadable { path, error } => {
+                write!(f, "{error}\n{} is kept", path.display())
+            }
+            CampaignError::OtherResults { path, same_program } => {
+                let other = if *same_program { "study" } else { "version of the program or study" };
+                write!(f, "{}: holds results of another {other}", path.display())
+            }
+            CampaignError::OtherBranches { path } => {
+                write!(f, "{}: holds branches of a study in other words", path.display())
+            }
+            CampaignError::NoFolder { folder, file } => {
+                let (folder, file) = (folder.display(), file.display());
+                write!(f, "{folder}: {file} is a file, not a folder")
+            }
+            CampaignError::Refused { folder, refused, said } => {
+                write!(f, "{}: {refused}: {said}", folder.display())
+            }
+            CampaignError::Missing { folder, blocks } => {
+                write_missing(f, &folder.display().to_string(), blocks)
+            }
+            CampaignError::Block { file, why } => {
+                let advice = "make it readable or remove it, and run again";
+                write!(f, "{}: {why}; {advice}", file.display())
+            }
+            CampaignError::NotKept { error, .. } => error.fmt(f),
+            CampaignError::Run(error) => error.fmt(f),
+            CampaignError::Packing(said) => said.fmt(f),
+            CampaignError::Stopped => f.write_str("stopped as asked; what is done is kept"),
+        }
+    }
+}
+
+/// Which blocks are missing, by number, and why those that are there cannot be used.
+fn write_missing(
+    f: &mut fmt::Formatter<'_>,
+    folder: &str,
+    blocks: &[(usize, PathBuf, Unusable)],
+) -> fmt::Result {
+    let numbers = ranges(blocks.iter().map(|(number, ..)| *number));
+    write!(f, "{folder}: {} missing: {numbers}", counted(blocks.len(), "block"))?;
+    let is_there = |why: &Unusable| !matches!(why, Unusable::Missing);
+    for (_, file, why) in blocks.iter().filter(|(.., why)| is_there(why)) {
+        write!(f, "\n{}: {why}", file.display())?;
+    }
+    Ok(())
+}
+
+impl std::error::Error for CampaignError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            CampaignError::Study(faults) => Some(faults),
+            CampaignError::NoResults(error)
+            | CampaignError::Unreadable { error, .. }
+            | CampaignError::NotKept { error, .. }
+            | CampaignError::Store(error) => Some(error),
+            CampaignError::Refused { said, .. } | CampaignError::Packing(said) => Some(said),
+            CampaignError::Run(error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl From<StoreError> for CampaignError {
+    fn from(error: StoreError) -> Self {
+        CampaignError::Store(error)
+    }
+}
+
+impl From<RunError> for CampaignError {
+    fn from(error: RunError) -> Self {
+        CampaignError::Run(error)
+    }
+}
+
+impl From<Faults> for CampaignError {
+    fn from(faults: Faults) -> Self {
+        CampaignError::Study(faults)
+    }
+}

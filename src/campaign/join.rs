@@ -1,0 +1,159 @@
+//! Joins the blocks of a study into its file, with the attractors that the cases have ended on.
+
+use std::path::{Path, PathBuf};
+
+use crate::run::{self, has_attractors};
+use crate::store::{
+    self, BlockFolder, Blocks, Company, Dataset, Unusable, add_attractors, keep_branches,
+};
+
+use super::error::CampaignError;
+use super::kept::{branches_of, check_branches, clear_away, kept};
+use super::report::{Event, Report, Reports, Stage};
+use super::request::{Campaign, Complete};
+use super::result_file::{block_path, prepare};
+
+impl Campaign<'_> {
+    /// Joins the blocks that are there, which must be all, into the file, and removes them; a file with all
+    /// cases of the study that is there already stays.
+    ///
+    /// Fails if blocks are missing, another run holds them, or the file holds something else.
+    pub fn join(&self, report: &Report<'_>) -> Result<Complete, CampaignError> {
+        self.join_or_keep(self.output, report)
+    }
+
+    /// Joins the blocks that are there into a file in a folder `partial` beside them, for a look before the end;
+    /// cases that are not done have the outcome `missing`, and the blocks stay.
+    ///
+    /// Fails if no block was begun or the folder holds those of another study.
+    pub fn join_partial(&self, report: &Report<'_>) -> Result<Complete, CampaignError> {
+        let name = self.output.file_name().unwrap_or_default();
+        let file = store::folder(self.output).join("partial").join(name);
+        Campaign { overwrite: true, ..*self }.join_or_keep(&file, report)
+    }
+
+    /// Joins the blocks into `file`, which is partial unless it is the output.
+    fn join_or_keep(&self, file: &Path, report: &Report<'_>) -> Result<Complete, CampaignError> {
+        let reports = Reports::new(report);
+        let (study, is_partial) = (self.study, file != self.output);
+        match self.kept()? {
+            Some(older) if older.archive.has_cases() => {
+                reports.tell(Event::Before { same_words: older.same_words })?;
+                if !is_partial {
+                    clear_away(self.output, study)?;
+                }
+                Ok(Complete { path: self.output.to_owned(), archive: older.archive })
+            }
+            older => {
+                check_branches(older.as_ref(), self.output, self.overwrite)?;
+                drop(older);
+                let company = if is_partial { Company::Anybody } else { Company::Alone };
+                let folder = BlockFolder::enter(&block_path(self.output), study, company, false)?;
+                self.join_blocks(folder, file, &reports)
+            }
+        }
+    }
+
+    /// Joins the blocks in `folder` into `file`, beside branches that have been followed by then, and removes
+    /// them, unless the file is partial, which it is unless it is the output.
+    pub(super) fn join_blocks(
+        &self,
+        folder: BlockFolder,
+        file: &Path,
+        reports: &Reports<'_>,
+    ) -> Result<Complete, CampaignError> {
+        let is_partial = file != self.output;
+        prepare(store::folder(file))?;
+        let blocks = Blocks::open(&folder, self.study, 0..self.study.blocks());
+        let blocks = if is_partial {
+            tell_left_out(&folder, &blocks, reports)?;
+            blocks
+        } else {
+            all_of(&folder, blocks)?
+        };
+        reports.tell(Event::Joining { folder: folder.path() })?;
+        let mut frame = blocks.frame();
+        self.add_attractors(&mut frame, &blocks, reports)?;
+        // Branches that were followed meanwhile are in the file, and none can come before it is replaced.
+        let _held = store::hold(file)?;
+        self.write(&blocks, frame, file, reports)?;
+        let archive = store::open(file)?;
+        reports.tell(Event::Joined { path: file, blocks: &blocks })?;
+        drop(blocks);
+        if !is_partial {
+            folder.remove()?;
+        }
+        Ok(Complete { path: file.to_owned(), archive })
+    }
+
+    /// Searches for the attractors that the cases of `blocks` have ended on, if any are to be told apart.
+    fn add_attractors(
+        &self,
+        frame: &mut Dataset,
+        blocks: &Blocks<'_>,
+        reports: &Reports<'_>,
+    ) -> Result<(), CampaignError> {
+        if !has_attractors(self.study) {
+            return Ok(());
+        }
+        reports.tell(Event::Begun(Stage::Linking, run::links(self.study)))?;
+        let endings = blocks.endings()?;
+        let linked = || reports.step(Stage::Linking);
+        let attractors = run::attractors(self.study, &endings, self.machine, linked)?;
+        reports.tell(Event::Ended(Stage::Linking))?;
+        add_attractors(frame, self.study, &attractors);
+        Ok(())
+    }
+
+    /// Writes the file, with the branches that the output holds.
+    fn write(
+        &self,
+        blocks: &Blocks<'_>,
+        mut frame: Dataset,
+        file: &Path,
+        reports: &Reports<'_>,
+    ) -> Result<(), CampaignError> {
+        let older = kept(self.output, self.study, self.overwrite)?;
+        check_branches(older.as_ref(), self.output, self.overwrite)?;
+        if let Some(branches) = branches_of(older.as_ref())? {
+            keep_branches(&mut frame, &branches);
+        }
+        drop(older);
+        store::discard_unfinished(file)?;
+        let begun = |parts| {
+            // The answer is heeded at the first part.
+            let _ = reports.note(Event::Begun(Stage::Writing, parts));
+        };
+        let done = || reports.note(Event::Step(Stage::Writing));
+        if blocks.join(&frame, file, begun, done)?.is_break() {
+            return Err(CampaignError::Stopped);
+        }
+        reports.tell(Event::Ended(Stage::Writing))
+    }
+}
+
+/// The blocks, if none is missing.
+fn all_of<'a>(folder: &BlockFolder, mut blocks: Blocks<'a>) -> Result<Blocks<'a>, CampaignError> {
+    if blocks.missing.is_empty() {
+        return Ok(blocks);
+    }
+    let missing = std::mem::take(&mut blocks.missing).into_iter();
+    let named =
+        |(number, why)| -> (usize, PathBuf, Unusable) { (number, folder.file(number), why) };
+    let folder = folder.path().to_owned();
+    Err(CampaignError::Missing { folder, blocks: missing.map(named).collect() })
+}
+
+/// Tells which blocks that are there cannot be trusted.
+fn tell_left_out(
+    folder: &BlockFolder,
+    blocks: &Blocks<'_>,
+    reports: &Reports<'_>,
+) -> Result<(), CampaignError> {
+    for (number, why) in &blocks.missing {
+        if !matches!(why, Unusable::Missing) {
+            reports.tell(Event::LeftOut { file: &folder.file(*number), why })?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,84 @@
+//! The file that is in the place of the results already, and whether it may be replaced.
+
+use std::path::Path;
+
+use crate::store::schema::FINGERPRINT;
+use crate::store::{self, Archive, BlockFolder, Company, Dataset, has_branches, provenance};
+use crate::study::Study;
+
+use super::error::CampaignError;
+use super::result_file::block_path;
+
+/// A file of results of the cases of a study, by this version of the program.
+#[derive(Debug)]
+pub struct Kept {
+    /// The file.
+    pub archive: Archive,
+    /// Whether its study is word for word the same, and not only one with the same cases, of which titles,
+    /// figures and branches may differ.
+    pub same_words: bool,
+}
+
+/// The file `output` of results, if those of the cases of this study by this very program are there; others
+/// are refused, or given up where they may be overwritten.
+pub(super) fn kept(
+    output: &Path,
+    study: &Study,
+    overwrite: bool,
+) -> Result<Option<Kept>, CampaignError> {
+    if !output.exists() {
+        return Ok(None);
+    }
+    let path = output.to_owned();
+    let archive = match store::open(output) {
+        Ok(archive) => archive,
+        Err(_) if overwrite => return Ok(None),
+        Err(error) => return Err(CampaignError::Unreadable { path, error }),
+    };
+    let frame = archive.frame();
+    let same_program = provenance::is_ours(&frame.attributes);
+    let same_words = frame.texts.get("study") == Some(&study.text);
+    let same_cases = frame.attributes.get(FINGERPRINT) == Some(&study.fingerprint());
+    match same_program && (same_words || same_cases) {
+        true => Ok(Some(Kept { archive, same_words })),
+        false if overwrite => Ok(None),
+        false => Err(CampaignError::OtherResults { path, same_program }),
+    }
+}
+
+/// Refuses a file at `path` whose branches are of a study in other words, unless they may be overwritten.
+pub(super) fn check_branches(
+    older: Option<&Kept>,
+    path: &Path,
+    overwrite: bool,
+) -> Result<(), CampaignError> {
+    match older {
+        Some(Kept { archive, same_words: false })
+            if has_branches(archive.frame()) && !overwrite =>
+        {
+            Err(CampaignError::OtherBranches { path: path.to_owned() })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The branches that a file of results holds beside which cases are to be put, if they are of this study.
+pub(super) fn branches_of(older: Option<&Kept>) -> Result<Option<Dataset>, CampaignError> {
+    match older {
+        Some(Kept { archive, same_words: true }) => Ok(Some(archive.branches()?)),
+        _ => Ok(None),
+    }
+}
+
+/// Removes the blocks of `study` that a run has left which was stopped after it had joined them.
+pub(super) fn clear_away(output: &Path, study: &Study) -> Result<(), CampaignError> {
+    let path = block_path(output);
+    if !BlockFolder::is_begun(&path) {
+        return Ok(());
+    }
+    match BlockFolder::enter(&path, study, Company::Alone, false) {
+        Ok(joined) => Ok(joined.remove()?),
+        // They belong to another run.
+        Err(_) => Ok(()),
+    }
+}

@@ -1,0 +1,35 @@
+//! Carried through: a study's results in one file, computed block by block, resumed, shared and joined.
+//!
+//! A [`Campaign`] names a study, the file of its results and what to compute on. `run` computes the blocks that
+//! are missing and joins them, `join` joins those that tasks have computed, `follow` adds the branches, and
+//! `status` tells what is there. [`verify()`] and [`Replay`] compute cases again. Each tells a listener of
+//! its [`Event`]s, stops where the listener breaks off, and prints nothing.
+
+mod branches;
+mod compute;
+pub mod count;
+pub mod error;
+mod join;
+pub mod kept;
+pub mod probe;
+pub mod replay;
+pub mod report;
+pub mod request;
+pub mod result_file;
+pub mod share;
+mod start;
+pub mod status;
+pub mod study_source;
+pub mod verify;
+
+pub use error::{CampaignError, Cause};
+pub use kept::Kept;
+pub use probe::{Probe, probe};
+pub use replay::Replay;
+pub use report::{Event, Report, Stage, Survey, silent};
+pub use request::{BranchesDone, Campaign, Complete, Done};
+pub use result_file::{block_path, output_path};
+pub use share::Task;
+pub use status::{BlockStatus, Pace, Status};
+pub use study_source::{read_study, study_of};
+pub use verify::{Difference, Differs, Sample, Verified, verify};

@@ -1,0 +1,92 @@
+//! Computes a few blocks of a study for a short time, to tell what all would take.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use crate::run::{Estimate, Forecast, Machine, Record, run_blocks};
+use crate::store::packed_bytes;
+use crate::study::{Study, spread};
+
+use super::error::CampaignError;
+use super::report::{Event, Report, Reports};
+
+/// So many records are looked at for the room that they take.
+const WEIGHED: usize = 512;
+
+/// What a probe has found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Probe {
+    /// Cases that it has computed.
+    pub cases: usize,
+    /// Blocks that it has begun.
+    pub blocks: usize,
+    /// The time it took.
+    pub time: Duration,
+    /// Time that all cases would take on the same machine [s]; none if no case was done.
+    pub seconds: Option<Estimate>,
+    /// Room that the blocks would take [bytes]; NaN if no case was done.
+    pub bytes: f64,
+}
+
+/// What is known while a probe is under way.
+struct Found {
+    forecast: Forecast,
+    /// Blocks that have been begun.
+    blocks: BTreeSet<usize>,
+    /// Some of the records.
+    records: Vec<Record>,
+}
+
+/// Computes blocks of `study`, spread over it, for about `span`, and writes nothing.
+///
+/// Fails if the computation cannot be started.
+pub fn probe(
+    study: &Study,
+    machine: Machine,
+    span: Duration,
+    report: &Report<'_>,
+) -> Result<Probe, CampaignError> {
+    let reports = Reports::new(report);
+    let forecast = Forecast::new(study.cases());
+    let found = Mutex::new(Found { forecast, blocks: BTreeSet::new(), records: Vec::new() });
+    let begun = Instant::now();
+    let each = |block: usize, record: &Record| {
+        let cases = study.cases_of_block(block);
+        reports.note(Event::Case { block, cases, record })?;
+        found.lock().unwrap_or_else(|it| it.into_inner()).add(block, cases, record);
+        match begun.elapsed() < span {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        }
+    };
+    let go_on = |_, _| ControlFlow::Continue(());
+    run_blocks(study, machine, &spread(study.blocks()), each, go_on)?;
+    reports.check()?;
+    let time = begun.elapsed();
+    let found = found.into_inner().unwrap_or_else(|it| it.into_inner());
+    found.told(study, time).map_err(CampaignError::Packing)
+}
+
+impl Found {
+    fn add(&mut self, block: usize, cases: usize, record: &Record) {
+        self.forecast.add(block, cases, (1, record.orbit.cycles));
+        self.blocks.insert(block);
+        if self.records.len() < WEIGHED {
+            self.records.push(record.clone());
+        }
+    }
+
+    /// What that says of all cases.
+    fn told(&self, study: &Study, time: Duration) -> io::Result<Probe> {
+        let (cases, cycles) = self.forecast.done();
+        let pace = time.as_secs_f64() / cycles as f64;
+        let scaled = |it: Estimate| Estimate { value: it.value * pace, error: it.error * pace };
+        let seconds = self.forecast.cycles().map(scaled);
+        let weighed = packed_bytes(study, &self.records)? as f64 / self.records.len() as f64;
+        let bytes = weighed * study.cases() as f64;
+        Ok(Probe { cases, blocks: self.blocks.len(), time, seconds, bytes })
+    }
+}

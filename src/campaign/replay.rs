@@ -1,0 +1,71 @@
+//! A case of a study by its number, with the start that it had in the run, to be followed again.
+
+use crate::orbit::Protocol;
+
+use crate::capsule::Case;
+use crate::run::{Machine, run_sample};
+use crate::study::Study;
+
+use super::error::CampaignError;
+use super::report::{Event, Report, Reports, Stage};
+
+/// A case of a study that is followed again.
+#[derive(Debug, Clone, Copy)]
+pub struct Replay<'a> {
+    study: &'a Study,
+    index: usize,
+    /// The chain that it is in.
+    chain: usize,
+    /// Its place there.
+    place: usize,
+}
+
+impl<'a> Replay<'a> {
+    /// Case `index` of `study`, counted from 0 with the last axis fastest.
+    ///
+    /// Fails if there is no such case.
+    pub fn new(study: &'a Study, index: usize) -> Result<Self, CampaignError> {
+        let place = |chain: usize| study.chain(chain).position(|case| case == index);
+        let found = (0..study.chains()).find_map(|chain| Some((chain, place(chain)?)));
+        let missing = CampaignError::NoCase { index, cases: study.cases() };
+        let (chain, place) = found.ok_or(missing)?;
+        Ok(Replay { study, index, chain, place })
+    }
+
+    /// How the case is followed and judged.
+    pub fn protocol(&self) -> &'a Protocol {
+        &self.study.protocol
+    }
+
+    /// Cases that must be computed first, as each starts where the one before it settles.
+    pub fn cases_before(&self) -> usize {
+        self.place
+    }
+
+    /// Parameters, start and phase as the study gives them, which for a case with others before it is not
+    /// where it started in the run.
+    pub fn as_asked(&self) -> Case {
+        self.study.case(self.index)
+    }
+
+    /// Parameters, start and phase as they were in the run, to the bit; the cases of its chain are computed if
+    /// others come before it.
+    ///
+    /// Fails if the computation cannot be started.
+    pub fn as_run(&self, machine: Machine, report: &Report<'_>) -> Result<Case, CampaignError> {
+        let mut case = self.as_asked();
+        if self.place == 0 {
+            return Ok(case);
+        }
+        let reports = Reports::new(report);
+        let cases = self.study.chain(self.chain).count();
+        reports.tell(Event::Begun(Stage::Repeating, cases))?;
+        let step = || reports.step(Stage::Repeating);
+        let records = run_sample(self.study, machine, &[self.chain], step)?;
+        reports.tell(Event::Ended(Stage::Repeating))?;
+        if let Some(record) = records.iter().find(|record| record.index == self.index) {
+            case.start = record.start;
+        }
+        Ok(case)
+    }
+}

@@ -1,0 +1,40 @@
+//! Reads the study of a campaign, from its own file or from the file of its results.
+
+use std::path::Path;
+
+use crate::store::Archive;
+use crate::study::Study;
+
+use super::error::CampaignError;
+
+/// The first bytes of an HDF5 file.
+const HDF5: &[u8] = b"\x89HDF";
+
+/// The study in the file at `path`.
+///
+/// Fails if the file cannot be read or is no text, and with all faults of the study at once.
+pub fn read_study(path: &Path) -> Result<Study, CampaignError> {
+    Ok(Study::parse(&path.display().to_string(), &text(path)?)?)
+}
+
+/// The text of a study file.
+fn text(path: &Path) -> Result<String, CampaignError> {
+    let failed = |fault| CampaignError::Path { path: path.to_owned(), fault };
+    let bytes = std::fs::read(path).map_err(|error| failed(format!("cannot be read: {error}")))?;
+    if bytes.starts_with(HDF5) {
+        return Err(failed("is a file of results; give the study, a TOML file".to_owned()));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = valid.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        failed(format!("line {line}: is not text in UTF-8"))
+    })
+}
+
+/// The study that the results in `archive`, the file at `path`, came from.
+///
+/// Fails if the text of the study, which the file holds, has faults for this version of the program.
+pub fn study_of(archive: &Archive, path: &Path) -> Result<Study, CampaignError> {
+    let text = archive.frame().texts.get("study").map_or("", String::as_str);
+    Ok(Study::parse(&format!("the study in {}", path.display()), text)?)
+}

@@ -1,0 +1,43 @@
+//! Reads what several commands are given: the machine, names out of a few, and quantities.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
+use super::failure::Failure;
+use crate::capsule::Dimension;
+use crate::lane::Instructions;
+use crate::run::Machine;
+use crate::study::parse_quantity;
+
+/// What to run on, as far as this machine has it.
+pub fn machine(
+    threads: Option<u16>,
+    instructions: Option<Instructions>,
+) -> Result<Machine, Failure> {
+    let granted = || std::env::var("SLURM_CPUS_PER_TASK").ok()?.trim().parse().ok();
+    let threads = threads.map(usize::from).or_else(|| granted().filter(|&count: &usize| count > 0));
+    let Some(missing) = instructions.filter(|it| !it.is_available()) else {
+        return Ok(Machine { threads, instructions });
+    };
+    let available: Vec<_> = Instructions::available().map(Instructions::name).collect();
+    Err(Failure::request(format!(
+        "--instructions: this processor has no {} (allowed here: {})",
+        missing.name(),
+        available.join(", ")
+    )))
+}
+
+/// Reads one of a few names, which the help then lists.
+pub fn named<T: Copy + Send + Sync + 'static>(
+    names: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    let find = |given: &str| names.iter().find(|(name, _)| *name == given).map(|&(_, value)| value);
+    PossibleValuesParser::new(names.iter().map(|&(name, _)| name))
+        .map(move |given| find(&given).expect("only known names get here"))
+}
+
+/// A quantity on the command line, in SI; a plain number is in SI already, and none is infinite.
+pub fn plain_or_quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
+    let plain = text.trim().parse::<f64>();
+    let value = plain.or_else(|_| parse_quantity(text, dimension))?;
+    if value.is_finite() { Ok(value) } else { Err(format!("{value} is not a finite number")) }
+}

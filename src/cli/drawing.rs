@@ -1,0 +1,139 @@
+//! Draws the figures of a study: those for which there is all that they show, or all without a value.
+
+use std::path::Path;
+
+use clap::ValueEnum;
+
+use super::failure::Failure;
+use super::terminal::tell;
+use crate::figure::{FigureError, Format, draw, reads};
+use crate::store::{Archive, Dataset, has_branches, has_cases};
+use crate::study::{Drawing, DrawingKind};
+
+/// Formats on the command line.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum FormatChoice {
+    /// Pixels.
+    Png,
+    /// Vectors for the web.
+    Svg,
+    /// Vectors for a paper.
+    Pdf,
+}
+
+impl From<FormatChoice> for Format {
+    fn from(choice: FormatChoice) -> Self {
+        match choice {
+            FormatChoice::Png => Format::Png,
+            FormatChoice::Svg => Format::Svg,
+            FormatChoice::Pdf => Format::Pdf,
+        }
+    }
+}
+
+/// Draws those figures of a study for which there is all that they show.
+pub fn draw_from(
+    archive: &Archive,
+    drawings: &[Drawing],
+    folder: &Path,
+    formats: &[FormatChoice],
+) -> Result<(), Failure> {
+    draw_each(archive, &ready(archive.into(), drawings), folder, formats)
+}
+
+/// Draws figures, each from no more of the results than it shows.
+pub fn draw_each(
+    archive: &Archive,
+    drawings: &[Drawing],
+    folder: &Path,
+    formats: &[FormatChoice],
+) -> Result<(), Failure> {
+    let mut failures = Vec::new();
+    for drawing in drawings {
+        let dataset = archive.labelled(|name| reads(drawing, name)).map_err(Failure::machine)?;
+        failures.extend(draw_all(&dataset, std::slice::from_ref(drawing), folder, formats).err());
+    }
+    Failure::all(failures).map_or(Ok(()), Err)
+}
+
+/// Draws the figures from results without a single value, so that a mistake in one of them is told
+/// before a long run and not after it.
+pub fn rehearse(empty: &Dataset, drawings: &[Drawing]) -> Result<(), Failure> {
+    let ready: Vec<Drawing> =
+        drawings.iter().filter(|it| waits_for(it.kind, empty.into()).is_none()).cloned().collect();
+    // In no format at all, nothing is written.
+    draw_all(empty, &ready, Path::new("."), &[])
+}
+
+/// Draws each figure and says where it went; one that cannot be drawn does not keep the others.
+fn draw_all(
+    dataset: &Dataset,
+    drawings: &[Drawing],
+    folder: &Path,
+    formats: &[FormatChoice],
+) -> Result<(), Failure> {
+    let formats: Vec<Format> = formats.iter().copied().map(Format::from).collect();
+    let mut failures = Vec::new();
+    for drawing in drawings {
+        match draw(dataset, drawing, folder, &formats) {
+            Ok(paths) if paths.is_empty() => {}
+            Ok(paths) => {
+                let names: Vec<String> =
+                    paths.iter().map(|path| path.display().to_string()).collect();
+                tell(&names.join(" "));
+            }
+            Err(error) => failures.push(failure(error)),
+        }
+    }
+    Failure::all(failures).map_or(Ok(()), Err)
+}
+
+fn failure(error: FigureError) -> Failure {
+    match error {
+        FigureError::Missing { .. } | FigureError::Unfit { .. } | FigureError::Glyph { .. } => {
+            Failure::request(error)
+        }
+        FigureError::Render { .. } | FigureError::Write { .. } => Failure::machine(error),
+    }
+}
+
+/// What a file of results holds.
+#[derive(Debug, Clone, Copy)]
+struct Holds {
+    cases: bool,
+    branches: bool,
+}
+
+impl From<&Dataset> for Holds {
+    fn from(dataset: &Dataset) -> Self {
+        Holds { cases: has_cases(dataset), branches: has_branches(dataset) }
+    }
+}
+
+impl From<&Archive> for Holds {
+    fn from(archive: &Archive) -> Self {
+        Holds { cases: archive.has_cases(), branches: has_branches(archive.frame()) }
+    }
+}
+
+/// The figures among `drawings` for which there is all that they show; of the others it is told what
+/// they wait for.
+fn ready(holds: Holds, drawings: &[Drawing]) -> Vec<Drawing> {
+    let is_ready = |drawing: &&Drawing| match waits_for(drawing.kind, holds) {
+        None => true,
+        Some(command) => {
+            tell(&format!("figure `{}`: waits for `capsulemap {command}`", drawing.name));
+            false
+        }
+    };
+    drawings.iter().filter(is_ready).cloned().collect()
+}
+
+/// The command that finds what a figure shows and is not there.
+fn waits_for(kind: DrawingKind, Holds { cases, branches }: Holds) -> Option<&'static str> {
+    match kind {
+        DrawingKind::Curves => (!branches).then_some("follow"),
+        DrawingKind::Bifurcation => (!cases && !branches).then_some("sweep"),
+        _ => (!cases && branches).then_some("sweep"),
+    }
+}
