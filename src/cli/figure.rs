@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum};
 use super::result_file::ready;
 use super::{Failure, named, plain_or_quantity, tell};
 use crate::figure::{FigureError, Format, draw, reads};
+use crate::store::catalogue::STUDY_TEXT;
 use crate::store::{self, Archive, Dataset};
 use crate::study::document::unknown;
 use crate::study::{Coordinate, Drawing, DrawingKind, Study};
@@ -152,7 +153,7 @@ impl Figure {
 
 /// The figures that the study in the file asks for.
 fn studied(dataset: &Dataset, file: &Path) -> Result<Vec<Drawing>, Failure> {
-    let text = dataset.texts.get("study").map_or("", String::as_str);
+    let text = dataset.texts.get(STUDY_TEXT).map_or("", String::as_str);
     let study = Study::parse(&format!("the study in {}", file.display()), text);
     let drawings = study.map_err(Failure::request)?.drawings;
     if drawings.is_empty() {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::figure::{draw_all, file_stem};
 use super::{Failure, tell};
+use crate::store::catalogue::STUDY_TEXT;
 use crate::store::schema::FINGERPRINT;
 use crate::store::{self, Archive, Dataset, has_branches, has_cases};
 use crate::study::{Drawing, DrawingKind, Study};
@@ -80,7 +81,7 @@ pub fn kept(output: &Path, study: &Study, overwrite: bool) -> Result<Option<Kept
     };
     let frame = archive.frame();
     let same_program = store::provenance::is_ours(&frame.attributes);
-    let same_words = frame.texts.get("study") == Some(&study.text);
+    let same_words = frame.texts.get(STUDY_TEXT) == Some(&study.text);
     let same_cases = frame.attributes.get(FINGERPRINT) == Some(&study.fingerprint());
     if same_program && (same_words || same_cases) {
         return Ok(Some(Kept { archive, same_words }));

@@ -13,6 +13,7 @@ use crate::orbit::{
     Case, Certificate, Orbit, Outcome, Output, Proof, Protocol, Simulation, settle, simulate,
 };
 use crate::run::{Machine, run_sample};
+use crate::store::catalogue::{CERTIFICATE, CYCLES, OUTCOME, PERIOD};
 use crate::study::Study;
 use crate::study::document::unknown;
 
@@ -268,14 +269,14 @@ fn failure_json(simulation: &Simulation) -> Value {
 
 fn orbit_json(orbit: &Orbit) -> Value {
     let mut object = Map::new();
-    object.insert("outcome".to_owned(), json!(orbit.outcome));
-    object.insert("period".to_owned(), json!(orbit.period));
-    object.insert("cycles".to_owned(), json!(orbit.cycles));
+    object.insert(OUTCOME.name.to_owned(), json!(orbit.outcome));
+    object.insert(PERIOD.name.to_owned(), json!(orbit.period));
+    object.insert(CYCLES.name.to_owned(), json!(orbit.cycles));
     for &output in Output::ALL {
         object.insert(output.name().to_owned(), json!(orbit.outputs[output]));
     }
     let Certificate { proof, multipliers, neutral, .. } = orbit.certificate;
-    object.insert("certificate".to_owned(), json!(Proof::NAMES[proof as usize].0));
+    object.insert(CERTIFICATE.name.to_owned(), json!(Proof::NAMES[proof as usize].0));
     let parts = multipliers.map(|multiplier| [multiplier.re, multiplier.im]);
     object.insert("multipliers".to_owned(), json!(parts));
     object.insert("neutral_direction".to_owned(), json!(neutral));

@@ -10,6 +10,7 @@ use super::words::{count, counted};
 use super::{Failure, machine, named, print, tell};
 use crate::lane::Instructions;
 use crate::run::{Machine, Record, run_sample};
+use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
 use crate::store::{self, Archive, provenance};
 use crate::study::Study;
 
@@ -53,7 +54,7 @@ impl Verify {
         if !archive.has_cases() {
             return Err(Failure::request(format!("{shown}: holds no cases of a sweep")));
         }
-        let text = archive.frame().texts.get("study").map_or("", String::as_str);
+        let text = archive.frame().texts.get(STUDY_TEXT).map_or("", String::as_str);
         let study =
             Study::parse(&format!("the study in {shown}"), text).map_err(Failure::request)?;
         let notice = versions(&archive);
@@ -130,7 +131,7 @@ fn compare(
         records.iter().map(|record| study.position(record.index)).collect()
     };
     let read = |name: &str, at: &[Vec<usize>]| archive.rows(name, at).map_err(Failure::machine);
-    let outcomes = read("outcome", &positions(&records))?.into_iter();
+    let outcomes = read(OUTCOME.name, &positions(&records))?.into_iter();
     let mut is_there = outcomes.map(|row| row.to_real().iter().all(|&code| code >= 0.0));
     records.retain(|_| is_there.next().unwrap_or(false));
     let at = positions(&records);

@@ -17,15 +17,15 @@ use super::scale::{Scale, Spacing, finite_range};
 use super::style::{BLUE, INK, ONE_COLUMN, VERMILION};
 use super::text::Text;
 use super::view::View;
+use crate::orbit::Output;
+use crate::store::catalogue::{DIRECTION, Entry, Place, SECTION_R};
 
 /// Panels of a bifurcation diagram, unless others are asked for.
-const PANELS: [&str; 2] = ["section_r", "progression_speed"];
+const PANELS: [Entry; 2] = [SECTION_R, Entry::of_output(Output::ProgressionSpeed)];
 /// Height of the frames of section coordinates [pt].
 const SECTION_HEIGHT: f64 = 125.0;
 /// Height of the frames of outputs with one value per case [pt].
 const OUTPUT_HEIGHT: f64 = 80.0;
-/// The axis along which the attractor was followed up and down.
-const DIRECTION: &str = "direction";
 
 /// One way along the axis: its place on the axis of directions, its name and colour.
 struct Branch {
@@ -53,10 +53,10 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let mut branches = branches(view, x_name);
     let mut free = vec![x_name];
     if branches.len() > 1 {
-        free.push(DIRECTION);
+        free.push(DIRECTION.name);
     }
     let outputs = match view.drawing.of.is_empty() {
-        true => PANELS.map(String::from).to_vec(),
+        true => PANELS.map(|entry| entry.name.to_owned()).to_vec(),
         false => view.drawing.of.clone(),
     };
     let quantity = view.quantity(x_name);
@@ -116,12 +116,12 @@ pub fn span(values: &[f64], reached: &[f64]) -> Scale {
 
 /// The branches of the diagram; one without a name where the axis was not followed both ways.
 fn branches(view: &View<'_>, x_name: &str) -> Vec<Branch> {
-    let count = view.coordinate_values(DIRECTION).len();
-    if x_name == DIRECTION || count < 2 || !view.free_axes().contains(&DIRECTION) {
+    let count = view.coordinate_values(DIRECTION.name).len();
+    if x_name == DIRECTION.name || count < 2 || !view.free_axes().contains(&DIRECTION.name) {
         return vec![Branch { index: 0, name: String::new(), colour: INK, size: 1.0 }];
     }
-    let codes = view.coordinate_values(DIRECTION);
-    let flags = view.dataset.coordinate(DIRECTION).map_or(&[][..], |it| &it.flags);
+    let codes = view.coordinate_values(DIRECTION.name);
+    let flags = view.dataset.coordinate(DIRECTION.name).map_or(&[][..], |it| &it.flags);
     let looks = [(BLUE, 1.7), (VERMILION, 0.75), (INK, 0.4)];
     let branch = |(index, (colour, size)): (usize, (RGBColor, f64))| {
         let code = codes[index] as i64;
@@ -141,7 +141,7 @@ fn points(
     branches: &[Branch],
 ) -> Result<Vec<Vec<Dot>>, FigureError> {
     // Orbits may have been followed alone, or along what is no axis.
-    let is_followed = view.dataset.variable(&format!("branch_{output}")).is_some();
+    let is_followed = view.dataset.variable(&Place::Branch.name(output)).is_some();
     if is_followed && (x_values.is_empty() || view.dataset.variable(output).is_none()) {
         return Ok(branches.iter().map(|_| Vec::new()).collect());
     }
@@ -175,7 +175,7 @@ pub fn has_points(view: &View<'_>, output: &str) -> bool {
     let is_inner = |name: &String| !axes.contains(&name.as_str());
     let stored = view.dataset.variable(output);
     let stored = stored.filter(|variable| variable.dimensions.iter().any(is_inner));
-    let followed = view.dataset.variable(&format!("branch_{output}"));
+    let followed = view.dataset.variable(&Place::Branch.name(output));
     stored.is_some() || followed.is_some_and(|variable| variable.dimensions.len() > 1)
 }
 

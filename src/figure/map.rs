@@ -16,9 +16,11 @@ use super::raster::Raster;
 use super::style::{INFINITE, ONE_COLUMN};
 use super::text::Text;
 use super::view::View;
+use crate::orbit::Output;
+use crate::store::catalogue::{Entry, PERIOD};
 
 /// The output shown, unless another is asked for.
-const OUTPUT: &str = "progression_speed";
+const OUTPUT: Entry = Entry::of_output(Output::ProgressionSpeed);
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
 
@@ -74,7 +76,7 @@ impl Paint {
 pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (x_name, y_name) = axes(view)?;
     let output = match view.drawing.of.as_slice() {
-        [] => OUTPUT.to_string(),
+        [] => OUTPUT.name.to_owned(),
         [one] => one.clone(),
         several => {
             let why = format!("a map shows one output, and `of` names {}", several.join(", "));
@@ -144,7 +146,7 @@ fn paint(view: &View<'_>, output: &str, free: &[&str], cases: usize) -> Result<P
         let why = format!("`{output}` has several values per case, and a map shows one");
         return Err(view.unfit(why));
     }
-    if output == "period" || !view.flags(output).is_empty() {
+    if output == PERIOD.name || !view.flags(output).is_empty() {
         return Ok(Paint::Kinds(Kinds::of(view, output, free)?));
     }
     let outcomes = Outcomes::over(view, free)?;

@@ -41,6 +41,7 @@ pub use error::FigureError;
 pub use output::Format;
 pub use reading::reads;
 
+use crate::store::catalogue::DIRECTION;
 use crate::store::dataset::Dataset;
 use crate::study::{Drawing, DrawingKind};
 use output::Figure;
@@ -92,7 +93,7 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
 
 /// The axes a diagram runs along by default: those that are free and not the direction of a sweep.
 fn drawable_axes<'a>(view: &View<'a>) -> Vec<&'a str> {
-    view.free_axes().into_iter().filter(|name| *name != "direction").collect()
+    view.free_axes().into_iter().filter(|name| *name != DIRECTION.name).collect()
 }
 
 /// The axis along the abscissa, or the parameter along which orbits were followed.

@@ -1,6 +1,7 @@
 //! What a figure reads of the results, so that no more has to be held in memory.
 
 use crate::orbit::Output;
+use crate::store::catalogue::{CERTIFICATE, CYCLES};
 use crate::study::{Drawing, DrawingKind};
 
 /// Outputs that figures show by default or judge cases by.
@@ -9,7 +10,7 @@ const USUAL: [Output; 4] =
 /// Of what each case has several numbers, which take the most room.
 const ROWS: [&str; 4] = ["section_", "impact_", "history_", "multiplier_"];
 /// Of each case or block, and in figures only where they are named.
-const NAMED: [&str; 4] = ["cycles", "failure_", "certificate", "block_"];
+const NAMED: [&str; 4] = [CYCLES.name, "failure_", CERTIFICATE.name, "block_"];
 
 /// Whether `drawing` needs the numbers of the variable `name`, as far as that can be told by its name.
 pub fn reads(drawing: &Drawing, name: &str) -> bool {

@@ -3,6 +3,10 @@
 use super::followed::in_view;
 use super::symbol::Symbol;
 use super::view::View;
+use crate::store::catalogue::{
+    AT_BRANCH_POINTS, AT_SPECIAL_POINTS, BRANCH_STABLE, INDEX_REQUEST, OrbitColumns, Place,
+    SECTION, SPECIAL_AFTER, SPECIAL_KIND,
+};
 use crate::store::dataset::Dataset;
 
 /// A stop on the way along a branch, in SI.
@@ -66,7 +70,7 @@ impl Rows {
     }
 }
 
-/// The variables of points of one sort, "branch" or "special".
+/// The variables of the points of the branches or of their special points.
 struct Source {
     branch: Rows,
     x: Rows,
@@ -76,14 +80,16 @@ struct Source {
 }
 
 impl Source {
-    fn new(dataset: &Dataset, prefix: &str, x: &str, output: &str) -> Source {
-        let rows = |name: &str| Rows::new(dataset, &format!("{prefix}_{name}"));
-        let branch = match prefix {
-            "branch" => Rows::new(dataset, "branch"),
-            _ => rows("branch"),
-        };
-        let section = ["section_r", "section_y1", "section_y2"].map(rows);
-        Source { branch, x: rows(x), output: rows(output), period: rows("period"), section }
+    fn new(
+        dataset: &Dataset,
+        (place, own): (Place, &OrbitColumns),
+        x: &str,
+        output: &str,
+    ) -> Source {
+        let [branch, period] = [own.branch, own.period].map(|it| Rows::new(dataset, it.name));
+        let [x, output] = [x, output].map(|name| Rows::new(dataset, &place.name(name)));
+        let section = SECTION.map(|entry| Rows::new(dataset, &place.name(entry.name)));
+        Source { branch, x, output, period, section }
     }
 
     /// The section points of the orbit at `place`.
@@ -100,13 +106,13 @@ impl Source {
 /// The branches along `x` that lie where `view` holds the other axes, as their `output`.
 pub fn tracks(view: &View<'_>, x: &str, output: &str) -> Vec<Track> {
     let dataset = view.dataset;
-    if dataset.variable(&format!("branch_{output}")).is_none() {
+    if dataset.variable(&Place::Branch.name(output)).is_none() {
         return Vec::new();
     }
     let fits = in_view(view, &[x]);
-    let request = Rows::new(dataset, "index_request");
-    let points = Source::new(dataset, "branch", x, output);
-    let specials = Source::new(dataset, "special", x, output);
+    let request = Rows::new(dataset, INDEX_REQUEST.name);
+    let points = Source::new(dataset, (Place::Branch, &AT_BRANCH_POINTS), x, output);
+    let specials = Source::new(dataset, (Place::Special, &AT_SPECIAL_POINTS), x, output);
     let along_x = |branch: &usize| {
         let first = points.branch.places(*branch).first().copied();
         first.is_some_and(|place| points.x.one(place).is_finite())
@@ -117,10 +123,10 @@ pub fn tracks(view: &View<'_>, x: &str, output: &str) -> Vec<Track> {
 }
 
 fn track(dataset: &Dataset, branch: usize, points: &Source, specials: &Source) -> Track {
-    let stable = Rows::new(dataset, "branch_stable");
-    let after = Rows::new(dataset, "special_after");
-    let kind = Rows::new(dataset, "special_kind");
-    let flags = dataset.variable("special_kind").map_or(&[][..], |variable| &variable.flags);
+    let stable = Rows::new(dataset, BRANCH_STABLE.name);
+    let after = Rows::new(dataset, SPECIAL_AFTER.name);
+    let kind = Rows::new(dataset, SPECIAL_KIND.name);
+    let flags = dataset.variable(SPECIAL_KIND.name).map_or(&[][..], |variable| &variable.flags);
     let symbol = |place: usize| {
         let flag = flags.iter().find(|(code, _)| *code as f64 == kind.one(place));
         flag.and_then(|(_, name)| Symbol::named(name))

@@ -15,11 +15,13 @@ use super::scale::Scale;
 use super::style::{BLUE, CURVE_WIDTH, INK, ONE_COLUMN, VERMILION};
 use super::text::Text;
 use super::view::View;
+use crate::orbit::Output;
+use crate::store::catalogue::Entry;
 
 /// The energy shown, unless another is asked for.
-const ENERGY: &str = "work_positive";
+const ENERGY: Entry = Entry::of_output(Output::WorkPositive);
 /// The speed shown.
-const SPEED: &str = "progression_speed";
+const SPEED: Entry = Entry::of_output(Output::ProgressionSpeed);
 /// Radius of the ring around the fastest case [pt].
 const BEST_RADIUS: f64 = 3.0;
 /// Height of the frame [pt].
@@ -35,7 +37,7 @@ struct Case {
 /// Draws the trade-off that `view` asks for.
 pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let energy = match view.drawing.of.as_slice() {
-        [] => ENERGY.to_string(),
+        [] => ENERGY.name.to_owned(),
         [one] => one.clone(),
         several => {
             let why = format!("a trade-off has one energy, and `of` names {}", several.join(", "));
@@ -71,12 +73,12 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         }
         panel.finish(&mut canvas);
     }
-    Ok(canvas.finish(&super::about(view, &[SPEED.to_string(), energy], &free)))
+    Ok(canvas.finish(&super::about(view, &[SPEED.name.to_owned(), energy], &free)))
 }
 
 /// The periodic cases with finite outputs.
 fn cases(view: &View<'_>, energy: &str, free: &[&str]) -> Result<Vec<Case>, FigureError> {
-    let (energies, speeds) = (view.shown(energy, free)?, view.shown(SPEED, free)?);
+    let (energies, speeds) = (view.shown(energy, free)?, view.shown(SPEED.name, free)?);
     if energies.len() != speeds.len() {
         return Err(view.unfit(format!("`{energy}` does not have one value per case")));
     }
@@ -154,7 +156,7 @@ fn request(
     // Speeds differ in sign and stay linear, so that standing still keeps its place.
     let y = AxisRequest {
         scale: Scale::around(speeds.iter().copied(), 0.06),
-        ..AxisRequest::around(view.quantity(SPEED), &speeds, 0.06)
+        ..AxisRequest::around(view.quantity(SPEED.name), &speeds, 0.06)
     };
     let panel = PanelRequest {
         x: AxisRequest::around(view.quantity(energy), &energies, 0.04),

@@ -6,12 +6,14 @@ use super::error::FigureError;
 use super::followed;
 use super::quantity::Quantity;
 use super::text::Text;
-use crate::store::branches::DIMENSIONS;
+use crate::store::catalogue::{self, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::study::Drawing;
 
-/// Dimensions within a case or beside the cases, which are not axes of the study.
-const INNER: [&str; 6] = ["point", "impact_point", "history_time", "multiplier", "event", "block"];
+/// Whether a dimension lies within a case or beside the cases, and is no axis of the study.
+fn is_inner(dimension: &str) -> bool {
+    catalogue::named(dimension).is_some_and(|entry| entry.extent == Extent::Dimension)
+}
 
 /// The results as one figure sees them.
 pub struct View<'a> {
@@ -50,10 +52,16 @@ impl<'a> View<'a> {
         FigureError::Unfit { figure: self.drawing.name.clone(), why: why.into() }
     }
 
+    /// The fault that there is no history to draw.
+    pub fn without_histories(&self) -> FigureError {
+        let name = HISTORY_TIME.name;
+        self.unfit(format!("the results hold no time histories (no `{name}`)"))
+    }
+
     /// Names of the study's axes, in its order.
     pub fn axes(&self) -> Vec<&'a str> {
         let names = self.dataset.coordinates.iter().map(|(name, _)| name.as_str());
-        names.filter(|name| !INNER.contains(name) && !DIMENSIONS.contains(name)).collect()
+        names.filter(|name| !is_inner(name)).collect()
     }
 
     /// Names of the axes that `at` does not hold.
@@ -110,7 +118,7 @@ impl<'a> View<'a> {
             return Err(self.unfit(format!("variable `{name}` does not have its dimensions")));
         }
         for dimension in &variable.dimensions {
-            if free.contains(&dimension.as_str()) || INNER.contains(&dimension.as_str()) {
+            if free.contains(&dimension.as_str()) || is_inner(dimension) {
                 continue;
             }
             let index = self.held_index(dimension);

@@ -35,9 +35,9 @@ const LONGEST_FILE: usize = 400;
 
 /// A file of the repository: its path from the root, its text, and its text without comments and
 /// the contents of strings.
-struct Source {
-    path: String,
-    text: String,
+pub struct Source {
+    pub path: String,
+    pub text: String,
     code: String,
 }
 
@@ -55,7 +55,8 @@ impl Source {
     }
 }
 
-fn sources(folders: &[&str]) -> Vec<Source> {
+/// The source files in these folders of the repository.
+pub fn sources(folders: &[&str]) -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut paths = Vec::new();
     for folder in folders {
@@ -100,7 +101,7 @@ fn code_only(text: &str) -> String {
 }
 
 /// The length of the string or character literal that `text` begins with, or 0.
-fn string_length(text: &str) -> usize {
+pub fn string_length(text: &str) -> usize {
     let hashes = text.strip_prefix('r').map_or(0, |t| t.len() - t.trim_start_matches('#').len());
     if text.starts_with('r') && text[1 + hashes..].starts_with('"') {
         let open = hashes + 2;

@@ -9,6 +9,7 @@ mod branch_curves;
 mod branch_ends;
 mod branch_figure;
 mod bystanders;
+mod catalogue;
 mod certificates;
 mod cli;
 mod closed_forms;
