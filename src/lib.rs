@@ -10,6 +10,7 @@ pub mod orbit;
 pub mod branch;
 pub mod study;
 pub mod run;
+pub mod tradeoff;
 pub mod store;
 pub mod figure;
 pub mod cli;

@@ -17,6 +17,7 @@ use super::text::Text;
 use super::view::View;
 use crate::orbit::Output;
 use crate::store::catalogue::Entry;
+use crate::tradeoff::front;
 
 /// The energy shown, unless another is asked for.
 const ENERGY: Entry = Entry::of_output(Output::WorkPositive);
@@ -61,7 +62,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let radius = 1.4 * cloud::radius(dots.len());
         cloud::draw(&mut canvas, panel, &dots, radius);
         if cases.len() > 1 {
-            let line = stairs(&front(&cases));
+            let line = stairs(&best(&cases));
             panel.curve(&mut canvas, &line, Stroke::solid(VERMILION, CURVE_WIDTH));
         }
         if let Some((at, _)) = &fastest {
@@ -173,19 +174,11 @@ fn request(
     }
 }
 
-/// The Pareto front: cases that no other beats in speed without taking more energy. Where any
-/// case moves forward, those that do not are no gain at any price.
-fn front(cases: &[Case]) -> Vec<(f64, f64)> {
-    let forward = cases.iter().any(|case| case.speed > 0.0);
-    let mut order: Vec<&Case> = cases.iter().filter(|case| case.speed > 0.0 || !forward).collect();
-    order.sort_by(|a, b| a.energy.total_cmp(&b.energy).then_with(|| b.speed.total_cmp(&a.speed)));
-    let mut front: Vec<(f64, f64)> = Vec::new();
-    for case in order {
-        if front.last().is_none_or(|(_, speed)| case.speed > *speed) {
-            front.push((case.energy, case.speed));
-        }
-    }
-    front
+/// The Pareto front of the cases, as energies and speeds.
+fn best(cases: &[Case]) -> Vec<(f64, f64)> {
+    let (energies, speeds): (Vec<f64>, Vec<f64>) =
+        cases.iter().map(|case| (case.energy, case.speed)).unzip();
+    front(&energies, &speeds).into_iter().map(|case| (energies[case], speeds[case])).collect()
 }
 
 /// The front as stairs: up to the next case, the last one stays the best.

@@ -4,8 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 10] =
-    ["lane", "capsule", "flow", "orbit", "branch", "study", "run", "store", "figure", "cli"];
+const FLOORS: [&str; 11] = [
+    "lane", "capsule", "flow", "orbit", "branch", "study", "run", "tradeoff", "store", "figure",
+    "cli",
+];
 
 /// Crates that one floor alone may use.
 const RESERVED: [(&str, &[&str]); 5] = [

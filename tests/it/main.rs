@@ -47,5 +47,6 @@ mod slurm;
 mod store;
 mod stribeck_scan;
 mod study;
+mod tradeoff;
 mod unbounded;
 mod wide_box;
