@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::result_file::ready;
 use super::{Failure, named, plain_or_quantity, tell};
-use crate::figure::{FigureError, Format, draw, reads};
+use crate::figure::{FigureError, Format, draw, variables};
 use crate::store::catalogue::STUDY_TEXT;
 use crate::store::{self, Archive, Dataset};
 use crate::study::document::unknown;
@@ -26,7 +26,7 @@ pub struct Figure {
     /// The file of results.
     file: PathBuf,
     /// Kind of figure; without it, the figures of the study are drawn.
-    #[arg(long, value_parser = named(&DrawingKind::NAMES))]
+    #[arg(long, value_parser = named(DrawingKind::NAMES))]
     kind: Option<DrawingKind>,
     /// Outputs to draw.
     #[arg(long, value_delimiter = ',', requires = "kind")]
@@ -182,7 +182,8 @@ fn draw_each(
 ) -> Result<(), Failure> {
     let mut failures = Vec::new();
     for drawing in drawings {
-        let dataset = archive.labelled(|name| reads(drawing, name)).map_err(Failure::machine)?;
+        let shown = variables(drawing);
+        let dataset = archive.labelled(|name| shown.contains(name)).map_err(Failure::machine)?;
         failures.extend(draw_all(&dataset, std::slice::from_ref(drawing), folder, formats).err());
     }
     Failure::all(failures).map_or(Ok(()), Err)

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::figure::{draw_all, file_stem};
 use super::{Failure, tell};
+use crate::figure::{Needs, needs};
 use crate::store::catalogue::STUDY_TEXT;
 use crate::store::schema::FINGERPRINT;
 use crate::store::{self, Archive, Dataset, has_branches, has_cases};
@@ -176,9 +177,9 @@ pub fn ready(holds: Holds, drawings: &[Drawing]) -> Vec<Drawing> {
 
 /// The command that finds what a figure shows and is not there.
 fn waits_for(kind: DrawingKind, Holds { cases, branches }: Holds) -> Option<&'static str> {
-    match kind {
-        DrawingKind::Curves => (!branches).then_some("follow"),
-        DrawingKind::Bifurcation => (!cases && !branches).then_some("sweep"),
-        _ => (!cases && branches).then_some("sweep"),
+    match needs(kind) {
+        Needs::Branches => (!branches).then_some("follow"),
+        Needs::CasesOrBranches => (!cases && !branches).then_some("sweep"),
+        Needs::Cases => (!cases && branches).then_some("sweep"),
     }
 }

@@ -2,10 +2,10 @@
 
 use super::attractors::{Attractors, Look};
 use super::axis::AxisRequest;
-use super::bifurcation::{has_points, request, span, with_followed};
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::cloud::{self, Dot};
+use super::diagram::{has_points, request, span, with_followed};
 use super::error::FigureError;
 use super::event_marks::EventMarks;
 use super::followed::Followed;
@@ -20,7 +20,7 @@ use crate::orbit::Output;
 use crate::store::catalogue::{Entry, SECTION_R, SECTION_Y1, SECTION_Y2};
 
 /// Panels of the diagram, unless others are asked for: those of them that the results hold.
-const PANELS: [Entry; 4] = [SECTION_R, SPEED, Entry::of_output(Output::WorkPositive), EXPONENT];
+pub const PANELS: [Entry; 4] = [SECTION_R, SPEED, Entry::of_output(Output::WorkPositive), EXPONENT];
 /// The panels on which events are marked.
 const MARKED: [Entry; 4] = [SECTION_R, SECTION_Y1, SECTION_Y2, SPEED];
 /// The output whose sign matters.
@@ -79,7 +79,7 @@ pub fn draw(
         followed.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }
-    Ok(canvas.finish(&super::about(view, &outputs, &attractors.free)))
+    Ok(canvas.finish(&view.about(&outputs, &attractors.free)))
 }
 
 /// Draws symbols, without those that would hide an earlier one of their kind.

@@ -8,7 +8,10 @@ use super::error::FigureError;
 use super::outcome::Outcomes;
 use super::style::{ATTRACTORS, OTHER_ATTRACTOR, UNDECIDED_DOT};
 use super::view::View;
-use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_AXIS, DIRECTION, starts};
+use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_AXIS, DIRECTION, Entry, starts};
+
+/// What is read of each case.
+pub const READS: [Entry; 1] = [ATTRACTOR];
 
 /// What a case shows, from what is drawn first to what is drawn last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -13,10 +13,12 @@ use super::style::{
 use super::text::Text;
 use super::view::View;
 use crate::orbit::Output;
-use crate::store::catalogue::{Entry, PERIOD};
+use crate::store::catalogue::{Entry, OUTCOME, PERIOD};
 
 /// Tells motions in which the capsule never slides.
 const STICK_SHARE: Entry = Entry::of_output(Output::StickShare);
+/// What is read of each case, beside that by which they are sorted.
+pub const READS: [Entry; 2] = [OUTCOME, STICK_SHARE];
 /// Distance between a frame and the legend [pt].
 const LEGEND_GAP: f64 = 7.0;
 /// Distance between lines of the legend [pt].

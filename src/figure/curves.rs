@@ -3,20 +3,23 @@
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::error::FigureError;
-use super::followed::{along, draw_symbols, faded, in_view, varied};
+use super::followed::{draw_symbols, faded};
 use super::header::{self, Header, Mark};
+use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::scale::Scale;
 use super::style::{CURVE_WIDTH, ONE_COLUMN};
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
-use super::track::Rows;
+use super::track::{Rows, in_view};
+use super::varied::{along, varied};
 use super::view::View;
 use crate::store::catalogue::{
     CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH, DIRECTION, Entry, INDEX_REQUEST, Place,
     SPECIAL_BRANCH, SPECIAL_CURVE,
 };
+use crate::study::Drawing;
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 165.0;
@@ -31,8 +34,19 @@ struct Curve {
     specials: Vec<(f64, f64)>,
 }
 
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Branches, reads, draw };
+
+/// What is read of the curves, and of the special points that they go through.
+fn reads(_: &Drawing) -> Names {
+    let places = [Place::Request, Place::Special, Place::Curve];
+    Names::of([CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH])
+        .and([SPECIAL_BRANCH, SPECIAL_CURVE, INDEX_REQUEST])
+        .and(places.into_iter().flat_map(Place::parameters))
+}
+
 /// Draws the curves that `view` asks for.
-pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let axes = axes(view)?;
     let curves = curves(view, &axes);
     let range = |of: fn(&(f64, f64)) -> f64| {
@@ -64,7 +78,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         draw_curves(&mut canvas, panel, &curves);
     }
     let names = SYMBOLS.map(|symbol| symbol.name.to_owned());
-    Ok(canvas.finish(&super::about(view, &names, &[&axes[0], &axes[1]])))
+    Ok(canvas.finish(&view.about(&names, &[&axes[0], &axes[1]])))
 }
 
 /// The parameters along the abscissa and the ordinate.

@@ -2,6 +2,7 @@
 
 use super::attractors::Attractors;
 use super::error::FigureError;
+use super::kind::Names;
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
 use super::view::View;
@@ -9,6 +10,14 @@ use crate::store::catalogue::{EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, Place, 
 
 /// Symbols of one kind beyond this number would hide the diagram, and the kind is left out.
 const MOST: usize = 40;
+
+/// What is read of the events.
+pub fn reads() -> Names {
+    let sections = SECTION.map(|entry| Place::Event.of(entry));
+    Names::of([EVENT_KIND, EVENT_ATTRACTOR, EVENT_PERIOD])
+        .and(sections)
+        .and(Place::Event.parameters())
+}
 
 /// One event.
 struct Event {

@@ -4,6 +4,7 @@ use super::axis::AxisRequest;
 use super::canvas::{Canvas, Dash, Drawn, Stroke};
 use super::error::FigureError;
 use super::header::{Header, Mark};
+use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
 use super::scale::Scale;
@@ -17,6 +18,7 @@ use crate::store::catalogue::{
     Entry, HISTORY_DRIVE, HISTORY_R, HISTORY_TIME, HISTORY_X2, HISTORY_Y1, HISTORY_Y2, TIME,
     VELOCITIES,
 };
+use crate::study::Drawing;
 
 /// Panels of a history, unless others are asked for.
 const PANELS: [Entry; 3] = [HISTORY_X2, HISTORY_R, VELOCITIES];
@@ -55,8 +57,20 @@ struct Cell {
     gap: Option<f64>,
 }
 
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
+
+/// What a history reads: the variables of what it shows, and what time and gap follow from.
+fn reads(drawing: &Drawing) -> Names {
+    let usual = PANELS.map(|entry| entry.name);
+    let of = drawing.of.iter().map(String::as_str);
+    let shown = of.chain(usual.into_iter().filter(|_| drawing.of.is_empty()));
+    let constants = [Parameter::Omega, Parameter::Delta].map(Entry::of_parameter);
+    Names::of(shown.flat_map(variables).copied()).and(constants)
+}
+
 /// Draws the history that `view` asks for.
-pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let axis = case_axis(view)?;
     let free: Vec<&str> = axis.into_iter().collect();
     let values = axis.map_or(Ok(vec![f64::NAN]), |name| view.axis_values(name))?;
@@ -90,7 +104,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     for (panel, cell) in panels.iter().flatten().zip(&cells) {
         draw_cell(&mut canvas, panel, cell);
     }
-    Ok(canvas.finish(&super::about(view, &outputs, &free)))
+    Ok(canvas.finish(&view.about(&outputs, &free)))
 }
 
 /// The axis whose every value gets a panel.

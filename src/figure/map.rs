@@ -4,12 +4,13 @@ use plotters::style::RGBColor;
 
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn};
-use super::category::Kinds;
+use super::category::{self, Kinds};
 use super::cells::Cells;
 use super::colour::Colours;
 use super::error::FigureError;
 use super::header::{Header, Mark};
-use super::outcome::Outcomes;
+use super::kind::{Kind, Names, Needs};
+use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::raster::Raster;
@@ -17,7 +18,8 @@ use super::style::{INFINITE, ONE_COLUMN};
 use super::text::Text;
 use super::view::View;
 use crate::orbit::Output;
-use crate::store::catalogue::{Entry, PERIOD};
+use crate::store::catalogue::{self, Entry, PERIOD, Type};
+use crate::study::Drawing;
 
 /// The output shown, unless another is asked for.
 const OUTPUT: Entry = Entry::of_output(Output::ProgressionSpeed);
@@ -72,17 +74,22 @@ impl Paint {
     }
 }
 
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
+
+/// What a map reads: its output, the outcomes, and what sorts cases where it shows kinds of them.
+fn reads(drawing: &Drawing) -> Names {
+    let output = drawing.of.first().map_or(OUTPUT.name, String::as_str);
+    let entry = catalogue::named(output);
+    let sorted = entry.is_none_or(|entry| !matches!(entry.numbers, Type::Real));
+    let sorting = category::READS.into_iter().filter(|_| sorted);
+    Names::of(outcome::READS).and(sorting).and_named([output.to_owned()])
+}
+
 /// Draws the map that `view` asks for.
-pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (x_name, y_name) = axes(view)?;
-    let output = match view.drawing.of.as_slice() {
-        [] => OUTPUT.name.to_owned(),
-        [one] => one.clone(),
-        several => {
-            let why = format!("a map shows one output, and `of` names {}", several.join(", "));
-            return Err(view.unfit(why));
-        }
-    };
+    let output = view.drawing.of.first().cloned().unwrap_or_else(|| OUTPUT.name.to_owned());
     let (x, y) = (cells(view, x_name)?, cells(view, y_name)?);
     let paint = paint(view, &output, &[y_name, x_name], x.count() * y.count())?;
     let panel = PanelRequest {
@@ -108,7 +115,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         panel.finish(&mut canvas);
         paint.explain(&mut canvas, panel);
     }
-    Ok(canvas.finish(&super::about(view, &[output], &[x_name, y_name])))
+    Ok(canvas.finish(&view.about(&[output], &[x_name, y_name])))
 }
 
 /// The cells along the axis called `name`.
@@ -123,7 +130,7 @@ fn cells(view: &View<'_>, name: &str) -> Result<Cells, FigureError> {
 
 /// The axes along the abscissa and the ordinate.
 fn axes<'a>(view: &View<'a>) -> Result<(&'a str, &'a str), FigureError> {
-    let free = super::drawable_axes(view);
+    let free = view.drawable_axes();
     let named = |name: &Option<String>| {
         name.as_ref().and_then(|name| view.axes().into_iter().find(|axis| axis == name))
     };

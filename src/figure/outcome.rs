@@ -2,7 +2,10 @@
 
 use super::error::FigureError;
 use super::view::View;
-use crate::store::catalogue::OUTCOME;
+use crate::store::catalogue::{Entry, OUTCOME};
+
+/// What is read of each case.
+pub const READS: [Entry; 1] = [OUTCOME];
 
 /// Stands for a case of which nothing is known.
 const UNKNOWN: u8 = u8::MAX;

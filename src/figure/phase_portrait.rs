@@ -5,6 +5,7 @@ use super::canvas::{Canvas, Drawn, Stroke};
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
+use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::scale::Scale;
@@ -18,6 +19,7 @@ use crate::store::catalogue::{
     Entry, HISTORY_R, HISTORY_TIME, HISTORY_Y1, HISTORY_Y2, IMPACT_Y1, IMPACT_Y2,
     RELATIVE_VELOCITY, SECTION_R, SECTION_Y1, SECTION_Y2,
 };
+use crate::study::Drawing;
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 165.0;
@@ -34,8 +36,18 @@ struct Portrait {
     gap: Option<f64>,
 }
 
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
+
+/// What a portrait reads: the motion, the points of both sections, and the gap.
+fn reads(_: &Drawing) -> Names {
+    Names::of([HISTORY_R, HISTORY_Y1, HISTORY_Y2])
+        .and([SECTION_R, SECTION_Y1, SECTION_Y2, IMPACT_Y1, IMPACT_Y2])
+        .and([Entry::of_parameter(Parameter::Delta)])
+}
+
 /// Draws the phase portrait that `view` asks for.
-pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let portrait = portrait(view)?;
     let all = || portrait.orbit.iter().chain(&portrait.sections).chain(&portrait.impacts);
     let x = Scale::around(all().map(|point| point.0).chain(portrait.gap), 0.06);
@@ -57,7 +69,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     for panel in panels.iter().flatten() {
         draw_portrait(&mut canvas, panel, &portrait);
     }
-    Ok(canvas.finish(&super::about(view, &[HISTORY_R.name.to_owned()], &[])))
+    Ok(canvas.finish(&view.about(&[HISTORY_R.name.to_owned()], &[])))
 }
 
 fn portrait(view: &View<'_>) -> Result<Portrait, FigureError> {

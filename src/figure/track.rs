@@ -1,13 +1,44 @@
 //! A branch as a path through a diagram: its orbits and special points in order, their cycles matched.
 
-use super::followed::in_view;
+use super::kind::Names;
 use super::symbol::Symbol;
 use super::view::View;
 use crate::store::catalogue::{
     AT_BRANCH_POINTS, AT_SPECIAL_POINTS, BRANCH_STABLE, INDEX_REQUEST, OrbitColumns, Place,
-    SECTION, SPECIAL_AFTER, SPECIAL_KIND,
+    REQUEST, SECTION, SPECIAL_AFTER, SPECIAL_KIND,
 };
 use crate::store::dataset::Dataset;
+
+/// Two values of a parameter closer than this, relative to their size, are the same.
+const SAME: f64 = 1e-6;
+
+/// What is read of the branches whose orbits are shown as their `outputs`.
+pub fn reads(outputs: &[String]) -> Names {
+    let places = [(Place::Branch, &AT_BRANCH_POINTS), (Place::Special, &AT_SPECIAL_POINTS)];
+    let at = |(place, own): (Place, &OrbitColumns)| {
+        let of_orbits = [own.branch, own.period].into_iter().chain(place.parameters());
+        let sections = SECTION.into_iter().map(move |entry| place.of(entry));
+        let outputs = outputs.iter().map(move |output| place.name(output));
+        Names::of(of_orbits.chain(sections)).and_named(outputs)
+    };
+    let names = places.into_iter().map(at).fold(Names::default(), Names::and_all);
+    let own = [INDEX_REQUEST, BRANCH_STABLE, SPECIAL_AFTER, SPECIAL_KIND];
+    names.and(own).and(Place::Request.parameters())
+}
+
+/// Whether each branch of the study lies where `view` holds the axes other than those that are `drawn`.
+pub fn in_view(view: &View<'_>, drawn: &[&str]) -> Vec<bool> {
+    let count = view.coordinate_values(REQUEST.name).len();
+    let mut fits = vec![true; count];
+    for axis in view.axes().into_iter().filter(|axis| !drawn.contains(axis)) {
+        let variable = view.dataset.variable(&Place::Request.name(axis));
+        let (Some(variable), Some(held)) = (variable, view.held_value(axis)) else { continue };
+        for (fits, value) in fits.iter_mut().zip(variable.values.to_real()) {
+            *fits &= (value - held).abs() <= SAME * held.abs().max(value.abs());
+        }
+    }
+    fits
+}
 
 /// A stop on the way along a branch, in SI.
 pub struct Stop {

@@ -8,7 +8,8 @@ use super::cloud::{self, Dot};
 use super::colour::Colours;
 use super::error::FigureError;
 use super::header::{Header, Mark};
-use super::outcome::Outcomes;
+use super::kind::{Kind, Names, Needs};
+use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::Pointing;
 use super::scale::Scale;
@@ -17,6 +18,7 @@ use super::text::Text;
 use super::view::View;
 use crate::orbit::Output;
 use crate::store::catalogue::Entry;
+use crate::study::Drawing;
 use crate::tradeoff::front;
 
 /// The energy shown, unless another is asked for.
@@ -35,16 +37,18 @@ struct Case {
     place: usize,
 }
 
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
+
+/// What a trade-off reads: both quantities and the outcomes.
+fn reads(drawing: &Drawing) -> Names {
+    let energy = drawing.of.first().map_or(ENERGY.name, String::as_str);
+    Names::of(outcome::READS).and([SPEED]).and_named([energy.to_owned()])
+}
+
 /// Draws the trade-off that `view` asks for.
-pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let energy = match view.drawing.of.as_slice() {
-        [] => ENERGY.name.to_owned(),
-        [one] => one.clone(),
-        several => {
-            let why = format!("a trade-off has one energy, and `of` names {}", several.join(", "));
-            return Err(view.unfit(why));
-        }
-    };
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let energy = view.drawing.of.first().cloned().unwrap_or_else(|| ENERGY.name.to_owned());
     let free = view.free_axes();
     let cases = cases(view, &energy, &free)?;
     let hue = hue(view, &free)?;
@@ -74,7 +78,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         }
         panel.finish(&mut canvas);
     }
-    Ok(canvas.finish(&super::about(view, &[SPEED.name.to_owned(), energy], &free)))
+    Ok(canvas.finish(&view.about(&[SPEED.name.to_owned(), energy], &free)))
 }
 
 /// The periodic cases with finite outputs.

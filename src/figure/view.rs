@@ -3,10 +3,10 @@
 use ndarray::{ArrayD, Axis, IxDyn};
 
 use super::error::FigureError;
-use super::followed;
 use super::quantity::Quantity;
 use super::text::Text;
-use crate::store::catalogue::{self, Extent, HISTORY_TIME};
+use super::varied::varied;
+use crate::store::catalogue::{self, DIRECTION, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::study::Drawing;
 
@@ -30,7 +30,7 @@ impl<'a> View<'a> {
     pub fn new(dataset: &'a Dataset, drawing: &'a Drawing) -> Result<View<'a>, FigureError> {
         let mut view = View { dataset, drawing, held: Vec::new() };
         for name in drawing.x.iter().chain(&drawing.y) {
-            if !followed::varied(dataset).contains(&name.as_str()) {
+            if !varied(dataset).contains(&name.as_str()) {
                 view.check_axis(name)?;
             }
             if drawing.at.contains_key(name) {
@@ -68,6 +68,20 @@ impl<'a> View<'a> {
     pub fn free_axes(&self) -> Vec<&'a str> {
         let is_held = |name: &str| self.held.iter().any(|(other, _)| other == name);
         self.axes().into_iter().filter(|name| !is_held(name)).collect()
+    }
+
+    /// The axes a diagram runs along by default: those that are free and not the direction of a sweep.
+    pub fn drawable_axes(&self) -> Vec<&'a str> {
+        self.free_axes().into_iter().filter(|name| *name != DIRECTION.name).collect()
+    }
+
+    /// What a figure shows, in a sentence kept inside its files.
+    pub fn about(&self, outputs: &[String], free: &[&str]) -> String {
+        let over =
+            if free.is_empty() { String::new() } else { format!(" over {}", free.join(", ")) };
+        let held = self.held_record(free);
+        let at = if held.is_empty() { String::new() } else { format!(" at {held}") };
+        format!("{}{over}{at}", outputs.join(", "))
     }
 
     fn check_axis(&self, name: &str) -> Result<(), FigureError> {

@@ -61,6 +61,11 @@ impl Place {
         *named(&self.name(entry.name)).expect("a column of the catalogue")
     }
 
+    /// The columns called after the parameters.
+    pub fn parameters(self) -> impl Iterator<Item = Entry> {
+        Parameter::ALL.iter().map(move |&parameter| self.of(Entry::of_parameter(parameter)))
+    }
+
     /// The column here that is called after `entry`.
     fn column(self, entry: Entry, meaning: &'static str) -> Entry {
         let name = self.name(entry.name).leak();
