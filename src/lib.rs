@@ -11,6 +11,7 @@ pub mod attractor;
 pub mod capsule;
 pub mod study;
 pub mod run;
+pub mod tradeoff;
 #[cfg(feature = "cli")]
 pub mod store;
 #[cfg(feature = "cli")]

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::store::catalogue::STUDY_TEXT;
 use crate::store::schema::FINGERPRINT;
 use crate::store::{self, Archive, BlockFolder, Company, Dataset, has_branches, provenance};
 use crate::study::Study;
@@ -37,7 +38,7 @@ pub(super) fn kept(
     };
     let frame = archive.frame();
     let same_program = provenance::is_ours(&frame.attributes);
-    let same_words = frame.texts.get("study") == Some(&study.text);
+    let same_words = frame.texts.get(STUDY_TEXT) == Some(&study.text);
     let same_cases = frame.attributes.get(FINGERPRINT) == Some(&study.fingerprint());
     match same_program && (same_words || same_cases) {
         true => Ok(Some(Kept { archive, same_words })),

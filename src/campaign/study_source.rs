@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::store::Archive;
+use crate::store::catalogue::STUDY_TEXT;
 use crate::study::Study;
 
 use super::error::CampaignError;
@@ -35,6 +36,6 @@ fn text(path: &Path) -> Result<String, CampaignError> {
 ///
 /// Fails if the text of the study, which the file holds, has faults for this version of the program.
 pub fn study_of(archive: &Archive, path: &Path) -> Result<Study, CampaignError> {
-    let text = archive.frame().texts.get("study").map_or("", String::as_str);
+    let text = archive.frame().texts.get(STUDY_TEXT).map_or("", String::as_str);
     Ok(Study::parse(&format!("the study in {}", path.display()), text)?)
 }

@@ -5,6 +5,7 @@ use std::fmt;
 use std::path::Path;
 
 use crate::run::{Machine, Record, run_sample};
+use crate::store::catalogue::OUTCOME;
 use crate::store::{self, Archive, provenance};
 use crate::study::Study;
 
@@ -158,7 +159,7 @@ fn compare(
     let positions = |records: &[Record]| -> Vec<Vec<usize>> {
         records.iter().map(|record| study.position(record.index)).collect()
     };
-    let outcomes = archive.rows("outcome", &positions(&records))?.into_iter();
+    let outcomes = archive.rows(OUTCOME.name, &positions(&records))?.into_iter();
     let mut is_there = outcomes.map(|row| row.to_real().iter().all(|&code| code >= 0.0));
     records.retain(|_| is_there.next().unwrap_or(false));
     verified.cases += records.len();

@@ -15,15 +15,15 @@ macro_rules! outputs {
             pub const ALL: &[Output] = &[$(Output::$variant,)*];
 
             /// The name used in studies and files.
-            pub fn name(self) -> &'static str {
+            pub const fn name(self) -> &'static str {
                 match self { $(Output::$variant => $name,)* }
             }
             /// Its unit; "1" where it has none.
-            pub fn unit(self) -> &'static str {
+            pub const fn unit(self) -> &'static str {
                 match self { $(Output::$variant => $unit,)* }
             }
             /// What it is, in a phrase.
-            pub fn meaning(self) -> &'static str {
+            pub const fn meaning(self) -> &'static str {
                 match self { $(Output::$variant => $meaning,)* }
             }
         }

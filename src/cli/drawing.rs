@@ -6,7 +6,7 @@ use clap::ValueEnum;
 
 use super::failure::Failure;
 use super::terminal::tell;
-use crate::figure::{FigureError, Format, draw, reads};
+use crate::figure::{FigureError, Format, Needs, draw, needs, variables};
 use crate::store::{Archive, Dataset, has_branches, has_cases};
 use crate::study::{Drawing, DrawingKind};
 
@@ -50,7 +50,8 @@ pub fn draw_each(
 ) -> Result<(), Failure> {
     let mut failures = Vec::new();
     for drawing in drawings {
-        let dataset = archive.labelled(|name| reads(drawing, name)).map_err(Failure::machine)?;
+        let shown = variables(drawing);
+        let dataset = archive.labelled(|name| shown.contains(name)).map_err(Failure::machine)?;
         failures.extend(draw_all(&dataset, std::slice::from_ref(drawing), folder, formats).err());
     }
     Failure::all(failures).map_or(Ok(()), Err)
@@ -131,9 +132,9 @@ fn ready(holds: Holds, drawings: &[Drawing]) -> Vec<Drawing> {
 
 /// The command that finds what a figure shows and is not there.
 fn waits_for(kind: DrawingKind, Holds { cases, branches }: Holds) -> Option<&'static str> {
-    match kind {
-        DrawingKind::Curves => (!branches).then_some("follow"),
-        DrawingKind::Bifurcation => (!cases && !branches).then_some("sweep"),
-        _ => (!cases && branches).then_some("sweep"),
+    match needs(kind) {
+        Needs::Branches => (!branches).then_some("follow"),
+        Needs::CasesOrBranches => (!cases && !branches).then_some("sweep"),
+        Needs::Cases => (!cases && branches).then_some("sweep"),
     }
 }

@@ -26,7 +26,7 @@ pub struct Figure {
     /// The file of results.
     file: PathBuf,
     /// Kind of figure; without it, the figures of the study are drawn.
-    #[arg(long, value_parser = named(&DrawingKind::NAMES))]
+    #[arg(long, value_parser = named(DrawingKind::NAMES))]
     kind: Option<DrawingKind>,
     /// Outputs to draw.
     #[arg(long, value_delimiter = ',', requires = "kind")]

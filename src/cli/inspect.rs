@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::failure::Failure;
 use super::terminal::print;
+use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
 use crate::store::{self, Dataset, Values, Variable};
 
 const EXAMPLES: &str = "\
@@ -35,7 +36,7 @@ impl Inspect {
     pub fn run(&self) -> Result<(), Failure> {
         let dataset = store::read(&self.file).map_err(Failure::request)?;
         if self.study {
-            print(dataset.texts.get("study").map_or("", String::as_str))
+            print(dataset.texts.get(STUDY_TEXT).map_or("", String::as_str))
         } else if self.json {
             print(&format!("{:#}\n", describe(&dataset)))
         } else {
@@ -82,7 +83,8 @@ fn describe(dataset: &Dataset) -> Value {
 
 /// How many cases came out how; what did not occur is left out.
 fn outcomes(dataset: &Dataset) -> Vec<(String, Value)> {
-    let Some(Variable { values: Values::Integer(codes), flags, .. }) = dataset.variable("outcome")
+    let Some(Variable { values: Values::Integer(codes), flags, .. }) =
+        dataset.variable(OUTCOME.name)
     else {
         return Vec::new();
     };

@@ -16,6 +16,7 @@ use crate::capsule::{
 };
 use crate::orbit::{Certificate, Outcome, Proof, Protocol};
 use crate::run::Machine;
+use crate::store::catalogue::{CERTIFICATE, CYCLES, OUTCOME, PERIOD};
 use crate::study::document::unknown;
 
 const EXAMPLES: &str = "\
@@ -265,14 +266,14 @@ fn failure_json(simulation: &Simulation) -> Value {
 
 fn orbit_json(orbit: &Orbit) -> Value {
     let mut object = Map::new();
-    object.insert("outcome".to_owned(), json!(orbit.outcome));
-    object.insert("period".to_owned(), json!(orbit.period));
-    object.insert("cycles".to_owned(), json!(orbit.cycles));
+    object.insert(OUTCOME.name.to_owned(), json!(orbit.outcome));
+    object.insert(PERIOD.name.to_owned(), json!(orbit.period));
+    object.insert(CYCLES.name.to_owned(), json!(orbit.cycles));
     for &output in Output::ALL {
         object.insert(output.name().to_owned(), json!(orbit.outputs[output]));
     }
     let Certificate { proof, multipliers, neutral, .. } = orbit.certificate;
-    object.insert("certificate".to_owned(), json!(Proof::NAMES[proof as usize].0));
+    object.insert(CERTIFICATE.name.to_owned(), json!(Proof::NAMES[proof as usize].0));
     let parts = multipliers.map(|multiplier| [multiplier.re, multiplier.im]);
     object.insert("multipliers".to_owned(), json!(parts));
     object.insert("neutral_direction".to_owned(), json!(neutral));

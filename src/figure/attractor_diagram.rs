@@ -2,27 +2,31 @@
 
 use super::attractors::{Attractors, Look};
 use super::axis::AxisRequest;
-use super::bifurcation::{has_points, request, span, with_followed};
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::cloud::{self, Dot};
+use super::diagram::{has_points, request, span, with_followed};
 use super::error::FigureError;
 use super::event_marks::EventMarks;
 use super::followed::Followed;
 use super::geometry::{Point, Rect};
-use super::header::{Entry, Mark};
+use super::header::{self, Mark};
 use super::panel::Panel;
 use super::style::{ATTRACTORS, COEXISTENCE, FAINT_INK, MINOR_WIDTH};
 use super::symbol::Symbol;
 use super::text::Text;
 use super::view::View;
+use crate::capsule::Output;
+use crate::store::catalogue::{Entry, SECTION_R, SECTION_Y1, SECTION_Y2};
 
 /// Panels of the diagram, unless others are asked for: those of them that the results hold.
-const PANELS: [&str; 4] = ["section_r", "progression_speed", "work_positive", "lyapunov_exponent"];
+pub const PANELS: [Entry; 4] = [SECTION_R, SPEED, Entry::of_output(Output::WorkPositive), EXPONENT];
 /// The panels on which events are marked.
-const MARKED: [&str; 4] = ["section_r", "section_y1", "section_y2", "progression_speed"];
+const MARKED: [Entry; 4] = [SECTION_R, SECTION_Y1, SECTION_Y2, SPEED];
 /// The output whose sign matters.
-const EXPONENT: &str = "lyapunov_exponent";
+const EXPONENT: Entry = Entry::of_output(Output::LyapunovExponent);
+/// The speed of the capsule.
+const SPEED: Entry = Entry::of_output(Output::ProgressionSpeed);
 /// Symbols of one kind nearer than this would hide each other [pt].
 const SYMBOL_SPACING: f64 = 2.6;
 /// So many attractors are named in the legend.
@@ -68,14 +72,14 @@ pub fn draw(
             let share = if *look == Look::Undecided { 0.6 } else { 1.0 };
             cloud::draw(&mut canvas, panel, dots, radius * share);
         }
-        if MARKED.contains(&output.as_str()) {
+        if MARKED.iter().any(|entry| entry.name == output) {
             let symbols = marks.on(view, output, &values, attractors)?;
             draw_symbols(&mut canvas, panel, &symbols);
         }
         followed.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }
-    Ok(canvas.finish(&super::about(view, &outputs, &attractors.free)))
+    Ok(canvas.finish(&view.about(&outputs, &attractors.free)))
 }
 
 /// Draws symbols, without those that would hide an earlier one of their kind.
@@ -99,8 +103,8 @@ fn outputs(view: &View<'_>) -> Vec<String> {
     if !view.drawing.of.is_empty() {
         return view.drawing.of.clone();
     }
-    let held = PANELS.iter().filter(|name| view.dataset.variable(name).is_some());
-    held.map(|name| name.to_string()).collect()
+    let held = PANELS.iter().filter(|entry| view.dataset.variable(entry.name).is_some());
+    held.map(|entry| entry.name.to_owned()).collect()
 }
 
 /// The looks in the order in which they are drawn.
@@ -167,7 +171,7 @@ fn shade(canvas: &mut Canvas, panel: &Panel, windows: &[[f64; 2]]) {
 
 /// A line at zero: always for the exponent, whose sign matters, else where both signs occur.
 fn mark_zero(canvas: &mut Canvas, panel: &Panel, output: &str, view: &View<'_>) {
-    if output == EXPONENT && !panel.y.empty {
+    if output == EXPONENT.name && !panel.y.empty {
         let zero = [(panel.x.scale.low, 0.0), (panel.x.scale.high, 0.0)];
         panel.curve(canvas, &zero, Stroke::solid(FAINT_INK, MINOR_WIDTH));
     } else if !has_points(view, output) {
@@ -175,7 +179,7 @@ fn mark_zero(canvas: &mut Canvas, panel: &Panel, output: &str, view: &View<'_>) 
     }
 }
 
-fn legend(attractors: &Attractors<'_>, marks: &EventMarks, shaded: bool) -> Vec<Entry> {
+fn legend(attractors: &Attractors<'_>, marks: &EventMarks, shaded: bool) -> Vec<header::Entry> {
     let mut legend = Vec::new();
     let count = attractors.own.len();
     if (2..=NAMED).contains(&count) {

@@ -8,13 +8,10 @@ use super::error::FigureError;
 use super::outcome::Outcomes;
 use super::style::{ATTRACTORS, OTHER_ATTRACTOR, UNDECIDED_DOT};
 use super::view::View;
+use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_AXIS, DIRECTION, Entry, starts};
 
-/// The axis along which the attractor was followed up and down.
-const DIRECTION: &str = "direction";
-/// The variable that tells attractors apart.
-const ATTRACTOR: &str = "attractor";
-/// The attribute of a file that names the axis along which they are numbered.
-const AXIS: &str = "attractor_axis";
+/// What is read of each case.
+pub const READS: [Entry; 1] = [ATTRACTOR];
 
 /// What a case shows, from what is drawn first to what is drawn last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -56,14 +53,16 @@ pub struct Attractors<'a> {
 impl<'a> Attractors<'a> {
     /// The attractors over the axis `x`; none where the results do not follow any along it.
     pub fn along(view: &View<'a>, x: &'a str) -> Result<Option<Attractors<'a>>, FigureError> {
-        let numbered = view.dataset.attributes.get(AXIS).is_some_and(|axis| axis == x);
-        if !numbered || view.dataset.variable(ATTRACTOR).is_none() {
+        let numbered = view.dataset.attributes.get(ATTRACTOR_AXIS).is_some_and(|axis| axis == x);
+        if !numbered || view.dataset.variable(ATTRACTOR.name).is_none() {
             return Ok(None);
         }
-        let joins = |name: &&str| name.starts_with("start_") || *name == DIRECTION;
+        let starts = starts().map(|entry| entry.name);
+        let joins = |name: &&str| starts.contains(name) || *name == DIRECTION.name;
         let free: Vec<&str> =
             std::iter::once(x).chain(view.free_axes().into_iter().filter(joins)).collect();
-        let numbers: Vec<i64> = view.take(ATTRACTOR, &free)?.iter().map(|it| *it as i64).collect();
+        let numbers: Vec<i64> =
+            view.take(ATTRACTOR.name, &free)?.iter().map(|it| *it as i64).collect();
         let outcomes = Outcomes::over(view, &free)?;
         let failed = (0..numbers.len()).map(|case| outcomes.failed(case)).collect();
         let values = view.coordinate_values(x).len();

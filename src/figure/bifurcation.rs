@@ -7,25 +7,24 @@ use super::attractors::Attractors;
 use super::axis::AxisRequest;
 use super::canvas::Drawn;
 use super::cloud::{self, Dot};
+use super::diagram::{has_points, request, span, with_followed};
 use super::error::FigureError;
 use super::followed::{Followed, faded};
-use super::header::{Header, Mark};
-use super::outcome::Outcomes;
-use super::page::{PageRequest, PanelRequest, letter};
-use super::panel::Pointing;
-use super::scale::{Scale, Spacing, finite_range};
-use super::style::{BLUE, INK, ONE_COLUMN, VERMILION};
+use super::header::Mark;
+use super::kind::{Kind, Names, Needs};
+use super::outcome::{self, Outcomes};
+use super::page::{PageRequest, PanelRequest};
+use super::style::{BLUE, INK, VERMILION};
 use super::text::Text;
+use super::varied::along;
 use super::view::View;
+use super::{attractors, event_marks, track};
+use crate::capsule::Output;
+use crate::store::catalogue::{DIRECTION, Entry, Place, SECTION_R};
+use crate::study::Drawing;
 
 /// Panels of a bifurcation diagram, unless others are asked for.
-const PANELS: [&str; 2] = ["section_r", "progression_speed"];
-/// Height of the frames of section coordinates [pt].
-const SECTION_HEIGHT: f64 = 125.0;
-/// Height of the frames of outputs with one value per case [pt].
-const OUTPUT_HEIGHT: f64 = 80.0;
-/// The axis along which the attractor was followed up and down.
-const DIRECTION: &str = "direction";
+const PANELS: [Entry; 2] = [SECTION_R, Entry::of_output(Output::ProgressionSpeed)];
 
 /// One way along the axis: its place on the axis of directions, its name and colour.
 struct Branch {
@@ -44,19 +43,48 @@ impl Branch {
     }
 }
 
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::CasesOrBranches, reads, draw };
+
+/// What a diagram reads: without `of`, the panels of either sort of diagram.
+fn reads(drawing: &Drawing) -> Names {
+    let usual = PANELS.iter().chain(&attractor_diagram::PANELS).map(|it| it.name.to_owned());
+    let outputs: Vec<String> = match drawing.of.is_empty() {
+        true => usual.collect(),
+        false => drawing.of.clone(),
+    };
+    Names::of(outcome::READS)
+        .and(attractors::READS)
+        .and_all(event_marks::reads())
+        .and_all(track::reads(&outputs))
+        .and_named(outputs)
+}
+
+/// The axis along the abscissa, or the parameter along which orbits were followed.
+fn abscissa<'a>(view: &View<'a>) -> Result<&'a str, FigureError> {
+    let free = view.drawable_axes();
+    let named = view.drawing.x.as_ref();
+    let along = along(view.dataset);
+    let axis = match named {
+        Some(name) => view.axes().into_iter().chain(along).find(|axis| axis == name),
+        None => free.first().or(along.first()).copied(),
+    };
+    axis.ok_or_else(|| view.unfit("it needs an axis of the study that `at` does not hold"))
+}
+
 /// Draws the bifurcation diagram that `view` asks for.
-pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let x_name = super::abscissa(view)?;
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let x_name = abscissa(view)?;
     if let Some(attractors) = Attractors::along(view, x_name)? {
         return attractor_diagram::draw(view, x_name, &attractors);
     }
     let mut branches = branches(view, x_name);
     let mut free = vec![x_name];
     if branches.len() > 1 {
-        free.push(DIRECTION);
+        free.push(DIRECTION.name);
     }
     let outputs = match view.drawing.of.is_empty() {
-        true => PANELS.map(String::from).to_vec(),
+        true => PANELS.map(|entry| entry.name.to_owned()).to_vec(),
         false => view.drawing.of.clone(),
     };
     let quantity = view.quantity(x_name);
@@ -91,37 +119,17 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         followed.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }
-    Ok(canvas.finish(&super::about(view, &outputs, &free)))
-}
-
-/// The abscissa, with room for points that stand at its ends, and as far as orbits were followed.
-pub fn span(values: &[f64], reached: &[f64]) -> Scale {
-    let axis = Scale::of_axis(values);
-    let plain = match finite_range(reached.iter().copied()) {
-        Some((low, high)) if values.is_empty() => Scale::around([low, high], 0.02),
-        Some((low, high)) => Scale { low: axis.low.min(low), high: axis.high.max(high), ..axis },
-        None => axis,
-    };
-    if values.is_empty() {
-        return plain;
-    }
-    if values.len() > 60 {
-        return plain;
-    }
-    match plain.spacing {
-        Spacing::Linear => Scale::around([plain.low, plain.high], 0.02),
-        Spacing::Log => Scale::log_around([plain.low, plain.high], 0.02),
-    }
+    Ok(canvas.finish(&view.about(&outputs, &free)))
 }
 
 /// The branches of the diagram; one without a name where the axis was not followed both ways.
 fn branches(view: &View<'_>, x_name: &str) -> Vec<Branch> {
-    let count = view.coordinate_values(DIRECTION).len();
-    if x_name == DIRECTION || count < 2 || !view.free_axes().contains(&DIRECTION) {
+    let count = view.coordinate_values(DIRECTION.name).len();
+    if x_name == DIRECTION.name || count < 2 || !view.free_axes().contains(&DIRECTION.name) {
         return vec![Branch { index: 0, name: String::new(), colour: INK, size: 1.0 }];
     }
-    let codes = view.coordinate_values(DIRECTION);
-    let flags = view.dataset.coordinate(DIRECTION).map_or(&[][..], |it| &it.flags);
+    let codes = view.coordinate_values(DIRECTION.name);
+    let flags = view.dataset.coordinate(DIRECTION.name).map_or(&[][..], |it| &it.flags);
     let looks = [(BLUE, 1.7), (VERMILION, 0.75), (INK, 0.4)];
     let branch = |(index, (colour, size)): (usize, (RGBColor, f64))| {
         let code = codes[index] as i64;
@@ -141,7 +149,7 @@ fn points(
     branches: &[Branch],
 ) -> Result<Vec<Vec<Dot>>, FigureError> {
     // Orbits may have been followed alone, or along what is no axis.
-    let is_followed = view.dataset.variable(&format!("branch_{output}")).is_some();
+    let is_followed = view.dataset.variable(&Place::Branch.name(output)).is_some();
     if is_followed && (x_values.is_empty() || view.dataset.variable(output).is_none()) {
         return Ok(branches.iter().map(|_| Vec::new()).collect());
     }
@@ -169,47 +177,6 @@ fn points(
     Ok(branches.iter().map(of_branch).collect())
 }
 
-/// Whether an output has several values per case.
-pub fn has_points(view: &View<'_>, output: &str) -> bool {
-    let axes = view.axes();
-    let is_inner = |name: &String| !axes.contains(&name.as_str());
-    let stored = view.dataset.variable(output);
-    let stored = stored.filter(|variable| variable.dimensions.iter().any(is_inner));
-    let followed = view.dataset.variable(&format!("branch_{output}"));
-    stored.is_some() || followed.is_some_and(|variable| variable.dimensions.len() > 1)
-}
-
-/// The page with a row for each output.
-pub fn request(
-    view: &View<'_>,
-    outputs: &[String],
-    (clouds, followed): (&[Vec<Vec<Dot>>], &[Followed]),
-    abscissa: AxisRequest,
-    free: &[&str],
-) -> PageRequest {
-    let mut rows = Vec::new();
-    let mut heights = Vec::new();
-    for (index, (output, cloud)) in outputs.iter().zip(clouds).enumerate() {
-        let dots = cloud.iter().flatten().map(|dot| dot.at.1);
-        let values: Vec<f64> = dots.chain(followed[index].places().map(|at| at.1)).collect();
-        let y = AxisRequest::around(view.quantity(output), &values, 0.06);
-        let last = index + 1 == outputs.len();
-        let x = AxisRequest { labelled: last, numbered: last, ..abscissa.clone() };
-        let note = if index == 0 { view.held_note(free) } else { None };
-        let header = Header { letter: letter(index, outputs.len()), note, legend: Vec::new() };
-        rows.push(vec![PanelRequest { x, y, header }]);
-        heights.push(if has_points(view, output) { SECTION_HEIGHT } else { OUTPUT_HEIGHT });
-    }
-    PageRequest {
-        title: view.drawing.title.clone(),
-        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
-        heights,
-        rows,
-        right_room: 0.0,
-        pointing: Pointing::Inward,
-    }
-}
-
 /// The rows with a legend of the branches above the first.
 fn with_legend(mut rows: Vec<Vec<PanelRequest>>, branches: &[Branch]) -> Vec<Vec<PanelRequest>> {
     if let (true, Some(first)) = (branches.len() > 1, rows.first_mut().and_then(|r| r.first_mut()))
@@ -219,23 +186,5 @@ fn with_legend(mut rows: Vec<Vec<PanelRequest>>, branches: &[Branch]) -> Vec<Vec
         };
         first.header.legend = branches.iter().map(entry).collect();
     }
-    rows
-}
-
-/// The rows with what the lines of followed orbits and their symbols mean in the first legend.
-pub fn with_followed(
-    mut rows: Vec<Vec<PanelRequest>>,
-    clouds: &[Vec<Vec<Dot>>],
-    followed: &[Followed],
-) -> Vec<Vec<PanelRequest>> {
-    let entries = followed.iter().map(Followed::legend).max_by_key(Vec::len).unwrap_or_default();
-    let first = rows.first_mut().and_then(|row| row.first_mut());
-    let Some(first) = first.filter(|_| !entries.is_empty()) else { return rows };
-    let legend = &mut first.header.legend;
-    let dots = clouds.iter().flatten().flatten().next();
-    if let (true, Some(dot)) = (legend.is_empty(), dots) {
-        legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("settled")));
-    }
-    legend.extend(entries);
     rows
 }

@@ -12,7 +12,13 @@ use super::style::{
 };
 use super::text::Text;
 use super::view::View;
+use crate::capsule::Output;
+use crate::store::catalogue::{Entry, OUTCOME, PERIOD};
 
+/// Tells motions in which the capsule never slides.
+const STICK_SHARE: Entry = Entry::of_output(Output::StickShare);
+/// What is read of each case, beside that by which they are sorted.
+pub const READS: [Entry; 2] = [OUTCOME, STICK_SHARE];
 /// Distance between a frame and the legend [pt].
 const LEGEND_GAP: f64 = 7.0;
 /// Distance between lines of the legend [pt].
@@ -46,10 +52,10 @@ impl Kinds {
         let outcomes = Outcomes::over(view, free)?;
         let flags = view.flags(name);
         let resting = resting(view, free)?;
-        let kind = |case: usize, code: f64| match name {
-            "period" if resting.get(case) == Some(&true) => rest(),
-            "period" => by_period(code, outcomes.name(case)),
-            _ => by_flag(code, flags),
+        let kind = |case: usize, code: f64| match name == PERIOD.name {
+            true if resting.get(case) == Some(&true) => rest(),
+            true => by_period(code, outcomes.name(case)),
+            false => by_flag(code, flags),
         };
         // The kinds with their places in the legend, in the order in which cases show them.
         let mut present: Vec<(usize, Kind)> = Vec::new();
@@ -116,11 +122,11 @@ fn by_name(name: &str) -> Option<(usize, Kind)> {
 
 /// Whether each periodic case is one in which the capsule never slides; empty where the results do not say.
 fn resting(view: &View<'_>, free: &[&str]) -> Result<Vec<bool>, FigureError> {
-    if view.dataset.variable("stick_share").is_none() {
+    if view.dataset.variable(STICK_SHARE.name).is_none() {
         return Ok(Vec::new());
     }
     let outcomes = Outcomes::over(view, free)?;
-    let shares = view.take("stick_share", free)?;
+    let shares = view.take(STICK_SHARE.name, free)?;
     let rests = |(case, share): (usize, &f64)| *share >= 1.0 && outcomes.periodic(case);
     Ok(shares.iter().enumerate().map(rests).collect())
 }

@@ -3,16 +3,23 @@
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::error::FigureError;
-use super::followed::{along, draw_symbols, faded, in_view, varied};
-use super::header::{Entry, Header, Mark};
+use super::followed::{draw_symbols, faded};
+use super::header::{self, Header, Mark};
+use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::scale::Scale;
 use super::style::{CURVE_WIDTH, ONE_COLUMN};
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
-use super::track::Rows;
+use super::track::{Rows, in_view};
+use super::varied::{along, varied};
 use super::view::View;
+use crate::store::catalogue::{
+    CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH, DIRECTION, Entry, INDEX_REQUEST, Place,
+    SPECIAL_BRANCH, SPECIAL_CURVE,
+};
+use crate::study::Drawing;
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 165.0;
@@ -27,8 +34,19 @@ struct Curve {
     specials: Vec<(f64, f64)>,
 }
 
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Branches, reads, draw };
+
+/// What is read of the curves, and of the special points that they go through.
+fn reads(_: &Drawing) -> Names {
+    let places = [Place::Request, Place::Special, Place::Curve];
+    Names::of([CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH])
+        .and([SPECIAL_BRANCH, SPECIAL_CURVE, INDEX_REQUEST])
+        .and(places.into_iter().flat_map(Place::parameters))
+}
+
 /// Draws the curves that `view` asks for.
-pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let axes = axes(view)?;
     let curves = curves(view, &axes);
     let range = |of: fn(&(f64, f64)) -> f64| {
@@ -41,7 +59,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         AxisRequest { empty, numbered: !empty, ..AxisRequest::new(view.quantity(name), scale) }
     };
     // Branches have no direction in which they were swept.
-    let note = view.held_note(&[&axes[0], &axes[1], "direction"]);
+    let note = view.held_note(&[&axes[0], &axes[1], DIRECTION.name]);
     let panel = PanelRequest {
         x: axis(&axes[0], range(|place| place.0)),
         y: axis(&axes[1], range(|place| place.1)),
@@ -60,7 +78,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         draw_curves(&mut canvas, panel, &curves);
     }
     let names = SYMBOLS.map(|symbol| symbol.name.to_owned());
-    Ok(canvas.finish(&super::about(view, &names, &[&axes[0], &axes[1]])))
+    Ok(canvas.finish(&view.about(&names, &[&axes[0], &axes[1]])))
 }
 
 /// The parameters along the abscissa and the ordinate.
@@ -84,16 +102,17 @@ fn axes(view: &View<'_>) -> Result<[String; 2], FigureError> {
 /// The curves over the two parameters `axes` that lie where `view` holds the others.
 fn curves(view: &View<'_>, axes: &[String; 2]) -> Vec<Curve> {
     let dataset = view.dataset;
-    let rows = |name: &str| Rows::new(dataset, name);
+    let rows = |entry: Entry| Rows::new(dataset, entry.name);
+    let at = |place: Place, name: &str| Rows::new(dataset, &place.name(name));
     let fits = in_view(view, &[&axes[0], &axes[1]]);
-    let (number, through) = (rows("curve"), rows("curve_through"));
-    let (branch, request) = (rows("special_branch"), rows("index_request"));
-    let (kind, period) = (rows("curve_kind"), rows("curve_period"));
-    let values = [0, 1].map(|i| (rows(&format!("curve_{}", axes[i])), view.quantity(&axes[i])));
-    let at_special = [0, 1]
-        .map(|i| [rows(&format!("special_{}", axes[i])), rows(&format!("request_{}", axes[i]))]);
-    let on_curve = rows("special_curve");
-    let flags = dataset.variable("curve_kind").map_or(&[][..], |variable| &variable.flags);
+    let (number, through) = (rows(CURVE), rows(CURVE_THROUGH));
+    let (branch, request) = (rows(SPECIAL_BRANCH), rows(INDEX_REQUEST));
+    let (kind, period) = (rows(CURVE_KIND), rows(CURVE_PERIOD));
+    let values = [0, 1].map(|i| (at(Place::Curve, &axes[i]), view.quantity(&axes[i])));
+    let at_special =
+        [0, 1].map(|i| [Place::Special, Place::Request].map(|place| at(place, &axes[i])));
+    let on_curve = rows(SPECIAL_CURVE);
+    let flags = dataset.variable(CURVE_KIND.name).map_or(&[][..], |variable| &variable.flags);
     let curve = |places: Vec<usize>| {
         let first = *places.first()?;
         let asked = request.one(branch.one(through.one(first) as usize) as usize) as usize;
@@ -139,7 +158,7 @@ fn periods(curves: &[Curve]) -> Vec<u64> {
     periods
 }
 
-fn legend(curves: &[Curve]) -> Vec<Entry> {
+fn legend(curves: &[Curve]) -> Vec<header::Entry> {
     let periods = periods(curves);
     let mut legend = Vec::new();
     for symbol in SYMBOLS.into_iter().rev() {

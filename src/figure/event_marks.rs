@@ -2,12 +2,22 @@
 
 use super::attractors::Attractors;
 use super::error::FigureError;
+use super::kind::Names;
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
 use super::view::View;
+use crate::store::catalogue::{EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, Place, SECTION};
 
 /// Symbols of one kind beyond this number would hide the diagram, and the kind is left out.
 const MOST: usize = 40;
+
+/// What is read of the events.
+pub fn reads() -> Names {
+    let sections = SECTION.map(|entry| Place::Event.of(entry));
+    Names::of([EVENT_KIND, EVENT_ATTRACTOR, EVENT_PERIOD])
+        .and(sections)
+        .and(Place::Event.parameters())
+}
 
 /// One event.
 struct Event {
@@ -41,18 +51,18 @@ impl EventMarks {
     ) -> Result<EventMarks, FigureError> {
         let factor = view.quantity(x).factor;
         let mut events = Vec::new();
-        if view.dataset.variable("event_kind").is_none() {
+        if view.dataset.variable(EVENT_KIND.name).is_none() {
             return Ok(EventMarks { events, factor });
         }
         let column = |name: &str| -> Result<Vec<f64>, FigureError> {
-            Ok(view.take(&format!("event_{name}"), &[])?.into_iter().collect())
+            Ok(view.take(name, &[])?.into_iter().collect())
         };
-        let (kinds, numbers, places) = (column("kind")?, column("attractor")?, column(x)?);
-        let periods = column("period")?;
-        let [r, y1, y2] = ["section_r", "section_y1", "section_y2"].map(column);
+        let (kinds, numbers) = (column(EVENT_KIND.name)?, column(EVENT_ATTRACTOR.name)?);
+        let (places, periods) = (column(&Place::Event.name(x))?, column(EVENT_PERIOD.name)?);
+        let [r, y1, y2] = SECTION.map(|entry| column(&Place::Event.name(entry.name)));
         let (r, y1, y2) = (r?, y1?, y2?);
         let on_line = on_line(view, x, kinds.len())?;
-        let flags = view.flags("event_kind");
+        let flags = view.flags(EVENT_KIND.name);
         for (i, kind) in kinds.iter().enumerate().filter(|(i, _)| on_line[*i]) {
             let name = flags.iter().find(|(code, _)| *code as f64 == *kind);
             let Some(symbol) = name.and_then(|(_, name)| Symbol::named(name)) else { continue };
@@ -92,8 +102,7 @@ impl EventMarks {
         x_values: &[f64],
         attractors: &Attractors<'_>,
     ) -> Result<Vec<(Symbol, f64, f64)>, FigureError> {
-        let coordinate =
-            ["section_r", "section_y1", "section_y2"].iter().position(|it| *it == output);
+        let coordinate = SECTION.iter().position(|entry| entry.name == output);
         let factor = view.quantity(output).factor;
         let values: Vec<f64> = view.shown(output, &attractors.free)?.into_iter().collect();
         let per_case = values.len().checked_div(attractors.values * attractors.per_value);
@@ -137,7 +146,7 @@ fn beside(
 fn on_line(view: &View<'_>, x: &str, count: usize) -> Result<Vec<bool>, FigureError> {
     let mut on_line = vec![true; count];
     for name in view.axes().into_iter().filter(|name| *name != x) {
-        let column = format!("event_{name}");
+        let column = Place::Event.name(name);
         if view.dataset.variable(&column).is_none() {
             continue;
         }

@@ -11,11 +11,6 @@ use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
 use super::track::{Track, tracks};
 use super::view::View;
-use crate::capsule::Parameter;
-use crate::store::dataset::Dataset;
-
-/// Two values of a parameter closer than this, relative to their size, are the same.
-const SAME: f64 = 1e-6;
 
 /// The followed orbits that a diagram shows, as one output of theirs.
 #[derive(Default)]
@@ -24,41 +19,6 @@ pub struct Followed {
     lines: [Vec<Vec<(f64, f64)>>; 2],
     /// Special points.
     specials: Vec<(Symbol, (f64, f64))>,
-}
-
-/// The parameters along which orbits were followed, in the order of the study.
-pub fn along(dataset: &Dataset) -> Vec<&str> {
-    let mut names = Vec::new();
-    if let Some(variable) = dataset.variable("request_along") {
-        for code in variable.values.to_real() {
-            let flag = variable.flags.iter().find(|(value, _)| *value as f64 == code);
-            names.extend(flag.map(|(_, name)| name.as_str()).filter(|it| !names.contains(it)));
-        }
-    }
-    names
-}
-
-/// The parameters that branches or curves run in.
-pub fn varied(dataset: &Dataset) -> Vec<&str> {
-    let over_curves = dataset.variables.iter().filter(|(_, it)| it.dimensions == ["curve_point"]);
-    let columns = over_curves.filter_map(|(name, _)| name.strip_prefix("curve_"));
-    // What the curves are stands over their points, too.
-    let second = columns.filter(|name| Parameter::named(name).is_some());
-    along(dataset).into_iter().chain(second).collect()
-}
-
-/// Whether each branch of the study lies where `view` holds the axes other than those that are `drawn`.
-pub fn in_view(view: &View<'_>, drawn: &[&str]) -> Vec<bool> {
-    let count = view.coordinate_values("branch_request").len();
-    let mut fits = vec![true; count];
-    for axis in view.axes().into_iter().filter(|axis| !drawn.contains(axis)) {
-        let variable = view.dataset.variable(&format!("request_{axis}"));
-        let (Some(variable), Some(held)) = (variable, view.held_value(axis)) else { continue };
-        for (fits, value) in fits.iter_mut().zip(variable.values.to_real()) {
-            *fits &= (value - held).abs() <= SAME * held.abs().max(value.abs());
-        }
-    }
-    fits
 }
 
 impl Followed {

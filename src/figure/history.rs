@@ -4,6 +4,7 @@ use super::axis::AxisRequest;
 use super::canvas::{Canvas, Dash, Drawn, Stroke};
 use super::error::FigureError;
 use super::header::{Header, Mark};
+use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
 use super::scale::Scale;
@@ -12,9 +13,24 @@ use super::style::{
 };
 use super::text::Text;
 use super::view::View;
+use crate::capsule::Parameter;
+use crate::store::catalogue::{
+    Entry, HISTORY_DRIVE, HISTORY_R, HISTORY_TIME, HISTORY_X2, HISTORY_Y1, HISTORY_Y2, TIME,
+    VELOCITIES,
+};
+use crate::study::Drawing;
 
 /// Panels of a history, unless others are asked for.
-const PANELS: [&str; 3] = ["history_x2", "history_r", "velocities"];
+const PANELS: [Entry; 3] = [HISTORY_X2, HISTORY_R, VELOCITIES];
+/// What a history can show, each with its variables.
+const SHOWN: [(Entry, &[Entry]); 6] = [
+    (HISTORY_X2, &[HISTORY_X2]),
+    (HISTORY_R, &[HISTORY_R]),
+    (VELOCITIES, &[HISTORY_Y1, HISTORY_Y2]),
+    (HISTORY_Y1, &[HISTORY_Y1]),
+    (HISTORY_Y2, &[HISTORY_Y2]),
+    (HISTORY_DRIVE, &[HISTORY_DRIVE]),
+];
 /// Cases that one page has room for.
 const MOST_CASES: usize = 12;
 /// Height of a frame [pt].
@@ -24,8 +40,8 @@ const GAP_LINE: Stroke = Stroke { colour: FAINT_INK, width: REFERENCE_WIDTH, das
 
 /// One curve of a panel.
 struct Curve {
-    /// Name of its variable.
-    variable: &'static str,
+    /// Its variable.
+    variable: Entry,
     /// Values over time.
     points: Vec<(f64, f64)>,
     /// Colour and width.
@@ -41,15 +57,27 @@ struct Cell {
     gap: Option<f64>,
 }
 
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
+
+/// What a history reads: the variables of what it shows, and what time and gap follow from.
+fn reads(drawing: &Drawing) -> Names {
+    let usual = PANELS.map(|entry| entry.name);
+    let of = drawing.of.iter().map(String::as_str);
+    let shown = of.chain(usual.into_iter().filter(|_| drawing.of.is_empty()));
+    let constants = [Parameter::Omega, Parameter::Delta].map(Entry::of_parameter);
+    Names::of(shown.flat_map(variables).copied()).and(constants)
+}
+
 /// Draws the history that `view` asks for.
-pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let axis = case_axis(view)?;
     let free: Vec<&str> = axis.into_iter().collect();
     let values = axis.map_or(Ok(vec![f64::NAN]), |name| view.axis_values(name))?;
     let outputs: Vec<String> = match (view.drawing.of.is_empty(), axis) {
         (false, _) => view.drawing.of.clone(),
-        (true, None) => PANELS.map(String::from).to_vec(),
-        (true, Some(_)) => vec![PANELS[0].to_string()],
+        (true, None) => PANELS.map(|entry| entry.name.to_owned()).to_vec(),
+        (true, Some(_)) => vec![PANELS[0].name.to_owned()],
     };
     let mut cells = Vec::new();
     for output in &outputs {
@@ -76,7 +104,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     for (panel, cell) in panels.iter().flatten().zip(&cells) {
         draw_cell(&mut canvas, panel, cell);
     }
-    Ok(canvas.finish(&super::about(view, &outputs, &free)))
+    Ok(canvas.finish(&view.about(&outputs, &free)))
 }
 
 /// The axis whose every value gets a panel.
@@ -99,33 +127,33 @@ fn case_axis<'a>(view: &View<'a>) -> Result<Option<&'a str>, FigureError> {
     Ok(Some(name))
 }
 
+/// The variables of an output; none where a history cannot show it.
+fn variables(output: &str) -> &'static [Entry] {
+    let found = SHOWN.iter().find(|(entry, _)| entry.name == output);
+    found.map_or(&[], |(_, variables)| variables)
+}
+
 /// The variables of an output, with their colours.
-fn curves_of(view: &View<'_>, output: &str) -> Result<Vec<(&'static str, Stroke)>, FigureError> {
+fn curves_of(view: &View<'_>, output: &str) -> Result<Vec<(Entry, Stroke)>, FigureError> {
     let blue = Stroke::solid(BLUE, CURVE_WIDTH);
     let red = Stroke::solid(VERMILION, CURVE_WIDTH);
-    Ok(match output {
-        "history_x2" => vec![("history_x2", blue)],
-        "history_r" => vec![("history_r", blue)],
-        "history_y1" => vec![("history_y1", blue)],
-        "history_y2" => vec![("history_y2", red)],
-        "history_drive" => vec![("history_drive", blue)],
-        "velocities" => vec![("history_y1", blue), ("history_y2", red)],
-        other => {
-            return Err(view.unfit(format!(
-                "a history cannot show `{other}`; it can show history_x2, history_r, velocities, \
-                 history_y1, history_y2 and history_drive"
-            )));
-        }
-    })
+    let variables = variables(output);
+    if variables.is_empty() {
+        let known: Vec<&str> = SHOWN.iter().map(|(entry, _)| entry.name).collect();
+        let known = known.join(", ");
+        return Err(view.unfit(format!("a history cannot show `{output}`; it can show {known}")));
+    }
+    let colour = |entry: &Entry| if entry.name == HISTORY_Y2.name { red } else { blue };
+    Ok(variables.iter().map(|entry| (*entry, colour(entry))).collect())
 }
 
 /// Time of each sample [s] and its cycle, for one case.
 fn times(view: &View<'_>, case: usize, free: &[&str]) -> Result<Vec<(f64, f64)>, FigureError> {
-    let cycles = view.coordinate_values("history_time");
+    let cycles = view.coordinate_values(HISTORY_TIME.name);
     if cycles.is_empty() {
-        return Err(view.unfit("the results hold no time histories (no `history_time`)"));
+        return Err(view.without_histories());
     }
-    let omega = view.parameter("omega", free)?;
+    let omega = view.parameter(Parameter::Omega.symbol(), free)?;
     let omega = omega.iter().nth(case).copied().unwrap_or(f64::NAN);
     Ok(cycles.iter().map(|cycle| (cycle * std::f64::consts::TAU / omega, *cycle)).collect())
 }
@@ -136,7 +164,7 @@ fn cell(view: &View<'_>, output: &str, case: usize, free: &[&str]) -> Result<Cel
     let shown = |cycle: f64| (first - 1e-9..=last + 1e-9).contains(&cycle);
     let mut curves = Vec::new();
     for (variable, stroke) in curves_of(view, output)? {
-        let values = view.shown(variable, free)?;
+        let values = view.shown(variable.name, free)?;
         let samples = values.iter().skip(case * times.len()).take(times.len());
         let points: Vec<_> = times
             .iter()
@@ -150,14 +178,13 @@ fn cell(view: &View<'_>, output: &str, case: usize, free: &[&str]) -> Result<Cel
         }
         curves.push(Curve { variable, points, stroke });
     }
-    let gap = match output {
-        "history_r" => {
-            let factor = view.quantity("delta").factor;
-            let gaps = view.parameter("delta", free).ok();
-            gaps.and_then(|gaps| gaps.iter().nth(case).map(|gap| gap * factor))
-        }
-        _ => None,
+    let delta = Parameter::Delta.symbol();
+    let gaps = match output == HISTORY_R.name {
+        true => view.parameter(delta, free).ok(),
+        false => None,
     };
+    let factor = view.quantity(delta).factor;
+    let gap = gaps.and_then(|gaps| gaps.iter().nth(case).map(|gap| gap * factor));
     Ok(Cell { output: output.to_string(), case, curves, gap })
 }
 
@@ -219,7 +246,7 @@ fn axes(
 ) -> (AxisRequest, AxisRequest) {
     let cell = &cells[index];
     let times = cell.curves[0].points.iter().map(|(time, _)| *time);
-    let mut x = AxisRequest::new(view.quantity("time"), Scale::around(times, 0.0));
+    let mut x = AxisRequest::new(view.quantity(TIME.name), Scale::around(times, 0.0));
     // Stacked panels of one case share their time; different cases last differently long.
     x.labelled = cells.get(index + columns).is_none();
     x.numbered = x.labelled || cases > 1;
@@ -234,9 +261,12 @@ fn axes(
 
 fn legend(view: &View<'_>, cell: &Cell) -> Vec<(Mark, Text)> {
     let entry =
-        |curve: &Curve| (Mark::Line(curve.stroke), view.quantity(curve.variable).short_name());
+        |curve: &Curve| (Mark::Line(curve.stroke), view.quantity(curve.variable.name).short_name());
     match (cell.gap, cell.curves.len()) {
-        (Some(_), _) => vec![(Mark::Line(GAP_LINE), view.quantity("delta").short_name())],
+        (Some(_), _) => {
+            let delta = view.quantity(Parameter::Delta.symbol());
+            vec![(Mark::Line(GAP_LINE), delta.short_name())]
+        }
         (None, 1) => Vec::new(),
         _ => cell.curves.iter().map(entry).collect(),
     }

@@ -4,21 +4,25 @@ use plotters::style::RGBColor;
 
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn};
-use super::category::Kinds;
+use super::category::{self, Kinds};
 use super::cells::Cells;
 use super::colour::Colours;
 use super::error::FigureError;
 use super::header::{Header, Mark};
-use super::outcome::Outcomes;
+use super::kind::{Kind, Names, Needs};
+use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::raster::Raster;
 use super::style::{INFINITE, ONE_COLUMN};
 use super::text::Text;
 use super::view::View;
+use crate::capsule::Output;
+use crate::store::catalogue::{self, Entry, PERIOD, Type};
+use crate::study::Drawing;
 
 /// The output shown, unless another is asked for.
-const OUTPUT: &str = "progression_speed";
+const OUTPUT: Entry = Entry::of_output(Output::ProgressionSpeed);
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
 
@@ -70,17 +74,22 @@ impl Paint {
     }
 }
 
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
+
+/// What a map reads: its output, the outcomes, and what sorts cases where it shows kinds of them.
+fn reads(drawing: &Drawing) -> Names {
+    let output = drawing.of.first().map_or(OUTPUT.name, String::as_str);
+    let entry = catalogue::named(output);
+    let sorted = entry.is_none_or(|entry| !matches!(entry.numbers, Type::Real));
+    let sorting = category::READS.into_iter().filter(|_| sorted);
+    Names::of(outcome::READS).and(sorting).and_named([output.to_owned()])
+}
+
 /// Draws the map that `view` asks for.
-pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (x_name, y_name) = axes(view)?;
-    let output = match view.drawing.of.as_slice() {
-        [] => OUTPUT.to_string(),
-        [one] => one.clone(),
-        several => {
-            let why = format!("a map shows one output, and `of` names {}", several.join(", "));
-            return Err(view.unfit(why));
-        }
-    };
+    let output = view.drawing.of.first().cloned().unwrap_or_else(|| OUTPUT.name.to_owned());
     let (x, y) = (cells(view, x_name)?, cells(view, y_name)?);
     let paint = paint(view, &output, &[y_name, x_name], x.count() * y.count())?;
     let panel = PanelRequest {
@@ -106,7 +115,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         panel.finish(&mut canvas);
         paint.explain(&mut canvas, panel);
     }
-    Ok(canvas.finish(&super::about(view, &[output], &[x_name, y_name])))
+    Ok(canvas.finish(&view.about(&[output], &[x_name, y_name])))
 }
 
 /// The cells along the axis called `name`.
@@ -121,7 +130,7 @@ fn cells(view: &View<'_>, name: &str) -> Result<Cells, FigureError> {
 
 /// The axes along the abscissa and the ordinate.
 fn axes<'a>(view: &View<'a>) -> Result<(&'a str, &'a str), FigureError> {
-    let free = super::drawable_axes(view);
+    let free = view.drawable_axes();
     let named = |name: &Option<String>| {
         name.as_ref().and_then(|name| view.axes().into_iter().find(|axis| axis == name))
     };
@@ -144,7 +153,7 @@ fn paint(view: &View<'_>, output: &str, free: &[&str], cases: usize) -> Result<P
         let why = format!("`{output}` has several values per case, and a map shows one");
         return Err(view.unfit(why));
     }
-    if output == "period" || !view.flags(output).is_empty() {
+    if output == PERIOD.name || !view.flags(output).is_empty() {
         return Ok(Paint::Kinds(Kinds::of(view, output, free)?));
     }
     let outcomes = Outcomes::over(view, free)?;

@@ -10,6 +10,7 @@ mod cells;
 mod cloud;
 mod colour;
 mod curves;
+mod diagram;
 mod error;
 mod followed;
 mod event_marks;
@@ -17,6 +18,7 @@ mod font;
 mod geometry;
 mod header;
 mod history;
+mod kind;
 mod map;
 mod outcome;
 mod output;
@@ -25,7 +27,7 @@ mod panel;
 mod phase_portrait;
 mod quantity;
 mod raster;
-mod reading;
+mod registry;
 mod scale;
 mod style;
 mod symbol;
@@ -33,18 +35,33 @@ mod text;
 mod ticks;
 mod track;
 mod trade_off;
+mod varied;
 mod view;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 pub use error::FigureError;
+pub use kind::Needs;
 pub use output::Format;
-pub use reading::reads;
 
 use crate::store::dataset::Dataset;
 use crate::study::{Drawing, DrawingKind};
 use output::Figure;
 use view::View;
+
+/// What must be in a file of results before a figure of this kind can be drawn from it.
+pub fn needs(kind: DrawingKind) -> Needs {
+    registry::kind(kind).needs
+}
+
+/// The names of the variables whose numbers `drawing` shows or judges cases by; of others it needs no more
+/// than their labels.
+pub fn variables(drawing: &Drawing) -> BTreeSet<String> {
+    let reads = registry::kind(drawing.kind).reads;
+    // Every figure looks for the parameters along which orbits were followed.
+    reads(drawing).and(varied::READS).into_set()
+}
 
 /// Draws `drawing` from the results in `dataset` and writes `<folder>/<name>.<ending>` in each of
 /// `formats`, each file complete or absent; gives the paths written.
@@ -56,14 +73,7 @@ pub fn draw(
 ) -> Result<Vec<PathBuf>, FigureError> {
     let view = View::new(dataset, drawing)?;
     check_request(&view)?;
-    let drawn = match drawing.kind {
-        DrawingKind::History => history::draw(&view)?,
-        DrawingKind::PhasePortrait => phase_portrait::draw(&view)?,
-        DrawingKind::Bifurcation => bifurcation::draw(&view)?,
-        DrawingKind::Map => map::draw(&view)?,
-        DrawingKind::TradeOff => trade_off::draw(&view)?,
-        DrawingKind::Curves => curves::draw(&view)?,
-    };
+    let drawn = (registry::kind(drawing.kind).draw)(&view)?;
     let figure = drawing.name.clone();
     if let Some((character, label)) = drawn.missing {
         return Err(FigureError::Glyph { figure, character, label });
@@ -81,6 +91,12 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
     if !is_stem {
         return Err(view.unfit("the name of a figure must be the stem of a file name"));
     }
+    let (kind, of) = (view.drawing.kind, &view.drawing.of);
+    let most = kind.keys().most;
+    if of.len() > most && most > 0 {
+        let (kind, of) = (kind.name(), of.join(", "));
+        return Err(view.unfit(format!("a {kind} shows one output, and `of` names {of}")));
+    }
     match view.drawing.width_mm {
         Some(width) if !(style::WIDTHS.0..=style::WIDTHS.1).contains(&width) => {
             let (low, high) = style::WIDTHS;
@@ -88,29 +104,4 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
         }
         _ => Ok(()),
     }
-}
-
-/// The axes a diagram runs along by default: those that are free and not the direction of a sweep.
-fn drawable_axes<'a>(view: &View<'a>) -> Vec<&'a str> {
-    view.free_axes().into_iter().filter(|name| *name != "direction").collect()
-}
-
-/// The axis along the abscissa, or the parameter along which orbits were followed.
-fn abscissa<'a>(view: &View<'a>) -> Result<&'a str, FigureError> {
-    let free = drawable_axes(view);
-    let named = view.drawing.x.as_ref();
-    let along = followed::along(view.dataset);
-    let axis = match named {
-        Some(name) => view.axes().into_iter().chain(along).find(|axis| axis == name),
-        None => free.first().or(along.first()).copied(),
-    };
-    axis.ok_or_else(|| view.unfit("it needs an axis of the study that `at` does not hold"))
-}
-
-/// What a figure shows, in a sentence kept inside its files.
-fn about(view: &View<'_>, outputs: &[String], free: &[&str]) -> String {
-    let over = if free.is_empty() { String::new() } else { format!(" over {}", free.join(", ")) };
-    let held = view.held_record(free);
-    let at = if held.is_empty() { String::new() } else { format!(" at {held}") };
-    format!("{}{over}{at}", outputs.join(", "))
 }

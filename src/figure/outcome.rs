@@ -2,6 +2,10 @@
 
 use super::error::FigureError;
 use super::view::View;
+use crate::store::catalogue::{Entry, OUTCOME};
+
+/// What is read of each case.
+pub const READS: [Entry; 1] = [OUTCOME];
 
 /// Stands for a case of which nothing is known.
 const UNKNOWN: u8 = u8::MAX;
@@ -17,15 +21,15 @@ pub struct Outcomes<'a> {
 impl<'a> Outcomes<'a> {
     /// The outcomes over the axes `free`; unknown where the results hold no `outcome`.
     pub fn over(view: &View<'a>, free: &[&str]) -> Result<Outcomes<'a>, FigureError> {
-        if view.dataset.variable("outcome").is_none() {
+        if view.dataset.variable(OUTCOME.name).is_none() {
             return Ok(Outcomes { flags: &[], places: Vec::new() });
         }
-        let flags = view.flags("outcome");
+        let flags = view.flags(OUTCOME.name);
         let place = |code: &f64| {
             let place = flags.iter().position(|(value, _)| *value as f64 == *code);
             place.and_then(|place| u8::try_from(place).ok()).unwrap_or(UNKNOWN)
         };
-        Ok(Outcomes { flags, places: view.take("outcome", free)?.iter().map(place).collect() })
+        Ok(Outcomes { flags, places: view.take(OUTCOME.name, free)?.iter().map(place).collect() })
     }
 
     /// The outcome of a case, if it is known.

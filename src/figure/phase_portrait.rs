@@ -5,6 +5,7 @@ use super::canvas::{Canvas, Drawn, Stroke};
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
+use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::scale::Scale;
@@ -13,6 +14,12 @@ use super::style::{
 };
 use super::text::Text;
 use super::view::View;
+use crate::capsule::Parameter;
+use crate::store::catalogue::{
+    Entry, HISTORY_R, HISTORY_TIME, HISTORY_Y1, HISTORY_Y2, IMPACT_Y1, IMPACT_Y2,
+    RELATIVE_VELOCITY, SECTION_R, SECTION_Y1, SECTION_Y2,
+};
+use crate::study::Drawing;
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 165.0;
@@ -29,15 +36,25 @@ struct Portrait {
     gap: Option<f64>,
 }
 
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
+
+/// What a portrait reads: the motion, the points of both sections, and the gap.
+fn reads(_: &Drawing) -> Names {
+    Names::of([HISTORY_R, HISTORY_Y1, HISTORY_Y2])
+        .and([SECTION_R, SECTION_Y1, SECTION_Y2, IMPACT_Y1, IMPACT_Y2])
+        .and([Entry::of_parameter(Parameter::Delta)])
+}
+
 /// Draws the phase portrait that `view` asks for.
-pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let portrait = portrait(view)?;
     let all = || portrait.orbit.iter().chain(&portrait.sections).chain(&portrait.impacts);
     let x = Scale::around(all().map(|point| point.0).chain(portrait.gap), 0.06);
     let y = Scale::around(all().map(|point| point.1), 0.06);
     let panel = PanelRequest {
-        x: AxisRequest::new(view.quantity("history_r"), x),
-        y: AxisRequest::new(view.quantity("relative_velocity"), y),
+        x: AxisRequest::new(view.quantity(HISTORY_R.name), x),
+        y: AxisRequest::new(view.quantity(RELATIVE_VELOCITY.name), y),
         header: Header { letter: None, note: view.held_note(&[]), legend: legend(&portrait) },
     };
     let page = PageRequest {
@@ -52,17 +69,17 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     for panel in panels.iter().flatten() {
         draw_portrait(&mut canvas, panel, &portrait);
     }
-    Ok(canvas.finish(&super::about(view, &["history_r".to_string()], &[])))
+    Ok(canvas.finish(&view.about(&[HISTORY_R.name.to_owned()], &[])))
 }
 
 fn portrait(view: &View<'_>) -> Result<Portrait, FigureError> {
-    let cycles = view.coordinate_values("history_time");
+    let cycles = view.coordinate_values(HISTORY_TIME.name);
     if cycles.is_empty() {
-        return Err(view.unfit("the results hold no time histories (no `history_time`)"));
+        return Err(view.without_histories());
     }
     let [first, last] = view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-    let r = view.shown("history_r", &[])?;
-    let (y1, y2) = (view.take("history_y1", &[])?, view.take("history_y2", &[])?);
+    let r = view.shown(HISTORY_R.name, &[])?;
+    let (y1, y2) = (view.take(HISTORY_Y1.name, &[])?, view.take(HISTORY_Y2.name, &[])?);
     let orbit: Vec<_> = cycles
         .iter()
         .zip(r.iter().zip(y1.iter().zip(&y2)))
@@ -72,16 +89,18 @@ fn portrait(view: &View<'_>) -> Result<Portrait, FigureError> {
     if orbit.is_empty() {
         return Err(view.unfit(format!("no sample lies in cycles {first} to {last}")));
     }
-    let factor = view.quantity("delta").factor;
-    let gap = view.parameter("delta", &[]).ok().and_then(|gap| gap.first().map(|it| it * factor));
-    let sections = match view.dataset.variable("section_r") {
+    let delta = Parameter::Delta.symbol();
+    let factor = view.quantity(delta).factor;
+    let gap = view.parameter(delta, &[]).ok().and_then(|gap| gap.first().map(|it| it * factor));
+    let sections = match view.dataset.variable(SECTION_R.name) {
         Some(_) => {
-            relative(view, "section_y1", "section_y2", view.shown("section_r", &[])?.iter())?
+            let r = view.shown(SECTION_R.name, &[])?;
+            relative(view, [SECTION_Y1, SECTION_Y2], r.iter())?
         }
         None => Vec::new(),
     };
-    let impacts = match (view.dataset.variable("impact_y1"), gap) {
-        (Some(_), Some(gap)) => relative(view, "impact_y1", "impact_y2", std::iter::repeat(&gap))?,
+    let impacts = match (view.dataset.variable(IMPACT_Y1.name), gap) {
+        (Some(_), Some(gap)) => relative(view, [IMPACT_Y1, IMPACT_Y2], std::iter::repeat(&gap))?,
         _ => Vec::new(),
     };
     Ok(Portrait { orbit, sections, impacts, gap })
@@ -90,11 +109,10 @@ fn portrait(view: &View<'_>) -> Result<Portrait, FigureError> {
 /// Points of given displacement and the difference of two velocities, without the padding.
 fn relative<'a>(
     view: &View<'_>,
-    y1: &str,
-    y2: &str,
+    [y1, y2]: [Entry; 2],
     r: impl Iterator<Item = &'a f64>,
 ) -> Result<Vec<(f64, f64)>, FigureError> {
-    let (y1, y2) = (view.take(y1, &[])?, view.take(y2, &[])?);
+    let (y1, y2) = (view.take(y1.name, &[])?, view.take(y2.name, &[])?);
     let points = r.zip(y1.iter().zip(&y2)).map(|(r, (y1, y2))| (*r, y1 - y2));
     Ok(points.filter(|(r, velocity)| r.is_finite() && velocity.is_finite()).collect())
 }

@@ -1,7 +1,8 @@
-//! How each quantity is named, in which unit figures show it, and its factor from SI.
+//! How each quantity is named in figures, and its values in the unit that they show.
 
 use super::text::Text;
 use super::ticks::{power_of_ten, short};
+use crate::store::catalogue::{self, Place, Shown};
 use crate::store::dataset::{Dataset, Values, Variable};
 
 /// A quantity as figures show it.
@@ -19,87 +20,19 @@ pub struct Quantity {
     pub whole: bool,
 }
 
-/// Stored name, words, symbol, unit shown, value shown per value in SI.
-type Row = (&'static str, &'static str, &'static str, &'static str, f64);
-
-/// The quantities that have a usual form; others are shown as they are stored.
-const TABLE: &[Row] = &[
-    ("omega", "Frequency", "*ω*", "rad/s", 1.0),
-    ("p_d", "Force amplitude", "*p*_{d}", "N", 1.0),
-    ("k1", "Stiffness", "*k*_{1}", "kN/m", 1e-3),
-    ("k2", "Stiffness", "*k*_{2}", "kN/m", 1e-3),
-    ("delta", "Gap", "*δ*", "mm", 1e3),
-    ("m1", "Internal mass", "*m*_{1}", "kg", 1.0),
-    ("m2", "Capsule mass", "*m*_{2}", "kg", 1.0),
-    ("c", "Damping", "*c*", "N s/m", 1.0),
-    ("mu_s", "Static friction", "*μ*_{s}", "", 1.0),
-    ("mu_d", "Dynamic friction", "*μ*_{d}", "", 1.0),
-    ("v_s", "Stribeck velocity", "*v*_{s}", "m/s", 1.0),
-    ("g", "Gravity", "*g*", "m/s^{2}", 1.0),
-    ("start_r", "Initial", "*x*_{1} − *x*_{2}", "mm", 1e3),
-    ("start_y1", "Initial", "*y*_{1}", "m/s", 1.0),
-    ("start_y2", "Initial", "*y*_{2}", "m/s", 1.0),
-    ("phase", "Initial phase", "*φ*", "rad", 1.0),
-    ("time", "Time", "", "s", 1.0),
-    ("section_r", "Stroboscopic", "*x*_{1} − *x*_{2}", "mm", 1e3),
-    ("section_y1", "Stroboscopic", "*y*_{1}", "m/s", 1.0),
-    ("section_y2", "Stroboscopic", "*y*_{2}", "m/s", 1.0),
-    ("impact_phase", "Impact phase", "*ωt*", "rad", 1.0),
-    ("impact_y1", "Impact velocity", "*y*_{1}", "m/s", 1.0),
-    ("impact_y2", "Impact velocity", "*y*_{2}", "m/s", 1.0),
-    ("history_r", "", "*x*_{1} − *x*_{2}", "mm", 1e3),
-    ("history_x2", "", "*x*_{2}", "mm", 1e3),
-    ("history_y1", "", "*y*_{1}", "m/s", 1.0),
-    ("history_y2", "", "*y*_{2}", "m/s", 1.0),
-    ("history_drive", "Drive", "*p*_{d} cos *ωt*", "N", 1.0),
-    ("velocities", "", "*y*_{1}, *y*_{2}", "m/s", 1.0),
-    ("relative_velocity", "", "*y*_{1} − *y*_{2}", "m/s", 1.0),
-    ("outcome", "Outcome", "", "", 1.0),
-    ("period", "Period", "", "", 1.0),
-    ("progression_speed", "Progression speed", "", "mm/s", 1e3),
-    ("progression_per_cycle", "Progression per cycle", "", "mm", 1e3),
-    ("work_net", "Net work per cycle", "", "mJ", 1e3),
-    ("work_positive", "Positive work per cycle", "", "mJ", 1e3),
-    ("work_absolute", "Absolute work per cycle", "", "mJ", 1e3),
-    ("work_actuator", "Actuator work per cycle", "", "mJ", 1e3),
-    ("friction_loss", "Friction loss per cycle", "", "mJ", 1e3),
-    ("damper_loss", "Damper loss per cycle", "", "mJ", 1e3),
-    ("energy_residual", "Energy residual", "", "", 1.0),
-    ("momentum_residual", "Momentum residual", "", "", 1.0),
-    ("cost_of_transport", "Cost of transport", "", "", 1.0),
-    ("impacts_per_cycle", "Impacts per cycle", "", "", 1.0),
-    ("forward_slips_per_cycle", "Forward slips per cycle", "", "", 1.0),
-    ("backward_slips_per_cycle", "Backward slips per cycle", "", "", 1.0),
-    ("reversals_per_cycle", "Reversals per cycle", "", "", 1.0),
-    ("stick_share", "Share of sticking", "", "", 1.0),
-    ("peak_contact_force", "Peak contact force", "", "N", 1.0),
-    ("grazing_margin", "Grazing margin", "", "mm", 1e3),
-    ("lyapunov_exponent", "Lyapunov exponent", "", "1/s", 1.0),
-    ("lyapunov_uncertainty", "Uncertainty of the exponent", "", "1/s", 1.0),
-    ("largest_multiplier", "Largest multiplier", "", "", 1.0),
-    ("integration_defect", "Integration defect", "", "", 1.0),
-    ("excluded_period", "Longest period excluded", "", "", 1.0),
-    ("section_residual", "Section residual", "", "", 1.0),
-];
-
-/// The row called `name`.
-fn row(name: &str) -> Option<&'static Row> {
-    TABLE.iter().find(|row| row.0 == name)
-}
-
 impl Quantity {
-    /// The quantity called `name`, described by `dataset` where the table does not know it.
+    /// The quantity called `name`, described by `dataset` where the catalogue has no form for it.
     pub fn named(name: &str, dataset: &Dataset) -> Quantity {
-        let on_branches = || dataset.variable(&format!("branch_{name}"));
+        let on_branches = || dataset.variable(&Place::Branch.name(name));
         let stored = dataset.variable(name).or_else(|| dataset.coordinate(name));
         let stored = stored.or_else(on_branches);
         let whole = stored.is_some_and(|it| matches!(it.values, Values::Integer(_)));
-        match row(name) {
-            Some((_, words, symbol, unit, factor)) => Quantity {
-                name: Text::plain(words),
+        match catalogue::named(name).and_then(|entry| entry.shown) {
+            Some(Shown { label, symbol, unit, factor }) => Quantity {
+                name: Text::plain(label),
                 symbol: symbol.to_string(),
                 unit: unit.to_string(),
-                factor: *factor,
+                factor,
                 whole,
             },
             None => Quantity { whole, ..Quantity::as_stored(name, stored) },

@@ -1,9 +1,44 @@
 //! A branch as a path through a diagram: its orbits and special points in order, their cycles matched.
 
-use super::followed::in_view;
+use super::kind::Names;
 use super::symbol::Symbol;
 use super::view::View;
+use crate::store::catalogue::{
+    AT_BRANCH_POINTS, AT_SPECIAL_POINTS, BRANCH_STABLE, INDEX_REQUEST, OrbitColumns, Place,
+    REQUEST, SECTION, SPECIAL_AFTER, SPECIAL_KIND,
+};
 use crate::store::dataset::Dataset;
+
+/// Two values of a parameter closer than this, relative to their size, are the same.
+const SAME: f64 = 1e-6;
+
+/// What is read of the branches whose orbits are shown as their `outputs`.
+pub fn reads(outputs: &[String]) -> Names {
+    let places = [(Place::Branch, &AT_BRANCH_POINTS), (Place::Special, &AT_SPECIAL_POINTS)];
+    let at = |(place, own): (Place, &OrbitColumns)| {
+        let of_orbits = [own.branch, own.period].into_iter().chain(place.parameters());
+        let sections = SECTION.into_iter().map(move |entry| place.of(entry));
+        let outputs = outputs.iter().map(move |output| place.name(output));
+        Names::of(of_orbits.chain(sections)).and_named(outputs)
+    };
+    let names = places.into_iter().map(at).fold(Names::default(), Names::and_all);
+    let own = [INDEX_REQUEST, BRANCH_STABLE, SPECIAL_AFTER, SPECIAL_KIND];
+    names.and(own).and(Place::Request.parameters())
+}
+
+/// Whether each branch of the study lies where `view` holds the axes other than those that are `drawn`.
+pub fn in_view(view: &View<'_>, drawn: &[&str]) -> Vec<bool> {
+    let count = view.coordinate_values(REQUEST.name).len();
+    let mut fits = vec![true; count];
+    for axis in view.axes().into_iter().filter(|axis| !drawn.contains(axis)) {
+        let variable = view.dataset.variable(&Place::Request.name(axis));
+        let (Some(variable), Some(held)) = (variable, view.held_value(axis)) else { continue };
+        for (fits, value) in fits.iter_mut().zip(variable.values.to_real()) {
+            *fits &= (value - held).abs() <= SAME * held.abs().max(value.abs());
+        }
+    }
+    fits
+}
 
 /// A stop on the way along a branch, in SI.
 pub struct Stop {
@@ -66,7 +101,7 @@ impl Rows {
     }
 }
 
-/// The variables of points of one sort, "branch" or "special".
+/// The variables of the points of the branches or of their special points.
 struct Source {
     branch: Rows,
     x: Rows,
@@ -76,14 +111,16 @@ struct Source {
 }
 
 impl Source {
-    fn new(dataset: &Dataset, prefix: &str, x: &str, output: &str) -> Source {
-        let rows = |name: &str| Rows::new(dataset, &format!("{prefix}_{name}"));
-        let branch = match prefix {
-            "branch" => Rows::new(dataset, "branch"),
-            _ => rows("branch"),
-        };
-        let section = ["section_r", "section_y1", "section_y2"].map(rows);
-        Source { branch, x: rows(x), output: rows(output), period: rows("period"), section }
+    fn new(
+        dataset: &Dataset,
+        (place, own): (Place, &OrbitColumns),
+        x: &str,
+        output: &str,
+    ) -> Source {
+        let [branch, period] = [own.branch, own.period].map(|it| Rows::new(dataset, it.name));
+        let [x, output] = [x, output].map(|name| Rows::new(dataset, &place.name(name)));
+        let section = SECTION.map(|entry| Rows::new(dataset, &place.name(entry.name)));
+        Source { branch, x, output, period, section }
     }
 
     /// The section points of the orbit at `place`.
@@ -100,13 +137,13 @@ impl Source {
 /// The branches along `x` that lie where `view` holds the other axes, as their `output`.
 pub fn tracks(view: &View<'_>, x: &str, output: &str) -> Vec<Track> {
     let dataset = view.dataset;
-    if dataset.variable(&format!("branch_{output}")).is_none() {
+    if dataset.variable(&Place::Branch.name(output)).is_none() {
         return Vec::new();
     }
     let fits = in_view(view, &[x]);
-    let request = Rows::new(dataset, "index_request");
-    let points = Source::new(dataset, "branch", x, output);
-    let specials = Source::new(dataset, "special", x, output);
+    let request = Rows::new(dataset, INDEX_REQUEST.name);
+    let points = Source::new(dataset, (Place::Branch, &AT_BRANCH_POINTS), x, output);
+    let specials = Source::new(dataset, (Place::Special, &AT_SPECIAL_POINTS), x, output);
     let along_x = |branch: &usize| {
         let first = points.branch.places(*branch).first().copied();
         first.is_some_and(|place| points.x.one(place).is_finite())
@@ -117,10 +154,10 @@ pub fn tracks(view: &View<'_>, x: &str, output: &str) -> Vec<Track> {
 }
 
 fn track(dataset: &Dataset, branch: usize, points: &Source, specials: &Source) -> Track {
-    let stable = Rows::new(dataset, "branch_stable");
-    let after = Rows::new(dataset, "special_after");
-    let kind = Rows::new(dataset, "special_kind");
-    let flags = dataset.variable("special_kind").map_or(&[][..], |variable| &variable.flags);
+    let stable = Rows::new(dataset, BRANCH_STABLE.name);
+    let after = Rows::new(dataset, SPECIAL_AFTER.name);
+    let kind = Rows::new(dataset, SPECIAL_KIND.name);
+    let flags = dataset.variable(SPECIAL_KIND.name).map_or(&[][..], |variable| &variable.flags);
     let symbol = |place: usize| {
         let flag = flags.iter().find(|(code, _)| *code as f64 == kind.one(place));
         flag.and_then(|(_, name)| Symbol::named(name))

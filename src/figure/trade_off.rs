@@ -8,18 +8,23 @@ use super::cloud::{self, Dot};
 use super::colour::Colours;
 use super::error::FigureError;
 use super::header::{Header, Mark};
-use super::outcome::Outcomes;
+use super::kind::{Kind, Names, Needs};
+use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::Pointing;
 use super::scale::Scale;
 use super::style::{BLUE, CURVE_WIDTH, INK, ONE_COLUMN, VERMILION};
 use super::text::Text;
 use super::view::View;
+use crate::capsule::Output;
+use crate::store::catalogue::Entry;
+use crate::study::Drawing;
+use crate::tradeoff::front;
 
 /// The energy shown, unless another is asked for.
-const ENERGY: &str = "work_positive";
+const ENERGY: Entry = Entry::of_output(Output::WorkPositive);
 /// The speed shown.
-const SPEED: &str = "progression_speed";
+const SPEED: Entry = Entry::of_output(Output::ProgressionSpeed);
 /// Radius of the ring around the fastest case [pt].
 const BEST_RADIUS: f64 = 3.0;
 /// Height of the frame [pt].
@@ -32,16 +37,18 @@ struct Case {
     place: usize,
 }
 
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
+
+/// What a trade-off reads: both quantities and the outcomes.
+fn reads(drawing: &Drawing) -> Names {
+    let energy = drawing.of.first().map_or(ENERGY.name, String::as_str);
+    Names::of(outcome::READS).and([SPEED]).and_named([energy.to_owned()])
+}
+
 /// Draws the trade-off that `view` asks for.
-pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let energy = match view.drawing.of.as_slice() {
-        [] => ENERGY.to_string(),
-        [one] => one.clone(),
-        several => {
-            let why = format!("a trade-off has one energy, and `of` names {}", several.join(", "));
-            return Err(view.unfit(why));
-        }
-    };
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let energy = view.drawing.of.first().cloned().unwrap_or_else(|| ENERGY.name.to_owned());
     let free = view.free_axes();
     let cases = cases(view, &energy, &free)?;
     let hue = hue(view, &free)?;
@@ -59,7 +66,7 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let radius = 1.4 * cloud::radius(dots.len());
         cloud::draw(&mut canvas, panel, &dots, radius);
         if cases.len() > 1 {
-            let line = stairs(&front(&cases));
+            let line = stairs(&best(&cases));
             panel.curve(&mut canvas, &line, Stroke::solid(VERMILION, CURVE_WIDTH));
         }
         if let Some((at, _)) = &fastest {
@@ -71,12 +78,12 @@ pub fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         }
         panel.finish(&mut canvas);
     }
-    Ok(canvas.finish(&super::about(view, &[SPEED.to_string(), energy], &free)))
+    Ok(canvas.finish(&view.about(&[SPEED.name.to_owned(), energy], &free)))
 }
 
 /// The periodic cases with finite outputs.
 fn cases(view: &View<'_>, energy: &str, free: &[&str]) -> Result<Vec<Case>, FigureError> {
-    let (energies, speeds) = (view.shown(energy, free)?, view.shown(SPEED, free)?);
+    let (energies, speeds) = (view.shown(energy, free)?, view.shown(SPEED.name, free)?);
     if energies.len() != speeds.len() {
         return Err(view.unfit(format!("`{energy}` does not have one value per case")));
     }
@@ -154,7 +161,7 @@ fn request(
     // Speeds differ in sign and stay linear, so that standing still keeps its place.
     let y = AxisRequest {
         scale: Scale::around(speeds.iter().copied(), 0.06),
-        ..AxisRequest::around(view.quantity(SPEED), &speeds, 0.06)
+        ..AxisRequest::around(view.quantity(SPEED.name), &speeds, 0.06)
     };
     let panel = PanelRequest {
         x: AxisRequest::around(view.quantity(energy), &energies, 0.04),
@@ -171,19 +178,11 @@ fn request(
     }
 }
 
-/// The Pareto front: cases that no other beats in speed without taking more energy. Where any
-/// case moves forward, those that do not are no gain at any price.
-fn front(cases: &[Case]) -> Vec<(f64, f64)> {
-    let forward = cases.iter().any(|case| case.speed > 0.0);
-    let mut order: Vec<&Case> = cases.iter().filter(|case| case.speed > 0.0 || !forward).collect();
-    order.sort_by(|a, b| a.energy.total_cmp(&b.energy).then_with(|| b.speed.total_cmp(&a.speed)));
-    let mut front: Vec<(f64, f64)> = Vec::new();
-    for case in order {
-        if front.last().is_none_or(|(_, speed)| case.speed > *speed) {
-            front.push((case.energy, case.speed));
-        }
-    }
-    front
+/// The Pareto front of the cases, as energies and speeds.
+fn best(cases: &[Case]) -> Vec<(f64, f64)> {
+    let (energies, speeds): (Vec<f64>, Vec<f64>) =
+        cases.iter().map(|case| (case.energy, case.speed)).unzip();
+    front(&energies, &speeds).into_iter().map(|case| (energies[case], speeds[case])).collect()
 }
 
 /// The front as stairs: up to the next case, the last one stays the best.

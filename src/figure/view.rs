@@ -3,15 +3,17 @@
 use ndarray::{ArrayD, Axis, IxDyn};
 
 use super::error::FigureError;
-use super::followed;
 use super::quantity::Quantity;
 use super::text::Text;
-use crate::store::branches::DIMENSIONS;
+use super::varied::varied;
+use crate::store::catalogue::{self, DIRECTION, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::study::Drawing;
 
-/// Dimensions within a case or beside the cases, which are not axes of the study.
-const INNER: [&str; 6] = ["point", "impact_point", "history_time", "multiplier", "event", "block"];
+/// Whether a dimension lies within a case or beside the cases, and is no axis of the study.
+fn is_inner(dimension: &str) -> bool {
+    catalogue::named(dimension).is_some_and(|entry| entry.extent == Extent::Dimension)
+}
 
 /// The results as one figure sees them.
 pub struct View<'a> {
@@ -28,7 +30,7 @@ impl<'a> View<'a> {
     pub fn new(dataset: &'a Dataset, drawing: &'a Drawing) -> Result<View<'a>, FigureError> {
         let mut view = View { dataset, drawing, held: Vec::new() };
         for name in drawing.x.iter().chain(&drawing.y) {
-            if !followed::varied(dataset).contains(&name.as_str()) {
+            if !varied(dataset).contains(&name.as_str()) {
                 view.check_axis(name)?;
             }
             if drawing.at.contains_key(name) {
@@ -50,16 +52,36 @@ impl<'a> View<'a> {
         FigureError::Unfit { figure: self.drawing.name.clone(), why: why.into() }
     }
 
+    /// The fault that there is no history to draw.
+    pub fn without_histories(&self) -> FigureError {
+        let name = HISTORY_TIME.name;
+        self.unfit(format!("the results hold no time histories (no `{name}`)"))
+    }
+
     /// Names of the study's axes, in its order.
     pub fn axes(&self) -> Vec<&'a str> {
         let names = self.dataset.coordinates.iter().map(|(name, _)| name.as_str());
-        names.filter(|name| !INNER.contains(name) && !DIMENSIONS.contains(name)).collect()
+        names.filter(|name| !is_inner(name)).collect()
     }
 
     /// Names of the axes that `at` does not hold.
     pub fn free_axes(&self) -> Vec<&'a str> {
         let is_held = |name: &str| self.held.iter().any(|(other, _)| other == name);
         self.axes().into_iter().filter(|name| !is_held(name)).collect()
+    }
+
+    /// The axes a diagram runs along by default: those that are free and not the direction of a sweep.
+    pub fn drawable_axes(&self) -> Vec<&'a str> {
+        self.free_axes().into_iter().filter(|name| *name != DIRECTION.name).collect()
+    }
+
+    /// What a figure shows, in a sentence kept inside its files.
+    pub fn about(&self, outputs: &[String], free: &[&str]) -> String {
+        let over =
+            if free.is_empty() { String::new() } else { format!(" over {}", free.join(", ")) };
+        let held = self.held_record(free);
+        let at = if held.is_empty() { String::new() } else { format!(" at {held}") };
+        format!("{}{over}{at}", outputs.join(", "))
     }
 
     fn check_axis(&self, name: &str) -> Result<(), FigureError> {
@@ -110,7 +132,7 @@ impl<'a> View<'a> {
             return Err(self.unfit(format!("variable `{name}` does not have its dimensions")));
         }
         for dimension in &variable.dimensions {
-            if free.contains(&dimension.as_str()) || INNER.contains(&dimension.as_str()) {
+            if free.contains(&dimension.as_str()) || is_inner(dimension) {
                 continue;
             }
             let index = self.held_index(dimension);

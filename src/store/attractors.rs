@@ -2,35 +2,31 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::branch::SpecialKind;
 use crate::run::{AttractorEvent, Attractors};
 use crate::study::{Coordinate, Study};
 
-use super::{Dataset, Values, Variable};
-
-/// The dimension of the table of events.
-const EVENT: &str = "event";
+use super::catalogue::{
+    ATTRACTOR, ATTRACTOR_AXIS, DIRECTION, EVENT, EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD,
+    EVENT_UNCERTAINTY, Entry, Place, SECTION,
+};
+use super::{Dataset, Values};
 
 /// Adds to the dataset of a study which attractor each case has ended on, and the table of events.
 ///
-/// A column `event_NAME` for each parameter on an axis says where the event is; that of the axis along which
-/// attractors are followed was bisected to `event_uncertainty`. Without events there is no table.
+/// A column for each parameter on an axis says where the event is; that of the axis along which attractors
+/// are followed was bisected to the uncertainty given. Without events there is no table.
 pub fn add_attractors(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
-    let mut dimensions: Vec<String> =
-        study.axes.iter().map(|axis| axis.coordinate.name().to_owned()).collect();
-    dimensions.extend(study.direction_axis().map(|_| "direction".to_owned()));
+    let axes = study.axes.iter().map(|axis| axis.coordinate.name());
+    let dimensions: Vec<&str> =
+        axes.chain(study.direction_axis().map(|_| DIRECTION.name)).collect();
     let number = |of: &Option<u32>| of.map_or(-1, i64::from);
     let numbers = attractors.of_case.iter().map(number).collect();
     let array = ArrayD::from_shape_vec(IxDyn(&study.shape()), numbers).expect("one per case");
     if let Some(axis) = attractors.axis {
         let name = study.axes[axis].coordinate.name().to_owned();
-        dataset.attributes.insert("attractor_axis".to_owned(), name);
+        dataset.attributes.insert(ATTRACTOR_AXIS.to_owned(), name);
     }
-    let meaning = "attractor of the case, numbered along the axis of parameters, -1 for none";
-    dataset.variables.insert(
-        "attractor".to_owned(),
-        Variable { dimensions, ..column("1", meaning, Values::Integer(array)) },
-    );
+    dataset.put(ATTRACTOR, &dimensions, Values::Integer(array));
     if !attractors.events.is_empty() {
         add_events(dataset, study, attractors);
     }
@@ -38,55 +34,32 @@ pub fn add_attractors(dataset: &mut Dataset, study: &Study, attractors: &Attract
 
 fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
     let events = &attractors.events;
-    let place = integers((0..events.len() as i64).collect());
-    dataset.coordinates.push((EVENT.to_owned(), column("1", "event of an attractor", place)));
-    let mut add = |name: &str, variable: Variable| {
-        dataset.variables.insert(format!("event_{name}"), variable);
+    dataset.put_coordinate(EVENT, Values::count(events.len()));
+    let mut whole = |entry: Entry, of: fn(&AttractorEvent) -> i64| {
+        let values = Values::integers(events.iter().map(of).collect());
+        dataset.put_column(entry, values);
     };
-    let codes = integers(events.iter().map(|event| event.kind as i64).collect());
-    let flags = SpecialKind::NAMES.map(|(name, kind)| (kind as i64, name.to_owned())).to_vec();
-    add("kind", Variable { flags, ..column("1", "what happens to the attractor", codes) });
-    let numbers = integers(events.iter().map(|event| i64::from(event.attractor)).collect());
-    add("attractor", column("1", "attractor of the event", numbers));
-    let periods = integers(events.iter().map(|event| event.period as i64).collect());
-    add("period", column("1", "period of the orbit that changes, in drive cycles", periods));
+    whole(EVENT_KIND, |event| event.kind as i64);
+    whole(EVENT_ATTRACTOR, |event| i64::from(event.attractor));
+    whole(EVENT_PERIOD, |event| event.period as i64);
+    let mut real = |entry: Entry, of: &dyn Fn(&AttractorEvent) -> f64| {
+        let values = Values::reals(events.iter().map(of).collect());
+        dataset.put_column(entry, values);
+    };
     for (place, axis) in study.axes.iter().enumerate() {
         if let Coordinate::Parameter(parameter) = axis.coordinate {
             let at = |event: &AttractorEvent| match attractors.axis == Some(place) {
                 true => event.value,
                 false => study.case(event.case).parameters[parameter],
             };
-            let unit = parameter.dimension().unit();
-            let values = reals(events.iter().map(at).collect());
-            add(parameter.symbol(), column(unit, parameter.meaning(), values));
+            real(Place::Event.of(Entry::of_parameter(parameter)), &at);
         }
     }
+    for (i, entry) in SECTION.into_iter().enumerate() {
+        real(Place::Event.of(entry), &|event| event.section[i]);
+    }
+    let uncertainties = events.iter().map(|event| event.uncertainty).collect();
     let followed = attractors.axis.map(|axis| study.axes[axis].coordinate);
     let unit = followed.map_or("1", |coordinate| coordinate.dimension().unit());
-    let uncertainties = reals(events.iter().map(|event| event.uncertainty).collect());
-    let meaning = "half width of the bracket that bisection has left";
-    add("uncertainty", column(unit, meaning, uncertainties));
-    let sections = [("section_r", "m"), ("section_y1", "m/s"), ("section_y2", "m/s")];
-    for (i, (name, unit)) in sections.into_iter().enumerate() {
-        let values = reals(events.iter().map(|event| event.section[i]).collect());
-        add(name, column(unit, "section point of the orbit at the event", values));
-    }
-}
-
-fn column(unit: &str, long_name: &str, values: Values) -> Variable {
-    Variable {
-        dimensions: vec![EVENT.to_owned()],
-        unit: unit.to_owned(),
-        long_name: long_name.to_owned(),
-        values,
-        flags: Vec::new(),
-    }
-}
-
-fn reals(values: Vec<f64>) -> Values {
-    Values::Real(ArrayD::from_shape_vec(IxDyn(&[values.len()]), values).expect("a column"))
-}
-
-fn integers(values: Vec<i64>) -> Values {
-    Values::Integer(ArrayD::from_shape_vec(IxDyn(&[values.len()]), values).expect("a column"))
+    dataset.put_column(EVENT_UNCERTAINTY, Values::reals(uncertainties)).unit = unit.to_owned();
 }

@@ -17,6 +17,7 @@ use crate::orbit::Outcome;
 use crate::run::Record;
 use crate::study::Study;
 
+use super::catalogue::{END_R, END_Y1, END_Y2, RESIDUAL, starts};
 use super::file::{discard_unfinished_in, has_no_locks, put};
 use super::shard::{self, Column, Head, Numbers, Shard, Summary, Unusable};
 use super::{StoreError, Values, provenance, schema};
@@ -35,13 +36,6 @@ const TRIES: u32 = 10;
 const PAUSE: Duration = Duration::from_millis(100);
 /// Lines that are shown of a change of the study.
 const LINES_SHOWN: usize = 6;
-
-/// Where a case started, which may be where its neighbour settled: columns of a block only.
-pub(super) const START: [&str; 3] = ["start_r", "start_y1", "start_y2"];
-/// Where it ended.
-pub(super) const END: [&str; 3] = ["end_r", "end_y1", "end_y2"];
-/// How far the section of a periodic orbit is from repeating.
-pub(super) const RESIDUAL: &str = "residual";
 
 /// Who else may work in a folder at the same time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -304,13 +298,14 @@ fn columns(study: &Study, records: &[Record]) -> Vec<Column> {
         let numbers = Numbers::Real(records.iter().map(of).collect());
         columns.push(Column { name: name.to_owned(), numbers });
     };
-    add(START[0], |it| it.start.r);
-    add(START[1], |it| it.start.y1);
-    add(START[2], |it| it.start.y2);
-    add(END[0], |it| it.orbit.end.r);
-    add(END[1], |it| it.orbit.end.y1);
-    add(END[2], |it| it.orbit.end.y2);
-    add(RESIDUAL, |it| it.orbit.certificate.residual);
+    let [start_r, start_y1, start_y2] = starts().map(|entry| entry.name);
+    add(start_r, |it| it.start.r);
+    add(start_y1, |it| it.start.y1);
+    add(start_y2, |it| it.start.y2);
+    add(END_R.name, |it| it.orbit.end.r);
+    add(END_Y1.name, |it| it.orbit.end.y1);
+    add(END_Y2.name, |it| it.orbit.end.y2);
+    add(RESIDUAL.name, |it| it.orbit.certificate.residual);
     columns
 }
 

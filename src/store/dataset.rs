@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use ndarray::ArrayD;
+use ndarray::{ArrayD, IxDyn};
+
+use super::catalogue::{Entry, Flags};
 
 /// The numbers of a variable.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +16,21 @@ pub enum Values {
 }
 
 impl Values {
+    /// Reals along one dimension.
+    pub fn reals(values: Vec<f64>) -> Values {
+        Values::Real(line(values))
+    }
+
+    /// Integers along one dimension.
+    pub fn integers(values: Vec<i64>) -> Values {
+        Values::Integer(line(values))
+    }
+
+    /// The numbers from zero along one dimension.
+    pub fn count(length: usize) -> Values {
+        Values::integers((0..length as i64).collect())
+    }
+
     /// Length along each dimension, slowest first.
     pub fn shape(&self) -> &[usize] {
         match self {
@@ -38,6 +55,10 @@ impl Values {
     }
 }
 
+fn line<T>(values: Vec<T>) -> ArrayD<T> {
+    ArrayD::from_shape_vec(IxDyn(&[values.len()]), values).expect("a line has the length it has")
+}
+
 /// One array with its meaning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variable {
@@ -50,7 +71,34 @@ pub struct Variable {
     /// The numbers.
     pub values: Values,
     /// For categories: each integer with its meaning; empty otherwise.
-    pub flags: Vec<(i64, String)>,
+    pub flags: Flags,
+}
+
+impl Variable {
+    /// The variable of the catalogue over these dimensions, slowest first.
+    pub fn of(entry: Entry, dimensions: Vec<String>, values: Values) -> Variable {
+        let labels = [entry.unit, entry.meaning].map(str::to_owned);
+        Variable::labelled(dimensions, labels, values).with_flags(entry.flags())
+    }
+
+    /// A variable with its unit and its long name as a file has them.
+    pub fn labelled(
+        dimensions: Vec<String>,
+        [unit, long_name]: [String; 2],
+        values: Values,
+    ) -> Variable {
+        Variable { dimensions, unit, long_name, values, flags: Flags::new() }
+    }
+
+    /// The variable in another unit.
+    pub fn with_unit(self, unit: &str) -> Variable {
+        Variable { unit: unit.to_owned(), ..self }
+    }
+
+    /// The variable with other flags.
+    pub fn with_flags(self, flags: Flags) -> Variable {
+        Variable { flags, ..self }
+    }
 }
 
 /// Coordinates, variables and what made them: what xarray calls a dataset.
@@ -78,5 +126,23 @@ impl Dataset {
     /// The variable called `name`.
     pub fn variable(&self, name: &str) -> Option<&Variable> {
         self.variables.get(name)
+    }
+
+    /// Puts a variable of the catalogue into the set, over these dimensions.
+    pub fn put(&mut self, entry: Entry, dimensions: &[&str], values: Values) -> &mut Variable {
+        let dimensions = dimensions.iter().map(|name| name.to_string()).collect();
+        let variable = Variable::of(entry, dimensions, values);
+        self.variables.entry(entry.name.to_owned()).insert_entry(variable).into_mut()
+    }
+
+    /// Puts a column of a table of the catalogue into the set, over its own dimensions.
+    pub fn put_column(&mut self, entry: Entry, values: Values) -> &mut Variable {
+        self.put(entry, &entry.dimensions(), values)
+    }
+
+    /// Puts a coordinate of the catalogue behind the others.
+    pub fn put_coordinate(&mut self, entry: Entry, values: Values) {
+        let variable = Variable::of(entry, vec![entry.name.to_owned()], values);
+        self.coordinates.push((entry.name.to_owned(), variable));
     }
 }

@@ -7,7 +7,8 @@ use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset as Array, File, Hyperslab, Location, SliceOrIndex};
 use ndarray::{ArrayD, IxDyn};
 
-use super::branches::DIMENSIONS;
+use super::branches::is_of_branches;
+use super::catalogue::OUTCOME;
 use super::names::*;
 use super::piece::Piece;
 use super::{Dataset, StoreError, Values, Variable};
@@ -106,12 +107,12 @@ impl Archive {
 
     /// Whether it holds what `capsulemap sweep` finds.
     pub fn has_cases(&self) -> bool {
-        self.labels.contains_key("outcome")
+        self.labels.contains_key(OUTCOME.name)
     }
 
     /// What `capsulemap follow` has found.
     pub fn branches(&self) -> Result<Dataset, StoreError> {
-        self.dataset(|_, dimensions| dimensions.iter().any(|it| DIMENSIONS.contains(&it.as_str())))
+        self.dataset(|_, dimensions| dimensions.iter().any(|it| is_of_branches(it)))
     }
 
     /// The dataset with those variables that are `wanted`, by name; the others have their labels, but no
@@ -181,13 +182,9 @@ fn found(array: &Array, file: &File, name: &str) -> hdf5::Result<Found> {
         return Ok(Found::Text(text(array.read_scalar::<VarLenUnicode>()?)?));
     }
     check_size(array, file)?;
-    let mut variable = Variable {
-        dimensions: Vec::new(),
-        unit: words(array, UNITS)?,
-        long_name: words(array, LONG_NAME)?,
-        values: nothing(array)?,
-        flags: flags(array)?,
-    };
+    let labels = [words(array, UNITS)?, words(array, LONG_NAME)?];
+    let mut variable =
+        Variable::labelled(Vec::new(), labels, nothing(array)?).with_flags(flags(array)?);
     if has(array, DIMENSION_ID)? {
         variable.values = values(array, file)?;
         variable.dimensions.push(name.to_owned());

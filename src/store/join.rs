@@ -4,23 +4,23 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use ndarray::{ArrayD, IxDyn};
-
 use crate::capsule::{REASONS, State};
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
 use crate::run::Ending;
 use crate::study::Study;
 
-use super::block_folder::{BlockFolder, END, RESIDUAL, START};
+use super::block_folder::BlockFolder;
+use super::catalogue::{
+    BLOCK, BLOCK_CASES, BLOCK_FIRST_CASE, BLOCK_MAKER, END, Entry, FAILURE_REASON, FAILURE_TIME,
+    MULTIPLIER_IMAG, MULTIPLIER_REAL, OUTCOME, PERIOD, RESIDUAL, starts,
+};
 use super::joined::{self, Column};
 use super::piece::{Filling, MISSING, Piece};
-use super::schema::{self, coordinate, count};
+use super::schema;
 use super::shard::{Shard, Summary, Unusable};
 use super::{Dataset, StoreError, Values, Variable, provenance};
 
-/// The dimension of the blocks in a file of results.
-const BLOCK: &str = "block";
 /// The name of the outcome of cases that failed.
 const FAILED: &str = Outcome::Failed.name();
 
@@ -148,8 +148,7 @@ impl<'a> Blocks<'a> {
     /// Says who made each block, and how many cases it has.
     fn add_makers(&self, frame: &mut Dataset) {
         let length = self.study.blocks();
-        let meaning = "block of cases, the unit in which the study was computed";
-        frame.coordinates.push(coordinate(BLOCK, "1", meaning, count(length)));
+        frame.put_coordinate(BLOCK, Values::count(length));
         let mut makers: BTreeMap<String, Vec<usize>> = BTreeMap::new();
         for shard in &self.shards {
             let made = provenance::maker(&shard.head.made);
@@ -162,16 +161,11 @@ impl<'a> Blocks<'a> {
         let missing = (!self.missing.is_empty()).then(|| (MISSING.0, MISSING.1.to_owned()));
         let makers = makers.into_keys().enumerate().map(|(code, made)| (code as i64, made));
         let flags = missing.into_iter().chain(makers).collect();
-        let meaning = "program, commit and machine that made the block";
-        let maker = Variable { flags, ..block_variable(meaning, codes) };
-        frame.variables.insert("block_maker".to_owned(), maker);
+        frame.put_column(BLOCK_MAKER, Values::integers(codes)).flags = flags;
         let firsts = (0..length).map(|block| self.study.block_cases(block)[0] as i64).collect();
-        let meaning = "first case of the block, counted from 0 with the last axis fastest";
-        let first = block_variable(meaning, firsts);
-        frame.variables.insert("block_first_case".to_owned(), first);
+        frame.put_column(BLOCK_FIRST_CASE, Values::integers(firsts));
         let cases = (0..length).map(|block| self.study.cases_of_block(block) as i64).collect();
-        let cases = block_variable("cases of the block", cases);
-        frame.variables.insert("block_cases".to_owned(), cases);
+        frame.put_column(BLOCK_CASES, Values::integers(cases));
     }
 }
 
@@ -190,10 +184,9 @@ pub struct FailedCase {
 
 /// The failed among the `cases` of a shard.
 fn failures(shard: &Shard, cases: &[usize]) -> Result<Vec<FailedCase>, StoreError> {
-    let [r, y1, y2, times] =
-        [START[0], START[1], START[2], "failure_time"].map(|name| shard.reals(name, 1));
-    let (r, y1, y2, times) = (r?, y1?, y2?, times?);
-    let reasons = shard.integers("failure_reason", 1)?;
+    let [r, y1, y2] = starts().map(|entry| shard.reals(entry.name, 1));
+    let (r, y1, y2, times) = (r?, y1?, y2?, shard.reals(FAILURE_TIME.name, 1)?);
+    let reasons = shard.integers(FAILURE_REASON.name, 1)?;
     let failed = |(place, code): (usize, &i64)| {
         let (_, reason) = REASONS.iter().find(|(reason, _)| *reason as i64 == *code)?;
         let start = State { r: r[place], y1: y1[place], y2: y2[place], ..State::default() };
@@ -204,10 +197,12 @@ fn failures(shard: &Shard, cases: &[usize]) -> Result<Vec<FailedCase>, StoreErro
 
 /// How the cases of a shard have ended.
 fn shard_endings(shard: &Shard) -> Result<Vec<Ending>, StoreError> {
-    let (outcomes, periods) = (shard.integers("outcome", 1)?, shard.integers("period", 1)?);
-    let [r, y1, y2, residual] = [END[0], END[1], END[2], RESIDUAL].map(|name| shard.reals(name, 1));
-    let (r, y1, y2, residual) = (r?, y1?, y2?, residual?);
-    let (real, imag) = (shard.reals("multiplier_real", 3)?, shard.reals("multiplier_imag", 3)?);
+    let whole = |entry: Entry| shard.integers(entry.name, 1);
+    let (outcomes, periods) = (whole(OUTCOME)?, whole(PERIOD)?);
+    let [r, y1, y2] = END.map(|entry| shard.reals(entry.name, 1));
+    let (r, y1, y2, residual) = (r?, y1?, y2?, shard.reals(RESIDUAL.name, 1)?);
+    let [real, imag] = [MULTIPLIER_REAL, MULTIPLIER_IMAG].map(|entry| shard.reals(entry.name, 3));
+    let (real, imag) = (real?, imag?);
     let multipliers = |case: usize| {
         std::array::from_fn(|i| Complex { re: real[3 * case + i], im: imag[3 * case + i] })
     };
@@ -219,15 +214,4 @@ fn shard_endings(shard: &Shard) -> Result<Vec<Ending>, StoreError> {
         Ending::new(outcome, period, section, residual[case], &multipliers(case))
     };
     Ok((0..outcomes.len()).map(ending).collect())
-}
-
-fn block_variable(long_name: &str, numbers: Vec<i64>) -> Variable {
-    let numbers = ArrayD::from_shape_vec(IxDyn(&[numbers.len()]), numbers).expect("a line");
-    Variable {
-        dimensions: vec![BLOCK.to_owned()],
-        unit: "1".to_owned(),
-        long_name: long_name.to_owned(),
-        values: Values::Integer(numbers),
-        flags: Vec::new(),
-    }
 }

@@ -4,6 +4,7 @@ mod attractors;
 pub mod block_folder;
 mod branch_columns;
 pub mod branches;
+pub mod catalogue;
 pub mod dataset;
 mod decode;
 mod difference;

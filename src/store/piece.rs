@@ -3,6 +3,7 @@
 use ndarray::{ArrayD, IxDyn};
 
 use super::Values;
+use super::catalogue::OUTCOME;
 
 /// A variable is put together in parts of this size at most [numbers], which no study makes larger.
 pub const MOST_NUMBERS: usize = 1 << 23;
@@ -105,7 +106,7 @@ impl Filling {
             Values::Real(_) => Numbers::Real(vec![f64::NAN; length]),
             // Zero stands for no period, no failure, no proof; an outcome has no such number.
             Values::Integer(_) => {
-                let nothing = if name == "outcome" { MISSING.0 } else { 0 };
+                let nothing = if name == OUTCOME.name { MISSING.0 } else { 0 };
                 Numbers::Integer(vec![nothing; length])
             }
         };

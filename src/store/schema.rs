@@ -2,17 +2,15 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::capsule::{History, Impact, Orbit, Parameter, REASONS, State};
+use crate::capsule::{History, Impact, Orbit, State};
+use crate::orbit::Certificate;
 use crate::orbit::matrix::Complex;
-use crate::orbit::{Certificate, Outcome, Proof};
 use crate::run::Record;
-use crate::study::{Coordinate, Direction, Study};
+use crate::study::{Coordinate, Study};
 
+use super::catalogue::*;
 use super::piece::{Filling, MISSING, Piece};
 use super::{Dataset, Values, Variable, provenance};
-
-/// The dimension of the cases of a block, which in a whole dataset gives way to the axes.
-pub const CASE: &str = "case";
 
 /// Attribute: tells studies apart whose cases differ, see [`Study::fingerprint`].
 pub const FINGERPRINT: &str = "study_fingerprint";
@@ -47,11 +45,11 @@ pub(super) fn over_axes(
     is_partial: bool,
 ) -> Variable {
     let axes = study.axes.iter().map(|axis| axis.coordinate.name().to_owned());
-    let directions = study.direction_axis().map(|_| "direction".to_owned());
+    let directions = study.direction_axis().map(|_| DIRECTION.name.to_owned());
     let inner = variable.dimensions[1..].iter().cloned();
     let dimensions = axes.chain(directions).chain(inner).collect();
     let mut flags = variable.flags;
-    if is_partial && name == "outcome" {
+    if is_partial && name == OUTCOME.name {
         flags.insert(0, (MISSING.0, MISSING.1.to_owned()));
     }
     Variable { dimensions, flags, ..variable }
@@ -65,8 +63,7 @@ pub fn columns(study: &Study, records: &[Record]) -> Dataset {
     add_verdicts(&mut columns, &table);
     for &output in &study.outputs {
         let values = table.reals(|orbit| orbit.outputs[output]);
-        let variable = table.variable(output.unit(), output.meaning(), values);
-        columns.variables.insert(output.name().to_owned(), variable);
+        table.put(&mut columns, Entry::of_output(output), values);
     }
     add_certificates(&mut columns, &table);
     add_section(&mut columns, &table);
@@ -88,7 +85,7 @@ pub fn frame(study: &Study) -> Dataset {
         .insert("friction_switching".to_owned(), study.base.switching.name().to_owned());
     dataset.attributes.insert("resistance".to_owned(), study.base.resistance.name().to_owned());
     dataset.attributes.insert(FINGERPRINT.to_owned(), study.fingerprint());
-    dataset.texts.insert("study".to_owned(), study.text.clone());
+    dataset.texts.insert(STUDY_TEXT.to_owned(), study.text.clone());
     dataset
 }
 
@@ -138,168 +135,70 @@ impl Table<'_> {
         Values::Real(self.array(Some(length), values))
     }
 
-    fn variable(&self, unit: &str, long_name: &str, values: Values) -> Variable {
-        Variable {
-            dimensions: vec![CASE.to_owned()],
-            unit: unit.to_owned(),
-            long_name: long_name.to_owned(),
-            values,
-            flags: Vec::new(),
-        }
+    /// Adds a variable over the cases, with what each case has several of.
+    fn put(&self, dataset: &mut Dataset, entry: Entry, values: Values) {
+        let dimensions: Vec<&str> = std::iter::once(CASE).chain(entry.dimensions()).collect();
+        dataset.put(entry, &dimensions, values);
     }
-
-    /// Adds variables of which each case has a row along the dimension `row`.
-    fn add_rows<'n>(
-        &self,
-        dataset: &mut Dataset,
-        row: &str,
-        rows: impl IntoIterator<Item = (&'n str, &'n str, &'n str, Values)>,
-    ) {
-        for (name, unit, long_name, values) in rows {
-            let mut variable = self.variable(unit, long_name, values);
-            variable.dimensions.push(row.to_owned());
-            dataset.variables.insert(name.to_owned(), variable);
-        }
-    }
-}
-
-/// A coordinate, with its name.
-pub(super) fn coordinate(
-    name: &str,
-    unit: &str,
-    long_name: &str,
-    values: Values,
-) -> (String, Variable) {
-    let variable = Variable {
-        dimensions: vec![name.to_owned()],
-        unit: unit.to_owned(),
-        long_name: long_name.to_owned(),
-        values,
-        flags: Vec::new(),
-    };
-    (name.to_owned(), variable)
-}
-
-fn line(values: Vec<f64>) -> Values {
-    Values::Real(ArrayD::from_shape_vec(IxDyn(&[values.len()]), values).expect("a line of values"))
-}
-
-/// The numbers from zero along one dimension.
-pub(super) fn count(length: usize) -> Values {
-    Values::Integer(ArrayD::from_shape_fn(IxDyn(&[length]), |index| index[0] as i64))
 }
 
 fn add_axes(dataset: &mut Dataset, study: &Study) {
     for axis in &study.axes {
-        let (name, unit) = (axis.coordinate.name(), axis.coordinate.dimension().unit());
-        let values = line(axis.values.clone());
-        dataset.coordinates.push(coordinate(name, unit, axis.coordinate.meaning(), values));
+        let values = Values::reals(axis.values.clone());
+        dataset.put_coordinate(Entry::of_coordinate(axis.coordinate), values);
     }
     if let Some(directions) = study.direction_axis() {
         let codes = directions.iter().map(|&direction| direction as i64).collect();
-        let values =
-            ArrayD::from_shape_vec(IxDyn(&[directions.len()]), codes).expect("a line of codes");
-        let (name, mut variable) = coordinate(
-            "direction",
-            "1",
-            "direction in which the attractor was followed",
-            Values::Integer(values),
-        );
-        let named = Direction::ALL.iter().filter(|it| directions.contains(it));
-        variable.flags = named.map(|&d| (d as i64, d.name().to_owned())).collect();
-        dataset.coordinates.push((name, variable));
+        let present = |code: &i64| directions.iter().any(|&it| it as i64 == *code);
+        let flags = DIRECTION.flags().into_iter().filter(|(code, _)| present(code)).collect();
+        let axis = [DIRECTION.name.to_owned()].to_vec();
+        let variable = Variable::of(DIRECTION, axis, Values::integers(codes)).with_flags(flags);
+        dataset.coordinates.push((DIRECTION.name.to_owned(), variable));
     }
 }
 
 /// Everything that the axes leave constant, so that a file tells its whole case.
 fn add_constants(dataset: &mut Dataset, study: &Study) {
     let State { r, y1, y2, .. } = study.start;
-    let parameters = Parameter::ALL.iter().map(|&p| (Coordinate::Parameter(p), study.base[p]));
-    let starts = [
-        (Coordinate::StartR, r),
-        (Coordinate::StartY1, y1),
-        (Coordinate::StartY2, y2),
-        (Coordinate::Phase, study.phase),
-    ];
-    for (constant, value) in parameters.chain(starts) {
+    for constant in Coordinate::all() {
         if study.axes.iter().any(|axis| axis.coordinate == constant) {
             continue;
         }
-        let variable = Variable {
-            dimensions: Vec::new(),
-            unit: constant.dimension().unit().to_owned(),
-            long_name: constant.meaning().to_owned(),
-            values: Values::Real(ArrayD::from_elem(IxDyn(&[]), value)),
-            flags: Vec::new(),
+        let value = match constant {
+            Coordinate::Parameter(parameter) => study.base[parameter],
+            Coordinate::StartR => r,
+            Coordinate::StartY1 => y1,
+            Coordinate::StartY2 => y2,
+            Coordinate::Phase => study.phase,
         };
-        dataset.variables.insert(constant.name().to_owned(), variable);
+        let values = Values::Real(ArrayD::from_elem(IxDyn(&[]), value));
+        dataset.put(Entry::of_coordinate(constant), &[], values);
     }
 }
 
 fn add_verdicts(dataset: &mut Dataset, table: &Table<'_>) {
-    let mut outcome = table.variable(
-        "1",
-        "what the case turned out to be",
-        table.integers(|orbit| orbit.outcome as i64),
-    );
-    outcome.flags = Outcome::ALL.iter().map(|&o| (o as i64, o.name().to_owned())).collect();
-    let periods = table.integers(|orbit| orbit.period as i64);
-    let period = table.variable("1", "period in drive cycles, 0 unless periodic", periods);
-    let cycles = table.integers(|orbit| orbit.cycles as i64);
-    let cycles = table.variable("1", "drive cycles followed, measuring included", cycles);
-    for (name, variable) in [("outcome", outcome), ("period", period), ("cycles", cycles)] {
-        dataset.variables.insert(name.to_owned(), variable);
-    }
-    add_failures(dataset, table);
-}
-
-/// Why and when a case could not be followed on.
-fn add_failures(dataset: &mut Dataset, table: &Table<'_>) {
+    table.put(dataset, OUTCOME, table.integers(|orbit| orbit.outcome as i64));
+    table.put(dataset, PERIOD, table.integers(|orbit| orbit.period as i64));
+    table.put(dataset, CYCLES, table.integers(|orbit| orbit.cycles as i64));
     let reasons = table.integers(|orbit| orbit.failure.map_or(0, |why| why.reason as i64));
-    let mut reason = table.variable("1", "why the case could not be followed", reasons);
-    let names = REASONS.map(|(reason, name)| (reason as i64, name.to_owned()));
-    reason.flags = std::iter::once((0, "none".to_owned())).chain(names).collect();
+    table.put(dataset, FAILURE_REASON, reasons);
     let times = table.reals(|orbit| orbit.failure.map_or(f64::NAN, |why| why.time));
-    let time = table.variable("s", "time at which the case could not be followed on", times);
-    dataset.variables.insert("failure_reason".to_owned(), reason);
-    dataset.variables.insert("failure_time".to_owned(), time);
+    table.put(dataset, FAILURE_TIME, times);
 }
 
 /// What is proven of the periods.
 fn add_certificates(dataset: &mut Dataset, table: &Table<'_>) {
-    let proofs = table.integers(|orbit| orbit.certificate.proof as i64);
-    let mut proof = table.variable("1", "how the period was proven", proofs);
-    proof.flags = Proof::NAMES.map(|(name, proof)| (proof as i64, name.to_owned())).to_vec();
-    dataset.variables.insert("certificate".to_owned(), proof);
+    table.put(dataset, CERTIFICATE, table.integers(|orbit| orbit.certificate.proof as i64));
     let count = Certificate::<3>::none().multipliers.len();
-    dataset.coordinates.push(coordinate(
-        "multiplier",
-        "1",
-        "Floquet multiplier of the period, the largest magnitude first",
-        self::count(count),
-    ));
+    dataset.put_coordinate(MULTIPLIER, Values::count(count));
     let of = |part: fn(&Complex) -> f64| {
         table.rows(count, move |orbit, i| orbit.certificate.multipliers.get(i).map(part))
     };
-    let rows = [
-        ("multiplier_real", "1", "real part of a Floquet multiplier of the period", of(|m| m.re)),
-        ("multiplier_imag", "1", "imaginary part of a Floquet multiplier", of(|m| m.im)),
-    ];
-    table.add_rows(dataset, "multiplier", rows);
-    let along = |i: usize| {
-        table.reals(move |orbit| orbit.certificate.neutral.map_or(f64::NAN, |along| along[i]))
-    };
-    let directions = [
-        (
-            "neutral_r",
-            "part of omega r in the direction of the family of a neutral orbit",
-            along(0),
-        ),
-        ("neutral_y1", "part of y1 in the direction of the family of a neutral orbit", along(1)),
-        ("neutral_y2", "part of y2 in the direction of the family of a neutral orbit", along(2)),
-    ];
-    for (name, long_name, values) in directions {
-        dataset.variables.insert(name.to_owned(), table.variable("1", long_name, values));
+    table.put(dataset, MULTIPLIER_REAL, of(|multiplier| multiplier.re));
+    table.put(dataset, MULTIPLIER_IMAG, of(|multiplier| multiplier.im));
+    for (i, entry) in NEUTRAL.into_iter().enumerate() {
+        let part = |orbit: &Orbit| orbit.certificate.neutral.map_or(f64::NAN, |along| along[i]);
+        table.put(dataset, entry, table.reals(part));
     }
 }
 
@@ -308,23 +207,11 @@ fn add_section(dataset: &mut Dataset, table: &Table<'_>) {
     if length == 0 {
         return;
     }
-    dataset.coordinates.push(coordinate("point", "1", "point of the section", count(length)));
-    let along =
-        |i: usize| table.rows(length, move |orbit, n| orbit.section.get(n).map(|point| point[i]));
-    table.add_rows(
-        dataset,
-        "point",
-        [
-            (
-                "section_r",
-                "m",
-                "relative displacement x1 - x2 at the stroboscopic section",
-                along(0),
-            ),
-            ("section_y1", "m/s", "velocity of the mass at the stroboscopic section", along(1)),
-            ("section_y2", "m/s", "velocity of the capsule at the stroboscopic section", along(2)),
-        ],
-    );
+    dataset.put_coordinate(POINT, Values::count(length));
+    for (i, entry) in SECTION.into_iter().enumerate() {
+        let values = table.rows(length, |orbit, n| orbit.section.get(n).map(|point| point[i]));
+        table.put(dataset, entry, values);
+    }
 }
 
 fn add_impacts(dataset: &mut Dataset, table: &Table<'_>) {
@@ -332,61 +219,28 @@ fn add_impacts(dataset: &mut Dataset, table: &Table<'_>) {
     if length == 0 {
         return;
     }
-    let name = "impact_point";
-    dataset.coordinates.push(coordinate(name, "1", "point of the impact section", count(length)));
-    let impact = |value: fn(&Impact) -> f64| {
+    dataset.put_coordinate(IMPACT_POINT, Values::count(length));
+    let of = |value: fn(&Impact) -> f64| {
         table.rows(length, move |orbit, n| orbit.impacts.get(n).map(value))
     };
-    let rows = [
-        (
-            "impact_phase",
-            "rad",
-            "phase of the drive at the impact, since the section",
-            impact(|i| i.phase),
-        ),
-        ("impact_y1", "m/s", "velocity of the mass at the impact", impact(|i| i.y1)),
-        ("impact_y2", "m/s", "velocity of the capsule at the impact", impact(|i| i.y2)),
-    ];
-    table.add_rows(dataset, name, rows);
+    table.put(dataset, IMPACT_PHASE, of(|impact| impact.phase));
+    table.put(dataset, IMPACT_Y1, of(|impact| impact.y1));
+    table.put(dataset, IMPACT_Y2, of(|impact| impact.y2));
 }
 
 fn add_history(dataset: &mut Dataset, table: &Table<'_>) {
     let Some(span) = table.study.protocol.history else { return };
-    let name = "history_time";
     let times =
         (0..span.samples()).map(|i| i as f64 / f64::from(span.per_cycle)).collect::<Vec<f64>>();
-    dataset.coordinates.push(coordinate(name, "1", "time in drive cycles", line(times)));
+    dataset.put_coordinate(HISTORY_TIME, Values::reals(times));
     let sampled = |value: fn(&History, usize) -> Option<f64>| {
         table.rows(span.samples(), move |orbit, n| {
             orbit.history.as_ref().and_then(|history| value(history, n))
         })
     };
-    let rows = [
-        (
-            "history_r",
-            "m",
-            "relative displacement x1 - x2",
-            sampled(|h, n| h.states.get(n).map(|s| s.r)),
-        ),
-        (
-            "history_y1",
-            "m/s",
-            "velocity of the mass",
-            sampled(|h, n| h.states.get(n).map(|s| s.y1)),
-        ),
-        (
-            "history_x2",
-            "m",
-            "displacement of the capsule",
-            sampled(|h, n| h.states.get(n).map(|s| s.x2)),
-        ),
-        (
-            "history_y2",
-            "m/s",
-            "velocity of the capsule",
-            sampled(|h, n| h.states.get(n).map(|s| s.y2)),
-        ),
-        ("history_drive", "N", "force of the drive", sampled(|h, n| h.drive.get(n).copied())),
-    ];
-    table.add_rows(dataset, name, rows);
+    table.put(dataset, HISTORY_R, sampled(|h, n| h.states.get(n).map(|state| state.r)));
+    table.put(dataset, HISTORY_Y1, sampled(|h, n| h.states.get(n).map(|state| state.y1)));
+    table.put(dataset, HISTORY_X2, sampled(|h, n| h.states.get(n).map(|state| state.x2)));
+    table.put(dataset, HISTORY_Y2, sampled(|h, n| h.states.get(n).map(|state| state.y2)));
+    table.put(dataset, HISTORY_DRIVE, sampled(|h, n| h.drive.get(n).copied()));
 }

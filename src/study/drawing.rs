@@ -13,34 +13,61 @@ const POINTS: [&str; 6] =
 const HISTORIES: [&str; 6] =
     ["history_x2", "history_r", "velocities", "history_y1", "history_y2", "history_drive"];
 
-/// The kinds of figure.
+/// What the keys of a figure may name beside the axes of its study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum DrawingKind {
+pub struct Keys {
+    /// Whether `of` may name outputs.
+    outputs: bool,
+    /// What `of` may name beside them.
+    others: &'static [&'static [&'static str]],
+    /// How many names `of` takes.
+    pub most: usize,
+    /// Whether `x` and `y` may name parameters along which orbits are followed.
+    pub followed: bool,
+}
+
+/// Keys that name axes only.
+const AXES: Keys = Keys { outputs: false, others: &[], most: 0, followed: false };
+/// How many names `of` takes where there is no limit.
+const ANY: usize = usize::MAX;
+
+macro_rules! kinds {
+    ($($(#[$meaning:meta])* $kind:ident $name:literal $keys:expr;)*) => {
+        /// The kinds of figure.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum DrawingKind {
+            $($(#[$meaning])* $kind,)*
+        }
+
+        impl DrawingKind {
+            /// Each kind by its name in studies and on the command line, in the order of declaration.
+            pub const NAMES: &[(&str, DrawingKind)] = &[$(($name, DrawingKind::$kind),)*];
+
+            /// What the keys of a figure of this kind may name.
+            pub fn keys(self) -> Keys {
+                match self { $(DrawingKind::$kind => $keys,)* }
+            }
+        }
+    };
+}
+
+kinds! {
     /// Displacements and velocities over time.
-    History,
+    History "history" Keys { others: &[&HISTORIES], most: ANY, ..AXES };
     /// Relative velocity over relative displacement, with the impact surface and section points.
-    PhasePortrait,
+    PhasePortrait "phase-portrait" AXES;
     /// A section coordinate over an axis, with the progression speed below it.
-    Bifurcation,
+    Bifurcation "bifurcation"
+        Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, followed: true };
     /// One output over two axes.
-    Map,
+    Map "map" Keys { outputs: true, others: &[&VERDICTS], most: 1, ..AXES };
     /// Progression speed against an energy per cycle.
-    TradeOff,
+    TradeOff "trade-off" Keys { outputs: true, most: 1, ..AXES };
     /// Special points of followed orbits as curves in two parameters.
-    Curves,
+    Curves "curves" Keys { followed: true, ..AXES };
 }
 
 impl DrawingKind {
-    /// Each kind by its name in studies and on the command line, in the order of declaration.
-    pub const NAMES: [(&str, DrawingKind); 6] = [
-        ("history", DrawingKind::History),
-        ("phase-portrait", DrawingKind::PhasePortrait),
-        ("bifurcation", DrawingKind::Bifurcation),
-        ("map", DrawingKind::Map),
-        ("trade-off", DrawingKind::TradeOff),
-        ("curves", DrawingKind::Curves),
-    ];
-
     /// Its name.
     pub fn name(self) -> &'static str {
         DrawingKind::NAMES[self as usize].0
@@ -48,14 +75,10 @@ impl DrawingKind {
 
     /// What a figure of this kind can show of a study that keeps `outputs`.
     pub fn can_show(self, outputs: &[Output]) -> Vec<&'static str> {
-        let kept = outputs.iter().map(|output| output.name());
-        match self {
-            DrawingKind::History => HISTORIES.to_vec(),
-            DrawingKind::PhasePortrait | DrawingKind::Curves => Vec::new(),
-            DrawingKind::Bifurcation => kept.chain(VERDICTS).chain(POINTS).collect(),
-            DrawingKind::Map => kept.chain(VERDICTS).collect(),
-            DrawingKind::TradeOff => kept.collect(),
-        }
+        let keys = self.keys();
+        let outputs = if keys.outputs { outputs } else { &[] };
+        let others = keys.others.iter().copied().flatten().copied();
+        outputs.iter().map(|output| output.name()).chain(others).collect()
     }
 }
 

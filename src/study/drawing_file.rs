@@ -38,7 +38,7 @@ fn read_drawing(
     branches: &[Continuation],
     outputs: &[Output],
 ) -> Drawing {
-    let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", &DrawingKind::NAMES));
+    let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", DrawingKind::NAMES));
     let names = abscissae(kind, axes, branches);
     let axis = |key: &str| {
         let name = table.entry(key)?.one_of("axis of this study", &names)?;
@@ -69,7 +69,7 @@ fn abscissae(
     axes: &[Axis],
     branches: &[Continuation],
 ) -> Vec<(&'static str, &'static str)> {
-    let shows_branches = matches!(kind, Some(DrawingKind::Bifurcation | DrawingKind::Curves));
+    let shows_branches = kind.is_some_and(|kind| kind.keys().followed);
     let varied = branches.iter().filter(|_| shows_branches).flat_map(Continuation::varied);
     let mut names: Vec<_> = axes.iter().map(|axis| axis.coordinate.name()).collect();
     for name in varied.map(Parameter::symbol) {
@@ -102,11 +102,12 @@ fn read_name(entry: &Entry<'_, '_>) -> Option<String> {
 fn read_of(of: &Entry<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output]) -> Vec<String> {
     let list = of.list();
     let Some(kind) = kind else { return Vec::new() };
-    if matches!(kind, DrawingKind::PhasePortrait | DrawingKind::Curves) {
+    let most = kind.keys().most;
+    if most == 0 {
         of.fault(format!("does not go with a figure of the kind {}", kind.name()));
         return Vec::new();
     }
-    if matches!(kind, DrawingKind::Map | DrawingKind::TradeOff) && list.len() > 1 {
+    if most == 1 && list.len() > 1 {
         of.fault(format!("expected one output for this kind of figure, found {}", list.len()));
     }
     let names: Vec<(&str, &str)> =

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 12] = [
+const FLOORS: [&str; 13] = [
     "lane",
     "flow",
     "orbit",
@@ -13,6 +13,7 @@ const FLOORS: [&str; 12] = [
     "capsule",
     "study",
     "run",
+    "tradeoff",
     "store",
     "campaign",
     "figure",
@@ -54,7 +55,8 @@ const LONGEST_FILE: usize = 400;
 pub struct Source {
     /// Its path from the root.
     pub path: String,
-    text: String,
+    /// Its text.
+    pub text: String,
     /// Its text without comments and the contents of strings.
     pub code: String,
 }
@@ -120,7 +122,7 @@ fn code_only(text: &str) -> String {
 }
 
 /// The length of the string or character literal that `text` begins with, or 0.
-fn string_length(text: &str) -> usize {
+pub fn string_length(text: &str) -> usize {
     let hashes = text.strip_prefix('r').map_or(0, |t| t.len() - t.trim_start_matches('#').len());
     if text.starts_with('r') && text[1 + hashes..].starts_with('"') {
         let open = hashes + 2;

@@ -1,0 +1,97 @@
+//! The page of a diagram over one axis: a row for each output, as far as cases and followed orbits reach.
+
+use super::axis::AxisRequest;
+use super::cloud::Dot;
+use super::followed::Followed;
+use super::header::{Header, Mark};
+use super::page::{PageRequest, PanelRequest, letter};
+use super::panel::Pointing;
+use super::scale::{Scale, Spacing, finite_range};
+use super::style::ONE_COLUMN;
+use super::text::Text;
+use super::view::View;
+use crate::store::catalogue::Place;
+
+/// Height of the frames of section coordinates [pt].
+const SECTION_HEIGHT: f64 = 125.0;
+/// Height of the frames of outputs with one value per case [pt].
+const OUTPUT_HEIGHT: f64 = 80.0;
+
+/// The abscissa, with room for points that stand at its ends, and as far as orbits were followed.
+pub fn span(values: &[f64], reached: &[f64]) -> Scale {
+    let axis = Scale::of_axis(values);
+    let plain = match finite_range(reached.iter().copied()) {
+        Some((low, high)) if values.is_empty() => Scale::around([low, high], 0.02),
+        Some((low, high)) => Scale { low: axis.low.min(low), high: axis.high.max(high), ..axis },
+        None => axis,
+    };
+    if values.is_empty() {
+        return plain;
+    }
+    if values.len() > 60 {
+        return plain;
+    }
+    match plain.spacing {
+        Spacing::Linear => Scale::around([plain.low, plain.high], 0.02),
+        Spacing::Log => Scale::log_around([plain.low, plain.high], 0.02),
+    }
+}
+
+/// Whether an output has several values per case.
+pub fn has_points(view: &View<'_>, output: &str) -> bool {
+    let axes = view.axes();
+    let is_inner = |name: &String| !axes.contains(&name.as_str());
+    let stored = view.dataset.variable(output);
+    let stored = stored.filter(|variable| variable.dimensions.iter().any(is_inner));
+    let followed = view.dataset.variable(&Place::Branch.name(output));
+    stored.is_some() || followed.is_some_and(|variable| variable.dimensions.len() > 1)
+}
+
+/// The page with a row for each output.
+pub fn request(
+    view: &View<'_>,
+    outputs: &[String],
+    (clouds, followed): (&[Vec<Vec<Dot>>], &[Followed]),
+    abscissa: AxisRequest,
+    free: &[&str],
+) -> PageRequest {
+    let mut rows = Vec::new();
+    let mut heights = Vec::new();
+    for (index, (output, cloud)) in outputs.iter().zip(clouds).enumerate() {
+        let dots = cloud.iter().flatten().map(|dot| dot.at.1);
+        let values: Vec<f64> = dots.chain(followed[index].places().map(|at| at.1)).collect();
+        let y = AxisRequest::around(view.quantity(output), &values, 0.06);
+        let last = index + 1 == outputs.len();
+        let x = AxisRequest { labelled: last, numbered: last, ..abscissa.clone() };
+        let note = if index == 0 { view.held_note(free) } else { None };
+        let header = Header { letter: letter(index, outputs.len()), note, legend: Vec::new() };
+        rows.push(vec![PanelRequest { x, y, header }]);
+        heights.push(if has_points(view, output) { SECTION_HEIGHT } else { OUTPUT_HEIGHT });
+    }
+    PageRequest {
+        title: view.drawing.title.clone(),
+        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
+        heights,
+        rows,
+        right_room: 0.0,
+        pointing: Pointing::Inward,
+    }
+}
+
+/// The rows with what the lines of followed orbits and their symbols mean in the first legend.
+pub fn with_followed(
+    mut rows: Vec<Vec<PanelRequest>>,
+    clouds: &[Vec<Vec<Dot>>],
+    followed: &[Followed],
+) -> Vec<Vec<PanelRequest>> {
+    let entries = followed.iter().map(Followed::legend).max_by_key(Vec::len).unwrap_or_default();
+    let first = rows.first_mut().and_then(|row| row.first_mut());
+    let Some(first) = first.filter(|_| !entries.is_empty()) else { return rows };
+    let legend = &mut first.header.legend;
+    let dots = clouds.iter().flatten().flatten().next();
+    if let (true, Some(dot)) = (legend.is_empty(), dots) {
+        legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("settled")));
+    }
+    legend.extend(entries);
+    rows
+}

@@ -1,0 +1,17 @@
+//! The kinds of figure: each is a file of its own, and a line here.
+
+use super::kind::Kind;
+use super::{bifurcation, curves, history, map, phase_portrait, trade_off};
+use crate::study::DrawingKind;
+
+/// The kind of figure of this name.
+pub fn kind(name: DrawingKind) -> &'static Kind {
+    match name {
+        DrawingKind::History => &history::KIND,
+        DrawingKind::PhasePortrait => &phase_portrait::KIND,
+        DrawingKind::Bifurcation => &bifurcation::KIND,
+        DrawingKind::Map => &map::KIND,
+        DrawingKind::TradeOff => &trade_off::KIND,
+        DrawingKind::Curves => &curves::KIND,
+    }
+}

@@ -1,0 +1,78 @@
+//! The names of the categories, and the numbers that stand for them.
+
+use crate::branch::{End, SpecialKind};
+use crate::capsule::{Parameter, REASONS};
+use crate::orbit::{Outcome, Proof};
+use crate::run::{Followed, Unfollowed};
+use crate::study::Direction;
+
+use super::entry::Flags;
+
+/// What a case turned out to be.
+pub fn outcomes() -> Flags {
+    Outcome::ALL.iter().map(|&outcome| (outcome as i64, outcome.name().to_owned())).collect()
+}
+
+/// Why a case could not be followed; 0 where it could.
+pub fn reasons() -> Flags {
+    let names = REASONS.map(|(reason, name)| (reason as i64, name.to_owned()));
+    std::iter::once((0, "none".to_owned())).chain(names).collect()
+}
+
+/// How a period was proven.
+pub fn proofs() -> Flags {
+    Proof::NAMES.map(|(name, proof)| (proof as i64, name.to_owned())).to_vec()
+}
+
+/// The directions in which an attractor can be followed.
+pub fn directions() -> Flags {
+    Direction::ALL.iter().map(|&it| (it as i64, it.name().to_owned())).collect()
+}
+
+/// What happens at a special point.
+pub fn specials() -> Flags {
+    SpecialKind::NAMES.map(|(name, kind)| (kind as i64, name.to_owned())).to_vec()
+}
+
+/// The parameters by their symbols.
+pub fn parameters() -> Flags {
+    Parameter::ALL.iter().map(|&it| (it as i64, it.symbol().to_owned())).collect()
+}
+
+/// Why a branch or a curve ends.
+pub fn ends() -> Flags {
+    End::NAMES.map(|(name, end)| (end as i64, name.to_owned())).to_vec()
+}
+
+/// Whether an orbit is stable.
+pub fn stabilities() -> Flags {
+    vec![(0, "unstable".to_owned()), (1, "stable".to_owned())]
+}
+
+/// The number of what came of a branch.
+pub fn result(followed: &Followed) -> i64 {
+    let reasons = REASONS.len() as i64;
+    match followed {
+        Ok(_) => 0,
+        Err(Unfollowed::Failed(reason)) => *reason as i64,
+        Err(Unfollowed::NoOrbit) => reasons + 1,
+        // Two more has stood for the equation as printed in files of earlier versions.
+        Err(Unfollowed::Neutral) => reasons + 3,
+        // No outcome that is told here has the number zero.
+        Err(Unfollowed::Unsettled(outcome)) => reasons + 3 + *outcome as i64,
+    }
+}
+
+/// Everything that may come of a branch.
+pub fn results() -> Flags {
+    let reasons = REASONS.map(|(reason, name)| (Err(Unfollowed::Failed(reason)), name.to_owned()));
+    let no_orbit = (Err(Unfollowed::NoOrbit), "no-orbit".to_owned());
+    let neutral = (Err(Unfollowed::Neutral), "neutral".to_owned());
+    let unsettled = Outcome::ALL
+        .into_iter()
+        .filter(|outcome| !matches!(outcome, Outcome::Periodic | Outcome::Failed))
+        .map(|outcome| (Err(Unfollowed::Unsettled(outcome)), outcome.name().to_owned()));
+    let failures = reasons.into_iter().chain([no_orbit, neutral]).chain(unsettled);
+    let followed = std::iter::once((0, "followed".to_owned()));
+    followed.chain(failures.map(|(why, name)| (result(&why), name))).collect()
+}

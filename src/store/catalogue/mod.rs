@@ -1,0 +1,20 @@
+//! The one catalogue of variables: name, unit, meaning and shown form of all that a file of results can have.
+//!
+//! Other files refer to a variable by its constant here, by [`Entry::of_parameter`] and its like, or by a
+//! [`Place`], and never spell its name.
+
+mod branches;
+mod cases;
+mod entry;
+mod flags;
+mod model;
+mod places;
+mod tables;
+
+pub use branches::*;
+pub use cases::*;
+pub use entry::{Entry, Extent, Flags, Shown, Type};
+pub use flags::result;
+pub use model::starts;
+pub use places::{Place, all, named};
+pub use tables::*;

@@ -1,0 +1,5 @@
+//! What is best among the cases of a study, where speed has its price in energy.
+
+mod front;
+
+pub use front::front;

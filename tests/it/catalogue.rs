@@ -1,0 +1,221 @@
+//! The catalogue of variables: nothing else spells their names, and files of results hold what it says.
+
+use std::collections::BTreeSet;
+
+use capsulemap::capsule::{Output, Parameter};
+use capsulemap::store::catalogue::{self, ATTRACTOR_AXIS, Entry, Extent, Type};
+use capsulemap::store::{self, Dataset, Values, Variable};
+use capsulemap::study::{DrawingKind, Study};
+
+use super::house::{sources, string_length};
+use super::program::Desk;
+
+/// The files that give parameters, starts and outputs their names.
+const DEFINING: [&str; 3] =
+    ["src/capsule/parameter.rs", "src/orbit/output.rs", "src/study/axis.rs"];
+
+/// What is spelled like a variable elsewhere and is none: the file, the words, and what they are there.
+const OTHERS: [(&str, &[&str], &str); 10] = [
+    ("src/study/study_file.rs", &["phase", "direction", "cycles", "attractor"], "keys of a study"),
+    ("src/study/branch_file.rs", &["phase", "period"], "keys of a study"),
+    ("src/study/drawing_file.rs", &["cycles"], "a key of a study"),
+    ("src/study/drawing.rs", SHOWN, "what the key `of` may name, which a test here compares"),
+    ("src/study/quantity.rs", &["g"], "the gram"),
+    ("src/cli/simulate.rs", &["omega", "p_d", "k2", "delta", "phase"], "options of a command"),
+    ("src/cli/branch_summary.rs", &["branch", "period"], "words of a message"),
+    ("src/cli/dry_run.rs", &["block"], "a word of a message"),
+    ("src/cli/join.rs", &["block"], "a word of a message"),
+    ("src/cli/status.rs", &["block"], "a word of a message"),
+];
+
+/// What the key `of` of a figure may name beside outputs.
+const SHOWN: &[&str] = &[
+    "outcome",
+    "period",
+    "cycles",
+    "section_r",
+    "section_y1",
+    "section_y2",
+    "impact_phase",
+    "impact_y1",
+    "impact_y2",
+    "history_x2",
+    "history_r",
+    "velocities",
+    "history_y1",
+    "history_y2",
+    "history_drive",
+];
+
+/// The contents of the string literals of `text`, comments and its tests left out.
+fn literals(text: &str) -> Vec<&str> {
+    let mut found = Vec::new();
+    let mut rest = text.split("#[cfg(test)]").next().unwrap_or(text);
+    while let Some(first) = rest.chars().next() {
+        let length = match rest.starts_with("//") {
+            true => rest.find('\n').unwrap_or(rest.len()),
+            false => string_length(rest).max(first.len_utf8()),
+        };
+        if first == '"' {
+            found.push(&rest[1..length - 1]);
+        }
+        rest = &rest[length..];
+    }
+    found
+}
+
+/// The names of variables that a file spells by itself.
+fn spelled(path: &str, text: &str) -> Vec<String> {
+    let others = OTHERS.iter().filter(|(file, ..)| *file == path).flat_map(|(_, words, _)| *words);
+    let others: Vec<&str> = others.copied().collect();
+    let prefixes = ["event_{", "request_{", "branch_{", "special_{", "curve_{"];
+    let is_name = |literal: &&str| {
+        catalogue::named(literal).is_some()
+            || prefixes.iter().any(|prefix| literal.starts_with(prefix))
+    };
+    let spelled = literals(text).into_iter().filter(is_name);
+    spelled.filter(|it| !others.contains(it)).map(|it| format!("{path}: \"{it}\"")).collect()
+}
+
+#[test]
+fn no_other_file_spells_the_name_of_a_variable() {
+    let is_free = |path: &str| path.starts_with("src/store/catalogue/") || DEFINING.contains(&path);
+    let all = sources(&["src"]);
+    let others = all.iter().filter(|source| !is_free(&source.path));
+    let faults: Vec<String> = others.flat_map(|it| spelled(&it.path, &it.text)).collect();
+    assert!(faults.is_empty(), "names of variables by hand:\n{}", faults.join("\n"));
+    for (file, words, _) in OTHERS {
+        let source = all.iter().find(|source| source.path == file).expect(file);
+        let literals = literals(&source.text);
+        assert!(words.iter().all(|word| literals.contains(word)), "{file}: more is allowed");
+    }
+}
+
+#[test]
+fn a_name_by_hand_is_seen() {
+    for code in ["f(\"section_r\")", "format!(\"event_{name}\")", "\"m\" + \"p_d\""] {
+        assert_eq!(spelled("src/figure/a.rs", code).len(), 1, "{code}");
+    }
+    for code in ["f(\"section_q\")", "// \"p_d\"", "OUTCOME.name", "#[cfg(test)] f(\"p_d\")"] {
+        assert!(spelled("src/figure/a.rs", code).is_empty(), "{code}");
+    }
+}
+
+#[test]
+fn what_a_study_may_draw_is_in_the_catalogue() {
+    for (_, kind) in DrawingKind::NAMES {
+        for name in kind.can_show(Output::ALL) {
+            let extent = catalogue::named(name).expect(name).extent;
+            let drawn = matches!(extent, Extent::Case | Extent::CaseRow(_) | Extent::Derived);
+            assert!(drawn, "{name}");
+        }
+    }
+}
+
+/// Two studies that together have all that a file of results can hold.
+const STUDIES: [&str; 2] = [
+    r#"
+[parameters]
+m2 = "0.2 kg"
+c = "1.77 N s/m"
+mu_s = 0.33
+mu_d = 0.165
+p_d = "2.79 N"
+k2 = "65.518 kN/m"
+delta = "4.33 mm"
+[[axes]]
+name = "omega"
+from = "118 rad/s"
+to = "132 rad/s"
+points = 71
+[start]
+follow = "omega"
+directions = ["upward", "downward"]
+[history]
+cycles = 2
+samples_per_cycle = 12
+[protocol]
+points = 6
+impact_points = 4
+[[branches]]
+name = "moving on"
+along = "omega"
+at = { omega = "130 rad/s" }
+start = { y1 = "0.3 m/s" }
+second = { name = "p_d", from = "2.7 N", to = "2.9 N" }
+"#,
+    r#"
+[parameters]
+k2 = "86.8 kN/m"
+delta = "2.45 mm"
+p_d = "3.4 N"
+omega = "39 rad/s"
+[[axes]]
+name = "start_y1"
+values = ["-0.4 m/s", "0.4 m/s"]
+[protocol]
+max_cycles = 200
+"#,
+];
+
+/// What is wrong with a variable, or with a coordinate; nothing if it is as the catalogue says.
+fn fault(dataset: &Dataset, name: &str, variable: &Variable) -> Option<String> {
+    let Some(entry) = catalogue::named(name) else { return Some(format!("{name}: unknown")) };
+    let of_axis = dataset.attributes.get(ATTRACTOR_AXIS).and_then(|it| dataset.coordinate(it));
+    let unit = match entry.unit {
+        "" => of_axis.map_or("1", |axis| axis.unit.as_str()),
+        unit => unit,
+    };
+    let is_whole = matches!(variable.values, Values::Integer(_));
+    let is_category = !variable.flags.is_empty();
+    let (whole, category) = match entry.numbers {
+        Type::Real => (false, false),
+        Type::Whole => (true, false),
+        Type::Category(_) | Type::CategoryOfFile => (true, true),
+    };
+    let known = entry.flags();
+    let flags_fit = name == catalogue::BLOCK_MAKER.name
+        || variable.flags.iter().all(|flag| known.contains(flag));
+    let dimensions = variable.dimensions.iter().map(String::as_str);
+    let inner: Vec<&str> = dimensions.filter(|dimension| !is_axis(dimension)).collect();
+    let right = (variable.unit.as_str(), variable.long_name.as_str()) == (unit, entry.meaning)
+        && (is_whole, is_category) == (whole, category)
+        && flags_fit
+        && inner == entry.dimensions();
+    (!right).then(|| format!("{name}: {variable:?} is not {entry:?}"))
+}
+
+/// Whether a dimension is an axis of the study.
+fn is_axis(dimension: &str) -> bool {
+    catalogue::named(dimension).is_some_and(|entry| entry.extent == Extent::Study)
+}
+
+#[test]
+fn files_hold_what_the_catalogue_says() {
+    let mut seen = BTreeSet::new();
+    for text in STUDIES {
+        let desk = Desk::new();
+        desk.put("a.toml", text);
+        desk.run(&["sweep", "a.toml", "--no-figures"]).done();
+        let study = Study::parse("a.toml", text).expect("a study");
+        if !study.branches.is_empty() {
+            desk.run(&["follow", "a.toml", "--no-figures"]).done();
+        }
+        let dataset = store::read(&desk.path("results/a/a.h5")).expect("a result");
+        let coordinates = dataset.coordinates.iter().map(|(name, it)| (name, it));
+        for (name, variable) in coordinates.chain(&dataset.variables) {
+            let fault = fault(&dataset, name, variable);
+            assert!(fault.is_none(), "{}", fault.unwrap_or_default());
+            seen.insert(name.clone());
+        }
+    }
+    // A column called after a parameter is there where that parameter varies.
+    let is_stored = |entry: &&Entry| !matches!(entry.extent, Extent::Block | Extent::Derived);
+    let of_parameter = |entry: &&Entry| {
+        let symbols = Parameter::ALL.iter().map(|parameter| format!("_{}", parameter.symbol()));
+        symbols.into_iter().any(|symbol| entry.name.ends_with(&symbol))
+    };
+    let stored = catalogue::all().iter().filter(is_stored).filter(|it| !of_parameter(it));
+    let never: Vec<&str> = stored.map(|it| it.name).filter(|it| !seen.contains(*it)).collect();
+    assert!(never.is_empty(), "no file has {never:?}");
+}
