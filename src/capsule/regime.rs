@@ -93,6 +93,9 @@ impl<L: Lane> Next<L> {
 }
 
 /// What decides how the regimes follow each other: the constants of the capsule.
+///
+/// Its functions are called at events only. They are not inlined, as numbers with derivatives of derivatives
+/// make much code of them.
 pub(super) struct Rules<'a, L> {
     pub(super) drive: &'a Drive<L>,
     pub(super) drag: &'a Drag<L>,
@@ -116,7 +119,6 @@ fn at_rest<L: Lane>(state: &State<L>) -> L::Mask {
 
 impl<L: Lane> Rules<'_, L> {
     /// What follows on |F| = f_s, from the rates of |F| in the frozen and in the moving field.
-    #[inline(always)]
     fn on_limit(&self, closed: L::Mask, state: &State<L>, side: L, time: L) -> PrintedMode<L> {
         let zero = L::splat(0.0);
         let limit = side * self.drag.static_limit;
@@ -144,14 +146,12 @@ impl<L: Lane> Rules<'_, L> {
     }
 
     /// What follows where |F| = f_s is met at a first-order zero of its guard.
-    #[inline(always)]
     fn limit_met(&self, closed: L::Mask, state: &State<L>, side: L, time: L) -> Next<L> {
         let mode = self.on_limit(closed, state, side, time);
         Next::new(mode, self.zeros_on_limit(&mode, side, at_rest(state), 1.0))
     }
 
     /// Which guards of a mode start at zero when it begins on |F| = f_s, and with what power.
-    #[inline(always)]
     fn zeros_on_limit(
         &self,
         mode: &PrintedMode<L>,
@@ -171,7 +171,6 @@ impl<L: Lane> Rules<'_, L> {
     }
 
     /// Obeys the guard of the contact where `due`.
-    #[inline(always)]
     pub(super) fn switch_contact(
         &self,
         due: L::Mask,
@@ -191,7 +190,6 @@ impl<L: Lane> Rules<'_, L> {
     }
 
     /// Obeys another guard where `due`; `force` tells F of a state in the mode.
-    #[inline(always)]
     pub(super) fn switch_motion(
         &self,
         (which, due): (usize, L::Mask),

@@ -56,7 +56,7 @@ pub fn cycle<L: Lane, S: Switched<L>>(
 ) -> Result<L, Reason> {
     let period = system.period();
     while steps < STEPS_PER_CYCLE {
-        motion.step(system, period, tolerance, step);
+        motion.single_step(system, period, tolerance, step);
         steps += 1;
         see(step);
         if let Some(breakdown) = motion.breakdown(system, 0) {

@@ -114,8 +114,11 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             Motion { time, state, mode, zeros: [zero; MAX_GUARDS], idle: zero, side: zero };
         let mut step = Step::default();
         for _ in 0..MAX_GUARDS {
-            system.expand(&motion.mode, time, &motion.state, &mut step.jet);
-            motion.locate(system, &mut step, zero.plain()).switch(system, &mut motion);
+            if const { L::WIDTH == 1 } {
+                motion.single_step(system, time, 1.0, &mut step);
+            } else {
+                motion.step(system, time, 1.0, &mut step);
+            }
         }
         if S::AUTONOMOUS {
             system.expand(&motion.mode, time, &motion.state, &mut step.jet);
@@ -152,6 +155,12 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         self.idle = L::select(idles, self.idle + L::splat(1.0), L::splat(0.0));
         step.event = end.switch(system, self);
         step.arrives = if S::AUTONOMOUS { self.pass_section(&end) } else { until.le(self.time) };
+    }
+
+    /// The same, compiled once for each kind of number: what is not followed side by side takes its steps here.
+    #[inline(never)]
+    pub fn single_step(&mut self, system: &S, until: L, tolerance: f64, step: &mut Step<L, S>) {
+        self.step(system, until, tolerance, step);
     }
 
     /// Where the function of the section has just fallen through zero.
