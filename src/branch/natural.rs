@@ -205,7 +205,7 @@ impl<S: Locomotion> Along<'_, S> {
             true => value,
             false => Dual::constant(self.case.parameters[parameter]),
         };
-        S::with(of, self.case.parameters.resistance, self.case.phase)
+        S::with(of, self.case.parameters.resistance, self.case.section_phase)
     }
 
     fn cycles<const N: usize>(&self, value: Dual<f64, N>, count: usize) -> Cycles<N> {

@@ -9,6 +9,7 @@ mod figure;
 mod follow;
 mod inspect;
 mod join;
+mod phases;
 mod progress;
 mod result_file;
 mod simulate;

@@ -6,11 +6,13 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
+use super::phases::Phases;
 use super::result_file::read_study;
 use super::{Failure, named, plain_or_quantity, print, tell};
 use crate::capsule::{Dimension, Parameter, Parameters, Resistance, State, Switching};
 use crate::orbit::{
-    Case, Certificate, Orbit, Outcome, Output, Proof, Protocol, Simulation, settle, simulate,
+    Case, Certificate, Orbit, Outcome, Output, Proof, Protocol, Simulation, settle_case,
+    simulate_case,
 };
 use crate::run::{Machine, run_sample};
 use crate::study::Study;
@@ -31,7 +33,8 @@ A number without a unit is in SI. What is not given is as in the paper's Table 1
 pub struct Simulate {
     /// Take a case of this study, with its parameters, its start and the study's protocol.
     #[arg(long, value_name = "STUDY", requires = "case", conflicts_with_all = ["omega", "p_d", "k2",
-        "delta", "set", "phase", "tolerance", "max_cycles", "friction_switching", "resistance"])]
+        "delta", "set", "phase", "start_phase", "section_phase", "tolerance", "max_cycles",
+        "friction_switching", "resistance"])]
     study: Option<PathBuf>,
     /// Its number, counted from 0 with the last axis fastest, as failures are told.
     #[arg(long, requires = "study")]
@@ -55,9 +58,8 @@ pub struct Simulate {
     /// Start of the motion (r, y1, x2, y2); at rest by default.
     #[arg(long, value_name = "NAME=VALUE,...", allow_hyphen_values = true)]
     start: Option<String>,
-    /// Phase of the drive at t = 0, as "90 deg".
-    #[arg(long, value_name = "QUANTITY", default_value = "0", allow_hyphen_values = true)]
-    phase: String,
+    #[command(flatten)]
+    phases: Phases,
     /// Drive cycles to follow in full.
     #[arg(long, default_value_t = 20)]
     cycles: u64,
@@ -92,17 +94,17 @@ impl Simulate {
             Some(study) => self.studied(study)?,
             None => self.request()?,
         };
-        let Case { parameters, start, phase } = case;
+        let parameters = &case.parameters;
         let drag = parameters.drag();
         if drag.static_limit < drag.at_onset {
             let force = parameters.break_away();
             tell(&format!("note: mu_s is below the friction at onset; rest ends at {force} N"));
         }
-        let simulation = simulate(&parameters, phase, start, self.cycles, protocol.tolerance);
-        let orbit = settle(&parameters, phase, start, &protocol);
+        let simulation = simulate_case(&case, self.cycles, protocol.tolerance);
+        let orbit = settle_case(&case, &protocol);
         if self.json {
             let object = json!({
-                "parameters": parameters_json(&parameters),
+                "parameters": parameters_json(parameters),
                 "section": simulation.section,
                 "events": simulation.events,
                 "failure": failure_json(&simulation),
@@ -110,7 +112,7 @@ impl Simulate {
             });
             print(&format!("{object:#}\n"))
         } else {
-            print(&summary(&parameters, &simulation, &orbit))
+            print(&summary(parameters, &simulation, &orbit))
         }
     }
 
@@ -130,7 +132,7 @@ impl Simulate {
                 return Err(Failure::requests(&faults));
             }
         } else {
-            case.start = followed_start(&study, index)?;
+            case = followed(&study, index)?;
         }
         Ok(Request { case, protocol: study.protocol })
     }
@@ -165,7 +167,7 @@ impl Simulate {
             parameters[*parameter] = value.unwrap_or(parameters[*parameter]);
         }
         let start = self.start(&mut faults);
-        let phase = quantity("--phase", &self.phase, Dimension::Angle, &mut faults).unwrap_or(0.0);
+        let [start_phase, section_phase] = self.phases.read(&mut faults);
         if !Protocol::TOLERANCES.contains(&self.tolerance) {
             faults.push(format!("--tolerance {}: must lie between 1e-15 and 1e-3", self.tolerance));
         }
@@ -175,7 +177,8 @@ impl Simulate {
                 max_cycles: self.max_cycles,
                 ..Protocol::with_tolerance(self.tolerance)
             };
-            Ok(Request { case: Case { parameters, start, phase }, protocol })
+            let case = Case { parameters, start, start_phase, section_phase };
+            Ok(Request { case, protocol })
         } else {
             Err(Failure::requests(&faults))
         }
@@ -209,12 +212,13 @@ impl Simulate {
     }
 }
 
-/// Where a case of a study starts, which may be where its neighbour settles.
-fn followed_start(study: &Study, index: usize) -> Result<State<f64>, Failure> {
+/// A case of a study, which may start where its neighbour settles.
+fn followed(study: &Study, index: usize) -> Result<Case, Failure> {
+    let mut case = study.case(index);
     let before = |chain: usize| study.chain(chain).position(|case| case == index);
     let found = (0..study.chains()).find_map(|chain| Some((chain, before(chain)?)));
     let Some((chain, before)) = found.filter(|(_, before)| *before > 0) else {
-        return Ok(study.case(index).start);
+        return Ok(case);
     };
     tell(&format!(
         "case {index} starts where its neighbour settles: {before} cases come before it"
@@ -222,7 +226,10 @@ fn followed_start(study: &Study, index: usize) -> Result<State<f64>, Failure> {
     let records = run_sample(study, Machine::default(), &[chain], || ());
     let records = records.map_err(Failure::machine)?;
     let record = records.iter().find(|record| record.index == index);
-    Ok(record.map_or(study.case(index).start, |record| record.start))
+    if let Some(record) = record {
+        (case.start, case.start_phase) = (record.start, record.start_phase);
+    }
+    Ok(case)
 }
 
 /// The NAME=VALUE pairs among `texts`.

@@ -40,6 +40,8 @@ const TABLE: &[Row] = &[
     ("start_y1", "Initial", "*y*_{1}", "m/s", 1.0),
     ("start_y2", "Initial", "*y*_{2}", "m/s", 1.0),
     ("phase", "Initial phase", "*φ*", "rad", 1.0),
+    ("start_phase", "Initial phase", "*φ*", "rad", 1.0),
+    ("section_phase", "Section phase", "*φ*_{s}", "rad", 1.0),
     ("time", "Time", "", "s", 1.0),
     ("section_r", "Stroboscopic", "*x*_{1} − *x*_{2}", "mm", 1e3),
     ("section_y1", "Stroboscopic", "*y*_{1}", "m/s", 1.0),

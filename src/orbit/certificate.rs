@@ -129,7 +129,7 @@ pub fn certify<S: Locomotion>(
 ) -> Option<Certified> {
     let parameters = &case.parameters;
     let constant = |parameter: Parameter| Dual::<f64, 3>::constant(parameters[parameter]);
-    let system = S::with(constant, parameters.resistance, case.phase);
+    let system = S::with(constant, parameters.resistance, case.section_phase);
     let repeats_after = settled.repeats_after as u64;
     let mut cycles = Cycles {
         drive_period: Dual::constant(parameters.drive_period()),

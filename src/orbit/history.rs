@@ -1,9 +1,9 @@
 //! A stretch of motion, sampled evenly for a figure.
 
-use crate::capsule::{Locomotion, Parameter, Parameters, State};
+use crate::capsule::{Locomotion, Parameter, State};
 use crate::lane::series;
 
-use super::{Failure, Trajectory};
+use super::{Case, Failure, Trajectory};
 
 /// What to sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,34 +33,47 @@ pub struct History {
 }
 
 impl History {
-    /// Follows the motion from `start` and samples its series, which are exact to `tolerance` too.
+    /// Follows the motion from the start of `case` and samples its series, which are exact to `tolerance` too.
     pub fn sample<S: Locomotion>(
         system: &S,
-        parameters: &Parameters,
-        start: State<f64>,
+        case: &Case,
         span: HistorySpan,
         tolerance: f64,
     ) -> Result<History, Failure> {
-        let drive_period = parameters.drive_period();
+        let drive_period = case.parameters.drive_period();
         let between = drive_period / f64::from(span.per_cycle);
-        let p_d = parameters[Parameter::Pd];
-        let mut trajectory = Trajectory::new(system, start, drive_period, tolerance);
+        let p_d = case.parameters[Parameter::Pd];
+        let mut trajectory = Trajectory::of(system, case, tolerance);
         let mut history = History::default();
-        for _ in 0..span.cycles {
-            let mut next = 0;
+        // When a cycle of the history begins, since that of the drive.
+        let mut begins = case.start_time();
+        let ends_at_section = begins == 0.0;
+        let wanted = span.samples() - usize::from(ends_at_section);
+        let mut next = 0;
+        while history.states.len() < wanted {
             trajectory.cycle(|step| {
                 let jet = system.motion(&step.jet);
                 let end = step.start + step.length;
-                while next < span.per_cycle && f64::from(next) * between <= end {
-                    let h = (f64::from(next) * between - step.start).max(0.0);
+                while history.states.len() < wanted {
+                    let at = begins + f64::from(next) * between;
+                    if at > end || at >= drive_period {
+                        return;
+                    }
+                    let h = (at - step.start).max(0.0);
                     history.states.push(jet.state(h));
                     history.drive.push(p_d * series::value(&jet.cos, h));
                     next += 1;
+                    if next == span.per_cycle {
+                        (next, begins) = (0, begins + drive_period);
+                    }
                 }
             })?;
+            begins -= drive_period;
         }
-        history.states.push(trajectory.state());
-        history.drive.extend(history.drive.first().copied());
+        if ends_at_section {
+            history.states.push(trajectory.state());
+            history.drive.extend(history.drive.first().copied());
+        }
         Ok(history)
     }
 }

@@ -90,9 +90,9 @@ pub(super) fn conclude<S: Locomotion>(
             None => None,
             Some(span) => {
                 let settled = State { x2: 0.0, ..trajectory.state() };
-                let from = if span.from_start { case.start } else { settled };
-                let system = trajectory.system();
-                Some(History::sample(system, &case.parameters, from, span, protocol.tolerance)?)
+                let on = Case::at_section(case.parameters.clone(), settled, case.section_phase);
+                let from = if span.from_start { case } else { &on };
+                Some(History::sample(trajectory.system(), from, span, protocol.tolerance)?)
             }
         };
         Ok((verdict, measures, history))
@@ -162,7 +162,7 @@ fn judge<S: Locomotion>(
         Found::Wanders => {
             let parameters = &case.parameters;
             let constant = |parameter: Parameter| Dual::<f64, 1>::constant(parameters[parameter]);
-            let system = S::with(constant, parameters.resistance, case.phase);
+            let system = S::with(constant, parameters.resistance, case.section_phase);
             let followed = wander(
                 &system,
                 &[trajectory.section()],

@@ -11,7 +11,9 @@ use crate::capsule::{
 use super::measure::{Found, conclude};
 use super::recurrence::Settled;
 use super::settling::{Settling, Verdict};
-use super::{Certificate, Failure, History, HistorySpan, Impact, Outputs, Section, Trajectory};
+use super::{
+    Case, Certificate, Failure, History, HistorySpan, Impact, Outputs, Section, Trajectory,
+};
 
 /// What a case turned out to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -49,17 +51,6 @@ impl Outcome {
             Outcome::Failed => "failed",
         }
     }
-}
-
-/// One case.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Case {
-    /// Its parameters.
-    pub parameters: Parameters,
-    /// Where it starts.
-    pub start: State<f64>,
-    /// Phase of the drive at the start [rad].
-    pub phase: f64,
 }
 
 /// How a case is followed and judged.
@@ -125,7 +116,7 @@ pub struct Orbit {
     pub period: u64,
     /// What is proven of its period.
     pub certificate: Certificate,
-    /// Cycles followed, measuring included.
+    /// Cycles followed since the first section, measuring included.
     pub cycles: u64,
     /// Per-cycle sums and the like; NaN where the case failed.
     pub outputs: Outputs,
@@ -141,29 +132,40 @@ pub struct Orbit {
     pub failure: Option<Failure>,
 }
 
-/// Follows the capsule from `start`, the drive at `phase` [rad], until it settles, and measures it.
+/// Settles a case that starts on its section, at `phase` of the drive [rad], as [`settle_case`] does.
 pub fn settle(
     parameters: &Parameters,
     phase: f64,
     start: State<f64>,
     protocol: &Protocol,
 ) -> Orbit {
-    let case = Case { parameters: parameters.clone(), start, phase };
+    settle_case(&Case::at_section(parameters.clone(), start, phase), protocol)
+}
+
+/// Follows the capsule from the start of `case` to the first section, from there until it settles, and
+/// measures it.
+///
+/// Cycles are counted from the first section: the part of a cycle before it belongs to none. The time of a
+/// failure is counted from the start.
+pub fn settle_case(case: &Case, protocol: &Protocol) -> Orbit {
+    let Case { parameters, section_phase, .. } = case;
     match parameters.switching {
-        Switching::Filippov => settle_on(&Capsule::single(parameters, phase), &case, protocol),
+        Switching::Filippov => {
+            settle_on(&Capsule::single(parameters, *section_phase), case, protocol)
+        }
         Switching::AsPrinted => {
-            settle_on(&PrintedCapsule::single(parameters, phase), &case, protocol)
+            settle_on(&PrintedCapsule::single(parameters, *section_phase), case, protocol)
         }
     }
 }
 
-/// Follows a capsule, given as its own `system`, as [`settle`] does.
+/// Follows a capsule, given as its own `system`, as [`settle_case`] does.
 pub fn settle_on<S: Locomotion>(system: &S, case: &Case, protocol: &Protocol) -> Orbit {
-    let Case { parameters, start, .. } = case;
-    let mut trajectory =
-        Trajectory::new(system, *start, parameters.drive_period(), protocol.tolerance);
-    let mut settling = Settling::new(protocol, parameters[Parameter::Omega]);
-    settling.meet(trajectory.section());
+    let mut trajectory = Trajectory::of(system, case, protocol.tolerance);
+    let mut settling = Settling::new(protocol, case.parameters[Parameter::Omega]);
+    if trajectory.is_at_section() {
+        settling.meet(trajectory.section());
+    }
     let settled = find_period(&mut trajectory, &mut settling, protocol);
     conclude(&mut trajectory, case, settled.map(Found::from), protocol)
 }

@@ -7,7 +7,7 @@ use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use super::measure::{Found, conclude};
 use super::settle::find_period;
 use super::settling::{Settling, Verdict};
-use super::trajectory::{STEPS_PER_CYCLE, leap, section};
+use super::trajectory::{STEPS_PER_CYCLE, count_cycle, leap, section};
 use super::wandering::{Wanders, wander_side_by_side};
 use super::{Case, Failure, Orbit, Protocol, Trajectory};
 
@@ -25,6 +25,8 @@ pub struct Underway {
     motion: Motion<f64, Capsule<f64>>,
     settling: Settling,
     cycles: u64,
+    /// As [`Trajectory`] has it.
+    origin: f64,
     /// Steps taken in the cycle so far.
     steps: u64,
 }
@@ -32,13 +34,15 @@ pub struct Underway {
 impl Underway {
     /// A case about to depart.
     pub fn new(number: usize, case: Case, protocol: &Protocol) -> Self {
-        let Case { parameters, phase, start } = &case;
-        let omega = parameters[Parameter::Omega];
-        let mut settling = Settling::new(protocol, omega);
-        let system = Capsule::single(parameters, *phase);
-        let motion = Motion::new(&system, 0.0, *start);
-        settling.meet(section(&motion.state));
-        Underway { number, case, system, motion, settling, cycles: 0, steps: 0 }
+        let mut settling = Settling::new(protocol, case.parameters[Parameter::Omega]);
+        let system = Capsule::single(&case.parameters, case.section_phase);
+        let time = case.start_time();
+        let motion = Motion::new(&system, time, case.start);
+        if time == 0.0 {
+            settling.meet(section(&motion.state));
+        }
+        let origin = 0.0 - time;
+        Underway { number, case, system, motion, settling, cycles: 0, origin, steps: 0 }
     }
 
     /// The number that its owner knows it by.
@@ -73,6 +77,7 @@ impl Underway {
             drive_period,
             protocol.tolerance,
         );
+        trajectory.origin = self.origin;
         let found = found(&mut trajectory, &mut self.settling);
         (self.number, conclude(&mut trajectory, &self.case, found, protocol))
     }
@@ -191,7 +196,7 @@ impl<'a, L: Lane> Convoy<'a, L> {
     fn new(resistance: Resistance, cases: Supply<'a>) -> Self {
         let mut parameters = Parameters::default();
         parameters.resistance = resistance;
-        let case = Case { parameters, phase: 0.0, start: State::default() };
+        let case = Case::at_section(parameters, State::default(), 0.0);
         let spare = Underway::new(0, case, cases.protocol);
         Convoy {
             cases,
@@ -239,7 +244,7 @@ impl<'a, L: Lane> Convoy<'a, L> {
     /// Takes note of the section point that the case in `lane` has reached.
     fn end_cycle(&mut self, lane: usize, state: &State<f64>) {
         let case = self.seats[lane].as_mut().expect("the lane is occupied");
-        case.cycles += 1;
+        count_cycle(&mut case.cycles, &mut case.origin, case.case.parameters.drive_period());
         self.cycle_began[lane] = self.steps;
         let exhausted = case.cycles >= self.cases.protocol.max_cycles;
         match case.settling.meet(section(state)) {

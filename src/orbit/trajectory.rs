@@ -7,6 +7,8 @@ use serde::Serialize;
 use crate::capsule::{Locomotion, State};
 use crate::flow::{Breakdown, Motion, Step};
 
+use super::Case;
+
 /// A cycle of so many steps is taken for a motion that cannot be followed.
 pub(super) const STEPS_PER_CYCLE: u64 = 200_000;
 
@@ -77,8 +79,11 @@ pub struct Trajectory<'a, S: Locomotion> {
     step: Step<f64, S>,
     drive_period: f64,
     tolerance: f64,
-    /// Whole cycles since the start.
+    /// Whole cycles since the first section.
     pub cycles: u64,
+    /// Time of the first section since the start [s]; on the way there the time, below zero, of the section
+    /// before the start.
+    pub(super) origin: f64,
     /// Steps taken in the cycle so far.
     steps: u64,
 }
@@ -100,6 +105,15 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
         Trajectory::resume(system, motion, [0, 0], drive_period, tolerance)
     }
 
+    /// Sets out where `case` starts; the first cycle is the rest of one where that is not on the section.
+    pub fn of(system: &'a S, case: &Case, tolerance: f64) -> Self {
+        let time = case.start_time();
+        let motion = Motion::new(system, time, case.start);
+        let drive_period = case.parameters.drive_period();
+        let trajectory = Trajectory::resume(system, motion, [0, 0], drive_period, tolerance);
+        Trajectory { origin: 0.0 - time, ..trajectory }
+    }
+
     /// Goes on with a `motion` under way for so many whole cycles and steps of the next.
     pub fn resume(
         system: &'a S,
@@ -108,7 +122,8 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
         drive_period: f64,
         tolerance: f64,
     ) -> Self {
-        Trajectory { system, motion, step: Step::default(), drive_period, tolerance, cycles, steps }
+        let (step, origin) = (Step::default(), 0.0);
+        Trajectory { system, motion, step, drive_period, tolerance, cycles, origin, steps }
     }
 
     /// The system that moves.
@@ -124,6 +139,16 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
     /// The point of the section, when a cycle has just ended.
     pub fn section(&self) -> Section {
         section(&self.motion.state)
+    }
+
+    /// Whether a cycle has just ended or is about to begin.
+    pub fn is_at_section(&self) -> bool {
+        self.motion.time == 0.0
+    }
+
+    /// Time of the last section since the start [s].
+    pub fn cycle_began(&self) -> f64 {
+        self.origin + self.cycles as f64 * self.drive_period
     }
 
     /// Goes on from another point of the section, at the beginning of a cycle.
@@ -150,7 +175,7 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
         }
         if self.motion.time >= self.drive_period {
             self.motion.begin_cycle(true);
-            self.cycles += 1;
+            count_cycle(&mut self.cycles, &mut self.origin, self.drive_period);
             self.steps = 0;
             return Ok(true);
         }
@@ -162,7 +187,17 @@ impl<'a, S: Locomotion> Trajectory<'a, S> {
 
     /// Tells where it is when it cannot go on.
     pub(super) fn failure(&self, reason: Reason) -> Failure {
-        let time = self.cycles as f64 * self.drive_period + self.motion.time;
+        let time = self.cycle_began() + self.motion.time;
         Failure { reason, time, state: self.motion.state }
+    }
+}
+
+/// Counts a cycle that has ended, unless it is the part of one that leads from the start to the first
+/// section.
+pub(super) fn count_cycle(cycles: &mut u64, origin: &mut f64, drive_period: f64) {
+    if *origin < 0.0 {
+        *origin += drive_period;
+    } else {
+        *cycles += 1;
     }
 }

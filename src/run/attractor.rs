@@ -16,7 +16,7 @@ use super::change::Change;
 use super::family::{Links, Neighbours};
 use super::{Ending, Machine};
 use crate::branch::natural::{Along, ROUNDING};
-use crate::study::layout::{Layout, is_start, linked_axis};
+use crate::study::layout::{Layout, linked_axis};
 use crate::study::{Coordinate, Study};
 
 /// A change of an attractor along the axis, or its beginning or end.
@@ -63,7 +63,7 @@ pub struct Attractors {
 /// Whether there are attractors to be told apart or followed: an axis is followed, or the only parameter that
 /// varies, or cases differ in their start.
 pub fn has_attractors(study: &Study) -> bool {
-    linked_axis(study).is_some() || study.axes.iter().any(|axis| is_start(axis.coordinate))
+    linked_axis(study).is_some() || study.axes.iter().any(|axis| axis.coordinate.is_start())
 }
 
 /// Pairs of neighbouring cells between which attractors are linked.

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use crate::capsule::{State, Switching};
 use crate::lane::Instructions;
-use crate::orbit::{Case, Orbit, Outcome, Queue, Underway, settle, settle_side_by_side};
+use crate::orbit::{Case, Orbit, Outcome, Queue, Underway, settle_case, settle_side_by_side};
 
 use crate::study::Study;
 use crate::study::study::Chain;
@@ -19,6 +19,8 @@ pub struct Record {
     pub index: usize,
     /// Where it started: as the study says, or where its neighbour settled.
     pub start: State<f64>,
+    /// Phase of the drive there [rad].
+    pub start_phase: f64,
     /// What it settled to.
     pub orbit: Orbit,
 }
@@ -126,6 +128,7 @@ struct Link {
     block: usize,
     index: usize,
     start: State<f64>,
+    start_phase: f64,
     rest: Chain,
 }
 
@@ -179,12 +182,12 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     /// Keeps the record of a case and yields the next of its chain.
     fn follow(
         &self,
-        Link { block, index, start, rest }: Link,
+        Link { block, index, start, start_phase, rest }: Link,
         orbit: Orbit,
     ) -> Option<(Link, Case)> {
         // After a failure the next case starts afresh.
         let settled = (orbit.outcome != Outcome::Failed).then_some(orbit.end);
-        if (self.keep)(block, Record { index, start, orbit }).is_break() {
+        if (self.keep)(block, Record { index, start, start_phase, orbit }).is_break() {
             self.stopped.store(true, Ordering::Relaxed);
         }
         self.depart(block, rest, settled)
@@ -202,9 +205,12 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
         let index = chain.next()?;
         let mut case = self.study.case(index);
         if let Some(from) = from {
+            // A case that settled was left on its section.
             case.start = State { x2: case.start.x2, ..from };
+            case.start_phase = case.section_phase;
         }
-        Some((Link { block, index, start: case.start, rest: chain }, case))
+        let (start, start_phase) = (case.start, case.start_phase);
+        Some((Link { block, index, start, start_phase, rest: chain }, case))
     }
 
     /// A case that leaves the lanes unfinished, with what follows it.
@@ -225,8 +231,8 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
 
     fn settle_one_by_one(&mut self) {
         let mut case = self.next(None);
-        while let Some((index, Case { parameters, start, phase })) = case {
-            let orbit = settle(&parameters, phase, start, &self.study.protocol);
+        while let Some((index, started)) = case {
+            let orbit = settle_case(&started, &self.study.protocol);
             case = self.next(Some((index, orbit)));
         }
     }

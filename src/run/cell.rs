@@ -172,7 +172,7 @@ fn points<S: Locomotion>(
 ) -> Option<Vec<Section>> {
     let parameters = &case.parameters;
     let of = |parameter| Dual::<f64, 0>::constant(parameters[parameter]);
-    let system = S::with(of, parameters.resistance, case.phase);
+    let system = S::with(of, parameters.resistance, case.section_phase);
     let drive_period = Dual::constant(parameters.drive_period());
     let cycles = Cycles { drive_period, count: 1, tolerance: protocol.tolerance };
     let mut points = Vec::with_capacity(wanted);

@@ -5,7 +5,7 @@ use std::fmt;
 use rayon::prelude::*;
 
 use crate::branch::{self, Found, NotFollowed};
-use crate::orbit::{Outcome, Protocol, Reason, Section, settle};
+use crate::orbit::{Case, Outcome, Protocol, Reason, Section, settle_case};
 
 use super::cases::{RunError, pool};
 use crate::study::branch_file::AS_PRINTED;
@@ -90,12 +90,12 @@ fn follow_one(continuation: &Continuation, protocol: &Protocol) -> Followed {
 }
 
 /// A section point and the period of the orbit that the motion settles to.
-fn settled(
-    Continuation { parameters, phase, start, .. }: &Continuation,
-    protocol: &Protocol,
-) -> Result<(Section, u64), Unfollowed> {
+fn settled(continuation: &Continuation, protocol: &Protocol) -> Result<(Section, u64), Unfollowed> {
     let protocol = Protocol { points: 1, impact_points: 0, history: None, ..*protocol };
-    let orbit = settle(parameters, *phase, *start, &protocol);
+    let Continuation { start, start_phase, section_phase, .. } = *continuation;
+    let parameters = continuation.parameters.clone();
+    let case = Case { parameters, start, start_phase, section_phase };
+    let orbit = settle_case(&case, &protocol);
     match (orbit.outcome, orbit.section.first(), orbit.failure) {
         (Outcome::Periodic, Some(&section), _) => Ok((section, orbit.period)),
         (_, _, Some(failure)) => Err(Unfollowed::Failed(failure.reason)),

@@ -104,7 +104,7 @@ fn add_requests(dataset: &mut Dataset, study: &Study, followed: &[Followed]) {
     columns.flags("request_result", "what came of the branch", results, results_by_name());
     let along = branches.iter().map(|branch| branch.along as i64);
     columns.flags("request_along", "parameter that is followed", along, symbols());
-    let phases = branches.iter().map(|branch| branch.phase);
+    let phases = branches.iter().map(|branch| branch.section_phase);
     columns.reals("request_phase", "rad", "phase of the drive at the section", phases);
     for &parameter in Parameter::ALL {
         let values = branches.iter().map(|branch| branch.parameters[parameter]);

@@ -219,7 +219,8 @@ fn add_constants(dataset: &mut Dataset, study: &Study) {
         (Coordinate::StartR, r),
         (Coordinate::StartY1, y1),
         (Coordinate::StartY2, y2),
-        (Coordinate::Phase, study.phase),
+        (Coordinate::StartPhase, study.start_phase),
+        (Coordinate::SectionPhase, study.section_phase),
     ];
     for (constant, value) in parameters.chain(starts) {
         if study.axes.iter().any(|axis| axis.coordinate == constant) {

@@ -13,13 +13,23 @@ pub enum Coordinate {
     StartY1,
     /// Velocity of the capsule at the start [m/s].
     StartY2,
-    /// Phase of the drive at the start and at the section [rad].
-    Phase,
+    /// Phase of the drive at the start [rad].
+    StartPhase,
+    /// Phase of the drive at the stroboscopic section [rad].
+    SectionPhase,
 }
 
 impl Coordinate {
-    const STARTS: [Coordinate; 4] =
-        [Coordinate::StartR, Coordinate::StartY1, Coordinate::StartY2, Coordinate::Phase];
+    /// The older name of an axis over [`Coordinate::StartPhase`], which is still read.
+    pub const PHASE: &str = "phase";
+
+    const STARTS: [Coordinate; 5] = [
+        Coordinate::StartR,
+        Coordinate::StartY1,
+        Coordinate::StartY2,
+        Coordinate::StartPhase,
+        Coordinate::SectionPhase,
+    ];
 
     /// Everything that an axis may vary.
     pub fn all() -> impl Iterator<Item = Coordinate> {
@@ -33,8 +43,14 @@ impl Coordinate {
             Coordinate::StartR => "start_r",
             Coordinate::StartY1 => "start_y1",
             Coordinate::StartY2 => "start_y2",
-            Coordinate::Phase => "phase",
+            Coordinate::StartPhase => "start_phase",
+            Coordinate::SectionPhase => "section_phase",
         }
+    }
+
+    /// Whether it tells where a case starts, which does not act on what attractors there are.
+    pub fn is_start(self) -> bool {
+        !matches!(self, Coordinate::Parameter(_) | Coordinate::SectionPhase)
     }
 
     /// What it is, in a phrase.
@@ -44,7 +60,8 @@ impl Coordinate {
             Coordinate::StartR => "relative displacement at the start",
             Coordinate::StartY1 => "velocity of the mass at the start",
             Coordinate::StartY2 => "velocity of the capsule at the start",
-            Coordinate::Phase => "phase of the drive at the start and at the section",
+            Coordinate::StartPhase => "phase of the drive at the start",
+            Coordinate::SectionPhase => "phase of the drive at the stroboscopic section",
         }
     }
 
@@ -54,7 +71,7 @@ impl Coordinate {
             Coordinate::Parameter(parameter) => parameter.dimension(),
             Coordinate::StartR => Dimension::Length,
             Coordinate::StartY1 | Coordinate::StartY2 => Dimension::Velocity,
-            Coordinate::Phase => Dimension::Angle,
+            Coordinate::StartPhase | Coordinate::SectionPhase => Dimension::Angle,
         }
     }
 

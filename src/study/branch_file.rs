@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Allowed, Dimension, Parameter, Parameters, State, Switching};
+use crate::capsule::{Dimension, Parameter, Parameters, Switching};
 
 use super::continuation::{Continuation, FirstOrbit};
 use super::document::{Entry, Table, unknown};
 
+use super::start_file::{Start, read_state};
 use super::study_file::allowed_quantity;
 use super::{Axis, Coordinate};
 
@@ -36,9 +37,7 @@ pub(super) struct Surroundings<'s> {
     /// Values of the parameters that no axis varies.
     pub base: &'s Parameters,
     /// Where its cases start.
-    pub start: State<f64>,
-    /// Phase of the drive there [rad].
-    pub phase: f64,
+    pub start: Start,
 }
 
 impl Surroundings<'_> {
@@ -99,7 +98,14 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
     let range = along.and_then(|along| read_range(table, along, study));
     let at = table.table("at");
     let parameters = read_place(table, at.as_ref(), study, &varied);
-    let (start, phase) = read_start(table, study);
+    let start = match table.table("start") {
+        Some(table) => {
+            let start = read_state(&table, study.start, &[]);
+            table.finish();
+            start
+        }
+        None => study.start,
+    };
     let first = read_first(table);
     let (longest_step, most_points) = read_steps(table);
     let doublings = table.entry("doublings").and_then(|entry| entry.whole(0, MOST_DOUBLINGS));
@@ -117,8 +123,9 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
         along,
         range,
         parameters,
-        start,
-        phase,
+        start: start.state,
+        start_phase: start.start_phase,
+        section_phase: start.section_phase,
         first,
         doublings: doublings.unwrap_or(0) as u32,
         second,
@@ -248,25 +255,6 @@ fn check_within(
         format!("the first orbit, at {symbol} = {value}{unit}, lies outside {from} to {to}{unit}");
     let given = at.and_then(|at| at.entry(symbol)).or_else(|| table.entry("name"));
     given.into_iter().for_each(|entry| entry.fault(&message));
-}
-
-/// Where the first orbit is looked for, and the phase of the section.
-fn read_start(table: &Table<'_, '_>, study: &Surroundings<'_>) -> (State<f64>, f64) {
-    let (mut start, mut phase) = (study.start, study.phase);
-    let Some(table) = table.table("start") else { return (start, phase) };
-    let places = [
-        ("r", Coordinate::StartR, &mut start.r),
-        ("y1", Coordinate::StartY1, &mut start.y1),
-        ("y2", Coordinate::StartY2, &mut start.y2),
-        ("phase", Coordinate::Phase, &mut phase),
-    ];
-    for (key, coordinate, place) in places {
-        let Some(entry) = table.entry(key) else { continue };
-        let value = allowed_quantity(&entry, coordinate.dimension(), Allowed::Finite);
-        *place = value.unwrap_or(*place);
-    }
-    table.finish();
-    (start, phase)
 }
 
 fn read_first(table: &Table<'_, '_>) -> FirstOrbit {

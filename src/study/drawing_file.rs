@@ -6,7 +6,7 @@ use crate::capsule::{Dimension, Parameter};
 use crate::orbit::Output;
 
 use super::document::{Entry, Table, unknown};
-use super::{Axis, Continuation, Drawing, DrawingKind};
+use super::{Axis, Continuation, Coordinate, Drawing, DrawingKind};
 
 /// Longest name of a figure [bytes]; with an ending it still is a file name everywhere.
 const LONGEST_NAME: usize = 200;
@@ -78,7 +78,15 @@ fn abscissae(
             names.push(name);
         }
     }
-    names.into_iter().map(|name| (name, name)).collect()
+    let mut names: Vec<_> = names.into_iter().map(|name| (name, name)).collect();
+    names.extend(axes.iter().find_map(older_name));
+    names
+}
+
+/// The older name of an axis with the one that it has now, if it has one.
+fn older_name(axis: &Axis) -> Option<(&'static str, &'static str)> {
+    let has_one = axis.coordinate == Coordinate::StartPhase;
+    has_one.then_some((Coordinate::PHASE, axis.coordinate.name()))
 }
 
 /// A name that can stand before the ending of a file.
@@ -129,10 +137,13 @@ fn read_cycles(entry: &Entry<'_, '_>) -> Option<[f64; 2]> {
 fn read_at(table: &Table<'_, '_>, axes: &[Axis]) -> BTreeMap<String, f64> {
     let mut at = BTreeMap::new();
     for (name, entry) in table.entries() {
-        match axes.iter().find(|axis| axis.coordinate.name() == name) {
+        let is_named = |axis: &&Axis| {
+            axis.coordinate.name() == name || older_name(axis).is_some_and(|it| it.0 == name)
+        };
+        match axes.iter().find(is_named) {
             Some(axis) => {
                 let value = entry.quantity(axis.coordinate.dimension());
-                at.extend(value.map(|value| (name, value)));
+                at.extend(value.map(|value| (axis.coordinate.name().to_owned(), value)));
             }
             None => {
                 let names = axes.iter().map(|axis| axis.coordinate.name());

@@ -47,7 +47,7 @@ impl Layout {
         for (place, &length) in shape.iter().enumerate() {
             let dimensions = match study.axes.get(place) {
                 _ if Some(place) == axis => &mut layout.cells,
-                Some(other) if !is_start(other.coordinate) => &mut layout.lines,
+                Some(other) if !other.coordinate.is_start() => &mut layout.lines,
                 // A start, or the directions, which are no axis.
                 _ => &mut layout.cases,
             };
@@ -78,17 +78,12 @@ impl Layout {
     }
 }
 
-/// Whether a coordinate is one of the initial state.
-pub fn is_start(coordinate: Coordinate) -> bool {
-    matches!(coordinate, Coordinate::StartR | Coordinate::StartY1 | Coordinate::StartY2)
-}
-
 /// The axis that is followed, or else the only parameter that varies.
 pub fn linked_axis(study: &Study) -> Option<usize> {
     if let Some(follow) = &study.follow {
         return Some(follow.axis);
     }
-    let is_parameter = |axis: &usize| !is_start(study.axes[*axis].coordinate);
+    let is_parameter = |axis: &usize| !study.axes[*axis].coordinate.is_start();
     let mut varies = (0..study.axes.len()).filter(is_parameter);
     let first = varies.next()?;
     let alone = varies.next().is_none();

@@ -9,6 +9,7 @@ pub mod drawing;
 mod drawing_file;
 pub(crate) mod layout;
 pub mod quantity;
+mod start_file;
 pub mod study;
 mod study_file;
 

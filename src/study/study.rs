@@ -54,8 +54,10 @@ pub struct Study {
     pub base: Parameters,
     /// Start of the cases, where no axis varies it.
     pub start: State<f64>,
-    /// Phase of the drive at the start [rad].
-    pub phase: f64,
+    /// Phase of the drive at the start, where no axis varies it [rad].
+    pub start_phase: f64,
+    /// Phase of the drive at the stroboscopic section, where no axis varies it [rad].
+    pub section_phase: f64,
     /// The axes, slowest first; none for a single case.
     pub axes: Vec<Axis>,
     /// Along which axis the attractor is followed, if any.
@@ -129,7 +131,12 @@ impl Study {
 
     /// Case `index` with the start that the study gives it, counted with the last dimension fastest.
     pub fn case(&self, index: usize) -> Case {
-        let mut case = Case { parameters: self.base.clone(), start: self.start, phase: self.phase };
+        let mut case = Case {
+            parameters: self.base.clone(),
+            start: self.start,
+            start_phase: self.start_phase,
+            section_phase: self.section_phase,
+        };
         for (axis, position) in self.axes.iter().zip(self.position(index)) {
             let value = axis.values[position];
             match axis.coordinate {
@@ -137,7 +144,8 @@ impl Study {
                 Coordinate::StartR => case.start.r = value,
                 Coordinate::StartY1 => case.start.y1 = value,
                 Coordinate::StartY2 => case.start.y2 = value,
-                Coordinate::Phase => case.phase = value,
+                Coordinate::StartPhase => case.start_phase = value,
+                Coordinate::SectionPhase => case.section_phase = value,
             }
         }
         case

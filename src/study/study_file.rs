@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use toml::de::DeTable;
 
-use crate::capsule::{Allowed, Dimension, Parameter, Parameters, Resistance, State, Switching};
+use crate::capsule::{Allowed, Dimension, Parameter, Parameters, Resistance, Switching};
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Output, Protocol};
 
@@ -12,7 +12,8 @@ use super::axis::{linear, logarithmic};
 use super::branch_file::{Surroundings, read_branches};
 use super::document::{Entry, Faults, Reader, Table};
 use super::drawing_file::read_drawings;
-use super::study::{Direction, Follow, Study};
+use super::start_file::read_start;
+use super::study::Study;
 use super::{Axis, Coordinate};
 
 /// More values on an axis than this are taken for a slip of the pen.
@@ -44,17 +45,18 @@ impl Study {
         let title = read_title(&top);
         let axes = read_axes(&top);
         let base = read_parameters(&top, &axes);
-        let (start, phase, follow) = read_start(&top, &axes);
+        let (start, follow) = read_start(&top, &axes);
         let protocol = read_protocol(&top);
         let outputs = read_outputs(&top);
-        let surroundings = Surroundings { axes: &axes, base: &base, start, phase };
+        let surroundings = Surroundings { axes: &axes, base: &base, start };
         let branches = read_branches(&top, &surroundings);
         let study = Study {
             title,
             text: text.to_owned(),
             base,
-            start,
-            phase,
+            start: start.state,
+            start_phase: start.start_phase,
+            section_phase: start.section_phase,
             follow,
             protocol,
             drawings: read_drawings(&top, &axes, &branches, &outputs),
@@ -144,11 +146,16 @@ fn read_axes(top: &Table<'_, '_>) -> Vec<Axis> {
     let mut axes: Vec<Axis> = Vec::new();
     for entry in top.entry("axes").map(|entry| entry.list()).unwrap_or_default() {
         let Some(table) = entry.table() else { continue };
-        let names: Vec<(&str, Coordinate)> =
-            Coordinate::all().map(|coordinate| (coordinate.name(), coordinate)).collect();
+        let names: Vec<(&str, Coordinate)> = Coordinate::all()
+            .map(|coordinate| (coordinate.name(), coordinate))
+            .chain([(Coordinate::PHASE, Coordinate::StartPhase)])
+            .collect();
         let name = table.entry("name");
         if name.is_none() {
-            table.missing("name", "a parameter, start_r, start_y1, start_y2 or phase");
+            table.missing(
+                "name",
+                "a parameter, start_r, start_y1, start_y2, start_phase or section_phase",
+            );
         }
         let coordinate = name.as_ref().and_then(|name| name.one_of("axis", &names));
         let values = read_values(&table, coordinate);
@@ -227,54 +234,6 @@ fn distinct<'r, 'a>(
 }
 
 type Spacing = fn(f64, f64, usize) -> Vec<f64>;
-
-fn read_start(top: &Table<'_, '_>, axes: &[Axis]) -> (State<f64>, f64, Option<Follow>) {
-    let mut start = State::default();
-    let Some(table) = top.table("start") else { return (start, 0.0, None) };
-    let quantity = |key: &str, coordinate: Coordinate| {
-        let entry = table.entry(key)?;
-        if axes.iter().any(|axis| axis.coordinate == coordinate) {
-            entry.fault("is given here and on an axis");
-        }
-        allowed_quantity(&entry, coordinate.dimension(), Allowed::Finite)
-    };
-    start.r = quantity("r", Coordinate::StartR).unwrap_or(0.0);
-    start.y1 = quantity("y1", Coordinate::StartY1).unwrap_or(0.0);
-    start.y2 = quantity("y2", Coordinate::StartY2).unwrap_or(0.0);
-    let phase = quantity("phase", Coordinate::Phase).unwrap_or(0.0);
-    let follow = read_follow(&table, axes);
-    table.finish();
-    (start, phase, follow)
-}
-
-fn read_follow(table: &Table<'_, '_>, axes: &[Axis]) -> Option<Follow> {
-    let names = Direction::ALL.map(|direction| (direction.name(), direction));
-    let directions = table.entry("directions");
-    let Some(follow) = table.entry("follow") else {
-        if let Some(directions) = directions {
-            directions.fault("needs `follow`, the axis to go along");
-        }
-        return None;
-    };
-    let choices: Vec<(&str, usize)> =
-        axes.iter().enumerate().map(|(i, axis)| (axis.coordinate.name(), i)).collect();
-    let axis = follow.one_of("axis of this study", &choices)?;
-    if !matches!(axes[axis].coordinate, Coordinate::Parameter(_)) {
-        follow.fault("must be a parameter: a start is not followed but given");
-    }
-    let mut chosen = Vec::new();
-    for entry in directions.map(|entry| entry.list()).unwrap_or_default() {
-        match entry.one_of("direction", &names) {
-            Some(direction) if chosen.contains(&direction) => entry.fault("is given twice"),
-            Some(direction) => chosen.push(direction),
-            None => {}
-        }
-    }
-    if chosen.is_empty() {
-        chosen.push(Direction::Upward);
-    }
-    Some(Follow { axis, directions: chosen })
-}
 
 fn read_protocol(top: &Table<'_, '_>) -> Protocol {
     let mut protocol = Protocol::default();

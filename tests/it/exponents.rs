@@ -136,15 +136,18 @@ fn the_duffing_oscillator_has_its_published_exponents() {
 fn an_orbit_stretches_as_its_largest_multiplier_says() {
     let mut compared = 0;
     for case in draws::cases(120, 21) {
-        let orbit = settle(&case.parameters, case.phase, case.start, &Protocol::default());
+        let orbit = settle(&case.parameters, case.section_phase, case.start, &Protocol::default());
         let [first, second, _] = orbit.certificate.multipliers;
         // A pair of equal magnitudes turns its directions for ever, and means settle slowly.
         if orbit.outcome != Outcome::Periodic || second.abs() > 0.7 * first.abs() {
             continue;
         }
         let p = &case.parameters;
-        let system =
-            Capsule::<Dual<f64, 1>>::new(|q| Dual::constant(p[q]), p.resistance, case.phase);
+        let system = Capsule::<Dual<f64, 1>>::new(
+            |q| Dual::constant(p[q]),
+            p.resistance,
+            case.section_phase,
+        );
         let State { r, y1, y2, .. } = orbit.end;
         let count = 3200 * orbit.period;
         let cycles =
@@ -186,8 +189,10 @@ fn chaotic(count: usize) -> Vec<(Case, Section)> {
 #[test]
 fn neighbouring_trajectories_part_at_the_rate_of_the_exponent() {
     let cases = chaotic(6);
-    let systems: Vec<_> =
-        cases.iter().map(|(case, _)| Capsule::single(&case.parameters, case.phase)).collect();
+    let systems: Vec<_> = cases
+        .iter()
+        .map(|(case, _)| Capsule::single(&case.parameters, case.section_phase))
+        .collect();
     let capsules: Vec<_> = cases
         .iter()
         .zip(&systems)
@@ -213,7 +218,7 @@ fn neighbouring_trajectories_part_at_the_rate_of_the_exponent() {
 /// standard error over ten batches [1/s].
 fn parting(case: &Case, start: Section, cycles: usize) -> (f64, f64) {
     let p = &case.parameters;
-    let system = Capsule::single(p, case.phase);
+    let system = Capsule::single(p, case.section_phase);
     let period = p.drive_period();
     let scales = [p[Parameter::Omega], 1.0, 1.0];
     let distance = |difference: &Section| {
@@ -274,7 +279,7 @@ fn smooth_means_tell_a_rotation_from_chaos() {
 fn a_stretch_has_the_same_bits_by_any_instructions() {
     let cases = draws::cases(20, 13);
     let systems: Vec<_> =
-        cases.iter().map(|case| Capsule::single(&case.parameters, case.phase)).collect();
+        cases.iter().map(|case| Capsule::single(&case.parameters, case.section_phase)).collect();
     let capsules: Vec<_> = cases
         .iter()
         .zip(&systems)

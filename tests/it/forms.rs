@@ -30,7 +30,7 @@ pub fn simulate_by(
     if parameters.switching == Switching::AsPrinted {
         return alone;
     }
-    let case = Case { parameters: parameters.clone(), start, phase };
+    let case = Case::at_section(parameters.clone(), start, phase);
     let bits = |state: [f64; 4]| state.map(f64::to_bits);
     let states: Vec<_> = alone.section.iter().map(|s| bits([s.r, s.y1, s.x2, s.y2])).collect();
     let events: Vec<_> = alone.events.iter().map(|event| (event.t.to_bits(), event.kind)).collect();
@@ -53,7 +53,7 @@ pub fn settle(
     if parameters.switching == Switching::AsPrinted {
         return alone;
     }
-    let case = Case { parameters: parameters.clone(), start, phase };
+    let case = Case::at_section(parameters.clone(), start, phase);
     let mut queue = Crowd { case: &case, dealt: 0, orbit: None };
     settle_side_by_side(Instructions::widest(), protocol, &mut queue);
     let among = queue.orbit.expect("the case has been in the lanes to its end");
@@ -109,11 +109,11 @@ impl Work for Among<'_> {
         let last = L::WIDTH - 1;
         let cases: Vec<Case> =
             (0..last).map(|lane| neighbour(self.case, lane)).chain([self.case.clone()]).collect();
-        let own = Capsule::single(&self.case.parameters, self.case.phase);
+        let own = Capsule::single(&self.case.parameters, self.case.section_phase);
         let mut system = Capsule::<L>::splat(&own);
         let mut motion = Motion::<L, Capsule<L>>::splat(&Motion::new(&own, 0.0, self.case.start));
         for (lane, case) in cases.iter().enumerate() {
-            let one = Capsule::single(&case.parameters, case.phase);
+            let one = Capsule::single(&case.parameters, case.section_phase);
             system.put(lane, &one);
             motion.put(lane, &Motion::new(&one, 0.0, case.start));
         }

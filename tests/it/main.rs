@@ -35,6 +35,7 @@ mod neutral;
 mod oscillators;
 mod overnight;
 mod paper;
+mod phases;
 mod program;
 mod readers;
 mod reading;

@@ -196,7 +196,7 @@ fn axes_are_linear_logarithmic_or_lists() {
 fn starts_and_the_phase_can_be_axes() {
     let mut text = FIG5.to_owned();
     for (name, unit) in
-        [("start_r", "mm"), ("start_y1", "m/s"), ("start_y2", "m/s"), ("phase", "deg")]
+        [("start_r", "mm"), ("start_y1", "m/s"), ("start_y2", "m/s"), ("start_phase", "deg")]
     {
         text += &format!("[[axes]]\nname = \"{name}\"\nvalues = [\"1 {unit}\", \"2 {unit}\"]\n");
     }
@@ -204,8 +204,8 @@ fn starts_and_the_phase_can_be_axes() {
     assert_eq!((study.cases(), study.shape()), (16, vec![2; 4]));
     let case = study.case(0b1010);
     assert_eq!((case.start.r, case.start.y1, case.start.y2), (0.002, 1.0, 2.0));
-    assert!((case.phase - 1_f64.to_radians()).abs() < 1e-16);
-    assert!(said(&(text + "[start]\nfollow = \"phase\""))[0].contains("must be a parameter"));
+    assert!((case.start_phase - 1_f64.to_radians()).abs() < 1e-16 && case.section_phase == 0.0);
+    assert!(said(&(text + "[start]\nfollow = \"start_phase\""))[0].contains("must be a parameter"));
 }
 
 #[test]

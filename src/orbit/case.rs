@@ -1,0 +1,32 @@
+//! One case: parameters, a start, and the phases of the drive at the start and at the section.
+
+use crate::capsule::drive::reduced;
+use crate::capsule::{Parameter, Parameters, State};
+
+/// One case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// Its parameters.
+    pub parameters: Parameters,
+    /// Where it starts.
+    pub start: State<f64>,
+    /// Phase of the drive at the start [rad].
+    pub start_phase: f64,
+    /// Phase of the drive at the stroboscopic section [rad].
+    pub section_phase: f64,
+}
+
+impl Case {
+    /// A case that starts on its section, at `phase` of the drive [rad].
+    pub fn at_section(parameters: Parameters, start: State<f64>, phase: f64) -> Case {
+        Case { parameters, start, start_phase: phase, section_phase: phase }
+    }
+
+    /// Time of the start since the last passage of the section phase [s]; zero where the phases are equal.
+    pub fn start_time(&self) -> f64 {
+        let turned = reduced(self.start_phase - self.section_phase);
+        let time = turned / self.parameters[Parameter::Omega];
+        // A phase that is less by rounding alone is a whole turn ahead.
+        if time < self.parameters.drive_period() { time } else { 0.0 }
+    }
+}
