@@ -90,9 +90,9 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
     }
 }
 
-/// The axes a diagram runs along by default: those that are free and not the direction of a sweep.
+/// The axes a diagram runs along: those that are free and neither the direction of a sweep nor a mere number.
 fn drawable_axes<'a>(view: &View<'a>) -> Vec<&'a str> {
-    view.free_axes().into_iter().filter(|name| *name != "direction").collect()
+    view.free_axes().into_iter().filter(|name| !["direction", "draw"].contains(name)).collect()
 }
 
 /// The axis along the abscissa, or the parameter along which orbits were followed.

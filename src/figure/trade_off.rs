@@ -120,7 +120,7 @@ fn fastest(view: &View<'_>, cases: &[Case], free: &[&str]) -> Option<(usize, Vec
 /// The colours of an axis, and the axis' value for each case.
 fn hue(view: &View<'_>, free: &[&str]) -> Result<Option<(Colours, Vec<f64>)>, FigureError> {
     let wanted = view.drawing.x.as_deref();
-    let long = |name: &&&str| view.coordinate_values(name).len() > 1;
+    let long = |name: &&&str| **name != "draw" && view.coordinate_values(name).len() > 1;
     let Some(name) = wanted.or_else(|| free.iter().find(long).copied()) else {
         return Ok(None);
     };

@@ -10,7 +10,7 @@ use crate::lane::Instructions;
 use crate::orbit::{Case, Orbit, Outcome, Queue, Underway, settle_case, settle_side_by_side};
 
 use crate::study::Study;
-use crate::study::study::Chain;
+use crate::study::grid::Chain;
 
 /// What came of one case.
 #[derive(Debug, Clone, PartialEq)]

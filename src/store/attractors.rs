@@ -16,14 +16,12 @@ const EVENT: &str = "event";
 /// A column `event_NAME` for each parameter on an axis says where the event is; that of the axis along which
 /// attractors are followed was bisected to `event_uncertainty`. Without events there is no table.
 pub fn add_attractors(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
-    let mut dimensions: Vec<String> =
-        study.axes.iter().map(|axis| axis.coordinate.name().to_owned()).collect();
-    dimensions.extend(study.direction_axis().map(|_| "direction".to_owned()));
+    let dimensions = study.dimensions().into_iter().map(str::to_owned).collect();
     let number = |of: &Option<u32>| of.map_or(-1, i64::from);
     let numbers = attractors.of_case.iter().map(number).collect();
     let array = ArrayD::from_shape_vec(IxDyn(&study.shape()), numbers).expect("one per case");
     if let Some(axis) = attractors.axis {
-        let name = study.axes[axis].coordinate.name().to_owned();
+        let name = study.axes()[axis].coordinate.name().to_owned();
         dataset.attributes.insert("attractor_axis".to_owned(), name);
     }
     let meaning = "attractor of the case, numbered along the axis of parameters, -1 for none";
@@ -50,7 +48,7 @@ fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
     add("attractor", column("1", "attractor of the event", numbers));
     let periods = integers(events.iter().map(|event| event.period as i64).collect());
     add("period", column("1", "period of the orbit that changes, in drive cycles", periods));
-    for (place, axis) in study.axes.iter().enumerate() {
+    for (place, axis) in study.axes().iter().enumerate() {
         if let Coordinate::Parameter(parameter) = axis.coordinate {
             let at = |event: &AttractorEvent| match attractors.axis == Some(place) {
                 true => event.value,
@@ -61,7 +59,7 @@ fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
             add(parameter.symbol(), column(unit, parameter.meaning(), values));
         }
     }
-    let followed = attractors.axis.map(|axis| study.axes[axis].coordinate);
+    let followed = attractors.axis.map(|axis| study.axes()[axis].coordinate);
     let unit = followed.map_or("1", |coordinate| coordinate.dimension().unit());
     let uncertainties = reals(events.iter().map(|event| event.uncertainty).collect());
     let meaning = "half width of the bracket that bisection has left";

@@ -6,7 +6,7 @@ use crate::capsule::{Parameter, State};
 use crate::orbit::matrix::Complex;
 use crate::orbit::{Certificate, History, Impact, Orbit, Outcome, Proof, Reason};
 use crate::run::Record;
-use crate::study::{Coordinate, Direction, Study};
+use crate::study::{CaseSet, Coordinate, Direction, Draws, Study};
 
 use super::piece::{Filling, MISSING, Piece};
 use super::{Dataset, Values, Variable, provenance};
@@ -20,7 +20,7 @@ pub const FINGERPRINT: &str = "study_fingerprint";
 /// The dataset of a study; `records` holds one record per case, in any order, or fewer.
 ///
 /// Dimensions: the axes of the study, slowest first, then `direction` where the attractor was followed
-/// both ways; after them `point`, `impact_point` or `history_time` for what each case has several of.
+/// both ways, or `draw` alone; after them `point`, `impact_point` or `history_time` for what each case has several of.
 pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
     let mut dataset = frame(study);
     let columns = columns(study, records);
@@ -46,10 +46,9 @@ pub(super) fn over_axes(
     variable: Variable,
     is_partial: bool,
 ) -> Variable {
-    let axes = study.axes.iter().map(|axis| axis.coordinate.name().to_owned());
-    let directions = study.direction_axis().map(|_| "direction".to_owned());
+    let outer = study.dimensions().into_iter().map(str::to_owned);
     let inner = variable.dimensions[1..].iter().cloned();
-    let dimensions = axes.chain(directions).chain(inner).collect();
+    let dimensions = outer.chain(inner).collect();
     let mut flags = variable.flags;
     if is_partial && name == "outcome" {
         flags.insert(0, (MISSING.0, MISSING.1.to_owned()));
@@ -190,7 +189,10 @@ pub(super) fn count(length: usize) -> Values {
 }
 
 fn add_axes(dataset: &mut Dataset, study: &Study) {
-    for axis in &study.axes {
+    if let CaseSet::Draws(draws) = &study.case_set {
+        add_draws(dataset, draws);
+    }
+    for axis in study.axes() {
         let (name, unit) = (axis.coordinate.name(), axis.coordinate.dimension().unit());
         let values = line(axis.values.clone());
         dataset.coordinates.push(coordinate(name, unit, axis.coordinate.meaning(), values));
@@ -211,6 +213,21 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
     }
 }
 
+/// The draws by their numbers, and what was drawn as variables over them.
+fn add_draws(dataset: &mut Dataset, draws: &Draws) {
+    let name = Draws::DIMENSION;
+    dataset.coordinates.push(coordinate(name, "1", "number of the draw", count(draws.count)));
+    for (place, range) in draws.ranges.iter().enumerate() {
+        let drawn = range.coordinate;
+        let values = line((0..draws.count).map(|index| draws.value(index, place)).collect());
+        let (unit, meaning) = (drawn.dimension().unit(), drawn.meaning());
+        let (_, variable) = coordinate(name, unit, meaning, values);
+        dataset.variables.insert(drawn.name().to_owned(), variable);
+    }
+    dataset.attributes.insert("draws_kind".to_owned(), draws.kind.name().to_owned());
+    dataset.attributes.insert("draws_seed".to_owned(), draws.seed.to_string());
+}
+
 /// Everything that the axes leave constant, so that a file tells its whole case.
 fn add_constants(dataset: &mut Dataset, study: &Study) {
     let State { r, y1, y2, .. } = study.start;
@@ -223,7 +240,7 @@ fn add_constants(dataset: &mut Dataset, study: &Study) {
         (Coordinate::SectionPhase, study.section_phase),
     ];
     for (constant, value) in parameters.chain(starts) {
-        if study.axes.iter().any(|axis| axis.coordinate == constant) {
+        if study.case_set.varied().contains(&constant) {
             continue;
         }
         let variable = Variable {

@@ -8,8 +8,7 @@ use super::continuation::{Continuation, FirstOrbit};
 use super::document::{Entry, Table, unknown};
 
 use super::start_file::{Start, read_state};
-use super::study_file::allowed_quantity;
-use super::{Axis, Coordinate};
+use super::{CaseSet, Coordinate};
 
 /// What is said of a study with branches that reads friction as printed.
 pub(crate) const AS_PRINTED: &str =
@@ -32,8 +31,8 @@ const LONGEST_PERIOD: u64 = 100_000;
 
 /// What the rest of the study gives to its branches.
 pub(super) struct Surroundings<'s> {
-    /// Its axes.
-    pub axes: &'s [Axis],
+    /// Its cases.
+    pub case_set: &'s CaseSet,
     /// Values of the parameters that no axis varies.
     pub base: &'s Parameters,
     /// Where its cases start.
@@ -41,15 +40,14 @@ pub(super) struct Surroundings<'s> {
 }
 
 impl Surroundings<'_> {
-    fn axis(&self, parameter: Parameter) -> Option<&Axis> {
-        self.axes.iter().find(|axis| axis.coordinate == Coordinate::Parameter(parameter))
+    /// Whether an axis varies `parameter`.
+    fn varies(&self, parameter: Parameter) -> bool {
+        self.case_set.varied().contains(&Coordinate::Parameter(parameter))
     }
 
     /// The ends of the axis over `parameter`, the lesser first.
     fn ends(&self, parameter: Parameter) -> Option<[f64; 2]> {
-        let values = self.axis(parameter)?.values.iter().copied();
-        let low = values.clone().reduce(f64::min)?;
-        Some([low, values.reduce(f64::max)?])
+        self.case_set.ends(Coordinate::Parameter(parameter))
     }
 }
 
@@ -154,14 +152,14 @@ fn read_range(
     let end = |key: &str, usual: Option<f64>| {
         let Some(entry) = table.entry(key) else {
             // An axis without values has had its fault told.
-            if study.axis(parameter).is_none() {
+            if !study.varies(parameter) {
                 let expected =
                     format!("a value, as no axis varies the {} here", parameter.meaning());
                 table.missing(key, &expected);
             }
             return usual;
         };
-        allowed_quantity(&entry, parameter.dimension(), parameter.allowed())
+        entry.allowed_quantity(parameter.dimension(), parameter.allowed())
     };
     let (from, to) = (end("from", ends.map(|ends| ends[0])), end("to", ends.map(|ends| ends[1])));
     let (from, to) = (from?, to?);
@@ -203,7 +201,7 @@ fn read_place(
 ) -> Option<Parameters> {
     let mut parameters = study.base.clone();
     let mut complete = true;
-    let on_axis = |parameter: &&Parameter| study.axis(**parameter).is_some();
+    let on_axis = |parameter: &&Parameter| study.varies(**parameter);
     let open: Vec<Parameter> = Parameter::ALL.iter().filter(on_axis).copied().collect();
     let given: BTreeMap<String, Entry<'_, '_>> =
         at.map(Table::entries).unwrap_or_default().into_iter().collect();
@@ -211,7 +209,7 @@ fn read_place(
     for (name, entry) in &given {
         match Parameter::named(name).filter(|it| open.contains(it) || varied.contains(it)) {
             Some(parameter) => {
-                let value = allowed_quantity(entry, parameter.dimension(), parameter.allowed());
+                let value = entry.allowed_quantity(parameter.dimension(), parameter.allowed());
                 parameters[parameter] = value.unwrap_or(parameters[parameter]);
                 complete &= value.is_some();
             }

@@ -6,7 +6,7 @@ use std::fmt;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::capsule::Dimension;
+use crate::capsule::{Allowed, Dimension};
 
 use super::quantity::{expectation, parse_quantity};
 
@@ -251,6 +251,18 @@ impl<'r, 'a> Entry<'r, 'a> {
         let what = format!("{} (as a text in quotes)", expectation(dimension));
         let text = self.expected(self.value.get_ref().as_str(), &what)?;
         parse_quantity(text, dimension).map_err(|message| self.fault(message)).ok()
+    }
+
+    /// The value as a quantity of `dimension`, in SI, if it is allowed.
+    pub fn allowed_quantity(&self, dimension: Dimension, allowed: Allowed) -> Option<f64> {
+        let value = self.quantity(dimension)?;
+        if !allowed.admits(value) {
+            let unit = Some(dimension.unit()).filter(|&unit| unit != "1");
+            let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+            self.fault(format!("{value}{unit} must be {allowed}"));
+            return None;
+        }
+        Some(value)
     }
 
     /// The value as one of a few names.

@@ -6,22 +6,25 @@ use crate::capsule::{Dimension, Parameter};
 use crate::orbit::Output;
 
 use super::document::{Entry, Table, unknown};
-use super::{Axis, Continuation, Coordinate, Drawing, DrawingKind};
+use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind};
 
 /// Longest name of a figure [bytes]; with an ending it still is a file name everywhere.
 const LONGEST_NAME: usize = 200;
 
-/// The figures of a study with `axes` and `branches` that keeps `outputs`.
+/// The figures of a study with the cases of `case_set` and `branches` that keeps `outputs`.
 pub(super) fn read_drawings(
     top: &Table<'_, '_>,
-    axes: &[Axis],
+    case_set: &CaseSet,
     branches: &[Continuation],
     outputs: &[Output],
 ) -> Vec<Drawing> {
     let entries = top.entry("figures").map(|entry| entry.list()).unwrap_or_default();
     let mut drawings: Vec<Drawing> = Vec::new();
     for table in entries.iter().filter_map(Entry::table) {
-        let drawing = read_drawing(&table, axes, branches, outputs);
+        let drawing = read_drawing(&table, case_set.axes(), branches, outputs);
+        if let (CaseSet::Draws(_), Some(kind)) = (case_set, table.entry("kind")) {
+            refuse_without_grid(&kind, drawing.kind);
+        }
         let alike = |other: &Drawing| other.name.eq_ignore_ascii_case(&drawing.name);
         if let Some(name) = table.entry("name").filter(|_| drawings.iter().any(alike)) {
             // Not even in capitals: some disks take such names for one.
@@ -31,6 +34,16 @@ pub(super) fn read_drawings(
         drawings.push(drawing);
     }
     drawings
+}
+
+/// Refuses a figure that runs along axes, of which a study with `[draws]` has none.
+fn refuse_without_grid(entry: &Entry<'_, '_>, kind: DrawingKind) {
+    if matches!(kind, DrawingKind::Bifurcation | DrawingKind::Map) {
+        entry.fault(format!(
+            "a figure of the kind {} needs a grid, and `[draws]` makes none; a trade-off shows draws",
+            kind.name()
+        ));
+    }
 }
 
 fn read_drawing(

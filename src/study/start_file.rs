@@ -3,9 +3,7 @@
 use crate::capsule::{Allowed, State};
 
 use super::document::Table;
-use super::study::{Direction, Follow};
-use super::study_file::allowed_quantity;
-use super::{Axis, Coordinate};
+use super::{Axis, CaseSet, Coordinate, Direction, Follow};
 
 /// Where a motion starts, and where its section is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -18,25 +16,32 @@ pub(super) struct Start {
     pub section_phase: f64,
 }
 
-/// Reads `[start]`; what is given there must not be on one of the `axes`.
-pub(super) fn read_start(top: &Table<'_, '_>, axes: &[Axis]) -> (Start, Option<Follow>) {
-    let Some(table) = top.table("start") else { return (Start::default(), None) };
-    let start = read_state(&table, Start::default(), axes);
-    let follow = read_follow(&table, axes);
+/// Reads `[start]`, and what is followed into `case_set`; what is given there must not vary.
+pub(super) fn read_start(top: &Table<'_, '_>, case_set: &mut CaseSet) -> Start {
+    let Some(table) = top.table("start") else { return Start::default() };
+    let start = read_state(&table, Start::default(), &case_set.varied());
+    match case_set {
+        CaseSet::Grid(grid) => grid.follow = read_follow(&table, &grid.axes),
+        CaseSet::Draws(_) => {
+            for entry in ["follow", "directions"].into_iter().filter_map(|key| table.entry(key)) {
+                entry.fault("does not go with `[draws]`, whose cases have no neighbours to follow");
+            }
+        }
+    }
     table.finish();
-    (start, follow)
+    start
 }
 
 /// The state and the phases in `table`; those of `usual` where they are not given.
 ///
 /// `phase` is `start_phase` and `section_phase` at once.
-pub(super) fn read_state(table: &Table<'_, '_>, usual: Start, axes: &[Axis]) -> Start {
+pub(super) fn read_state(table: &Table<'_, '_>, usual: Start, varied: &[Coordinate]) -> Start {
     let quantity = |key: &str, coordinates: &[Coordinate]| {
         let entry = table.entry(key)?;
-        if axes.iter().any(|axis| coordinates.contains(&axis.coordinate)) {
+        if varied.iter().any(|coordinate| coordinates.contains(coordinate)) {
             entry.fault("is given here and on an axis");
         }
-        allowed_quantity(&entry, coordinates[0].dimension(), Allowed::Finite)
+        entry.allowed_quantity(coordinates[0].dimension(), Allowed::Finite)
     };
     let mut start = usual;
     let both = [Coordinate::StartPhase, Coordinate::SectionPhase];

@@ -63,7 +63,7 @@ fn a_branch_has_the_rest_of_its_study() {
                          from = \"1 N\"\nto = \"6 N\"\n"
     );
     let alone = Study::parse("a", &alone).expect("a study");
-    assert_eq!((alone.axes.len(), alone.branches[0].parameters[Parameter::Omega]), (0, 77.91));
+    assert_eq!((alone.axes().len(), alone.branches[0].parameters[Parameter::Omega]), (0, 77.91));
 }
 
 #[test]

@@ -18,6 +18,7 @@ mod derivatives;
 mod differences;
 mod directions;
 mod divergence;
+mod drawn_studies;
 mod draws;
 mod dual_lanes;
 mod edges;
