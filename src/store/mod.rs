@@ -7,6 +7,7 @@ pub mod branches;
 pub mod dataset;
 mod decode;
 mod difference;
+mod drawn;
 mod encode;
 mod error;
 mod faults;

@@ -6,10 +6,10 @@ use crate::capsule::{Parameter, State};
 use crate::orbit::matrix::Complex;
 use crate::orbit::{Certificate, History, Impact, Orbit, Outcome, Proof, Reason};
 use crate::run::Record;
-use crate::study::{CaseSet, Coordinate, Direction, Draws, Study};
+use crate::study::{CaseSet, Coordinate, Direction, Study};
 
 use super::piece::{Filling, MISSING, Piece};
-use super::{Dataset, Values, Variable, provenance};
+use super::{Dataset, Values, Variable, drawn, provenance};
 
 /// The dimension of the cases of a block, which in a whole dataset gives way to the axes.
 pub const CASE: &str = "case";
@@ -190,7 +190,7 @@ pub(super) fn count(length: usize) -> Values {
 
 fn add_axes(dataset: &mut Dataset, study: &Study) {
     if let CaseSet::Draws(draws) = &study.case_set {
-        add_draws(dataset, draws);
+        drawn::add(dataset, draws);
     }
     for axis in study.axes() {
         let (name, unit) = (axis.coordinate.name(), axis.coordinate.dimension().unit());
@@ -211,21 +211,6 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
         variable.flags = named.map(|&d| (d as i64, d.name().to_owned())).collect();
         dataset.coordinates.push((name, variable));
     }
-}
-
-/// The draws by their numbers, and what was drawn as variables over them.
-fn add_draws(dataset: &mut Dataset, draws: &Draws) {
-    let name = Draws::DIMENSION;
-    dataset.coordinates.push(coordinate(name, "1", "number of the draw", count(draws.count)));
-    for (place, range) in draws.ranges.iter().enumerate() {
-        let drawn = range.coordinate;
-        let values = line((0..draws.count).map(|index| draws.value(index, place)).collect());
-        let (unit, meaning) = (drawn.dimension().unit(), drawn.meaning());
-        let (_, variable) = coordinate(name, unit, meaning, values);
-        dataset.variables.insert(drawn.name().to_owned(), variable);
-    }
-    dataset.attributes.insert("draws_kind".to_owned(), draws.kind.name().to_owned());
-    dataset.attributes.insert("draws_seed".to_owned(), draws.seed.to_string());
 }
 
 /// Everything that the axes leave constant, so that a file tells its whole case.

@@ -1,5 +1,8 @@
 //! Studies whose cases are drawn: where the draws lie, how evenly, and what is made of them.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use capsulemap::orbit::Output;
 use capsulemap::run::{self, Machine};
 use capsulemap::store;
 use capsulemap::study::{CaseSet, Coordinate, DrawKind, Draws, Range, Spacing, Study};
@@ -18,12 +21,12 @@ delta = "4.33 mm"
 omega = "158 rad/s"
 [draws]
 kind = "low-discrepancy"
-count = 100
+count = 400
 seed = 4
 [[axes]]
 name = "start_y1"
-from = "-0.4 m/s"
-to = "0.4 m/s"
+from = "-1 m/s"
+to = "1 m/s"
 [[axes]]
 name = "start_phase"
 from = "0 deg"
@@ -95,8 +98,7 @@ fn draws_lie_in_their_ranges_and_depend_on_index_and_seed_alone() {
         assert_eq!(points(&shorter), all[..50]);
         let other = Draws { seed: 8, ..draws.clone() };
         assert!((0..2000).all(|i| draws.value(i, 0) != other.value(i, 0)));
-        let distinct: std::collections::BTreeSet<u64> =
-            all.iter().map(|point| point[0].to_bits()).collect();
+        let distinct: BTreeSet<u64> = all.iter().map(|point| point[0].to_bits()).collect();
         assert_eq!(distinct.len(), 4000);
     }
 }
@@ -176,22 +178,50 @@ fn low_discrepancy_draws_are_spread_more_evenly_than_uniform_ones() {
         let bound = libm::log(4096.0) / 4096.0;
         assert!(low < bound && bound < uniform, "seed {seed}: {low} {uniform}");
 
-        let [uniform, low] =
-            KINDS.map(|kind| plane_discrepancy(&points(&unit(kind, 300, 2, seed))));
-        let bound = 7.0 / 300.0;
+        // Over a square, n draws of uniform kind reach about one over the root of n: half of that bounds the
+        // others, and with four times the draws they are more than twice as even.
+        let plane = |kind, count| plane_discrepancy(&points(&unit(kind, count, 2, seed)));
+        let [uniform, low] = KINDS.map(|kind| plane(kind, 300));
+        let bound = 0.5 / 300_f64.sqrt();
         assert!(low < bound && bound < uniform, "seed {seed}: {low} {uniform}");
+        let fewer = plane(DrawKind::LowDiscrepancy, 75);
+        assert!(low < fewer / 2.0, "seed {seed}: {fewer} {low}");
     }
+}
+
+/// The shares of the cases of a study that end on its motion at rest and on the one that gets on, which its
+/// attractors tell apart.
+fn shares(study: &Study) -> [f64; 2] {
+    let chains = Vec::from_iter(0..study.chains());
+    let records = run::run_sample(study, Machine::default(), &chains, || ()).expect("it runs");
+    let endings = run::endings(study, &records);
+    let found = run::attractors(study, &endings, Machine::default(), || ()).expect("threads");
+    let mut counts = BTreeMap::new();
+    for (record, attractor) in records.iter().zip(&found.of_case) {
+        let moves = record.orbit.outputs[Output::ProgressionSpeed] > 0.05;
+        *counts.entry((moves, *attractor)).or_insert(0.0) += 1.0 / records.len() as f64;
+    }
+    let attractors: BTreeSet<_> = counts.keys().map(|(_, attractor)| attractor).collect();
+    assert!(counts.len() == 2 && attractors.len() == 2, "{counts:?}");
+    [false, true].map(|wanted| {
+        counts.iter().filter(|((moves, _), _)| *moves == wanted).map(|(_, share)| share).sum()
+    })
 }
 
 #[test]
 fn a_study_of_drawn_starts_has_the_attractors_of_one_cell() {
     let study = read(STARTS);
-    assert_eq!((study.cases(), study.shape(), study.dimensions()), (100, vec![100], vec!["draw"]));
-    let records = run::run_sample(&study, Machine::default(), &Vec::from_iter(0..100), || ());
-    let endings = run::endings(&study, &records.expect("the study runs"));
-    let found = run::attractors(&study, &endings, Machine::default(), || ()).expect("threads");
-    let of = |number: u32| found.of_case.iter().filter(|it| **it == Some(number)).count();
-    assert!(of(0) > 5 && of(1) > 5 && of(0) + of(1) == 100, "{:?}", found.of_case);
+    assert_eq!((study.cases(), study.shape(), study.dimensions()), (400, vec![400], vec!["draw"]));
+    let [rests, moves] = shares(&study);
+    assert!(rests > 0.0 && moves > 0.0 && (rests + moves - 1.0).abs() < 1e-12, "{rests} {moves}");
+    // A grid of as many starts, in the middle of even cells, says how much of the ranges each basin has.
+    let ends = STARTS.replace("1 m/s", "0.95 m/s").replace("\"0 deg", "\"9 deg");
+    let ends = ends.replace("360 deg\"", "351 deg\"").replace("deg\"\n", "deg\"\npoints = 20\n");
+    let ends = ends.replace("from = \"9 deg\"\npoints = 20\n", "from = \"9 deg\"\n");
+    let even = ends.replace("to = \"0.95 m/s\"\n", "to = \"0.95 m/s\"\npoints = 20\n");
+    let even = even.replace("[draws]\nkind = \"low-discrepancy\"\ncount = 400\nseed = 4\n", "");
+    let [_, on_grid] = shares(&read(&even));
+    assert!((moves - on_grid).abs() < 0.04, "{moves} {on_grid}");
     assert!(!run::has_attractors(&read(PARAMETERS)));
     let one = PARAMETERS.replace("[[axes]]\nname = \"p_d\"\nfrom = \"5 N\"\nto = \"3 N\"\n", "");
     let one = one.replace("delta =", "p_d = \"4 N\"\ndelta =");
