@@ -8,6 +8,9 @@ use crate::orbit::Output;
 use super::document::{Entry, Table, unknown};
 use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind};
 
+/// The unit of widths [m].
+const MILLIMETRE: f64 = 1e-3;
+
 /// Longest name of a figure [bytes]; with an ending it still is a file name everywhere.
 const LONGEST_NAME: usize = 200;
 
@@ -73,7 +76,7 @@ fn read_drawing(
         at: table.table("at").map(|at| read_at(&at, axes)).unwrap_or_default(),
         cycles: table.entry("cycles").and_then(|entry| read_cycles(&entry)),
         branches: table.entry("branches").and_then(|entry| entry.truth()).unwrap_or(true),
-        width_mm: table.entry("width").and_then(|e| e.quantity(Dimension::Length)).map(|w| w * 1e3),
+        width_mm: table.entry("width").and_then(|e| e.quantity_in(Dimension::Length, MILLIMETRE)),
     }
 }
 

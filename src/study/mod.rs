@@ -16,6 +16,8 @@ pub mod quantity;
 mod start_file;
 pub mod study;
 mod study_file;
+mod study_text;
+mod toml_text;
 
 pub use axis::{Axis, Coordinate, Spacing};
 pub use block::spread;

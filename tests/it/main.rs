@@ -50,3 +50,4 @@ mod stribeck_scan;
 mod study;
 mod unbounded;
 mod wide_box;
+mod written_studies;
