@@ -214,7 +214,7 @@ impl Field for Belt<f64> {
 fn main() {
     let belt = Belt { c: 0.1, a: 0.5, s: 0.5, v: 1.5 };
     let protocol = Protocol::default();
-    let orbit = orbit::settle(&Case { system: belt, start: [2.0, 0.0] }, &protocol);
+    let orbit = orbit::settle(&Case::new(belt, [2.0, 0.0]), &protocol);
     println!(
         "{:?} {} {:?} {:?} {:?} {:?}",
         orbit.outcome,

@@ -102,7 +102,7 @@ fn main() {
     // A grid of starts, settled side by side on all cores, each periodic one with a certificate.
     let starts =
         (0..1600).map(|i| [-1.5 + 3.0 * (i % 40) as f64 / 39.0, -1.0 + (i / 40) as f64 / 19.5]);
-    let cases: Vec<_> = starts.map(|start| Case { system: duffing, start }).collect();
+    let cases: Vec<_> = starts.map(|start| Case::new(duffing, start)).collect();
     let protocol = Protocol::default();
     let orbits = settle_all(&cases, &protocol, Machine::default());
     let table = attractors_of(&duffing, &orbits, &protocol);

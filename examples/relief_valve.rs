@@ -206,7 +206,7 @@ fn main() {
     );
     println!("exact {}", exact_loss_of_stability());
     let at = std::env::args().nth(1).and_then(|a| a.parse().ok()).unwrap_or(8.0);
-    let case = Case { system: valve::<true>(at), start: [y1, 0.0, 15.0] };
+    let case = Case::new(valve::<true>(at), [y1, 0.0, 15.0]);
     let orbit = orbit::settle(&case, &protocol);
     println!(
         "{:?} {} {:?} {:?} {:?} cycles {} defect {:e}",

@@ -64,7 +64,7 @@ impl<'a> Replay<'a> {
         let records = run_sample(self.study, machine, &[self.chain], step)?;
         reports.tell(Event::Ended(Stage::Repeating))?;
         if let Some(record) = records.iter().find(|record| record.index == self.index) {
-            case.start = record.start;
+            (case.start, case.start_phase) = (record.start, record.start_phase);
         }
         Ok(case)
     }

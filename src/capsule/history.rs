@@ -2,12 +2,12 @@
 
 use crate::flow::Stroboscopic;
 use crate::lane::series;
-use crate::orbit::{HistorySpan, Trajectory};
+use crate::orbit::HistorySpan;
 
 use super::Failure;
+use super::case::Case;
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
-use super::parameters::Parameters;
 use super::state::State;
 
 /// Samples at even times, both ends included.
@@ -20,34 +20,47 @@ pub struct History {
 }
 
 impl History {
-    /// Follows the motion from `start` and samples its series, which are exact to `tolerance` too.
+    /// Follows the motion from the start of `case` and samples its series, which are exact to `tolerance` too.
     pub fn sample<S: Locomotion + Stroboscopic<f64, 3>>(
         system: &S,
-        parameters: &Parameters,
-        start: State<f64>,
+        case: &Case,
         span: HistorySpan,
         tolerance: f64,
     ) -> Result<History, Failure> {
-        let drive_period = parameters.drive_period();
+        let drive_period = case.parameters.drive_period();
         let between = drive_period / f64::from(span.per_cycle);
-        let p_d = parameters[Parameter::Pd];
-        let mut trajectory = Trajectory::new(system, start, tolerance);
+        let p_d = case.parameters[Parameter::Pd];
+        let mut trajectory = case.trajectory(system, tolerance);
         let mut history = History::default();
-        for _ in 0..span.cycles {
-            let mut next = 0;
+        // When a cycle of the history begins, since that of the drive.
+        let mut begins = case.start_time();
+        let ends_at_section = begins == 0.0;
+        let wanted = span.samples() - usize::from(ends_at_section);
+        let mut next = 0;
+        while history.states.len() < wanted {
             trajectory.cycle(|step| {
                 let jet = system.jet(&step.jet);
                 let end = step.start + step.length;
-                while next < span.per_cycle && f64::from(next) * between <= end {
-                    let h = (f64::from(next) * between - step.start).max(0.0);
+                while history.states.len() < wanted {
+                    let at = begins + f64::from(next) * between;
+                    if at > end || at >= drive_period {
+                        return;
+                    }
+                    let h = (at - step.start).max(0.0);
                     history.states.push(jet.state(h));
                     history.drive.push(p_d * series::value(&jet.cos, h));
                     next += 1;
+                    if next == span.per_cycle {
+                        (next, begins) = (0, begins + drive_period);
+                    }
                 }
             })?;
+            begins -= drive_period;
         }
-        history.states.push(trajectory.state());
-        history.drive.extend(history.drive.first().copied());
+        if ends_at_section {
+            history.states.push(trajectory.state());
+            history.drive.extend(history.drive.first().copied());
+        }
         Ok(history)
     }
 }

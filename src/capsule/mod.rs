@@ -2,6 +2,7 @@
 
 pub mod account;
 pub mod branch;
+mod case;
 pub mod capsule;
 pub mod drag;
 pub mod drive;
@@ -21,6 +22,7 @@ pub mod system;
 
 pub use account::{Account, Energies, Impact};
 pub use capsule::Capsule;
+pub use case::Case;
 pub use drive::Drive;
 pub use failure::{Failure, REASONS, Section};
 pub use history::History;
@@ -30,7 +32,7 @@ pub use parameter::{Allowed, Dimension, Parameter};
 pub use parameters::{Fault, Parameters};
 pub use printed::PrintedCapsule;
 pub use resistance::{Resistance, Switching};
-pub use settle::{Case, Orbit, outputs, settle, settle_all, settle_as};
-pub use simulate::{Event, Sample, Simulation, simulate};
+pub use settle::{Orbit, outputs, settle, settle_all, settle_as, settle_case};
+pub use simulate::{Event, Sample, Simulation, simulate, simulate_case};
 pub use state::{Contact, EventKind, Jet, State, StickSlip};
 pub use system::{AsPrinted, CapsuleSystem, Filippov, Reading};

@@ -6,6 +6,7 @@ use crate::orbit::{
 };
 
 use super::account::{Account, Impact};
+use super::case::Case;
 use super::history::History;
 use super::output::{Output, Outputs};
 use super::parameter::Parameter;
@@ -14,25 +15,6 @@ use super::resistance::Switching;
 use super::state::State;
 use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
 use super::{Failure, Section};
-
-/// One case.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Case {
-    /// Its parameters.
-    pub parameters: Parameters,
-    /// Where it starts.
-    pub start: State<f64>,
-    /// Phase of the drive at the start [rad].
-    pub phase: f64,
-}
-
-impl Case {
-    /// The case for the engine, its friction read as `R` says.
-    pub fn read<R: Reading>(&self) -> orbit::Case<CapsuleSystem<R>, 3> {
-        let system = CapsuleSystem::new(self.parameters.clone(), self.phase);
-        orbit::Case { system, start: self.start }
-    }
-}
 
 /// What a case settled to.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +29,7 @@ pub struct Orbit {
     /// y2 as far as they end on the stick surface y2 = 0, |F| <= f_b again; where |F| is above the friction
     /// of sliding, f_d(0+) < |F| <= f_b, a push off the surface, however small, makes the capsule slide away.
     pub certificate: Certificate<3>,
-    /// Cycles followed, measuring included.
+    /// Cycles followed since the first section, measuring included.
     pub cycles: u64,
     /// Per-cycle sums and the like; NaN where the case failed.
     pub outputs: Outputs,
@@ -63,21 +45,29 @@ pub struct Orbit {
     pub failure: Option<Failure>,
 }
 
-/// Follows the capsule from `start`, the drive at `phase` [rad], until it settles, and measures it.
+/// Settles a case that starts on its section, at `phase` of the drive [rad], as [`settle_case`] does.
 pub fn settle(
     parameters: &Parameters,
     phase: f64,
     start: State<f64>,
     protocol: &Protocol,
 ) -> Orbit {
-    let case = Case { parameters: parameters.clone(), start, phase };
-    match parameters.switching {
-        Switching::Filippov => settle_as::<Filippov>(&case, protocol),
-        Switching::AsPrinted => settle_as::<AsPrinted>(&case, protocol),
+    settle_case(&Case::at_section(parameters.clone(), start, phase), protocol)
+}
+
+/// Follows the capsule from the start of `case` to the first section, from there until it settles, and
+/// measures it.
+///
+/// Cycles are counted from the first section: the part of a cycle before it belongs to none. The time of a
+/// failure is counted from the start.
+pub fn settle_case(case: &Case, protocol: &Protocol) -> Orbit {
+    match case.parameters.switching {
+        Switching::Filippov => settle_as::<Filippov>(case, protocol),
+        Switching::AsPrinted => settle_as::<AsPrinted>(case, protocol),
     }
 }
 
-/// Follows a capsule, its friction read as `R` says, as [`settle`] does.
+/// Follows a capsule, its friction read as `R` says, as [`settle_case`] does.
 pub fn settle_as<R: Reading>(case: &Case, protocol: &Protocol) -> Orbit {
     let orbit = orbit::settle(&case.read::<R>(), protocol);
     Orbit::of::<R>(orbit, case, protocol)
@@ -122,9 +112,10 @@ impl Orbit {
         let settled = State { x2: 0.0, ..orbit.end };
         let wanted = protocol.history.filter(|_| orbit.failure.is_none());
         let history = wanted.map(|span: HistorySpan| {
-            let from = if span.from_start { case.start } else { settled };
-            let system = R::single(&case.parameters, case.phase);
-            History::sample(&system, &case.parameters, from, span, protocol.tolerance)
+            let on = Case::at_section(case.parameters.clone(), settled, case.section_phase);
+            let from = if span.from_start { case } else { &on };
+            let system = R::single(&case.parameters, case.section_phase);
+            History::sample(&system, from, span, protocol.tolerance)
         });
         match history.transpose() {
             Ok(history) => Orbit::measured(orbit, &case.parameters, history, protocol),

@@ -8,6 +8,7 @@ use crate::orbit::Trajectory;
 use super::Failure;
 use super::account::{Account, Energies};
 use super::capsule::Capsule;
+use super::case::Case;
 use super::locomotion::Locomotion;
 use super::parameters::Parameters;
 use super::printed::PrintedCapsule;
@@ -17,7 +18,7 @@ use super::state::{EventKind, State};
 /// State and sums at the end of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Sample {
-    /// Cycles since the start.
+    /// Cycles since the first section.
     pub n: u64,
     /// Time since the start [s].
     pub t: f64,
@@ -48,7 +49,7 @@ pub struct Event {
 /// A case followed from its start for a number of cycles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulation {
-    /// One sample per cycle, that at the start included.
+    /// One sample per cycle, that at the first section included, which is the start where that is on it.
     pub section: Vec<Sample>,
     /// Every event in order.
     pub events: Vec<Event>,
@@ -56,7 +57,7 @@ pub struct Simulation {
     pub failure: Option<Failure>,
 }
 
-/// Follows the capsule from `start`, the drive at `phase` [rad], for `cycles` drive cycles.
+/// Follows a case that starts on its section, at `phase` of the drive [rad], as [`simulate_case`] does.
 pub fn simulate(
     parameters: &Parameters,
     phase: f64,
@@ -64,33 +65,44 @@ pub fn simulate(
     cycles: u64,
     tolerance: f64,
 ) -> Simulation {
+    simulate_case(&Case::at_section(parameters.clone(), start, phase), cycles, tolerance)
+}
+
+/// Follows the capsule from the start of `case` to the first section, and for `cycles` drive cycles from
+/// there. Times and sums are counted from the start.
+pub fn simulate_case(case: &Case, cycles: u64, tolerance: f64) -> Simulation {
+    let Case { parameters, section_phase, .. } = case;
     match parameters.switching {
         Switching::Filippov => {
-            let system = Capsule::single(parameters, phase);
-            simulate_on(&system, parameters, start, cycles, tolerance)
+            simulate_on(&Capsule::single(parameters, *section_phase), case, cycles, tolerance)
         }
-        Switching::AsPrinted => {
-            let system = PrintedCapsule::single(parameters, phase);
-            simulate_on(&system, parameters, start, cycles, tolerance)
-        }
+        Switching::AsPrinted => simulate_on(
+            &PrintedCapsule::single(parameters, *section_phase),
+            case,
+            cycles,
+            tolerance,
+        ),
     }
 }
 
 fn simulate_on<S: Locomotion + Stroboscopic<f64, 3>>(
     system: &S,
-    parameters: &Parameters,
-    start: State<f64>,
+    case: &Case,
     cycles: u64,
     tolerance: f64,
 ) -> Simulation {
-    let drive_period = parameters.drive_period();
-    let mut account = Account::new(parameters, 0);
-    let mut trajectory = Trajectory::new(system, start, tolerance);
-    let mut events = Vec::new();
-    let mut section = vec![sample(&trajectory, &account, drive_period)];
+    let mut account = Account::new(&case.parameters, 0);
+    let mut trajectory = case.trajectory(system, tolerance);
+    let (mut section, mut events) = (Vec::new(), Vec::new());
     let mut failure = None;
-    for n in 0..cycles {
-        let begun = n as f64 * drive_period;
+    loop {
+        if trajectory.is_at_section() {
+            section.push(sample(&trajectory, &account));
+        }
+        if section.len() as u64 > cycles {
+            break;
+        }
+        let begun = trajectory.cycle_began();
         let followed = trajectory.cycle(|step| {
             account.see(system, step);
             if let Some(kind) = EventKind::from_code(step.event) {
@@ -101,7 +113,6 @@ fn simulate_on<S: Locomotion + Stroboscopic<f64, 3>>(
             failure = Some(why);
             break;
         }
-        section.push(sample(&trajectory, &account, drive_period));
     }
     Simulation { section, events, failure }
 }
@@ -109,13 +120,11 @@ fn simulate_on<S: Locomotion + Stroboscopic<f64, 3>>(
 fn sample<S: Locomotion + Stroboscopic<f64, 3>>(
     trajectory: &Trajectory<'_, S, 3>,
     account: &Account,
-    drive_period: f64,
 ) -> Sample {
     let State { r, y1, x2, y2 } = trajectory.state();
-    let n = trajectory.cycles;
     Sample {
-        n,
-        t: n as f64 * drive_period,
+        n: trajectory.progress.cycles,
+        t: trajectory.cycle_began(),
         r,
         y1,
         x2,

@@ -10,6 +10,7 @@ mod figure;
 mod follow;
 mod inspect;
 mod join;
+mod phases;
 mod progress;
 mod simulate;
 mod slurm;

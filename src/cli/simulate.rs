@@ -8,11 +8,12 @@ use serde_json::{Map, Value, json};
 
 use super::arguments::{named, plain_or_quantity};
 use super::failure::Failure;
+use super::phases::Phases;
 use super::terminal::{print, tell};
 use crate::campaign::{CampaignError, Replay, read_study, silent};
 use crate::capsule::{
     Case, Dimension, Orbit, Output, Parameter, Parameters, Resistance, Simulation, State,
-    Switching, settle, simulate,
+    Switching, settle_case, simulate_case,
 };
 use crate::orbit::{Certificate, Outcome, Proof, Protocol};
 use crate::run::Machine;
@@ -34,7 +35,8 @@ A number without a unit is in SI. What is not given is as in the paper's Table 1
 pub struct Simulate {
     /// Take a case of this study, with its parameters, its start and the study's protocol.
     #[arg(long, value_name = "STUDY", requires = "case", conflicts_with_all = ["omega", "p_d", "k2",
-        "delta", "set", "phase", "tolerance", "max_cycles", "friction_switching", "resistance"])]
+        "delta", "set", "phase", "start_phase", "section_phase", "tolerance", "max_cycles",
+        "friction_switching", "resistance"])]
     study: Option<PathBuf>,
     /// Its number, counted from 0 with the last axis fastest, as failures are told.
     #[arg(long, requires = "study")]
@@ -58,9 +60,8 @@ pub struct Simulate {
     /// Start of the motion (r, y1, x2, y2); at rest by default.
     #[arg(long, value_name = "NAME=VALUE,...", allow_hyphen_values = true)]
     start: Option<String>,
-    /// Phase of the drive at t = 0, as "90 deg".
-    #[arg(long, value_name = "QUANTITY", default_value = "0", allow_hyphen_values = true)]
-    phase: String,
+    #[command(flatten)]
+    phases: Phases,
     /// Drive cycles to follow in full.
     #[arg(long, default_value_t = 20)]
     cycles: u64,
@@ -95,17 +96,17 @@ impl Simulate {
             Some(study) => self.studied(study)?,
             None => self.request()?,
         };
-        let Case { parameters, start, phase } = case;
+        let parameters = &case.parameters;
         let drag = parameters.drag();
         if drag.static_limit < drag.at_onset {
             let force = parameters.break_away();
             tell(&format!("note: mu_s is below the friction at onset; rest ends at {force} N"));
         }
-        let simulation = simulate(&parameters, phase, start, self.cycles, protocol.tolerance);
-        let orbit = settle(&parameters, phase, start, &protocol);
+        let simulation = simulate_case(&case, self.cycles, protocol.tolerance);
+        let orbit = settle_case(&case, &protocol);
         if self.json {
             let object = json!({
-                "parameters": parameters_json(&parameters),
+                "parameters": parameters_json(parameters),
                 "section": simulation.section,
                 "events": simulation.events,
                 "failure": failure_json(&simulation),
@@ -113,7 +114,7 @@ impl Simulate {
             });
             print(&format!("{object:#}\n"))
         } else {
-            print(&summary(&parameters, &simulation, &orbit))
+            print(&summary(parameters, &simulation, &orbit))
         }
     }
 
@@ -179,7 +180,7 @@ impl Simulate {
             parameters[*parameter] = value.unwrap_or(parameters[*parameter]);
         }
         let start = self.start(&mut faults);
-        let phase = quantity("--phase", &self.phase, Dimension::Angle, &mut faults).unwrap_or(0.0);
+        let [start_phase, section_phase] = self.phases.read(&mut faults);
         if !Protocol::TOLERANCES.contains(&self.tolerance) {
             faults.push(format!("--tolerance {}: must lie between 1e-15 and 1e-3", self.tolerance));
         }
@@ -189,7 +190,8 @@ impl Simulate {
                 max_cycles: self.max_cycles,
                 ..Protocol::with_tolerance(self.tolerance)
             };
-            Ok(Request { case: Case { parameters, start, phase }, protocol })
+            let case = Case { parameters, start, start_phase, section_phase };
+            Ok(Request { case, protocol })
         } else {
             Err(Failure::requests(&faults))
         }

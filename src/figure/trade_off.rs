@@ -17,7 +17,7 @@ use super::style::{BLUE, CURVE_WIDTH, INK, ONE_COLUMN, VERMILION};
 use super::text::Text;
 use super::view::View;
 use crate::capsule::Output;
-use crate::store::catalogue::Entry;
+use crate::store::catalogue::{DRAW, Entry};
 use crate::study::Drawing;
 use crate::tradeoff::front;
 
@@ -127,7 +127,7 @@ fn fastest(view: &View<'_>, cases: &[Case], free: &[&str]) -> Option<(usize, Vec
 /// The colours of an axis, and the axis' value for each case.
 fn hue(view: &View<'_>, free: &[&str]) -> Result<Option<(Colours, Vec<f64>)>, FigureError> {
     let wanted = view.drawing.x.as_deref();
-    let long = |name: &&&str| view.coordinate_values(name).len() > 1;
+    let long = |name: &&&str| **name != DRAW.name && view.coordinate_values(name).len() > 1;
     let Some(name) = wanted.or_else(|| free.iter().find(long).copied()) else {
         return Ok(None);
     };

@@ -6,7 +6,7 @@ use super::error::FigureError;
 use super::quantity::Quantity;
 use super::text::Text;
 use super::varied::varied;
-use crate::store::catalogue::{self, DIRECTION, Extent, HISTORY_TIME};
+use crate::store::catalogue::{self, DIRECTION, DRAW, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::study::Drawing;
 
@@ -72,7 +72,10 @@ impl<'a> View<'a> {
 
     /// The axes a diagram runs along by default: those that are free and not the direction of a sweep.
     pub fn drawable_axes(&self) -> Vec<&'a str> {
-        self.free_axes().into_iter().filter(|name| *name != DIRECTION.name).collect()
+        self.free_axes()
+            .into_iter()
+            .filter(|name| ![DIRECTION.name, DRAW.name].contains(name))
+            .collect()
     }
 
     /// What a figure shows, in a sentence kept inside its files.

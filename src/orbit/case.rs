@@ -11,8 +11,18 @@ use super::{Certificate, Exponent, Failure};
 pub struct Case<M: System<D>, const D: usize> {
     /// Its parameters.
     pub system: M,
-    /// Where it starts, at the section.
+    /// Where it starts.
     pub start: M::State<f64>,
+    /// When it starts, after the last passage of the section [s]; zero where it starts at the section, as an
+    /// autonomous system does.
+    pub begins: f64,
+}
+
+impl<M: System<D>, const D: usize> Case<M, D> {
+    /// A case that starts at its section.
+    pub fn new(system: M, start: M::State<f64>) -> Self {
+        Case { system, start, begins: 0.0 }
+    }
 }
 
 /// What a case settled to: states of the kind `S`, an observer `O`, `D` coordinates of the section.
@@ -34,7 +44,7 @@ pub struct Orbit<S, O, const D: usize> {
     pub defect: f64,
     /// Size of the motion at the section, in the units of the metric.
     pub size: f64,
-    /// Cycles followed, measuring included.
+    /// Cycles followed since the first section, measuring included.
     pub cycles: u64,
     /// Cycles over which it was measured.
     pub measured_cycles: u64,

@@ -102,7 +102,7 @@ pub(super) fn conclude<M: System<D>, const D: usize>(
     measured.unwrap_or_else(|failure| {
         let state = trajectory.state();
         let observed = case.system.observer(0);
-        Orbit { cycles: trajectory.cycles, ..Orbit::failed(failure, state, observed) }
+        Orbit { cycles: trajectory.progress.cycles, ..Orbit::failed(failure, state, observed) }
     })
 }
 
@@ -122,7 +122,7 @@ fn judge<M: System<D>, const D: usize>(
             }
         }
         Found::Followed(wandering) => {
-            trajectory.cycles += wandering.cycles;
+            trajectory.progress.cycles += wandering.cycles;
             let outcome = wandering.outcome();
             // A period too long for the recurrence of sections, or one that is approached slowly.
             let recurs = wandering.recurs.filter(|_| outcome != Outcome::Chaotic);
@@ -163,7 +163,7 @@ fn certified<M: System<D>, const D: usize>(
 ) -> Option<Verdict<D>> {
     let orbit = certify(&case.system, section, &settled, protocol)?;
     trajectory.leap(orbit.section);
-    trajectory.cycles += orbit.cycles;
+    trajectory.progress.cycles += orbit.cycles;
     Some(Verdict::periodic(orbit.period, (orbit.multipliers, orbit.neutral), settled.size))
 }
 
@@ -231,7 +231,7 @@ fn measure<M: System<D>, const D: usize>(
         residual: certificate.residual,
         defect,
         size,
-        cycles: trajectory.cycles,
+        cycles: trajectory.progress.cycles,
         measured_cycles: verdict.cycles,
         duration,
         section,

@@ -31,9 +31,12 @@ impl<M: System<D>, const D: usize> Underway<M, D> {
     pub fn new(number: usize, case: Case<M, D>, protocol: &Protocol) -> Self {
         let mut settling = Settling::new(protocol, case.system.metric());
         let system = case.system.single();
-        let motion = Motion::new(&system, 0.0, case.start);
-        settling.meet(M::Single::point(&motion.state));
-        Underway { number, case, system, motion, settling, progress: Progress::default() }
+        let motion = Motion::new(&system, case.begins, case.start);
+        if case.begins == 0.0 {
+            settling.meet(M::Single::point(&motion.state));
+        }
+        let progress = Progress::begun(case.begins);
+        Underway { number, case, system, motion, settling, progress }
     }
 
     /// The number that its owner knows it by.
@@ -220,8 +223,7 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
     /// Takes note of the section point that the case in `lane` has reached.
     fn end_cycle(&mut self, lane: usize, state: &M::State<f64>, duration: f64) {
         let case = self.occupants[lane].as_mut().expect("the lane is occupied");
-        case.progress.cycles += 1;
-        case.progress.elapsed += duration;
+        case.progress.count(duration);
         self.cycle_began[lane] = self.steps;
         let exhausted = case.progress.cycles >= self.cases.protocol.max_cycles;
         match case.settling.meet(M::Single::point(state)) {

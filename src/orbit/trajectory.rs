@@ -13,18 +13,47 @@ pub struct Failure<S> {
     pub state: S,
 }
 
+/// How far a case has come.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Progress {
+    /// Whole cycles since the first section.
+    pub cycles: u64,
+    /// Steps taken in the cycle so far.
+    pub steps: u64,
+    /// Duration of the whole cycles [s].
+    pub elapsed: f64,
+    /// Time of the first section since the start [s]; on the way there the time, below zero, of the section
+    /// before the start.
+    pub origin: f64,
+}
+
+impl Progress {
+    /// That of a case which starts so long after a section [s].
+    pub fn begun(time: f64) -> Self {
+        Progress { origin: 0.0 - time, ..Progress::default() }
+    }
+
+    /// Counts a cycle of this duration, unless it is the part of one that leads from the start to the first
+    /// section.
+    pub fn count(&mut self, duration: f64) {
+        self.steps = 0;
+        if self.origin < 0.0 {
+            self.origin += duration;
+        } else {
+            self.cycles += 1;
+            self.elapsed += duration;
+        }
+    }
+}
+
 /// A case on its way.
 pub struct Trajectory<'a, S: Stroboscopic<f64, D>, const D: usize> {
     system: &'a S,
     motion: Motion<f64, S>,
     step: Step<f64, S>,
     tolerance: f64,
-    /// Whole cycles since the start.
-    pub cycles: u64,
-    /// Steps taken in the cycle so far.
-    steps: u64,
-    /// Duration of the whole cycles of an autonomous system [s].
-    elapsed: f64,
+    /// How far it has come.
+    pub progress: Progress,
 }
 
 /// The motion from another point of the section than that of `state`; what the section leaves out stays.
@@ -39,7 +68,13 @@ pub fn leap<S: Stroboscopic<f64, D>, const D: usize>(
 impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
     /// Sets out from `start` at the section; relative local `tolerance`.
     pub fn new(system: &'a S, start: S::State, tolerance: f64) -> Self {
-        Trajectory::resume(system, Motion::new(system, 0.0, start), Progress::default(), tolerance)
+        Trajectory::begun(system, start, 0.0, tolerance)
+    }
+
+    /// Sets out so long after a section [s]; the first cycle is then the rest of one.
+    pub fn begun(system: &'a S, start: S::State, time: f64, tolerance: f64) -> Self {
+        let motion = Motion::new(system, time, start);
+        Trajectory::resume(system, motion, Progress::begun(time), tolerance)
     }
 
     /// Goes on with a `motion` under way.
@@ -49,8 +84,7 @@ impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
         progress: Progress,
         tolerance: f64,
     ) -> Self {
-        let Progress { cycles, steps, elapsed } = progress;
-        Trajectory { system, motion, step: Step::default(), tolerance, cycles, steps, elapsed }
+        Trajectory { system, motion, step: Step::default(), tolerance, progress }
     }
 
     /// The system that moves.
@@ -68,9 +102,20 @@ impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
         S::point(&self.motion.state)
     }
 
-    /// Time since the start, whole cycles only [s].
+    /// Whether a cycle has just ended or is about to begin.
+    pub fn is_at_section(&self) -> bool {
+        self.motion.time == 0.0
+    }
+
+    /// Duration of the whole cycles [s].
     pub fn elapsed(&self) -> f64 {
-        if S::AUTONOMOUS { self.elapsed } else { self.cycles as f64 * self.system.period() }
+        let Progress { cycles, elapsed, .. } = self.progress;
+        if S::AUTONOMOUS { elapsed } else { cycles as f64 * self.system.period() }
+    }
+
+    /// Time of the last section since the start [s].
+    pub fn cycle_began(&self) -> f64 {
+        self.progress.origin + self.elapsed()
     }
 
     /// Goes on from another point of the section, at the beginning of a cycle.
@@ -80,12 +125,10 @@ impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
 
     /// Goes on to the end of the cycle and shows each step to `see`.
     pub fn cycle(&mut self, see: impl FnMut(&Step<f64, S>)) -> Result<(), Failure<S::State>> {
-        let Trajectory { system, motion, step, steps, tolerance, .. } = self;
-        match cycle(*system, motion, step, (*steps, *tolerance), see) {
+        let Trajectory { system, motion, step, tolerance, progress } = self;
+        match cycle(*system, motion, step, (progress.steps, *tolerance), see) {
             Ok(duration) => {
-                self.cycles += 1;
-                self.steps = 0;
-                self.elapsed += duration;
+                progress.count(duration);
                 Ok(())
             }
             Err(reason) => Err(self.failure(reason)),
@@ -100,18 +143,7 @@ impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
 
     /// Tells where it is when it cannot go on.
     pub(super) fn failure(&self, reason: Reason) -> Failure<S::State> {
-        let time = self.elapsed() + self.motion.time;
+        let time = self.cycle_began() + self.motion.time;
         Failure { reason, time, state: self.motion.state }
     }
-}
-
-/// How far a case has come.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Progress {
-    /// Whole cycles since the start.
-    pub cycles: u64,
-    /// Steps of the next.
-    pub steps: u64,
-    /// Duration of the whole cycles [s].
-    pub elapsed: f64,
 }

@@ -15,8 +15,8 @@ use super::family::{Links, Neighbours};
 use super::natural::{Along, ROUNDING};
 use super::{Ending, Machine};
 use crate::attractor::Table;
-use crate::study::layout::{Layout, is_start, linked_axis};
-use crate::study::{Coordinate, Study};
+use crate::study::layout::{Layout, linked_axis};
+use crate::study::{CaseSet, Coordinate, Study};
 
 /// A change of an attractor along the axis, or its beginning or end.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,9 +60,15 @@ pub struct Attractors {
 }
 
 /// Whether there are attractors to be told apart or followed: an axis is followed, or the only parameter that
-/// varies, or cases differ in their start.
+/// varies, or cases differ in their start; of draws, in their start alone.
 pub fn has_attractors(study: &Study) -> bool {
-    linked_axis(study).is_some() || study.axes.iter().any(|axis| is_start(axis.coordinate))
+    let varied = study.case_set.varied();
+    match study.case_set {
+        CaseSet::Grid(_) => {
+            linked_axis(study).is_some() || varied.iter().any(|coordinate| coordinate.is_start())
+        }
+        CaseSet::Draws(_) => varied.iter().all(|coordinate| coordinate.is_start()),
+    }
 }
 
 /// Pairs of neighbouring cells between which attractors are linked.
@@ -167,12 +173,12 @@ impl<'a> Line<'a> {
         'a: 'b,
     {
         let Line { study, layout, number } = *self;
-        let axis = &study.axes[layout.axis?];
+        let axis = &study.axes()[layout.axis?];
         let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
         let case = study.case(layout.case(number, at, 0));
         let along = Along { case, parameter, protocol: &study.protocol, reading: PhantomData };
         let values = [axis.values[at], axis.values[at + 1]];
-        let directions = study.follow.as_ref().map_or(&[][..], |follow| &follow.directions);
+        let directions = study.follow().map_or(&[][..], |follow| &follow.directions);
         Some(Neighbours { along, values, cells: [&cells[at], &cells[at + 1]], directions })
     }
 

@@ -12,7 +12,7 @@ use crate::capsule::{AsPrinted, CapsuleSystem, Case, Filippov, Orbit, Reading, S
 use crate::lane::Instructions;
 use crate::orbit::{self, Machine, OrbitOf, Outcome, Queue, Underway, settle_side_by_side};
 use crate::study::Study;
-use crate::study::study::Chain;
+use crate::study::grid::Chain;
 
 /// What came of one case.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +21,8 @@ pub struct Record {
     pub index: usize,
     /// Where it started: as the study says, or where its neighbour settled.
     pub start: State<f64>,
+    /// Phase of the drive there [rad].
+    pub start_phase: f64,
     /// What it settled to.
     pub orbit: Orbit,
 }
@@ -185,7 +187,8 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
         let orbit = Orbit::of::<R>(orbit, &case, &self.study.protocol);
         // After a failure the next case starts afresh.
         let settled = (orbit.outcome != Outcome::Failed).then_some(orbit.end);
-        if (self.keep)(block, Record { index, start: case.start, orbit }).is_break() {
+        let Case { start, start_phase, .. } = case;
+        if (self.keep)(block, Record { index, start, start_phase, orbit }).is_break() {
             self.stopped.store(true, Ordering::Relaxed);
         }
         self.depart(block, rest, settled)
@@ -198,7 +201,9 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
         let index = chain.next()?;
         let mut case = self.study.case(index);
         if let Some(from) = from {
+            // A case that settled was left on its section.
             case.start = State { x2: case.start.x2, ..from };
+            case.start_phase = case.section_phase;
         }
         Some(Link { block, index, case, rest: chain })
     }

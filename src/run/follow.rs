@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::branch::NotFollowed;
 use crate::capsule::branch::{self, Found};
-use crate::capsule::{REASONS, Section, settle};
+use crate::capsule::{Case, REASONS, Section, settle_case};
 use crate::flow::Reason;
 use crate::orbit::{Outcome, Protocol};
 
@@ -88,12 +88,12 @@ fn follow_one(continuation: &Continuation, protocol: &Protocol) -> Followed {
 }
 
 /// A section point and the period of the orbit that the motion settles to.
-fn settled(
-    Continuation { parameters, phase, start, .. }: &Continuation,
-    protocol: &Protocol,
-) -> Result<(Section, u64), Unfollowed> {
+fn settled(continuation: &Continuation, protocol: &Protocol) -> Result<(Section, u64), Unfollowed> {
     let protocol = Protocol { points: 1, impact_points: 0, history: None, ..*protocol };
-    let orbit = settle(parameters, *phase, *start, &protocol);
+    let Continuation { start, start_phase, section_phase, .. } = *continuation;
+    let parameters = continuation.parameters.clone();
+    let case = Case { parameters, start, start_phase, section_phase };
+    let orbit = settle_case(&case, &protocol);
     match (orbit.outcome, orbit.section.first(), orbit.failure) {
         (Outcome::Periodic, Some(&section), _) => Ok((section, orbit.period)),
         (_, _, Some(failure)) => Err(Unfollowed::Failed(failure.reason)),

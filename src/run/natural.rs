@@ -204,12 +204,12 @@ impl<R: Reading> Along<'_, R> {
         &self,
         value: Dual<f64, N>,
     ) -> <CapsuleSystem<R> as System<3>>::In<Dual<f64, N>> {
-        let Case { parameters, phase, .. } = &self.case;
+        let Case { parameters, section_phase, .. } = &self.case;
         let of = |parameter: Parameter| match parameter == self.parameter {
             true => value,
             false => Dual::constant(parameters[parameter]),
         };
-        R::capsule(of, parameters.resistance, *phase)
+        R::capsule(of, parameters.resistance, *section_phase)
     }
 
     fn cycles(&self, count: usize) -> Cycles {
@@ -238,7 +238,7 @@ impl<R: Reading> Along<'_, R> {
 
     /// How far two section points are apart at a value of the parameter.
     pub fn metric(&self, value: f64) -> Metric<3> {
-        let system = CapsuleSystem::<R>::new(self.case.parameters.clone(), self.case.phase);
+        let system = self.case.read::<R>().system;
         system.with(self.parameter, value).metric()
     }
 

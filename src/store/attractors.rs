@@ -6,8 +6,8 @@ use crate::run::{AttractorEvent, Attractors};
 use crate::study::{Coordinate, Study};
 
 use super::catalogue::{
-    ATTRACTOR, ATTRACTOR_AXIS, DIRECTION, EVENT, EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD,
-    EVENT_UNCERTAINTY, Entry, Place, SECTION,
+    ATTRACTOR, ATTRACTOR_AXIS, EVENT, EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, EVENT_UNCERTAINTY,
+    Entry, Place, SECTION,
 };
 use super::{Dataset, Values};
 
@@ -16,14 +16,12 @@ use super::{Dataset, Values};
 /// A column for each parameter on an axis says where the event is; that of the axis along which attractors
 /// are followed was bisected to the uncertainty given. Without events there is no table.
 pub fn add_attractors(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
-    let axes = study.axes.iter().map(|axis| axis.coordinate.name());
-    let dimensions: Vec<&str> =
-        axes.chain(study.direction_axis().map(|_| DIRECTION.name)).collect();
+    let dimensions = study.dimensions();
     let number = |of: &Option<u32>| of.map_or(-1, i64::from);
     let numbers = attractors.of_case.iter().map(number).collect();
     let array = ArrayD::from_shape_vec(IxDyn(&study.shape()), numbers).expect("one per case");
     if let Some(axis) = attractors.axis {
-        let name = study.axes[axis].coordinate.name().to_owned();
+        let name = study.axes()[axis].coordinate.name().to_owned();
         dataset.attributes.insert(ATTRACTOR_AXIS.to_owned(), name);
     }
     dataset.put(ATTRACTOR, &dimensions, Values::Integer(array));
@@ -46,7 +44,7 @@ fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
         let values = Values::reals(events.iter().map(of).collect());
         dataset.put_column(entry, values);
     };
-    for (place, axis) in study.axes.iter().enumerate() {
+    for (place, axis) in study.axes().iter().enumerate() {
         if let Coordinate::Parameter(parameter) = axis.coordinate {
             let at = |event: &AttractorEvent| match attractors.axis == Some(place) {
                 true => event.value,
@@ -59,7 +57,7 @@ fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
         real(Place::Event.of(entry), &|event| event.section[i]);
     }
     let uncertainties = events.iter().map(|event| event.uncertainty).collect();
-    let followed = attractors.axis.map(|axis| study.axes[axis].coordinate);
+    let followed = attractors.axis.map(|axis| study.axes()[axis].coordinate);
     let unit = followed.map_or("1", |coordinate| coordinate.dimension().unit());
     dataset.put_column(EVENT_UNCERTAINTY, Values::reals(uncertainties)).unit = unit.to_owned();
 }

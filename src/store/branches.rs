@@ -96,7 +96,7 @@ fn add_requests(dataset: &mut Dataset, study: &Study, followed: &[Followed]) {
     let branches = &study.branches;
     integers(dataset, REQUEST_RESULT, followed.iter().map(result));
     integers(dataset, REQUEST_ALONG, branches.iter().map(|branch| branch.along as i64));
-    reals(dataset, REQUEST_PHASE, branches.iter().map(|branch| branch.phase));
+    reals(dataset, REQUEST_PHASE, branches.iter().map(|branch| branch.section_phase));
     for &parameter in Parameter::ALL {
         let values = branches.iter().map(|branch| branch.parameters[parameter]);
         reals(dataset, Place::Request.of(Entry::of_parameter(parameter)), values);

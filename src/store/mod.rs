@@ -8,6 +8,7 @@ pub mod catalogue;
 pub mod dataset;
 mod decode;
 mod difference;
+mod drawn;
 mod encode;
 mod error;
 mod faults;

@@ -6,11 +6,11 @@ use crate::capsule::{History, Impact, Orbit, State};
 use crate::orbit::Certificate;
 use crate::orbit::matrix::Complex;
 use crate::run::Record;
-use crate::study::{Coordinate, Study};
+use crate::study::{CaseSet, Coordinate, Study};
 
 use super::catalogue::*;
 use super::piece::{Filling, MISSING, Piece};
-use super::{Dataset, Values, Variable, provenance};
+use super::{Dataset, Values, Variable, drawn, provenance};
 
 /// Attribute: tells studies apart whose cases differ, see [`Study::fingerprint`].
 pub const FINGERPRINT: &str = "study_fingerprint";
@@ -18,7 +18,7 @@ pub const FINGERPRINT: &str = "study_fingerprint";
 /// The dataset of a study; `records` holds one record per case, in any order, or fewer.
 ///
 /// Dimensions: the axes of the study, slowest first, then `direction` where the attractor was followed
-/// both ways; after them `point`, `impact_point` or `history_time` for what each case has several of.
+/// both ways, or `draw` alone; after them `point`, `impact_point` or `history_time` for what each case has several of.
 pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
     let mut dataset = frame(study);
     let columns = columns(study, records);
@@ -44,10 +44,9 @@ pub(super) fn over_axes(
     variable: Variable,
     is_partial: bool,
 ) -> Variable {
-    let axes = study.axes.iter().map(|axis| axis.coordinate.name().to_owned());
-    let directions = study.direction_axis().map(|_| DIRECTION.name.to_owned());
+    let outer = study.dimensions().into_iter().map(str::to_owned);
     let inner = variable.dimensions[1..].iter().cloned();
-    let dimensions = axes.chain(directions).chain(inner).collect();
+    let dimensions = outer.chain(inner).collect();
     let mut flags = variable.flags;
     if is_partial && name == OUTCOME.name {
         flags.insert(0, (MISSING.0, MISSING.1.to_owned()));
@@ -143,7 +142,10 @@ impl Table<'_> {
 }
 
 fn add_axes(dataset: &mut Dataset, study: &Study) {
-    for axis in &study.axes {
+    if let CaseSet::Draws(draws) = &study.case_set {
+        drawn::add(dataset, draws);
+    }
+    for axis in study.axes() {
         let values = Values::reals(axis.values.clone());
         dataset.put_coordinate(Entry::of_coordinate(axis.coordinate), values);
     }
@@ -161,7 +163,7 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
 fn add_constants(dataset: &mut Dataset, study: &Study) {
     let State { r, y1, y2, .. } = study.start;
     for constant in Coordinate::all() {
-        if study.axes.iter().any(|axis| axis.coordinate == constant) {
+        if study.case_set.varied().contains(&constant) {
             continue;
         }
         let value = match constant {
@@ -169,7 +171,8 @@ fn add_constants(dataset: &mut Dataset, study: &Study) {
             Coordinate::StartR => r,
             Coordinate::StartY1 => y1,
             Coordinate::StartY2 => y2,
-            Coordinate::Phase => study.phase,
+            Coordinate::StartPhase => study.start_phase,
+            Coordinate::SectionPhase => study.section_phase,
         };
         let values = Values::Real(ArrayD::from_elem(IxDyn(&[]), value));
         dataset.put(Entry::of_coordinate(constant), &[], values);

@@ -1,6 +1,6 @@
 //! An axis of a study: a parameter or a coordinate of the start, and the values it takes.
 
-use crate::capsule::{Allowed, Dimension, Parameter};
+use crate::capsule::{Allowed, Case, Dimension, Parameter};
 
 /// What varies along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,13 +13,23 @@ pub enum Coordinate {
     StartY1,
     /// Velocity of the capsule at the start [m/s].
     StartY2,
-    /// Phase of the drive at the start and at the section [rad].
-    Phase,
+    /// Phase of the drive at the start [rad].
+    StartPhase,
+    /// Phase of the drive at the stroboscopic section [rad].
+    SectionPhase,
 }
 
 impl Coordinate {
-    const STARTS: [Coordinate; 4] =
-        [Coordinate::StartR, Coordinate::StartY1, Coordinate::StartY2, Coordinate::Phase];
+    /// The older name of an axis over [`Coordinate::StartPhase`], which is still read.
+    pub const PHASE: &str = "phase";
+
+    const STARTS: [Coordinate; 5] = [
+        Coordinate::StartR,
+        Coordinate::StartY1,
+        Coordinate::StartY2,
+        Coordinate::StartPhase,
+        Coordinate::SectionPhase,
+    ];
 
     /// Everything that an axis may vary.
     pub fn all() -> impl Iterator<Item = Coordinate> {
@@ -33,8 +43,14 @@ impl Coordinate {
             Coordinate::StartR => "start_r",
             Coordinate::StartY1 => "start_y1",
             Coordinate::StartY2 => "start_y2",
-            Coordinate::Phase => "phase",
+            Coordinate::StartPhase => "start_phase",
+            Coordinate::SectionPhase => "section_phase",
         }
+    }
+
+    /// Whether it tells where a case starts, which does not act on what attractors there are.
+    pub fn is_start(self) -> bool {
+        !matches!(self, Coordinate::Parameter(_) | Coordinate::SectionPhase)
     }
 
     /// What it is, in a phrase.
@@ -44,7 +60,8 @@ impl Coordinate {
             Coordinate::StartR => "relative displacement at the start",
             Coordinate::StartY1 => "velocity of the mass at the start",
             Coordinate::StartY2 => "velocity of the capsule at the start",
-            Coordinate::Phase => "phase of the drive at the start and at the section",
+            Coordinate::StartPhase => "phase of the drive at the start",
+            Coordinate::SectionPhase => "phase of the drive at the stroboscopic section",
         }
     }
 
@@ -54,7 +71,7 @@ impl Coordinate {
             Coordinate::Parameter(parameter) => parameter.dimension(),
             Coordinate::StartR => Dimension::Length,
             Coordinate::StartY1 | Coordinate::StartY2 => Dimension::Velocity,
-            Coordinate::Phase => Dimension::Angle,
+            Coordinate::StartPhase | Coordinate::SectionPhase => Dimension::Angle,
         }
     }
 
@@ -67,6 +84,18 @@ impl Coordinate {
     }
 }
 
+/// Gives `case` a value of what varies (SI).
+pub(super) fn set(case: &mut Case, coordinate: Coordinate, value: f64) {
+    match coordinate {
+        Coordinate::Parameter(parameter) => case.parameters[parameter] = value,
+        Coordinate::StartR => case.start.r = value,
+        Coordinate::StartY1 => case.start.y1 = value,
+        Coordinate::StartY2 => case.start.y2 = value,
+        Coordinate::StartPhase => case.start_phase = value,
+        Coordinate::SectionPhase => case.section_phase = value,
+    }
+}
+
 /// One axis with its values (SI).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
@@ -76,28 +105,46 @@ pub struct Axis {
     pub values: Vec<f64>,
 }
 
-/// `points` values from `from` to `to`, both included, each computed from its index.
-pub fn linear(from: f64, to: f64, points: usize) -> Vec<f64> {
-    spaced(from, to, points, |share| from + (to - from) * share)
+/// What lies evenly between two ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Spacing {
+    /// The values.
+    #[default]
+    Linear,
+    /// Their logarithms; both ends are above zero.
+    Logarithmic,
 }
 
-/// `points` values in constant ratio from `from` to `to`, both included and above zero.
-///
-/// The logarithm and the exponential are those of the `libm` crate, the same on every machine.
-pub fn logarithmic(from: f64, to: f64, points: usize) -> Vec<f64> {
-    let octaves = libm::log2(to / from);
-    spaced(from, to, points, |share| from * libm::exp2(octaves * share))
-}
+impl Spacing {
+    /// Each by its name in studies, in the order of declaration.
+    pub const NAMES: [(&str, Spacing); 2] =
+        [("linear", Spacing::Linear), ("logarithmic", Spacing::Logarithmic)];
 
-fn spaced(from: f64, to: f64, points: usize, at: impl Fn(f64) -> f64) -> Vec<f64> {
-    let last = points.saturating_sub(1);
-    (0..points)
-        .map(|i| match i {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Spacing::NAMES[self as usize].0
+    }
+
+    /// The value at a share of the way from `from` to `to`.
+    ///
+    /// The logarithm and the exponential are those of the `libm` crate, the same on every machine.
+    pub fn at(self, from: f64, to: f64, share: f64) -> f64 {
+        match self {
+            Spacing::Linear => from + (to - from) * share,
+            Spacing::Logarithmic => from * libm::exp2(libm::log2(to / from) * share),
+        }
+    }
+
+    /// `points` values from `from` to `to`, both included, each computed from its index.
+    pub fn values(self, from: f64, to: f64, points: usize) -> Vec<f64> {
+        let last = points.saturating_sub(1);
+        let value = |i: usize| match i {
             0 => from,
             i if i == last => to,
-            i => at(i as f64 / last as f64),
-        })
-        .collect()
+            i => self.at(from, to, i as f64 / last as f64),
+        };
+        (0..points).map(value).collect()
+    }
 }
 
 #[cfg(test)]
@@ -106,15 +153,15 @@ mod tests {
 
     #[test]
     fn spacing_meets_both_ends_and_the_rule_between() {
-        assert_eq!(linear(10.0, 100.0, 4), [10.0, 40.0, 70.0, 100.0]);
-        assert_eq!(linear(3.0, 9.0, 1), [3.0]);
-        let values = logarithmic(1e3, 1e5, 201);
+        assert_eq!(Spacing::Linear.values(10.0, 100.0, 4), [10.0, 40.0, 70.0, 100.0]);
+        assert_eq!(Spacing::Linear.values(3.0, 9.0, 1), [3.0]);
+        let values = Spacing::Logarithmic.values(1e3, 1e5, 201);
         assert_eq!((values[0], values[200]), (1e3, 1e5));
         for (i, value) in values.iter().enumerate() {
             let exact = 1e3 * libm::pow(10.0, i as f64 / 100.0);
             assert!((value / exact - 1.0).abs() < 1e-14, "{i}: {value} {exact}");
         }
-        let falling = logarithmic(8.0, 1.0, 4);
+        let falling = Spacing::Logarithmic.values(8.0, 1.0, 4);
         assert!((falling[1] - 4.0).abs() < 1e-14 && (falling[2] - 2.0).abs() < 1e-14);
     }
 }

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Allowed, Dimension, Parameter, Parameters, State};
+use crate::capsule::{Dimension, Parameter, Parameters};
 
 use super::continuation::{Continuation, FirstOrbit};
 use super::document::{Entry, Table, unknown};
 
-use super::study_file::allowed_quantity;
-use super::{Axis, Coordinate};
+use super::start_file::{Start, read_state};
+use super::{CaseSet, Coordinate};
 
 /// Longest step unless another is asked for, as a share of the range.
 const LONGEST_STEP: f64 = 0.02;
@@ -27,26 +27,23 @@ const LONGEST_PERIOD: u64 = 100_000;
 
 /// What the rest of the study gives to its branches.
 pub(super) struct Surroundings<'s> {
-    /// Its axes.
-    pub axes: &'s [Axis],
+    /// Its cases.
+    pub case_set: &'s CaseSet,
     /// Values of the parameters that no axis varies.
     pub base: &'s Parameters,
     /// Where its cases start.
-    pub start: State<f64>,
-    /// Phase of the drive there [rad].
-    pub phase: f64,
+    pub start: Start,
 }
 
 impl Surroundings<'_> {
-    fn axis(&self, parameter: Parameter) -> Option<&Axis> {
-        self.axes.iter().find(|axis| axis.coordinate == Coordinate::Parameter(parameter))
+    /// Whether an axis varies `parameter`.
+    fn varies(&self, parameter: Parameter) -> bool {
+        self.case_set.varied().contains(&Coordinate::Parameter(parameter))
     }
 
     /// The ends of the axis over `parameter`, the lesser first.
     fn ends(&self, parameter: Parameter) -> Option<[f64; 2]> {
-        let values = self.axis(parameter)?.values.iter().copied();
-        let low = values.clone().reduce(f64::min)?;
-        Some([low, values.reduce(f64::max)?])
+        self.case_set.ends(Coordinate::Parameter(parameter))
     }
 }
 
@@ -92,7 +89,14 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
     let range = along.and_then(|along| read_range(table, along, study));
     let at = table.table("at");
     let parameters = read_place(table, at.as_ref(), study, &varied);
-    let (start, phase) = read_start(table, study);
+    let start = match table.table("start") {
+        Some(table) => {
+            let start = read_state(&table, study.start, &[]);
+            table.finish();
+            start
+        }
+        None => study.start,
+    };
     let first = read_first(table);
     let (longest_step, most_points) = read_steps(table);
     let doublings = table.entry("doublings").and_then(|entry| entry.whole(0, MOST_DOUBLINGS));
@@ -110,8 +114,9 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
         along,
         range,
         parameters,
-        start,
-        phase,
+        start: start.state,
+        start_phase: start.start_phase,
+        section_phase: start.section_phase,
         first,
         doublings: doublings.unwrap_or(0) as u32,
         second,
@@ -140,14 +145,14 @@ fn read_range(
     let end = |key: &str, usual: Option<f64>| {
         let Some(entry) = table.entry(key) else {
             // An axis without values has had its fault told.
-            if study.axis(parameter).is_none() {
+            if !study.varies(parameter) {
                 let expected =
                     format!("a value, as no axis varies the {} here", parameter.meaning());
                 table.missing(key, &expected);
             }
             return usual;
         };
-        allowed_quantity(&entry, parameter.dimension(), parameter.allowed())
+        entry.allowed_quantity(parameter.dimension(), parameter.allowed())
     };
     let (from, to) = (end("from", ends.map(|ends| ends[0])), end("to", ends.map(|ends| ends[1])));
     let (from, to) = (from?, to?);
@@ -189,7 +194,7 @@ fn read_place(
 ) -> Option<Parameters> {
     let mut parameters = study.base.clone();
     let mut complete = true;
-    let on_axis = |parameter: &&Parameter| study.axis(**parameter).is_some();
+    let on_axis = |parameter: &&Parameter| study.varies(**parameter);
     let open: Vec<Parameter> = Parameter::ALL.iter().filter(on_axis).copied().collect();
     let given: BTreeMap<String, Entry<'_, '_>> =
         at.map(Table::entries).unwrap_or_default().into_iter().collect();
@@ -197,7 +202,7 @@ fn read_place(
     for (name, entry) in &given {
         match Parameter::named(name).filter(|it| open.contains(it) || varied.contains(it)) {
             Some(parameter) => {
-                let value = allowed_quantity(entry, parameter.dimension(), parameter.allowed());
+                let value = entry.allowed_quantity(parameter.dimension(), parameter.allowed());
                 parameters[parameter] = value.unwrap_or(parameters[parameter]);
                 complete &= value.is_some();
             }
@@ -241,25 +246,6 @@ fn check_within(
         format!("the first orbit, at {symbol} = {value}{unit}, lies outside {from} to {to}{unit}");
     let given = at.and_then(|at| at.entry(symbol)).or_else(|| table.entry("name"));
     given.into_iter().for_each(|entry| entry.fault(&message));
-}
-
-/// Where the first orbit is looked for, and the phase of the section.
-fn read_start(table: &Table<'_, '_>, study: &Surroundings<'_>) -> (State<f64>, f64) {
-    let (mut start, mut phase) = (study.start, study.phase);
-    let Some(table) = table.table("start") else { return (start, phase) };
-    let places = [
-        ("r", Coordinate::StartR, &mut start.r),
-        ("y1", Coordinate::StartY1, &mut start.y1),
-        ("y2", Coordinate::StartY2, &mut start.y2),
-        ("phase", Coordinate::Phase, &mut phase),
-    ];
-    for (key, coordinate, place) in places {
-        let Some(entry) = table.entry(key) else { continue };
-        let value = allowed_quantity(&entry, coordinate.dimension(), Allowed::Finite);
-        *place = value.unwrap_or(*place);
-    }
-    table.finish();
-    (start, phase)
 }
 
 fn read_first(table: &Table<'_, '_>) -> FirstOrbit {

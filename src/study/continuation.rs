@@ -28,8 +28,10 @@ pub struct Continuation {
     pub parameters: Parameters,
     /// Where it is looked for.
     pub start: State<f64>,
+    /// Phase of the drive at the start, from where the motion settles [rad].
+    pub start_phase: f64,
     /// Phase of the drive at the section [rad].
-    pub phase: f64,
+    pub section_phase: f64,
     /// How it is found.
     pub first: FirstOrbit,
     /// How often to switch to the branch of twice the period.
@@ -47,7 +49,7 @@ impl Continuation {
     pub fn request(&self, section: Section, period: u64, tolerance: f64) -> Request {
         Request {
             parameters: self.parameters.clone(),
-            phase: self.phase,
+            phase: self.section_phase,
             section,
             period,
             along: self.along,

@@ -6,9 +6,9 @@ use std::fmt;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::capsule::Dimension;
+use crate::capsule::{Allowed, Dimension};
 
-use super::quantity::{expectation, parse_quantity};
+use super::quantity::{expectation, parse_in};
 
 /// One thing wrong in a document.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -241,6 +241,11 @@ impl<'r, 'a> Entry<'r, 'a> {
 
     /// The value as a quantity of `dimension`, in SI.
     pub fn quantity(&self, dimension: Dimension) -> Option<f64> {
+        self.quantity_in(dimension, 1.0)
+    }
+
+    /// The value as a quantity of `dimension`, in a unit of this size in SI.
+    pub fn quantity_in(&self, dimension: Dimension, unit_size: f64) -> Option<f64> {
         if let Some(number) = self.number() {
             if dimension == Dimension::Number {
                 return Some(number);
@@ -250,7 +255,19 @@ impl<'r, 'a> Entry<'r, 'a> {
         }
         let what = format!("{} (as a text in quotes)", expectation(dimension));
         let text = self.expected(self.value.get_ref().as_str(), &what)?;
-        parse_quantity(text, dimension).map_err(|message| self.fault(message)).ok()
+        parse_in(text, dimension, unit_size).map_err(|message| self.fault(message)).ok()
+    }
+
+    /// The value as a quantity of `dimension`, in SI, if it is allowed.
+    pub fn allowed_quantity(&self, dimension: Dimension, allowed: Allowed) -> Option<f64> {
+        let value = self.quantity(dimension)?;
+        if !allowed.admits(value) {
+            let unit = Some(dimension.unit()).filter(|&unit| unit != "1");
+            let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+            self.fault(format!("{value}{unit} must be {allowed}"));
+            return None;
+        }
+        Some(value)
     }
 
     /// The value as one of a few names.

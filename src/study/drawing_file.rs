@@ -5,22 +5,28 @@ use std::collections::BTreeMap;
 use crate::capsule::{Dimension, Output, Parameter};
 
 use super::document::{Entry, Table, unknown};
-use super::{Axis, Continuation, Drawing, DrawingKind};
+use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind};
+
+/// The unit of widths [m].
+const MILLIMETRE: f64 = 1e-3;
 
 /// Longest name of a figure [bytes]; with an ending it still is a file name everywhere.
 const LONGEST_NAME: usize = 200;
 
-/// The figures of a study with `axes` and `branches` that keeps `outputs`.
+/// The figures of a study with the cases of `case_set` and `branches` that keeps `outputs`.
 pub(super) fn read_drawings(
     top: &Table<'_, '_>,
-    axes: &[Axis],
+    case_set: &CaseSet,
     branches: &[Continuation],
     outputs: &[Output],
 ) -> Vec<Drawing> {
     let entries = top.entry("figures").map(|entry| entry.list()).unwrap_or_default();
     let mut drawings: Vec<Drawing> = Vec::new();
     for table in entries.iter().filter_map(Entry::table) {
-        let drawing = read_drawing(&table, axes, branches, outputs);
+        let drawing = read_drawing(&table, case_set.axes(), branches, outputs);
+        if let (CaseSet::Draws(_), Some(kind)) = (case_set, table.entry("kind")) {
+            refuse_without_grid(&kind, drawing.kind);
+        }
         let alike = |other: &Drawing| other.name.eq_ignore_ascii_case(&drawing.name);
         if let Some(name) = table.entry("name").filter(|_| drawings.iter().any(alike)) {
             // Not even in capitals: some disks take such names for one.
@@ -30,6 +36,16 @@ pub(super) fn read_drawings(
         drawings.push(drawing);
     }
     drawings
+}
+
+/// Refuses a figure that runs along axes, of which a study with `[draws]` has none.
+fn refuse_without_grid(entry: &Entry<'_, '_>, kind: DrawingKind) {
+    if matches!(kind, DrawingKind::Bifurcation | DrawingKind::Map) {
+        entry.fault(format!(
+            "a figure of the kind {} needs a grid, and `[draws]` makes none; a trade-off shows draws",
+            kind.name()
+        ));
+    }
 }
 
 fn read_drawing(
@@ -59,7 +75,7 @@ fn read_drawing(
         at: table.table("at").map(|at| read_at(&at, axes)).unwrap_or_default(),
         cycles: table.entry("cycles").and_then(|entry| read_cycles(&entry)),
         branches: table.entry("branches").and_then(|entry| entry.truth()).unwrap_or(true),
-        width_mm: table.entry("width").and_then(|e| e.quantity(Dimension::Length)).map(|w| w * 1e3),
+        width_mm: table.entry("width").and_then(|e| e.quantity_in(Dimension::Length, MILLIMETRE)),
     }
 }
 
@@ -77,7 +93,15 @@ fn abscissae(
             names.push(name);
         }
     }
-    names.into_iter().map(|name| (name, name)).collect()
+    let mut names: Vec<_> = names.into_iter().map(|name| (name, name)).collect();
+    names.extend(axes.iter().find_map(older_name));
+    names
+}
+
+/// The older name of an axis with the one that it has now, if it has one.
+fn older_name(axis: &Axis) -> Option<(&'static str, &'static str)> {
+    let has_one = axis.coordinate == Coordinate::StartPhase;
+    has_one.then_some((Coordinate::PHASE, axis.coordinate.name()))
 }
 
 /// A name that can stand before the ending of a file.
@@ -129,10 +153,13 @@ fn read_cycles(entry: &Entry<'_, '_>) -> Option<[f64; 2]> {
 fn read_at(table: &Table<'_, '_>, axes: &[Axis]) -> BTreeMap<String, f64> {
     let mut at = BTreeMap::new();
     for (name, entry) in table.entries() {
-        match axes.iter().find(|axis| axis.coordinate.name() == name) {
+        let is_named = |axis: &&Axis| {
+            axis.coordinate.name() == name || older_name(axis).is_some_and(|it| it.0 == name)
+        };
+        match axes.iter().find(is_named) {
             Some(axis) => {
                 let value = entry.quantity(axis.coordinate.dimension());
-                at.extend(value.map(|value| (name, value)));
+                at.extend(value.map(|value| (axis.coordinate.name().to_owned(), value)));
             }
             None => {
                 let names = axes.iter().map(|axis| axis.coordinate.name());

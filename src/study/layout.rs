@@ -1,6 +1,6 @@
 //! How the cases of a study lie in lines of cells, by arithmetic on their indices.
 
-use super::{Coordinate, Study};
+use super::{CaseSet, Coordinate, Study};
 
 /// Some dimensions of a study, slowest first: the length of each, and how far apart in the index two cases
 /// are that are neighbours along it.
@@ -27,7 +27,7 @@ impl Dimensions {
 /// The lines of a study along the axis of its attractors, each a row of cells.
 ///
 /// The cases of a cell have the same parameters and differ in start and direction only. Without an axis each
-/// cell is a line. Nothing is held per case, as there may be millions.
+/// cell is a line. Draws are one cell where starts alone are drawn, and one cell each otherwise. Nothing is held per case, as there may be millions.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Layout {
     /// The axis, by its place in the study.
@@ -44,10 +44,16 @@ impl Layout {
         let [lines, cells, cases] = std::array::from_fn(|_| Dimensions::default());
         let mut layout = Layout { axis, lines, cells, cases };
         let shape = study.shape();
+        if let CaseSet::Draws(draws) = &study.case_set {
+            let starts = draws.ranges.iter().all(|range| range.coordinate.is_start());
+            let dimensions = if starts { &mut layout.cases } else { &mut layout.lines };
+            dimensions.0.push([draws.count, 1]);
+            return layout;
+        }
         for (place, &length) in shape.iter().enumerate() {
-            let dimensions = match study.axes.get(place) {
+            let dimensions = match study.axes().get(place) {
                 _ if Some(place) == axis => &mut layout.cells,
-                Some(other) if !is_start(other.coordinate) => &mut layout.lines,
+                Some(other) if !other.coordinate.is_start() => &mut layout.lines,
                 // A start, or the directions, which are no axis.
                 _ => &mut layout.cases,
             };
@@ -78,21 +84,16 @@ impl Layout {
     }
 }
 
-/// Whether a coordinate is one of the initial state.
-pub fn is_start(coordinate: Coordinate) -> bool {
-    matches!(coordinate, Coordinate::StartR | Coordinate::StartY1 | Coordinate::StartY2)
-}
-
 /// The axis that is followed, or else the only parameter that varies.
 pub fn linked_axis(study: &Study) -> Option<usize> {
-    if let Some(follow) = &study.follow {
+    if let Some(follow) = study.follow() {
         return Some(follow.axis);
     }
-    let is_parameter = |axis: &usize| !is_start(study.axes[*axis].coordinate);
-    let mut varies = (0..study.axes.len()).filter(is_parameter);
+    let is_parameter = |axis: &usize| !study.axes()[*axis].coordinate.is_start();
+    let mut varies = (0..study.axes().len()).filter(is_parameter);
     let first = varies.next()?;
     let alone = varies.next().is_none();
-    let parameter = matches!(study.axes[first].coordinate, Coordinate::Parameter(_));
+    let parameter = matches!(study.axes()[first].coordinate, Coordinate::Parameter(_));
     (alone && parameter).then_some(first)
 }
 

@@ -1,21 +1,31 @@
 //! Asked: what to compute, from a study's file or from code, as cases by index.
 
 pub mod axis;
+mod axis_file;
 pub mod block;
 mod branch_file;
+pub mod case_set;
 pub mod continuation;
 pub mod document;
 pub mod drawing;
 mod drawing_file;
+pub mod draws;
+pub mod grid;
 pub(crate) mod layout;
 pub mod quantity;
+mod start_file;
 pub mod study;
 mod study_file;
+mod study_text;
+mod toml_text;
 
-pub use axis::{Axis, Coordinate};
+pub use axis::{Axis, Coordinate, Spacing};
 pub use block::spread;
+pub use case_set::CaseSet;
 pub use continuation::{Continuation, FirstOrbit};
 pub use document::{Fault, Faults};
 pub use drawing::{Drawing, DrawingKind};
+pub use draws::{DrawKind, Draws, Range};
+pub use grid::{Direction, Follow, Grid};
 pub use quantity::parse_quantity;
-pub use study::{Direction, Follow, Study};
+pub use study::Study;

@@ -74,6 +74,11 @@ pub fn expectation(dimension: Dimension) -> String {
 /// A missing unit is an error unless the dimension is a plain number. Blanks, `^`, `*` and the dot of
 /// a product do not matter; `µ` is `u`, and a raised 2 is 2.
 pub fn parse_quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
+    parse_in(text, dimension, 1.0)
+}
+
+/// As [`parse_quantity`], but in a unit of another size than that of SI, which is read without rounding.
+pub fn parse_in(text: &str, dimension: Dimension, unit_size: f64) -> Result<f64, String> {
     let (number, unit) = split(text);
     let expected = expectation(dimension);
     let Ok(value) = number.parse::<f64>() else {
@@ -84,7 +89,7 @@ pub fn parse_quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
         units(dimension).iter().find(|(known, _)| plain(known) == unit).map(|&(_, size)| size)
     };
     if let Some(size) = size_in(dimension) {
-        return Ok(value * size);
+        return Ok(value * (size / unit_size));
     }
     let found = match DIMENSIONS.into_iter().find(|&other| size_in(other).is_some()) {
         Some(Dimension::Number) if unit.is_empty() => "has no unit".to_owned(),

@@ -1,4 +1,4 @@
-//! A study: what to compute, as a set of axes over one base case.
+//! A study: what to compute, as a set of cases over one base case.
 
 use std::hash::Hash;
 
@@ -7,41 +7,8 @@ use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 use crate::capsule::{Case, Output, Parameters, State};
 use crate::orbit::Protocol;
 
-use super::{Axis, Continuation, Coordinate, Drawing};
-
-/// The way along an axis in which each case starts where its neighbour settled, or that none does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Direction {
-    /// From the first value to the last.
-    Upward = 0,
-    /// From the last value to the first.
-    Downward,
-    /// Each case starts as the study says.
-    Afresh,
-}
-
-impl Direction {
-    /// All of them, in the order of their numbers.
-    pub const ALL: [Direction; 3] = [Direction::Upward, Direction::Downward, Direction::Afresh];
-
-    /// Its name in studies and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Direction::Upward => "upward",
-            Direction::Downward => "downward",
-            Direction::Afresh => "afresh",
-        }
-    }
-}
-
-/// Following the attractor along an axis, which is how hysteresis is found.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Follow {
-    /// Position of the axis in the study.
-    pub axis: usize,
-    /// In which directions; several of them make one more dimension, `direction`, the last.
-    pub directions: Vec<Direction>,
-}
+use super::grid::Chain;
+use super::{Axis, CaseSet, Continuation, Direction, Drawing, Follow, Grid};
 
 /// What to compute.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,16 +17,16 @@ pub struct Study {
     pub title: String,
     /// The study as it was written.
     pub text: String,
-    /// Values of the parameters that no axis varies.
+    /// Values of the parameters that do not vary.
     pub base: Parameters,
-    /// Start of the cases, where no axis varies it.
+    /// Start of the cases, where it does not vary.
     pub start: State<f64>,
-    /// Phase of the drive at the start [rad].
-    pub phase: f64,
-    /// The axes, slowest first; none for a single case.
-    pub axes: Vec<Axis>,
-    /// Along which axis the attractor is followed, if any.
-    pub follow: Option<Follow>,
+    /// Phase of the drive at the start, where it does not vary [rad].
+    pub start_phase: f64,
+    /// Phase of the drive at the stroboscopic section, where it does not vary [rad].
+    pub section_phase: f64,
+    /// The cases.
+    pub case_set: CaseSet,
     /// How each case is followed and judged.
     pub protocol: Protocol,
     /// The outputs to keep.
@@ -70,39 +37,56 @@ pub struct Study {
     pub drawings: Vec<Drawing>,
 }
 
-/// Indices of cases, each of which starts where the one before has settled.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Chain {
-    first: usize,
-    step: isize,
-    left: usize,
-}
-
-impl Iterator for Chain {
-    type Item = usize;
-
-    fn next(&mut self) -> Option<usize> {
-        self.left = self.left.checked_sub(1)?;
-        let index = self.first;
-        self.first = index.wrapping_add_signed(self.step);
-        Some(index)
+impl Default for Study {
+    /// One case with the default parameters, from rest, all of whose outputs are kept.
+    fn default() -> Self {
+        Study {
+            title: String::new(),
+            text: String::new(),
+            base: Parameters::default(),
+            start: State::default(),
+            start_phase: 0.0,
+            section_phase: 0.0,
+            case_set: CaseSet::default(),
+            protocol: Protocol::default(),
+            outputs: Output::ALL.to_vec(),
+            branches: Vec::new(),
+            drawings: Vec::new(),
+        }
     }
 }
 
 impl Study {
     /// Number of values along each dimension of the results, slowest first.
     pub fn shape(&self) -> Vec<usize> {
-        let mut shape: Vec<usize> = self.axes.iter().map(|axis| axis.values.len()).collect();
-        if let Some(directions) = self.direction_axis() {
-            shape.push(directions.len());
-        }
-        shape
+        self.case_set.shape()
+    }
+
+    /// The names of the dimensions of the results, slowest first.
+    pub fn dimensions(&self) -> Vec<&'static str> {
+        self.case_set.dimensions()
+    }
+
+    /// The axes of a grid, slowest first; none for a single case and for draws.
+    pub fn axes(&self) -> &[Axis] {
+        self.case_set.axes()
+    }
+
+    /// Along which axis the attractor is followed, if any.
+    pub fn follow(&self) -> Option<&Follow> {
+        self.grid()?.follow.as_ref()
     }
 
     /// The directions, where there are several and they make a dimension of the results.
     pub fn direction_axis(&self) -> Option<&[Direction]> {
-        let follow = self.follow.as_ref()?;
-        (follow.directions.len() > 1).then_some(&follow.directions)
+        self.grid()?.direction_axis()
+    }
+
+    fn grid(&self) -> Option<&Grid> {
+        match &self.case_set {
+            CaseSet::Grid(grid) => Some(grid),
+            CaseSet::Draws(_) => None,
+        }
     }
 
     /// Tells studies apart whose cases or records differ in anything; titles, figures, branches and the way
@@ -129,17 +113,13 @@ impl Study {
 
     /// Case `index` with the start that the study gives it, counted with the last dimension fastest.
     pub fn case(&self, index: usize) -> Case {
-        let mut case = Case { parameters: self.base.clone(), start: self.start, phase: self.phase };
-        for (axis, position) in self.axes.iter().zip(self.position(index)) {
-            let value = axis.values[position];
-            match axis.coordinate {
-                Coordinate::Parameter(parameter) => case.parameters[parameter] = value,
-                Coordinate::StartR => case.start.r = value,
-                Coordinate::StartY1 => case.start.y1 = value,
-                Coordinate::StartY2 => case.start.y2 = value,
-                Coordinate::Phase => case.phase = value,
-            }
-        }
+        let mut case = Case {
+            parameters: self.base.clone(),
+            start: self.start,
+            start_phase: self.start_phase,
+            section_phase: self.section_phase,
+        };
+        self.case_set.vary(index, &mut case);
         case
     }
 
@@ -148,74 +128,23 @@ impl Study {
         self.cases() / self.cases_of_group() * self.chains_of_group()
     }
 
-    /// Chains of a group of cases, which differ along the followed axis and in direction only: one for each
-    /// direction that is followed, and one for each case that starts afresh. Where no axis is followed, each
-    /// case is a group.
+    /// Chains of a group of cases: all that must be computed together, see [`Grid`].
     pub(super) fn chains_of_group(&self) -> usize {
-        let Some(follow) = &self.follow else { return 1 };
-        let length = |direction: &Direction| match direction {
-            Direction::Upward | Direction::Downward => 1,
-            Direction::Afresh => self.axes[follow.axis].values.len(),
-        };
-        follow.directions.iter().map(length).sum()
+        self.grid().map_or(1, Grid::chains_of_group)
     }
 
     /// Cases of such a group.
     pub(super) fn cases_of_group(&self) -> usize {
-        let follow = self.follow.as_ref();
-        follow.map_or(1, |it| self.axes[it.axis].values.len() * it.directions.len())
+        self.grid().map_or(1, Grid::cases_of_group)
     }
 
     /// The cases of chain `number`, to be run in order; a chain is one case where none is followed.
     pub fn chain(&self, number: usize) -> Chain {
-        let Some(follow) = &self.follow else {
-            return Chain { first: number, step: 0, left: 1 };
-        };
-        let length = self.axes[follow.axis].values.len();
-        let stride: usize = self.shape()[follow.axis + 1..].iter().product();
-        let inner = stride / follow.directions.len();
-        let (group, mut left) = (number / self.chains_of_group(), number % self.chains_of_group());
-        let corner = group / inner * stride * length + group % inner * follow.directions.len();
-        for (place, direction) in follow.directions.iter().enumerate() {
-            let first = corner + place;
-            match direction {
-                Direction::Afresh if left < length => {
-                    return Chain { first: first + left * stride, step: 0, left: 1 };
-                }
-                Direction::Afresh => left -= length,
-                _ if left > 0 => left -= 1,
-                Direction::Upward => {
-                    return Chain { first, step: stride as isize, left: length };
-                }
-                Direction::Downward => {
-                    let last = first + (length - 1) * stride;
-                    return Chain { first: last, step: -(stride as isize), left: length };
-                }
-            }
-        }
-        unreachable!("the lengths of a group add up to its chains")
+        self.grid().map_or(Chain::one(number), |grid| grid.chain(number))
     }
 
-    /// The direction of case `index`, where an axis is followed.
-    pub fn direction(&self, index: usize) -> Option<Direction> {
-        let follow = self.follow.as_ref()?;
-        Some(follow.directions[index % follow.directions.len()])
-    }
-
-    /// Position of case `index` along each dimension.
+    /// Position of case `index` along each dimension of the results.
     pub fn position(&self, index: usize) -> Vec<usize> {
-        let mut rest = index;
-        let mut position: Vec<usize> = self
-            .shape()
-            .iter()
-            .rev()
-            .map(|&length| {
-                let here = rest % length;
-                rest /= length;
-                here
-            })
-            .collect();
-        position.reverse();
-        position
+        self.case_set.position(index)
     }
 }

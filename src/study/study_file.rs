@@ -1,24 +1,18 @@
 //! The study file: which keys it has, what they mean and what is allowed.
 
-use std::collections::BTreeSet;
-
 use toml::de::DeTable;
 
-use crate::capsule::{
-    Allowed, Dimension, Output, Parameter, Parameters, Resistance, State, Switching,
-};
+use crate::capsule::{Dimension, Output, Parameter, Parameters, Resistance, Switching};
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
 
-use super::axis::{linear, logarithmic};
+use super::Coordinate;
+use super::axis_file::read_case_set;
 use super::branch_file::{Surroundings, read_branches};
-use super::document::{Entry, Faults, Reader, Table};
+use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
-use super::study::{Direction, Follow, Study};
-use super::{Axis, Coordinate};
-
-/// More values on an axis than this are taken for a slip of the pen.
-const MOST_VALUES: u64 = 10_000_000;
+use super::start_file::read_start;
+use super::study::Study;
 
 /// More numbers in the results than this (32 GB) are too, rather than found out after a night.
 const MOST_NUMBERS: usize = 4_000_000_000;
@@ -44,25 +38,25 @@ impl Study {
         }
         let top = Table::new(&reader, document.get_ref());
         let title = read_title(&top);
-        let axes = read_axes(&top);
-        let base = read_parameters(&top, &axes);
-        let (start, phase, follow) = read_start(&top, &axes);
+        let mut case_set = read_case_set(&top);
+        let base = read_parameters(&top, &case_set.varied());
+        let start = read_start(&top, &mut case_set);
         let protocol = read_protocol(&top);
         let outputs = read_outputs(&top);
-        let surroundings = Surroundings { axes: &axes, base: &base, start, phase };
+        let surroundings = Surroundings { case_set: &case_set, base: &base, start };
         let branches = read_branches(&top, &surroundings);
         let study = Study {
             title,
             text: text.to_owned(),
             base,
-            start,
-            phase,
-            follow,
+            start: start.state,
+            start_phase: start.start_phase,
+            section_phase: start.section_phase,
             protocol,
-            drawings: read_drawings(&top, &axes, &branches, &outputs),
+            drawings: read_drawings(&top, &case_set, &branches, &outputs),
             outputs,
             branches,
-            axes,
+            case_set,
         };
         check_size(&reader, &study);
         top.finish();
@@ -90,22 +84,22 @@ fn check_size(reader: &Reader<'_>, study: &Study) {
         let cases = study.shape().iter().map(|&length| length as f64).product::<f64>();
         let message = format!(
             "{cases} cases with {each} numbers each are too many; {MOST_NUMBERS} numbers are \
-             allowed (fewer values on the axes, section points, impact points or samples)"
+             allowed (fewer values on the axes, draws, section points, impact points or samples)"
         );
         reader.fault(None, "axes", message);
     }
 }
 
-fn read_parameters(top: &Table<'_, '_>, axes: &[Axis]) -> Parameters {
+fn read_parameters(top: &Table<'_, '_>, varied: &[Coordinate]) -> Parameters {
     let mut parameters = Parameters::default();
     let table = top.table("parameters");
-    let on_axis = |parameter| axes.iter().any(|a| a.coordinate == Coordinate::Parameter(parameter));
+    let on_axis = |parameter| varied.contains(&Coordinate::Parameter(parameter));
     for &parameter in Parameter::ALL {
         let entry = table.as_ref().and_then(|table| table.entry(parameter.symbol()));
         match entry {
             Some(entry) if on_axis(parameter) => entry.fault("is given here and on an axis"),
             Some(entry) => {
-                let value = allowed_quantity(&entry, parameter.dimension(), parameter.allowed());
+                let value = entry.allowed_quantity(parameter.dimension(), parameter.allowed());
                 parameters[parameter] = value.unwrap_or(parameters[parameter]);
             }
             None if OPEN.contains(&parameter) && !on_axis(parameter) => {
@@ -124,158 +118,6 @@ fn read_parameters(top: &Table<'_, '_>, axes: &[Axis]) -> Parameters {
     }
     table.finish();
     parameters
-}
-
-/// The quantity of `entry`, if its value is allowed.
-pub(super) fn allowed_quantity(
-    entry: &Entry<'_, '_>,
-    dimension: Dimension,
-    allowed: Allowed,
-) -> Option<f64> {
-    let value = entry.quantity(dimension)?;
-    if !allowed.admits(value) {
-        let unit = Some(dimension.unit()).filter(|&unit| unit != "1");
-        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
-        entry.fault(format!("{value}{unit} must be {allowed}"));
-        return None;
-    }
-    Some(value)
-}
-
-fn read_axes(top: &Table<'_, '_>) -> Vec<Axis> {
-    let mut axes: Vec<Axis> = Vec::new();
-    for entry in top.entry("axes").map(|entry| entry.list()).unwrap_or_default() {
-        let Some(table) = entry.table() else { continue };
-        let names: Vec<(&str, Coordinate)> =
-            Coordinate::all().map(|coordinate| (coordinate.name(), coordinate)).collect();
-        let name = table.entry("name");
-        if name.is_none() {
-            table.missing("name", "a parameter, start_r, start_y1, start_y2 or phase");
-        }
-        let coordinate = name.as_ref().and_then(|name| name.one_of("axis", &names));
-        let values = read_values(&table, coordinate);
-        table.finish();
-        let (Some(name), Some(coordinate)) = (name, coordinate) else { continue };
-        if axes.iter().any(|axis| axis.coordinate == coordinate) {
-            name.fault(format!("a second axis \"{}\"", coordinate.name()));
-            continue;
-        }
-        // With faulty values too: what else names this axis is not at fault.
-        axes.push(Axis { coordinate, values: values.unwrap_or_default() });
-    }
-    axes
-}
-
-fn read_values(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<Vec<f64>> {
-    let quantity = |entry: &Entry<'_, '_>| {
-        let coordinate = coordinate?;
-        allowed_quantity(entry, coordinate.dimension(), coordinate.allowed())
-    };
-    let [values, from, to, points, spacing] =
-        ["values", "from", "to", "points", "spacing"].map(|key| table.entry(key));
-    if let Some(values) = values {
-        for extra in [from, to, points, spacing].into_iter().flatten() {
-            extra.fault("does not go with a list of values");
-        }
-        let list = values.list();
-        if list.is_empty() {
-            values.fault("expected at least one value");
-        }
-        return Some(distinct(&list, quantity));
-    }
-    for (key, found) in [("from", &from), ("to", &to), ("points", &points)] {
-        if found.is_none() {
-            table.missing(key, "from, to and points, or a list of values");
-        }
-    }
-    let rules: [(&str, Spacing); 2] = [("linear", linear), ("logarithmic", logarithmic)];
-    let rule = match &spacing {
-        Some(entry) => entry.one_of("spacing", &rules),
-        None => Some(linear as Spacing),
-    };
-    let logarithmic = spacing.as_ref().is_some_and(|entry| entry.text() == Some("logarithmic"));
-    let bounds = [&from, &to].map(|bound| bound.as_ref().and_then(quantity));
-    let points = points.as_ref().and_then(|entry| entry.whole(1, MOST_VALUES));
-    let ([Some(low), Some(high)], Some(points), Some(rule)) = (bounds, points, rule) else {
-        return None;
-    };
-    if logarithmic && !(low > 0.0 && high > 0.0) {
-        spacing?.fault("needs both ends above zero");
-        return None;
-    }
-    if low == high && points > 1 {
-        to?.fault("is the same as `from`");
-        return None;
-    }
-    Some(rule(low, high, points as usize))
-}
-
-/// The values of a list; one that stands there twice is a fault.
-fn distinct<'r, 'a>(
-    list: &[Entry<'r, 'a>],
-    quantity: impl Fn(&Entry<'r, 'a>) -> Option<f64>,
-) -> Vec<f64> {
-    let mut values = Vec::with_capacity(list.len());
-    let mut seen = BTreeSet::new();
-    for entry in list {
-        match quantity(entry) {
-            // Adding zero makes -0 and 0 the same.
-            Some(value) if !seen.insert((value + 0.0).to_bits()) => entry.fault("is given twice"),
-            Some(value) => values.push(value),
-            None => {}
-        }
-    }
-    values
-}
-
-type Spacing = fn(f64, f64, usize) -> Vec<f64>;
-
-fn read_start(top: &Table<'_, '_>, axes: &[Axis]) -> (State<f64>, f64, Option<Follow>) {
-    let mut start = State::default();
-    let Some(table) = top.table("start") else { return (start, 0.0, None) };
-    let quantity = |key: &str, coordinate: Coordinate| {
-        let entry = table.entry(key)?;
-        if axes.iter().any(|axis| axis.coordinate == coordinate) {
-            entry.fault("is given here and on an axis");
-        }
-        allowed_quantity(&entry, coordinate.dimension(), Allowed::Finite)
-    };
-    start.r = quantity("r", Coordinate::StartR).unwrap_or(0.0);
-    start.y1 = quantity("y1", Coordinate::StartY1).unwrap_or(0.0);
-    start.y2 = quantity("y2", Coordinate::StartY2).unwrap_or(0.0);
-    let phase = quantity("phase", Coordinate::Phase).unwrap_or(0.0);
-    let follow = read_follow(&table, axes);
-    table.finish();
-    (start, phase, follow)
-}
-
-fn read_follow(table: &Table<'_, '_>, axes: &[Axis]) -> Option<Follow> {
-    let names = Direction::ALL.map(|direction| (direction.name(), direction));
-    let directions = table.entry("directions");
-    let Some(follow) = table.entry("follow") else {
-        if let Some(directions) = directions {
-            directions.fault("needs `follow`, the axis to go along");
-        }
-        return None;
-    };
-    let choices: Vec<(&str, usize)> =
-        axes.iter().enumerate().map(|(i, axis)| (axis.coordinate.name(), i)).collect();
-    let axis = follow.one_of("axis of this study", &choices)?;
-    if !matches!(axes[axis].coordinate, Coordinate::Parameter(_)) {
-        follow.fault("must be a parameter: a start is not followed but given");
-    }
-    let mut chosen = Vec::new();
-    for entry in directions.map(|entry| entry.list()).unwrap_or_default() {
-        match entry.one_of("direction", &names) {
-            Some(direction) if chosen.contains(&direction) => entry.fault("is given twice"),
-            Some(direction) => chosen.push(direction),
-            None => {}
-        }
-    }
-    if chosen.is_empty() {
-        chosen.push(Direction::Upward);
-    }
-    Some(Follow { axis, directions: chosen })
 }
 
 fn read_protocol(top: &Table<'_, '_>) -> Protocol {

@@ -41,7 +41,7 @@ fn a_leap_ends_on_the_attractor_of_plain_iteration() {
             // motion stays on the orbit that the leap has led to.
             let (case, [r, y1, y2]) = (&cases[i], fast.section[0]);
             let start = State { r, y1, x2: 0.0, y2 };
-            let stays = settle(&case.parameters, case.phase, start, &plain);
+            let stays = settle(&case.parameters, case.section_phase, start, &plain);
             assert_eq!((stays.outcome, stays.period), (Outcome::Periodic, fast.period), "{i}");
             let away = (stays.outputs[Output::ProgressionSpeed] - speed).abs();
             assert!(away <= 1e-8 + 1e-6 * speed.abs(), "case {i}: {away}");

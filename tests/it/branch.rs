@@ -323,7 +323,7 @@ fn whatever_is_followed_closes_and_ends() {
     let along = [Parameter::Omega, Parameter::Pd, Parameter::Delta, Parameter::K2, Parameter::MuS];
     let mut followed = 0;
     for (i, case) in draws::cases(60, 21).iter().enumerate() {
-        let orbit = settle(&case.parameters, case.phase, case.start, &Protocol::default());
+        let orbit = settle(&case.parameters, case.section_phase, case.start, &Protocol::default());
         if orbit.outcome != Outcome::Periodic {
             continue;
         }
@@ -331,7 +331,7 @@ fn whatever_is_followed_closes_and_ends() {
         let value = case.parameters[along];
         let range = [0.8 * value, 1.3 * value + 1e-4];
         let mut request = request(&case.parameters, orbit.section[0], orbit.period, along, range);
-        (request.phase, request.doublings, request.most_points) = (case.phase, 1, 400);
+        (request.phase, request.doublings, request.most_points) = (case.section_phase, 1, 400);
         let found = follow(&request).unwrap_or_else(|why| panic!("case {i}: {why:?}"));
         assert_closed(&found);
         followed += 1;

@@ -13,7 +13,7 @@ use capsulemap::campaign::{
     BranchesDone, Campaign, CampaignError, Cause, Differs, Done, Event, Replay, Sample, Stage,
     Task, block_path, output_path, probe, read_study, silent, study_of, verify,
 };
-use capsulemap::capsule::settle;
+use capsulemap::capsule::settle_case;
 use capsulemap::run::{self, Machine, Record};
 use capsulemap::store::{self, Values, has_branches, has_cases};
 
@@ -271,8 +271,9 @@ fn a_case_is_replayed_from_where_it_started_to_the_same_bits() {
         let replay = Replay::new(&study, index).expect("a case");
         let case = replay.as_run(Machine::default(), &silent).expect("it is computed");
         assert_eq!(case.start, records[index].start, "{index}");
-        let orbit = settle(&case.parameters, case.phase, case.start, replay.protocol());
-        let again = Record { index, start: case.start, orbit };
+        let orbit = settle_case(&case, replay.protocol());
+        let (start, start_phase) = (case.start, case.start_phase);
+        let again = Record { index, start, start_phase, orbit };
         assert_eq!(format!("{again:?}"), format!("{:?}", records[index]));
         let upward = index % 2 == 0;
         let place = if upward { index / 60 } else { 39 - index / 60 };

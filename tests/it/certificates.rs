@@ -34,7 +34,7 @@ fn a_stricter_run_finds_the_same_periods() {
                     // Where attractors coexist, the tolerance may decide where the start leads to: then
                     // the motion on the orbit that was found must keep the period.
                     elsewhere += 1;
-                    let Case { parameters, phase, .. } = &cases[number];
+                    let Case { parameters, section_phase: phase, .. } = &cases[number];
                     let [r, y1, y2] = once.section[0];
                     let kept = settle(parameters, *phase, State { r, y1, x2: 0.0, y2 }, &strict);
                     let same = (kept.outcome, kept.period) == (Outcome::Periodic, once.period);
@@ -65,7 +65,7 @@ fn a_multiplier_near_minus_one_is_no_period_two() {
     let case = draws::cases(104_983, 3).pop().expect("a case");
     for accelerate in [true, false] {
         let protocol = Protocol { accelerate, ..Protocol::default() };
-        let orbit = settle(&case.parameters, case.phase, case.start, &protocol);
+        let orbit = settle(&case.parameters, case.section_phase, case.start, &protocol);
         assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
         let [first, ..] = orbit.certificate.multipliers;
         assert!(first.re < -0.9 && first.abs() < 1.0, "{first:?}");
@@ -76,7 +76,7 @@ fn a_multiplier_near_minus_one_is_no_period_two() {
 fn a_certified_orbit_closes_and_answers_pushes_as_its_multipliers_say() {
     let cases = draws::cases(100, 31);
     for case in &cases {
-        let orbit = settle(&case.parameters, case.phase, case.start, &Protocol::default());
+        let orbit = settle(&case.parameters, case.section_phase, case.start, &Protocol::default());
         if orbit.outcome != Outcome::Periodic {
             continue;
         }
@@ -90,7 +90,7 @@ fn a_certified_orbit_closes_and_answers_pushes_as_its_multipliers_say() {
         // Followed by the plain flow, the section repeats after the period and after no divisor of it.
         let [r, y1, y2] = orbit.section[0];
         let start = State { r, y1, x2: 0.0, y2 };
-        let run = simulate(&case.parameters, case.phase, start, orbit.period, 1e-13);
+        let run = simulate(&case.parameters, case.section_phase, start, orbit.period, 1e-13);
         let gap = |n: usize| {
             let (a, b) = (&run.section[0], &run.section[n]);
             (a.y1 - b.y1).abs().max((a.y2 - b.y2).abs()).max((a.r - b.r).abs())

@@ -72,7 +72,7 @@ fn the_steps_of_every_system_satisfy_its_equations() {
 fn the_steps_of_the_capsule_satisfy_its_equations_over_the_whole_box() {
     for (_, law) in Resistance::NAMES {
         for case in draws::wide(150, 12, law) {
-            let Case { parameters, start, phase } = &case;
+            let Case { parameters, start, section_phase: phase, .. } = &case;
             let capsule = Capsule::single(parameters, *phase);
             let found = largest_defect(&capsule, *start, 5);
             assert!(found < SOUND, "{found:e}: {case:?}");
@@ -98,13 +98,13 @@ pub fn example() -> Case {
         (Parameter::MuD, 0.165),
         (Parameter::Vs, 0.002),
     ]);
-    Case { parameters, start: State::default(), phase: 0.0 }
+    Case::at_section(parameters, State::default(), 0.0)
 }
 
 #[test]
 fn a_layer_that_steps_jump_over_is_refused_a_certificate() {
     let case = example();
-    let Case { parameters, start, phase } = &case;
+    let Case { parameters, start, section_phase: phase, .. } = &case;
     let protocol = Protocol::default();
     let orbit = settle_as::<Blind>(&case, &protocol);
     // Its energies balance and its section repeats: the series agree with themselves.
@@ -128,7 +128,7 @@ fn a_sound_orbit_is_certified_at_every_tolerance() {
     let tolerances = [1e-14, 1e-12, 1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
     let cases: Vec<Case> = std::iter::once(example()).chain(draws::cases(12, 8)).collect();
     for case in &cases {
-        let Case { parameters, start, phase } = case;
+        let Case { parameters, start, section_phase: phase, .. } = case;
         for tolerance in tolerances {
             let protocol = Protocol::with_tolerance(tolerance);
             let orbit = settle(parameters, *phase, *start, &protocol);
@@ -142,7 +142,7 @@ fn no_blind_step_is_certified_over_the_whole_box() {
     let protocol = Protocol { exponent_cycles: 0, measured_cycles: 1, ..Protocol::default() };
     let (mut wrong, mut refused) = (0, 0);
     for case in draws::wide(120, 5, Resistance::CoulombStribeck) {
-        let Case { parameters, start, phase } = &case;
+        let Case { parameters, start, section_phase: phase, .. } = &case;
         let seeing = capsulemap::capsule::settle(parameters, *phase, *start, &protocol);
         let blind = settle_as::<Blind>(&case, &protocol);
         let [right, found] = [&seeing, &blind].map(|it| it.outputs[Output::ProgressionSpeed]);

@@ -30,7 +30,7 @@ pub struct Periodic {
 pub fn periodic(count: usize, seed: u64, change: impl Fn(&mut Case)) -> Vec<Periodic> {
     let found = draws::cases(3 * count, seed).into_iter().filter_map(|mut case| {
         change(&mut case);
-        let orbit = settle(&case.parameters, case.phase, case.start, &Protocol::default());
+        let orbit = settle(&case.parameters, case.section_phase, case.start, &Protocol::default());
         let State { r, y1, y2, .. } = orbit.end;
         let settles = orbit.outcome == Outcome::Periodic;
         settles.then_some(Periodic { case, point: [r, y1, y2], period: orbit.period })
@@ -52,7 +52,7 @@ where
 /// The capsule of a case over numbers with derivatives along the section's coordinates.
 pub fn dual_capsule(case: &Case) -> Capsule<Dual<f64, 3>> {
     let p = &case.parameters;
-    Capsule::new(|q| Dual::constant(p[q]), p.resistance, case.phase)
+    Capsule::new(|q| Dual::constant(p[q]), p.resistance, case.section_phase)
 }
 
 /// What the coordinates of the section are multiplied with to be compared.
@@ -109,7 +109,7 @@ fn apart(a: &[Complex; 3], b: &[Complex; 3]) -> f64 {
 fn multipliers_are_those_of_differences() {
     let (mut agree, mut touched) = (0, 0);
     for Periodic { case, point, period: k } in periodic(100, 9, |_| ()) {
-        let system = Capsule::single(&case.parameters, case.phase);
+        let system = Capsule::single(&case.parameters, case.section_phase);
         let weights = weights(&case.parameters);
         let exact = weighted(&linearised(&dual_capsule(&case), &point, k), &weights);
         let (differences, doubt) = by_differences(&system, weights, &point, k);
@@ -154,7 +154,7 @@ fn a_push_at_rest_is_forgotten_to_second_order() {
         }
         let jacobian = linearised(&dual_capsule(&case), &point, k);
         assert!(jacobian.iter().all(|row| row[2] == 0.0), "{case:?}");
-        let system = Capsule::single(&case.parameters, case.phase);
+        let system = Capsule::single(&case.parameters, case.section_phase);
         let weights = weights(&case.parameters);
         let pushed = |y2: f64| followed(&system, [point[0], point[1], y2], k, |_| ());
         let reach = size(&point, &weights);
@@ -177,7 +177,7 @@ fn a_push_at_rest_is_forgotten_to_second_order() {
 fn sticking_takes_a_direction_out() {
     let (mut at_rest, mut moving) = (0, 0);
     for Periodic { case, point, period: k } in periodic(100, 17, |_| ()) {
-        let system = Capsule::single(&case.parameters, case.phase);
+        let system = Capsule::single(&case.parameters, case.section_phase);
         let mut sticks = false;
         followed(&system, point, k, |step| {
             sticks |= step.jet.y2.iter().all(|term| *term == 0.0);
@@ -212,9 +212,12 @@ fn the_equation_as_printed_is_linearised_too() {
         let State { r, y1, y2, .. } = case.start;
         let point = [r, y1, if y2 == 0.0 { 0.05 } else { y2 }];
         let p = &case.parameters;
-        let system = PrintedCapsule::single(p, case.phase);
-        let carried =
-            PrintedCapsule::<Dual<f64, 3>>::new(|q| Dual::constant(p[q]), p.resistance, case.phase);
+        let system = PrintedCapsule::single(p, case.section_phase);
+        let carried = PrintedCapsule::<Dual<f64, 3>>::new(
+            |q| Dual::constant(p[q]),
+            p.resistance,
+            case.section_phase,
+        );
         let weights = weights(&case.parameters);
         let exact = weighted(&linearised(&carried, &point, 2), &weights);
         let (differences, doubt) = by_differences(&system, weights, &point, 2);

@@ -44,7 +44,7 @@ struct Volume {
 /// acceleration after over that before. None where the capsule sticks.
 fn volume(of: &Periodic) -> Option<Volume> {
     let p = &of.case.parameters;
-    let system = Capsule::single(p, of.case.phase);
+    let system = Capsule::single(p, of.case.section_phase);
     let (mut exponent, mut jumps, mut before, mut sticks) = (0.0, 1.0, None, false);
     followed(&system, of.point, of.period, |step| {
         let (y2, acceleration) = (&step.jet.y2, series::derivative(&step.jet.y2));

@@ -57,7 +57,7 @@ pub fn wide(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
             x2: 0.0,
             y2: if rests { 0.0 } else { y2 },
         };
-        Case { parameters, start, phase }
+        Case::at_section(parameters, start, phase)
     };
     (0..count).map(|_| draw()).collect()
 }
@@ -80,7 +80,7 @@ pub fn cases(count: usize, seed: u64) -> Vec<Case> {
         ]);
         let (r, y1) = (uniform(-2e-3, 2e-3), uniform(-0.2, 0.2));
         let y2 = if uniform(0.0, 1.0) < 0.5 { 0.0 } else { uniform(-0.2, 0.2) };
-        Case { parameters, start: State { r, y1, x2: 0.0, y2 }, phase: uniform(0.0, 6.0) }
+        Case::at_section(parameters, State { r, y1, x2: 0.0, y2 }, uniform(0.0, 6.0))
     };
     (0..count).map(|_| draw()).collect()
 }

@@ -67,7 +67,7 @@ fn side_by_side<L: Lane>(cases: &[Case]) -> Vec<Vec<Bits>> {
     let system = Capsule::<Dual<L, 3>>::new(
         |p| Dual::constant(lanes(&|case| case.parameters[p])),
         law,
-        of(0).phase,
+        of(0).section_phase,
     );
     let from = std::array::from_fn(|i| Dual::variable(lanes(&|case| start(case)[i]), i));
     let periods = Dual::<L, 3>::constant(lanes(&|case| case.parameters.drive_period()));
@@ -93,7 +93,7 @@ fn side_by_side<L: Lane>(cases: &[Case]) -> Vec<Vec<Bits>> {
 fn derivatives_have_the_same_bits_alone_and_among_others() {
     let mut cases = draws::cases(48, 51);
     // The phase is one number for all lanes.
-    cases.iter_mut().for_each(|case| case.phase = 0.7);
+    cases.iter_mut().for_each(|case| case.section_phase = 0.7);
     let expected: Vec<Vec<Bits>> = cases.iter().map(alone).collect();
     let zero = 0.0_f64.to_bits();
     let moves = |found: &Vec<Bits>| found[CYCLES - 1].iter().any(|[_, a, ..]| *a != zero);

@@ -179,7 +179,7 @@ fn the_duffing_oscillator_has_its_published_exponents() {
 fn an_orbit_stretches_as_its_largest_multiplier_says() {
     let mut compared = 0;
     for case in draws::cases(120, 21) {
-        let orbit = settle(&case.parameters, case.phase, case.start, &Protocol::default());
+        let orbit = settle(&case.parameters, case.section_phase, case.start, &Protocol::default());
         let [first, second, _] = orbit.certificate.multipliers;
         // A pair of equal magnitudes turns its directions for ever, and means settle slowly.
         if orbit.outcome != Outcome::Periodic || second.abs() > 0.7 * first.abs() {
@@ -249,7 +249,7 @@ fn neighbouring_trajectories_part_at_the_rate_of_the_exponent() {
 /// standard error over ten batches [1/s].
 fn parting(case: &Case, start: Section, cycles: usize) -> (f64, f64) {
     let p = &case.parameters;
-    let system = Capsule::single(p, case.phase);
+    let system = Capsule::single(p, case.section_phase);
     let period = p.drive_period();
     let scales = [p[Parameter::Omega], 1.0, 1.0];
     let distance = |difference: &Section| {

@@ -346,7 +346,7 @@ fn a_pdf_embeds_its_fonts_and_no_time() {
 #[test]
 fn the_font_can_draw_the_label_of_every_quantity() {
     let parameters = "omega p_d k1 k2 delta m1 m2 c mu_s mu_d v_s g c1 c2 start_r start_y1 start_y2 \
-                      phase";
+                      phase start_phase section_phase";
     let outputs = "progression_speed progression_per_cycle work_net work_positive work_absolute \
                    work_actuator friction_loss damper_loss energy_residual momentum_residual \
                    cost_of_transport impacts_per_cycle forward_slips_per_cycle \

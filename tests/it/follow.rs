@@ -45,7 +45,7 @@ fn a_branch_has_the_rest_of_its_study() {
     assert_eq!((plain.range, plain.first), ([50.0, 70.0], FirstOrbit::Settle));
     assert_eq!((plain.longest_step, plain.most_points, plain.doublings), (0.02, 2000, 0));
     assert_eq!((plain.parameters[Parameter::Omega], plain.parameters[Parameter::Pd]), (60.0, 4.0));
-    assert_eq!((plain.second, plain.start.r, plain.phase), (None, 0.0, 0.0));
+    assert_eq!((plain.second, plain.start.r, plain.section_phase), (None, 0.0, 0.0));
     let more = "from = \"65 rad/s\"\nto = \"40 rad/s\"\norbit = \"newton\"\nperiod = 3\n\
                 start = { r = \"1 mm\", phase = \"90 deg\" }\nlongest_step = 0.5\nmost_points = 9\n\
                 second = { name = \"p_d\", from = \"1 N\", to = \"5 N\" }\n";
@@ -54,7 +54,8 @@ fn a_branch_has_the_rest_of_its_study() {
     let full = Study::parse("a", &text).expect("a study").branches.remove(0);
     assert_eq!((full.range, full.first), ([40.0, 65.0], FirstOrbit::Newton { period: 3 }));
     assert_eq!((full.start.r, full.start.y1), (1e-3, 0.2));
-    assert!((full.phase - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+    assert!((full.section_phase - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+    assert_eq!(full.start_phase, full.section_phase, "`phase` is both");
     assert_eq!(full.second, Some((Parameter::Pd, [1.0, 5.0])));
     assert_eq!((full.longest_step, full.most_points), (0.5, 9));
     let alone = format!(
@@ -62,7 +63,7 @@ fn a_branch_has_the_rest_of_its_study() {
                          from = \"1 N\"\nto = \"6 N\"\n"
     );
     let alone = Study::parse("a", &alone).expect("a study");
-    assert_eq!((alone.axes.len(), alone.branches[0].parameters[Parameter::Omega]), (0, 77.91));
+    assert_eq!((alone.axes().len(), alone.branches[0].parameters[Parameter::Omega]), (0, 77.91));
 }
 
 #[test]

@@ -32,7 +32,7 @@ pub fn simulate_by(
     tolerance: f64,
 ) -> Simulation {
     let alone = capsule::simulate(parameters, phase, start, cycles, tolerance);
-    let case = Case { parameters: parameters.clone(), start, phase };
+    let case = Case::at_section(parameters.clone(), start, phase);
     let bits = |state: [f64; 4]| state.map(f64::to_bits);
     let states: Vec<_> = alone.section.iter().map(|s| bits([s.r, s.y1, s.x2, s.y2])).collect();
     let events: Vec<_> = alone.events.iter().map(|event| (event.t.to_bits(), event.kind)).collect();
@@ -59,7 +59,7 @@ pub fn settle(
     protocol: &Protocol,
 ) -> Orbit {
     let alone = capsule::settle(parameters, phase, start, protocol);
-    let case = Case { parameters: parameters.clone(), start, phase };
+    let case = Case::at_section(parameters.clone(), start, phase);
     let among = match parameters.switching {
         Switching::Filippov => among::<Filippov>(&case, protocol),
         Switching::AsPrinted => among::<AsPrinted>(&case, protocol),
@@ -137,11 +137,11 @@ impl<R: Reading> Work for Among<'_, R> {
         let last = L::WIDTH - 1;
         let cases: Vec<Case> =
             (0..last).map(|lane| neighbour(self.case, lane)).chain([self.case.clone()]).collect();
-        let own = R::single(&self.case.parameters, self.case.phase);
+        let own = R::single(&self.case.parameters, self.case.section_phase);
         let mut system = R::In::<L>::splat(&own);
         let mut motion = Motion::<L, R::In<L>>::splat(&Motion::new(&own, 0.0, self.case.start));
         for (lane, case) in cases.iter().enumerate() {
-            let one = R::single(&case.parameters, case.phase);
+            let one = R::single(&case.parameters, case.section_phase);
             system.put(lane, &one);
             motion.put(lane, &Motion::new(&one, 0.0, case.start));
         }

@@ -124,7 +124,9 @@ fn an_orbit_has_the_same_bits_by_any_instructions_and_in_any_order() {
     };
     let alone: Vec<Orbit> = cases
         .iter()
-        .map(|Case { parameters, start, phase }| settle(parameters, *phase, *start, &protocol))
+        .map(|Case { parameters, start, section_phase: phase, .. }| {
+            settle(parameters, *phase, *start, &protocol)
+        })
         .collect();
     let outcomes = |outcome| alone.iter().filter(|orbit| orbit.outcome == outcome).count();
     let wander = outcomes(Outcome::Undecided) + outcomes(Outcome::Chaotic);

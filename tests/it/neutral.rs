@@ -71,7 +71,7 @@ fn every_case_without_friction_that_slides_for_ever_is_neutral() {
     for mut case in draws::cases(60, 9) {
         case.parameters[Parameter::MuD] = 0.0;
         case.parameters[Parameter::MuS] *= 0.1;
-        let Case { parameters, start, phase } = &case;
+        let Case { parameters, start, section_phase: phase, .. } = &case;
         let orbit = settle(parameters, *phase, *start, &Protocol::default());
         let slides = orbit.outputs[Output::StickShare] == 0.0;
         if orbit.outcome == Outcome::Periodic && orbit.period == 1 && slides {
@@ -87,7 +87,7 @@ fn every_case_without_friction_that_slides_for_ever_is_neutral() {
 #[test]
 fn an_orbit_that_attracts_belongs_to_no_family() {
     for case in draws::cases(20, 10) {
-        let Case { parameters: p, start, phase } = &case;
+        let Case { parameters: p, start, section_phase: phase, .. } = &case;
         let orbit = settle(p, *phase, *start, &Protocol::default());
         if orbit.certificate.proof != Proof::Newton {
             continue;

@@ -14,7 +14,7 @@ use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 use super::program::{Desk, Ran};
 pub use night::{LINES, NIGHT};
-use night::{Night, said};
+use night::{Night, drawn, said};
 
 /// How often runs were killed while cases were computed, and while blocks were joined.
 type Kills = [u32; 2];
@@ -44,8 +44,10 @@ fn kill_and_resume(night: &Night, whole: Duration, random: &mut ChaCha8Rng) -> K
 /// In the long form `KILLS=100`; a run that ends before it is killed does not count.
 #[test]
 fn runs_that_are_killed_at_random_and_resumed_end_in_the_same_bytes() {
-    let wanted = std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(4);
-    let nights = [NIGHT, LINES].map(|study| {
+    let long = std::env::var("KILLS").ok().and_then(|text| text.parse().ok());
+    let wanted = long.unwrap_or(4);
+    let draws = drawn(if long.is_some() { 10_000 } else { 1_500 });
+    let nights = [NIGHT, LINES, &draws].map(|study| {
         let night = Night::of(study);
         let begun = Instant::now();
         night.sweep(&[]).done();
@@ -56,7 +58,7 @@ fn runs_that_are_killed_at_random_and_resumed_end_in_the_same_bytes() {
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let (mut runs, mut kills) = (0, [0, 0]);
     for attempt in 0..10 * wanted {
-        let (night, whole) = &nights[attempt % 2];
+        let (night, whole) = &nights[attempt % nights.len()];
         let more = kill_and_resume(night, *whole, &mut random);
         night.assert_undisturbed();
         night.forget();

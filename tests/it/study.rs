@@ -167,7 +167,7 @@ fn what_a_study_must_say_is_asked_for() {
 
 #[test]
 fn axes_are_linear_logarithmic_or_lists() {
-    let values = |axis: &str| read(&omega_axis(axis)).axes[0].values.clone();
+    let values = |axis: &str| read(&omega_axis(axis)).axes()[0].values.clone();
     let ends = "from = \"10 rad/s\"\nto = \"40 rad/s\"\n";
     assert_eq!(values(&format!("{ends}points = 4")), [10.0, 20.0, 30.0, 40.0]);
     let named = format!("{ends}points = 3\nspacing = \"logarithmic\"");
@@ -196,7 +196,7 @@ fn axes_are_linear_logarithmic_or_lists() {
 fn starts_and_the_phase_can_be_axes() {
     let mut text = FIG5.to_owned();
     for (name, unit) in
-        [("start_r", "mm"), ("start_y1", "m/s"), ("start_y2", "m/s"), ("phase", "deg")]
+        [("start_r", "mm"), ("start_y1", "m/s"), ("start_y2", "m/s"), ("start_phase", "deg")]
     {
         text += &format!("[[axes]]\nname = \"{name}\"\nvalues = [\"1 {unit}\", \"2 {unit}\"]\n");
     }
@@ -204,8 +204,8 @@ fn starts_and_the_phase_can_be_axes() {
     assert_eq!((study.cases(), study.shape()), (16, vec![2; 4]));
     let case = study.case(0b1010);
     assert_eq!((case.start.r, case.start.y1, case.start.y2), (0.002, 1.0, 2.0));
-    assert!((case.phase - 1_f64.to_radians()).abs() < 1e-16);
-    assert!(said(&(text + "[start]\nfollow = \"phase\""))[0].contains("must be a parameter"));
+    assert!((case.start_phase - 1_f64.to_radians()).abs() < 1e-16 && case.section_phase == 0.0);
+    assert!(said(&(text + "[start]\nfollow = \"start_phase\""))[0].contains("must be a parameter"));
 }
 
 #[test]

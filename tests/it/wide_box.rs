@@ -21,7 +21,7 @@ fn apart(a: &Section, b: &Section, omega: f64) -> f64 {
 fn points(case: &Case, orbit: &Orbit) -> Vec<Section> {
     let [r, y1, y2] = orbit.section[0];
     let start = State { r, y1, x2: 0.0, y2 };
-    let run = simulate(&case.parameters, case.phase, start, orbit.period, 1e-14);
+    let run = simulate(&case.parameters, case.section_phase, start, orbit.period, 1e-14);
     run.section.iter().map(|sample| [sample.r, sample.y1, sample.y2]).collect()
 }
 
@@ -95,7 +95,8 @@ fn certified_orbits_are_those_of_a_second_method() {
                 continue;
             }
             let [r, y1, y2] = orbit.section[0];
-            let sections = follow(p, case.phase, State { r, y1, x2: 0.0, y2 }, orbit.period);
+            let sections =
+                follow(p, case.section_phase, State { r, y1, x2: 0.0, y2 }, orbit.period);
             let omega = p[Parameter::Omega];
             let end = sections.last().expect("the start");
             let size = apart(&orbit.section[0], &[0.0; 3], omega);

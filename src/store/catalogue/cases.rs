@@ -13,6 +13,8 @@ pub const ATTRACTOR_AXIS: &str = "attractor_axis";
 entries! {
     DIRECTION "direction" "1" Study, Category(directions), None,
         "direction in which the attractor was followed";
+    DRAW "draw" "1" Study, Whole, None,
+        "number of the draw";
     POINT "point" "1" Dimension, Whole, None,
         "point of the section";
     IMPACT_POINT "impact_point" "1" Dimension, Whole, None,

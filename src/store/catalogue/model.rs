@@ -18,7 +18,8 @@ impl Entry {
             Coordinate::StartR => shown("Initial", "*x*_{1} − *x*_{2}", "mm", 1e3),
             Coordinate::StartY1 => shown("Initial", "*y*_{1}", "m/s", 1.0),
             Coordinate::StartY2 => shown("Initial", "*y*_{2}", "m/s", 1.0),
-            Coordinate::Phase => shown("Initial phase", "*φ*", "rad", 1.0),
+            Coordinate::StartPhase => shown("Initial phase", "*φ*", "rad", 1.0),
+            Coordinate::SectionPhase => shown("Section phase", "*φ*_{s}", "rad", 1.0),
         };
         Entry {
             name: coordinate.name(),

@@ -56,6 +56,22 @@ max_cycles = 300
 exponent_cycles = 64
 "#;
 
+/// So many random starts, in blocks of 512, and the two attractors that they lead to.
+pub fn drawn(count: usize) -> String {
+    let start = |name: &str, size: &str| {
+        format!("[[axes]]\nname = \"{name}\"\nfrom = \"-{size}\"\nto = \"{size}\"\n")
+    };
+    [
+        "[parameters]\nm2 = \"0.2 kg\"\nc = \"1.77 N s/m\"\nmu_s = 0.33\nmu_d = 0.165\np_d = \"2.79 N\"\n",
+        "k2 = \"65.518 kN/m\"\ndelta = \"4.33 mm\"\nomega = \"158 rad/s\"\n",
+        &format!("[draws]\nkind = \"uniform\"\ncount = {count}\nseed = 1\n"),
+        &start("start_r", "4 mm"),
+        &start("start_y1", "0.4 m/s"),
+        "[protocol]\npoints = 2\nimpact_points = 0\nmax_cycles = 300\nexponent_cycles = 64\n",
+    ]
+    .concat()
+}
+
 /// A desk with the study and the file of a run that nothing has disturbed.
 pub struct Night {
     /// Where it is run.

@@ -1,0 +1,34 @@
+//! The options for the phases of the drive at the start and at the section.
+
+use clap::Args;
+
+use super::arguments::plain_or_quantity;
+use crate::capsule::Dimension;
+
+/// Phases of the drive as they are asked for.
+#[derive(Debug, Args)]
+pub struct Phases {
+    /// Phase of the drive at the start and at the section, as "90 deg"; 0 by default.
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true,
+        conflicts_with_all = ["start_phase", "section_phase"])]
+    phase: Option<String>,
+    /// Phase of the drive at the start alone; cycles are counted from the first section.
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
+    start_phase: Option<String>,
+    /// Phase of the drive at the section alone.
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
+    section_phase: Option<String>,
+}
+
+impl Phases {
+    /// The phases at the start and at the section [rad]; faults are noted.
+    pub fn read(&self, faults: &mut Vec<String>) -> [f64; 2] {
+        let mut read = |option: &str, text: &Option<String>| {
+            let fault = |message| faults.push(format!("{option}: {message}"));
+            plain_or_quantity(text.as_ref()?, Dimension::Angle).map_err(fault).ok()
+        };
+        let both = read("--phase", &self.phase).unwrap_or(0.0);
+        let own = [("--start-phase", &self.start_phase), ("--section-phase", &self.section_phase)];
+        own.map(|(option, text)| read(option, text).unwrap_or(both))
+    }
+}

@@ -1,0 +1,172 @@
+//! The cases in a study file: axes with their values, or ranges and how points are drawn from them.
+
+use std::collections::BTreeSet;
+
+use super::axis::Spacing;
+use super::document::{Entry, Table};
+use super::draws::{DrawKind, Range};
+use super::{Axis, CaseSet, Coordinate, Draws, Grid};
+
+/// More values on an axis, and more draws, than this are taken for a slip of the pen.
+const MOST_VALUES: u64 = 10_000_000;
+
+/// Reads `[[axes]]` and `[draws]`.
+pub(super) fn read_case_set(top: &Table<'_, '_>) -> CaseSet {
+    let draws = top.table("draws").map(read_draws);
+    let is_drawn = draws.is_some();
+    let mut seen = Vec::new();
+    let (mut axes, mut ranges) = (Vec::new(), Vec::new());
+    let entries = top.entry("axes").map(|entry| entry.list()).unwrap_or_default();
+    if is_drawn && entries.is_empty() {
+        top.missing("axes", "ranges to draw from, as `[[axes]]` with name, from and to");
+    }
+    for entry in entries {
+        let Some(table) = entry.table() else { continue };
+        let name = table.entry("name");
+        let coordinate = read_name(&table, name.as_ref());
+        let values = (!is_drawn).then(|| read_values(&table, coordinate).unwrap_or_default());
+        let ends = if is_drawn { read_range(&table, coordinate) } else { None };
+        table.finish();
+        let (Some(name), Some(coordinate)) = (name, coordinate) else { continue };
+        if seen.contains(&coordinate) {
+            name.fault(format!("a second axis \"{}\"", coordinate.name()));
+            continue;
+        }
+        seen.push(coordinate);
+        // With faulty values too: what else names this axis is not at fault.
+        axes.extend(values.map(|values| Axis { coordinate, values }));
+        let (from, to, spacing) = ends.unwrap_or((f64::NAN, f64::NAN, Spacing::Linear));
+        ranges.push(Range { coordinate, from, to, spacing });
+    }
+    match draws {
+        Some(draws) => CaseSet::Draws(Draws { ranges, ..draws }),
+        None => CaseSet::Grid(Grid { axes, follow: None }),
+    }
+}
+
+/// Reads `[draws]`, which has no ranges.
+fn read_draws(table: Table<'_, '_>) -> Draws {
+    let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", &DrawKind::NAMES));
+    let count = table.entry("count");
+    if count.is_none() {
+        table.missing("count", "the number of draws");
+    }
+    let count = count.and_then(|entry| entry.whole(1, MOST_VALUES)).unwrap_or(1);
+    let seed = table.entry("seed").and_then(|entry| entry.whole(0, i64::MAX as u64));
+    table.finish();
+    Draws {
+        kind: kind.unwrap_or_default(),
+        count: count as usize,
+        seed: seed.unwrap_or(0),
+        ranges: Vec::new(),
+    }
+}
+
+/// What varies along an axis.
+fn read_name(table: &Table<'_, '_>, name: Option<&Entry<'_, '_>>) -> Option<Coordinate> {
+    let names: Vec<(&str, Coordinate)> = Coordinate::all()
+        .map(|coordinate| (coordinate.name(), coordinate))
+        .chain([(Coordinate::PHASE, Coordinate::StartPhase)])
+        .collect();
+    if name.is_none() {
+        let expected = "a parameter, start_r, start_y1, start_y2, start_phase or section_phase";
+        table.missing("name", expected);
+    }
+    name?.one_of("axis", &names)
+}
+
+/// The value of an entry of an axis, if it is allowed.
+fn quantity(entry: &Entry<'_, '_>, coordinate: Option<Coordinate>) -> Option<f64> {
+    let coordinate = coordinate?;
+    entry.allowed_quantity(coordinate.dimension(), coordinate.allowed())
+}
+
+/// The values of an axis of a grid.
+fn read_values(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<Vec<f64>> {
+    let [values, points] = ["values", "points"].map(|key| table.entry(key));
+    if let Some(values) = values {
+        for key in ["from", "to", "points", "spacing"] {
+            if let Some(extra) = table.entry(key) {
+                extra.fault("does not go with a list of values");
+            }
+        }
+        let list = values.list();
+        if list.is_empty() {
+            values.fault("expected at least one value");
+        }
+        return Some(distinct(&list, |entry| quantity(entry, coordinate)));
+    }
+    let expected = "from, to and points, or a list of values";
+    let ends = read_ends(table, coordinate, expected);
+    if points.is_none() {
+        table.missing("points", expected);
+    }
+    let points = points.and_then(|entry| entry.whole(1, MOST_VALUES));
+    let ((from, to, spacing), points) = (ends?, points?);
+    if from == to && points > 1 {
+        table.entry("to")?.fault("is the same as `from`");
+        return None;
+    }
+    Some(spacing.values(from, to, points as usize))
+}
+
+/// The range that an axis is drawn from.
+fn read_range(
+    table: &Table<'_, '_>,
+    coordinate: Option<Coordinate>,
+) -> Option<(f64, f64, Spacing)> {
+    for key in ["values", "points"] {
+        if let Some(extra) = table.entry(key) {
+            extra.fault("does not go with `[draws]`: an axis has a range, `from` and `to`");
+        }
+    }
+    let ends = read_ends(table, coordinate, "from and to, the range to draw from")?;
+    if ends.0 == ends.1 {
+        table.entry("to")?.fault("is the same as `from`");
+        return None;
+    }
+    Some(ends)
+}
+
+/// The ends of an axis and what lies between them.
+fn read_ends(
+    table: &Table<'_, '_>,
+    coordinate: Option<Coordinate>,
+    expected: &str,
+) -> Option<(f64, f64, Spacing)> {
+    let [from, to, spacing] = ["from", "to", "spacing"].map(|key| table.entry(key));
+    for (key, found) in [("from", &from), ("to", &to)] {
+        if found.is_none() {
+            table.missing(key, expected);
+        }
+    }
+    let rule = match &spacing {
+        Some(entry) => entry.one_of("spacing", &Spacing::NAMES),
+        None => Some(Spacing::Linear),
+    };
+    let [from, to] = [from, to].map(|end| quantity(&end?, coordinate));
+    let ends = (from?, to?, rule?);
+    if ends.2 == Spacing::Logarithmic && !(ends.0 > 0.0 && ends.1 > 0.0) {
+        spacing?.fault("needs both ends above zero");
+        return None;
+    }
+    Some(ends)
+}
+
+/// The values of a list; one that stands there twice is a fault.
+fn distinct<'r, 'a>(
+    list: &[Entry<'r, 'a>],
+    quantity: impl Fn(&Entry<'r, 'a>) -> Option<f64>,
+) -> Vec<f64> {
+    let mut values = Vec::with_capacity(list.len());
+    let mut seen = BTreeSet::new();
+    for entry in list {
+        match quantity(entry) {
+            // Adding zero makes -0 and 0 the same.
+            Some(value) if !seen.insert((value + 0.0).to_bits()) => entry.fault("is given twice"),
+            Some(value) => values.push(value),
+            None => {}
+        }
+    }
+    values
+}

@@ -1,0 +1,157 @@
+//! A grid: every combination of the values of some axes, in which a line of cases may follow each other.
+
+use super::Axis;
+
+/// The way along an axis in which each case starts where its neighbour settled, or that none does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// From the first value to the last.
+    Upward = 0,
+    /// From the last value to the first.
+    Downward,
+    /// Each case starts as the study says.
+    Afresh,
+}
+
+impl Direction {
+    /// All of them, in the order of their numbers.
+    pub const ALL: [Direction; 3] = [Direction::Upward, Direction::Downward, Direction::Afresh];
+
+    /// Its name in studies and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Direction::Upward => "upward",
+            Direction::Downward => "downward",
+            Direction::Afresh => "afresh",
+        }
+    }
+}
+
+/// Following the attractor along an axis, which is how hysteresis is found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Follow {
+    /// Position of the axis in the study.
+    pub axis: usize,
+    /// In which directions; several of them make one more dimension, `direction`, the last.
+    pub directions: Vec<Direction>,
+}
+
+/// Every combination of the values of some axes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Grid {
+    /// The axes, slowest first; none for a single case.
+    pub axes: Vec<Axis>,
+    /// Along which axis the attractor is followed, if any.
+    pub follow: Option<Follow>,
+}
+
+/// Indices of cases, each of which starts where the one before has settled.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Chain {
+    first: usize,
+    step: isize,
+    left: usize,
+}
+
+impl Chain {
+    /// The chain of case `index` alone.
+    pub fn one(index: usize) -> Chain {
+        Chain { first: index, step: 0, left: 1 }
+    }
+}
+
+impl Iterator for Chain {
+    type Item = usize;
+
+    fn next(&mut self) -> Option<usize> {
+        self.left = self.left.checked_sub(1)?;
+        let index = self.first;
+        self.first = index.wrapping_add_signed(self.step);
+        Some(index)
+    }
+}
+
+impl Grid {
+    /// Number of values along each dimension, slowest first.
+    pub fn shape(&self) -> Vec<usize> {
+        let axes = self.axes.iter().map(|axis| axis.values.len());
+        axes.chain(self.direction_axis().map(<[Direction]>::len)).collect()
+    }
+
+    /// The names of the dimensions, slowest first.
+    pub fn dimensions(&self) -> Vec<&'static str> {
+        let axes = self.axes.iter().map(|axis| axis.coordinate.name());
+        axes.chain(self.direction_axis().map(|_| "direction")).collect()
+    }
+
+    /// The directions, where there are several and they make a dimension of the results.
+    pub fn direction_axis(&self) -> Option<&[Direction]> {
+        let follow = self.follow.as_ref()?;
+        (follow.directions.len() > 1).then_some(&follow.directions)
+    }
+
+    /// Chains of a group of cases, which differ along the followed axis and in direction only: one for each
+    /// direction that is followed, and one for each case that starts afresh. Where no axis is followed, each
+    /// case is a group.
+    pub(super) fn chains_of_group(&self) -> usize {
+        let Some(follow) = &self.follow else { return 1 };
+        let length = |direction: &Direction| match direction {
+            Direction::Upward | Direction::Downward => 1,
+            Direction::Afresh => self.axes[follow.axis].values.len(),
+        };
+        follow.directions.iter().map(length).sum()
+    }
+
+    /// Cases of such a group.
+    pub(super) fn cases_of_group(&self) -> usize {
+        let follow = self.follow.as_ref();
+        follow.map_or(1, |it| self.axes[it.axis].values.len() * it.directions.len())
+    }
+
+    /// The cases of chain `number`, to be run in order; a chain is one case where none is followed.
+    pub fn chain(&self, number: usize) -> Chain {
+        let Some(follow) = &self.follow else {
+            return Chain::one(number);
+        };
+        let length = self.axes[follow.axis].values.len();
+        let stride: usize = self.shape()[follow.axis + 1..].iter().product();
+        let inner = stride / follow.directions.len();
+        let (group, mut left) = (number / self.chains_of_group(), number % self.chains_of_group());
+        let corner = group / inner * stride * length + group % inner * follow.directions.len();
+        for (place, direction) in follow.directions.iter().enumerate() {
+            let first = corner + place;
+            match direction {
+                Direction::Afresh if left < length => {
+                    return Chain::one(first + left * stride);
+                }
+                Direction::Afresh => left -= length,
+                _ if left > 0 => left -= 1,
+                Direction::Upward => {
+                    return Chain { first, step: stride as isize, left: length };
+                }
+                Direction::Downward => {
+                    let last = first + (length - 1) * stride;
+                    return Chain { first: last, step: -(stride as isize), left: length };
+                }
+            }
+        }
+        unreachable!("the lengths of a group add up to its chains")
+    }
+
+    /// Position of case `index` along each dimension.
+    pub fn position(&self, index: usize) -> Vec<usize> {
+        let mut rest = index;
+        let mut position: Vec<usize> = self
+            .shape()
+            .iter()
+            .rev()
+            .map(|&length| {
+                let here = rest % length;
+                rest /= length;
+                here
+            })
+            .collect();
+        position.reverse();
+        position
+    }
+}

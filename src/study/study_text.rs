@@ -1,0 +1,280 @@
+//! A study built in code: written as a study file that parses to the same study, and checked by its rules.
+
+use std::fmt::Debug;
+
+use crate::capsule::{Output, Parameter, State};
+use crate::orbit::{HistorySpan, Protocol};
+
+use super::continuation::FirstOrbit;
+use super::draws::Range;
+use super::toml_text::{Document, inline, list, number, quantity, text};
+use super::{
+    Axis, CaseSet, Continuation, Coordinate, Drawing, Draws, Fault, Faults, Follow, Grid, Spacing,
+    Study,
+};
+
+impl Study {
+    /// The study as the text of a study file, with all digits and in SI units.
+    ///
+    /// [`Study::parse`] makes the same study of it, but for `text`, if the study is one that
+    /// [`Study::validated`] accepts. What the study holds constant of a coordinate that varies is left out.
+    pub fn to_toml(&self) -> String {
+        let mut document = Document::default();
+        if !self.title.is_empty() {
+            document.put("title", text(&self.title));
+        }
+        if self.outputs != Output::ALL {
+            let names = self.outputs.iter().map(|output| text(output.name()));
+            document.put("outputs", list(names));
+        }
+        self.write_parameters(&mut document);
+        match &self.case_set {
+            CaseSet::Grid(grid) => {
+                grid.axes.iter().for_each(|axis| write_axis(&mut document, axis))
+            }
+            CaseSet::Draws(draws) => write_draws(&mut document, draws),
+        }
+        self.write_start(&mut document);
+        write_protocol(&mut document, &self.protocol);
+        for branch in &self.branches {
+            self.write_branch(&mut document, branch);
+        }
+        self.drawings.iter().for_each(|drawing| write_drawing(&mut document, drawing));
+        document.0
+    }
+
+    /// The study with its text, as it is read back from that; `name` stands for the file in messages.
+    ///
+    /// Method: what [`Study::to_toml`] writes is parsed, so that a study built in code obeys the rules of a
+    /// study file, with the same messages.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is not allowed, at once, and whatever a study file cannot hold, such as parameters of a
+    /// branch that differ from those of the study without being varied.
+    pub fn validated(self, name: &str) -> Result<Study, Faults> {
+        let read = Study::parse(name, &self.to_toml());
+        let faults = match &read {
+            Ok(read) => self.differences(read),
+            Err(faults) => {
+                let without_line = |fault: &Fault| Fault { line: None, ..fault.clone() };
+                faults.faults.iter().map(without_line).collect()
+            }
+        };
+        if faults.is_empty() { read } else { Err(Faults { file: name.to_owned(), faults }) }
+    }
+
+    fn write_parameters(&self, document: &mut Document) {
+        document.table("parameters");
+        let varied = self.case_set.varied();
+        for &parameter in Parameter::ALL {
+            if !varied.contains(&Coordinate::Parameter(parameter)) {
+                let value = quantity(self.base[parameter], parameter.dimension());
+                document.put(parameter.symbol(), value);
+            }
+        }
+        document.put("resistance", text(self.base.resistance.name()));
+        document.put("friction_switching", text(self.base.switching.name()));
+    }
+
+    fn write_start(&self, document: &mut Document) {
+        document.table("start");
+        let varied = self.case_set.varied();
+        for (key, coordinate, value) in start(&self.start, self.start_phase, self.section_phase) {
+            if !varied.contains(&coordinate) {
+                document.put(key, quantity(value, coordinate.dimension()));
+            }
+        }
+        let CaseSet::Grid(Grid { axes, follow: Some(Follow { axis, directions }) }) =
+            &self.case_set
+        else {
+            return;
+        };
+        // An axis that is not there is named by its number, which is refused as unknown.
+        let followed = axes.get(*axis).map(|axis| axis.coordinate.name().to_owned());
+        document.put("follow", text(&followed.unwrap_or_else(|| axis.to_string())));
+        document.put("directions", list(directions.iter().map(|it| text(it.name()))));
+    }
+
+    fn write_branch(&self, document: &mut Document, branch: &Continuation) {
+        document.element("branches");
+        document.put("name", text(&branch.name));
+        let [from, to] = branch.range.map(|end| quantity(end, branch.along.dimension()));
+        document.put("along", text(branch.along.symbol()));
+        document.put("from", from);
+        document.put("to", to);
+        let varied = self.case_set.varied();
+        let is_given = |parameter: &&Parameter| {
+            varied.contains(&Coordinate::Parameter(**parameter))
+                || branch.varied().any(|other| other == **parameter)
+        };
+        let at = Parameter::ALL.iter().filter(is_given).map(|&parameter| {
+            let value = quantity(branch.parameters[parameter], parameter.dimension());
+            (parameter.symbol().to_owned(), value)
+        });
+        document.put("at", inline(at));
+        let own = start(&branch.start, branch.start_phase, branch.section_phase);
+        let own = own.map(|(key, coordinate, value)| {
+            (key.to_owned(), quantity(value, coordinate.dimension()))
+        });
+        document.put("start", inline(own.into_iter()));
+        if let FirstOrbit::Newton { period } = branch.first {
+            document.put("orbit", text("newton"));
+            document.put("period", period);
+        }
+        document.put("doublings", branch.doublings);
+        if let Some((parameter, range)) = branch.second {
+            let [from, to] = range.map(|end| quantity(end, parameter.dimension()));
+            let pairs = [("name", text(parameter.symbol())), ("from", from), ("to", to)];
+            let pairs = pairs.into_iter().map(|(key, value)| (key.to_owned(), value));
+            document.put("second", inline(pairs));
+        }
+        document.put("longest_step", number(branch.longest_step));
+        document.put("most_points", branch.most_points);
+    }
+
+    /// What is not the same in the study that was `read` back.
+    fn differences(&self, read: &Study) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        let mut own = self.clone();
+        // What is held constant of a coordinate that varies does not count.
+        for coordinate in self.case_set.varied() {
+            match coordinate {
+                Coordinate::Parameter(parameter) => own.base[parameter] = read.base[parameter],
+                Coordinate::StartR => own.start.r = read.start.r,
+                Coordinate::StartY1 => own.start.y1 = read.start.y1,
+                Coordinate::StartY2 => own.start.y2 = read.start.y2,
+                Coordinate::StartPhase => own.start_phase = read.start_phase,
+                Coordinate::SectionPhase => own.section_phase = read.section_phase,
+            }
+        }
+        note(&mut faults, "title", &own.title, &read.title);
+        note(&mut faults, "outputs", &own.outputs, &read.outputs);
+        note(&mut faults, "parameters", &own.base, &read.base);
+        note(&mut faults, "start", &own.start, &read.start);
+        let phases = |study: &Study| [study.start_phase, study.section_phase];
+        note(&mut faults, "start", &phases(&own), &phases(read));
+        note(&mut faults, "axes", &own.case_set, &read.case_set);
+        note(&mut faults, "protocol", &own.protocol, &read.protocol);
+        for (i, (own, read)) in own.branches.iter().zip(&read.branches).enumerate() {
+            note(&mut faults, &format!("branches[{}]", i + 1), own, read);
+        }
+        for (i, (own, read)) in own.drawings.iter().zip(&read.drawings).enumerate() {
+            note(&mut faults, &format!("figures[{}]", i + 1), own, read);
+        }
+        faults
+    }
+}
+
+/// Notes a part of a study that is read back as another.
+fn note<T: PartialEq + Debug>(faults: &mut Vec<Fault>, key: &str, own: &T, read: &T) {
+    if own != read {
+        let message = format!("a study file cannot hold {own:?}; it would be read as {read:?}");
+        faults.push(Fault { line: None, key: key.to_owned(), message });
+    }
+}
+
+/// The keys of a start with their values.
+fn start(
+    state: &State<f64>,
+    start_phase: f64,
+    section_phase: f64,
+) -> [(&'static str, Coordinate, f64); 5] {
+    [
+        ("r", Coordinate::StartR, state.r),
+        ("y1", Coordinate::StartY1, state.y1),
+        ("y2", Coordinate::StartY2, state.y2),
+        ("start_phase", Coordinate::StartPhase, start_phase),
+        ("section_phase", Coordinate::SectionPhase, section_phase),
+    ]
+}
+
+fn write_axis(document: &mut Document, axis: &Axis) {
+    let Axis { coordinate, values } = axis;
+    document.element("axes");
+    document.put("name", text(coordinate.name()));
+    let value = |value: f64| quantity(value, coordinate.dimension());
+    match spacing(values) {
+        Some((from, to, spacing)) => {
+            document.put("from", value(from));
+            document.put("to", value(to));
+            document.put("points", values.len());
+            document.put("spacing", text(spacing.name()));
+        }
+        None => document.put("values", list(values.iter().map(|&it| value(it)))),
+    }
+}
+
+/// The ends and the spacing that make exactly these values, if there are such.
+fn spacing(values: &[f64]) -> Option<(f64, f64, Spacing)> {
+    let (&[from, _, _, ..], &[.., to]) = (values, values) else { return None };
+    let fits = |spacing: &Spacing| {
+        let can_be = *spacing == Spacing::Linear || (from > 0.0 && to > 0.0);
+        let spaced = || spacing.values(from, to, values.len());
+        can_be && from != to && spaced().iter().zip(values).all(|(a, b)| a.to_bits() == b.to_bits())
+    };
+    let found = [Spacing::Linear, Spacing::Logarithmic].into_iter().find(fits);
+    found.map(|spacing| (from, to, spacing))
+}
+
+fn write_draws(document: &mut Document, draws: &Draws) {
+    document.table("draws");
+    document.put("kind", text(draws.kind.name()));
+    document.put("count", draws.count);
+    document.put("seed", draws.seed);
+    for Range { coordinate, from, to, spacing } in &draws.ranges {
+        document.element("axes");
+        document.put("name", text(coordinate.name()));
+        document.put("from", quantity(*from, coordinate.dimension()));
+        document.put("to", quantity(*to, coordinate.dimension()));
+        document.put("spacing", text(spacing.name()));
+    }
+}
+
+fn write_protocol(document: &mut Document, protocol: &Protocol) {
+    document.table("protocol");
+    document.put("tolerance", number(protocol.tolerance));
+    document.put("recurrence", number(protocol.recurrence));
+    document.put("accelerate", protocol.accelerate);
+    document.put("max_cycles", protocol.max_cycles);
+    document.put("max_period", protocol.max_period);
+    document.put("measured_cycles", protocol.measured_cycles);
+    document.put("exponent_cycles", protocol.exponent_cycles);
+    document.put("points", protocol.points);
+    document.put("impact_points", protocol.impact_points);
+    if let Some(HistorySpan { cycles, per_cycle, from_start }) = protocol.history {
+        document.table("history");
+        document.put("from", text(if from_start { "start" } else { "attractor" }));
+        document.put("cycles", cycles);
+        document.put("samples_per_cycle", per_cycle);
+    }
+}
+
+fn write_drawing(document: &mut Document, drawing: &Drawing) {
+    document.element("figures");
+    document.put("name", text(&drawing.name));
+    document.put("kind", text(drawing.kind.name()));
+    for (key, value) in [("title", &drawing.title), ("x", &drawing.x), ("y", &drawing.y)] {
+        if let Some(value) = value {
+            document.put(key, text(value));
+        }
+    }
+    if !drawing.of.is_empty() {
+        document.put("of", list(drawing.of.iter().map(|name| text(name))));
+    }
+    if !drawing.at.is_empty() {
+        let held = drawing.at.iter().map(|(name, value)| {
+            let known = Coordinate::all().find(|coordinate| coordinate.name() == name);
+            let value = known.map_or(number(*value), |it| quantity(*value, it.dimension()));
+            (text(name), value)
+        });
+        document.put("at", inline(held));
+    }
+    if let Some(cycles) = drawing.cycles {
+        document.put("cycles", list(cycles.into_iter().map(number)));
+    }
+    document.put("branches", drawing.branches);
+    if let Some(width) = drawing.width_mm {
+        document.put("width", text(&format!("{width:?} mm")));
+    }
+}

@@ -1,0 +1,67 @@
+//! Writes TOML line by line: keys, texts, numbers with all their digits, quantities in SI units.
+
+use std::fmt::{Display, Write};
+
+use crate::capsule::Dimension;
+
+/// A document that is being written.
+#[derive(Debug, Default)]
+pub(super) struct Document(pub String);
+
+impl Document {
+    /// Adds a key with its value, which is valid TOML.
+    pub fn put(&mut self, key: &str, value: impl Display) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(self.0, "{key} = {value}");
+    }
+
+    /// Begins a table.
+    pub fn table(&mut self, name: &str) {
+        let _ = writeln!(self.0, "\n[{name}]");
+    }
+
+    /// Begins a table of a list of tables.
+    pub fn element(&mut self, name: &str) {
+        let _ = writeln!(self.0, "\n[[{name}]]");
+    }
+}
+
+/// A text in quotes.
+pub(super) fn text(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for character in text.chars() {
+        match character {
+            '"' | '\\' => quoted.extend(['\\', character]),
+            control if control.is_control() => {
+                let _ = write!(quoted, "\\U{:08X}", u32::from(control));
+            }
+            other => quoted.push(other),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
+
+/// A plain number with all its digits.
+pub(super) fn number(value: f64) -> String {
+    if value.is_nan() { "nan".to_owned() } else { format!("{value:?}") }
+}
+
+/// A quantity of `dimension`, of which `value` is given in SI.
+pub(super) fn quantity(value: f64, dimension: Dimension) -> String {
+    match dimension {
+        Dimension::Number => number(value),
+        _ => format!("\"{value:?} {}\"", dimension.unit()),
+    }
+}
+
+/// A list of values that are valid TOML.
+pub(super) fn list(values: impl Iterator<Item = String>) -> String {
+    format!("[{}]", values.collect::<Vec<_>>().join(", "))
+}
+
+/// A table within a line.
+pub(super) fn inline(pairs: impl Iterator<Item = (String, String)>) -> String {
+    let pairs: Vec<String> = pairs.map(|(key, value)| format!("{key} = {value}")).collect();
+    format!("{{ {} }}", pairs.join(", "))
+}

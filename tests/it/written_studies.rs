@@ -1,0 +1,389 @@
+//! Studies built in code: written as study files that parse to the same, whatever their keys hold, and checked.
+
+use std::collections::BTreeMap;
+
+use capsulemap::capsule::{Allowed, Output, Parameter, Parameters, Resistance, State, Switching};
+use capsulemap::orbit::{HistorySpan, Protocol};
+use capsulemap::study::{
+    Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Drawing, DrawingKind, Draws,
+    FirstOrbit, Follow, Grid, Range, Spacing, Study,
+};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{RngCore, SeedableRng};
+
+/// Draws whatever a study may hold.
+struct Random(ChaCha8Rng);
+
+impl Random {
+    fn below(&mut self, count: usize) -> usize {
+        (self.0.next_u64() % count as u64) as usize
+    }
+
+    fn is_so(&mut self) -> bool {
+        self.below(2) == 0
+    }
+
+    fn uniform(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn one<T: Copy>(&mut self, of: &[T]) -> T {
+        of[self.below(of.len())]
+    }
+
+    /// Some of `all`, in any order.
+    fn some<T: Clone>(&mut self, all: &[T]) -> Vec<T> {
+        let mut left = all.to_vec();
+        let count = self.below(all.len() + 1);
+        (0..count).map(|_| left.swap_remove(self.below(left.len()))).collect()
+    }
+
+    /// A number over many magnitudes.
+    fn number(&mut self, allowed: Allowed) -> f64 {
+        let size = libm::exp(self.uniform(-12.0, 12.0));
+        match allowed {
+            Allowed::Positive => size,
+            Allowed::NonNegative => [0.0, size][usize::from(self.below(8) > 0)],
+            Allowed::Finite => size * self.one(&[-1.0, 1.0]),
+        }
+    }
+
+    /// Two numbers that differ.
+    fn ends(&mut self, allowed: Allowed) -> [f64; 2] {
+        loop {
+            let [from, to] = [(); 2].map(|()| self.number(allowed));
+            if from != to {
+                return [from, to];
+            }
+        }
+    }
+
+    /// A text that is hard to quote.
+    fn text(&mut self, more: &[char]) -> String {
+        let all: Vec<char> = "abz 09.,\"\\'#=[]{}äω\u{2028}".chars().collect();
+        let length = self.below(8);
+        (0..length).map(|_| self.one(&[&all[..], more].concat())).collect()
+    }
+
+    fn axis(&mut self, coordinate: Coordinate) -> Axis {
+        let ends = [self.number(coordinate.allowed()), self.number(coordinate.allowed())];
+        let points = 1 + self.below(6);
+        let values = match self.below(3) {
+            0 => (0..points).map(|_| self.number(coordinate.allowed())).collect::<Vec<_>>(),
+            1 => Spacing::Linear.values(ends[0], ends[1], points),
+            _ => Spacing::Logarithmic.values(ends[0].abs() + 1e-6, ends[1].abs() + 1e-5, points),
+        };
+        let mut distinct: Vec<f64> = Vec::new();
+        for value in values {
+            if !distinct.contains(&value) {
+                distinct.push(value);
+            }
+        }
+        Axis { coordinate, values: distinct }
+    }
+
+    fn range(&mut self, coordinate: Coordinate) -> Range {
+        let [from, to] = self.ends(coordinate.allowed());
+        let can_be_log = from > 0.0 && to > 0.0;
+        let spacing =
+            if can_be_log && self.is_so() { Spacing::Logarithmic } else { Spacing::Linear };
+        Range { coordinate, from, to, spacing }
+    }
+
+    fn case_set(&mut self) -> CaseSet {
+        let mut coordinates = self.some(&Coordinate::all().collect::<Vec<_>>());
+        coordinates.truncate(self.below(5));
+        if self.below(3) == 0 && !coordinates.is_empty() {
+            let ranges = coordinates.into_iter().map(|it| self.range(it)).collect();
+            return CaseSet::Draws(Draws {
+                kind: self.one(&[DrawKind::Uniform, DrawKind::LowDiscrepancy]),
+                count: 1 + self.below(10_000),
+                seed: self.0.next_u64() >> 1,
+                ranges,
+            });
+        }
+        let axes: Vec<Axis> = coordinates.into_iter().map(|it| self.axis(it)).collect();
+        let parameter = |axis: &usize| matches!(axes[*axis].coordinate, Coordinate::Parameter(_));
+        let parameters: Vec<usize> = (0..axes.len()).filter(parameter).collect();
+        let directions = self.some(&Direction::ALL);
+        let follow = (!parameters.is_empty() && !directions.is_empty())
+            .then(|| Follow { axis: self.one(&parameters), directions });
+        CaseSet::Grid(Grid { axes, follow })
+    }
+
+    fn state(&mut self) -> State<f64> {
+        let [r, y1, y2] = [(); 3].map(|()| self.number(Allowed::Finite));
+        State { r, y1, x2: 0.0, y2 }
+    }
+
+    fn protocol(&mut self) -> Protocol {
+        let tolerance = |random: &mut Random| libm::exp10(random.uniform(-15.0, -3.0));
+        let from = HistorySpan {
+            cycles: 1 + self.below(9) as u32,
+            per_cycle: 1 + self.below(99) as u32,
+            from_start: self.is_so(),
+        };
+        Protocol {
+            tolerance: tolerance(self).clamp(1e-15, 1e-3),
+            recurrence: tolerance(self).clamp(1e-15, 1e-3),
+            max_cycles: 1 + (self.0.next_u64() >> self.one(&[1, 50])) / 2,
+            max_period: 1 + self.below(100_000),
+            measured_cycles: 1 + self.below(1000) as u64,
+            exponent_cycles: self.one(&[0, 16, 2048, 1_000_000]),
+            points: self.below(100),
+            impact_points: self.below(100),
+            accelerate: self.is_so(),
+            history: self.is_so().then_some(from),
+        }
+    }
+
+    fn branch(&mut self, study: &Study, name: String) -> Continuation {
+        let along = self.one(Parameter::ALL);
+        let second = self.one(Parameter::ALL);
+        let mut parameters = study.base.clone();
+        let mut around = |parameter: Parameter, parameters: &mut Parameters| {
+            let ends = self.ends(parameter.allowed());
+            let range = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+            parameters[parameter] = self.uniform(range[0], range[1]).clamp(range[0], range[1]);
+            range
+        };
+        let second_range = around(second, &mut parameters);
+        let range = around(along, &mut parameters);
+        for coordinate in study.case_set.varied() {
+            if let Coordinate::Parameter(parameter) = coordinate
+                && ![along, second].contains(&parameter)
+            {
+                parameters[parameter] = self.number(parameter.allowed());
+            }
+        }
+        let second = Some((second, second_range)).filter(|_| second != along);
+        Continuation {
+            name,
+            along,
+            range,
+            parameters,
+            start: self.state(),
+            start_phase: self.number(Allowed::Finite),
+            section_phase: self.number(Allowed::Finite),
+            first: match self.is_so() {
+                true => FirstOrbit::Settle,
+                false => FirstOrbit::Newton { period: 1 + self.below(100) as u64 },
+            },
+            doublings: self.below(21) as u32,
+            second,
+            longest_step: self.uniform(1e-6, 1.0),
+            most_points: 2 + self.below(1_000_000 - 1),
+        }
+    }
+
+    fn drawing(&mut self, study: &Study, name: String) -> Drawing {
+        let is_grid = matches!(study.case_set, CaseSet::Grid(_));
+        let needs_grid =
+            |kind: &DrawingKind| matches!(kind, DrawingKind::Map | DrawingKind::Bifurcation);
+        let kinds = DrawingKind::NAMES.iter().map(|(_, kind)| *kind).collect::<Vec<_>>();
+        let kinds: Vec<_> = kinds.into_iter().filter(|kind| is_grid || !needs_grid(kind)).collect();
+        let kind = self.one(&kinds);
+        let mut names: Vec<&str> = study.axes().iter().map(|axis| axis.coordinate.name()).collect();
+        let coordinates: Vec<Coordinate> =
+            study.axes().iter().map(|axis| axis.coordinate).collect();
+        if matches!(kind, DrawingKind::Bifurcation | DrawingKind::Curves) {
+            names.extend(
+                study.branches.iter().flat_map(Continuation::varied).map(Parameter::symbol),
+            );
+        }
+        let mut name_of = || {
+            let wanted = !names.is_empty() && self.is_so();
+            wanted.then(|| self.one(&names).to_owned())
+        };
+        let (x, y) = (name_of(), name_of());
+        let mut of: Vec<String> =
+            self.some(&kind.can_show(&study.outputs)).into_iter().map(str::to_owned).collect();
+        if matches!(kind, DrawingKind::Map | DrawingKind::TradeOff) {
+            of.truncate(1);
+        }
+        let held = self.some(&coordinates);
+        let at: BTreeMap<String, f64> =
+            held.iter().map(|it| (it.name().to_owned(), self.number(Allowed::Finite))).collect();
+        let from = self.uniform(0.0, 3.0);
+        Drawing {
+            name,
+            kind,
+            title: self.is_so().then(|| self.text(&['\n', '\t', '\u{7f}', '\0'])),
+            x,
+            y,
+            of,
+            at,
+            cycles: self.is_so().then_some([from, from + 0.5]),
+            branches: self.is_so(),
+            width_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
+        }
+    }
+
+    fn study(&mut self) -> Study {
+        let case_set = self.case_set();
+        let varied = case_set.varied();
+        let has_branches = self.is_so();
+        let mut study = Study { title: self.text(&[]), case_set, ..Study::default() };
+        for &parameter in Parameter::ALL {
+            if !varied.contains(&Coordinate::Parameter(parameter)) {
+                study.base[parameter] = self.number(parameter.allowed());
+            }
+        }
+        study.base.resistance = self.one(&Resistance::NAMES).1;
+        if !has_branches {
+            study.base.switching = self.one(&Switching::NAMES).1;
+        }
+        let state = self.state();
+        let unless =
+            |coordinate, value: f64| if varied.contains(&coordinate) { 0.0 } else { value };
+        study.start.r = unless(Coordinate::StartR, state.r);
+        study.start.y1 = unless(Coordinate::StartY1, state.y1);
+        study.start.y2 = unless(Coordinate::StartY2, state.y2);
+        study.start_phase = unless(Coordinate::StartPhase, self.number(Allowed::Finite));
+        study.section_phase = unless(Coordinate::SectionPhase, self.number(Allowed::Finite));
+        study.protocol = self.protocol();
+        if self.is_so() {
+            study.outputs = self.some(Output::ALL);
+        }
+        for number in 0..if has_branches { self.below(3) } else { 0 } {
+            let name = format!("{number}{}", self.text(&[]));
+            let branch = self.branch(&study, name);
+            study.branches.push(branch);
+        }
+        for number in 0..self.below(3) {
+            let name = format!("{number} \"ω'");
+            let drawing = self.drawing(&study, name);
+            study.drawings.push(drawing);
+        }
+        study
+    }
+}
+
+/// A study without its text, shown with all digits, so that 0 and -0 differ too.
+fn shown(study: &Study) -> String {
+    format!("{:#?}", Study { text: String::new(), ..study.clone() })
+}
+
+fn assert_round_trip(study: &Study) {
+    let text = study.to_toml();
+    let read =
+        Study::parse("written.toml", &text).unwrap_or_else(|faults| panic!("{faults}\n{text}"));
+    assert_eq!(shown(&read), shown(study), "{text}");
+    assert_eq!(read, Study { text: text.clone(), ..study.clone() });
+    assert_eq!(read.fingerprint(), study.fingerprint());
+    assert_eq!(read.to_toml(), text);
+}
+
+#[test]
+fn a_study_of_any_keys_is_read_back_as_it_was_written() {
+    let mut random = Random(ChaCha8Rng::seed_from_u64(3));
+    let mut seen = BTreeMap::<&str, usize>::new();
+    for _ in 0..2000 {
+        let study = random.study();
+        assert_round_trip(&study);
+        let validated = study.clone().validated("built").unwrap_or_else(|it| panic!("{it}"));
+        assert_eq!(shown(&validated), shown(&study));
+        let text = study.to_toml();
+        assert_eq!(validated.text, text);
+        for key in ["[draws]", "follow =", "[[branches]]", "second =", "points =", "values ="]
+            .into_iter()
+            .chain(["\"logarithmic\"", "[history]", "outputs =", "at = {", "width =", "cycles = ["])
+        {
+            *seen.entry(key).or_default() += usize::from(text.contains(key));
+        }
+    }
+    assert!(seen.values().all(|&count| count > 100), "{seen:?}");
+}
+
+#[test]
+fn every_study_that_is_kept_is_read_back_as_it_was_written() {
+    let mut count = 0;
+    for entry in std::fs::read_dir("studies").expect("the studies") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            let text = std::fs::read_to_string(&path).expect("text");
+            let study = Study::parse(&path.display().to_string(), &text);
+            assert_round_trip(&study.unwrap_or_else(|faults| panic!("{faults}")));
+            count += 1;
+        }
+    }
+    assert!(count > 5);
+}
+
+#[test]
+fn an_axis_keeps_its_form_and_its_bits() {
+    let axis = |values: Vec<f64>| Study {
+        case_set: CaseSet::Grid(Grid {
+            axes: vec![Axis { coordinate: Coordinate::Parameter(Parameter::K2), values }],
+            follow: None,
+        }),
+        ..Study::default()
+    };
+    let even = axis(Spacing::Linear.values(2000.0, 1e5, 50)).to_toml();
+    assert!(even.contains("points = 50\nspacing = \"linear\"") && !even.contains("values"));
+    let log = axis(Spacing::Logarithmic.values(2000.0, 1e5, 50)).to_toml();
+    assert!(
+        log.contains("from = \"2000.0 N/m\"\nto = \"100000.0 N/m\"\npoints = 50\nspacing = \"log")
+    );
+    let mut values = Spacing::Linear.values(2000.0, 1e5, 50);
+    values[7] = f64::from_bits(values[7].to_bits() + 1);
+    assert!(axis(values).to_toml().contains("values = [\"2000.0 N/m\", "));
+}
+
+#[test]
+fn all_faults_of_a_study_built_in_code_are_told_at_once() {
+    let values = vec![60.0, f64::NAN, 60.0];
+    let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Omega), values }];
+    let mut study = Study {
+        title: "two\nlines".to_owned(),
+        case_set: CaseSet::Grid(Grid {
+            axes,
+            follow: Some(Follow { axis: 3, directions: vec![Direction::Upward; 2] }),
+        }),
+        protocol: Protocol { tolerance: 1.0, max_cycles: 0, ..Protocol::default() },
+        ..Study::default()
+    };
+    study.base[Parameter::M1] = -1.0;
+    study.start.y1 = f64::INFINITY;
+    let faults = study.validated("built").expect_err("a faulty study");
+    assert!(faults.faults.iter().all(|fault| fault.line.is_none()));
+    let told = faults.to_string();
+    for words in [
+        "built: ",
+        "title: must be one line",
+        "parameters.m1: -1 kg must be a finite number above zero",
+        "axes[1].values[2]: NaN rad/s must be",
+        "axes[1].values[3]: is given twice",
+        "start.follow: unknown axis of this study \"3\"",
+        "start.y1: inf m/s must be a finite number",
+        "protocol.tolerance: 1 must lie between",
+        "protocol.max_cycles: expected a whole number",
+    ] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+}
+
+#[test]
+fn what_a_study_file_cannot_hold_is_told() {
+    let told = |study: Study| study.validated("built").expect_err("a fault").to_string();
+    let mut study = Study::default();
+    study.start.x2 = 1.0;
+    assert!(told(study).contains("start: a study file cannot hold"));
+    let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd), values: vec![1.0] }];
+    let follow = Some(Follow { axis: 0, directions: Vec::new() });
+    let case_set = CaseSet::Grid(Grid { axes, follow });
+    assert!(
+        told(Study { case_set, ..Study::default() }).contains("axes: a study file cannot hold")
+    );
+    let mut random = Random(ChaCha8Rng::seed_from_u64(4));
+    let mut branch = random.branch(&Study::default(), "one".to_owned());
+    branch.range.reverse();
+    let reversed = Study { branches: vec![branch], ..Study::default() };
+    assert!(told(reversed).contains("branches[1]: a study file cannot hold"));
+    // What is held constant of a coordinate that varies does not count.
+    let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd), values: vec![1.0] }];
+    let case_set = CaseSet::Grid(Grid { axes, follow: None });
+    let mut study = Study { case_set, ..Study::default() };
+    study.base[Parameter::Pd] = -1.0;
+    assert!(study.validated("built").is_ok());
+}
