@@ -5,11 +5,12 @@
 
 use std::time::Instant;
 
+use capsulemap::attractor::attractors_of;
 use capsulemap::branch::{self, SpecialKind};
-use capsulemap::flow::{Event, Field, Stroboscopic, Switched, Taylor, Zeros};
+use capsulemap::flow::{Event, Field, Stroboscopic, Switched, System, Taylor, Zeros};
 use capsulemap::lane::elementary::not_finite;
 use capsulemap::lane::{Lane, ORDER, Series, series};
-use capsulemap::orbit::{self, Case, Machine, Outcome, Protocol};
+use capsulemap::orbit::{self, Case, Machine, Outcome, Proof, Protocol, Returns};
 use capsulemap::{in_lanes, own_system};
 
 /// The valve by its parameters; seen once a maximum of y1 if `MAXIMA`, else at equal times.
@@ -182,62 +183,124 @@ fn exact_loss_of_stability() -> f64 {
     flow_at_rest(0.5 * (low + high))
 }
 
+/// What is followed in the flow rate from an orbit.
+fn request<const D: usize, const MAXIMA: bool>(
+    system: Valve<f64, MAXIMA>,
+    section: [f64; D],
+    range: [f64; 2],
+) -> branch::Request<Valve<f64, MAXIMA>, D>
+where
+    Valve<f64, MAXIMA>: System<D, Parameter = &'static str>,
+{
+    let (longest_step, most_points, tolerance) = (0.05, 1000, 1e-12);
+    let (period, along, doublings, second) = (1, "q", 0, None);
+    branch::Request {
+        system,
+        section,
+        period,
+        along,
+        range,
+        doublings,
+        second,
+        longest_step,
+        most_points,
+        tolerance,
+    }
+}
+
+/// The special point of a kind on a branch.
+fn special<O, const D: usize>(found: &branch::Found<O, D>, kind: SpecialKind) -> f64 {
+    let special = found.branches[0].special.iter().find(|special| special.kind == kind);
+    special.expect("the special point").point.parameter
+}
+
+/// The maxima of y1 over the flow rate as a picture, one dot each.
+fn diagram(flows: &[f64], maxima: &[Returns<2>]) -> String {
+    let mut dots = String::new();
+    for (q, returns) in flows.iter().zip(maxima).step_by(8) {
+        for [y1, _] in &returns.points {
+            let (x, y) = (60.0 + 54.0 * q, 380.0 - 22.0 * y1);
+            dots += &format!("<rect x='{x:.2}' y='{y:.2}' width='.4' height='.4'/>");
+        }
+    }
+    let tick = |i: i32| {
+        let (x, y) = (60 + 108 * i, 380 - 66 * i);
+        format!(
+            "<path d='M{x} 380v5M60 {y}h-5' stroke='black'/><text x='{x}' y='400'>{}</text>\
+             <text x='40' y='{}'>{}</text>",
+            2 * i,
+            y + 4,
+            3 * i
+        )
+    };
+    let ticks: String = (0..=5).map(tick).collect();
+    format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 640 430' font-family='sans-serif' \
+         font-size='13' text-anchor='middle'><rect width='640' height='430' fill='white'/>{dots}\
+         <path d='M60 30V380H600' fill='none' stroke='black'/>{ticks}<text x='330' y='424'>flow \
+         rate q</text><text transform='rotate(-90 16 205)' x='16' y='205'>maximum of y1</text></svg>"
+    )
+}
+
 fn main() {
-    let protocol = Protocol::default();
     // The equilibrium, seen at equal times, is a fixed point; a pair of multipliers passes the unit circle.
-    let y1 = 4.0;
-    let equilibrium = branch::Request {
-        system: valve::<false>(flow_at_rest(y1)),
-        section: [y1, 0.0, y1 + 10.0],
-        period: 1,
-        along: "q",
-        range: [4.0, 20.0],
-        doublings: 0,
-        second: None,
-        longest_step: 0.05,
-        most_points: 1000,
-        tolerance: protocol.tolerance,
+    let at_rest = request(valve::<false>(flow_at_rest(4.0)), [4.0, 0.0, 14.0], [4.0, 20.0]);
+    let found = branch::follow(&at_rest).expect("the equilibrium");
+    let loss_of_stability = special(&found, SpecialKind::NeimarkSacker);
+    let exact = exact_loss_of_stability();
+    assert!((loss_of_stability - exact).abs() < 1e-9 * exact, "{loss_of_stability} {exact}");
+
+    // The cycle that is left, with a certificate, and the exponent of its multipliers.
+    let protocol = Protocol::default();
+    let orbit = orbit::settle(&Case::new(valve::<true>(8.0), [4.0, 0.0, 15.0]), &protocol);
+    assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+    assert_eq!(orbit.certificate.proof, Proof::Newton);
+    let [largest, _] = orbit.certificate.multipliers.map(|it| it.abs());
+    assert!((orbit.exponent.value - libm::log(largest) / orbit.duration).abs() < 1e-9);
+    // Followed in the flow rate, it shrinks onto the equilibrium at one end and touches the seat at the other.
+    let cycle = request(valve::<true>(8.0), orbit.section[0], [5.0, 9.0]);
+    let found = branch::follow(&cycle).expect("the cycle");
+    let first_touch = special(&found, SpecialKind::Grazing);
+    assert!((special(&found, SpecialKind::Fold) - exact).abs() < 1e-6);
+    // By a second method: a bisection of whether the settled cycle has impacts.
+    let touches = |q: f64| {
+        let orbit = orbit::settle(&Case::new(valve::<true>(q), [4.0, 0.0, 15.0]), &protocol);
+        let cycle = request(valve::<true>(q), orbit.section[0], [q - 0.01, q + 0.01]);
+        let found = branch::follow(&cycle).expect("the cycle");
+        found.branches[0].special.iter().any(|it| it.kind == SpecialKind::Grazing)
     };
-    let found = branch::follow(&equilibrium).expect("the equilibrium");
+    assert!(touches(first_touch + 0.005) && !touches(first_touch + 0.02));
+
+    // Two starts at one flow rate lead to one attractor or to two.
+    let starts = [[0.5, 0.0, 10.0], [6.0, 0.0, 12.0], [4.0, 0.0, 15.0]];
+    let cases: Vec<_> = starts.map(|start| Case::new(valve::<true>(7.0), start)).to_vec();
+    let orbits = orbit::settle_all(&cases, &protocol, Machine::default());
+    let attractors = attractors_of(&valve::<true>(7.0), &orbits, &protocol).attractors.len();
+
+    // The diagram: 30 720 flow rates, 1024 maxima of y1 waited and 32 kept, on one core.
+    let flows: Vec<f64> = (0..30_720).map(|i| 0.2 + 9.8 * f64::from(i) / 30_719.0).collect();
+    let cases: Vec<_> =
+        flows.iter().map(|q| Case::new(valve::<true>(*q), [0.2, 0.0, 10.0])).collect();
+    let begun = Instant::now();
+    let maxima = orbit::returns(&cases, (1024, 32), 1e-10, Machine::single());
+    let values_per_second = flows.len() as f64 / begun.elapsed().as_secs_f64();
+    let unfinished = maxima.iter().filter(|it| it.failure.is_some()).count();
+
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let Some(file) = arguments.iter().skip_while(|it| *it != "--svg").nth(1) {
+        std::fs::write(file, diagram(&flows, &maxima)).expect("the picture can be written");
+    }
+    if arguments.iter().any(|argument| argument == "--json") {
+        println!(
+            "{{\"loss_of_stability_q\": {loss_of_stability}, \"first_touch_q\": {first_touch}, \
+             \"values_per_second\": {values_per_second:.0}, \"unfinished\": {unfinished}, \
+             \"attractors_at_7\": {attractors}}}"
+        );
+        return;
+    }
     println!(
-        "{:?} {:?}",
-        found.branches[0].special.iter().map(|s| (s.kind, s.point.parameter)).collect::<Vec<_>>(),
-        found.branches[0].ends
+        "the equilibrium loses its stability at q = {loss_of_stability:.12} (exactly {exact:.12})"
     );
-    println!("exact {}", exact_loss_of_stability());
-    let at = std::env::args().nth(1).and_then(|a| a.parse().ok()).unwrap_or(8.0);
-    let case = Case::new(valve::<true>(at), [y1, 0.0, 15.0]);
-    let orbit = orbit::settle(&case, &protocol);
-    println!(
-        "{:?} {} {:?} {:?} {:?} cycles {} defect {:e}",
-        orbit.outcome,
-        orbit.period,
-        orbit.section.first(),
-        orbit.certificate,
-        orbit.failure,
-        orbit.cycles,
-        orbit.defect
-    );
-    let request = branch::Request {
-        system: valve::<true>(at),
-        section: orbit.section[0],
-        period: orbit.period,
-        along: "q",
-        range: [4.0, 9.5],
-        doublings: 0,
-        second: None,
-        longest_step: 0.05,
-        most_points: 1000,
-        tolerance: protocol.tolerance,
-    };
-    let found = branch::follow(&request).expect("the cycle");
-    let b = &found.branches[0];
-    println!(
-        "{:?} {:?} {} .. {}",
-        b.special.iter().map(|s| (s.kind, s.point.parameter)).collect::<Vec<_>>(),
-        b.ends,
-        b.points[0].parameter,
-        b.points.last().unwrap().parameter
-    );
-    let _ = (Instant::now(), Machine::default(), SpecialKind::Grazing, Outcome::Periodic);
+    println!("the cycle touches the seat first at q = {first_touch:.12}");
+    println!("{values_per_second:.0} flow rates a second, {unfinished} of {} cut off", flows.len());
 }

@@ -2,35 +2,13 @@
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
 use crate::flow::System;
-use crate::lane::Instructions;
 
 use super::case::{Case, OrbitOf};
+use super::machine::Machine;
 use super::protocol::Protocol;
 use super::side_by_side::{Queue, Underway, settle_side_by_side};
-
-/// What cases are settled on; what they settle to does not depend on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Machine {
-    /// Number of threads; all cores for none.
-    pub threads: Option<usize>,
-    /// By which each thread moves its cases; those that suit their number for none.
-    pub instructions: Option<Instructions>,
-}
-
-impl Machine {
-    /// One thread.
-    pub fn single() -> Self {
-        Machine { threads: Some(1), instructions: None }
-    }
-
-    /// The instructions to move so many cases a thread by.
-    pub fn instructions_for(&self, cases: usize) -> Instructions {
-        self.instructions.unwrap_or_else(|| Instructions::suited_to(cases))
-    }
-}
 
 /// What each of the cases settles to, in their order.
 ///
@@ -72,12 +50,8 @@ fn settle_group<M: System<D>, const D: usize>(
     machine: Machine,
     orbits: &Orbits<M, D>,
 ) {
-    let available = || thread::available_parallelism().map_or(1, usize::from);
-    let threads = machine.threads.unwrap_or_else(available).clamp(1, group.len());
-    let share = group.len().div_ceil(threads);
-    let instructions = machine.instructions_for(share);
     let (taken, last) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    let work = || {
+    machine.share_out(group.len(), |share, instructions| {
         let mut list = List { cases, group, taken: &taken, left: share, orbits };
         let unfinished = settle_side_by_side(instructions, protocol, &mut list);
         let lock = || last.lock().expect("no thread has panicked");
@@ -88,12 +62,6 @@ fn settle_group<M: System<D>, const D: usize>(
             let Some(case) = case else { break };
             list.keep(case.finish(protocol));
         }
-    };
-    thread::scope(|scope| {
-        for _ in 1..threads {
-            scope.spawn(work);
-        }
-        work();
     });
 }
 

@@ -10,23 +10,38 @@ use capsulemap::study::{DrawingKind, Study};
 use super::house::{sources, string_length};
 use super::program::Desk;
 
-/// The files that give parameters, starts and outputs their names.
-const DEFINING: [&str; 3] =
-    ["src/capsule/parameter.rs", "src/orbit/output.rs", "src/study/axis.rs"];
+/// The files that give parameters, starts, outputs and the dimensions of cases their names.
+const DEFINING: [&str; 5] = [
+    "src/capsule/parameter.rs",
+    "src/capsule/output.rs",
+    "src/study/axis.rs",
+    "src/study/grid.rs",
+    "src/study/draws.rs",
+];
 
 /// What is spelled like a variable elsewhere and is none: the file, the words, and what they are there.
-const OTHERS: [(&str, &[&str], &str); 10] = [
-    ("src/study/study_file.rs", &["phase", "direction", "cycles", "attractor"], "keys of a study"),
-    ("src/study/branch_file.rs", &["phase", "period"], "keys of a study"),
+const OTHERS: [(&str, &[&str], &str); 14] = [
+    ("src/study/study_file.rs", &["cycles", "attractor"], "keys of a study"),
+    ("src/study/study_text.rs", KEYS, "keys of a study"),
+    ("src/study/start_file.rs", &["start_phase", "section_phase", "direction"], "keys of a study"),
+    ("src/study/branch_file.rs", &["period"], "keys of a study"),
     ("src/study/drawing_file.rs", &["cycles"], "a key of a study"),
     ("src/study/drawing.rs", SHOWN, "what the key `of` may name, which a test here compares"),
     ("src/study/quantity.rs", &["g"], "the gram"),
-    ("src/cli/simulate.rs", &["omega", "p_d", "k2", "delta", "phase"], "options of a command"),
+    ("src/cli/simulate.rs", OPTIONS, "options of a command"),
+    ("src/cli/phases.rs", &["start_phase", "section_phase"], "options of a command"),
+    ("src/campaign/error.rs", &["block"], "a word of a message"),
     ("src/cli/branch_summary.rs", &["branch", "period"], "words of a message"),
     ("src/cli/dry_run.rs", &["block"], "a word of a message"),
     ("src/cli/join.rs", &["block"], "a word of a message"),
     ("src/cli/status.rs", &["block"], "a word of a message"),
 ];
+
+/// Keys of a study.
+const KEYS: &[&str] = &["start_phase", "section_phase", "period", "attractor", "cycles"];
+
+/// Options that are called as parameters are.
+const OPTIONS: &[&str] = &["omega", "p_d", "k2", "delta", "start_phase", "section_phase"];
 
 /// What the key `of` of a figure may name beside outputs.
 const SHOWN: &[&str] = &[
@@ -113,7 +128,7 @@ fn what_a_study_may_draw_is_in_the_catalogue() {
 }
 
 /// Two studies that together have all that a file of results can hold.
-const STUDIES: [&str; 2] = [
+const STUDIES: [&str; 3] = [
     r#"
 [parameters]
 m2 = "0.2 kg"
@@ -155,6 +170,16 @@ name = "start_y1"
 values = ["-0.4 m/s", "0.4 m/s"]
 [protocol]
 max_cycles = 200
+"#,
+    r#"
+[draws]
+kind = "low-discrepancy"
+count = 8
+seed = 3
+[[axes]]
+name = "start_y1"
+from = "-0.4 m/s"
+to = "0.4 m/s"
 "#,
 ];
 

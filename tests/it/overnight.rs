@@ -81,7 +81,9 @@ fn runs_that_are_killed_at_random_and_resumed_end_in_the_same_bytes() {
 fn signals_keep_what_is_done_and_say_how_to_go_on() {
     use std::os::unix::process::ExitStatusExt;
     let night = Night::new();
-    for signal in ["INT", "TERM"] {
+    let mut attempts_left = 10;
+    let mut signals = vec!["INT", "TERM"];
+    while let Some(signal) = signals.pop() {
         let mut child = night.start(&[]);
         night.wait_for(3);
         let told = night.desk.shell(&format!("kill -{signal} {}", child.id()));
@@ -89,6 +91,13 @@ fn signals_keep_what_is_done_and_say_how_to_go_on() {
         let asked = Instant::now();
         let status = child.wait().expect("a process");
         assert!(asked.elapsed() < Duration::from_secs(10));
+        if status.success() && attempts_left > 0 {
+            // On a busy machine the run may be done before it is told to stop.
+            attempts_left -= 1;
+            night.forget();
+            signals.push(signal);
+            continue;
+        }
         assert_eq!(status.signal(), Some(if signal == "INT" { 2 } else { 15 }));
         let text = said(&mut child);
         let last = text.lines().last().expect("a last line");

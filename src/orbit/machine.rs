@@ -1,0 +1,41 @@
+//! What cases are computed on: threads, and the instructions of each.
+
+use std::thread;
+
+use crate::lane::Instructions;
+
+/// What cases are computed on; the results do not depend on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Machine {
+    /// Number of threads; all cores for none.
+    pub threads: Option<usize>,
+    /// By which each thread moves its cases; those that suit their number for none.
+    pub instructions: Option<Instructions>,
+}
+
+impl Machine {
+    /// One thread.
+    pub fn single() -> Self {
+        Machine { threads: Some(1), instructions: None }
+    }
+
+    /// The instructions to move so many cases a thread by.
+    pub fn instructions_for(&self, cases: usize) -> Instructions {
+        self.instructions.unwrap_or_else(|| Instructions::suited_to(cases))
+    }
+
+    /// Calls `work` on as many threads as so many cases are worth, with the cases of a thread if they are
+    /// shared out evenly, and the instructions for them.
+    pub(super) fn share_out(&self, cases: usize, work: impl Fn(usize, Instructions) + Sync) {
+        let available = || thread::available_parallelism().map_or(1, usize::from);
+        let threads = self.threads.unwrap_or_else(available).clamp(1, cases.max(1));
+        let share = cases.div_ceil(threads);
+        let instructions = self.instructions_for(share);
+        thread::scope(|scope| {
+            for _ in 1..threads {
+                scope.spawn(|| work(share, instructions));
+            }
+            work(share, instructions);
+        });
+    }
+}

@@ -1,0 +1,134 @@
+//! The section points of many cases after a number of cycles that are waited, as a bifurcation diagram needs
+//! them where nothing is to be proven.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use crate::flow::{Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
+use crate::lane::{Lane, Mask, SideBySide, Work};
+
+use super::{Case, Machine};
+
+/// The last section points of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Returns<const D: usize> {
+    /// As many as were to be kept, or fewer where the motion could not be followed so far.
+    pub points: Vec<[f64; D]>,
+    /// Why it could not, if so.
+    pub failure: Option<Reason>,
+}
+
+/// Follows each of the cases, which are alike ([`System::is_alike`]), for so many cycles and keeps the section
+/// points of so many more; in the order of the cases.
+///
+/// Guarantees: the points of a case have the same bits on any number of threads and by any instructions.
+///
+/// # Panics
+/// Where two cases are not alike, or the processor does not have the instructions that `machine` asks for.
+pub fn returns<M: System<D>, const D: usize>(
+    cases: &[Case<M, D>],
+    (waited, kept): (u64, usize),
+    tolerance: f64,
+    machine: Machine,
+) -> Vec<Returns<D>> {
+    let nothing = Returns { points: Vec::new(), failure: None };
+    let (taken, found) = (AtomicUsize::new(0), Mutex::new(vec![nothing; cases.len()]));
+    machine.share_out(cases.len(), |share, instructions| {
+        let (waited, kept) = (waited as usize, kept);
+        let own = instructions.run(Crowd { cases, taken: &taken, share, waited, kept, tolerance });
+        let mut found = found.lock().expect("no thread has panicked");
+        for (index, returns) in own {
+            found[index] = returns;
+        }
+    });
+    found.into_inner().expect("no thread has panicked")
+}
+
+/// The cases, and how many of them any thread has taken.
+struct Crowd<'a, M: System<D>, const D: usize> {
+    cases: &'a [Case<M, D>],
+    taken: &'a AtomicUsize,
+    /// Lanes that are filled at the beginning, so that a few cases are not all with one thread.
+    share: usize,
+    waited: usize,
+    kept: usize,
+    tolerance: f64,
+}
+
+/// A case in a lane: its index, the cycles met, the steps of the next, and the points kept.
+struct Occupant<const D: usize> {
+    index: usize,
+    cycles: usize,
+    steps: u64,
+    points: Vec<[f64; D]>,
+}
+
+impl<M: System<D>, const D: usize> Crowd<'_, M, D> {
+    /// The next case.
+    fn next(&self) -> Option<(usize, &Case<M, D>)> {
+        let index = self.taken.fetch_add(1, Ordering::Relaxed);
+        Some((index, self.cases.get(index)?))
+    }
+}
+
+impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
+    type Output = Vec<(usize, Returns<D>)>;
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Self::Output {
+        let mut done = Vec::new();
+        let Some(first) = self.cases.first() else { return done };
+        let system = first.system.single();
+        let mut motion = Motion::<L, M::In<L>>::splat(&Motion::new(&system, 0.0, first.start));
+        let mut system = M::In::<L>::splat(&system);
+        let mut lanes: Vec<Option<Occupant<D>>> = (0..L::WIDTH).map(|_| None).collect();
+        let refill = |lane: usize, system: &mut M::In<L>, motion: &mut Motion<L, M::In<L>>| {
+            let (index, case) = self.next()?;
+            assert!(case.system.is_alike(&first.system), "cases side by side are alike");
+            let one = case.system.single();
+            system.put(lane, &one);
+            motion.put(lane, &Motion::new(&one, case.begins, case.start));
+            Some(Occupant { index, cycles: 0, steps: 0, points: Vec::new() })
+        };
+        for (lane, occupant) in lanes.iter_mut().enumerate().take(self.share) {
+            *occupant = refill(lane, &mut system, &mut motion);
+        }
+        let mut periods = system.period();
+        let mut step = Step::default();
+        while lanes.iter().any(Option::is_some) {
+            motion.step(&system, periods, self.tolerance, &mut step);
+            let broken = motion.broken(&system);
+            let (arrived, broken) = (step.arrives.bits(), broken.bits());
+            if step.arrives.any() {
+                motion.begin_cycle(step.arrives);
+            }
+            for (lane, place) in lanes.iter_mut().enumerate() {
+                let Some(occupant) = place else { continue };
+                occupant.steps += 1;
+                let slow = occupant.steps >= STEPS_PER_CYCLE;
+                if broken >> lane & 1 != 0 || slow {
+                    let why = motion.breakdown(&system, lane);
+                    let failure = Some(why.map_or(Reason::TooManySteps, Reason::from));
+                    let points = std::mem::take(&mut occupant.points);
+                    done.push((occupant.index, Returns { points, failure }));
+                } else if arrived >> lane & 1 != 0 {
+                    occupant.steps = 0;
+                    occupant.cycles += 1;
+                    if occupant.cycles > self.waited {
+                        occupant.points.push(M::Single::point(&motion.state.lane(lane)));
+                    }
+                    if occupant.cycles < self.waited + self.kept {
+                        continue;
+                    }
+                    let points = std::mem::take(&mut occupant.points);
+                    done.push((occupant.index, Returns { points, failure: None }));
+                } else {
+                    continue;
+                }
+                *place = refill(lane, &mut system, &mut motion);
+                periods = system.period();
+            }
+        }
+        done
+    }
+}
