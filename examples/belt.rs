@@ -3,11 +3,12 @@
 //!
 //! `cargo run --release --no-default-features --example belt -- --json`
 
-use capsulemap::branch;
+use capsulemap::attractor::attractors_of;
+use capsulemap::branch::{self, SpecialKind};
 use capsulemap::flow::{Event, Field, Stroboscopic, Switched, Taylor, Zeros};
 use capsulemap::lane::elementary::{exp, not_finite};
 use capsulemap::lane::{Lane, ORDER, Series, SideBySide, series};
-use capsulemap::orbit::{self, Case, Protocol};
+use capsulemap::orbit::{self, Case, Machine, Outcome, Proof, Protocol};
 use capsulemap::{in_lanes, own_system};
 
 /// The mass on its belt; friction is a (1 + exp(-|u| / s)) against its velocity u on the belt.
@@ -214,16 +215,19 @@ impl Field for Belt<f64> {
 fn main() {
     let belt = Belt { c: 0.1, a: 0.5, s: 0.5, v: 1.5 };
     let protocol = Protocol::default();
-    let orbit = orbit::settle(&Case::new(belt, [2.0, 0.0]), &protocol);
-    println!(
-        "{:?} {} {:?} {:?} {:?} {:?}",
-        orbit.outcome,
-        orbit.period,
-        orbit.section,
-        orbit.certificate,
-        orbit.duration,
-        orbit.failure
-    );
+    // The cycle that sticks and slips: what came before is forgotten while the mass sticks, so that its
+    // multiplier is zero.
+    let starts = [[2.0, 0.0], [1.0, 0.0], [0.7, 0.0]].map(|start| Case::new(belt, start));
+    let orbits = orbit::settle_all(&starts, &protocol, Machine::default());
+    let table = attractors_of(&belt, &orbits, &protocol);
+    let orbit = &orbits[0];
+    assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+    assert_eq!(orbit.certificate.proof, Proof::Newton);
+    assert!(orbit.certificate.multipliers[0].abs() < 1e-12);
+    assert!(orbit.exponent.value < -4.0 || orbit.exponent.value == f64::NEG_INFINITY);
+
+    // Followed in the velocity of the belt it ends where it just fails to stick; the branch turns there, into
+    // the unstable cycle that does not stick, and ends where that shrinks onto steady sliding.
     let request = branch::Request {
         system: belt,
         section: orbit.section[0],
@@ -237,13 +241,24 @@ fn main() {
         tolerance: protocol.tolerance,
     };
     let found = branch::follow(&request).expect("the cycle");
-    let b = &found.branches[0];
-    println!(
-        "{:?} {:?}",
-        b.special.iter().map(|s| (s.kind, s.point.parameter)).collect::<Vec<_>>(),
-        b.ends
-    );
-    for p in &b.points {
-        println!("{} {:?} {:?}", p.parameter, p.section, p.multipliers);
+    let at = |kind: SpecialKind| {
+        let special = found.branches[0].special.iter().find(|special| special.kind == kind);
+        special.expect("the special point").point.parameter
+    };
+    let cycle_disappears = at(SpecialKind::EventSequence);
+    let sliding_unstable = at(SpecialKind::Fold);
+    assert!((cycle_disappears - 1.8366).abs() < 5e-5, "{cycle_disappears}");
+    let exact = belt.s * libm::log(belt.a / (belt.c * belt.s));
+    assert!((sliding_unstable - exact).abs() < 1e-9, "{sliding_unstable} {exact}");
+
+    if std::env::args().any(|argument| argument == "--json") {
+        println!(
+            "{{\"cycle_disappears_v\": {cycle_disappears}, \"sliding_unstable_v\": {sliding_unstable}, \
+             \"attractors\": {}}}",
+            table.attractors.len()
+        );
+        return;
     }
+    println!("the cycle of sticking and slipping disappears at v = {cycle_disappears:.9}");
+    println!("steady sliding is stable above v = {sliding_unstable:.9} (exactly {exact:.9})");
 }

@@ -10,6 +10,7 @@ use capsulemap::branch::{self, SpecialKind};
 use capsulemap::flow::{Event, Field, Stroboscopic, Switched, System, Taylor, Zeros};
 use capsulemap::lane::elementary::not_finite;
 use capsulemap::lane::{Lane, ORDER, Series, series};
+use capsulemap::orbit::return_map::{Cycles, returned};
 use capsulemap::orbit::{self, Case, Machine, Outcome, Proof, Protocol, Returns};
 use capsulemap::{in_lanes, own_system};
 
@@ -262,14 +263,21 @@ fn main() {
     let found = branch::follow(&cycle).expect("the cycle");
     let first_touch = special(&found, SpecialKind::Grazing);
     assert!((special(&found, SpecialKind::Fold) - exact).abs() < 1e-6);
-    // By a second method: a bisection of whether the settled cycle has impacts.
-    let touches = |q: f64| {
-        let orbit = orbit::settle(&Case::new(valve::<true>(q), [4.0, 0.0, 15.0]), &protocol);
-        let cycle = request(valve::<true>(q), orbit.section[0], [q - 0.01, q + 0.01]);
-        let found = branch::follow(&cycle).expect("the cycle");
-        found.branches[0].special.iter().any(|it| it.kind == SpecialKind::Grazing)
+    // By a second method: the least y1 of the settled cycle vanishes there, nearly linearly.
+    let lift = |q: f64| {
+        let system = valve::<true>(q);
+        let from = orbit::settle(&Case::new(system, [4.0, 0.0, 15.0]), &protocol).section[0];
+        let mut least = f64::INFINITY;
+        let cycle = Cycles { count: 1, tolerance: protocol.tolerance };
+        returned(&system, from, &cycle, |step| {
+            let at = |i: u32| system.at(&step.jet, step.length * f64::from(i) / 64.0)[0];
+            least = (0..=64).map(at).fold(least, f64::min);
+        })
+        .expect("the cycle is closed");
+        least
     };
-    assert!(touches(first_touch + 0.005) && !touches(first_touch + 0.02));
+    let [near, far] = [2e-3, 4e-3].map(|away| lift(first_touch + away));
+    assert!(near > 0.0 && (far / near - 2.0).abs() < 0.01, "{near} {far}");
 
     // Two starts at one flow rate lead to one attractor or to two.
     let starts = [[0.5, 0.0, 10.0], [6.0, 0.0, 12.0], [4.0, 0.0, 15.0]];

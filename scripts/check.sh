@@ -66,11 +66,24 @@ documentation() {
     RUSTDOCFLAGS="-D warnings" cargo doc --no-deps
 }
 
+# The engine for any system, without HDF5, plotters and clap; each example asserts what it claims.
+engine_alone() {
+    local example
+    cargo check --no-default-features --lib
+    for example in duffing relief_valve belt; do
+        cargo run --release --quiet --no-default-features --example "$example" -- --json
+    done
+    local count
+    count=$(cargo tree --no-default-features --edges normal --prefix none | sort -u | wc -l)
+    echo "the engine alone needs $((count - 1)) crates"
+}
+
 step "what the machine needs" scripts/setup.sh
 step "formatting" cargo fmt --check
 step "Python readers" python_readers
 step "Slurm" slurm
 step "tests, as in the README" readme_test
+step "engine alone" engine_alone
 step "lints" cargo clippy --release --all-targets -- -D warnings
 step "documentation" documentation
 echo "== all checks passed in $SECONDS s"

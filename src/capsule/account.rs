@@ -2,216 +2,290 @@
 
 use serde::Serialize;
 
-use crate::flow::guard::crossings;
+use crate::flow::guard::Crossings;
 use crate::flow::{Event, Observer, Step};
-use crate::lane::quadrature::{integral_of_product, values};
-use crate::lane::{Series, series};
+use crate::lane::quadrature::{Values, integral_of_product, values};
+use crate::lane::{Lane, Mask, Series, series};
 
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
 use super::parameters::Parameters;
-use super::state::{Contact, EventKind, State, StickSlip};
+use super::state::{EventKind, State};
 
 /// A point of the impact section: where contact closes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Impact {
+pub struct Impact<L> {
     /// Phase of the drive since the section, 0 to 2 pi [rad].
-    pub phase: f64,
+    pub phase: L,
     /// Velocity of the mass [m/s].
-    pub y1: f64,
+    pub y1: L,
     /// Velocity of the capsule [m/s].
-    pub y2: f64,
+    pub y2: L,
 }
 
 /// Energies, summed since a start [J].
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
-pub struct Energies {
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Energies<L> {
     /// Work of the drive [J].
-    pub work_net: f64,
+    pub work_net: L,
     /// Its positive part [J].
-    pub work_positive: f64,
+    pub work_positive: L,
     /// The integral of its magnitude [J].
-    pub work_absolute: f64,
+    pub work_absolute: L,
     /// Work of a drive that acts between mass and capsule [J].
-    pub work_actuator: f64,
+    pub work_actuator: L,
     /// Energy lost to the resistance of the ground [J].
-    pub friction_loss: f64,
+    pub friction_loss: L,
     /// Energy lost in the damper [J].
-    pub damper_loss: f64,
+    pub damper_loss: L,
 }
 
-/// Sums over the steps that it has seen.
+/// The constants of the capsules that are observed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Constants<L> {
+    p_d: L,
+    c: L,
+    k2: L,
+    delta: L,
+    omega: L,
+}
+
+/// Sums over the steps of a motion, in each lane; in numbers with derivatives, with the derivatives of the
+/// sums.
+///
+/// Counts and shares change at events only, so that their derivatives are zero. Assumes: the steps follow each
+/// other without a gap; in lanes of which one has ended its stretch, the others' sums alone are to be read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Account {
-    p_d: f64,
-    c: f64,
-    k2: f64,
-    delta: f64,
-    omega: f64,
+pub struct Account<L: Lane> {
+    of: Constants<L>,
     /// Impacts kept at most.
     points: usize,
     /// Time seen [s].
-    pub time: f64,
+    pub time: L,
     /// Work of the drive and losses.
-    pub energies: Energies,
+    pub energies: Energies<L>,
     /// Integral of the friction force over time [N s].
-    pub friction_impulse: f64,
+    pub friction_impulse: L,
     /// Time at rest [s].
-    pub stick_time: f64,
+    pub stick_time: L,
     /// Largest contact force [N].
-    pub peak_contact_force: f64,
+    pub peak_contact_force: L,
     /// Least distance between a local maximum of r and the stop [m]; infinite while there is none.
-    pub grazing_margin: f64,
+    pub grazing_margin: L,
     /// The same of any local extremum: in a minimum, contact that lasts is about to open [m].
-    pub touching_margin: f64,
+    pub touching_margin: L,
     /// How often contact closed.
-    pub impacts: u64,
-    /// The first of these impacts, as many as are kept.
-    pub impact_points: Vec<Impact>,
+    pub impacts: L,
+    /// The first of these impacts, as many as are kept, and in which lanes they were.
+    pub impact_points: Vec<(L::Mask, Impact<L>)>,
     /// How often the capsule began to slide forward, by onset or by reversal.
-    pub forward_slips: u64,
+    pub forward_slips: L,
     /// How often the capsule began to slide backward.
-    pub backward_slips: u64,
+    pub backward_slips: L,
     /// How often it turned round without resting.
-    pub reversals: u64,
-    rate_of_r: f64,
+    pub reversals: L,
+    rate_of_r: L,
 }
 
-impl Account {
+impl Account<f64> {
     /// Nothing seen yet; of the impacts so many `points` are kept.
-    pub fn new(parameters: &Parameters, points: usize) -> Self {
+    pub fn single(parameters: &Parameters, points: usize) -> Self {
+        Account::new(|parameter| parameters[parameter], points)
+    }
+}
+
+impl<L: Lane> Account<L> {
+    /// Nothing seen yet; of the impacts so many `points` are kept.
+    pub fn new(of: impl Fn(Parameter) -> L, points: usize) -> Self {
+        let (zero, far) = (L::splat(0.0), L::splat(f64::INFINITY));
         Account {
-            p_d: parameters[Parameter::Pd],
-            c: parameters[Parameter::C],
-            k2: parameters[Parameter::K2],
-            delta: parameters[Parameter::Delta],
-            omega: parameters[Parameter::Omega],
+            of: Constants {
+                p_d: of(Parameter::Pd),
+                c: of(Parameter::C),
+                k2: of(Parameter::K2),
+                delta: of(Parameter::Delta),
+                omega: of(Parameter::Omega),
+            },
             points,
-            time: 0.0,
-            energies: Energies::default(),
-            friction_impulse: 0.0,
-            stick_time: 0.0,
-            peak_contact_force: 0.0,
-            grazing_margin: f64::INFINITY,
-            touching_margin: f64::INFINITY,
-            impacts: 0,
+            time: zero,
+            energies: Energies {
+                work_net: zero,
+                work_positive: zero,
+                work_absolute: zero,
+                work_actuator: zero,
+                friction_loss: zero,
+                damper_loss: zero,
+            },
+            friction_impulse: zero,
+            stick_time: zero,
+            peak_contact_force: zero,
+            grazing_margin: far,
+            touching_margin: far,
+            impacts: zero,
             impact_points: Vec::new(),
-            forward_slips: 0,
-            backward_slips: 0,
-            reversals: 0,
-            rate_of_r: 0.0,
+            forward_slips: zero,
+            backward_slips: zero,
+            reversals: zero,
+            rate_of_r: zero,
         }
     }
 
-    fn add<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
-        self.time += step.length;
-        if step.length > 0.0 {
+    #[inline(always)]
+    fn add_energies<S: Locomotion<L>>(&mut self, system: &S, step: &Step<L, S>) {
+        let (zero, h) = (L::splat(0.0), step.length);
+        let jet = system.jet(&step.jet);
+        let (cos, y1) = (values(&jet.cos, h), values(&jet.y1, h));
+        let work = self.of.p_d * integral_of_product(&cos, &y1, h);
+        self.energies.work_net = self.energies.work_net + work;
+        self.add_signed_work(&jet.cos, &jet.y1, work, h);
+
+        let y2 = values(&jet.y2, h);
+        let relative: Values<L> = std::array::from_fn(|i| y1[i] - y2[i]);
+        let damped = self.of.c * integral_of_product(&relative, &relative, h);
+        self.energies.damper_loss = self.energies.damper_loss + damped;
+        let friction = system.friction(&step.mode, &step.jet);
+        self.friction_impulse = self.friction_impulse + series::integral(&friction, h);
+        let direction = system.direction(&step.mode);
+        let slides = zero.lt(direction * direction);
+        self.stick_time = self.stick_time + L::select(slides, zero, h);
+        let mut actuated = work;
+        if slides.any() {
+            let slip = values(&system.slip_rate(&step.mode, &step.jet), h);
+            let lost = integral_of_product(&values(&friction, h), &slip, h);
+            let carried = self.of.p_d * integral_of_product(&cos, &slip, h);
+            actuated = L::select(slides, work - carried, work);
+            let friction_loss = self.energies.friction_loss;
+            self.energies.friction_loss = L::select(slides, friction_loss + lost, friction_loss);
+        }
+        self.energies.work_actuator = self.energies.work_actuator + actuated;
+    }
+
+    /// Splits the work where the power changes sign: where the drive or the velocity of the mass does.
+    #[inline(always)]
+    fn add_signed_work(&mut self, cos: &Series<L>, y1: &Series<L>, work: L, h: L) {
+        let zero = L::splat(0.0);
+        let all = L::Mask::splat(true);
+        let end = h.plain();
+        let mut turns = [cos, y1].map(|it| Crossings::new(&plain(it), end, all));
+        let mut next = turns.each_mut().map(|it| it.next(all).time);
+        let mut before = zero;
+        let mut open = all;
+        while open.any() {
+            let until = next[0].min(next[1]);
+            let last = open & end.le(until);
+            let mut done = L::select(last, work, before);
+            let inner = open & !last;
+            if inner.any() {
+                let t = L::from_plain(until);
+                let product = integral_of_product(&values(cos, t), &values(y1, t), t);
+                done = L::select(inner, self.of.p_d * product, done);
+            }
+            let piece = done - before;
+            let Energies { work_positive, work_absolute, .. } = &mut self.energies;
+            *work_positive = *work_positive + L::select(open, piece.max(zero), zero);
+            *work_absolute = *work_absolute + L::select(open, piece.abs(), zero);
+            before = done;
+            open = inner;
+            for (turns, next) in turns.iter_mut().zip(&mut next) {
+                let passed = open & next.le(until);
+                if passed.any() {
+                    *next = L::Plain::select(passed, turns.next(passed).time, *next);
+                }
+            }
+        }
+    }
+
+    /// Looks at the local extrema of r, which hold the margins, and the maxima the peak force.
+    #[inline(always)]
+    fn add_extremes<S: Locomotion<L>>(&mut self, system: &S, step: &Step<L, S>) {
+        let zero = L::splat(0.0);
+        let all = L::Mask::splat(true);
+        let r = &system.jet(&step.jet).r;
+        let rate = series::derivative(r);
+        let passes = zero.lt(step.length);
+        // The printed equation lets r turn with a corner, between two steps.
+        let turns = passes & (self.rate_of_r * rate[0]).lt(zero);
+        if turns.any() {
+            self.meet_extremum(turns, r[0], rate[0].lt(zero));
+        }
+        let mut extrema = Crossings::new(&plain(&rate), step.length.plain(), passes);
+        loop {
+            let extremum = extrema.next(all);
+            if !extremum.found.any() {
+                break;
+            }
+            // At an extremum the derivatives at fixed time are those of the extremum.
+            let there = series::value(r, L::from_plain(extremum.time));
+            self.meet_extremum(extremum.found, there, extremum.falls);
+        }
+        let rate_at_end = series::value(&rate, step.length);
+        self.rate_of_r = L::select(passes, rate_at_end, self.rate_of_r);
+        self.meet_contact(passes & system.closed(&step.mode), r[0]);
+    }
+
+    #[inline(always)]
+    fn meet_extremum(&mut self, here: L::Mask, r: L, is_maximum: L::Mask) {
+        let margin = (self.of.delta - r).abs();
+        let least = |before: L, here| L::select(here, before.min(margin), before);
+        self.touching_margin = least(self.touching_margin, here);
+        self.grazing_margin = least(self.grazing_margin, here & is_maximum);
+        self.meet_contact(here & is_maximum, r);
+    }
+
+    #[inline(always)]
+    fn meet_contact(&mut self, here: L::Mask, r: L) {
+        let force = self.peak_contact_force.max(self.of.k2 * (r - self.of.delta));
+        self.peak_contact_force = L::select(here, force, self.peak_contact_force);
+    }
+
+    #[inline(always)]
+    fn count<S: Locomotion<L>>(&mut self, system: &S, step: &Step<L, S>) {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        if !zero.lt(step.event).any() {
+            return;
+        }
+        let is = |kind: EventKind| (step.event - kind.code()).abs().lt(L::splat(0.5));
+        let add = |count: L, here| count + L::select(here, one, zero);
+        let impacts = is(EventKind::ContactClosed);
+        let kept = impacts & self.impacts.lt(L::splat(self.points as f64));
+        self.impacts = add(self.impacts, impacts);
+        if kept.any() {
+            let State { y1, y2, .. } = system.at(&step.jet, step.length);
+            let phase = self.of.omega * (step.start + step.length);
+            self.impact_points.push((kept, Impact { phase, y1, y2 }));
+        }
+        let reverses = is(EventKind::Reversal);
+        let was_forward = zero.lt(system.direction(&step.mode));
+        self.reversals = add(self.reversals, reverses);
+        let forward = is(EventKind::SlipForward) | (reverses & !was_forward);
+        let backward = is(EventKind::SlipBackward) | (reverses & was_forward);
+        self.forward_slips = add(self.forward_slips, forward);
+        self.backward_slips = add(self.backward_slips, backward);
+    }
+}
+
+/// A series without its derivatives.
+#[inline(always)]
+fn plain<L: Lane>(series: &Series<L>) -> Series<L::Plain> {
+    let mut plain = series::zero();
+    for (plain, term) in plain.iter_mut().zip(series) {
+        *plain = term.plain();
+    }
+    plain
+}
+
+impl<L: Lane, S: Locomotion<L>> Observer<L, S> for Account<L> {
+    #[inline(always)]
+    fn see(&mut self, system: &S, step: &Step<L, S>) {
+        self.time = self.time + step.length;
+        if L::splat(0.0).lt(step.length).any() {
             self.add_energies(system, step);
             self.add_extremes(system, step);
         }
         self.count(system, step);
     }
 
-    fn add_energies<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
-        let h = step.length;
-        let jet = system.jet(&step.jet);
-        let (cos, y1) = (values(&jet.cos, h), values(&jet.y1, h));
-        let work = self.p_d * integral_of_product(&cos, &y1, h);
-        self.energies.work_net += work;
-        self.add_signed_work(&jet.cos, &jet.y1, work, h);
-
-        let y2 = values(&jet.y2, h);
-        let relative = std::array::from_fn(|i| y1[i] - y2[i]);
-        self.energies.damper_loss += self.c * integral_of_product(&relative, &relative, h);
-        let friction = system.friction(&step.mode, &step.jet);
-        self.friction_impulse += series::integral(&friction, h);
-        if system.stick_slip(&step.mode) == StickSlip::Stick {
-            self.stick_time += h;
-            self.energies.work_actuator += work;
-        } else {
-            let slip = values(&system.slip_rate(&step.mode, &step.jet), h);
-            self.energies.friction_loss += integral_of_product(&values(&friction, h), &slip, h);
-            let carried = self.p_d * integral_of_product(&cos, &slip, h);
-            self.energies.work_actuator += work - carried;
-        }
-    }
-
-    /// Splits the work where the power changes sign.
-    fn add_signed_work(&mut self, cos: &Series<f64>, y1: &Series<f64>, work: f64, h: f64) {
-        let mut cuts = Vec::new();
-        crossings(cos, h, |t, _| cuts.push(t));
-        crossings(y1, h, |t, _| cuts.push(t));
-        cuts.sort_by(f64::total_cmp);
-        let work_until =
-            |&t: &f64| self.p_d * integral_of_product(&values(cos, t), &values(y1, t), t);
-        let mut before = 0.0;
-        for until in cuts.iter().map(work_until).chain([work]) {
-            let piece: f64 = until - before;
-            self.energies.work_positive += piece.max(0.0);
-            self.energies.work_absolute += piece.abs();
-            before = until;
-        }
-    }
-
-    /// Looks at the local extrema of r, which hold the margins, and the maxima the peak force.
-    fn add_extremes<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
-        let r = &system.jet(&step.jet).r;
-        let rate = series::derivative(r);
-        // The printed equation lets r turn with a corner, between two steps.
-        if self.rate_of_r * rate[0] < 0.0 {
-            self.meet_extremum(r[0], rate[0] < 0.0);
-        }
-        crossings(&rate, step.length, |t, falls| self.meet_extremum(series::value(r, t), falls));
-        self.rate_of_r = series::value(&rate, step.length);
-        if system.contact(&step.mode) == Contact::Closed {
-            self.meet_contact(r[0]);
-        }
-    }
-
-    fn meet_extremum(&mut self, r: f64, is_maximum: bool) {
-        let margin = (self.delta - r).abs();
-        self.touching_margin = self.touching_margin.min(margin);
-        if is_maximum {
-            self.grazing_margin = self.grazing_margin.min(margin);
-            self.meet_contact(r);
-        }
-    }
-
-    fn meet_contact(&mut self, r: f64) {
-        self.peak_contact_force = self.peak_contact_force.max(self.k2 * (r - self.delta));
-    }
-
-    fn count<S: Locomotion>(&mut self, system: &S, step: &Step<f64, S>) {
-        match EventKind::from_code(step.event) {
-            Some(EventKind::ContactClosed) => {
-                self.impacts += 1;
-                if self.impact_points.len() < self.points {
-                    let State { y1, y2, .. } = system.at(&step.jet, step.length);
-                    let phase = self.omega * (step.start + step.length);
-                    self.impact_points.push(Impact { phase, y1, y2 });
-                }
-            }
-            Some(EventKind::SlipForward) => self.forward_slips += 1,
-            Some(EventKind::SlipBackward) => self.backward_slips += 1,
-            Some(EventKind::Reversal) => {
-                self.reversals += 1;
-                if system.stick_slip(&step.mode) == StickSlip::Forward {
-                    self.backward_slips += 1;
-                } else {
-                    self.forward_slips += 1;
-                }
-            }
-            Some(EventKind::ContactOpened | EventKind::Stick) | None => {}
-        }
-    }
-}
-
-impl<S: Locomotion> Observer<f64, S> for Account {
-    fn see(&mut self, system: &S, step: &Step<f64, S>) {
-        self.add(system, step);
-    }
-
-    fn touching_margin(&self) -> f64 {
+    fn touching_margin(&self) -> L {
         self.touching_margin
     }
 }

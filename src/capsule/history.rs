@@ -21,7 +21,7 @@ pub struct History {
 
 impl History {
     /// Follows the motion from the start of `case` and samples its series, which are exact to `tolerance` too.
-    pub fn sample<S: Locomotion + Stroboscopic<f64, 3>>(
+    pub fn sample<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
         system: &S,
         case: &Case,
         span: HistorySpan,

@@ -14,7 +14,7 @@ use super::parameter::Parameter;
 use super::parameters::Parameters;
 use super::regime::{CONTACT, PrintedMode, Regime, Rules, sign};
 use super::resistance::Resistance;
-use super::state::{Contact, EventKind, Jet, State, StickSlip};
+use super::state::{EventKind, Jet, State};
 
 /// The capsule with the switching as printed, one set of parameters per lane.
 #[derive(Debug, Clone, Copy)]
@@ -366,30 +366,34 @@ impl Field for PrintedCapsule<f64> {
     }
 }
 
-impl Locomotion for PrintedCapsule<f64> {
-    fn jet<'a>(&self, jet: &'a PrintedJet<f64>) -> &'a Jet<f64> {
+impl<L: Lane> Locomotion<L> for PrintedCapsule<L> {
+    #[inline(always)]
+    fn jet<'a>(&self, jet: &'a PrintedJet<L>) -> &'a Jet<L> {
         &jet.motion
     }
 
-    fn friction(&self, _mode: &PrintedMode<f64>, jet: &PrintedJet<f64>) -> Series<f64> {
+    #[inline(always)]
+    fn friction(&self, _mode: &PrintedMode<L>, jet: &PrintedJet<L>) -> Series<L> {
         // Whatever F does not spend on m2 y2' is friction, in every motion.
-        let acceleration = series::derivative(&jet.motion.y2);
-        std::array::from_fn(|k| jet.motion.force[k] - self.m2 * acceleration[k])
+        let mut friction = series::derivative(&jet.motion.y2);
+        for (term, force) in friction.iter_mut().zip(&jet.motion.force) {
+            *term = *force - self.m2 * *term;
+        }
+        friction
     }
 
-    fn slip_rate(&self, _mode: &PrintedMode<f64>, jet: &PrintedJet<f64>) -> Series<f64> {
+    #[inline(always)]
+    fn slip_rate(&self, _mode: &PrintedMode<L>, jet: &PrintedJet<L>) -> Series<L> {
         series::derivative(&jet.motion.x2)
     }
 
-    fn contact(&self, mode: &PrintedMode<f64>) -> Contact {
-        if mode.closed { Contact::Closed } else { Contact::Open }
+    #[inline(always)]
+    fn closed(&self, mode: &PrintedMode<L>) -> L::Mask {
+        mode.closed
     }
 
-    fn stick_slip(&self, mode: &PrintedMode<f64>) -> StickSlip {
-        match mode.slip {
-            slip if slip > 0.0 => StickSlip::Forward,
-            slip if slip < 0.0 => StickSlip::Backward,
-            _ => StickSlip::Stick,
-        }
+    #[inline(always)]
+    fn direction(&self, mode: &PrintedMode<L>) -> L {
+        mode.slip
     }
 }

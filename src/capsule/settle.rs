@@ -36,7 +36,7 @@ pub struct Orbit {
     /// Section points of the measured cycles, up to `Protocol::points`.
     pub section: Vec<Section>,
     /// Impacts of the measured cycles, up to `Protocol::impact_points`.
-    pub impacts: Vec<Impact>,
+    pub impacts: Vec<Impact<f64>>,
     /// Samples of the motion, where the protocol asks for them.
     pub history: Option<History>,
     /// Where it was last.
@@ -126,7 +126,7 @@ impl Orbit {
                     certificate: Certificate::none(),
                     section: Vec::new(),
                     failure: Some(failure),
-                    observed: Account::new(&case.parameters, 0),
+                    observed: Account::single(&case.parameters, 0),
                     ..orbit
                 };
                 Orbit::measured(failed, &case.parameters, None, protocol)
@@ -135,7 +135,7 @@ impl Orbit {
     }
 
     fn measured(
-        orbit: orbit::Orbit<State<f64>, Account, 3>,
+        orbit: orbit::Orbit<State<f64>, Account<f64>, 3>,
         parameters: &Parameters,
         history: Option<History>,
         protocol: &Protocol,
@@ -147,7 +147,7 @@ impl Orbit {
             certificate: orbit.certificate,
             cycles: orbit.cycles,
             section: orbit.section,
-            impacts: orbit.observed.impact_points,
+            impacts: orbit.observed.impact_points.into_iter().map(|(_, it)| it).collect(),
             history,
             end: orbit.end,
             failure: orbit.failure,
@@ -160,7 +160,7 @@ impl Orbit {
 /// `recurrence` is how closely the section had to repeat, relative to the motion: a progression within a
 /// hundred times that is rounding.
 pub fn outputs(
-    orbit: &orbit::Orbit<State<f64>, Account, 3>,
+    orbit: &orbit::Orbit<State<f64>, Account<f64>, 3>,
     parameters: &Parameters,
     recurrence: f64,
 ) -> Outputs {
@@ -185,7 +185,7 @@ pub fn outputs(
 /// The outputs per cycle, from the sums over `cycles` and the `progression` per cycle [m], which is
 /// rounding unless the capsule `moves`.
 fn summed(
-    account: &Account,
+    account: &Account<f64>,
     parameters: &Parameters,
     (progression, moves): (f64, bool),
     cycles: f64,
@@ -214,10 +214,10 @@ fn summed(
         (Output::EnergyResidual, ratio(energies.work_net - losses, exchanged)),
         (Output::MomentumResidual, ratio(account.friction_impulse / account.time, force)),
         (Output::CostOfTransport, cost_of_transport),
-        (Output::ImpactsPerCycle, account.impacts as f64 / cycles),
-        (Output::ForwardSlips, account.forward_slips as f64 / cycles),
-        (Output::BackwardSlips, account.backward_slips as f64 / cycles),
-        (Output::Reversals, account.reversals as f64 / cycles),
+        (Output::ImpactsPerCycle, account.impacts / cycles),
+        (Output::ForwardSlips, account.forward_slips / cycles),
+        (Output::BackwardSlips, account.backward_slips / cycles),
+        (Output::Reversals, account.reversals / cycles),
         (Output::StickShare, account.stick_time / account.time),
         (Output::PeakContactForce, account.peak_contact_force),
         (Output::GrazingMargin, account.grazing_margin),

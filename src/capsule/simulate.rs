@@ -7,8 +7,8 @@ use crate::orbit::Trajectory;
 
 use super::Failure;
 use super::account::{Account, Energies};
-use super::capsule::Capsule;
 use super::case::Case;
+use super::filippov::Capsule;
 use super::locomotion::Locomotion;
 use super::parameters::Parameters;
 use super::printed::PrintedCapsule;
@@ -32,7 +32,7 @@ pub struct Sample {
     pub y2: f64,
     /// Work of the drive and losses since the start.
     #[serde(flatten)]
-    pub energies: Energies,
+    pub energies: Energies<f64>,
     /// Impacts since the start.
     pub impacts: u64,
 }
@@ -85,13 +85,13 @@ pub fn simulate_case(case: &Case, cycles: u64, tolerance: f64) -> Simulation {
     }
 }
 
-fn simulate_on<S: Locomotion + Stroboscopic<f64, 3>>(
+fn simulate_on<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
     system: &S,
     case: &Case,
     cycles: u64,
     tolerance: f64,
 ) -> Simulation {
-    let mut account = Account::new(&case.parameters, 0);
+    let mut account = Account::single(&case.parameters, 0);
     let mut trajectory = case.trajectory(system, tolerance);
     let (mut section, mut events) = (Vec::new(), Vec::new());
     let mut failure = None;
@@ -117,9 +117,9 @@ fn simulate_on<S: Locomotion + Stroboscopic<f64, 3>>(
     Simulation { section, events, failure }
 }
 
-fn sample<S: Locomotion + Stroboscopic<f64, 3>>(
+fn sample<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
     trajectory: &Trajectory<'_, S, 3>,
-    account: &Account,
+    account: &Account<f64>,
 ) -> Sample {
     let State { r, y1, x2, y2 } = trajectory.state();
     Sample {
@@ -130,6 +130,6 @@ fn sample<S: Locomotion + Stroboscopic<f64, 3>>(
         x2,
         y2,
         energies: account.energies,
-        impacts: account.impacts,
+        impacts: account.impacts as u64,
     }
 }

@@ -39,26 +39,6 @@ impl<L: Lane> State<L> {
     }
 }
 
-/// Whether the mass touches the stop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Contact {
-    /// Apart.
-    Open,
-    /// Touching.
-    Closed,
-}
-
-/// Whether and where the capsule slides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StickSlip {
-    /// At rest on the ground.
-    Stick,
-    /// Sliding forward.
-    Forward,
-    /// Sliding backward.
-    Backward,
-}
-
 /// What happens where a mode ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]

@@ -3,11 +3,11 @@
 use std::fmt::Debug;
 use std::marker::PhantomData;
 
-use crate::flow::{Metric, Stroboscopic, System};
+use crate::flow::{Field, Metric, Stroboscopic, System};
 use crate::lane::{Lane, SideBySide};
 
 use super::account::Account;
-use super::capsule::{self, Capsule};
+use super::filippov::{self, Capsule};
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
 use super::parameters::Parameters;
@@ -21,9 +21,10 @@ pub trait Reading: Copy + Debug + PartialEq + Send + Sync + 'static {
     /// Which field acts.
     type Mode<L: Lane>: Copy + Default + Send + SideBySide<One = Self::Mode<f64>>;
     /// The capsule in `f64`.
-    type Single: Locomotion<Mode = Self::Mode<f64>> + Stroboscopic<f64, 3> + Send;
+    type Single: Locomotion<f64, Mode = Self::Mode<f64>> + Field + Stroboscopic<f64, 3> + Send;
     /// The capsule in numbers of any kind.
     type In<L: Lane>: Stroboscopic<L, 3, State = State<L>, Mode = Self::Mode<L>, Event = EventKind>
+        + Locomotion<L>
         + SideBySide<One = Self::Single>;
 
     /// The capsule with these parameters, whose drive is at `phase` at the section [rad].
@@ -41,7 +42,7 @@ pub struct Filippov;
 pub struct AsPrinted;
 
 impl Reading for Filippov {
-    type Mode<L: Lane> = capsule::Mode<L>;
+    type Mode<L: Lane> = filippov::Mode<L>;
     type Single = Capsule<f64>;
     type In<L: Lane> = Capsule<L>;
 
@@ -96,7 +97,7 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
     type Mode<L: Lane> = R::Mode<L>;
     type Single = R::Single;
     type In<L: Lane> = R::In<L>;
-    type Observer = Account;
+    type Observer = Account<f64>;
 
     fn single(&self) -> R::Single {
         R::single(&self.parameters, self.phase)
@@ -121,8 +122,8 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
         Metric { scales: [self.parameters[Parameter::Omega], 1.0, 1.0] }
     }
 
-    fn observer(&self, points: usize) -> Account {
-        Account::new(&self.parameters, points)
+    fn observer(&self, points: usize) -> Account<f64> {
+        Account::single(&self.parameters, points)
     }
 
     fn admits(&self, parameter: Parameter, value: f64) -> bool {

@@ -217,33 +217,95 @@ fn guess<L: Lane>([g0, g1]: [L; 2], [value, slope]: [L; 2], end: L) -> L {
     L::select(inside, cubic, end * chord)
 }
 
-/// Shows `found` each time in (0, length] at which the polynomial changes sign, and whether it falls.
+/// The times in (0, length] at which a polynomial changes its sign, one after the other in each lane.
 ///
 /// Method: [`first_fall`] again and again, on the polynomial shifted to where it is known to, and
 /// turned over after each crossing.
-pub fn crossings(polynomial: &Series<f64>, length: f64, mut found: impl FnMut(f64, bool)) {
-    let mut rest = *polynomial;
-    let mut positive = rest.iter().find(|&&a| a != 0.0).is_none_or(|&a| a > 0.0);
-    if !positive {
-        rest = rest.map(|a| -a);
-    }
-    let mut start = 0.0;
-    // A polynomial has no more crossings than its degree; the rest are intervals without one.
-    for _ in 0..HALVINGS * ORDER {
-        let fall = first_fall(&mut rest.clone(), length - start, true);
-        start += fall.length;
-        if fall.falls {
-            found(start, positive);
+#[derive(Debug, Clone, Copy)]
+pub struct Crossings<L: Lane> {
+    rest: Series<L>,
+    length: L,
+    start: L,
+    positive: L::Mask,
+    /// Where the end has not been reached.
+    open: L::Mask,
+}
+
+impl<L: Lane> Crossings<L> {
+    /// Those of a polynomial, in the lanes that take part.
+    #[inline(always)]
+    pub fn new(polynomial: &Series<L>, length: L, taking_part: L::Mask) -> Self {
+        let zero = L::splat(0.0);
+        // The sign just after the start is that of the first term which is not zero.
+        let mut sign = L::splat(1.0);
+        for term in polynomial.iter().rev() {
+            sign = L::select(zero.lt(*term), L::splat(1.0), sign);
+            sign = L::select(term.lt(zero), L::splat(-1.0), sign);
         }
-        if start >= length {
+        let mut rest = *polynomial;
+        rest.iter_mut().for_each(|term| *term = sign * *term);
+        let positive = zero.lt(sign);
+        Crossings { rest, length, start: zero, positive, open: taking_part }
+    }
+
+    /// The next crossing in the lanes of `wanted`: where there is one, its time, and where it falls there.
+    ///
+    /// In the lanes that are wanted and have no further crossing the time is the length.
+    #[inline(always)]
+    pub fn next(&mut self, wanted: L::Mask) -> Crossing<L> {
+        let zero = L::splat(0.0);
+        let none = L::Mask::splat(false);
+        let (mut found, mut falls, mut time) = (none, none, self.length);
+        // A polynomial has no more crossings than its degree; the rest are intervals without one.
+        for _ in 0..HALVINGS * ORDER {
+            let seeking = wanted & self.open & !found;
+            if !seeking.any() {
+                break;
+            }
+            let fall = first_fall(&mut self.rest.clone(), self.length - self.start, seeking);
+            let here = seeking & fall.falls;
+            let start = self.start + fall.length;
+            self.start = L::select(seeking, start, self.start);
+            time = L::select(here, self.start, time);
+            falls = falls | (here & self.positive);
+            found = found | here;
+            let ended = self.length.le(self.start);
+            self.open = self.open & !(seeking & ended);
+            let moved = seeking & !ended;
+            if moved.any() {
+                let shifted = series::shifted(&self.rest, fall.length);
+                let turned = moved & fall.falls;
+                for (term, new) in self.rest.iter_mut().zip(shifted) {
+                    *term = L::select(moved, L::select(turned, -new, new), *term);
+                }
+                self.rest[0] = L::select(turned, zero, self.rest[0]);
+                self.positive = (self.positive & !turned) | (!self.positive & turned);
+            }
+        }
+        Crossing { found, falls, time }
+    }
+}
+
+/// A change of sign, in each lane.
+#[derive(Debug, Clone, Copy)]
+pub struct Crossing<L: Lane> {
+    /// Where there is one.
+    pub found: L::Mask,
+    /// Where the polynomial falls through zero there; elsewhere it rises.
+    pub falls: L::Mask,
+    /// When.
+    pub time: L,
+}
+
+/// Shows `found` each time in (0, length] at which the polynomial changes sign, and whether it falls.
+pub fn crossings(polynomial: &Series<f64>, length: f64, mut found: impl FnMut(f64, bool)) {
+    let mut crossings = Crossings::new(polynomial, length, true);
+    loop {
+        let crossing = crossings.next(true);
+        if !crossing.found {
             return;
         }
-        rest = series::shifted(&rest, fall.length);
-        if fall.falls {
-            rest[0] = 0.0;
-            rest = rest.map(|a| -a);
-            positive = !positive;
-        }
+        found(crossing.time, crossing.falls);
     }
 }
 

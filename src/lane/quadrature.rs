@@ -1,6 +1,6 @@
 //! Integrals of products of series over a step.
 
-use super::Series;
+use super::{Lane, Series};
 
 /// Nodes of the rule.
 pub const NODES: usize = 12;
@@ -28,16 +28,16 @@ const RULE: [(f64, f64); NODES] = {
 };
 
 /// Values at the nodes of a step.
-pub type Values = [f64; NODES];
+pub type Values<L> = [L; NODES];
 
 /// The values of a series at the nodes on [0, h].
-#[inline]
-pub fn values(series: &Series<f64>, h: f64) -> Values {
-    let times = RULE.map(|(node, _)| node * h);
-    let mut sums = [0.0; NODES];
+#[inline(always)]
+pub fn values<L: Lane>(series: &Series<L>, h: L) -> Values<L> {
+    let times = RULE.map(|(node, _)| L::splat(node) * h);
+    let mut sums = [L::splat(0.0); NODES];
     for &term in series.iter().rev() {
         for (sum, time) in sums.iter_mut().zip(&times) {
-            *sum = *sum * time + term;
+            *sum = *sum * *time + term;
         }
     }
     sums
@@ -48,11 +48,11 @@ pub fn values(series: &Series<f64>, h: f64) -> Values {
 /// Method: Gauss-Legendre, exact to degree 23. Where the terms of both series shrink steadily, so that
 /// those of degree 16 are below the tolerance of the step, the terms of the product beyond 23 are below the
 /// tolerance to the power 3/2.
-#[inline]
-pub fn integral_of_product(a: &Values, b: &Values, h: f64) -> f64 {
-    let mut sum = 0.0;
+#[inline(always)]
+pub fn integral_of_product<L: Lane>(a: &Values<L>, b: &Values<L>, h: L) -> L {
+    let mut sum = L::splat(0.0);
     for ((&(_, weight), a), b) in RULE.iter().zip(a).zip(b) {
-        sum += weight * (a * b);
+        sum = sum + L::splat(weight) * (*a * *b);
     }
     sum * h
 }

@@ -193,11 +193,12 @@ pub fn integral<L: Lane>(polynomial: &Series<L>, h: L) -> L {
 }
 
 /// The same polynomial in the time since `shift`, by repeated synthetic division.
-pub fn shifted(series: &Series<f64>, shift: f64) -> Series<f64> {
+#[inline(always)]
+pub fn shifted<L: Lane>(series: &Series<L>, shift: L) -> Series<L> {
     let mut result = *series;
     for first in 0..ORDER {
         for k in (first..ORDER).rev() {
-            result[k] += shift * result[k + 1];
+            result[k] = result[k] + shift * result[k + 1];
         }
     }
     result

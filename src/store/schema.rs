@@ -223,7 +223,7 @@ fn add_impacts(dataset: &mut Dataset, table: &Table<'_>) {
         return;
     }
     dataset.put_coordinate(IMPACT_POINT, Values::count(length));
-    let of = |value: fn(&Impact) -> f64| {
+    let of = |value: fn(&Impact<f64>) -> f64| {
         table.rows(length, move |orbit, n| orbit.impacts.get(n).map(value))
     };
     table.put(dataset, IMPACT_PHASE, of(|impact| impact.phase));

@@ -19,7 +19,7 @@ fn kinds(p: &Parameters, start: State<f64>, cycles: u64) -> Vec<EventKind> {
 fn modes(p: &Parameters, start: State<f64>) -> (Contact, StickSlip) {
     let system = Capsule::single(p, 0.0);
     let motion = capsulemap::flow::Motion::new(&system, 0.0, start);
-    (system.contact(&motion.mode), system.stick_slip(&motion.mode))
+    (system.contact(&motion.mode, 0), system.stick_slip(&motion.mode, 0))
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn a_start_at_the_break_away_force_slips_or_stays() {
         let start = at_limit(y1);
         let simulation = simulate(&p, 0.0, start, 1, 1e-12);
         let soon = simulation.events.iter().any(|event| event.t < 1e-9);
-        let mode = system.stick_slip(&system.start(0.0, &mut start.clone()));
+        let mode = system.stick_slip(&system.start(0.0, &mut start.clone()), 0);
         assert_eq!(modes(&p, start).1 != StickSlip::Stick || soon, slides, "{y1} {mode:?}");
     }
 }

@@ -64,7 +64,7 @@ proptest! {
     fn energy_and_momentum_balance(p in parameters(), start in start()) {
         let system = Capsule::single(&p, 0.0);
         let mut trajectory = Trajectory::new(&system, start, 1e-12);
-        let mut account = Account::new(&p, 0);
+        let mut account = Account::single(&p, 0);
         let mut largest = stored_energy(&p, &start);
         let momentum = |state: &State<f64>| p[Parameter::M1] * state.y1 + p[Parameter::M2] * state.y2;
         // Each step may be off by some tolerances of the momentum and the energy that it begins with.
@@ -109,10 +109,10 @@ proptest! {
                     let state = step.jet.state(h);
                     let force = series::value(&step.jet.force, h);
                     let gap = state.r - p[Parameter::Delta];
-                    let fine = match system.contact(&step.mode) {
+                    let fine = match system.contact(&step.mode, 0) {
                         Contact::Closed => gap >= -1e-15,
                         Contact::Open => gap <= 1e-15,
-                    } && match system.stick_slip(&step.mode) {
+                    } && match system.stick_slip(&step.mode, 0) {
                         StickSlip::Forward => state.y2 >= -1e-14,
                         StickSlip::Backward => state.y2 <= 1e-14,
                         StickSlip::Stick => state.y2 == 0.0 && force.abs() <= limit * (1.0 + 1e-12) + 1e-13,

@@ -1,8 +1,8 @@
 //! The capsule without the bound on its steps: a system that breaks the contract, for the checks to find.
 
 use capsulemap::capsule::{
-    Capsule, Contact, EventKind, Jet, Locomotion, Parameter, Parameters, Reading, Resistance,
-    State, StickSlip, capsule,
+    Capsule, EventKind, Jet, Locomotion, Parameter, Parameters, Reading, Resistance, State,
+    filippov,
 };
 use capsulemap::flow::{Field, Stroboscopic, Switched, Zeros};
 use capsulemap::lane::{Lane, Series, SideBySide};
@@ -130,7 +130,7 @@ impl Field for Unbounded<f64> {
 pub struct Blind;
 
 impl Reading for Blind {
-    type Mode<L: Lane> = capsule::Mode<L>;
+    type Mode<L: Lane> = filippov::Mode<L>;
     type Single = Unbounded<f64>;
     type In<L: Lane> = Unbounded<L>;
 
@@ -143,24 +143,24 @@ impl Reading for Blind {
     }
 }
 
-impl Locomotion for Unbounded<f64> {
-    fn jet<'a>(&self, jet: &'a Jet<f64>) -> &'a Jet<f64> {
+impl<L: Lane> Locomotion<L> for Unbounded<L> {
+    fn jet<'a>(&self, jet: &'a Jet<L>) -> &'a Jet<L> {
         jet
     }
 
-    fn friction(&self, mode: &Self::Mode, jet: &Jet<f64>) -> Series<f64> {
+    fn friction(&self, mode: &Self::Mode, jet: &Jet<L>) -> Series<L> {
         self.0.friction(mode, jet)
     }
 
-    fn slip_rate(&self, mode: &Self::Mode, jet: &Jet<f64>) -> Series<f64> {
+    fn slip_rate(&self, mode: &Self::Mode, jet: &Jet<L>) -> Series<L> {
         self.0.slip_rate(mode, jet)
     }
 
-    fn contact(&self, mode: &Self::Mode) -> Contact {
-        self.0.contact(mode)
+    fn closed(&self, mode: &Self::Mode) -> L::Mask {
+        self.0.closed(mode)
     }
 
-    fn stick_slip(&self, mode: &Self::Mode) -> StickSlip {
-        self.0.stick_slip(mode)
+    fn direction(&self, mode: &Self::Mode) -> L {
+        self.0.direction(mode)
     }
 }

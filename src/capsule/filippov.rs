@@ -10,7 +10,7 @@ use super::locomotion::Locomotion;
 use super::parameter::Parameter;
 use super::parameters::Parameters;
 use super::resistance::Resistance;
-use super::state::{Contact, EventKind, Jet, State, StickSlip};
+use super::state::{EventKind, Jet, State};
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.
 const CONTACT: usize = 0;
@@ -307,31 +307,37 @@ impl Field for Capsule<f64> {
     }
 }
 
-impl Locomotion for Capsule<f64> {
-    fn jet<'a>(&self, jet: &'a Jet<f64>) -> &'a Jet<f64> {
+impl<L: Lane> Locomotion<L> for Capsule<L> {
+    #[inline(always)]
+    fn jet<'a>(&self, jet: &'a Jet<L>) -> &'a Jet<L> {
         jet
     }
 
-    fn friction(&self, mode: &Mode<f64>, jet: &Jet<f64>) -> Series<f64> {
-        if mode.slip == 0.0 {
-            return jet.force;
+    #[inline(always)]
+    fn friction(&self, mode: &Mode<L>, jet: &Jet<L>) -> Series<L> {
+        let slides = L::splat(0.0).lt(mode.slip * mode.slip);
+        let mut friction = jet.force;
+        if slides.any() {
+            for (k, term) in friction.iter_mut().enumerate() {
+                let sliding = self.drag.force_term(mode.slip, &jet.decay, &jet.y2, k);
+                *term = L::select(slides, sliding, *term);
+            }
         }
-        std::array::from_fn(|k| self.drag.force_term(mode.slip, &jet.decay, &jet.y2, k))
+        friction
     }
 
-    fn slip_rate(&self, _mode: &Mode<f64>, jet: &Jet<f64>) -> Series<f64> {
+    #[inline(always)]
+    fn slip_rate(&self, _mode: &Mode<L>, jet: &Jet<L>) -> Series<L> {
         jet.y2
     }
 
-    fn contact(&self, mode: &Mode<f64>) -> Contact {
-        if mode.closed { Contact::Closed } else { Contact::Open }
+    #[inline(always)]
+    fn closed(&self, mode: &Mode<L>) -> L::Mask {
+        mode.closed
     }
 
-    fn stick_slip(&self, mode: &Mode<f64>) -> StickSlip {
-        match mode.slip {
-            slip if slip > 0.0 => StickSlip::Forward,
-            slip if slip < 0.0 => StickSlip::Backward,
-            _ => StickSlip::Stick,
-        }
+    #[inline(always)]
+    fn direction(&self, mode: &Mode<L>) -> L {
+        mode.slip
     }
 }
