@@ -1,7 +1,7 @@
 //! When two motions are on one attractor.
 
 use crate::flow::{Metric, System};
-use crate::orbit::certificate::OBLIQUE;
+use crate::orbit::precision::OBLIQUE;
 use crate::orbit::return_map::{Cycles, returned};
 use crate::orbit::{Outcome, Protocol};
 

@@ -1,8 +1,7 @@
 //! What a capsule settles to, with its speed, energies and counts.
 
 use crate::orbit::{
-    self, Certificate, Exponent, HistorySpan, Machine, OrbitOf, Outcome, Protocol,
-    recurrence::RESOLUTION,
+    self, Certificate, Exponent, HistorySpan, Machine, OrbitOf, Outcome, Protocol, precision,
 };
 
 use super::account::{Account, Impact};
@@ -169,7 +168,7 @@ pub fn outputs(
     }
     let cycles = orbit.measured_cycles as f64;
     let progression = (orbit.end.x2 - orbit.begins.x2) / cycles;
-    let resolved = RESOLUTION * recurrence * orbit.size * parameters.drive_period();
+    let resolved = precision::resolution(recurrence) * orbit.size * parameters.drive_period();
     let moves = progression.abs() > resolved;
     let mut outputs = summed(&orbit.observed, parameters, (progression, moves), cycles);
     let Exponent { value, uncertainty } = orbit.exponent;

@@ -8,26 +8,9 @@ use super::Protocol;
 use super::matrix::{Complex, eigenvalues};
 use super::neutral::{Neutral, close_neutral, may_be_neutral};
 use super::newton::{Closed, close};
+use super::precision::{OBLIQUE, closes, same};
 use super::recurrence::Settled;
 use super::return_map::Cycles;
-
-/// How much farther an orbit may be than a residual and multipliers say, as they do not tell how oblique
-/// the directions are that the multipliers belong to.
-pub const OBLIQUE: f64 = 100.0;
-
-/// How far two integrations of one orbit may differ at this tolerance, relative to the motion; where they
-/// differ by more, one of them is wrong.
-///
-/// Steps with derivatives are shorter than those without. Of 13 000 random orbits at 1e-12 one differed by
-/// 1.5e-8, after some sixty events a cycle, and all others by less than 4e-9.
-pub fn same(tolerance: f64) -> f64 {
-    let usual = 1e5 * tolerance.max(1e-14);
-    usual.min((1e2 * tolerance).max(1e-3))
-}
-
-/// An orbit closes if its residual is below so many recurrence tolerances: that of a cycle of hundreds of
-/// events is rounding of ten of them.
-const CLOSES: f64 = 10.0;
 
 /// How a period was proven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -136,7 +119,7 @@ pub fn certify<M: System<D>, const D: usize>(
             }
             // A singular matrix has left Newton's method without a step.
             _ => {
-                let accuracy = (settled.size, CLOSES * protocol.recurrence);
+                let accuracy = (settled.size, closes(protocol.recurrence));
                 let Ok(Some(it)) = close_neutral(&system, &metric, section, &cycles, accuracy)
                 else {
                     continue;
@@ -153,7 +136,7 @@ pub fn certify<M: System<D>, const D: usize>(
             .max(protocol.recurrence)
             .max(found.first_residual.min(same(protocol.tolerance)));
         let is_near = found.moved * found.slowest() <= OBLIQUE * within;
-        let closes = found.residual <= CLOSES * protocol.recurrence && is_near;
+        let closes = found.residual <= closes(protocol.recurrence) && is_near;
         // What is on the way to an orbit only, and not there to rounding, does not stay near one that repels.
         let stays = period == repeats_after && settled.within <= protocol.recurrence;
         if closes && (found.attracts() || stays) {

@@ -5,20 +5,14 @@ use crate::flow::metric::greater;
 use crate::flow::{Field, Metric, Observer, Stroboscopic, Switched, System};
 use crate::lane::Dual;
 
-use super::certificate::{certify, same};
+use super::certificate::certify;
 use super::matrix::Complex;
+use super::precision::{GRAZES, same, sound};
 use super::recurrence::Settled;
 use super::wandering::{Wandering, wander};
 use super::{
     Case, Certificate, Exponent, Failure, Orbit, OrbitOf, Outcome, Proof, Protocol, Trajectory,
 };
-
-/// An extremum this near to a surface, relative to the motion, is taken for one that touches it.
-const GRAZES: f64 = 1e-9;
-/// A defect of so many tolerances is none that the end of the series explains.
-const UNSOUND: f64 = 1e4;
-/// The defect of rounding alone, which no tolerance undercuts.
-const ROUNDING: f64 = 1e-14;
 
 /// What a case has been found to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -221,7 +215,7 @@ fn measure<M: System<D>, const D: usize>(
     // An orbit that Newton's method has closed with derivatives closes without them, too.
     let closes =
         certificate.proof == Proof::None || certificate.residual <= same(protocol.tolerance);
-    let is_sound = defect <= UNSOUND * protocol.tolerance.max(ROUNDING) && closes;
+    let is_sound = defect <= sound(protocol.tolerance) && closes;
     let orbit = Orbit {
         outcome: verdict.outcome,
         period: verdict.period,

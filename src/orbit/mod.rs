@@ -10,6 +10,7 @@ pub mod matrix;
 mod measure;
 pub mod neutral;
 pub mod newton;
+pub mod precision;
 mod protocol;
 pub mod recurrence;
 pub mod return_map;

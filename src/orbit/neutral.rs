@@ -5,19 +5,13 @@ use crate::flow::{Metric, Reason, Stroboscopic};
 use crate::lane::Dual;
 
 use super::matrix::{Complex, Matrix, least_from_one, solve};
+use super::precision::{NEARBY, ONE, ROUNDING};
 use super::return_map::{Cycles, jacobian, returned, seeded, values};
 
-/// A multiplier this near to one may be one: neither the rounding of a long period nor the time that a motion
-/// is followed for could tell.
-const ONE: f64 = 1e-7;
 /// Neighbours this far away, relative to the motion, must be periodic too.
 const BESIDE: f64 = 1e-4;
 /// Corrections at most.
 const CORRECTIONS: usize = 6;
-/// The longest correction, relative to the motion.
-const NEARBY: f64 = 1e-3;
-/// A residual this small, relative to the motion, cannot be told from rounding.
-const ROUNDING: f64 = 1e-14;
 /// Steps of the inverse iteration: each brings a direction nearer by the ratio of two multipliers' distances
 /// from one.
 const ITERATIONS: usize = 4;

@@ -4,14 +4,11 @@ use crate::flow::{Metric, Reason, Stroboscopic};
 use crate::lane::Dual;
 
 use super::matrix::{Matrix, solve};
+use super::precision::{NEARBY, ROUNDING};
 use super::return_map::{Cycles, jacobian, returned, seeded, values};
 
-/// A residual this small, relative to the motion, cannot be told from rounding.
-const ROUNDING: f64 = 1e-14;
 /// Corrections at most: from where the section repeats, two are usual.
 const CORRECTIONS: usize = 8;
-/// The longest correction, relative to the motion: what is farther away is another orbit.
-const NEARBY: f64 = 1e-3;
 
 /// A point of a periodic orbit.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,6 +4,8 @@ use std::ops::RangeInclusive;
 
 use serde::Serialize;
 
+use super::precision;
+
 /// What a case turned out to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -110,6 +112,10 @@ impl Protocol {
     /// The usual protocol at another tolerance: the section cannot repeat more closely than the steps are.
     pub fn with_tolerance(tolerance: f64) -> Self {
         let usual = Protocol::default();
-        Protocol { tolerance, recurrence: usual.recurrence.max(10.0 * tolerance), ..usual }
+        Protocol {
+            tolerance,
+            recurrence: precision::recurrence(usual.recurrence, tolerance),
+            ..usual
+        }
     }
 }

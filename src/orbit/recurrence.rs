@@ -8,9 +8,6 @@ use super::extrapolation::WINDOW;
 
 /// A recurrence this many times closer than asked for needs no proof that it still converges.
 const EXACT: f64 = 1e-2;
-/// Points of an orbit closer together than so many recurrence tolerances are taken for one: the
-/// rounding of a step, carried through weakly damped cycles, makes such orbits of its own.
-pub const RESOLUTION: f64 = 100.0;
 /// Points are kept so that a limit can be told for periods up to this.
 const LONGEST_LEAP: usize = 64;
 /// A longer period is nearer than a shorter one if its distance is below this share.

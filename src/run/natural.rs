@@ -8,7 +8,7 @@ use crate::lane::Dual;
 use crate::orbit::Protocol;
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues, solve};
 use crate::orbit::newton::close;
-use crate::orbit::recurrence::RESOLUTION;
+use crate::orbit::precision::resolution;
 use crate::orbit::return_map::{Cycles, jacobian, returned, seeded, values};
 
 /// Values of the parameter closer together than this, relative to them, are one value.
@@ -245,7 +245,7 @@ impl<R: Reading> Along<'_, R> {
     /// Whether an orbit does not repeat after a divisor of its period already.
     fn is_least(&self, solution: &Solution) -> bool {
         let (points, metric) = (&solution.points, self.metric(solution.value));
-        let near = RESOLUTION * self.protocol.recurrence * solution.size;
+        let near = resolution(self.protocol.recurrence) * solution.size;
         let repeats = |d: usize| {
             points.len().is_multiple_of(d)
                 && (d..points.len()).all(|i| metric.distance(&points[i], &points[i - d]) <= near)
