@@ -36,7 +36,7 @@ impl Campaign<'_> {
         reports.tell(Event::Begun(Stage::Following, self.study.branches.len()))?;
         let (begun, threads) = (Instant::now(), self.machine.threads);
         let done = || reports.step(Stage::Following);
-        let followed = run::follow(self.study, threads, done)?;
+        let followed = run::continue_branches(self.study, threads, done)?;
         let time = begun.elapsed();
         reports.tell(Event::Ended(Stage::Following))?;
         self.put(&followed)?;
@@ -49,7 +49,7 @@ impl Campaign<'_> {
     }
 
     /// Writes the branches beside what the file holds by now.
-    fn put(&self, followed: &[run::Followed]) -> Result<(), CampaignError> {
+    fn put(&self, followed: &[run::Continued]) -> Result<(), CampaignError> {
         // Cases that were joined meanwhile are in the file, and none can come before it is replaced.
         let _held = store::hold(self.output)?;
         let older = self.kept()?;

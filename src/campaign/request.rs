@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::run::{Followed, Machine};
+use crate::run::{Continued, Machine};
 use crate::store::Archive;
 use crate::study::Study;
 
@@ -49,7 +49,7 @@ pub enum BranchesDone {
     /// They have been followed and put into the file.
     Now {
         /// What came of each, in the order of the study.
-        followed: Vec<Followed>,
+        followed: Vec<Continued>,
         /// The time it took to follow them.
         time: Duration,
     },

@@ -6,11 +6,11 @@ use std::path::Path;
 use crate::branch::{Curve, End, SpecialKind, is_followed};
 use crate::capsule::branch::{Branch, Found, Special};
 use crate::capsule::{Output, Parameter};
-use crate::run::Followed;
+use crate::run::Continued;
 use crate::study::{Continuation, FirstOrbit, Study};
 
 /// What came of the branches of `study`, and which file keeps it.
-pub fn summary(study: &Study, followed: &[Followed], output: &Path, seconds: f64) -> String {
+pub fn summary(study: &Study, followed: &[Continued], output: &Path, seconds: f64) -> String {
     let found = || followed.iter().flatten();
     let branches: usize = found().map(|found| found.branches.len()).sum();
     let points: usize = found().flat_map(|it| &it.branches).map(|it| it.points.len()).sum();
@@ -191,7 +191,7 @@ mod tests {
     use crate::capsule::Outputs;
     use crate::capsule::branch::Point;
     use crate::orbit::matrix::Complex;
-    use crate::run::Unfollowed;
+    use crate::run::NotContinued;
 
     const STUDY: &str = "\
 [parameters]
@@ -260,7 +260,7 @@ to = \"5 N\"
             ends: [End::MostPoints; 2],
         };
         let found = Found { branches: vec![branch, ring], curves: vec![curve] };
-        let followed = [Ok(found), Err(Unfollowed::NoOrbit)];
+        let followed = [Ok(found), Err(NotContinued::NoOrbit)];
         let text = summary(&study, &followed, Path::new("a.h5"), 2.0);
         let expected = "\
 a.h5: 2 branches, 8 points in 2.0 s

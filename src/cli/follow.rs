@@ -13,7 +13,7 @@ use super::watch::Watch;
 use crate::campaign::{
     BranchesDone, Campaign, CampaignError, Event, Kept, output_path, read_study,
 };
-use crate::run::{Machine, Unfollowed};
+use crate::run::{Machine, NotContinued};
 use crate::store::{self, add_branches, folder};
 
 const EXAMPLES: &str = "\
@@ -94,7 +94,7 @@ impl Follow {
         }
         let study = campaign.study;
         let mut dataset = campaign.without_branches(older)?;
-        let nothing = vec![Err(Unfollowed::NoOrbit); study.branches.len()];
+        let nothing = vec![Err(NotContinued::NoOrbit); study.branches.len()];
         add_branches(&mut dataset, study, &nothing);
         let drawn = rehearse(&dataset, &study.drawings);
         drawn.map_err(|failure| failure.within(&self.study.display().to_string()))

@@ -8,7 +8,7 @@ use super::cloud::{self, Dot};
 use super::diagram::{has_points, request, span, with_followed};
 use super::error::FigureError;
 use super::event_marks::EventMarks;
-use super::followed::Followed;
+use super::followed::Continued;
 use super::geometry::{Point, Rect};
 use super::header::{self, Mark};
 use super::panel::Panel;
@@ -49,11 +49,11 @@ pub fn draw(
         .collect::<Result<Vec<_>, _>>()?;
     let marks = EventMarks::of(view, x_name, attractors)?;
     let windows = windows(&values, attractors);
-    let followed: Vec<Followed> =
-        outputs.iter().map(|output| Followed::shown(view, x_name, output)).collect();
+    let followed: Vec<Continued> =
+        outputs.iter().map(|output| Continued::shown(view, x_name, output)).collect();
     // Branches bring their special points along, events of attractors among them.
-    let marks = if followed.iter().all(Followed::is_empty) { marks } else { EventMarks::none() };
-    let reached: Vec<f64> = followed.iter().flat_map(Followed::places).map(|at| at.0).collect();
+    let marks = if followed.iter().all(Continued::is_empty) { marks } else { EventMarks::none() };
+    let reached: Vec<f64> = followed.iter().flat_map(Continued::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
     let mut page = request(view, &outputs, (&clouds, &followed), abscissa, &attractors.free);
     if let Some(first) = page.rows.first_mut().and_then(|row| row.first_mut()) {

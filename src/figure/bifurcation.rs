@@ -9,7 +9,7 @@ use super::canvas::Drawn;
 use super::cloud::{self, Dot};
 use super::diagram::{has_points, request, span, with_followed};
 use super::error::FigureError;
-use super::followed::{Followed, faded};
+use super::followed::{Continued, faded};
 use super::header::Mark;
 use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
@@ -90,8 +90,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let quantity = view.quantity(x_name);
     let values: Vec<f64> =
         view.coordinate_values(x_name).iter().map(|value| value * quantity.factor).collect();
-    let followed: Vec<Followed> =
-        outputs.iter().map(|output| Followed::shown(view, x_name, output)).collect();
+    let followed: Vec<Continued> =
+        outputs.iter().map(|output| Continued::shown(view, x_name, output)).collect();
     if followed.iter().any(|followed| !followed.is_empty()) {
         branches.iter_mut().for_each(Branch::step_back);
     }
@@ -99,7 +99,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         .iter()
         .map(|output| points(view, output, &values, &free, &branches))
         .collect::<Result<Vec<_>, _>>()?;
-    let reached: Vec<f64> = followed.iter().flat_map(Followed::places).map(|at| at.0).collect();
+    let reached: Vec<f64> = followed.iter().flat_map(Continued::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
     let page = request(view, &outputs, (&clouds, &followed), abscissa, &free);
     // Without cases there are only the lines of followed orbits to explain.

@@ -2,7 +2,7 @@
 
 use super::axis::AxisRequest;
 use super::cloud::Dot;
-use super::followed::Followed;
+use super::followed::Continued;
 use super::header::{Header, Mark};
 use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::Pointing;
@@ -51,7 +51,7 @@ pub fn has_points(view: &View<'_>, output: &str) -> bool {
 pub fn request(
     view: &View<'_>,
     outputs: &[String],
-    (clouds, followed): (&[Vec<Vec<Dot>>], &[Followed]),
+    (clouds, followed): (&[Vec<Vec<Dot>>], &[Continued]),
     abscissa: AxisRequest,
     free: &[&str],
 ) -> PageRequest {
@@ -82,9 +82,9 @@ pub fn request(
 pub fn with_followed(
     mut rows: Vec<Vec<PanelRequest>>,
     clouds: &[Vec<Vec<Dot>>],
-    followed: &[Followed],
+    followed: &[Continued],
 ) -> Vec<Vec<PanelRequest>> {
-    let entries = followed.iter().map(Followed::legend).max_by_key(Vec::len).unwrap_or_default();
+    let entries = followed.iter().map(Continued::legend).max_by_key(Vec::len).unwrap_or_default();
     let first = rows.first_mut().and_then(|row| row.first_mut());
     let Some(first) = first.filter(|_| !entries.is_empty()) else { return rows };
     let legend = &mut first.header.legend;

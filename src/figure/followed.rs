@@ -1,4 +1,4 @@
-//! Followed orbits over the parameter that they were followed in: lines along the branches, and special
+//! Continued orbits over the parameter that they were followed in: lines along the branches, and special
 //! points.
 
 use plotters::style::RGBColor;
@@ -14,17 +14,17 @@ use super::view::View;
 
 /// The followed orbits that a diagram shows, as one output of theirs.
 #[derive(Default)]
-pub struct Followed {
+pub struct Continued {
     /// Lines of unstable orbits, then of stable ones.
     lines: [Vec<Vec<(f64, f64)>>; 2],
     /// Special points.
     specials: Vec<(Symbol, (f64, f64))>,
 }
 
-impl Followed {
+impl Continued {
     /// The orbits followed in `x` that lie where `view` holds the other axes, as their `output`.
-    pub fn shown(view: &View<'_>, x: &str, output: &str) -> Followed {
-        let mut followed = Followed::default();
+    pub fn shown(view: &View<'_>, x: &str, output: &str) -> Continued {
+        let mut followed = Continued::default();
         if !view.drawing.branches {
             return followed;
         }

@@ -2,7 +2,7 @@
 
 use crate::branch::End;
 use crate::capsule::Parameter;
-use crate::run::Followed;
+use crate::run::Continued;
 use crate::study::{Continuation, Study};
 
 use super::branch_columns::add_points;
@@ -46,7 +46,7 @@ pub fn keep_branches(dataset: &mut Dataset, older: &Dataset) {
 }
 
 /// Adds what came of the branches of `study`, in its order.
-pub fn add_branches(dataset: &mut Dataset, study: &Study, followed: &[Followed]) {
+pub fn add_branches(dataset: &mut Dataset, study: &Study, followed: &[Continued]) {
     let flat = Flat::new(&study.branches, followed);
     let longest = flat.points.iter().chain(&flat.specials).map(|row| row.point.section.len());
     for (dimension, length) in [
@@ -92,7 +92,7 @@ fn integers(dataset: &mut Dataset, entry: Entry, values: impl Iterator<Item = i6
 }
 
 /// What each branch of the study follows and from where, and what came of it.
-fn add_requests(dataset: &mut Dataset, study: &Study, followed: &[Followed]) {
+fn add_requests(dataset: &mut Dataset, study: &Study, followed: &[Continued]) {
     let branches = &study.branches;
     integers(dataset, REQUEST_RESULT, followed.iter().map(result));
     integers(dataset, REQUEST_ALONG, branches.iter().map(|branch| branch.along as i64));

@@ -3,7 +3,7 @@
 use crate::branch::{Curve, End, SpecialKind};
 use crate::capsule::Parameter;
 use crate::capsule::branch::Branch;
-use crate::run::Followed;
+use crate::run::Continued;
 use crate::study::Continuation;
 
 use super::branch_columns::Row;
@@ -65,7 +65,7 @@ pub struct Flat<'a> {
 
 impl<'a> Flat<'a> {
     /// What came of `continuations`.
-    pub fn new(continuations: &[Continuation], followed: &'a [Followed]) -> Self {
+    pub fn new(continuations: &[Continuation], followed: &'a [Continued]) -> Self {
         let mut flat = Flat::default();
         for (request, (continuation, followed)) in continuations.iter().zip(followed).enumerate() {
             let Ok(found) = followed else { continue };

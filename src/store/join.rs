@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::capsule::{REASONS, State};
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
-use crate::run::Ending;
+use crate::run::FinalMotion;
 use crate::study::Study;
 
 use super::block_folder::BlockFolder;
@@ -72,15 +72,15 @@ impl<'a> Blocks<'a> {
     }
 
     /// How every case of the study has ended, by index; none for those that are missing.
-    pub fn endings(&self) -> Result<Vec<Option<Ending>>, StoreError> {
-        let mut endings = vec![None; self.study.cases()];
+    pub fn final_motions(&self) -> Result<Vec<Option<FinalMotion>>, StoreError> {
+        let mut motions = vec![None; self.study.cases()];
         for shard in &self.shards {
             let cases = self.study.block_cases(shard.head.block.number);
-            for (case, ending) in cases.into_iter().zip(shard_endings(shard)?) {
-                endings[case] = Some(ending);
+            for (case, ending) in cases.into_iter().zip(shard_motions(shard)?) {
+                motions[case] = Some(ending);
             }
         }
-        Ok(endings)
+        Ok(motions)
     }
 
     /// The study with all that belongs to no case: axes, constants, and who made each block.
@@ -196,7 +196,7 @@ fn failures(shard: &Shard, cases: &[usize]) -> Result<Vec<FailedCase>, StoreErro
 }
 
 /// How the cases of a shard have ended.
-fn shard_endings(shard: &Shard) -> Result<Vec<Ending>, StoreError> {
+fn shard_motions(shard: &Shard) -> Result<Vec<FinalMotion>, StoreError> {
     let whole = |entry: Entry| shard.integers(entry.name, 1);
     let (outcomes, periods) = (whole(OUTCOME)?, whole(PERIOD)?);
     let [r, y1, y2] = END.map(|entry| shard.reals(entry.name, 1));
@@ -211,7 +211,7 @@ fn shard_endings(shard: &Shard) -> Result<Vec<Ending>, StoreError> {
         let section = [r[case], y1[case], y2[case]];
         let period = periods[case] as u32;
         let outcome = outcome(outcomes[case]).unwrap_or(Outcome::Failed);
-        Ending::new(outcome, period, section, residual[case], &multipliers(case))
+        FinalMotion::new(outcome, period, section, residual[case], &multipliers(case))
     };
     Ok((0..outcomes.len()).map(ending).collect())
 }

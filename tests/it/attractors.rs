@@ -12,7 +12,7 @@ use capsulemap::orbit::matrix::eigenvalues;
 use capsulemap::orbit::newton::close;
 use capsulemap::orbit::return_map::Cycles;
 use capsulemap::orbit::{Outcome, Proof, Protocol};
-use capsulemap::run::{self, AttractorEvent, Attractors, Ending, Machine, Record};
+use capsulemap::run::{self, AttractorEvent, Attractors, FinalMotion, Machine, Record};
 use capsulemap::store;
 use capsulemap::study::Study;
 
@@ -43,11 +43,11 @@ fn records(study: &Study) -> Vec<Record> {
 }
 
 fn found(study: &Study, records: &[Record]) -> Attractors {
-    on(study, &run::endings(study, records), Machine::default())
+    on(study, &run::final_motions(study, records), Machine::default())
 }
 
-fn on(study: &Study, endings: &[Option<Ending>], machine: Machine) -> Attractors {
-    run::attractors(study, endings, machine, || ()).expect("the threads start")
+fn on(study: &Study, final_motions: &[Option<FinalMotion>], machine: Machine) -> Attractors {
+    run::attractors(study, final_motions, machine, || ()).expect("the threads start")
 }
 
 /// The frequency of the two motions on an axis, followed as `start` says.
@@ -143,9 +143,9 @@ fn an_attractor_that_no_start_shows_in_between_keeps_its_number() {
     let note = || {
         linked.fetch_add(1, Ordering::Relaxed);
     };
-    let endings = run::endings(&study, &records);
-    let attractors =
-        run::attractors(&study, &endings, Machine::default(), note).expect("the threads start");
+    let final_motions = run::final_motions(&study, &records);
+    let attractors = run::attractors(&study, &final_motions, Machine::default(), note)
+        .expect("the threads start");
     assert_eq!((linked.into_inner(), run::links(&study)), (80, 80));
     let seen: Vec<usize> = (0..study.cases()).filter(|&i| records[i].orbit.period == 3).collect();
     assert!(seen.len() > 10 && seen.windows(2).any(|pair| pair[1] / 2 - pair[0] / 2 > 3));
@@ -202,9 +202,9 @@ fn a_parameter_may_begin_at_zero() {
 #[test]
 fn attractors_do_not_depend_on_the_threads() {
     let study = study(&window(124.0, 126.0, 21, BOTH_WAYS));
-    let endings = run::endings(&study, &records(&study));
+    let final_motions = run::final_motions(&study, &records(&study));
     let with = |threads: usize| {
-        on(&study, &endings, Machine { threads: Some(threads), ..Machine::default() })
+        on(&study, &final_motions, Machine { threads: Some(threads), ..Machine::default() })
     };
     let one = with(1);
     assert!(one.events.len() > 4, "{one:?}");
@@ -222,9 +222,9 @@ fn a_line_among_others_has_the_attractors_that_it_has_alone() {
     let text = cascade(omegas).replace("p_d = \"3.4 N\"\n", "");
     let study_at = |values: &str| study(&format!("{text}{}", force(values)));
     let both = study_at("[\"3.4 N\", \"3.41 N\"]");
-    let endings = run::endings(&both, &records(&both));
+    let final_motions = run::final_motions(&both, &records(&both));
     let with = |threads: usize| {
-        on(&both, &endings, Machine { threads: Some(threads), ..Machine::default() })
+        on(&both, &final_motions, Machine { threads: Some(threads), ..Machine::default() })
     };
     let together = with(1);
     assert_eq!(together, with(2));

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use capsulemap::figure::{Format, draw};
-use capsulemap::run::Followed;
+use capsulemap::run::Continued;
 use capsulemap::store::{self, Dataset};
 use capsulemap::study::{Drawing, DrawingKind, Study};
 
@@ -54,7 +54,7 @@ fn branches_are_drawn_over_what_was_swept() {
     let of = ["section_r", "progression_speed"].map(String::from).to_vec();
     draw(&swept, &diagram("overlay"), &folder("branches"), &ALL).expect("a figure");
     let wide = Drawing {
-        title: Some("Followed and swept".into()),
+        title: Some("Continued and swept".into()),
         width_mm: Some(180.0),
         ..diagram("overlay-wide")
     };
@@ -81,7 +81,7 @@ fn branches_alone_make_a_diagram() {
         "{FIG5}[[branches]]\nname = \"a\"\nalong = \"p_d\"\nfrom = \"1 N\"\nto = \"5 N\"\n"
     );
     let study = Study::parse("a", &text).expect("a study");
-    let second: Vec<Followed> = followed().drain(1..2).collect();
+    let second: Vec<Continued> = followed().drain(1..2).collect();
     let dataset = with_branches(store::frame(&study), &study, &second);
     let request = drawing("no-axis", DrawingKind::Bifurcation);
     assert!(svg(&dataset, &request).contains("progression_speed over p_d"));

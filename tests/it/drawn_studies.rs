@@ -194,8 +194,8 @@ fn low_discrepancy_draws_are_spread_more_evenly_than_uniform_ones() {
 fn shares(study: &Study) -> [f64; 2] {
     let chains = Vec::from_iter(0..study.chains());
     let records = run::run_sample(study, Machine::default(), &chains, || ()).expect("it runs");
-    let endings = run::endings(study, &records);
-    let found = run::attractors(study, &endings, Machine::default(), || ()).expect("threads");
+    let final_motions = run::final_motions(study, &records);
+    let found = run::attractors(study, &final_motions, Machine::default(), || ()).expect("threads");
     let mut counts = BTreeMap::new();
     for (record, attractor) in records.iter().zip(&found.of_case) {
         let moves = record.orbit.outputs[Output::ProgressionSpeed] > 0.05;

@@ -9,9 +9,9 @@ use capsulemap::flow::{Field, Metric, NoEvent, Stroboscopic, Switched, System, T
 use capsulemap::lane::{
     Dual, Instructions, Lane, Mask, ORDER, Series, SideBySide, elementary::sin_cos, series,
 };
+use capsulemap::orbit::aperiodic::{follow_aperiodic_side_by_side, irregularity};
 use capsulemap::orbit::exponent::stretching;
 use capsulemap::orbit::return_map::Cycles;
-use capsulemap::orbit::wandering::{irregularity, wander_side_by_side};
 use capsulemap::orbit::{Outcome, Protocol, Trajectory};
 
 use super::draws;
@@ -234,7 +234,7 @@ fn neighbouring_trajectories_part_at_the_rate_of_the_exponent() {
     let capsules: Vec<_> =
         cases.iter().zip(&systems).map(|((_, start), system)| (system, *start)).collect();
     let protocol = Protocol::default();
-    let followed = wander_side_by_side(Instructions::widest(), &capsules, &protocol);
+    let followed = follow_aperiodic_side_by_side(Instructions::widest(), &capsules, &protocol);
     for ((case, start), followed) in cases.iter().zip(followed) {
         let exponent = followed.expect("it goes on").exponent;
         let (rate, spread) = parting(case, *start, 3000);
@@ -315,9 +315,9 @@ fn a_stretch_has_the_same_bits_by_any_instructions() {
     let capsules: Vec<_> =
         cases.iter().zip(&systems).map(|(case, system)| (system, start(case))).collect();
     let protocol = Protocol { exponent_cycles: 200, ..Protocol::default() };
-    let alone = wander_side_by_side(Instructions::Scalar, &capsules, &protocol);
+    let alone = follow_aperiodic_side_by_side(Instructions::Scalar, &capsules, &protocol);
     for instructions in Instructions::available() {
-        let among = wander_side_by_side(instructions, &capsules, &protocol);
+        let among = follow_aperiodic_side_by_side(instructions, &capsules, &protocol);
         assert_eq!(format!("{alone:?}"), format!("{among:?}"), "{}", instructions.name());
     }
 }

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use capsulemap::branch::SpecialKind;
 use capsulemap::capsule::Parameter;
-use capsulemap::run::follow;
+use capsulemap::run::continue_branches;
 use capsulemap::store::{self, Dataset, Values};
 use capsulemap::study::{FirstOrbit, Study};
 
@@ -237,9 +237,9 @@ fn a_python_reader_finds_branches() {
 #[test]
 fn any_threads_follow_alike() {
     let study = study();
-    let one = follow(&study, Some(1), || ()).expect("a run");
+    let one = continue_branches(&study, Some(1), || ()).expect("a run");
     for threads in [Some(2), Some(5), None] {
-        assert_eq!(one, follow(&study, threads, || ()).expect("a run"), "{threads:?}");
+        assert_eq!(one, continue_branches(&study, threads, || ()).expect("a run"), "{threads:?}");
     }
     assert_eq!(one.len(), 3);
 }

@@ -54,8 +54,9 @@ fn there_are_two_attractors_whatever_the_phase_of_the_start() {
     let omega = "delta = \"4.33 mm\"\nomega = \"158 rad/s\"";
     let study = study(&(TWO_MOTIONS.replace("delta = \"4.33 mm\"", omega) + axes));
     let records = records(&study);
-    let endings = run::endings(&study, &records);
-    let found = run::attractors(&study, &endings, Machine::default(), || ()).expect("threads");
+    let final_motions = run::final_motions(&study, &records);
+    let found =
+        run::attractors(&study, &final_motions, Machine::default(), || ()).expect("threads");
     let mut speeds: [Vec<f64>; 2] = Default::default();
     for (record, attractor) in records.iter().zip(&found.of_case) {
         assert_eq!((record.orbit.outcome, record.orbit.period), (Outcome::Periodic, 1));

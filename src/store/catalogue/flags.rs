@@ -3,7 +3,7 @@
 use crate::branch::{End, SpecialKind};
 use crate::capsule::{Parameter, REASONS};
 use crate::orbit::{Outcome, Proof};
-use crate::run::{Followed, Unfollowed};
+use crate::run::{Continued, NotContinued};
 use crate::study::Direction;
 
 use super::entry::Flags;
@@ -50,28 +50,29 @@ pub fn stabilities() -> Flags {
 }
 
 /// The number of what came of a branch.
-pub fn result(followed: &Followed) -> i64 {
+pub fn result(followed: &Continued) -> i64 {
     let reasons = REASONS.len() as i64;
     match followed {
         Ok(_) => 0,
-        Err(Unfollowed::Failed(reason)) => *reason as i64,
-        Err(Unfollowed::NoOrbit) => reasons + 1,
+        Err(NotContinued::Failed(reason)) => *reason as i64,
+        Err(NotContinued::NoOrbit) => reasons + 1,
         // Two more has stood for the equation as printed in files of earlier versions.
-        Err(Unfollowed::Neutral) => reasons + 3,
+        Err(NotContinued::Neutral) => reasons + 3,
         // No outcome that is told here has the number zero.
-        Err(Unfollowed::Unsettled(outcome)) => reasons + 3 + *outcome as i64,
+        Err(NotContinued::Unsettled(outcome)) => reasons + 3 + *outcome as i64,
     }
 }
 
 /// Everything that may come of a branch.
 pub fn results() -> Flags {
-    let reasons = REASONS.map(|(reason, name)| (Err(Unfollowed::Failed(reason)), name.to_owned()));
-    let no_orbit = (Err(Unfollowed::NoOrbit), "no-orbit".to_owned());
-    let neutral = (Err(Unfollowed::Neutral), "neutral".to_owned());
+    let reasons =
+        REASONS.map(|(reason, name)| (Err(NotContinued::Failed(reason)), name.to_owned()));
+    let no_orbit = (Err(NotContinued::NoOrbit), "no-orbit".to_owned());
+    let neutral = (Err(NotContinued::Neutral), "neutral".to_owned());
     let unsettled = Outcome::ALL
         .into_iter()
         .filter(|outcome| !matches!(outcome, Outcome::Periodic | Outcome::Failed))
-        .map(|outcome| (Err(Unfollowed::Unsettled(outcome)), outcome.name().to_owned()));
+        .map(|outcome| (Err(NotContinued::Unsettled(outcome)), outcome.name().to_owned()));
     let failures = reasons.into_iter().chain([no_orbit, neutral]).chain(unsettled);
     let followed = std::iter::once((0, "followed".to_owned()));
     followed.chain(failures.map(|(why, name)| (result(&why), name))).collect()

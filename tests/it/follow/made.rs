@@ -4,12 +4,12 @@ use capsulemap::branch::{Curve, End, SpecialKind};
 use capsulemap::capsule::branch::{Branch, Found, Point, Special};
 use capsulemap::capsule::{Output, Outputs};
 use capsulemap::orbit::matrix::Complex;
-use capsulemap::run::{Followed, Unfollowed};
+use capsulemap::run::{Continued, NotContinued};
 use capsulemap::store::{self, Dataset};
 use capsulemap::study::Study;
 
 /// A study of three branches, the last of which leads nowhere.
-pub const STUDY: &str = r#"title = "Followed"
+pub const STUDY: &str = r#"title = "Continued"
 outputs = ["progression_speed", "work_net"]
 [parameters]
 k2 = "18.96 kN/m"
@@ -144,12 +144,12 @@ pub fn found() -> Found {
 }
 
 /// What the branches of `STUDY` might lead to.
-pub fn followed() -> Vec<Followed> {
+pub fn followed() -> Vec<Continued> {
     let orbits = (0..30).map(|step| point(1.0 + 0.1 * f64::from(step), 1, 0.5, 0.3)).collect();
     let ends = [End::Bound; 2];
     let plain = Branch { period: 1, parent: None, points: orbits, special: Vec::new(), ends };
     let second = Found { branches: vec![plain], curves: Vec::new() };
-    vec![Ok(found()), Ok(second), Err(Unfollowed::NoOrbit)]
+    vec![Ok(found()), Ok(second), Err(NotContinued::NoOrbit)]
 }
 
 /// The study of these branches.
@@ -164,7 +164,7 @@ pub fn branches_alone() -> Dataset {
 }
 
 /// `dataset` with what came of the branches of `study`.
-pub fn with_branches(mut dataset: Dataset, study: &Study, followed: &[Followed]) -> Dataset {
+pub fn with_branches(mut dataset: Dataset, study: &Study, followed: &[Continued]) -> Dataset {
     store::add_branches(&mut dataset, study, followed);
     dataset
 }
