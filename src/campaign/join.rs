@@ -54,7 +54,7 @@ impl Campaign<'_> {
         }
     }
 
-    /// Joins the blocks in `folder` into `file`, beside branches that have been followed by then, and removes
+    /// Joins the blocks in `folder` into `file`, beside branches that have been continued by then, and removes
     /// them, unless the file is partial, which it is unless it is the output.
     pub(super) fn join_blocks(
         &self,
@@ -74,7 +74,7 @@ impl Campaign<'_> {
         reports.tell(Event::Joining { folder: folder.path() })?;
         let mut frame = blocks.frame();
         self.add_attractors(&mut frame, &blocks, reports)?;
-        // Branches that were followed meanwhile are in the file, and none can come before it is replaced.
+        // Branches that were continued meanwhile are in the file, and none can come before it is replaced.
         let _held = store::hold(file)?;
         self.write(&blocks, frame, file, reports)?;
         let archive = store::open(file)?;

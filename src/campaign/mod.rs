@@ -1,11 +1,11 @@
 //! Carried through: a study's results in one file, computed block by block, resumed, shared and joined.
 //!
 //! A [`Campaign`] names a study, the file of its results and what to compute on. `run` computes the blocks that
-//! are missing and joins them, `join` joins those that tasks have computed, `follow` adds the branches, and
+//! are missing and joins them, `join` joins those that tasks have computed, `continue_branches` adds the branches, and
 //! `status` tells what is there. [`verify()`] and [`Replay`] compute cases again. Each tells a listener of
 //! its [`Event`]s, stops where the listener breaks off, and prints nothing.
 
-mod branches;
+mod continuation;
 mod compute;
 pub mod count;
 pub mod error;

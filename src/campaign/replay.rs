@@ -1,4 +1,4 @@
-//! A case of a study by its number, with the start that it had in the run, to be followed again.
+//! A case of a study by its number, with the start that it had in the run, to be computed again.
 
 use crate::orbit::Protocol;
 
@@ -9,7 +9,7 @@ use crate::study::Study;
 use super::error::CampaignError;
 use super::report::{Event, Report, Reports, Stage};
 
-/// A case of a study that is followed again.
+/// A case of a study that is computed again.
 #[derive(Debug, Clone, Copy)]
 pub struct Replay<'a> {
     study: &'a Study,
@@ -32,7 +32,7 @@ impl<'a> Replay<'a> {
         Ok(Replay { study, index, chain, place })
     }
 
-    /// How the case is followed and judged.
+    /// How the case is integrated and judged.
     pub fn protocol(&self) -> &'a Protocol {
         &self.study.protocol
     }

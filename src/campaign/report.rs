@@ -15,7 +15,7 @@ use super::kept::Kept;
 ///
 /// After a `Break` the campaign ends with [`CampaignError::Stopped`]: at the next case while blocks are
 /// computed, at the next part while a file is written, and once it is done while attractors are linked,
-/// branches are followed or a case's predecessors are computed. Whatever was finished is kept.
+/// branches are continued or a case's predecessors are computed. Whatever was finished is kept.
 pub type Report<'r> = dyn Fn(Event<'_>) -> ControlFlow<()> + Sync + 'r;
 
 /// The listener that nothing is told.
@@ -102,8 +102,8 @@ pub enum Stage {
     Linking,
     /// The file is written; a step is a part of a variable.
     Writing,
-    /// Branches are followed; a step is a branch of the study.
-    Following,
+    /// Branches are continued; a step is a branch of the study.
+    Continuing,
     /// Cases are computed again; a step is a case.
     Repeating,
 }

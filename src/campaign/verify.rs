@@ -19,7 +19,7 @@ const AT_A_TIME: usize = 4096;
 /// Which cases are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sample {
-    /// So many at least, or all; where cases are followed along an axis, whole lines of them.
+    /// So many at least, or all; where cases inherit their start along an axis, whole lines of them.
     pub cases: usize,
     /// What the random numbers begin with.
     pub seed: u64,

@@ -1,4 +1,4 @@
-//! What a person wants to know first of followed branches: where they end, and where they change.
+//! The summary of branches: where they end, and where they change.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -10,18 +10,18 @@ use crate::run::Followed;
 use crate::study::{Continuation, FirstOrbit, Study};
 
 /// What came of the branches of `study`, and which file keeps it.
-pub fn summary(study: &Study, followed: &[Followed], output: &Path, seconds: f64) -> String {
-    let found = || followed.iter().flatten();
+pub fn summary(study: &Study, continued: &[Followed], output: &Path, seconds: f64) -> String {
+    let found = || continued.iter().flatten();
     let branches: usize = found().map(|found| found.branches.len()).sum();
     let points: usize = found().flat_map(|it| &it.branches).map(|it| it.points.len()).sum();
     let plural = if branches == 1 { "branch" } else { "branches" };
     let shown = output.display();
     let mut text = format!("{shown}: {branches} {plural}, {points} points in {seconds:.1} s\n");
-    for (continuation, followed) in study.branches.iter().zip(followed) {
-        match followed {
+    for (continuation, outcome) in study.branches.iter().zip(continued) {
+        match outcome {
             Ok(found) => tell_found(&mut text, continuation, found),
             // Writing to a String cannot fail.
-            Err(why) => drop(writeln!(text, "\n{}: not followed: {why}", continuation.name)),
+            Err(why) => drop(writeln!(text, "\n{}: not continued: {why}", continuation.name)),
         }
     }
     text
@@ -68,7 +68,7 @@ fn tell_without_curve(text: &mut String, found: &Found) {
     let specials = || found.branches.iter().flat_map(|branch| &branch.special);
     let counts = SpecialKind::NAMES.iter().filter_map(|(name, kind)| {
         let ours = |it: &&Special| it.kind == *kind && it.curve.is_none();
-        let never = if is_followed(*kind) { "" } else { " (never followed)" };
+        let never = if is_followed(*kind) { "" } else { " (never continued)" };
         let count = specials().filter(ours).count();
         (count > 0).then(|| format!("{count} {name}{never}"))
     });
@@ -133,7 +133,7 @@ fn end_words(end: End) -> Option<&'static str> {
         End::MostPoints => Some("where `most_points` is reached"),
         End::Corner => Some("at a corner of the return map"),
         End::Vanishes => Some("where its touch of the stop vanishes"),
-        End::Stopped => Some("where it cannot be followed further"),
+        End::Stopped => Some("where it cannot be continued further"),
     }
 }
 
@@ -260,8 +260,8 @@ to = \"5 N\"
             ends: [End::MostPoints; 2],
         };
         let found = Found { branches: vec![branch, ring], curves: vec![curve] };
-        let followed = [Ok(found), Err(Unfollowed::NoOrbit)];
-        let text = summary(&study, &followed, Path::new("a.h5"), 2.0);
+        let continued = [Ok(found), Err(Unfollowed::NoOrbit)];
+        let text = summary(&study, &continued, Path::new("a.h5"), 2.0);
         let expected = "\
 a.h5: 2 branches, 8 points in 2.0 s
 
@@ -277,9 +277,9 @@ a, branch 2: period 2
   event-sequence        4.123456789       2      12.500000
   event-sequence        4.123456789       2      12.500000
   curve of fold, period 1: 7 points, both ends where `most_points` is reached
-  no curve through 1 grazing, 2 event-sequence (never followed)
+  no curve through 1 grazing, 2 event-sequence (never continued)
 
-b: not followed: no periodic orbit was found near the start; give one closer to it
+b: not continued: no periodic orbit was found near the start; give one closer to it
 ";
         assert_eq!(text, expected);
     }

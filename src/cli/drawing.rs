@@ -133,7 +133,7 @@ fn ready(holds: Holds, drawings: &[Drawing]) -> Vec<Drawing> {
 /// The command that finds what a figure shows and is not there.
 fn waits_for(kind: DrawingKind, Holds { cases, branches }: Holds) -> Option<&'static str> {
     match needs(kind) {
-        Needs::Branches => (!branches).then_some("follow"),
+        Needs::Branches => (!branches).then_some("continue"),
         Needs::CasesOrBranches => (!cases && !branches).then_some("sweep"),
         Needs::Cases => (!cases && branches).then_some("sweep"),
     }

@@ -3,11 +3,11 @@
 mod arguments;
 mod block_progress;
 mod branch_summary;
+mod continuation;
 mod drawing;
 mod dry_run;
 mod failure;
 mod figure;
-mod follow;
 mod inspect;
 mod join;
 mod phases;
@@ -35,7 +35,7 @@ Examples:
   capsulemap simulate --omega \"77.91 rad/s\" --p-d \"4 N\" --k2 \"2.42 kN/m\" --delta \"3.5 mm\"
   capsulemap sweep studies/overview.toml
   capsulemap status studies/overview.toml
-  capsulemap follow branches.toml
+  capsulemap continue branches.toml
   capsulemap inspect results/overview/overview.h5
   capsulemap figure results/overview/overview.h5 --kind map --of work_positive
 
@@ -58,7 +58,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Follow one case in full: section, events, and what it settles to.
+    /// Compute one case in full: section, events, and what it settles to.
     Simulate(Box<simulate::Simulate>),
     /// Compute a study: its cases over all cores, one HDF5 file, and its figures.
     Sweep(sweep::Sweep),
@@ -68,8 +68,9 @@ enum Command {
     Status(status::Status),
     /// Compute a random sample of a file's cases again and compare every bit.
     Verify(verify::Verify),
-    /// Follow periodic orbits, stable or not, through parameters, and find where they change.
-    Follow(follow::Follow),
+    /// Continue periodic orbits, stable or not, in parameters, and find where they change.
+    #[command(visible_alias = "follow")]
+    Continue(continuation::Continue),
     /// Draw figures from a file of results.
     Figure(figure::Figure),
     /// Say what is in a file of results.
@@ -90,7 +91,7 @@ pub fn main() -> ExitCode {
         Command::Join(join) => join.run(),
         Command::Status(status) => status.run(),
         Command::Verify(verify) => verify.run(),
-        Command::Follow(follow) => follow.run(),
+        Command::Continue(continuation) => continuation.run(),
         Command::Figure(figure) => figure.run(),
         Command::Inspect(inspect) => inspect.run(),
         Command::Completions { shell } => {

@@ -29,7 +29,7 @@ Examples:
 
 A number without a unit is in SI. What is not given is as in the paper's Table 1 and Fig 5.";
 
-/// Follow one case from its start, then on to what it settles to.
+/// Compute one case from its start, then on to what it settles to.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Simulate {
@@ -62,13 +62,13 @@ pub struct Simulate {
     start: Option<String>,
     #[command(flatten)]
     phases: Phases,
-    /// Drive cycles to follow in full.
+    /// Drive cycles to compute in full.
     #[arg(long, default_value_t = 20)]
     cycles: u64,
     /// Relative local error of a step.
     #[arg(long, default_value = "1e-12")]
     tolerance: f64,
-    /// Drive cycles within which the motion must settle; if it does not, up to 2048 more are followed with the
+    /// Drive cycles within which the motion must settle; if it does not, up to 2048 more are computed with the
     /// linearised flow to tell chaos from long periods, and 128 are measured.
     #[arg(long, default_value_t = 2000)]
     max_cycles: u64,
@@ -83,7 +83,7 @@ pub struct Simulate {
     json: bool,
 }
 
-/// A case as it was asked for, and how to follow it.
+/// A case as it was asked for, and how to compute it.
 struct Request {
     case: Case,
     protocol: Protocol,
@@ -363,7 +363,7 @@ fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
             let residual = orbit.outputs[Output::SectionResidual];
             remarks.push(format!(
                 "undecided: what was found is not certified; its largest defect is {defect:.1e} (allowed: \
-                 10 000 tolerances), and followed without derivatives it closes to {residual:.1e} (allowed: \
+                 10 000 tolerances), and integrated without derivatives it closes to {residual:.1e} (allowed: \
                  100 000 tolerances)"
             ));
         }

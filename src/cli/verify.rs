@@ -19,7 +19,7 @@ Examples:
   capsulemap verify results/night/night.h5 --cases 5000 --seed 7 --instructions scalar
 
 What a case has settled to is compared in every number; attractors are numbered by all cases together, and
-are not looked at. Where cases are followed along an axis, whole lines of them are computed.";
+are not looked at. Where cases inherit their start along an axis, whole lines of them are computed.";
 
 /// So many differences are shown.
 const SHOWN: usize = 10;

@@ -142,7 +142,7 @@ fn what(stage: Stage) -> &'static str {
     match stage {
         Stage::Linking => "links of attractors",
         Stage::Writing => "pieces written",
-        Stage::Following => "branches",
+        Stage::Continuing => "branches",
         Stage::Repeating => "cases",
     }
 }

@@ -110,7 +110,7 @@ impl Archive {
         self.labels.contains_key(OUTCOME.name)
     }
 
-    /// What `capsulemap follow` has found.
+    /// The branches that `capsulemap continue` has found.
     pub fn branches(&self) -> Result<Dataset, StoreError> {
         self.dataset(|_, dimensions| dimensions.iter().any(|it| is_of_branches(it)))
     }

@@ -176,7 +176,7 @@ pub struct FailedCase {
     pub index: usize,
     /// Where it started.
     pub start: State<f64>,
-    /// Why it could not be followed on, by its name in files.
+    /// Why the integration failed, by its name in files.
     pub reason: &'static str,
     /// When, since its start [s].
     pub time: f64,

@@ -17,7 +17,7 @@ pub const FINGERPRINT: &str = "study_fingerprint";
 
 /// The dataset of a study; `records` holds one record per case, in any order, or fewer.
 ///
-/// Dimensions: the axes of the study, slowest first, then `direction` where the attractor was followed
+/// Dimensions: the axes of the study, slowest first, then `direction` where starts were inherited
 /// both ways, or `draw` alone; after them `point`, `impact_point` or `history_time` for what each case has several of.
 pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
     let mut dataset = frame(study);
@@ -88,7 +88,7 @@ pub fn frame(study: &Study) -> Dataset {
     dataset
 }
 
-/// How the cases were followed, so that the file tells it even where the study left it to the program.
+/// How the cases were integrated, which the file says even where the study left it to the program.
 fn protocol(study: &Study) -> [(String, String); 7] {
     let protocol = &study.protocol;
     [

@@ -61,7 +61,7 @@ pub struct Summary {
     pub cases: usize,
     /// Cases by outcome, those that occur.
     pub outcomes: BTreeMap<String, usize>,
-    /// Drive cycles that they were followed.
+    /// Drive cycles that were computed for them.
     pub cycles: u64,
 }
 

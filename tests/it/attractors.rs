@@ -50,7 +50,7 @@ fn on(study: &Study, endings: &[Option<Ending>], machine: Machine) -> Attractors
     run::attractors(study, endings, machine, || ()).expect("the threads start")
 }
 
-/// The frequency of the two motions on an axis, followed as `start` says.
+/// The frequency of the two motions on an axis, with the starts that `start` says.
 fn window(from: f64, to: f64, points: usize, start: &str) -> String {
     format!(
         "{TWO_MOTIONS}[[axes]]\nname = \"omega\"\nfrom = \"{from} rad/s\"\nto = \"{to} rad/s\"\n\
@@ -66,7 +66,7 @@ fn cascade(omega: &str) -> String {
     )
 }
 
-const BOTH_WAYS: &str = "[start]\nfollow = \"omega\"\ndirections = [\"upward\", \"downward\"]";
+const BOTH_WAYS: &str = "[start]\ninherit = \"omega\"\ndirections = [\"upward\", \"downward\"]";
 
 #[test]
 fn grazing_of_the_stuck_capsule_is_where_its_amplitude_is_the_gap() {
@@ -136,7 +136,7 @@ fn an_attractor_that_no_start_shows_in_between_keeps_its_number() {
     // An orbit of period 3 beside one of period 1 and 2, which only some starts from rest lead to.
     let study = study(&cascade(
         "from = \"39.3 rad/s\"\nto = \"40.1 rad/s\"\npoints = 81\n\
-         [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"afresh\"]",
+         [start]\ninherit = \"omega\"\ndirections = [\"upward\", \"afresh\"]",
     ));
     let records = records(&study);
     let linked = AtomicUsize::new(0);
@@ -160,7 +160,7 @@ fn a_case_that_falls_to_another_attractor_takes_its_number() {
     // From the orbit of period 3 the next case falls to that of period 1, while both go on attracting.
     let omegas =
         "values = [\"39.3 rad/s\", \"39.65 rad/s\"]\n[start]\ny1 = \"-0.2142857142857143 m/s\"";
-    let study = study(&cascade(&format!("{omegas}\nfollow = \"omega\"")));
+    let study = study(&cascade(&format!("{omegas}\ninherit = \"omega\"")));
     let records = records(&study);
     let periods: Vec<u64> = records.iter().map(|record| record.orbit.period).collect();
     assert_eq!(periods, [3, 1]);
@@ -171,7 +171,7 @@ fn a_case_that_falls_to_another_attractor_takes_its_number() {
 fn a_period_doubling_among_cases_that_settle_too_slowly_is_located_once() {
     let study = study(&cascade(
         "from = \"39.7975 rad/s\"\nto = \"39.7987 rad/s\"\npoints = 61\n\
-         [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"downward\"]",
+         [start]\ninherit = \"omega\"\ndirections = [\"upward\", \"downward\"]",
     ));
     let records = records(&study);
     let undecided = |record: &&Record| record.orbit.outcome == Outcome::Undecided;
@@ -217,7 +217,7 @@ fn a_line_among_others_has_the_attractors_that_it_has_alone() {
     // Frequencies within a line and forces across lines, with so many starts that threads share a cell.
     let omegas = "values = [\"39.3 rad/s\", \"39.65 rad/s\", \"40.1 rad/s\"]";
     let starts = "[[axes]]\nname = \"start_y1\"\nfrom = \"-0.3 m/s\"\nto = \"0.3 m/s\"\npoints = 40\n\
-                  [start]\nfollow = \"omega\"\ndirections = [\"afresh\"]";
+                  [start]\ninherit = \"omega\"\ndirections = [\"afresh\"]";
     let force = |values: &str| format!("[[axes]]\nname = \"p_d\"\nvalues = {values}\n{starts}");
     let text = cascade(omegas).replace("p_d = \"3.4 N\"\n", "");
     let study_at = |values: &str| study(&format!("{text}{}", force(values)));
@@ -285,7 +285,7 @@ fn a_multiplier_is_minus_one_where_the_period_doubles() {
 #[test]
 fn given_starts_and_both_directions_meet_in_one_study() {
     let start = "[[axes]]\nname = \"start_y1\"\nvalues = [\"0 m/s\", \"0.5 m/s\", \"-1 m/s\"]\n\
-                 [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"downward\", \"afresh\"]";
+                 [start]\ninherit = \"omega\"\ndirections = [\"upward\", \"downward\", \"afresh\"]";
     let study = study(&window(150.0, 165.0, 16, start));
     assert_eq!(study.cases(), 16 * 3 * 3);
     let mut seen: Vec<usize> = (0..study.chains()).flat_map(|number| study.chain(number)).collect();

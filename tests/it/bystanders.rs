@@ -1,4 +1,4 @@
-//! Others beside a long run: files that are not its own, a run that follows branches, and readers that stall.
+//! Others beside a long run: files that are not its own, a run that continues branches, and readers that stall.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -9,7 +9,7 @@ use capsulemap::store;
 use super::overnight::{LINES, NIGHT};
 use super::program::{Desk, Ran};
 
-/// A study that is quickly swept and followed.
+/// A study that is quickly swept and continued.
 const BOTH: &str = r#"
 [parameters]
 k2 = "18.96 kN/m"
@@ -54,9 +54,9 @@ fn a_folder_of_somebody_else_is_left_alone() {
 }
 
 #[test]
-fn sweeping_and_following_at_once_lose_nothing() {
+fn cases_and_branches_written_at_once_lose_nothing() {
     let desk = Desk::new();
-    for (name, first, second) in [("s", "sweep", "follow"), ("f", "follow", "sweep")] {
+    for (name, first, second) in [("s", "sweep", "continue"), ("f", "continue", "sweep")] {
         let study = format!("{name}.toml");
         desk.put(&study, BOTH);
         let start = |command: &str| {

@@ -266,7 +266,7 @@ fn a_case_is_replayed_from_where_it_started_to_the_same_bits() {
     let archive = store::open(&output).expect("a result");
     let study = study_of(&archive, &output).expect("the study in the file");
     // First and last of a line, upward and downward, and cases between.
-    let mut followed = 0;
+    let mut inherited = 0;
     for index in [0, 1, 60 * 39, 60 * 39 + 1, 60 * 20 + 14, 60 * 21 + 15] {
         let replay = Replay::new(&study, index).expect("a case");
         let case = replay.as_run(Machine::default(), &silent).expect("it is computed");
@@ -278,7 +278,7 @@ fn a_case_is_replayed_from_where_it_started_to_the_same_bits() {
         let upward = index % 2 == 0;
         let place = if upward { index / 60 } else { 39 - index / 60 };
         assert_eq!(replay.cases_before(), place, "{index}");
-        followed += usize::from(case.start != replay.as_asked().start);
+        inherited += usize::from(case.start != replay.as_asked().start);
         for (name, column) in store::schema::columns(&study, &[again]).variables {
             let kept = archive.rows(&name, &[study.position(index)]).expect("it is read");
             let bits = |values: &Values| -> Vec<u64> {
@@ -287,7 +287,7 @@ fn a_case_is_replayed_from_where_it_started_to_the_same_bits() {
             assert_eq!(bits(&kept[0]), bits(&column.values), "case {index}: {name}");
         }
     }
-    assert_eq!(followed, 4, "the other two come first in their lines");
+    assert_eq!(inherited, 4, "the other two come first in their lines");
     let error = Replay::new(&study, study.cases()).expect_err("no such case");
     assert!(matches!(error, CampaignError::NoCase { index: 2400, cases: 2400 }), "{error}");
 }
@@ -297,21 +297,21 @@ fn branches_join_the_cases_in_the_file() {
     let study = parse(BRANCH);
     let (_folder, output) = place();
     let campaign = Campaign::new(&study, &output);
-    let Ok(BranchesDone::Now { followed, .. }) = campaign.follow(&silent) else {
-        panic!("the branch is followed")
+    let Ok(BranchesDone::Now { continued, .. }) = campaign.continue_branches(&silent) else {
+        panic!("the branch is continued")
     };
-    assert!(followed.len() == 1 && followed[0].is_ok());
+    assert!(continued.len() == 1 && continued[0].is_ok());
     campaign.run(Task::WHOLE, &silent).expect("the study runs");
     let dataset = store::read(&output).expect("a result");
     assert!(has_cases(&dataset) && has_branches(&dataset));
-    assert!(matches!(campaign.follow(&silent), Ok(BranchesDone::Before(_))));
+    assert!(matches!(campaign.continue_branches(&silent), Ok(BranchesDone::Before(_))));
     // Branches in other words would be lost, and are not.
     let other = parse(&study.text.replace("to = \"22 rad/s\"", "to = \"21 rad/s\""));
     let campaign = Campaign { study: &other, ..campaign };
-    let error = campaign.follow(&silent).expect_err("other branches");
+    let error = campaign.continue_branches(&silent).expect_err("other branches");
     assert!(matches!(error, CampaignError::OtherBranches { .. }), "{error}");
     let alone = parse(BRANCH.split("[[branches]]").next().expect("a study"));
-    let error = Campaign::new(&alone, &output).follow(&silent).expect_err("no branches");
+    let error = Campaign::new(&alone, &output).continue_branches(&silent).expect_err("no branches");
     assert!(matches!(error, CampaignError::NoBranches), "{error}");
 }
 

@@ -144,7 +144,7 @@ from = "118 rad/s"
 to = "132 rad/s"
 points = 71
 [start]
-follow = "omega"
+inherit = "omega"
 directions = ["upward", "downward"]
 [history]
 cycles = 2
@@ -224,7 +224,7 @@ fn files_hold_what_the_catalogue_says() {
         desk.run(&["sweep", "a.toml", "--no-figures"]).done();
         let study = Study::parse("a.toml", text).expect("a study");
         if !study.branches.is_empty() {
-            desk.run(&["follow", "a.toml", "--no-figures"]).done();
+            desk.run(&["continue", "a.toml", "--no-figures"]).done();
         }
         let dataset = store::read(&desk.path("results/a/a.h5")).expect("a result");
         let coordinates = dataset.coordinates.iter().map(|(name, it)| (name, it));

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::program::{Desk, FIG5, Ran};
 
-const COMMANDS: [&str; 6] = ["simulate", "sweep", "follow", "figure", "inspect", "completions"];
+const COMMANDS: [&str; 6] = ["simulate", "sweep", "continue", "figure", "inspect", "completions"];
 
 fn simulate(more: &[&str]) -> Ran {
     let mut arguments = vec!["simulate", "--json"];

@@ -280,12 +280,12 @@ fn what_does_not_go_with_draws_is_told_before_the_run() {
     let draws = format!("{FIG5}[draws]\ncount = 10\n");
     assert_eq!(read(&format!("{draws}{axis}{range}")).cases(), 10);
     said(&draws, &["axes: missing; expected ranges to draw from"]);
-    let start = "[start]\nfollow = \"start_r\"\ndirections = [\"upward\"]\nr = \"1 mm\"\n";
+    let start = "[start]\ninherit = \"start_r\"\ndirections = [\"upward\"]\nr = \"1 mm\"\n";
     said(
         &format!("{draws}{axis}{range}points = 3\n{start}"),
         &[
             "axes[1].points: does not go with `[draws]`",
-            "start.follow: does not go with `[draws]`",
+            "start.inherit: does not go with `[draws]`",
             "start.directions: does not go with `[draws]`",
             "start.r: is given here and on an axis",
         ],

@@ -24,11 +24,11 @@ struct Point {
 }
 
 impl Kept {
-    fn follow(name: &str) -> Kept {
+    fn continued(name: &str) -> Kept {
         let desk = Desk::new();
         let text = fs::read_to_string(format!("studies/{name}.toml")).expect("the study");
         desk.put("s.toml", &text);
-        let told = desk.run(&["follow", "s.toml", "--no-figures"]).done().out;
+        let told = desk.run(&["continue", "s.toml", "--no-figures"]).done().out;
         let dataset = store::read(&desk.path("results/s/s.h5")).expect("a result");
         Kept { study: Study::parse("s.toml", &text).expect("a study"), dataset, told }
     }
@@ -63,7 +63,7 @@ impl Kept {
 
 #[test]
 fn the_cascade_doubles_where_the_motion_does() {
-    let kept = Kept::follow("cascade");
+    let kept = Kept::continued("cascade");
     let doublings: Vec<Point> =
         (0..5).map(|n| kept.points(n, SpecialKind::PeriodDoubling).remove(0)).collect();
     let omegas: Vec<f64> = doublings.iter().map(|it| it.omega).collect();
@@ -100,7 +100,7 @@ fn the_cascade_doubles_where_the_motion_does() {
 
 #[test]
 fn the_hysteresis_has_an_unstable_branch_between_its_folds() {
-    let kept = Kept::follow("hysteresis");
+    let kept = Kept::continued("hysteresis");
     let folds = kept.points(0, SpecialKind::Fold);
     let [upper, lower] = &folds[..] else { panic!("two folds\n{}", kept.told) };
     assert!(

@@ -240,11 +240,11 @@ fn a_history_from_the_start_begins_there_wherever_the_section_is() {
 }
 
 #[test]
-fn what_is_followed_starts_on_the_section() {
-    let follow = "[[axes]]\nname = \"omega\"\nvalues = [\"130 rad/s\", \"131 rad/s\"]\n[start]\n\
+fn an_inherited_start_lies_on_the_section() {
+    let inherit = "[[axes]]\nname = \"omega\"\nvalues = [\"130 rad/s\", \"131 rad/s\"]\n[start]\n\
                   y1 = \"0.3 m/s\"\nstart_phase = \"40 deg\"\nsection_phase = \"10 deg\"\n\
-                  follow = \"omega\"\n";
-    let study = study(&(TWO_MOTIONS.to_owned() + follow));
+                  inherit = \"omega\"\n";
+    let study = study(&(TWO_MOTIONS.to_owned() + inherit));
     let [start, section] = [study.start_phase, study.section_phase];
     assert_eq!([start, section], [40.0 * (PI / 180.0), 10.0 * (PI / 180.0)]);
     let records = records(&study);

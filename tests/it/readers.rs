@@ -86,7 +86,7 @@ points = 160
 name = "start_y1"
 values = ["0 m/s", "0.2 m/s"]
 [start]
-follow = "omega"
+inherit = "omega"
 directions = ["upward", "downward"]
 [history]
 cycles = 1
@@ -112,7 +112,7 @@ fn every_file_that_the_program_writes_opens_with_all_its_labels() {
     let read = |path: &Path| store::read(path).expect("a result");
     // Branches alone; then, beside them, a look at a part of the cases; then all.
     let file = desk.path("results/all/all.h5");
-    desk.run(&["follow", "all.toml"]).done();
+    desk.run(&["continue", "all.toml"]).done();
     assert_readers_find(&python, &file, &read(&file));
     desk.run(&["sweep", "all.toml", "--task", "1/2"]).done();
     desk.run(&["join", "all.toml", "--partial"]).done();

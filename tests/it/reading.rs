@@ -23,7 +23,7 @@ points = 16
 name = "start_y1"
 values = ["-0.4 m/s", "0.4 m/s"]
 [start]
-follow = "omega"
+inherit = "omega"
 directions = ["upward", "downward"]
 [history]
 cycles = 2
@@ -80,7 +80,7 @@ fn what_a_figure_leaves_unread_does_not_change_it() {
     let desk = Desk::new();
     desk.put("a.toml", STUDY);
     desk.run(&["sweep", "a.toml", "--no-figures"]).done();
-    desk.run(&["follow", "a.toml", "--no-figures"]).done();
+    desk.run(&["continue", "a.toml", "--no-figures"]).done();
     let archive = store::open(&desk.path("results/a/a.h5")).expect("a result");
     let whole = archive.dataset(|_, _| true).expect("all of it");
     let study = Study::parse("a.toml", STUDY).unwrap_or_else(|faults| panic!("{faults}"));

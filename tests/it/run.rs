@@ -26,7 +26,7 @@ to = "8 N"
 points = 3
 spacing = "logarithmic"
 [start]
-follow = "omega"
+inherit = "omega"
 directions = ["upward", "downward"]
 [history]
 cycles = 2
@@ -135,7 +135,7 @@ fn any_threads_and_any_instructions_give_the_same_file() {
 }
 
 #[test]
-fn following_begins_where_the_neighbour_settled() {
+fn an_inherited_start_is_the_final_state_of_the_neighbour() {
     let desk = Desk::new();
     desk.put("rich.toml", RICH);
     let study = Study::parse("rich.toml", RICH).expect("a study");

@@ -47,7 +47,7 @@ from = "2 N"
 to = "8 N"
 points = 30
 [start]
-follow = "omega"
+inherit = "omega"
 directions = ["upward", "downward"]
 [protocol]
 points = 4

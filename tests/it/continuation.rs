@@ -1,4 +1,4 @@
-//! What is around following: the study's keys, the columns of the file, and the command.
+//! What surrounds the continuation of branches: the study's keys, the columns of the file, and the command.
 
 use std::fs;
 use std::path::Path;
@@ -12,9 +12,9 @@ use capsulemap::study::{FirstOrbit, Study};
 
 use super::program::{Desk, FIG5};
 
-pub mod made;
+pub mod fixtures;
 
-use made::{STUDY, branches_alone, followed, found, study};
+use fixtures::{STUDY, branches_alone, continued, found, study};
 
 /// What is said of `text`, one fault a line.
 fn said(text: &str) -> Vec<String> {
@@ -92,7 +92,7 @@ fn the_faults_of_branches_are_told_at_once() {
             "line 15: branches[1].longest_step: 2 must lie above 0 and up to 1",
             "line 16: branches[1].most_points: expected a whole number, 2 to",
             "line 17: branches[1].start.x: unknown key \"x\"",
-            "line 18: branches[1].second.name: is the parameter that the orbit is followed in",
+            "line 18: branches[1].second.name: is the parameter that the orbit is continued in",
         ],
     );
     let twice = branch(&format!("{PLAIN}[[branches]]\n{PLAIN}"));
@@ -113,13 +113,13 @@ fn the_faults_of_branches_are_told_at_once() {
     assert_said(&newton, &["line 8: branches[1].period: missing"]);
     let printed =
         branch(PLAIN).replace("[[axes]]", "friction_switching = \"as-printed\"\n[[axes]]");
-    assert!(Study::parse("a", &printed).is_ok(), "the equation as printed is followed too");
+    assert!(Study::parse("a", &printed).is_ok(), "the equation as printed is continued too");
     let name = branch(&PLAIN.replace("\"a\"", "\" \""));
     assert_said(&name, &["line 9: branches[1].name: must be one line, not empty"]);
 }
 
 #[test]
-fn figures_run_along_what_is_followed() {
+fn figures_run_along_the_parameters_of_branches() {
     let figure = |kind: &str, more: &str| {
         format!("{STUDY}[[figures]]\nname = \"x\"\nkind = \"{kind}\"\n{more}\n")
     };
@@ -198,14 +198,14 @@ fn every_number_of_every_branch_is_in_the_file() {
 }
 
 #[test]
-fn what_was_followed_is_kept_beside_what_was_swept() {
+fn branches_are_kept_beside_the_cases_of_a_sweep() {
     let study = study();
     let mut both = store::dataset(&study, &[]);
     let swept = both.clone();
     assert!(store::has_cases(&both) && !store::has_branches(&both));
     store::keep_branches(&mut both, &branches_alone());
     let mut added = swept;
-    store::add_branches(&mut added, &study, &followed());
+    store::add_branches(&mut added, &study, &continued());
     added.attributes.clone_from(&both.attributes);
     assert_eq!(store::difference(&both, &added), None);
     assert!(store::has_branches(&both) && !store::has_cases(&branches_alone()));
@@ -235,7 +235,7 @@ fn a_python_reader_finds_branches() {
 }
 
 #[test]
-fn any_threads_follow_alike() {
+fn any_number_of_threads_gives_the_same_branches() {
     let study = study();
     let one = follow(&study, Some(1), || ()).expect("a run");
     for threads in [Some(2), Some(5), None] {
@@ -249,17 +249,21 @@ fn kept(path: &Path) -> Dataset {
 }
 
 #[test]
-fn following_and_sweeping_share_a_file_in_either_order() {
+fn branches_and_cases_share_a_file_in_either_order() {
     let desk = Desk::new();
     desk.put("s.toml", STUDY);
-    let told = desk.run(&["follow", "s.toml", "--formats", "svg"]).done();
+    let told = desk.run(&["continue", "s.toml", "--formats", "svg"]).done();
     let path = "results/s/s.h5";
     assert!(told.out.starts_with(&format!("{path}: ")), "{}", told.out);
     assert!(told.err.contains("figure `m`: waits for `capsulemap sweep`"), "{}", told.err);
     let alone = kept(&desk.path(path));
     assert!(store::has_branches(&alone) && !store::has_cases(&alone));
-    let again = desk.run(&["follow", "s.toml", "--formats", "svg"]).done();
-    assert!(again.err.contains("s.h5: already followed") && again.out.is_empty(), "{}", again.err);
+    let again = desk.run(&["continue", "s.toml", "--formats", "svg"]).done();
+    assert!(
+        again.err.contains("s.h5: branches are there already") && again.out.is_empty(),
+        "{}",
+        again.err
+    );
     let told = desk.run(&["sweep", "s.toml", "--formats", "svg"]).done();
     assert!(told.out.contains("16 cases") && told.err.contains("m.svg"), "{}", told.err);
     let mut both = kept(&desk.path(path));
@@ -268,8 +272,8 @@ fn following_and_sweeping_share_a_file_in_either_order() {
     assert!(again.err.contains("already computed"), "{}", again.err);
     // The other way round, the same is in the file.
     let told = desk.run(&["sweep", "s.toml", "--output", "o.h5", "--formats", "svg"]).done();
-    assert!(told.err.contains("figure `c`: waits for `capsulemap follow`"), "{}", told.err);
-    desk.run(&["follow", "s.toml", "--output", "o.h5", "--no-figures"]).done();
+    assert!(told.err.contains("figure `c`: waits for `capsulemap continue`"), "{}", told.err);
+    desk.run(&["continue", "s.toml", "--output", "o.h5", "--no-figures"]).done();
     let mut other = kept(&desk.path("o.h5"));
     for dataset in [&mut both, &mut other] {
         dataset.attributes.remove("created").expect("a time");
@@ -291,30 +295,31 @@ fn other_words_for_the_same_cases_keep_them() {
         told.contains("from a study with the same cases") && told.contains("other.svg"),
         "{told}"
     );
-    let follow = |more: &[&str]| desk.run(&[&["follow", "s.toml", "--no-figures"], more].concat());
-    follow(&[]).done();
+    let continue_branches =
+        |more: &[&str]| desk.run(&[&["continue", "s.toml", "--no-figures"], more].concat());
+    continue_branches(&[]).done();
     let both = kept(&desk.path("results/s/s.h5"));
     assert!(store::has_branches(&both) && store::has_cases(&both));
     assert_eq!(both.texts["study"], words);
     // Branches are of their words.
     desk.put("s.toml", STUDY);
-    follow(&[]).refused(&["holds branches of a study in other words", "--overwrite"]);
-    follow(&["--overwrite"]).done();
+    continue_branches(&[]).refused(&["holds branches of a study in other words", "--overwrite"]);
+    continue_branches(&["--overwrite"]).done();
     desk.put("s.toml", words);
-    desk.run(&["follow", "s.toml", "--output", "b.h5", "--no-figures"]).done();
+    desk.run(&["continue", "s.toml", "--output", "b.h5", "--no-figures"]).done();
     desk.put("s.toml", STUDY);
     desk.run(&["sweep", "s.toml", "--output", "b.h5"]).refused(&["branches of a study in other"]);
 }
 
 #[test]
-fn results_of_others_are_not_followed_into() {
+fn results_of_others_receive_no_branches() {
     let desk = Desk::new();
     desk.put("s.toml", STUDY);
     desk.put("plain.toml", FIG5);
     desk.run(&["sweep", "plain.toml", "--output", "r.h5"]).done();
     let before = fs::read(desk.path("r.h5")).expect("a result");
     let into = |more: &[&str]| {
-        desk.run(&[&["follow", "s.toml", "--output", "r.h5", "--no-figures"], more].concat())
+        desk.run(&[&["continue", "s.toml", "--output", "r.h5", "--no-figures"], more].concat())
     };
     into(&[]).refused(&["r.h5: holds results of another study", "--overwrite"]);
     assert_eq!(fs::read(desk.path("r.h5")).expect("a result"), before);
@@ -328,6 +333,9 @@ fn results_of_others_are_not_followed_into() {
     assert!(store::has_cases(&both) && store::has_branches(&both));
     let told = desk.run(&["inspect", "r.h5"]).done().out;
     assert!(told.contains("branch_point") && told.contains("16 periodic"), "{told}");
-    desk.run(&["follow", "plain.toml"]).refused(&["plain.toml: asks for no [[branches]]"]);
-    desk.run(&["follow", "s.toml", "--threads", "0"]).refused(&["--threads"]);
+    // The older name of the command is the same command.
+    for command in ["continue", "follow"] {
+        desk.run(&[command, "plain.toml"]).refused(&["plain.toml: asks for no [[branches]]"]);
+    }
+    desk.run(&["continue", "s.toml", "--threads", "0"]).refused(&["--threads"]);
 }
