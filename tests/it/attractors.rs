@@ -16,7 +16,7 @@ use capsulemap::run::{self, AttractorEvent, Attractors, Ending, Machine, Record}
 use capsulemap::store;
 use capsulemap::study::Study;
 
-use super::program::Desk;
+use super::program::WorkDir;
 
 /// The capsule that moves on or shakes in place, see `studies/hysteresis.toml`.
 const TWO_MOTIONS: &str = r#"[parameters]
@@ -305,11 +305,11 @@ fn given_starts_and_both_directions_meet_in_one_study() {
 
 #[test]
 fn the_file_lists_the_events_and_the_figure_shows_them() {
-    let desk = Desk::new();
+    let dir = WorkDir::new();
     let figure = "[[figures]]\nname = \"diagram\"\nkind = \"bifurcation\"";
-    desk.put("two.toml", window(150.0, 166.0, 33, &format!("{BOTH_WAYS}\n{figure}")));
-    desk.run(&["sweep", "two.toml", "--formats", "svg,png"]).done();
-    let dataset = store::read(&desk.path("results/two/two.h5")).expect("a file of results");
+    dir.put("two.toml", window(150.0, 166.0, 33, &format!("{BOTH_WAYS}\n{figure}")));
+    dir.run(&["sweep", "two.toml", "--formats", "svg,png"]).done();
+    let dataset = store::read(&dir.path("results/two/two.h5")).expect("a file of results");
     let column = |name: &str| dataset.variable(name).expect(name).values.to_real();
     let kinds = column("event_kind");
     let events = column("event_omega");
@@ -317,7 +317,7 @@ fn the_file_lists_the_events_and_the_figure_shows_them() {
     assert!(events.iter().any(|omega| (omega - 164.1555).abs() < 1e-3), "{events}");
     assert_eq!(column("attractor").shape(), [33, 2]);
     assert_eq!(dataset.attributes.get("attractor_axis").map(String::as_str), Some("omega"));
-    let svg = fs::read_to_string(desk.path("results/two/diagram.svg")).expect("a figure");
+    let svg = fs::read_to_string(dir.path("results/two/diagram.svg")).expect("a figure");
     assert!(svg.contains("section_r, progression_speed, work_positive, lyapunov_exponent"));
     // The light shading of the window.
     assert!(svg.contains("#f4edda"), "no window is shaded");

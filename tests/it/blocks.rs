@@ -88,7 +88,7 @@ fn a_block_has_the_same_records_whatever_is_run_beside_it() {
 }
 
 #[test]
-fn a_run_stops_when_it_is_told_to() {
+fn a_run_stops_when_it_is_asked_to() {
     let study = &studies()[1];
     let numbers: Vec<usize> = (0..study.blocks()).collect();
     let machine = Machine { threads: Some(1), ..Machine::default() };

@@ -9,7 +9,7 @@ use capsulemap::store::{self, Dataset};
 use capsulemap::study::{Drawing, DrawingKind, Study};
 
 use super::continuation::fixtures::{STUDY, branches_alone, continued, found, with_branches};
-use super::figure::made::Made;
+use super::figure::fixtures::Fixture;
 use super::figure::{drawing, folder};
 use super::program::FIG5;
 
@@ -41,8 +41,9 @@ fn swept() -> Dataset {
         near.get((place + point) % near.len().max(1)).copied().unwrap_or(f64::NAN)
     };
     let speed = height.clone();
-    let made = Made(with_branches(store::frame(&study), &study, &continued()));
-    made.coordinate("point", "1", vec![0.0])
+    let fixture = Fixture(with_branches(store::frame(&study), &study, &continued()));
+    fixture
+        .coordinate("point", "1", vec![0.0])
         .real("section_r", &["omega", "p_d", "point"], move |i| height(i[0], i[2]))
         .real("progression_speed", &["omega", "p_d"], move |i| speed(i[0], 0))
         .0

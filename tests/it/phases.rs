@@ -12,7 +12,7 @@ use capsulemap::run::{self, Machine, Record};
 use capsulemap::study::{Coordinate, Study};
 
 use super::draws;
-use super::program::{Desk, FIG5};
+use super::program::{FIG5, WorkDir};
 
 /// The capsule of `studies/hysteresis.toml`, without its frequency.
 const TWO_MOTIONS: &str = r#"[parameters]
@@ -289,10 +289,9 @@ fn the_older_key_is_both_phases_and_the_older_axis_that_of_the_start() {
 
 #[test]
 fn the_program_takes_both_phases_apart_or_together() {
-    let desk = Desk::new();
+    let dir = WorkDir::new();
     let run = |more: &[&str]| {
-        desk.run(&[&["simulate", "--omega", "130", "--cycles", "1", "--json"], more].concat())
-            .json()
+        dir.run(&[&["simulate", "--omega", "130", "--cycles", "1", "--json"], more].concat()).json()
     };
     let together = run(&["--phase", "90 deg"]);
     assert_eq!(together, run(&["--start-phase", "90 deg", "--section-phase", "90 deg"]));
@@ -300,6 +299,6 @@ fn the_program_takes_both_phases_apart_or_together() {
     let first = apart["section"][0]["t"].as_f64().expect("a time");
     assert!((first - 0.75 * TAU / 130.0).abs() < 1e-15, "{first}");
     let both = ["simulate", "--phase", "1", "--start-phase", "1"];
-    desk.run(&both).refused(&["--start-phase"]);
-    desk.run(&["simulate", "--section-phase", "1 m"]).refused(&["--section-phase: ", "an angle"]);
+    dir.run(&both).refused(&["--start-phase"]);
+    dir.run(&["simulate", "--section-phase", "1 m"]).refused(&["--section-phase: ", "an angle"]);
 }

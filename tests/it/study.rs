@@ -1,8 +1,8 @@
-//! The study file: every way of writing one, and every fault with its line and key.
+//! The study file: every form of it, and every fault with its line and key.
 
 use capsulemap::study::Study;
 
-use super::program::{Desk, FIG5};
+use super::program::{FIG5, WorkDir};
 
 fn read(text: &str) -> Study {
     Study::parse("study.toml", text).unwrap_or_else(|faults| panic!("{faults}"))
@@ -82,7 +82,7 @@ cycles = [3, 1]
 "#;
 
 #[test]
-fn many_faults_are_told_at_once_each_with_line_and_key() {
+fn many_faults_are_reported_at_once_each_with_line_and_key() {
     assert_said(
         MANY,
         &[
@@ -122,23 +122,23 @@ fn many_faults_are_told_at_once_each_with_line_and_key() {
 }
 
 #[test]
-fn a_faulty_study_is_told_by_the_program_and_leaves_nothing() {
-    let desk = Desk::new();
-    desk.put("many.toml", MANY);
-    desk.put("broken.toml", "title = \"x\"\nomega = [1\np_d = \"4 N\n");
-    desk.put("twice.toml", FIG5.to_owned() + "omega = \"3 Hz\"\n");
-    desk.put("binary.toml", b"title = \"fine\"\n\nnote = \"\xff\"\n");
-    std::fs::create_dir(desk.path("folder.toml")).expect("a folder");
-    let before = desk.files();
-    desk.run(&["sweep", "many.toml"])
+fn a_faulty_study_is_reported_by_the_program_and_leaves_nothing() {
+    let dir = WorkDir::new();
+    dir.put("many.toml", MANY);
+    dir.put("broken.toml", "title = \"x\"\nomega = [1\np_d = \"4 N\n");
+    dir.put("twice.toml", FIG5.to_owned() + "omega = \"3 Hz\"\n");
+    dir.put("binary.toml", b"title = \"fine\"\n\nnote = \"\xff\"\n");
+    std::fs::create_dir(dir.path("folder.toml")).expect("a folder");
+    let before = dir.files();
+    dir.run(&["sweep", "many.toml"])
         .refused(&["many.toml: 31 faults", "line 47: figures[1].cycles"]);
-    desk.run(&["sweep", "broken.toml"]).refused(&["broken.toml", "line 3"]);
-    desk.run(&["sweep", "twice.toml"])
+    dir.run(&["sweep", "broken.toml"]).refused(&["broken.toml", "line 3"]);
+    dir.run(&["sweep", "twice.toml"])
         .refused(&["1 fault\n", "line 6: duplicate key, in: omega = \"3 Hz\""]);
-    desk.run(&["sweep", "binary.toml"]).refused(&["binary.toml: line 3: is not text in UTF-8"]);
-    desk.run(&["sweep", "absent.toml"]).refused(&["absent.toml: cannot be read: No such file"]);
-    desk.run(&["sweep", "folder.toml"]).refused(&["folder.toml: cannot be read: Is a directory"]);
-    assert_eq!(desk.files(), before);
+    dir.run(&["sweep", "binary.toml"]).refused(&["binary.toml: line 3: is not text in UTF-8"]);
+    dir.run(&["sweep", "absent.toml"]).refused(&["absent.toml: cannot be read: No such file"]);
+    dir.run(&["sweep", "folder.toml"]).refused(&["folder.toml: cannot be read: Is a directory"]);
+    assert_eq!(dir.files(), before);
 }
 
 #[test]
@@ -273,7 +273,7 @@ fn names_of_figures_are_checked_before_the_run() {
 }
 
 #[test]
-fn what_a_figure_cannot_show_is_told_before_the_run() {
+fn what_a_figure_cannot_show_is_reported_before_the_run() {
     let shown = |kind: &str, of: &str| {
         figures(&format!("[[figures]]\nname = 'a'\nkind = '{kind}'\nof = [{of}]\n"))
     };

@@ -331,7 +331,7 @@ fn an_axis_keeps_its_form_and_its_bits() {
 }
 
 #[test]
-fn all_faults_of_a_study_built_in_code_are_told_at_once() {
+fn all_faults_of_a_study_built_in_code_are_reported_at_once() {
     let values = vec![60.0, f64::NAN, 60.0];
     let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Omega), values }];
     let mut study = Study {
@@ -347,7 +347,7 @@ fn all_faults_of_a_study_built_in_code_are_told_at_once() {
     study.start.y1 = f64::INFINITY;
     let faults = study.validated("built").expect_err("a faulty study");
     assert!(faults.faults.iter().all(|fault| fault.line.is_none()));
-    let told = faults.to_string();
+    let ran = faults.to_string();
     for words in [
         "built: ",
         "title: must be one line",
@@ -359,27 +359,25 @@ fn all_faults_of_a_study_built_in_code_are_told_at_once() {
         "protocol.tolerance: 1 must lie between",
         "protocol.max_cycles: expected a whole number",
     ] {
-        assert!(told.contains(words), "{words}: {told}");
+        assert!(ran.contains(words), "{words}: {ran}");
     }
 }
 
 #[test]
-fn what_a_study_file_cannot_hold_is_told() {
-    let told = |study: Study| study.validated("built").expect_err("a fault").to_string();
+fn what_a_study_file_cannot_hold_is_reported() {
+    let ran = |study: Study| study.validated("built").expect_err("a fault").to_string();
     let mut study = Study::default();
     study.start.x2 = 1.0;
-    assert!(told(study).contains("start: a study file cannot hold"));
+    assert!(ran(study).contains("start: a study file cannot hold"));
     let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd), values: vec![1.0] }];
     let inherit = Some(Inherit { axis: 0, directions: Vec::new() });
     let case_set = CaseSet::Grid(Grid { axes, inherit });
-    assert!(
-        told(Study { case_set, ..Study::default() }).contains("axes: a study file cannot hold")
-    );
+    assert!(ran(Study { case_set, ..Study::default() }).contains("axes: a study file cannot hold"));
     let mut random = Random(ChaCha8Rng::seed_from_u64(4));
     let mut branch = random.branch(&Study::default(), "one".to_owned());
     branch.range.reverse();
     let reversed = Study { branches: vec![branch], ..Study::default() };
-    assert!(told(reversed).contains("branches[1]: a study file cannot hold"));
+    assert!(ran(reversed).contains("branches[1]: a study file cannot hold"));
     // What is held constant of a coordinate that varies does not count.
     let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd), values: vec![1.0] }];
     let case_set = CaseSet::Grid(Grid { axes, inherit: None });

@@ -1,4 +1,4 @@
-//! Made-up branches for the tests of the file and the figures of branches.
+//! Synthetic branches for the tests of the file and the figures of branches.
 
 use capsulemap::branch::{Curve, End, SpecialKind};
 use capsulemap::capsule::branch::{Branch, Found, Point, Special};
@@ -50,7 +50,7 @@ name = "m"
 kind = "map"
 "#;
 
-/// An orbit whose motion is all told by `height`.
+/// An orbit whose motion is determined by `height`.
 pub fn point(parameter: f64, period: usize, height: f64, multiplier: f64) -> Point {
     let mut outputs = Outputs::unknown();
     outputs[Output::ProgressionSpeed] = 1e-3 * height;
