@@ -97,9 +97,9 @@ impl Campaign<'_> {
             return Ok(());
         }
         reports.tell(Event::Begun(Stage::Linking, run::links(self.study)))?;
-        let endings = blocks.endings()?;
+        let states = blocks.final_states()?;
         let linked = || reports.step(Stage::Linking);
-        let attractors = run::attractors(self.study, &endings, self.machine, linked)?;
+        let attractors = run::attractors(self.study, &states, self.machine, linked)?;
         reports.tell(Event::Ended(Stage::Linking))?;
         add_attractors(frame, self.study, &attractors);
         Ok(())

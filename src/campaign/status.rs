@@ -80,13 +80,13 @@ impl BlockStatus {
             BlockStatus { folder: folder.path().to_owned(), is_busy, ..BlockStatus::default() };
         for number in 0..study.blocks() {
             let file = folder.file(number);
-            match folder.glance(number) {
+            match folder.head(number) {
                 Ok(head) => {
                     let metadata = std::fs::metadata(&file);
                     blocks.bytes += metadata.as_ref().map_or(0, |it| it.len());
                     let written = metadata.and_then(|it| it.modified());
                     blocks.written.push(written.unwrap_or(SystemTime::UNIX_EPOCH));
-                    *blocks.makers.entry(provenance::maker(&head.made)).or_default() += 1;
+                    *blocks.makers.entry(provenance::maker(&head.provenance)).or_default() += 1;
                     blocks.done.push(head.block);
                 }
                 Err(Unusable::Missing) => {}

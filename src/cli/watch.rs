@@ -141,7 +141,7 @@ impl Stages {
 fn what(stage: Stage) -> &'static str {
     match stage {
         Stage::Linking => "links of attractors",
-        Stage::Writing => "pieces written",
+        Stage::Writing => "parts written",
         Stage::Continuing => "branches",
         Stage::Repeating => "cases",
     }

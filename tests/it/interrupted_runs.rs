@@ -203,9 +203,9 @@ fn a_second_run_on_the_same_study_stops_at_once() {
     let mut first = long.start(&[]);
     long.wait_for(1);
     let begun = Instant::now();
-    long.sweep(&[]).refused(&["another run is at work on this study"]);
-    long.sweep(&["--task", "1/2"]).refused(&["another run is at work on this study"]);
-    long.run(&["join", "long.toml"]).refused(&["another run is at work on this study"]);
+    long.sweep(&[]).refused(&["another run computes this study now"]);
+    long.sweep(&["--task", "1/2"]).refused(&["another run computes this study now"]);
+    long.run(&["join", "long.toml"]).refused(&["another run computes this study now"]);
     assert!(begun.elapsed() < Duration::from_secs(10));
     let status = long.run(&["status", "long.toml"]).done();
     assert!(status.out.contains("at work now") || long.file().exists(), "{}", status.out);
