@@ -23,29 +23,29 @@ impl Campaign<'_> {
         let reports = Reports::new(report);
         let older = match self.kept()? {
             Some(older) if self.has_its_branches(&older) => {
-                reports.tell(Event::Before { same_words: true })?;
+                reports.send(Event::Before { same_text: true })?;
                 let (path, archive) = (self.output.to_owned(), older.archive);
                 return Ok(BranchesDone::Before(Complete { path, archive }));
             }
             older => older,
         };
         check_branches(older.as_ref(), self.output, self.overwrite)?;
-        reports.tell(Event::Accepted(older.as_ref()))?;
+        reports.send(Event::Accepted(older.as_ref()))?;
         drop(older);
         prepare(store::folder(self.output))?;
-        reports.tell(Event::Begun(Stage::Continuing, self.study.branches.len()))?;
+        reports.send(Event::Begun(Stage::Continuing, self.study.branches.len()))?;
         let (begun, threads) = (Instant::now(), self.machine.threads);
         let done = || reports.step(Stage::Continuing);
         let continued = run::follow(self.study, threads, done)?;
         let time = begun.elapsed();
-        reports.tell(Event::Ended(Stage::Continuing))?;
+        reports.send(Event::Ended(Stage::Continuing))?;
         self.put(&continued)?;
         Ok(BranchesDone::Now { continued, time })
     }
 
     /// Whether a file that is there has the branches of this study and is to stay.
     fn has_its_branches(&self, older: &Kept) -> bool {
-        older.same_words && has_branches(older.archive.frame()) && !self.overwrite
+        older.same_text && has_branches(older.archive.frame()) && !self.overwrite
     }
 
     /// Writes the branches beside what the file holds by now.

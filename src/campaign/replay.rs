@@ -59,10 +59,10 @@ impl<'a> Replay<'a> {
         }
         let reports = Reports::new(report);
         let cases = self.study.chain(self.chain).count();
-        reports.tell(Event::Begun(Stage::Repeating, cases))?;
+        reports.send(Event::Begun(Stage::Repeating, cases))?;
         let step = || reports.step(Stage::Repeating);
         let records = run_sample(self.study, machine, &[self.chain], step)?;
-        reports.tell(Event::Ended(Stage::Repeating))?;
+        reports.send(Event::Ended(Stage::Repeating))?;
         if let Some(record) = records.iter().find(|record| record.index == self.index) {
             (case.start, case.start_phase) = (record.start, record.start_phase);
         }

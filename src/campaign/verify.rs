@@ -106,11 +106,11 @@ pub fn verify(
     let study = study_of(&archive, path)?;
     let other_program = other_program(&archive);
     if let Some([theirs, ours]) = &other_program {
-        reports.tell(Event::OtherProgram { theirs, ours })?;
+        reports.send(Event::OtherProgram { theirs, ours })?;
     }
     let chains = draw(&study, sample);
     let all = chains.iter().map(|&chain| study.chain(chain).count()).sum();
-    reports.tell(Event::Begun(Stage::Repeating, all))?;
+    reports.send(Event::Begun(Stage::Repeating, all))?;
     let mut verified = Verified { other_program, ..Verified::default() };
     for part in parts(&study, &chains) {
         let step = || reports.step(Stage::Repeating);
@@ -118,7 +118,7 @@ pub fn verify(
         reports.check()?;
         compare(&study, &archive, records, &mut verified)?;
     }
-    reports.tell(Event::Ended(Stage::Repeating))?;
+    reports.send(Event::Ended(Stage::Repeating))?;
     verified.sort();
     Ok(verified)
 }

@@ -19,7 +19,7 @@ pub fn summary(study: &Study, continued: &[Followed], output: &Path, seconds: f6
     let mut text = format!("{shown}: {branches} {plural}, {points} points in {seconds:.1} s\n");
     for (continuation, outcome) in study.branches.iter().zip(continued) {
         match outcome {
-            Ok(found) => tell_found(&mut text, continuation, found),
+            Ok(found) => write_found(&mut text, continuation, found),
             // Writing to a String cannot fail.
             Err(why) => drop(writeln!(text, "\n{}: not continued: {why}", continuation.name)),
         }
@@ -27,7 +27,7 @@ pub fn summary(study: &Study, continued: &[Followed], output: &Path, seconds: f6
     text
 }
 
-fn tell_found(text: &mut String, continuation: &Continuation, found: &Found) {
+fn write_found(text: &mut String, continuation: &Continuation, found: &Found) {
     let Continuation { name, along, .. } = continuation;
     for (number, branch) in found.branches.iter().enumerate() {
         let from = branch.parent.map(|(parent, special)| {
@@ -50,21 +50,21 @@ fn tell_found(text: &mut String, continuation: &Continuation, found: &Found) {
             branch.period,
             from.unwrap_or_default()
         );
-        tell_branch(text, *along, branch);
+        write_branch(text, *along, branch);
     }
     for curve in &found.curves {
         let Curve { kind, period, points, ends, .. } = curve;
         let (name, points) = (kind_name(*kind), points.len());
-        let ends = told_ends(*ends);
+        let ends = shown_ends(*ends);
         let _ = writeln!(text, "  curve of {name}, period {period}: {points} points{ends}");
     }
     if continuation.second.is_some() {
-        tell_without_curve(text, found);
+        write_without_curve(text, found);
     }
 }
 
 /// How many special points of which kind no curve goes through.
-fn tell_without_curve(text: &mut String, found: &Found) {
+fn write_without_curve(text: &mut String, found: &Found) {
     let specials = || found.branches.iter().flat_map(|branch| &branch.special);
     let counts = SpecialKind::NAMES.iter().filter_map(|(name, kind)| {
         let ours = |it: &&Special| it.kind == *kind && it.curve.is_none();
@@ -78,7 +78,7 @@ fn tell_without_curve(text: &mut String, found: &Found) {
     }
 }
 
-fn tell_branch(text: &mut String, along: Parameter, branch: &Branch) {
+fn write_branch(text: &mut String, along: Parameter, branch: &Branch) {
     let is_stable =
         |it: &&crate::capsule::branch::Point| it.multipliers.iter().all(|m| m.abs() < 1.0);
     let stable = branch.points.iter().filter(is_stable).count();
@@ -110,11 +110,11 @@ fn tell_branch(text: &mut String, along: Parameter, branch: &Branch) {
 }
 
 /// What is said of two ends; nothing of those at the edge of the range.
-fn told_ends(ends: [End; 2]) -> String {
+fn shown_ends(ends: [End; 2]) -> String {
     if ends.contains(&End::Closed) {
         return ", closed".to_owned();
     }
-    match ends.map(end_words) {
+    match ends.map(end_text) {
         [Some(first), Some(last)] if first == last => format!(", both ends {first}"),
         [first, last] => {
             let told = [("first", first), ("last", last)].map(|(which, words)| {
@@ -126,7 +126,7 @@ fn told_ends(ends: [End; 2]) -> String {
 }
 
 /// Why an end is none of the range's.
-fn end_words(end: End) -> Option<&'static str> {
+fn end_text(end: End) -> Option<&'static str> {
     match end {
         End::Bound | End::Closed => None,
         End::Merged => Some("at an orbit of half the period"),
@@ -150,7 +150,7 @@ fn reach(along: Parameter, branch: &Branch) -> String {
     let (from, to) = if closed { (least, most) } else { (first.parameter, last.parameter) };
     // Where a branch left another is told above.
     let left = if branch.parent.is_some() { End::Bound } else { branch.ends[0] };
-    let ends = told_ends([left, branch.ends[1]]);
+    let ends = shown_ends([left, branch.ends[1]]);
     let beyond = least < from.min(to) || most > from.max(to);
     let range = match beyond {
         true => format!(", over the range {} to {}", quantity(along, least), quantity(along, most)),

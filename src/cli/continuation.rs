@@ -8,7 +8,7 @@ use clap::Args;
 use super::branch_summary::summary;
 use super::drawing::{FormatChoice, draw_from, rehearse};
 use super::failure::Failure;
-use super::terminal::{print, tell};
+use super::terminal::{notify, print};
 use super::watch::Watch;
 use crate::campaign::{
     BranchesDone, Campaign, CampaignError, Event, Kept, output_path, read_study,
@@ -62,7 +62,7 @@ impl Continue {
         let done = campaign.continue_branches(&|event| match event {
             Event::Before { .. } => {
                 let shown = output.display();
-                tell(&format!(
+                notify(&format!(
                     "{shown}: branches are there already, by this program from this study"
                 ));
                 ControlFlow::Continue(())

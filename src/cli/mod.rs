@@ -1,4 +1,4 @@
-//! Asked for: connects the floors and talks to the person.
+//! The command line: one file per command, messages and progress.
 
 mod arguments;
 mod block_progress;
@@ -12,6 +12,7 @@ mod inspect;
 mod join;
 mod phases;
 mod progress;
+mod readable;
 mod simulate;
 mod slurm;
 mod status;
@@ -21,14 +22,13 @@ mod sweep;
 mod terminal;
 mod verify;
 mod watch;
-mod words;
 
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use terminal::{print, tell};
+use terminal::{notify, print};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -40,7 +40,7 @@ Examples:
   capsulemap figure results/overview/overview.h5 --kind map --of work_positive
 
 Exit codes: 0 done; 2 a mistake in what was asked; 3 a fault of the machine (disk, memory); 130 stopped by
-Ctrl-C, 143 by a scheduler or `kill`: what is done is kept, and the same command goes on.";
+Ctrl-C, 143 by a scheduler or `kill`: what is done is kept, and the same command resumes.";
 
 const COMPLETIONS_EXAMPLES: &str = "\
 Examples:
@@ -103,7 +103,7 @@ pub fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            tell(&format!("capsulemap: {failure}"));
+            notify(&format!("capsulemap: {failure}"));
             failure.exit_code()
         }
     }

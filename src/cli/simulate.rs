@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use super::arguments::{named, plain_or_quantity};
 use super::failure::Failure;
 use super::phases::Phases;
-use super::terminal::{print, tell};
+use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study, silent};
 use crate::capsule::{
     Case, Dimension, Orbit, Output, Parameter, Parameters, Resistance, Simulation, State,
@@ -100,7 +100,7 @@ impl Simulate {
         let drag = parameters.drag();
         if drag.static_limit < drag.at_onset {
             let force = parameters.break_away();
-            tell(&format!("note: mu_s is below the friction at onset; rest ends at {force} N"));
+            notify(&format!("note: mu_s is below the friction at onset; rest ends at {force} N"));
         }
         let simulation = simulate_case(&case, self.cycles, protocol.tolerance);
         let orbit = settle_case(&case, &protocol);
@@ -140,7 +140,7 @@ impl Simulate {
             None => {
                 let before = replay.cases_before();
                 if before > 0 {
-                    tell(&format!(
+                    notify(&format!(
                         "case {index} starts where its neighbour settles: {before} cases come before it"
                     ));
                 }

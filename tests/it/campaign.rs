@@ -91,7 +91,7 @@ fn what_is_stopped_resumed_shared_and_joined_has_the_bytes_of_one_run() {
     assert!(timeless(&output) == uninterrupted(&study), "the bytes differ");
     let status = campaign.status().expect("a status");
     let file = status.file.expect("a file of this study").expect("a file");
-    assert!(status.blocks.is_none() && file.same_words && file.archive.has_cases());
+    assert!(status.blocks.is_none() && file.same_text && file.archive.has_cases());
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn a_file_that_is_complete_stays() {
     let bytes = fs::read(&output).expect("a result");
     let events = AtomicUsize::new(0);
     let report = |event: Event<'_>| {
-        assert!(matches!(event, Event::Before { same_words: true }));
+        assert!(matches!(event, Event::Before { same_text: true }));
         events.fetch_add(1, Ordering::Relaxed);
         ControlFlow::Continue(())
     };
@@ -120,7 +120,7 @@ fn a_file_that_is_complete_stays() {
     assert!(fs::read(&output).expect("a result") == bytes);
     let campaign = Campaign { overwrite: true, ..campaign };
     campaign.run(Task::WHOLE, &silent).expect("it is replaced");
-    assert!(campaign.kept().expect("a file").expect("a file of this study").same_words);
+    assert!(campaign.kept().expect("a file").expect("a file of this study").same_text);
 }
 
 #[test]

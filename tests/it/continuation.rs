@@ -300,7 +300,7 @@ fn other_words_for_the_same_cases_keep_them() {
     assert_eq!(both.texts["study"], words);
     // Branches are of their words.
     dir.put("s.toml", STUDY);
-    continue_branches(&[]).refused(&["holds branches of a study in other words", "--overwrite"]);
+    continue_branches(&[]).refused(&["holds branches of a study with another text", "--overwrite"]);
     continue_branches(&["--overwrite"]).done();
     dir.put("s.toml", words);
     dir.run(&["continue", "s.toml", "--output", "b.h5", "--no-figures"]).done();

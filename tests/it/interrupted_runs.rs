@@ -102,7 +102,7 @@ fn signals_keep_what_is_done_and_say_how_to_go_on() {
         let text = said(&mut child);
         let last = text.lines().last().expect("a last line");
         assert!(last.contains(" blocks are done and kept in results/long/long.blocks"), "{text}");
-        assert!(last.ends_with("the same command goes on from there"), "{text}");
+        assert!(last.ends_with("the same command resumes from there"), "{text}");
         let there = long.blocks().len();
         let resumed = long.sweep(&[]).done();
         let kept = format!("{there} of 24 blocks are done and kept");
@@ -208,7 +208,7 @@ fn a_second_run_on_the_same_study_stops_at_once() {
     long.run(&["join", "long.toml"]).refused(&["another run computes this study now"]);
     assert!(begun.elapsed() < Duration::from_secs(10));
     let status = long.run(&["status", "long.toml"]).done();
-    assert!(status.out.contains("at work now") || long.file().exists(), "{}", status.out);
+    assert!(status.out.contains("a run is active") || long.file().exists(), "{}", status.out);
     assert!(first.wait().expect("a process").success(), "{}", said(&mut first));
     long.assert_undisturbed();
 }
@@ -224,7 +224,7 @@ fn tasks_that_share_a_study_are_joined_to_the_file_of_one_run() {
     let refused = long.run(&["join", "long.toml"]);
     refused.refused(&["8 blocks missing: ", "--partial"]);
     let status = long.run(&["status", "long.toml"]).done().out;
-    for part in ["16 of 24 blocks", "8 192 of 12 288 cases", "nobody is at work", "16 blocks by"] {
+    for part in ["16 of 24 blocks", "8 192 of 12 288 cases", "no run is active", "16 blocks by"] {
         assert!(status.contains(part), "{part}: {status}");
     }
     // Slurm says which task it is where the command does not.
