@@ -66,7 +66,8 @@ fn cascade(omega: &str) -> String {
     )
 }
 
-const BOTH_WAYS: &str = "[start]\ninherit = \"omega\"\ndirections = [\"upward\", \"downward\"]";
+const BOTH_DIRECTIONS: &str =
+    "[start]\ninherit = \"omega\"\ndirections = [\"upward\", \"downward\"]";
 
 #[test]
 fn grazing_of_the_stuck_capsule_is_where_its_amplitude_is_the_gap() {
@@ -108,7 +109,7 @@ fn grazing_of_the_stuck_capsule_is_where_its_amplitude_is_the_gap() {
 
 #[test]
 fn two_certified_attractors_coexist_between_two_folds() {
-    let study = study(&window(150.0, 166.0, 33, BOTH_WAYS));
+    let study = study(&window(150.0, 166.0, 33, BOTH_DIRECTIONS));
     let records = records(&study);
     let attractors = found(&study, &records);
     for (at, omega) in study.axes()[0].values.iter().enumerate() {
@@ -201,7 +202,7 @@ fn a_parameter_may_begin_at_zero() {
 
 #[test]
 fn attractors_do_not_depend_on_the_threads() {
-    let study = study(&window(124.0, 126.0, 21, BOTH_WAYS));
+    let study = study(&window(124.0, 126.0, 21, BOTH_DIRECTIONS));
     let endings = run::endings(&study, &records(&study));
     let with = |threads: usize| {
         on(&study, &endings, Machine { threads: Some(threads), ..Machine::default() })
@@ -245,7 +246,7 @@ fn a_line_among_others_has_the_attractors_that_it_has_alone() {
 
 #[test]
 fn a_case_that_is_missing_leaves_the_others_linked() {
-    let study = study(&window(150.0, 166.0, 33, BOTH_WAYS));
+    let study = study(&window(150.0, 166.0, 33, BOTH_DIRECTIONS));
     let records = records(&study);
     let whole = found(&study, &records);
     // Single cases of four cells, and both of a fifth: what attracts there is followed on to the next.
@@ -261,7 +262,7 @@ fn a_case_that_is_missing_leaves_the_others_linked() {
 
 #[test]
 fn a_multiplier_is_minus_one_where_the_period_doubles() {
-    let study = study(&window(124.6, 125.0, 5, BOTH_WAYS));
+    let study = study(&window(124.6, 125.0, 5, BOTH_DIRECTIONS));
     let attractors = found(&study, &records(&study));
     let doubles = |event: &&AttractorEvent| event.kind == SpecialKind::PeriodDoubling;
     let events: Vec<&AttractorEvent> = attractors.events.iter().filter(doubles).collect();
@@ -307,7 +308,7 @@ fn given_starts_and_both_directions_meet_in_one_study() {
 fn the_file_lists_the_events_and_the_figure_shows_them() {
     let dir = WorkDir::new();
     let figure = "[[figures]]\nname = \"diagram\"\nkind = \"bifurcation\"";
-    dir.put("two.toml", window(150.0, 166.0, 33, &format!("{BOTH_WAYS}\n{figure}")));
+    dir.put("two.toml", window(150.0, 166.0, 33, &format!("{BOTH_DIRECTIONS}\n{figure}")));
     dir.run(&["sweep", "two.toml", "--formats", "svg,png"]).done();
     let dataset = store::read(&dir.path("results/two/two.h5")).expect("a file of results");
     let column = |name: &str| dataset.variable(name).expect(name).values.to_real();

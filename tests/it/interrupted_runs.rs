@@ -317,7 +317,7 @@ fn a_file_is_verified_bit_for_bit() {
 }
 
 #[test]
-fn a_dry_run_foretells_and_leaves_nothing() {
+fn a_dry_run_estimates_and_leaves_nothing() {
     let long = LongRun::new();
     let before = long.dir.files();
     let ran = long.sweep(&["--dry-run", "--threads", "2"]).done().out;

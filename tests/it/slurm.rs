@@ -177,7 +177,7 @@ fn assert_all_but_task_2_have_ended_well(cluster: &Cluster, array: &str) {
         assert_eq!(cluster.job(&task, "Restarts"), restarts, "task {number}");
     }
     let ran = log(cluster, &format!("capsulemap-{array}-3.log"));
-    assert!(ran.contains("goes on from there"), "task 3 does not say how to go on:\n{ran}");
+    assert!(ran.contains("resumes from there"), "task 3 does not say how to resume:\n{ran}");
 }
 
 /// Submits a script by itself, as it says in its first lines, and waits until it has succeeded.

@@ -300,7 +300,7 @@ fn every_study_that_is_kept_is_read_back_as_it_was_written() {
     let mut count = 0;
     for entry in std::fs::read_dir("studies").expect("the studies") {
         let path = entry.expect("an entry").path();
-        if path.extension().is_some_and(|ending| ending == "toml") {
+        if path.extension().is_some_and(|extension| extension == "toml") {
             let text = std::fs::read_to_string(&path).expect("text");
             let study = Study::parse(&path.display().to_string(), &text);
             assert_round_trip(&study.unwrap_or_else(|faults| panic!("{faults}")));

@@ -215,7 +215,7 @@ PartitionName=test Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         for folder in [self.folder.path(), &self.dir()] {
             for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
                 let path = entry.path();
-                if path.extension().is_some_and(|ending| ending == "log") {
+                if path.extension().is_some_and(|extension| extension == "log") {
                     let log = text(&fs::read(&path).unwrap_or_default());
                     let lines: Vec<&str> = log.lines().collect();
                     let last = lines[lines.len().saturating_sub(40)..].join("\n");
