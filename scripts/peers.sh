@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs capsulemap and its peers side by side on the same works, on one core, and prints Markdown tables.
+# Runs capsulemap and its peers side by side on the same cases, on one core, and prints Markdown tables.
 # The peers are installed from PyPI into target/; some minutes, with --short about one after the builds.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -49,7 +49,7 @@ pub struct Figure {
     /// Width in mm.
     #[arg(long, requires = "kind")]
     width: Option<f64>,
-    /// Leave the followed orbits out of a bifurcation diagram.
+    /// Leave the branches out of a bifurcation diagram.
     #[arg(long, requires = "kind")]
     no_branches: bool,
     /// Stem of the files; the kind of figure and what it shows by default.

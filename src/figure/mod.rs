@@ -12,7 +12,7 @@ mod colour;
 mod curves;
 mod diagram;
 mod error;
-mod followed;
+mod branch_lines;
 mod event_marks;
 mod font;
 mod geometry;
@@ -59,7 +59,7 @@ pub fn needs(kind: DrawingKind) -> Needs {
 /// than their labels.
 pub fn variables(drawing: &Drawing) -> BTreeSet<String> {
     let reads = registry::kind(drawing.kind).reads;
-    // Every figure looks for the parameters along which orbits were followed.
+    // Every figure looks for the parameters along which orbits were continued.
     reads(drawing).and(varied::READS).into_set()
 }
 

@@ -42,7 +42,7 @@ pub fn in_view(view: &View<'_>, drawn: &[&str]) -> Vec<bool> {
 
 /// A stop on the way along a branch, in SI.
 pub struct Stop {
-    /// Value of the followed parameter.
+    /// Value of the parameter of the branch.
     pub x: f64,
     /// The output, once or for each cycle of the period.
     pub values: Vec<f64>,

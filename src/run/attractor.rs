@@ -178,7 +178,7 @@ impl<'a> Line<'a> {
         let case = study.case(layout.case(number, at, 0));
         let along = Along { case, parameter, protocol: &study.protocol, reading: PhantomData };
         let values = [axis.values[at], axis.values[at + 1]];
-        let directions = study.follow().map_or(&[][..], |follow| &follow.directions);
+        let directions = study.inherit().map_or(&[][..], |inherit| &inherit.directions);
         Some(Neighbours { along, values, cells: [&cells[at], &cells[at + 1]], directions })
     }
 

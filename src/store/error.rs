@@ -53,7 +53,7 @@ pub enum StoreError {
         /// The file concerned.
         path: PathBuf,
     },
-    /// The blocks in a folder are of another study, or another program made them.
+    /// The blocks in a folder are of another study, or another program wrote them.
     Changed {
         /// The folder.
         folder: PathBuf,
@@ -152,7 +152,7 @@ impl fmt::Display for StoreError {
             ),
             StoreError::Busy { folder } => write!(
                 f,
-                "{}: another run is at work on this study; wait for it, or stop it and run again (what it \
+                "{}: another run computes this study now; wait for it, or stop it and run again (what it \
                  has finished is kept)",
                 folder.display()
             ),

@@ -135,6 +135,11 @@ impl<'r, 'a> Table<'r, 'a> {
         Some(Entry { reader: self.reader, key: self.path_of(key), value })
     }
 
+    /// The value of a `key` that is accepted and is not named among the allowed keys.
+    pub fn alias(&self, key: &str) -> Option<Entry<'r, 'a>> {
+        if self.table.contains_key(key) { self.entry(key) } else { None }
+    }
+
     /// Notes that `key` is missing.
     pub fn missing(&self, key: &str, expected: &str) {
         let message = format!("missing; expected {expected}");

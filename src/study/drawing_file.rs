@@ -79,13 +79,13 @@ fn read_drawing(
     }
 }
 
-/// What a figure of this kind can run along: the axes, and what is followed where it shows that.
+/// What a figure of this kind can run along: the axes, and the parameters of branches where it shows them.
 fn abscissae(
     kind: Option<DrawingKind>,
     axes: &[Axis],
     branches: &[Continuation],
 ) -> Vec<(&'static str, &'static str)> {
-    let shows_branches = kind.is_some_and(|kind| kind.keys().followed);
+    let shows_branches = kind.is_some_and(|kind| kind.keys().continued);
     let varied = branches.iter().filter(|_| shows_branches).flat_map(Continuation::varied);
     let mut names: Vec<_> = axes.iter().map(|axis| axis.coordinate.name()).collect();
     for name in varied.map(Parameter::symbol) {

@@ -195,10 +195,10 @@ fn an_orbit_stretches_as_its_largest_multiplier_says() {
         let (stretching, period) =
             stretching::<_, 3, 1>(&system, metric, &[r, y1, y2], &cycles).expect("it goes on");
         let [exponent] = stretching.exponents(period);
-        let told = orbit.outputs[Output::LyapunovExponent];
-        assert!(told < 0.0, "{told}");
+        let ran = orbit.outputs[Output::LyapunovExponent];
+        assert!(ran < 0.0, "{ran}");
         let scale = 1.0 / p.drive_period();
-        assert!((exponent.value - told).abs() < 1e-6 * scale, "{exponent:?} {told}");
+        assert!((exponent.value - ran).abs() < 1e-6 * scale, "{exponent:?} {ran}");
         compared += 1;
     }
     assert!(compared > 30, "{compared}");
@@ -213,8 +213,8 @@ fn a_capsule_at_rest_answers_as_the_linear_oscillator_it_is() {
     assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
     // Free vibration of the mass on the resting capsule decays at the rate c / (2 m1).
     let rate = -p[Parameter::C] / (2.0 * p[Parameter::M1]);
-    let told = orbit.outputs[Output::LyapunovExponent];
-    assert!((told / rate - 1.0).abs() < 1e-10, "{told} {rate}");
+    let ran = orbit.outputs[Output::LyapunovExponent];
+    assert!((ran / rate - 1.0).abs() < 1e-10, "{ran} {rate}");
 }
 
 /// Cases of a kind, with what they settle to.

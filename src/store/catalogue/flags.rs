@@ -13,7 +13,7 @@ pub fn outcomes() -> Flags {
     Outcome::ALL.iter().map(|&outcome| (outcome as i64, outcome.name().to_owned())).collect()
 }
 
-/// Why a case could not be followed; 0 where it could.
+/// Why the integration of a case failed; 0 where it did not.
 pub fn reasons() -> Flags {
     let names = REASONS.map(|(reason, name)| (reason as i64, name.to_owned()));
     std::iter::once((0, "none".to_owned())).chain(names).collect()
@@ -24,7 +24,7 @@ pub fn proofs() -> Flags {
     Proof::NAMES.map(|(name, proof)| (proof as i64, name.to_owned())).to_vec()
 }
 
-/// The directions in which an attractor can be followed.
+/// The directions in which a start can be inherited.
 pub fn directions() -> Flags {
     Direction::ALL.iter().map(|&it| (it as i64, it.name().to_owned())).collect()
 }
@@ -50,9 +50,9 @@ pub fn stabilities() -> Flags {
 }
 
 /// The number of what came of a branch.
-pub fn result(followed: &Continued) -> i64 {
+pub fn result(continued: &Continued) -> i64 {
     let reasons = REASONS.len() as i64;
-    match followed {
+    match continued {
         Ok(_) => 0,
         Err(NotContinued::Failed(reason)) => *reason as i64,
         Err(NotContinued::NoOrbit) => reasons + 1,

@@ -1,4 +1,4 @@
-//! Made-up branches for the tests of what is around following.
+//! Synthetic branches for the tests of the file and the figures of branches.
 
 use capsulemap::branch::{Curve, End, SpecialKind};
 use capsulemap::capsule::branch::{Branch, Found, Point, Special};
@@ -50,7 +50,7 @@ name = "m"
 kind = "map"
 "#;
 
-/// An orbit whose motion is all told by `height`.
+/// An orbit whose motion is determined by `height`.
 pub fn point(parameter: f64, period: usize, height: f64, multiplier: f64) -> Point {
     let mut outputs = Outputs::unknown();
     outputs[Output::ProgressionSpeed] = 1e-3 * height;
@@ -144,7 +144,7 @@ pub fn found() -> Found {
 }
 
 /// What the branches of `STUDY` might lead to.
-pub fn followed() -> Vec<Continued> {
+pub fn continued() -> Vec<Continued> {
     let orbits = (0..30).map(|step| point(1.0 + 0.1 * f64::from(step), 1, 0.5, 0.3)).collect();
     let ends = [End::Bound; 2];
     let plain = Branch { period: 1, parent: None, points: orbits, special: Vec::new(), ends };
@@ -160,11 +160,11 @@ pub fn study() -> Study {
 /// The file of `STUDY` with branches alone.
 pub fn branches_alone() -> Dataset {
     let study = study();
-    with_branches(store::frame(&study), &study, &followed())
+    with_branches(store::frame(&study), &study, &continued())
 }
 
 /// `dataset` with what came of the branches of `study`.
-pub fn with_branches(mut dataset: Dataset, study: &Study, followed: &[Continued]) -> Dataset {
-    store::add_branches(&mut dataset, study, followed);
+pub fn with_branches(mut dataset: Dataset, study: &Study, continued: &[Continued]) -> Dataset {
+    store::add_branches(&mut dataset, study, continued);
     dataset
 }
