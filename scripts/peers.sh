@@ -28,7 +28,7 @@ check_tools() {
         missing "python3 has no venv: apt-get install python3-venv"
 }
 
-# A list beside the packages tells whether they are the pinned ones.
+# A list beside the packages shows whether they are the pinned ones.
 install_peers() {
     local pinned="${packages[*]}"
     [ "$(cat "$place/installed" 2>/dev/null)" = "$pinned" ] && return

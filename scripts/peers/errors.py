@@ -1,4 +1,4 @@
-"""How far an end is from the reference's, and which cases went another way."""
+"""How far an end is from the reference's, and which cases reached another motion."""
 
 import math
 from dataclasses import dataclass

@@ -60,7 +60,7 @@ impl Campaign<'_> {
         Ok(store::write(&dataset, self.output)?)
     }
 
-    /// What the file holds beside branches, in the words of this study, whatever else has changed in it.
+    /// What the file holds beside branches, with the text of this study.
     ///
     /// Fails if the file cannot be read.
     pub fn without_branches(&self, older: Option<&Kept>) -> Result<Dataset, CampaignError> {

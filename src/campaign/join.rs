@@ -86,7 +86,7 @@ impl Campaign<'_> {
         Ok(Complete { path: file.to_owned(), archive })
     }
 
-    /// Searches for the attractors that the cases of `blocks` have ended on, if any are to be told apart.
+    /// Searches for the attractors that the cases of `blocks` have ended on, if there are any.
     fn add_attractors(
         &self,
         frame: &mut Dataset,
@@ -121,7 +121,7 @@ impl Campaign<'_> {
         drop(older);
         store::discard_unfinished(file)?;
         let begun = |parts| {
-            // The answer is heeded at the first part.
+            // A request to stop takes effect at the first part.
             let _ = reports.note(Event::Begun(Stage::Writing, parts));
         };
         let done = || reports.note(Event::Step(Stage::Writing));

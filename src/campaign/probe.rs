@@ -1,4 +1,4 @@
-//! Computes a few blocks of a study for a short time, to tell what all would take.
+//! Computes a few blocks of a study for a short time, to estimate what all would take.
 
 use std::collections::BTreeSet;
 use std::io;

@@ -198,7 +198,7 @@ impl Verified {
         }
     }
 
-    /// Brings the differences of all parts into order; a variable that is not there is told once.
+    /// Brings the differences of all parts into order; a variable that is not there is listed once.
     fn sort(&mut self) {
         let differences = &mut self.differences;
         differences.sort_by(|a, b| a.variable.cmp(&b.variable));

@@ -14,9 +14,9 @@ use crate::store::Summary;
 
 /// "Now" is the time since as long ago.
 const NOW: Duration = Duration::from_secs(20);
-/// So few cases may all be under way at a time.
+/// So few cases may all be in the lanes at a time.
 const FEW: usize = 128;
-/// A time left shorter than this is no use to anybody [s].
+/// A time left shorter than this is not shown [s].
 const LAST: f64 = 1.0;
 /// The bar is brought up to date this often.
 const TICK: Duration = Duration::from_millis(200);
@@ -108,7 +108,7 @@ impl BlockProgress {
         let left = match left {
             None => "time left not known yet".to_owned(),
             Some(left) if left.value < LAST && (1..=FEW).contains(&cases_left) => {
-                format!("the last {} under way", counted(cases_left, "case"))
+                format!("the last {} are computed", counted(cases_left, "case"))
             }
             Some(left) => format!("{} left", estimated(left)),
         };

@@ -148,7 +148,7 @@ fn reach(along: Parameter, branch: &Branch) -> String {
     let [first, .., last] = &branch.points[..] else { return "a single orbit".to_owned() };
     let closed = branch.ends.contains(&End::Closed);
     let (from, to) = if closed { (least, most) } else { (first.parameter, last.parameter) };
-    // Where a branch left another is told above.
+    // Where a branch left another is shown above.
     let left = if branch.parent.is_some() { End::Bound } else { branch.ends[0] };
     let ends = shown_ends([left, branch.ends[1]]);
     let beyond = least < from.min(to) || most > from.max(to);
@@ -230,7 +230,7 @@ to = \"5 N\"
     }
 
     #[test]
-    fn branches_are_told_with_their_ends_and_changes() {
+    fn branches_are_shown_with_their_ends_and_changes() {
         let study = Study::parse("study.toml", STUDY).expect("a study");
         let special =
             |kind, curve| Special { kind, after: 1, point: point(4.123_456_789_123, 1.0), curve };

@@ -66,7 +66,7 @@ pub fn rehearse(empty: &Dataset, drawings: &[Drawing]) -> Result<(), Failure> {
     draw_all(empty, &ready, Path::new("."), &[])
 }
 
-/// Draws each figure and says where it went; one that cannot be drawn does not keep the others.
+/// Draws each figure and prints its files; one that cannot be drawn does not prevent the others.
 fn draw_all(
     dataset: &Dataset,
     drawings: &[Drawing],

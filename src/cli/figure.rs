@@ -92,7 +92,7 @@ impl Figure {
         })
     }
 
-    /// The kind and what is drawn, told apart from the figures of the study.
+    /// The kind and what is drawn, different from the names of the figures of the study.
     fn free_name(&self, kind: DrawingKind, archive: &Archive) -> String {
         let parts = std::iter::once(kind.name()).chain(self.of.iter().map(String::as_str));
         let name = parts.collect::<Vec<_>>().join("-");

@@ -38,7 +38,7 @@ pub struct Simulate {
         "delta", "set", "phase", "start_phase", "section_phase", "tolerance", "max_cycles",
         "friction_switching", "resistance"])]
     study: Option<PathBuf>,
-    /// Its number, counted from 0 with the last axis fastest, as failures are told.
+    /// Its number, counted from 0 with the last axis fastest, as in the reports of failures.
     #[arg(long, requires = "study")]
     case: Option<usize>,
     /// Frequency of the drive, as "77.91 rad/s" or "12.4 Hz".
@@ -69,7 +69,7 @@ pub struct Simulate {
     #[arg(long, default_value = "1e-12")]
     tolerance: f64,
     /// Drive cycles within which the motion must settle; if it does not, up to 2048 more are computed with the
-    /// linearised flow to tell chaos from long periods, and 128 are measured.
+    /// linearised flow to distinguish chaos from long periods, and 128 are measured.
     #[arg(long, default_value_t = 2000)]
     max_cycles: u64,
     /// Reading of the switching between stick and slip.
@@ -357,7 +357,7 @@ fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
     .map(|output| orbit.outputs[output]);
     match orbit.outcome {
         Outcome::QuasiPeriodic => {
-            remarks.push(format!("no period up to {excluded} cycles, as far as the section tells"));
+            remarks.push(format!("no period up to {excluded} cycles, as far as the section shows"));
         }
         Outcome::Undecided if excluded.is_nan() => {
             let residual = orbit.outputs[Output::SectionResidual];

@@ -26,7 +26,7 @@ use crate::study::Drawing;
 /// Panels of a bifurcation diagram, unless others are asked for.
 const PANELS: [Entry; 2] = [SECTION_R, Entry::of_output(Output::ProgressionSpeed)];
 
-/// One way along the axis: its place on the axis of directions, its name and colour.
+/// One direction along the axis: its place on the axis of directions, its name and colour.
 struct Branch {
     index: usize,
     name: String,

@@ -63,7 +63,7 @@ pub fn variables(drawing: &Drawing) -> BTreeSet<String> {
     reads(drawing).and(varied::READS).into_set()
 }
 
-/// Draws `drawing` from the results in `dataset` and writes `<folder>/<name>.<ending>` in each of
+/// Draws `drawing` from the results in `dataset` and writes `<folder>/<name>.<extension>` in each of
 /// `formats`, each file complete or absent; gives the paths written.
 pub fn draw(
     dataset: &Dataset,

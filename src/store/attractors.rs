@@ -1,4 +1,4 @@
-//! The variables that tell attractors apart and list their events.
+//! The variables that number the attractors and list their events.
 
 use ndarray::{ArrayD, IxDyn};
 

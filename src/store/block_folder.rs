@@ -119,7 +119,7 @@ impl BlockFolder {
         lock.is_ok_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)))
     }
 
-    /// What has changed since the folder was begun, in words; none if it was not.
+    /// What has changed since the folder was begun, as text; none if it was not.
     fn changes(&self, now: &Begun, study: &Study) -> Result<Option<Vec<String>>, StoreError> {
         let path = self.path.join(BEGUN);
         let begun = match fs::read(&path) {

@@ -41,7 +41,7 @@ pub enum StoreError {
         /// What the library, or the reader, said.
         said: String,
     },
-    /// The file is whole as far as anyone can tell, but not one of this program.
+    /// The file shows no damage, but is not one of this program.
     Foreign {
         /// The file concerned.
         path: PathBuf,

@@ -100,7 +100,7 @@ pub(super) fn temporary(path: &Path, folder: &Path) -> io::Result<NamedTempFile>
 }
 
 /// Keeps others that write results in the folder of `path` waiting as long as the answer lives, so that what
-/// two of them put into one file is not lost; on a disk without locks it keeps nobody.
+/// two of them put into one file is not lost; on a disk without locks it has no effect.
 pub fn hold(path: &Path) -> Result<File, StoreError> {
     let failed = |said| StoreError::system(path, "waiting for others that write there", said);
     let folder = File::open(folder(path)).map_err(failed)?;

@@ -12,13 +12,13 @@ use super::catalogue::*;
 use super::slab::{Filling, MISSING, Slab};
 use super::{Dataset, Values, Variable, drawn, provenance};
 
-/// Attribute: tells studies apart whose cases differ, see [`Study::fingerprint`].
+/// Attribute: differs between studies whose cases differ, see [`Study::fingerprint`].
 pub const FINGERPRINT: &str = "study_fingerprint";
 
 /// The dataset of a study; `records` holds one record per case, in any order, or fewer.
 ///
 /// Dimensions: the axes of the study, slowest first, then `direction` where starts were inherited
-/// both ways, or `draw` alone; after them `point`, `impact_point` or `history_time` for what each case has several of.
+/// in several directions, or `draw` alone; after them `point`, `impact_point` or `history_time` for what each case has several of.
 pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
     let mut dataset = frame(study);
     let columns = columns(study, records);
@@ -159,7 +159,7 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
     }
 }
 
-/// Everything that the axes leave constant, so that a file tells its whole case.
+/// Everything that the axes leave constant, so that a file holds every parameter of its cases.
 fn add_constants(dataset: &mut Dataset, study: &Study) {
     let State { r, y1, y2, .. } = study.start;
     for constant in Coordinate::all() {

@@ -78,7 +78,7 @@ fn read_name(table: &Table<'_, '_>) -> String {
     name.to_owned()
 }
 
-/// A branch without its name; none where what it needs is missing, which is told then.
+/// A branch without its name; none where what it needs is missing, which is noted as a fault.
 fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Continuation> {
     let along = read_parameter(table, "along");
     // The ends are known keys where the parameter is not, too.
@@ -144,7 +144,7 @@ fn read_range(
     let ends = study.ends(parameter);
     let end = |key: &str, usual: Option<f64>| {
         let Some(entry) = table.entry(key) else {
-            // An axis without values has had its fault told.
+            // An axis without values has its fault noted already.
             if !study.varies(parameter) {
                 let expected =
                     format!("a value, as no axis varies the {} here", parameter.meaning());

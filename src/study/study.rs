@@ -89,7 +89,7 @@ impl Study {
         }
     }
 
-    /// Tells studies apart whose cases or records differ in anything; titles, figures, branches and the way
+    /// Differs between studies whose cases or records differ in anything; titles, figures, branches and the form
     /// in which a study is written make no difference.
     pub fn fingerprint(&self) -> String {
         let computed = Study {
@@ -100,7 +100,7 @@ impl Study {
             ..self.clone()
         };
         let mut hasher = SipHasher13::new();
-        // Numbers are shown with all the digits that tell them apart.
+        // Numbers are shown with all the digits that distinguish them.
         format!("{computed:?}").hash(&mut hasher);
         let Hash128 { h1, h2 } = hasher.finish128();
         format!("{h1:016x}{h2:016x}")

@@ -274,7 +274,8 @@ fn a_multiplier_is_minus_one_where_the_period_doubles() {
         let (system, metric) = (capsule.constant::<Dual<f64, 3>>(), capsule.metric());
         let tolerance = Protocol::default().tolerance;
         let cycles = Cycles { count: event.period, tolerance };
-        let orbit = close(&system, &metric, &event.section, &cycles, 0.5).expect("it goes on");
+        let orbit = close(&system, &metric, &event.section, &cycles, 0.5)
+            .expect("the integration continues");
         let orbit = orbit.expect("an orbit");
         assert!(orbit.residual < 1e-11, "{orbit:?}");
         let from = |it: &capsulemap::orbit::matrix::Complex| f64::hypot(it.re + 1.0, it.im);

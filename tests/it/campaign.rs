@@ -305,7 +305,7 @@ fn branches_join_the_cases_in_the_file() {
     let dataset = store::read(&output).expect("a result");
     assert!(has_cases(&dataset) && has_branches(&dataset));
     assert!(matches!(campaign.continue_branches(&silent), Ok(BranchesDone::Before(_))));
-    // Branches in other words would be lost, and are not.
+    // Branches of a study with another text would be lost, and are kept.
     let other = parse(&study.text.replace("to = \"22 rad/s\"", "to = \"21 rad/s\""));
     let campaign = Campaign { study: &other, ..campaign };
     let error = campaign.continue_branches(&silent).expect_err("other branches");

@@ -298,6 +298,6 @@ fn a_full_standard_output_is_a_fault_of_the_machine() {
     let ran = WorkDir::new().shell("\"$0\" simulate --json > /dev/full");
     assert_eq!(ran.code, 3, "{}", ran.err);
     assert!(ran.err.contains("cannot write to standard output: No space left"), "{}", ran.err);
-    // Nor does a message that nobody can read make it panic.
+    // Nor does a message to a closed pipe make it panic.
     assert_eq!(WorkDir::new().shell("\"$0\" inspect nothing 2> /dev/full").code, 2);
 }

@@ -270,7 +270,7 @@ fn branches_and_cases_share_a_file_in_either_order() {
     assert!(store::has_branches(&both) && store::has_cases(&both));
     let again = dir.run(&["sweep", "s.toml", "--no-figures"]).done();
     assert!(again.err.contains("already computed"), "{}", again.err);
-    // The other way round, the same is in the file.
+    // In the other order, the same is in the file.
     let ran = dir.run(&["sweep", "s.toml", "--output", "o.h5", "--formats", "svg"]).done();
     assert!(ran.err.contains("figure `c`: waits for `capsulemap continue`"), "{}", ran.err);
     dir.run(&["continue", "s.toml", "--output", "o.h5", "--no-figures"]).done();
@@ -284,12 +284,12 @@ fn branches_and_cases_share_a_file_in_either_order() {
 }
 
 #[test]
-fn other_words_for_the_same_cases_keep_them() {
+fn another_text_of_the_same_cases_keeps_them() {
     let dir = WorkDir::new();
     dir.put("s.toml", STUDY);
     dir.run(&["sweep", "s.toml", "--no-figures"]).done();
-    let words = format!("# Another figure.\n{STUDY}").replace("name = \"m\"", "name = \"other\"");
-    dir.put("s.toml", &words);
+    let other = format!("# Another figure.\n{STUDY}").replace("name = \"m\"", "name = \"other\"");
+    dir.put("s.toml", &other);
     let ran = dir.run(&["sweep", "s.toml", "--formats", "svg"]).done().err;
     assert!(ran.contains("from a study with the same cases") && ran.contains("other.svg"), "{ran}");
     let continue_branches =
@@ -297,12 +297,12 @@ fn other_words_for_the_same_cases_keep_them() {
     continue_branches(&[]).done();
     let both = kept(&dir.path("results/s/s.h5"));
     assert!(store::has_branches(&both) && store::has_cases(&both));
-    assert_eq!(both.texts["study"], words);
-    // Branches are of their words.
+    assert_eq!(both.texts["study"], other);
+    // Branches belong to the text of their study.
     dir.put("s.toml", STUDY);
     continue_branches(&[]).refused(&["holds branches of a study with another text", "--overwrite"]);
     continue_branches(&["--overwrite"]).done();
-    dir.put("s.toml", words);
+    dir.put("s.toml", other);
     dir.run(&["continue", "s.toml", "--output", "b.h5", "--no-figures"]).done();
     dir.put("s.toml", STUDY);
     dir.run(&["sweep", "s.toml", "--output", "b.h5"]).refused(&["branches of a study in other"]);

@@ -1,4 +1,4 @@
-//! Studies whose cases are drawn: where the draws lie, how evenly, and what is made of them.
+//! Studies whose cases are drawn: where the draws lie, how evenly, and the results of them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -190,7 +190,7 @@ fn low_discrepancy_draws_are_spread_more_evenly_than_uniform_ones() {
 }
 
 /// The shares of the cases of a study that end on its motion at rest and on the one that gets on, which its
-/// attractors tell apart.
+/// attractors distinguish.
 fn shares(study: &Study) -> [f64; 2] {
     let chains = Vec::from_iter(0..study.chains());
     let records = run::run_sample(study, Machine::default(), &chains, || ()).expect("it runs");

@@ -166,7 +166,7 @@ fn the_duffing_oscillator_has_its_published_exponents() {
     let cycles = Cycles { count: 60_000, tolerance: 1e-10 };
     let (stretching, period) =
         stretching::<_, 2, 2>(&Duffing, Duffing.metric(), &[0.1, 0.1], &cycles)
-            .expect("it goes on");
+            .expect("the integration continues");
     let [first, second] = stretching.exponents(period);
     assert!((first.value - 0.159).abs() < 0.001, "{first:?}");
     assert!(first.uncertainty < 0.001, "{first:?}");
@@ -192,8 +192,8 @@ fn an_orbit_stretches_as_its_largest_multiplier_says() {
         let count = 3200 * orbit.period;
         let cycles = Cycles { count, tolerance: 1e-12 };
         let metric = capsule.metric();
-        let (stretching, period) =
-            stretching::<_, 3, 1>(&system, metric, &[r, y1, y2], &cycles).expect("it goes on");
+        let (stretching, period) = stretching::<_, 3, 1>(&system, metric, &[r, y1, y2], &cycles)
+            .expect("the integration continues");
         let [exponent] = stretching.exponents(period);
         let ran = orbit.outputs[Output::LyapunovExponent];
         assert!(ran < 0.0, "{ran}");
@@ -236,7 +236,7 @@ fn neighbouring_trajectories_part_at_the_rate_of_the_exponent() {
     let protocol = Protocol::default();
     let followed = follow_aperiodic_side_by_side(Instructions::widest(), &capsules, &protocol);
     for ((case, start), followed) in cases.iter().zip(followed) {
-        let exponent = followed.expect("it goes on").exponent;
+        let exponent = followed.expect("the integration continues").exponent;
         let (rate, spread) = parting(case, *start, 3000);
         let apart = (rate - exponent.value).abs();
         let allowed = 4.0 * exponent.uncertainty.hypot(spread);
@@ -263,8 +263,8 @@ fn parting(case: &Case, start: Section, cycles: usize) -> (f64, f64) {
     let mut second = Trajectory::new(&system, state(neighbour), 1e-13);
     let mut logs = Vec::new();
     for _ in 0..cycles {
-        first.cycle(|_| ()).expect("it goes on");
-        second.cycle(|_| ()).expect("it goes on");
+        first.cycle(|_| ()).expect("the integration continues");
+        second.cycle(|_| ()).expect("the integration continues");
         let (a, b) = (first.section(), second.section());
         let difference: Section = std::array::from_fn(|i| b[i] - a[i]);
         let now = distance(&difference);

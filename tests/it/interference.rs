@@ -87,7 +87,7 @@ fn a_log_that_nobody_reads_does_not_keep_a_run_from_stopping() {
     let kill = Command::new("kill").arg(child.id().to_string()).status().expect("kill starts");
     assert!(kill.success(), "the run was over too soon");
     while child.try_wait().expect("a process").is_none() {
-        assert!(asked.elapsed() < Duration::from_secs(10), "it goes on");
+        assert!(asked.elapsed() < Duration::from_secs(10), "it still runs");
         std::thread::sleep(Duration::from_millis(50));
     }
 }

@@ -92,7 +92,7 @@ fn signals_keep_what_is_done_and_say_how_to_go_on() {
         let status = child.wait().expect("a process");
         assert!(asked.elapsed() < Duration::from_secs(10));
         if status.success() && attempts_left > 0 {
-            // On a busy machine the run may be done before it is told to stop.
+            // On a busy machine the run may be done before it is asked to stop.
             attempts_left -= 1;
             long.forget();
             signals.push(signal);

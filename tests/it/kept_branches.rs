@@ -10,7 +10,7 @@ use capsulemap::study::Study;
 
 use super::program::WorkDir;
 
-/// A study that is kept, the file of its branches, and what the program tells of them.
+/// A study that is kept, the file of its branches, and what the program prints of them.
 struct Kept {
     study: Study,
     dataset: Dataset,

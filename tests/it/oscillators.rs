@@ -226,7 +226,7 @@ where
     S: Stroboscopic<Dual<f64, 2>, 2>,
 {
     let cycles = Cycles { count, tolerance: 1e-15 };
-    let end = returned(system, seeded(&point), &cycles, |_| ()).expect("it goes on");
+    let end = returned(system, seeded(&point), &cycles, |_| ()).expect("the integration continues");
     (values(&end), jacobian(&end))
 }
 

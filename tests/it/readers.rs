@@ -37,7 +37,7 @@ fn expectation(dataset: &Dataset) -> Value {
     })
 }
 
-/// The Python that has the readers; a word and none where there is none.
+/// The Python that has the readers; a printed line and none where there is none.
 fn python() -> Option<String> {
     let python = std::env::var("CAPSULEMAP_PYTHON").unwrap_or_else(|_| "python3".into());
     let readers = "import h5py, netCDF4, h5netcdf, xarray";

@@ -149,7 +149,7 @@ fn interrupt(cluster: &Cluster, array: &str) -> BTreeMap<String, u64> {
     cluster.wait_while_running(&first, || blocks(cluster).len() > 1);
     kill(cluster, &[&first, &second]);
     cluster.run("scontrol", &["requeue", &first]);
-    // Task 3 makes room for others: it is told to stop, and goes back to the queue.
+    // Task 3 makes room for others: it is asked to stop, and goes back to the queue.
     cluster.wait_for(&third, "RUNNING");
     let before = blocks(cluster).len();
     cluster.wait_while_running(&third, || blocks(cluster).len() > before);

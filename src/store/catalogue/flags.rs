@@ -58,7 +58,7 @@ pub fn result(continued: &Continued) -> i64 {
         Err(NotContinued::NoOrbit) => reasons + 1,
         // Two more has stood for the equation as printed in files of earlier versions.
         Err(NotContinued::Neutral) => reasons + 3,
-        // No outcome that is told here has the number zero.
+        // No outcome in this list has the number zero.
         Err(NotContinued::Unsettled(outcome)) => reasons + 3 + *outcome as i64,
     }
 }

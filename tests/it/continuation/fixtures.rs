@@ -65,7 +65,7 @@ pub fn point(parameter: f64, period: usize, height: f64, multiplier: f64) -> Poi
     }
 }
 
-/// Along a branch that turns back twice: the parameter at `share` of the way, and the height there.
+/// Along a branch that turns back twice: the parameter at `share` of its length, and the height there.
 fn bent(share: f64) -> (f64, f64) {
     let s = 2.4 * share - 1.2;
     (145.0 + 12.0 * s - 9.5 * s * s * s, 3.0 * s + 1.0)

@@ -21,7 +21,7 @@ const FORBIDDEN: [&str; 15] = [
     "seal",
 ];
 
-/// Files and folders in which such words still stand, and which words; `*` is all of them.
+/// Files and folders that still have such words, and which words; `*` is all of them.
 const ALLOWED: [(&str, &str); 10] = [
     ("src/branch/", "*"),
     ("src/orbit/", "*"),

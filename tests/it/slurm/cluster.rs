@@ -121,7 +121,7 @@ impl Cluster {
         self.folder.path().join(name)
     }
 
-    /// Puts down what the daemons read. The key is new, so nobody else can submit here.
+    /// Puts down what the daemons read. The key is new, so no other user can submit here.
     fn prepare(&self) {
         // munged refuses a folder that not everybody may enter.
         let everybody = Permissions::from_mode(0o755);
@@ -138,7 +138,7 @@ impl Cluster {
         fs::write(self.path("slurm.conf"), self.configuration()).expect("a file");
     }
 
-    /// The least that Slurm needs to be told.
+    /// The shortest configuration of Slurm.
     fn configuration(&self) -> String {
         let user = said(Command::new("id").arg("-un"));
         // Held both at once, so that they differ.
