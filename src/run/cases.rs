@@ -108,7 +108,7 @@ const SHARE: usize = 16;
 
 impl Executor for Rayon {
     fn map<T: Send>(&self, range: Range<usize>, each: impl Fn(usize) -> T + Sync) -> Vec<T> {
-        range.into_par_iter().with_min_len(SHARE).map(|number| each(number)).collect()
+        range.into_par_iter().with_min_len(SHARE).map(&each).collect()
     }
 }
 

@@ -9,10 +9,10 @@ use crate::orbit::{HistorySpan, Protocol};
 use super::Coordinate;
 use super::axis_file::read_case_set;
 use super::branch_file::{Surroundings, read_branches};
+use super::definition::Study;
 use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
 use super::start_file::read_start;
-use super::study::Study;
 
 /// More numbers in the results than this (32 GB) are too, rather than found out after a night.
 const MOST_NUMBERS: usize = 4_000_000_000;
