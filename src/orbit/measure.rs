@@ -8,7 +8,7 @@ use crate::lane::Dual;
 use super::aperiodic::{Aperiodic, follow_aperiodic};
 use super::certificate::certify;
 use super::matrix::Complex;
-use super::precision::{GRAZES, same, sound};
+use super::precision::{GRAZES, STANDS_STILL, same, sound};
 use super::recurrence::Settled;
 use super::{
     Case, Certificate, Exponent, Failure, Orbit, OrbitOf, Outcome, Proof, Protocol, Trajectory,
@@ -190,17 +190,21 @@ fn measure<M: System<D>, const D: usize>(
     let mut section = Vec::new();
     // The largest size at the section, and at any step.
     let (mut size, mut swing): (f64, f64) = (0.0, 0.0);
+    // How far the motion gets from where a measured cycle begins.
+    let mut excursion: f64 = 0.0;
     let mut largest_defect = 0.0;
     for _ in 0..verdict.cycles {
         size = size.max(metric.size(&trajectory.section()));
         if section.len() < protocol.points {
             section.push(trajectory.section());
         }
+        let here = trajectory.section();
         trajectory.cycle(|step| {
             observed.see(moving, step);
             largest_defect = greater(largest_defect, defect(moving, step));
             let begins = M::Single::point(&moving.beginning(&step.jet));
             swing = swing.max(metric.size(&begins));
+            excursion = excursion.max(metric.distance(&begins, &here));
         })?;
     }
     let duration = if M::Single::AUTONOMOUS {
@@ -215,7 +219,9 @@ fn measure<M: System<D>, const D: usize>(
     // An orbit that Newton's method has closed with derivatives closes without them, too.
     let closes =
         certificate.proof == Proof::None || certificate.residual <= same(protocol.tolerance);
-    let is_sound = defect <= sound(protocol.tolerance) && closes;
+    // An equilibrium of an autonomous system has no section: its derivatives there would be rounding.
+    let moves = !M::Single::AUTONOMOUS || excursion > STANDS_STILL * motion;
+    let is_sound = defect <= sound(protocol.tolerance) && closes && moves;
     let orbit = Orbit {
         outcome: verdict.outcome,
         period: verdict.period,
