@@ -1,7 +1,7 @@
 //! The law of certificates: an orbit that is proven closes, answers pushes as its multipliers say, and has the
 //! least period.
 
-use capsulemap::flow::{Field, Metric, Step, Stroboscopic, Switched};
+use capsulemap::flow::{Field, Metric, Reason, Step, Stroboscopic, Switched};
 use capsulemap::orbit::matrix::Complex;
 use capsulemap::orbit::return_map::{Cycles, returned};
 use capsulemap::orbit::{OrbitOf, Outcome, Proof, Protocol, settle};
@@ -78,8 +78,9 @@ impl<M: Subject<D>, const D: usize> Certified<'_, M, D> {
                 away = away.max((weight * (a - b)).abs());
             }
         };
-        returned(&system, self.point, &cycles, see).expect("a periodic orbit goes on");
-        M::Single::AUTONOMOUS && away < 1e-9 * self.size
+        let ended = returned(&system, self.point, &cycles, see);
+        let may_rest = M::Single::AUTONOMOUS && ended != Err(Reason::NotFinite);
+        may_rest && away < 1e-9 * self.size
     }
 
     fn has_least_period(&self) {
@@ -165,11 +166,11 @@ pub fn certificates<M: Subject<D>, const D: usize>() {
         let Some(it) = certified(&case.system, &orbit) else { continue };
         let (system, period, multipliers) = (&case.system, it.period, &it.multipliers);
         assert!(orbit.certificate.is_stable(), "{multipliers:?}: {system:?}");
-        it.stays();
         // The return map of an autonomous system has no derivative at an equilibrium.
         if it.stands_still() {
             continue;
         }
+        it.stays();
         it.has_least_period();
         let miss = it.is_linear(&mut random);
         assert!(miss < 1e-3, "{miss:e} {period} {multipliers:?}: {system:?}");
@@ -180,5 +181,7 @@ pub fn certificates<M: Subject<D>, const D: usize>() {
         proven += 1;
     }
     println!("{proven} of {} are certified, {rates} rates compared", cases.len());
-    assert!(3 * proven >= cases.len() && rates > 0, "{proven} are certified, {rates} rates");
+    // A cycle of one coordinate that sticks has no rate: one period removes a push, which the multiplier says.
+    assert!(3 * proven >= cases.len(), "{proven} are certified");
+    assert!(rates > 0 || D == 1, "no rate was compared");
 }
