@@ -241,7 +241,6 @@ contract! {
 /// A mass that comes to rest in the room while its belt slides on: its maxima decay by the damping, in closed
 /// form, and no certificate may say otherwise.
 #[test]
-#[ignore = "at an equilibrium of an autonomous system the return map has no derivative, and rounding is certified"]
 fn an_equilibrium_is_certified_with_its_decay_or_not_at_all() {
     let belt = Belt { c: 0.16, a: 0.85, s: 0.2, v: 1.6 };
     let orbit = settle(&Case::new(belt, [1.0, 0.0]), &Protocol::default());
