@@ -1,24 +1,24 @@
 //! Forcing cycles per second on one core, by each set of instructions that the processor has, at 1e-12.
 //!
-//! `cargo bench --bench cycles` prints for every work the steps per cycle, and for every set of
+//! `cargo bench --bench cycles` prints for every set of cases the steps per cycle, and for every set of
 //! instructions the cycles per second (the median of five interleaved repetitions, with their spread) and
 //! how many times that is the scalar form's. Compare figures of one run only: machines are shared.
 
-mod works;
+mod cases;
 
 use std::hint::black_box;
 use std::time::Instant;
 
 use capsulemap::capsule::Parameters;
 use capsulemap::lane::Instructions;
-use works::{CYCLES, TOLERANCE, follow, works};
+use cases::{CYCLES, TOLERANCE, case_sets, integrate};
 
 const REPETITIONS: usize = 5;
 
 fn main() {
-    println!("| work | steps/cycle | instructions | cycles/s | min .. max | times scalar |");
+    println!("| cases | steps/cycle | instructions | cycles/s | min .. max | times scalar |");
     println!("|---|---:|---|---:|---:|---:|");
-    for (name, cases) in works() {
+    for (name, cases) in case_sets() {
         let mut speeds: Vec<(Instructions, Vec<f64>)> =
             Instructions::available().map(|it| (it, Vec::new())).collect();
         let mut steps_per_cycle = 0.0;
@@ -50,7 +50,7 @@ fn main() {
 /// Steps per cycle, and cycles per second.
 fn measure(instructions: Instructions, cases: &[Parameters]) -> (f64, f64) {
     let begun = Instant::now();
-    let ends = follow(instructions, black_box(cases), CYCLES, TOLERANCE);
+    let ends = integrate(instructions, black_box(cases), CYCLES, TOLERANCE);
     let seconds = begun.elapsed().as_secs_f64();
     let cycles = (cases.len() as u64 * CYCLES) as f64;
     let steps: u64 = ends.iter().map(|end| end.steps).sum();

@@ -1,14 +1,14 @@
 //! The integrator among its peers: `scripts/peers.sh` runs it beside them on the same cases.
 //!
-//! `cargo bench --bench peers` follows the works of `benches/cycles.rs` for 100 drive cycles from rest on
+//! `cargo bench --bench peers` integrates the cases of `benches/cycles.rs` over 100 drive cycles from rest on
 //! one thread, by the widest instructions that the processor has or, with `-- --scalar`, one by one. With
 //! `-- --requests` it answers requests from standard input, as every contestant of that script does. A
 //! request is a line "cycles tolerance seconds cases" and a line "k2 omega p_d delta" for each case; the
-//! cases are followed again and again until so many seconds have passed. An answer is one line of JSON: the
+//! cases are integrated repeatedly until so many seconds have passed. An answer is one line of JSON: the
 //! processor's seconds and the number of passes, and r, y1, x2, y2 and the number of events of each case at
 //! the end.
 
-mod works;
+mod cases;
 
 use std::fs;
 use std::hint::black_box;
@@ -18,8 +18,8 @@ use std::time::{Duration, Instant};
 
 use capsulemap::capsule::Parameters;
 use capsulemap::lane::Instructions;
+use cases::{CYCLES, End, TOLERANCE, case_sets, integrate, parameters};
 use serde_json::json;
-use works::{CYCLES, End, TOLERANCE, follow, parameters, works};
 
 /// So that one repetition is long beside the clock's ticks.
 const SECONDS: f64 = 1.0;
@@ -32,7 +32,7 @@ struct Request {
     cases: Vec<Parameters>,
 }
 
-/// Processor time of this thread [s]; where the system does not tell, time on the wall.
+/// Processor time of this thread [s]; where the system does not report it, elapsed time.
 ///
 /// The kernel brings its count up to date when the thread leaves the processor, hence the short sleep.
 fn processor_seconds(begun: Instant) -> f64 {
@@ -43,14 +43,14 @@ fn processor_seconds(begun: Instant) -> f64 {
     nanoseconds.map_or_else(|| begun.elapsed().as_secs_f64(), |count| count * 1e-9)
 }
 
-/// Follows the cases until the seconds of the request have passed; returns the answer.
+/// Integrates the cases until the seconds of the request have passed; returns the answer.
 fn answer(request: &Request) -> serde_json::Value {
     let begun = Instant::now();
     let start = processor_seconds(begun);
     let mut passes = 0;
     loop {
         let cases = black_box(&request.cases);
-        let ends = follow(request.instructions, cases, request.cycles, request.tolerance);
+        let ends = integrate(request.instructions, cases, request.cycles, request.tolerance);
         passes += 1;
         let seconds = processor_seconds(begun) - start;
         if seconds >= request.seconds {
@@ -72,7 +72,7 @@ fn answer(request: &Request) -> serde_json::Value {
 /// The next request, if there is one.
 fn read(instructions: Instructions, lines: &mut impl Iterator<Item = String>) -> Option<Request> {
     let numbers = |line: String| -> Vec<f64> {
-        line.split_whitespace().map(|word| word.parse().expect("a number")).collect()
+        line.split_whitespace().map(|number| number.parse().expect("a number")).collect()
     };
     let head = numbers(lines.next()?);
     let cases = lines.take(head[3] as usize).map(numbers);
@@ -95,9 +95,9 @@ fn main() {
     if arguments.iter().any(|argument| argument == "--requests") {
         return answer_requests(instructions);
     }
-    for (name, cases) in works() {
+    for (name, cases) in case_sets() {
         let (cycles, tolerance, seconds) = (CYCLES, TOLERANCE, SECONDS);
         let request = Request { instructions, cycles, tolerance, seconds, cases };
-        println!("{}", json!({ "work": name, "answer": answer(&request) }));
+        println!("{}", json!({ "cases": name, "answer": answer(&request) }));
     }
 }

@@ -13,20 +13,20 @@ use capsulemap::{in_lanes, own_system};
 
 /// The mass on its belt; friction is a (1 + exp(-|u| / s)) against its velocity u on the belt.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Belt<L> {
+pub struct Belt<L> {
     /// Damping.
-    c: L,
+    pub c: L,
     /// Friction of fast sliding; friction at rest is up to twice that.
-    a: L,
+    pub a: L,
     /// Stribeck velocity.
-    s: L,
+    pub s: L,
     /// Velocity of the belt.
-    v: L,
+    pub v: L,
 }
 
 /// Sign of the velocity on the belt; zero where the mass sticks.
 #[derive(Debug, Clone, Copy)]
-struct Slip<L>(L);
+pub struct Slip<L>(L);
 
 impl<L: Lane> Default for Slip<L> {
     fn default() -> Self {
@@ -36,7 +36,7 @@ impl<L: Lane> Default for Slip<L> {
 
 /// What happens to the mass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Change {
+pub enum Change {
     /// It begins to stick.
     Stick = 1,
     /// It begins to slip.

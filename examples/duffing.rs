@@ -15,11 +15,11 @@ use capsulemap::{in_lanes, own_system};
 
 /// The system: a struct of its parameters, in numbers of any kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Duffing<L> {
+pub struct Duffing<L> {
     /// Damping.
-    c: L,
+    pub c: L,
     /// Amplitude of the force.
-    p: L,
+    pub p: L,
 }
 
 own_system!(Duffing { c, p } section 2 state [L; 2], mode (), event NoEvent, scales |_| [1.0, 1.0]);

@@ -15,17 +15,22 @@ use capsulemap::{in_lanes, own_system};
 
 /// The valve by its parameters; seen once a maximum of y1 if `MAXIMA`, else at equal times.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Valve<L, const MAXIMA: bool> {
-    kappa: L,
-    delta: L,
-    beta: L,
-    r: L,
-    q: L,
+pub struct Valve<L, const MAXIMA: bool> {
+    /// Damping.
+    pub kappa: L,
+    /// Load of the spring on the closed valve.
+    pub delta: L,
+    /// Stiffness of the vessel.
+    pub beta: L,
+    /// Coefficient of restitution of the seat.
+    pub r: L,
+    /// Flow rate into the vessel.
+    pub q: L,
 }
 
 /// What happens to the valve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Seat {
+pub enum Seat {
     /// It meets its seat.
     Impact = 1,
 }

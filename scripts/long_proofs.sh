@@ -25,9 +25,9 @@ PROPTEST_CASES=4096 cargo test --release --test it -- invariants --nocapture
 echo "== ten million cases in less than 1 GiB: while they are computed, stopped, and while they are joined"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-night=("$program" sweep studies/ten-million.toml --output "$folder/night.h5" --formats png)
+long_run=("$program" sweep studies/ten-million.toml --output "$folder/long.h5" --formats png)
 memory=(scripts/memory.sh --most 1024)
 # The first is stopped by the signal of Ctrl-C, whose status is 130.
-{ "${memory[@]}" --for 120 "${night[@]}" 2>&1 || [ $? -eq 130 ]; } | tail -n 3
-"${memory[@]}" "${night[@]}" 2>&1 | tail -n 5
-"${memory[@]}" "$program" verify "$folder/night.h5" --cases 10000 2>&1 | tail -n 2
+{ "${memory[@]}" --for 120 "${long_run[@]}" 2>&1 || [ $? -eq 130 ]; } | tail -n 3
+"${memory[@]}" "${long_run[@]}" 2>&1 | tail -n 5
+"${memory[@]}" "$program" verify "$folder/long.h5" --cases 10000 2>&1 | tail -n 2

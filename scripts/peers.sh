@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs capsulemap and its peers side by side on the same works, on one core, and prints Markdown tables.
+# Runs capsulemap and its peers side by side on the same cases, on one core, and prints Markdown tables.
 # The peers are installed from PyPI into target/; some minutes, with --short about one after the builds.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -28,7 +28,7 @@ check_tools() {
         missing "python3 has no venv: apt-get install python3-venv"
 }
 
-# A list beside the packages tells whether they are the pinned ones.
+# A list beside the packages shows whether they are the pinned ones.
 install_peers() {
     local pinned="${packages[*]}"
     [ "$(cat "$place/installed" 2>/dev/null)" = "$pinned" ] && return

@@ -1,4 +1,4 @@
-"""Runs capsulemap and its peers side by side on the same works; prints how they do."""
+"""Runs capsulemap and its peers side by side on the same cases and prints speeds and errors."""
 
 import json
 import statistics
@@ -7,9 +7,9 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from cases import case_sets, sample
 from errors import DEFINITION, Comparison, compare
 from setting import setting
-from works import sample, works
 
 HERE = Path(__file__).parent
 REPETITIONS = 3
@@ -26,7 +26,7 @@ COLUMNS = (
 
 @dataclass
 class Contestant:
-    """A program that answers requests, and what it reached on each work."""
+    """A program that answers requests, and its results on each set of cases."""
 
     name: str
     command: list[str]
@@ -53,8 +53,8 @@ class Contestant:
         """Return the indices of the cases that it does."""
         return sample(cases) if self.slow else range(len(cases))
 
-    def follow(self, work, cases, cycles, seconds):
-        """Have it follow the cases of a work for some seconds; keep speed and ends."""
+    def compute(self, set_name, cases, cycles, seconds):
+        """Have it compute the cases of a set for some seconds; keep speed and ends."""
         cases = [cases[i] for i in self.chosen(cases)]
         least = 0.0 if self.slow else seconds
         lines = [f"{cycles} {self.tolerance!r} {least} {len(cases)}"]
@@ -63,11 +63,11 @@ class Contestant:
         self.process.stdin.flush()
         line = self.process.stdout.readline()
         if not line:
-            sys.exit(f"peers: {self.name} ended without an answer on {work}")
+            sys.exit(f"peers: {self.name} ended without an answer on {set_name}")
         answer = json.loads(line)
         speed = answer["passes"] * len(cases) * cycles / answer["seconds"]
-        self.speeds.setdefault(work, []).append(speed)
-        self.ends[work] = answer["ends"]
+        self.speeds.setdefault(set_name, []).append(speed)
+        self.ends[set_name] = answer["ends"]
 
 
 def python(file, *arguments):
@@ -97,31 +97,31 @@ HEYOKA = Contestant(
 CAPSULEMAP_TIGHT = Contestant("capsulemap, 1e-15", SCALAR, 1e-15)
 
 
-def judged(contestant, work, cases, cycles) -> Comparison:
+def judged(contestant, set_name, cases, cycles) -> Comparison:
     """Compare a contestant with the reference that is not its own."""
     judge = CAPSULEMAP_TIGHT if contestant.name.startswith("heyoka") else HEYOKA
     chosen = contestant.chosen(cases)
-    references = [judge.ends[work][i] for i in chosen]
+    references = [judge.ends[set_name][i] for i in chosen]
     return compare(
-        [cases[i] for i in chosen], cycles, contestant.ends[work], references
+        [cases[i] for i in chosen], cycles, contestant.ends[set_name], references
     )
 
 
-def report(cycles, work, cases):
-    """Print the table of one work."""
-    agreement = judged(HEYOKA, work, cases, cycles)
-    print(f"\n### {work}: {len(cases)} cases, {cycles} cycles each\n")
+def report(cycles, set_name, cases):
+    """Print the table of one set of cases."""
+    agreement = judged(HEYOKA, set_name, cases, cycles)
+    print(f"\n### {set_name}: {len(cases)} cases, {cycles} cycles each\n")
     print(
         f"The references agree to {agreement.section:.1e} in the section and to "
         f"{agreement.x2:.1e} in x2; cases apart: {agreement.apart()}.\n"
     )
     print("| " + " | ".join(COLUMNS) + " |")
     print("|---|" + "---:|" * 5 + "---|")
-    best = statistics.median(BEST_PEER.speeds[work])
+    best = statistics.median(BEST_PEER.speeds[set_name])
     for contestant in CONTESTANTS:
-        speeds = contestant.speeds[work]
+        speeds = contestant.speeds[set_name]
         speed = statistics.median(speeds)
-        off = judged(contestant, work, cases, cycles)
+        off = judged(contestant, set_name, cases, cycles)
         share = f", only {off.cases} of the cases" if contestant.slow else ""
         cells = [
             contestant.name + share,
@@ -138,17 +138,17 @@ def report(cycles, work, cases):
 def main():
     """Follow the references, then all contestants by turns, and print the tables."""
     short = "--short" in sys.argv
-    cycles, cases = works(short)
+    cycles, cases = case_sets(short)
     everyone = [HEYOKA, CAPSULEMAP_TIGHT, *CONTESTANTS]
     for contestant in everyone:
         contestant.start()
     rounds = [[HEYOKA, CAPSULEMAP_TIGHT]] + [CONTESTANTS] * REPETITIONS
     for turn, contestants in enumerate(rounds):
-        for work, its_cases in cases.items():
+        for set_name, its_cases in cases.items():
             stage = f"repetition {turn} of {REPETITIONS}" if turn else "references"
-            print(f"{stage}: {work}", file=sys.stderr)
+            print(f"{stage}: {set_name}", file=sys.stderr)
             for contestant in contestants:
-                contestant.follow(work, its_cases, cycles, 0.2 if short else 1.0)
+                contestant.compute(set_name, its_cases, cycles, 0.2 if short else 1.0)
     for contestant in everyone:
         contestant.stop()
     print(setting())
@@ -158,8 +158,8 @@ def main():
     print(
         "capsulemap stops at the end of every cycle; its peers go straight to the last."
     )
-    for work, its_cases in cases.items():
-        report(cycles, work, its_cases)
+    for set_name, its_cases in cases.items():
+        report(cycles, set_name, its_cases)
 
 
 main()

@@ -1,4 +1,4 @@
-"""Answers requests from standard input, in the form that benches/peers.rs tells."""
+"""Answers requests from standard input, in the form that benches/peers.rs describes."""
 
 import json
 import sys

@@ -1,4 +1,4 @@
-"""How far an end is from the reference's, and which cases went another way."""
+"""How far an end is from the reference's, and which cases reached another motion."""
 
 import math
 from dataclasses import dataclass
@@ -50,7 +50,7 @@ class Comparison:
 
 
 def compare(cases, cycles, ends, references):
-    """Compare all ends of a work with the reference's."""
+    """Compare all ends of a set of cases with the reference's."""
     same, other_events, elsewhere = [], 0, 0
     for case, end, reference in zip(cases, ends, references, strict=True):
         off = errors(case, cycles, end, reference)

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Computes a study in the tasks of a Slurm array; submit.sh submits it, with the join after it. By hand:
-#   sbatch --array=1-8 scripts/slurm/array.sh studies/night.toml 8
+#   sbatch --array=1-8 scripts/slurm/array.sh studies/million.toml 8
 # The 8 stands there again because a task that failed is run again alone, and is still one of 8:
-#   sbatch --array=3 scripts/slurm/array.sh studies/night.toml 8
+#   sbatch --array=3 scripts/slurm/array.sh studies/million.toml 8
 # Submit it from the folder that shall have the results; all nodes must see that folder. A task computes
 # only blocks that are not there yet, so it may be run again as often as it takes.
 
@@ -20,9 +20,9 @@
 # What to leave as it is.
 #SBATCH --job-name=capsulemap
 #SBATCH --output=%x-%A-%a.log
-# A task that loses its node or makes room for others goes back to the queue, and its log goes on.
+# A task that loses its node or makes room for others goes back to the queue, and its log is continued.
 #SBATCH --requeue --open-mode=append
-# A minute before its time is over the program is told to stop. B means this script, and exec below
+# A minute before its time is over the program is asked to stop. B means this script, and exec below
 # puts the program in its place: without exec the signal would reach the shell alone.
 #SBATCH --signal=B:TERM@60
 set -eu

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Puts what the tasks of array.sh have computed together to one file, and draws the study's figures.
 # submit.sh submits it after the array. By hand, from the same folder:
-#   sbatch scripts/slurm/join.sh studies/night.toml
+#   sbatch scripts/slurm/join.sh studies/million.toml
 # If blocks are missing, the job fails and its log lists them.
 
 # What to change for your cluster, as in array.sh. A study of ten million cases takes less than 1 GB.

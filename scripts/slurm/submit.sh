@@ -6,7 +6,7 @@ set -eu
 usage() {
     echo "usage: scripts/slurm/submit.sh STUDY.toml [TASKS [SBATCH-OPTION...]]"
     echo "TASKS is 8 by default; the options go to both jobs, as in"
-    echo "  scripts/slurm/submit.sh studies/night.toml 20 --partition=short --account=physics"
+    echo "  scripts/slurm/submit.sh studies/million.toml 20 --partition=short --account=physics"
 }
 
 fail() {

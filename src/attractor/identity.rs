@@ -5,12 +5,12 @@ use crate::orbit::precision::OBLIQUE;
 use crate::orbit::return_map::{Cycles, returned};
 use crate::orbit::{Outcome, Protocol};
 
-use super::summary::Summary;
+use super::final_motion::FinalMotion;
 
 /// Points by which two motions that do not repeat are compared.
 const SAMPLE: usize = 64;
 /// Two samples of one motion have half of all nearest neighbours in the same sample, those of two motions
-/// all: half way between the two they are told apart.
+/// all: in the middle between the two they are told apart.
 const MIXED: f64 = 0.75;
 
 /// An attractor as the cases with the same parameters show it.
@@ -37,20 +37,20 @@ impl<const D: usize> Attractor<D> {
     pub fn of<M: System<D>>(
         index: usize,
         system: &M,
-        summary: &Summary<D>,
+        motion: &FinalMotion<D>,
         protocol: &Protocol,
     ) -> Option<Self> {
-        let wanted = match summary.outcome {
-            Outcome::Periodic if summary.is_stable => summary.period as usize,
+        let wanted = match motion.outcome {
+            Outcome::Periodic if motion.is_stable => motion.period as usize,
             Outcome::Chaotic | Outcome::QuasiPeriodic => SAMPLE,
             Outcome::Periodic | Outcome::Undecided | Outcome::Failed => return None,
         };
-        let points = section_points(system, summary.section, wanted, protocol)?;
+        let points = section_points(system, motion.section, wanted, protocol)?;
         let metric = system.metric();
         let size = points.iter().map(|point| metric.size(point)).fold(0.0, f64::max);
-        let residual = summary.residual.max(protocol.tolerance);
-        let bound = OBLIQUE * residual / summary.from_one * size;
-        Some(Attractor { case: index, outcome: summary.outcome, points, bound, size })
+        let residual = motion.residual.max(protocol.tolerance);
+        let bound = OBLIQUE * residual / motion.from_one * size;
+        Some(Attractor { case: index, outcome: motion.outcome, points, bound, size })
     }
 
     /// Whether this is the same attractor as another at the same parameters.

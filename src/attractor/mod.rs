@@ -1,9 +1,9 @@
-//! Known: tells attractors apart, each by its orbit.
+//! Attractors, told apart by their orbits.
 
 mod identity;
-mod summary;
+mod final_motion;
 mod table;
 
+pub use final_motion::FinalMotion;
 pub use identity::{Attractor, coincide};
-pub use summary::Summary;
 pub use table::{Executor, Serial, Table, attractors_of};

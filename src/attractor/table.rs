@@ -5,8 +5,8 @@ use std::ops::Range;
 use crate::flow::{Metric, Stroboscopic, System};
 use crate::orbit::{OrbitOf, Outcome, Protocol};
 
+use super::final_motion::FinalMotion;
 use super::identity::Attractor;
-use super::summary::Summary;
 
 /// So many cases are followed before they are sorted in turn, as there may be millions.
 const TOGETHER: usize = 4096;
@@ -38,14 +38,14 @@ pub struct Table<const D: usize> {
 }
 
 impl<const D: usize> Table<D> {
-    /// Sorts so many cases of a `system` by attractor: `summary` tells the index and the summary of each.
+    /// Sorts so many cases of a `system` by attractor: `motion` tells the index and the motion of each.
     ///
     /// The executor follows many cases at a time and compares each with the attractors that are known by
     /// then; what is new is sorted in turn. A case belongs to the first attractor that it matches, and
     /// attractors are only added at the end, so that it does not matter how many were known.
     pub fn sort<M: System<D>>(
         cases: usize,
-        summary: impl Fn(usize) -> (usize, Option<Summary<D>>) + Sync,
+        motion: impl Fn(usize) -> (usize, Option<FinalMotion<D>>) + Sync,
         system: &M,
         protocol: &Protocol,
         executor: &impl Executor,
@@ -54,8 +54,8 @@ impl<const D: usize> Table<D> {
         let mut table = Table { of_case: Vec::with_capacity(cases), attractors: Vec::new() };
         for first in (0..cases).step_by(TOGETHER) {
             let meet = |place: usize| {
-                let (index, summary) = summary(place);
-                let found = Attractor::of(index, system, &summary?, protocol)?;
+                let (index, motion) = motion(place);
+                let found = Attractor::of(index, system, &motion?, protocol)?;
                 Some(table.place(&found, &metric).ok_or(found))
             };
             let met: Vec<Option<Result<usize, Attractor<D>>>> =
@@ -93,8 +93,8 @@ pub fn attractors_of<M: System<D>, const D: usize>(
     orbits: &[OrbitOf<M, D>],
     protocol: &Protocol,
 ) -> Table<D> {
-    let summary = |orbit: &OrbitOf<M, D>| Summary::of(orbit, M::Single::point(&orbit.end));
-    let summaries: Vec<_> = orbits.iter().map(summary).collect();
-    let summary = |place: usize| (place, Some(summaries[place]));
-    Table::sort(orbits.len(), summary, system, protocol, &Serial)
+    let motion = |orbit: &OrbitOf<M, D>| FinalMotion::of(orbit, M::Single::point(&orbit.end));
+    let motions: Vec<_> = orbits.iter().map(motion).collect();
+    let motion = |place: usize| (place, Some(motions[place]));
+    Table::sort(orbits.len(), motion, system, protocol, &Serial)
 }

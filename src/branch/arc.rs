@@ -1,6 +1,6 @@
-//! The arc between two neighbouring solutions, and where on it something happens.
+//! The arc between two neighbouring solutions, and the special solutions on it.
 
-use super::arclength::{Equations, Plane, Station, between, corrected, dot, moved};
+use super::arclength::{CurvePoint, Equations, Plane, between, corrected, dot, moved};
 
 /// Trials of a search at most.
 const TRIALS: usize = 120;
@@ -17,17 +17,17 @@ pub struct Arc<'a, const U: usize, E: Equations<U>> {
 }
 
 /// A solution at a distance along an arc.
-pub type Placed<const U: usize, T> = (f64, Station<U, T>);
+pub type Placed<const U: usize, T> = (f64, CurvePoint<U, T>);
 
 impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
     /// The arc that leaves a solution along its tangent.
-    pub fn from(equations: &'a E, station: &Station<U, E::Seen>) -> Self {
-        Arc { equations, start: station.at, normal: station.tangent }
+    pub fn from(equations: &'a E, point: &CurvePoint<U, E::Seen>) -> Self {
+        Arc { equations, start: point.at, normal: point.tangent }
     }
 
     /// A solution with its distance along the arc.
-    pub fn place(&self, station: &Station<U, E::Seen>) -> Placed<U, E::Seen> {
-        (dot(&self.normal, &between(&self.start, &station.at)), station.clone())
+    pub fn place(&self, point: &CurvePoint<U, E::Seen>) -> Placed<U, E::Seen> {
+        (dot(&self.normal, &between(&self.start, &point.at)), point.clone())
     }
 
     /// The solution at a distance between two others.
@@ -40,8 +40,8 @@ impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
         let guess = moved(&a.1.at, share, &between(&a.1.at, &b.1.at));
         let offset = dot(&self.normal, &self.start) + distance;
         let plane = Plane { normal: self.normal, offset };
-        let (station, _) = corrected(self.equations, &plane, &guess, &self.normal)?;
-        Some((distance, station))
+        let (point, _) = corrected(self.equations, &plane, &guess, &self.normal)?;
+        Some((distance, point))
     }
 
     /// Where `test` changes its sign between two solutions, to rounding.
@@ -51,7 +51,7 @@ impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
     pub fn zero(
         &self,
         ends: [&Placed<U, E::Seen>; 2],
-        test: impl Fn(&Station<U, E::Seen>) -> f64,
+        test: impl Fn(&CurvePoint<U, E::Seen>) -> f64,
     ) -> Option<Placed<U, E::Seen>> {
         let [mut a, mut b] = ends.map(Clone::clone);
         let (mut at_a, mut at_b) = (test(&a.1), test(&b.1));
@@ -90,7 +90,7 @@ impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
     pub fn change(
         &self,
         ends: [&Placed<U, E::Seen>; 2],
-        as_before: impl Fn(&Station<U, E::Seen>) -> bool,
+        as_before: impl Fn(&CurvePoint<U, E::Seen>) -> bool,
     ) -> Option<[Placed<U, E::Seen>; 2]> {
         let [mut a, mut b] = ends.map(Clone::clone);
         let narrow = NARROW * (b.0 - a.0);

@@ -23,7 +23,7 @@ pub trait Equations<const U: usize> {
     fn at(&self, unknowns: &[f64; U]) -> Result<Linear<U, Self::Seen>, Reason>;
 
     /// Whether a solution belongs to the curve of another rather than to one that crosses it.
-    fn belongs(&self, from: &Station<U, Self::Seen>, met: &Station<U, Self::Seen>) -> bool;
+    fn belongs(&self, from: &CurvePoint<U, Self::Seen>, met: &CurvePoint<U, Self::Seen>) -> bool;
 }
 
 /// Equations with their derivatives at a point.
@@ -62,7 +62,7 @@ impl<const U: usize> Plane<U> {
 
 /// A solution with the direction of the curve there.
 #[derive(Debug, Clone)]
-pub struct Station<const U: usize, T> {
+pub struct CurvePoint<const U: usize, T> {
     /// The unknowns.
     pub at: [f64; U],
     /// The unit tangent.
@@ -79,7 +79,7 @@ pub fn corrected<const U: usize, E: Equations<U>>(
     plane: &Plane<U>,
     guess: &[f64; U],
     ahead: &[f64; U],
-) -> Option<(Station<U, E::Seen>, usize)> {
+) -> Option<(CurvePoint<U, E::Seen>, usize)> {
     let condition =
         |at: &[f64; U], _: &E::Seen| Some((dot(&plane.normal, at) - plane.offset, plane.normal));
     corrected_by(equations, condition, guess, ahead)
@@ -88,15 +88,15 @@ pub fn corrected<const U: usize, E: Equations<U>>(
 /// The solution near `guess` at which a condition vanishes that is given with its derivatives.
 ///
 /// Method: Newton's with exact derivatives, until the residual no longer shrinks. None where it does not get
-/// below rounding, or wanders off.
+/// below rounding, or leaves the neighbourhood of the guess.
 pub fn corrected_by<const U: usize, E: Equations<U>>(
     equations: &E,
     condition: impl Fn(&[f64; U], &E::Seen) -> Option<(f64, [f64; U])>,
     guess: &[f64; U],
     ahead: &[f64; U],
-) -> Option<(Station<U, E::Seen>, usize)> {
+) -> Option<(CurvePoint<U, E::Seen>, usize)> {
     let mut at = *guess;
-    let mut best: Option<(f64, Station<U, E::Seen>, usize)> = None;
+    let mut best: Option<(f64, CurvePoint<U, E::Seen>, usize)> = None;
     for taken in 0..PATIENCE {
         let Ok(Linear { mut residual, mut rows, seen }) = equations.at(&at) else { break };
         let Some((offside, normal)) = condition(&at, &seen) else { break };
@@ -108,7 +108,7 @@ pub fn corrected_by<const U: usize, E: Equations<U>>(
         let before = best.as_ref().map_or(f64::INFINITY, |(before, ..)| *before);
         if left < before {
             let tangent = tangent(rows, ahead).unwrap_or(*ahead);
-            best = Some((left, Station { at, tangent, rows, seen }, taken));
+            best = Some((left, CurvePoint { at, tangent, rows, seen }, taken));
         }
         if left <= EXACT || (before <= ROUNDING && left > SHRINKS * before) {
             break;
@@ -120,8 +120,8 @@ pub fn corrected_by<const U: usize, E: Equations<U>>(
             break;
         }
     }
-    let (left, station, taken) = best?;
-    (left <= ROUNDING).then_some((station, taken))
+    let (left, point, taken) = best?;
+    (left <= ROUNDING).then_some((point, taken))
 }
 
 /// The unit vector that the derivatives send to zero, on the side of `ahead`.

@@ -1,8 +1,8 @@
 //! Round a corner: where the return map has a kink, a branch may go on in a direction that nothing before
 //! it shows, or end.
 
-use super::arclength::{Equations, Station, between, dot, tangent, unit};
-use super::walk::{Stride, Walk};
+use super::arclength::{CurvePoint, Equations, between, dot, tangent, unit};
+use super::step_control::{Advance, StepControl};
 
 /// How far from the corner the map is looked at.
 const RADII: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
@@ -15,7 +15,10 @@ const JUMP: f64 = 1e-2;
 
 /// Whether the equations have a kink or a jump at a solution: whether beside it their derivatives are
 /// others.
-pub fn is_corner<const U: usize, E: Equations<U>>(equations: &E, at: &Station<U, E::Seen>) -> bool {
+pub fn is_corner<const U: usize, E: Equations<U>>(
+    equations: &E,
+    at: &CurvePoint<U, E::Seen>,
+) -> bool {
     let size = |rows: &[[f64; U]]| rows.iter().flatten().fold(1.0_f64, |most, x| most.max(x.abs()));
     (0..2 * U).any(|side| {
         let Ok(linear) = equations.at(&beside(&at.at, side, RADII[2])) else { return true };
@@ -34,7 +37,7 @@ fn beside<const U: usize>(at: &[f64; U], side: usize, radius: f64) -> [f64; U] {
 }
 
 /// A corner with its new tangent, and the first step from it.
-pub type Rounded<S> = (S, Stride<S>);
+pub type Rounded<S> = (S, Advance<S>);
 
 /// The solution at which the branch goes on, with the first step beyond it.
 ///
@@ -42,16 +45,16 @@ pub type Rounded<S> = (S, Stride<S>);
 /// there are tried, ahead and behind. None where each of them leads back or nowhere.
 pub fn rounded<const U: usize, E: Equations<U>>(
     equations: &E,
-    walk: &Walk<U>,
-    corner: &Station<U, E::Seen>,
-) -> Option<Rounded<Station<U, E::Seen>>> {
+    control: &StepControl<U>,
+    corner: &CurvePoint<U, E::Seen>,
+) -> Option<Rounded<CurvePoint<U, E::Seen>>> {
     for radius in RADII {
         for side in 0..2 * U {
             let Ok(linear) = equations.at(&beside(&corner.at, side, radius)) else { continue };
             let Some(ahead) = tangent(linear.rows, &corner.tangent) else { continue };
             let goes_on = [1.0, -1.0].into_iter().find_map(|sign| {
-                let start = Station { tangent: ahead.map(|part| sign * part), ..corner.clone() };
-                let step = first_step(equations, walk, &start, radius, &corner.tangent)?;
+                let start = CurvePoint { tangent: ahead.map(|part| sign * part), ..corner.clone() };
+                let step = first_step(equations, control, &start, radius, &corner.tangent)?;
                 Some((start, step))
             });
             if goes_on.is_some() {
@@ -64,16 +67,16 @@ pub fn rounded<const U: usize, E: Equations<U>>(
 
 fn first_step<const U: usize, E: Equations<U>>(
     equations: &E,
-    walk: &Walk<U>,
-    start: &Station<U, E::Seen>,
+    control: &StepControl<U>,
+    start: &CurvePoint<U, E::Seen>,
     radius: f64,
     arrived: &[f64; U],
-) -> Option<Stride<Station<U, E::Seen>>> {
+) -> Option<Advance<CurvePoint<U, E::Seen>>> {
     FIRST_STEPS.into_iter().find_map(|length| {
-        let (stride, _) = walk.attempt(equations, start, length * radius)?;
-        let (Stride::Inside(met) | Stride::AtBound(met)) = &stride else { return None };
+        let (advance, _) = control.attempt(equations, start, length * radius)?;
+        let (Advance::Inside(met) | Advance::AtBound(met)) = &advance else { return None };
         let leaves = unit(&between(&start.at, &met.at));
         let far = dot(&between(&start.at, &met.at), &leaves) > radius;
-        (far && dot(&leaves, arrived) > BACK).then_some(stride)
+        (far && dot(&leaves, arrived) > BACK).then_some(advance)
     })
 }

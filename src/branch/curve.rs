@@ -2,12 +2,12 @@
 
 use crate::flow::System;
 
-use super::arclength::{Plane, Station, between, corrected, norm, tangent};
+use super::arclength::{CurvePoint, Plane, between, corrected, norm, tangent};
 use super::corner::is_corner;
-use super::locus::{Locus, LocusStation, Touch};
+use super::locus::{Locus, LocusPoint, Touch};
 use super::orbits::Orbits;
 use super::periodic::{Goal, Periodic, passes};
-use super::walk::{Bounds, Stride, Walk};
+use super::step_control::{Advance, Bounds, StepControl};
 use super::{Curve, End, Request, Special, SpecialKind};
 
 /// A curve begins at its special point to within this, relative to each unknown.
@@ -36,8 +36,8 @@ impl<M: System<D>, const D: usize, const W: usize> Trace<M, D, W> {
     }
 
     /// Whether it goes through an orbit, from whichever of its section points.
-    fn passes(&self, station: &LocusStation<W>) -> bool {
-        let images = self.locus.images(station);
+    fn passes(&self, point: &LocusPoint<W>) -> bool {
+        let images = self.locus.images(point);
         let through = |ends: &[[f64; W]], at| passes(&self.locus, [&ends[0], &ends[1]], at);
         self.points.windows(2).any(|ends| images.iter().any(|image| through(ends, &image.at)))
     }
@@ -81,8 +81,8 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
     let bounds = Bounds::none()
         .with(D, request.range.map(|end| end / along))
         .with(D + 1, range.map(|end| end / width));
-    let walk = Walk::new(bounds, request.longest_step);
-    let (points, ends) = both_ways(&locus, &start, walk, request.most_points);
+    let control = StepControl::new(bounds, request.longest_step);
+    let (points, ends) = both_ways(&locus, &start, control, request.most_points);
     traces.push(Trace { locus, through, points, ends });
     Some(traces.len() - 1)
 }
@@ -92,7 +92,7 @@ fn start<M: System<D>, O, const D: usize, const W: usize>(
     locus: &Locus<M, D, W>,
     special: &Special<O, D>,
     second: f64,
-) -> Option<LocusStation<W>> {
+) -> Option<LocusPoint<W>> {
     let section = special.point.section.first()?;
     let parameters = [special.point.parameter, second];
     let at: [f64; W] = std::array::from_fn(|i| {
@@ -104,50 +104,50 @@ fn start<M: System<D>, O, const D: usize, const W: usize>(
     let away = between(&at, &start.at);
     let near = |i: usize| away[i].abs() <= AT_SPECIAL * at[i].abs().max(1.0);
     let tangent = tangent(start.rows, &plane.normal)?;
-    (0..W).all(near).then_some(Station { tangent, ..start })
+    (0..W).all(near).then_some(CurvePoint { tangent, ..start })
 }
 
 /// The curve through an orbit from one end to the other, of so many points at most.
 fn both_ways<M: System<D>, const D: usize, const W: usize>(
     locus: &Locus<M, D, W>,
-    start: &LocusStation<W>,
-    walk: Walk<W>,
+    start: &LocusPoint<W>,
+    control: StepControl<W>,
     most: usize,
 ) -> (Vec<[f64; W]>, [End; 2]) {
     let back = turned(start);
     let (mut points, last, end) =
-        one_way(locus, &back, walk, most.div_ceil(2), &Goal::at(locus, &back));
+        one_way(locus, &back, control, most.div_ceil(2), &Goal::at(locus, &back));
     if end == End::Closed {
         return (points, [end; 2]);
     }
-    // What closes farther round than one way goes meets the end of that way.
+    // A closed curve that is longer than one half meets the end of that half.
     let left = most + 1 - points.len();
     let goal = Goal::at(locus, &turned(&last));
-    let (forward, _, other_end) = one_way(locus, start, walk, left, &goal);
+    let (forward, _, other_end) = one_way(locus, start, control, left, &goal);
     points.reverse();
     points.extend(forward.into_iter().skip(1));
     (points, if other_end == End::Closed { [other_end; 2] } else { [end, other_end] })
 }
 
-/// A point of a curve, from which it leads the other way.
-fn turned<const W: usize>(station: &LocusStation<W>) -> LocusStation<W> {
-    Station { tangent: station.tangent.map(|part| -part), ..station.clone() }
+/// A point of a curve with its tangent reversed.
+fn turned<const W: usize>(point: &LocusPoint<W>) -> LocusPoint<W> {
+    CurvePoint { tangent: point.tangent.map(|part| -part), ..point.clone() }
 }
 
 /// The curve from a point on along its tangent, its last point with the tangent, and why it ends.
 fn one_way<M: System<D>, const D: usize, const W: usize>(
     locus: &Locus<M, D, W>,
-    start: &LocusStation<W>,
-    mut walk: Walk<W>,
+    start: &LocusPoint<W>,
+    mut control: StepControl<W>,
     most: usize,
     goal: &Goal<W, Option<Touch>>,
-) -> (Vec<[f64; W]>, LocusStation<W>, End) {
+) -> (Vec<[f64; W]>, LocusPoint<W>, End) {
     let mut points = vec![start.at];
     let mut last = start.clone();
     while points.len() < most {
-        let stride = walk.stride(locus, &last);
-        let at_bound = matches!(stride, Stride::AtBound(_));
-        let (Stride::Inside(next) | Stride::AtBound(next)) = stride else {
+        let advance = control.advance(locus, &last);
+        let at_bound = matches!(advance, Advance::AtBound(_));
+        let (Advance::Inside(next) | Advance::AtBound(next)) = advance else {
             let end = dead_end(locus, &last);
             return (points, last, end);
         };
@@ -158,10 +158,10 @@ fn one_way<M: System<D>, const D: usize, const W: usize>(
         let step = norm(&between(&last.at, &next.at));
         if comes_back(locus, &last, &next) {
             // The curve turns where its orbits halve, which a short step comes near enough.
-            if step <= ACROSS * walk.longest {
+            if step <= ACROSS * control.longest {
                 return (points, last, End::Merged);
             }
-            walk.next = 0.5 * step;
+            control.next = 0.5 * step;
             continue;
         }
         if step > ONE {
@@ -178,7 +178,7 @@ fn one_way<M: System<D>, const D: usize, const W: usize>(
 /// Why no step leads on from an orbit.
 fn dead_end<M: System<D>, const D: usize, const W: usize>(
     locus: &Locus<M, D, W>,
-    last: &LocusStation<W>,
+    last: &LocusPoint<W>,
 ) -> End {
     if locus.vanishes(last) {
         End::Vanishes
@@ -194,8 +194,8 @@ fn dead_end<M: System<D>, const D: usize, const W: usize>(
 /// A grazing does not: half a period later another extremum touches.
 fn comes_back<M: System<D>, const D: usize, const W: usize>(
     locus: &Locus<M, D, W>,
-    from: &LocusStation<W>,
-    to: &LocusStation<W>,
+    from: &LocusPoint<W>,
+    to: &LocusPoint<W>,
 ) -> bool {
     locus.kind != SpecialKind::Grazing && locus.halves(&from.at, &to.at)
 }

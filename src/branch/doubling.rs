@@ -3,13 +3,13 @@
 use crate::flow::System;
 use crate::orbit::matrix::Matrix;
 
-use super::arclength::{Equations, Plane, Station, between, corrected, dot, moved, norm, unit};
-use super::orbits::{OrbitStation, Orbits, shifted};
+use super::arclength::{CurvePoint, Equations, Plane, between, corrected, dot, moved, norm, unit};
+use super::orbits::{OrbitPoint, Orbits, shifted};
 use super::periodic::Periodic;
 
 /// The orbits of twice the period, and the first two of them.
 pub type Doubled<M, const D: usize, const U: usize> =
-    (Orbits<M, D, U>, [OrbitStation<<M as System<D>>::Event, D, U>; 2]);
+    (Orbits<M, D, U>, [OrbitPoint<<M as System<D>>::Event, D, U>; 2]);
 
 /// First steps off the branch that are tried, as shares of the longest.
 const FIRST_STEPS: [f64; 7] = [0.1, 0.03, 0.3, 0.01, 1e-3, 1e-4, 1e-5];
@@ -23,14 +23,14 @@ const OTHER_SIDE: f64 = 1.0;
 /// accepted if the orbit needs both halves of its period.
 pub fn doubled<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
-    at: &OrbitStation<M::Event, D, U>,
+    at: &OrbitPoint<M::Event, D, U>,
     longest: f64,
 ) -> Option<Doubled<M, D, U>> {
     let direction = annihilated(&shifted(&at.seen.jacobian, 1.0))?;
     let twice = orbits.with_period(2 * orbits.family.period);
     let tangent: [f64; U] = std::array::from_fn(|i| *direction.get(i).unwrap_or(&0.0));
     let linear = twice.at(&at.at).ok()?;
-    let start = Station { at: at.at, tangent, rows: linear.rows, seen: linear.seen };
+    let start = CurvePoint { at: at.at, tangent, rows: linear.rows, seen: linear.seen };
     FIRST_STEPS.into_iter().find_map(|share| {
         let length = share * longest;
         let predicted = moved(&at.at, length, &tangent);

@@ -80,7 +80,7 @@ fn turns<L: Lane>(coordinate: &Series<L>, length: f64, mut found: impl FnMut(f64
     crossings(&rate, length, |time, _| found(time, series::value(coordinate, L::splat(time))));
 }
 
-/// How far two times of a motion of this period are apart, the other way round too.
+/// How far two times of a motion of this period are apart, modulo the period.
 pub fn apart(a: f64, b: f64, period: u64) -> f64 {
     let apart = (a - b).rem_euclid(period as f64);
     apart.min(period as f64 - apart)

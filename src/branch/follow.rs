@@ -9,11 +9,11 @@ use super::arclength::{Plane, corrected, tangent};
 use super::curve::{Trace, trace};
 use super::doubling::doubled;
 use super::family::Family;
-use super::orbits::{OrbitStation, Orbits};
+use super::half_branch::HalfBranch;
+use super::orbits::{OrbitPoint, Orbits};
 use super::periodic::{Goal, Periodic};
 use super::scales::units;
-use super::walk::{Bounds, Walk};
-use super::way::Way;
+use super::step_control::{Bounds, StepControl};
 use super::{
     Branch, BranchOf, End, Found, FoundOf, NotFollowed, Point, PointOf, Request, Special,
     SpecialKind,
@@ -30,7 +30,7 @@ const REPEATS: f64 = 1e-8;
 struct Followed<M: System<D>, const D: usize, const U: usize> {
     orbits: Orbits<M, D, U>,
     level: u32,
-    way: Way<M::Event, D, U>,
+    half: HalfBranch<M::Event, D, U>,
     /// Why it begins where it does.
     beginning: End,
 }
@@ -59,8 +59,8 @@ fn follow_with<M: System<D>, const D: usize, const U: usize, const W: usize>(
 ) -> Result<FoundOf<M, D>, NotFollowed> {
     let (orbits, first) = first_orbit::<M, D, U>(request)?;
     let mut found = Found { branches: Vec::new(), curves: Vec::new() };
-    let (way, beginning) = both_ways(request, &orbits, first);
-    let mut followed = vec![Followed { orbits, level: 0, way, beginning }];
+    let (half, beginning) = both_ways(request, &orbits, first);
+    let mut followed = vec![Followed { orbits, level: 0, half, beginning }];
     found.branches.push(branch(&followed[0], None));
     let mut next = 0;
     while next < followed.len() {
@@ -89,16 +89,16 @@ fn leave<M: System<D>, const D: usize, const U: usize>(
     if level > request.doublings {
         return;
     }
-    let mut doublings = doublings(&followed[parent].way);
+    let mut doublings = doublings(&followed[parent].half);
     while let Some((place, at)) = doublings.pop() {
         let orbits = &followed[parent].orbits;
         let Some((twice, first)) = doubled(orbits, &at, request.longest_step) else { continue };
-        let mut way = Way::new(first.to_vec());
-        let goal = Goal::at(&twice, &way.stations[0]);
-        way.follow(&twice, &mut walk(request, &twice), request.most_points, &goal);
-        way.merge(&twice, &doublings);
-        doublings.retain(|(other, _)| Some(*other) != way.merged);
-        followed.push(Followed { orbits: twice, level, way, beginning: End::Merged });
+        let mut half = HalfBranch::new(first.to_vec());
+        let goal = Goal::at(&twice, &half.points[0]);
+        half.follow(&twice, &mut control(request, &twice), request.most_points, &goal);
+        half.merge(&twice, &doublings);
+        doublings.retain(|(other, _)| Some(*other) != half.merged);
+        followed.push(Followed { orbits: twice, level, half, beginning: End::Merged });
         let newest = followed.last().map(|followed| branch(followed, Some((parent, place))));
         found.branches.extend(newest);
     }
@@ -106,27 +106,27 @@ fn leave<M: System<D>, const D: usize, const U: usize>(
 
 /// The period doublings of a branch with their places, the first last.
 fn doublings<E: Event, const D: usize, const U: usize>(
-    way: &Way<E, D, U>,
-) -> Vec<(usize, OrbitStation<E, D, U>)> {
-    let happenings = way.happenings.iter().enumerate().rev();
-    let doublings = happenings
-        .filter(|(_, (_, happening))| happening.kind == SpecialKind::PeriodDoubling)
-        .map(|(place, (_, happening))| (place, happening.station.clone()));
+    half: &HalfBranch<E, D, U>,
+) -> Vec<(usize, OrbitPoint<E, D, U>)> {
+    let special_orbits = half.special_orbits.iter().enumerate().rev();
+    let doublings = special_orbits
+        .filter(|(_, (_, special))| special.kind == SpecialKind::PeriodDoubling)
+        .map(|(place, (_, special))| (place, special.point.clone()));
     doublings.collect()
 }
 
-fn walk<M: System<D>, const D: usize, const U: usize>(
+fn control<M: System<D>, const D: usize, const U: usize>(
     request: &Request<M, D>,
     orbits: &Orbits<M, D, U>,
-) -> Walk<U> {
+) -> StepControl<U> {
     let range = request.range.map(|end| end / orbits.units[D]);
-    Walk::new(Bounds::none().with(D, range), request.longest_step)
+    StepControl::new(Bounds::none().with(D, range), request.longest_step)
 }
 
 /// The orbit near the point that is given, of the least period that it has.
 fn first_orbit<M: System<D>, const D: usize, const U: usize>(
     request: &Request<M, D>,
-) -> Result<(Orbits<M, D, U>, OrbitStation<M::Event, D, U>), NotFollowed> {
+) -> Result<(Orbits<M, D, U>, OrbitPoint<M::Event, D, U>), NotFollowed> {
     let Request { system, range: [low, high], along, .. } = request;
     let value = system.value(*along);
     let width = high - low;
@@ -144,19 +144,19 @@ fn first_orbit<M: System<D>, const D: usize, const U: usize>(
     let mut section = request.section;
     for _ in 0..APPROACHES {
         let guess = orbits.unknowns(&section, value);
-        if let Some((station, _)) = corrected(&orbits, &plane, &guess, &plane.normal) {
-            orbits.family.period = least_period(&orbits, &station);
+        if let Some((point, _)) = corrected(&orbits, &plane, &guess, &plane.normal) {
+            orbits.family.period = least_period(&orbits, &point);
             // The guess may be far away: only the orbit knows the scale of its motion.
-            let points = orbits.section_points(&station.at);
+            let points = orbits.section_points(&point.at);
             let points: Vec<[f64; D]> = points.iter().map(|at| orbits.section(at)).collect();
-            let section = orbits.section(&station.at);
+            let section = orbits.section(&point.at);
             orbits.units = in_units(&units(request, &points));
             let met = corrected(&orbits, &plane, &orbits.unknowns(&section, value), &plane.normal);
-            let (station, _) = met.ok_or(NotFollowed::NoOrbit)?;
-            if may_be_neutral(&station.seen.multipliers()) {
+            let (point, _) = met.ok_or(NotFollowed::NoOrbit)?;
+            if may_be_neutral(&point.seen.multipliers()) {
                 return Err(NotFollowed::Neutral);
             }
-            return Ok((orbits, station));
+            return Ok((orbits, point));
         }
         let ahead = orbits.with_period(APPROACH * request.period).family;
         section = ahead.passage(section, &[]).map_err(NotFollowed::Failed)?.end;
@@ -167,11 +167,11 @@ fn first_orbit<M: System<D>, const D: usize, const U: usize>(
 /// The smallest divisor of the period after which the orbit repeats.
 fn least_period<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
-    station: &OrbitStation<M::Event, D, U>,
+    point: &OrbitPoint<M::Event, D, U>,
 ) -> u64 {
     let period = orbits.family.period;
     let repeats = |part: &u64| {
-        let apart = orbits.with_period(*part).displacement(&station.at);
+        let apart = orbits.with_period(*part).displacement(&point.at);
         apart.is_some_and(|apart| apart.iter().all(|part| part.abs() < REPEATS))
     };
     (1..period).filter(|part| period.is_multiple_of(*part)).find(repeats).unwrap_or(period)
@@ -181,87 +181,88 @@ fn least_period<M: System<D>, const D: usize, const U: usize>(
 fn both_ways<M: System<D>, const D: usize, const U: usize>(
     request: &Request<M, D>,
     orbits: &Orbits<M, D, U>,
-    first: OrbitStation<M::Event, D, U>,
-) -> (Way<M::Event, D, U>, End) {
+    first: OrbitPoint<M::Event, D, U>,
+) -> (HalfBranch<M::Event, D, U>, End) {
     let most = request.most_points.div_ceil(2);
     let mut rising = [0.0; U];
     rising[D] = 1.0;
     let ahead = tangent(first.rows, &rising).unwrap_or(rising);
-    let turned = |station: &OrbitStation<M::Event, D, U>, ahead: [f64; U], sign: f64| {
-        OrbitStation { tangent: ahead.map(|part| sign * part), ..station.clone() }
+    let turned = |point: &OrbitPoint<M::Event, D, U>, ahead: [f64; U], sign: f64| OrbitPoint {
+        tangent: ahead.map(|part| sign * part),
+        ..point.clone()
     };
-    let leaving = |start: OrbitStation<_, D, U>, most: usize, goal: &OrbitStation<_, D, U>| {
-        let mut way = Way::new(vec![start]);
-        way.follow(orbits, &mut walk(request, orbits), most, &Goal::at(orbits, goal));
-        way
+    let leaving = |start: OrbitPoint<_, D, U>, most: usize, goal: &OrbitPoint<_, D, U>| {
+        let mut half = HalfBranch::new(vec![start]);
+        half.follow(orbits, &mut control(request, orbits), most, &Goal::at(orbits, goal));
+        half
     };
     let start = turned(&first, ahead, -1.0);
     let downward = leaving(start.clone(), most, &start);
     let end = downward.end;
-    let Some(last) = downward.stations.last().filter(|_| end != End::Closed) else {
+    let Some(last) = downward.points.last().filter(|_| end != End::Closed) else {
         return (downward, end);
     };
-    // What closes farther round than one way goes meets the end of that way.
+    // A closed branch that is longer than one half meets the end of that half.
     let goal = turned(last, last.tangent, -1.0);
-    let left = request.most_points + 1 - downward.stations.len();
+    let left = request.most_points + 1 - downward.points.len();
     let upward = leaving(turned(&first, ahead, 1.0), left, &goal);
     let beginning = if upward.end == End::Closed { End::Closed } else { end };
     (joined(downward, upward), beginning)
 }
 
-/// Two ways from one orbit as one, the first turned round.
+/// Two half branches from one orbit as one, the first in reverse.
 fn joined<E: Event, const D: usize, const U: usize>(
-    mut downward: Way<E, D, U>,
-    upward: Way<E, D, U>,
-) -> Way<E, D, U> {
-    let last = downward.stations.len() - 1;
+    mut downward: HalfBranch<E, D, U>,
+    upward: HalfBranch<E, D, U>,
+) -> HalfBranch<E, D, U> {
+    let last = downward.points.len() - 1;
     downward.end = upward.end;
-    downward.stations.reverse();
-    downward.happenings.reverse();
-    for (after, _) in &mut downward.happenings {
+    downward.points.reverse();
+    downward.special_orbits.reverse();
+    for (after, _) in &mut downward.special_orbits {
         *after = last - 1 - *after;
     }
-    downward.stations.extend(upward.stations.into_iter().skip(1));
-    let later = upward.happenings.into_iter();
-    downward.happenings.extend(later.map(|(after, happening)| (after + last, happening)));
+    downward.points.extend(upward.points.into_iter().skip(1));
+    let later = upward.special_orbits.into_iter();
+    downward.special_orbits.extend(later.map(|(after, special)| (after + last, special)));
     downward
 }
 
-/// A way as a branch: every orbit measured by the plain motion.
+/// A half branch, or two joined, as a branch: every orbit is measured by the plain motion.
 fn branch<M: System<D>, const D: usize, const U: usize>(
     followed: &Followed<M, D, U>,
     parent: Option<(usize, usize)>,
 ) -> BranchOf<M, D> {
-    let Followed { orbits, way, .. } = followed;
+    let Followed { orbits, half, .. } = followed;
     let mut sequences = Vec::new();
     let points: Vec<PointOf<M, D>> =
-        way.stations.iter().map(|station| point(orbits, station, &mut sequences)).collect();
-    let special = way.happenings.iter().map(|(after, happening)| Special {
-        kind: happening.kind,
+        half.points.iter().map(|orbit| point(orbits, orbit, &mut sequences)).collect();
+    let special = half.special_orbits.iter().map(|(after, special)| Special {
+        kind: special.kind,
         after: *after,
-        point: point(orbits, &happening.station, &mut sequences),
+        point: point(orbits, &special.point, &mut sequences),
         curve: None,
     });
     let special = special.collect();
-    let ends = [followed.beginning, way.end];
+    let ends = [followed.beginning, half.end];
     Branch { period: orbits.family.period, parent, points, special, ends }
 }
 
 /// An orbit with what is measured of it by the plain motion from it.
 fn point<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
-    station: &OrbitStation<M::Event, D, U>,
+    point: &OrbitPoint<M::Event, D, U>,
     sequences: &mut Vec<Vec<M::Event>>,
 ) -> PointOf<M, D> {
     let Family { system, period, tolerance } = &orbits.family;
-    let parameter = orbits.parameter(&station.at);
-    let from = orbits.section(&station.at);
-    let multipliers = station.seen.multipliers();
+    let parameter = orbits.parameter(&point.at);
+    let from = orbits.section(&point.at);
+    let multipliers = point.seen.multipliers();
     let system = system.with(orbits.along, parameter);
     let orbit = measured(&system, from, (*period, multipliers), *tolerance).ok();
     let section = orbit.as_ref().map_or_else(|| vec![from], |orbit| orbit.section.clone());
     let residual = orbit.as_ref().map_or(f64::NAN, |orbit| orbit.residual);
-    let events = station.seen.events.clone();
+    let events = point.seen.events.clone();
     let sequence = sequences.iter().position(|known| *known == events).unwrap_or_else(|| {
         sequences.push(events);
         sequences.len() - 1

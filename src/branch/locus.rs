@@ -1,10 +1,10 @@
-//! The equations of an orbit to which one thing happens, in two parameters.
+//! The equations of a special orbit of one kind, in two parameters.
 
 use crate::flow::{Reason, System};
 use crate::lane::{Dual, Lane};
 
 use super::SpecialKind;
-use super::arclength::{Equations, Linear, Station};
+use super::arclength::{CurvePoint, Equations, Linear};
 use super::family::{Extremum, Family, Passage, apart, nearest};
 use super::periodic::Periodic;
 
@@ -27,9 +27,9 @@ pub struct Touch {
 }
 
 /// An orbit on a curve, and how it touches its surface, if it is a grazing.
-pub type LocusStation<const W: usize> = Station<W, Option<Touch>>;
+pub type LocusPoint<const W: usize> = CurvePoint<W, Option<Touch>>;
 
-/// Orbits to which one thing happens: P^k(s) - s = 0 and a test, in the `D` coordinates of s and two
+/// Special orbits of one kind: P^k(s) - s = 0 and a test function, in the `D` coordinates of s and two
 /// parameters, which are the last of the `W` unknowns.
 #[derive(Debug, Clone)]
 pub struct Locus<M: System<D>, const D: usize, const W: usize> {
@@ -39,7 +39,7 @@ pub struct Locus<M: System<D>, const D: usize, const W: usize> {
     pub free: [M::Parameter; 2],
     /// Units of the coordinates and of the two parameters.
     pub units: [f64; W],
-    /// What happens.
+    /// The kind.
     pub kind: SpecialKind,
 }
 
@@ -70,8 +70,8 @@ impl<M: System<D>, const D: usize, const W: usize> Locus<M, D, W> {
     }
 
     /// Whether the extremum that touches is about to vanish, with another that it meets.
-    pub fn vanishes(&self, station: &LocusStation<W>) -> bool {
-        station.seen.is_some_and(|touch| touch.alone < MEET)
+    pub fn vanishes(&self, point: &LocusPoint<W>) -> bool {
+        point.seen.is_some_and(|touch| touch.alone < MEET)
     }
 
     /// The return and the determinant of J + `shift` I.
@@ -150,7 +150,7 @@ impl<M: System<D>, const D: usize, const W: usize> Equations<W> for Locus<M, D, 
     }
 
     /// Where two curves of grazings cross, another extremum is as near to its surface.
-    fn belongs(&self, from: &LocusStation<W>, met: &LocusStation<W>) -> bool {
+    fn belongs(&self, from: &LocusPoint<W>, met: &LocusPoint<W>) -> bool {
         let same = from.seen.zip(met.seen).is_none_or(|(before, after)| {
             apart(before.time, after.time, self.family.period) <= SAME_EXTREMUM
         });

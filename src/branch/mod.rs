@@ -1,4 +1,4 @@
-//! Continued: follows periodic orbits, stable or not, through parameters, and finds where they change.
+//! Numerical continuation of periodic orbits, stable or not, in parameters, with their special points.
 
 mod arc;
 mod arclength;
@@ -13,8 +13,8 @@ mod orbits;
 mod periodic;
 mod scales;
 mod special;
-mod walk;
-mod way;
+mod step_control;
+mod half_branch;
 
 pub use curve::is_followed;
 pub use follow::follow;

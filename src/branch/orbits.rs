@@ -1,10 +1,10 @@
-//! The equations of a periodic orbit in one parameter, and the test functions of what may happen to it.
+//! The equations of a periodic orbit in one parameter, and the test functions of special orbits.
 
 use crate::flow::{Event, Reason, System};
 use crate::lane::Dual;
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 
-use super::arclength::{Equations, Linear, Station};
+use super::arclength::{CurvePoint, Equations, Linear};
 use super::family::{Family, cyclic, nearest};
 use super::periodic::Periodic;
 
@@ -39,7 +39,7 @@ pub struct Seen<E, const D: usize, const U: usize> {
 }
 
 /// An orbit on a branch.
-pub type OrbitStation<E, const D: usize, const U: usize> = Station<U, Seen<E, D, U>>;
+pub type OrbitPoint<E, const D: usize, const U: usize> = CurvePoint<U, Seen<E, D, U>>;
 
 impl<M: System<D>, const D: usize, const U: usize> Orbits<M, D, U> {
     /// The parameter's value in its own unit.
@@ -116,7 +116,7 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<M, D,
         Ok(Linear { residual, rows, seen })
     }
 
-    fn belongs(&self, _: &Station<U, Self::Seen>, met: &Station<U, Self::Seen>) -> bool {
+    fn belongs(&self, _: &CurvePoint<U, Self::Seen>, met: &CurvePoint<U, Self::Seen>) -> bool {
         let steep = met.seen.jacobian.iter().flatten().any(|slope| slope.abs() > STEEPEST);
         !steep && self.is_whole(&met.at)
     }

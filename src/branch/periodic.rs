@@ -2,7 +2,7 @@
 //! cycles, and any of them may stand for it.
 
 use super::arclength::{
-    Equations, Linear, Plane, Station, between, corrected, dot, moved, norm, unit,
+    CurvePoint, Equations, Linear, Plane, between, corrected, dot, moved, norm, unit,
 };
 
 /// Half a period leads this far from where it began, or the orbit has half the period.
@@ -42,25 +42,25 @@ pub trait Periodic<const D: usize, const U: usize>: Equations<U> + Sized {
     }
 
     /// An orbit from each of its section points in turn.
-    fn images(&self, station: &Station<U, Self::Seen>) -> Vec<Station<U, Self::Seen>> {
-        let later = (1..self.period()).filter_map(|cycles| self.image(station, cycles));
-        std::iter::once(station.clone()).chain(later).collect()
+    fn images(&self, point: &CurvePoint<U, Self::Seen>) -> Vec<CurvePoint<U, Self::Seen>> {
+        let later = (1..self.period()).filter_map(|cycles| self.image(point, cycles));
+        std::iter::once(point.clone()).chain(later).collect()
     }
 
     /// An orbit from the section point that it reaches after so many cycles.
     fn image(
         &self,
-        station: &Station<U, Self::Seen>,
+        point: &CurvePoint<U, Self::Seen>,
         cycles: u64,
-    ) -> Option<Station<U, Self::Seen>> {
-        let Linear { residual, rows, .. } = self.with_period(cycles).at(&station.at).ok()?;
-        let (mut at, mut tangent) = (station.at, station.tangent);
+    ) -> Option<CurvePoint<U, Self::Seen>> {
+        let Linear { residual, rows, .. } = self.with_period(cycles).at(&point.at).ok()?;
+        let (mut at, mut tangent) = (point.at, point.tangent);
         for i in 0..D {
             at[i] += residual[i];
-            tangent[i] += dot(&rows[i], &station.tangent);
+            tangent[i] += dot(&rows[i], &point.tangent);
         }
         let Linear { rows, seen, .. } = self.at(&at).ok()?;
-        Some(Station { at, tangent: unit(&tangent), rows, seen })
+        Some(CurvePoint { at, tangent: unit(&tangent), rows, seen })
     }
 }
 
@@ -90,26 +90,26 @@ pub fn passes<const U: usize, E: Equations<U>>(
 
 /// Where a curve closes: at a solution known to lie on it, from whichever of its section points.
 #[derive(Debug, Clone)]
-pub struct Goal<const U: usize, T>(Vec<Station<U, T>>);
+pub struct Goal<const U: usize, T>(Vec<CurvePoint<U, T>>);
 
 impl<const U: usize, T: Clone> Goal<U, T> {
     /// The goal at a solution whose tangent is the direction of arrival.
     pub fn at<const D: usize, E: Periodic<D, U, Seen = T>>(
         equations: &E,
-        station: &Station<U, T>,
+        point: &CurvePoint<U, T>,
     ) -> Self {
-        Goal(equations.images(station))
+        Goal(equations.images(point))
     }
 
     /// The solution at which the curve has closed between two that are `steps` from its beginning.
     pub fn met<const D: usize, E: Periodic<D, U, Seen = T>>(
         &self,
         equations: &E,
-        [from, to]: [&Station<U, T>; 2],
+        [from, to]: [&CurvePoint<U, T>; 2],
         steps: usize,
-    ) -> Option<Station<U, T>> {
+    ) -> Option<CurvePoint<U, T>> {
         let ahead = between(&from.at, &to.at);
-        let here = |goal: &&Station<U, T>| {
+        let here = |goal: &&CurvePoint<U, T>| {
             dot(&goal.tangent, &ahead) > 0.0 && passes(equations, [&from.at, &to.at], &goal.at)
         };
         self.0.iter().find(here).filter(|_| steps >= LEAST_STEPS).cloned()

@@ -29,7 +29,7 @@ impl Campaign<'_> {
         check(folder, missing, reports)?;
         let (blocks, cases) = (share.len(), self.cases(&share));
         let survey = Survey { folder: folder.path(), blocks, cases, kept: &kept };
-        reports.tell(Event::Surveyed(survey))?;
+        reports.send(Event::Surveyed(survey))?;
         if left.is_empty() {
             return Ok(());
         }
@@ -41,7 +41,7 @@ impl Campaign<'_> {
         }
         reports.check()?;
         let (cases, time) = (self.cases(&left), begun.elapsed());
-        reports.tell(Event::Computed { cases, time })
+        reports.send(Event::Computed { cases, time })
     }
 
     /// Cases of some blocks.
@@ -77,7 +77,7 @@ impl Campaign<'_> {
     }
 }
 
-/// Tells which blocks that are there cannot be trusted; fails if one cannot be read.
+/// Reports the blocks that are damaged or foreign; fails if one cannot be read.
 fn check(
     folder: &BlockFolder,
     missing: Vec<(usize, Unusable)>,
@@ -88,7 +88,7 @@ fn check(
         match why {
             Unusable::Missing => {}
             Unusable::Torn | Unusable::Foreign(_) => {
-                reports.tell(Event::Again { file: &file, why: &why })?;
+                reports.send(Event::Again { file: &file, why: &why })?;
             }
             Unusable::Refused(_) => return Err(CampaignError::Block { file, why }),
         }

@@ -27,11 +27,11 @@ pub fn ranges(numbers: impl Iterator<Item = usize>) -> String {
             _ => ranges.push([number, number]),
         }
     }
-    let words = ranges.iter().map(|[first, last]| match first == last {
+    let texts = ranges.iter().map(|[first, last]| match first == last {
         true => first.to_string(),
         false => format!("{first}-{last}"),
     });
-    words.collect::<Vec<_>>().join(", ")
+    texts.collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]
@@ -45,7 +45,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_are_told_as_ranges() {
+    fn neighbours_are_shown_as_ranges() {
         assert_eq!(ranges([3, 17, 18, 19, 90].into_iter()), "3, 17-19, 90");
         assert_eq!(ranges(std::iter::empty()), "");
     }

@@ -1,4 +1,4 @@
-//! What can keep a campaign from its results, and whether the request or the machine is the cause.
+//! The errors of a campaign, and whether the request or the machine is the cause.
 
 use std::fmt;
 use std::io;
@@ -47,7 +47,7 @@ pub enum CampaignError {
         /// Whether this version of the program wrote it.
         same_program: bool,
     },
-    /// The file holds branches of a study in other words, which would be lost.
+    /// The file holds branches of a study with another text, which would be lost.
     OtherBranches {
         /// The file.
         path: PathBuf,
@@ -59,7 +59,7 @@ pub enum CampaignError {
         /// The file.
         file: PathBuf,
     },
-    /// The system lends no place for the results.
+    /// The system refuses to write at the path of the results.
     Refused {
         /// The folder of the results.
         folder: PathBuf,
@@ -95,7 +95,7 @@ pub enum CampaignError {
     Store(StoreError),
     /// The computation could not be started.
     Run(RunError),
-    /// Records could not be packed, to tell their size.
+    /// Records could not be packed to find their size.
     Packing(io::Error),
     /// The listener asked to stop.
     Stopped,
@@ -108,7 +108,7 @@ pub enum Cause {
     Request,
     /// A fault of the machine: its disk, its memory, its processor.
     Machine,
-    /// The listener's wish.
+    /// The listener asked to stop.
     Listener,
 }
 
@@ -160,7 +160,7 @@ impl fmt::Display for CampaignError {
                 write!(f, "{}: holds results of another {other}", path.display())
             }
             CampaignError::OtherBranches { path } => {
-                write!(f, "{}: holds branches of a study in other words", path.display())
+                write!(f, "{}: holds branches of a study with another text", path.display())
             }
             CampaignError::NoFolder { folder, file } => {
                 let (folder, file) = (folder.display(), file.display());

@@ -22,7 +22,7 @@ impl Campaign<'_> {
         self.join_or_keep(self.output, report)
     }
 
-    /// Joins the blocks that are there into a file in a folder `partial` beside them, for a look before the end;
+    /// Joins the blocks that are there into a file in a folder `partial` beside them;
     /// cases that are not done have the outcome `missing`, and the blocks stay.
     ///
     /// Fails if no block was begun or the folder holds those of another study.
@@ -38,7 +38,7 @@ impl Campaign<'_> {
         let (study, is_partial) = (self.study, file != self.output);
         match self.kept()? {
             Some(older) if older.archive.has_cases() => {
-                reports.tell(Event::Before { same_words: older.same_words })?;
+                reports.send(Event::Before { same_text: older.same_text })?;
                 if !is_partial {
                     clear_away(self.output, study)?;
                 }
@@ -54,7 +54,7 @@ impl Campaign<'_> {
         }
     }
 
-    /// Joins the blocks in `folder` into `file`, beside branches that have been followed by then, and removes
+    /// Joins the blocks in `folder` into `file`, beside branches that have been continued by then, and removes
     /// them, unless the file is partial, which it is unless it is the output.
     pub(super) fn join_blocks(
         &self,
@@ -66,19 +66,19 @@ impl Campaign<'_> {
         prepare(store::folder(file))?;
         let blocks = Blocks::open(&folder, self.study, 0..self.study.blocks());
         let blocks = if is_partial {
-            tell_left_out(&folder, &blocks, reports)?;
+            report_left_out(&folder, &blocks, reports)?;
             blocks
         } else {
             all_of(&folder, blocks)?
         };
-        reports.tell(Event::Joining { folder: folder.path() })?;
+        reports.send(Event::Joining { folder: folder.path() })?;
         let mut frame = blocks.frame();
         self.add_attractors(&mut frame, &blocks, reports)?;
-        // Branches that were followed meanwhile are in the file, and none can come before it is replaced.
+        // Branches that were continued meanwhile are in the file, and none can come before it is replaced.
         let _held = store::hold(file)?;
         self.write(&blocks, frame, file, reports)?;
         let archive = store::open(file)?;
-        reports.tell(Event::Joined { path: file, blocks: &blocks })?;
+        reports.send(Event::Joined { path: file, blocks: &blocks })?;
         drop(blocks);
         if !is_partial {
             folder.remove()?;
@@ -86,7 +86,7 @@ impl Campaign<'_> {
         Ok(Complete { path: file.to_owned(), archive })
     }
 
-    /// Searches for the attractors that the cases of `blocks` have ended on, if any are to be told apart.
+    /// Searches for the attractors that the cases of `blocks` have ended on, if there are any.
     fn add_attractors(
         &self,
         frame: &mut Dataset,
@@ -96,11 +96,11 @@ impl Campaign<'_> {
         if !has_attractors(self.study) {
             return Ok(());
         }
-        reports.tell(Event::Begun(Stage::Linking, run::links(self.study)))?;
-        let endings = blocks.endings()?;
+        reports.send(Event::Begun(Stage::Linking, run::links(self.study)))?;
+        let states = blocks.final_states()?;
         let linked = || reports.step(Stage::Linking);
-        let attractors = run::attractors(self.study, &endings, self.machine, linked)?;
-        reports.tell(Event::Ended(Stage::Linking))?;
+        let attractors = run::attractors(self.study, &states, self.machine, linked)?;
+        reports.send(Event::Ended(Stage::Linking))?;
         add_attractors(frame, self.study, &attractors);
         Ok(())
     }
@@ -121,14 +121,14 @@ impl Campaign<'_> {
         drop(older);
         store::discard_unfinished(file)?;
         let begun = |parts| {
-            // The answer is heeded at the first part.
+            // A request to stop takes effect at the first part.
             let _ = reports.note(Event::Begun(Stage::Writing, parts));
         };
         let done = || reports.note(Event::Step(Stage::Writing));
         if blocks.join(&frame, file, begun, done)?.is_break() {
             return Err(CampaignError::Stopped);
         }
-        reports.tell(Event::Ended(Stage::Writing))
+        reports.send(Event::Ended(Stage::Writing))
     }
 }
 
@@ -144,15 +144,15 @@ fn all_of<'a>(folder: &BlockFolder, mut blocks: Blocks<'a>) -> Result<Blocks<'a>
     Err(CampaignError::Missing { folder, blocks: missing.map(named).collect() })
 }
 
-/// Tells which blocks that are there cannot be trusted.
-fn tell_left_out(
+/// Reports the blocks that are damaged or foreign.
+fn report_left_out(
     folder: &BlockFolder,
     blocks: &Blocks<'_>,
     reports: &Reports<'_>,
 ) -> Result<(), CampaignError> {
     for (number, why) in &blocks.missing {
         if !matches!(why, Unusable::Missing) {
-            reports.tell(Event::LeftOut { file: &folder.file(*number), why })?;
+            reports.send(Event::LeftOut { file: &folder.file(*number), why })?;
         }
     }
     Ok(())

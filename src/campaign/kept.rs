@@ -1,4 +1,4 @@
-//! The file that is in the place of the results already, and whether it may be replaced.
+//! An older file at the path of the results, and whether it may be replaced.
 
 use std::path::Path;
 
@@ -15,13 +15,13 @@ use super::result_file::block_path;
 pub struct Kept {
     /// The file.
     pub archive: Archive,
-    /// Whether its study is word for word the same, and not only one with the same cases, of which titles,
-    /// figures and branches may differ.
-    pub same_words: bool,
+    /// Whether the text of its study is the same; else its cases are, and titles, figures and branches may
+    /// differ.
+    pub same_text: bool,
 }
 
-/// The file `output` of results, if those of the cases of this study by this very program are there; others
-/// are refused, or given up where they may be overwritten.
+/// The file `output`, if it holds results of the cases of this study by this version of the program; another
+/// file is refused, or ignored where it may be overwritten.
 pub(super) fn kept(
     output: &Path,
     study: &Study,
@@ -38,25 +38,23 @@ pub(super) fn kept(
     };
     let frame = archive.frame();
     let same_program = provenance::is_ours(&frame.attributes);
-    let same_words = frame.texts.get(STUDY_TEXT) == Some(&study.text);
+    let same_text = frame.texts.get(STUDY_TEXT) == Some(&study.text);
     let same_cases = frame.attributes.get(FINGERPRINT) == Some(&study.fingerprint());
-    match same_program && (same_words || same_cases) {
-        true => Ok(Some(Kept { archive, same_words })),
+    match same_program && (same_text || same_cases) {
+        true => Ok(Some(Kept { archive, same_text })),
         false if overwrite => Ok(None),
         false => Err(CampaignError::OtherResults { path, same_program }),
     }
 }
 
-/// Refuses a file at `path` whose branches are of a study in other words, unless they may be overwritten.
+/// Refuses a file at `path` whose branches are of a study with another text, unless they may be overwritten.
 pub(super) fn check_branches(
     older: Option<&Kept>,
     path: &Path,
     overwrite: bool,
 ) -> Result<(), CampaignError> {
     match older {
-        Some(Kept { archive, same_words: false })
-            if has_branches(archive.frame()) && !overwrite =>
-        {
+        Some(Kept { archive, same_text: false }) if has_branches(archive.frame()) && !overwrite => {
             Err(CampaignError::OtherBranches { path: path.to_owned() })
         }
         _ => Ok(()),
@@ -66,7 +64,7 @@ pub(super) fn check_branches(
 /// The branches that a file of results holds beside which cases are to be put, if they are of this study.
 pub(super) fn branches_of(older: Option<&Kept>) -> Result<Option<Dataset>, CampaignError> {
     match older {
-        Some(Kept { archive, same_words: true }) => Ok(Some(archive.branches()?)),
+        Some(Kept { archive, same_text: true }) => Ok(Some(archive.branches()?)),
         _ => Ok(None),
     }
 }

@@ -1,12 +1,12 @@
-//! Carried through: a study's results in one file, computed block by block, resumed, shared and joined.
+//! Runs of a study to one file of results: computed block by block, resumed, shared among tasks and joined.
 //!
 //! A [`Campaign`] names a study, the file of its results and what to compute on. `run` computes the blocks that
-//! are missing and joins them, `join` joins those that tasks have computed, `follow` adds the branches, and
-//! `status` tells what is there. [`verify()`] and [`Replay`] compute cases again. Each tells a listener of
-//! its [`Event`]s, stops where the listener breaks off, and prints nothing.
+//! are missing and joins them, `join` joins those that tasks have computed, `continue_branches` adds the branches, and
+//! `status` reads what is there. [`verify()`] and [`Replay`] compute cases again. Each reports
+//! [`Event`]s to a listener, stops when the listener asks for it, and prints nothing.
 
-mod branches;
 mod compute;
+mod continuation;
 pub mod count;
 pub mod error;
 mod join;

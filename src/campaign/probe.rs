@@ -1,4 +1,4 @@
-//! Computes a few blocks of a study for a short time, to tell what all would take.
+//! Computes a few blocks of a study for a short time, to estimate what all would take.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -13,7 +13,7 @@ use crate::study::{Study, spread};
 use super::error::CampaignError;
 use super::report::{Event, Report, Reports};
 
-/// So many records are looked at for the room that they take.
+/// Records whose size is measured.
 const WEIGHED: usize = 512;
 
 /// What a probe has found.
@@ -27,11 +27,11 @@ pub struct Probe {
     pub time: Duration,
     /// Time that all cases would take on the same machine [s]; none if no case was done.
     pub seconds: Option<Estimate>,
-    /// Room that the blocks would take [bytes]; NaN if no case was done.
+    /// Size of all blocks [bytes]; NaN if no case was done.
     pub bytes: f64,
 }
 
-/// What is known while a probe is under way.
+/// The state of a probe.
 struct Found {
     forecast: Forecast,
     /// Blocks that have been begun.
@@ -62,12 +62,12 @@ pub fn probe(
             false => ControlFlow::Break(()),
         }
     };
-    let go_on = |_, _| ControlFlow::Continue(());
-    run_blocks(study, machine, &spread(study.blocks()), each, go_on)?;
+    let proceed = |_, _| ControlFlow::Continue(());
+    run_blocks(study, machine, &spread(study.blocks()), each, proceed)?;
     reports.check()?;
     let time = begun.elapsed();
     let found = found.into_inner().unwrap_or_else(|it| it.into_inner());
-    found.told(study, time).map_err(CampaignError::Packing)
+    found.estimate(study, time).map_err(CampaignError::Packing)
 }
 
 impl Found {
@@ -79,8 +79,8 @@ impl Found {
         }
     }
 
-    /// What that says of all cases.
-    fn told(&self, study: &Study, time: Duration) -> io::Result<Probe> {
+    /// The estimate for all cases.
+    fn estimate(&self, study: &Study, time: Duration) -> io::Result<Probe> {
         let (cases, cycles) = self.forecast.done();
         let pace = time.as_secs_f64() / cycles as f64;
         let scaled = |it: Estimate| Estimate { value: it.value * pace, error: it.error * pace };

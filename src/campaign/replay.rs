@@ -1,4 +1,4 @@
-//! A case of a study by its number, with the start that it had in the run, to be followed again.
+//! A case of a study by its number, with the start that it had in the run, to be computed again.
 
 use crate::orbit::Protocol;
 
@@ -9,7 +9,7 @@ use crate::study::Study;
 use super::error::CampaignError;
 use super::report::{Event, Report, Reports, Stage};
 
-/// A case of a study that is followed again.
+/// A case of a study that is computed again.
 #[derive(Debug, Clone, Copy)]
 pub struct Replay<'a> {
     study: &'a Study,
@@ -32,7 +32,7 @@ impl<'a> Replay<'a> {
         Ok(Replay { study, index, chain, place })
     }
 
-    /// How the case is followed and judged.
+    /// How the case is integrated and judged.
     pub fn protocol(&self) -> &'a Protocol {
         &self.study.protocol
     }
@@ -59,10 +59,10 @@ impl<'a> Replay<'a> {
         }
         let reports = Reports::new(report);
         let cases = self.study.chain(self.chain).count();
-        reports.tell(Event::Begun(Stage::Repeating, cases))?;
+        reports.send(Event::Begun(Stage::Repeating, cases))?;
         let step = || reports.step(Stage::Repeating);
         let records = run_sample(self.study, machine, &[self.chain], step)?;
-        reports.tell(Event::Ended(Stage::Repeating))?;
+        reports.send(Event::Ended(Stage::Repeating))?;
         if let Some(record) = records.iter().find(|record| record.index == self.index) {
             (case.start, case.start_phase) = (record.start, record.start_phase);
         }

@@ -1,4 +1,4 @@
-//! What a campaign tells its listener while it is under way, and how the listener stops it.
+//! The events that a campaign reports to its listener, and how the listener stops it.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -11,44 +11,44 @@ use crate::store::{Blocks, Summary, Unusable};
 use super::error::CampaignError;
 use super::kept::Kept;
 
-/// A listener: hears of every event, from any thread, and answers whether to continue.
+/// A listener: called with every event, from any thread; returns whether to continue.
 ///
 /// After a `Break` the campaign ends with [`CampaignError::Stopped`]: at the next case while blocks are
 /// computed, at the next part while a file is written, and once it is done while attractors are linked,
-/// branches are followed or a case's predecessors are computed. Whatever was finished is kept.
+/// branches are continued or a case's predecessors are computed. Whatever was finished is kept.
 pub type Report<'r> = dyn Fn(Event<'_>) -> ControlFlow<()> + Sync + 'r;
 
-/// The listener that nothing is told.
+/// A listener that ignores all events.
 pub fn silent(_: Event<'_>) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// Something that a campaign tells.
+/// An event of a campaign.
 #[derive(Clone, Copy)]
 pub enum Event<'a> {
     /// The file in the place of the results has all that was asked for.
     Before {
-        /// Whether its study is word for word the same, and not only one with the same cases.
-        same_words: bool,
+        /// Whether the text of its study is the same, and not only its cases.
+        same_text: bool,
     },
-    /// Nothing speaks against the request, and nothing has been written yet; with the file that is there, if
-    /// its results are those of this study.
+    /// The request is accepted and nothing has been written yet; with the file that is there, if its results
+    /// are those of this study.
     Accepted(Option<&'a Kept>),
-    /// A block that is there cannot be trusted and is computed again.
+    /// A block is damaged or foreign and is computed again.
     Again {
         /// Its file.
         file: &'a Path,
         /// What is wrong with it.
         why: &'a Unusable,
     },
-    /// A block that is there cannot be trusted and is left out of the file.
+    /// A block is damaged or foreign and is left out of the file.
     LeftOut {
         /// Its file.
         file: &'a Path,
         /// What is wrong with it.
         why: &'a Unusable,
     },
-    /// The blocks have been looked at; those that are missing are computed now.
+    /// The blocks have been checked; those that are missing are computed now.
     Surveyed(Survey<'a>),
     /// A case is done.
     Case {
@@ -56,7 +56,7 @@ pub enum Event<'a> {
         block: usize,
         /// Cases of the block.
         cases: usize,
-        /// What came of it.
+        /// Its record.
         record: &'a Record,
     },
     /// A block is done and on the disk.
@@ -95,15 +95,15 @@ pub enum Event<'a> {
     Ended(Stage),
 }
 
-/// A part of the work that is counted in steps.
+/// A stage whose progress is counted in steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
     /// Attractors are linked; a step is a pair of neighbouring cells.
     Linking,
     /// The file is written; a step is a part of a variable.
     Writing,
-    /// Branches are followed; a step is a branch of the study.
-    Following,
+    /// Branches are continued; a step is a branch of the study.
+    Continuing,
     /// Cases are computed again; a step is a case.
     Repeating,
 }
@@ -121,7 +121,7 @@ pub struct Survey<'a> {
     pub kept: &'a [Summary],
 }
 
-/// Tells a listener, and remembers that it has asked to stop.
+/// Calls a listener, and remembers that it has asked to stop.
 pub(super) struct Reports<'a> {
     listener: &'a Report<'a>,
     stopped: AtomicBool,
@@ -132,7 +132,7 @@ impl<'a> Reports<'a> {
         Reports { listener, stopped: AtomicBool::new(false) }
     }
 
-    /// Tells of an event, from any thread; the answer is to be heeded as soon as possible.
+    /// Reports an event, from any thread; after a `Break` the caller stops as soon as possible.
     pub(super) fn note(&self, event: Event<'_>) -> ControlFlow<()> {
         if (self.listener)(event).is_break() {
             self.stopped.store(true, Ordering::Relaxed);
@@ -143,13 +143,13 @@ impl<'a> Reports<'a> {
         }
     }
 
-    /// Tells of a step of a stage that cannot be broken off; the answer is heeded after the stage.
+    /// Reports a step of a stage that cannot be interrupted; a request to stop takes effect after the stage.
     pub(super) fn step(&self, stage: Stage) {
         let _ = self.note(Event::Step(stage));
     }
 
-    /// Tells of an event, and fails where the listener has asked to stop.
-    pub(super) fn tell(&self, event: Event<'_>) -> Result<(), CampaignError> {
+    /// Reports an event, and fails where the listener has asked to stop.
+    pub(super) fn send(&self, event: Event<'_>) -> Result<(), CampaignError> {
         match self.note(event) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(CampaignError::Stopped),

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::run::{Followed, Machine};
+use crate::run::{Continued, Machine};
 use crate::store::Archive;
 use crate::study::Study;
 
@@ -41,16 +41,16 @@ pub enum Done {
     Shared(PathBuf),
 }
 
-/// What came of following the branches of a study.
+/// What came of the continuation of the branches of a study.
 #[derive(Debug)]
 pub enum BranchesDone {
     /// They were in the file already.
     Before(Complete),
-    /// They have been followed and put into the file.
+    /// They have been continued and put into the file.
     Now {
         /// What came of each, in the order of the study.
-        followed: Vec<Followed>,
-        /// The time it took to follow them.
+        continued: Vec<Continued>,
+        /// The time that the continuation took.
         time: Duration,
     },
 }

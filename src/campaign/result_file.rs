@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::CampaignError;
 
-/// The ending of the folder of blocks.
+/// The extension of the folder of blocks.
 const BLOCKS: &str = "blocks";
 
 /// The folder of the blocks that will be joined to the file `output`.
@@ -27,8 +27,8 @@ pub fn output_path(study: &Path, output: Option<&Path>) -> Result<PathBuf, Campa
         let what = if output.is_dir() { "a folder" } else { "not a plain file" };
         return unfit(&output, &format!("is {what}; name a file"));
     }
-    if output.extension().is_some_and(|ending| ending == BLOCKS) {
-        return unfit(&output, "that ending is for the folder of blocks");
+    if output.extension().is_some_and(|extension| extension == BLOCKS) {
+        return unfit(&output, "that extension is for the folder of blocks");
     }
     // Where a link leads, so that not the link is replaced.
     let output =
@@ -40,14 +40,14 @@ pub fn output_path(study: &Path, output: Option<&Path>) -> Result<PathBuf, Campa
     Ok(output)
 }
 
-/// The name of a file without its folder and ending.
+/// The name of a file without its folder and extension.
 fn file_stem(path: &Path) -> Result<String, CampaignError> {
     let stem = path.file_stem().and_then(|stem| stem.to_str());
     let fault = "names no file".to_owned();
     stem.map(str::to_owned).ok_or(CampaignError::Path { path: path.to_owned(), fault })
 }
 
-/// Creates the folder of the results, and sees that a file can be written there before a long run.
+/// Creates the folder of the results, and checks that a file can be written there before a long run.
 pub(super) fn prepare(folder: &Path) -> Result<(), CampaignError> {
     if let Some(file) = folder.ancestors().find(|ancestor| ancestor.is_file()) {
         let (folder, file) = (folder.to_owned(), file.to_owned());
@@ -55,7 +55,7 @@ pub(super) fn prepare(folder: &Path) -> Result<(), CampaignError> {
     }
     let failed =
         |refused| move |said| CampaignError::Refused { folder: folder.to_owned(), refused, said };
-    std::fs::create_dir_all(folder).map_err(failed("cannot be made"))?;
+    std::fs::create_dir_all(folder).map_err(failed("cannot be created"))?;
     let probe = tempfile::tempfile_in(folder).map(drop);
     probe.map_err(failed("no file can be written there"))
 }

@@ -11,7 +11,7 @@ use super::share::Task;
 
 impl Campaign<'_> {
     /// Computes the blocks of a task that are missing, and joins all if it is the only task. A run that was
-    /// stopped, by whatever, is resumed by calling this again.
+    /// interrupted is resumed by calling this again.
     ///
     /// Guarantees: the file has the same bytes however often the run was stopped, in whatever order its blocks
     /// were computed and by however many tasks, but for the time in `created`.
@@ -24,7 +24,7 @@ impl Campaign<'_> {
             Some(older) if self.suffices(&older) => return self.leave(older, &reports),
             older => {
                 check_branches(older.as_ref(), self.output, self.overwrite)?;
-                reports.tell(Event::Accepted(older.as_ref()))?;
+                reports.send(Event::Accepted(older.as_ref()))?;
             }
         }
         prepare(store::folder(self.output))?;
@@ -50,7 +50,7 @@ impl Campaign<'_> {
 
     /// Leaves a file as it is, and removes the blocks of a run that was stopped at its very end.
     fn leave(&self, older: Kept, reports: &Reports<'_>) -> Result<Done, CampaignError> {
-        reports.tell(Event::Before { same_words: older.same_words })?;
+        reports.send(Event::Before { same_text: older.same_text })?;
         clear_away(self.output, self.study)?;
         let (path, archive) = (self.output.to_owned(), older.archive);
         Ok(Done::Complete(Complete { path, archive }))

@@ -1,4 +1,4 @@
-//! How far a campaign is, told from what lies on the disk.
+//! How far a campaign is, from the files on the disk.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -25,7 +25,7 @@ pub struct Status {
     pub file: Result<Option<Kept>, CampaignError>,
 }
 
-/// The blocks in a folder, by what they say of themselves.
+/// The blocks in a folder, from their heads.
 #[derive(Debug, Default)]
 pub struct BlockStatus {
     /// Their folder.
@@ -44,19 +44,19 @@ pub struct BlockStatus {
     pub faults: Vec<(PathBuf, Unusable)>,
 }
 
-/// How fast blocks come.
+/// The rate at which blocks are done.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
     /// Time since the last one.
     pub since_last: Duration,
-    /// Cases done lately [1/s]; none if too few blocks have come to tell.
+    /// Cases done lately [1/s]; none if too few blocks are done.
     pub cases_per_second: Option<f64>,
     /// Time that the rest will take [s].
     pub left: Option<Estimate>,
 }
 
 impl Campaign<'_> {
-    /// What lies on the disk; a run that is under way is not disturbed, and nothing is changed.
+    /// What lies on the disk; a run is not disturbed, and nothing is changed.
     ///
     /// Fails if the folder of blocks holds those of another study or cannot be read.
     pub fn status(&self) -> Result<Status, CampaignError> {
@@ -73,20 +73,20 @@ impl Campaign<'_> {
 }
 
 impl BlockStatus {
-    /// Looks at the heads of all blocks, not at their numbers.
+    /// Reads the heads of all blocks, not their numbers.
     fn of(study: &Study, folder: &BlockFolder) -> BlockStatus {
         let is_busy = BlockFolder::is_busy(folder.path());
         let mut blocks =
             BlockStatus { folder: folder.path().to_owned(), is_busy, ..BlockStatus::default() };
         for number in 0..study.blocks() {
             let file = folder.file(number);
-            match folder.glance(number) {
+            match folder.head(number) {
                 Ok(head) => {
                     let metadata = std::fs::metadata(&file);
                     blocks.bytes += metadata.as_ref().map_or(0, |it| it.len());
                     let written = metadata.and_then(|it| it.modified());
                     blocks.written.push(written.unwrap_or(SystemTime::UNIX_EPOCH));
-                    *blocks.makers.entry(provenance::maker(&head.made)).or_default() += 1;
+                    *blocks.makers.entry(provenance::maker(&head.provenance)).or_default() += 1;
                     blocks.done.push(head.block);
                 }
                 Err(Unusable::Missing) => {}
@@ -101,8 +101,8 @@ impl BlockStatus {
         self.done.iter().map(|block| block.cases).sum()
     }
 
-    /// When the last block came, how fast they come, and how long the rest of `study` will take; none before the
-    /// first.
+    /// Time since the last block, rate of the blocks, and time that the rest of `study` will take; none before
+    /// the first block.
     pub fn pace(&self, study: &Study) -> Option<Pace> {
         let last = *self.written.iter().max()?;
         let since_last = last.elapsed().unwrap_or(Duration::ZERO);

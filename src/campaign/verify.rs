@@ -19,7 +19,7 @@ const AT_A_TIME: usize = 4096;
 /// Which cases are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sample {
-    /// So many at least, or all; where cases are followed along an axis, whole lines of them.
+    /// So many at least, or all; where cases inherit their start along an axis, whole lines of them.
     pub cases: usize,
     /// What the random numbers begin with.
     pub seed: u64,
@@ -106,11 +106,11 @@ pub fn verify(
     let study = study_of(&archive, path)?;
     let other_program = other_program(&archive);
     if let Some([theirs, ours]) = &other_program {
-        reports.tell(Event::OtherProgram { theirs, ours })?;
+        reports.send(Event::OtherProgram { theirs, ours })?;
     }
     let chains = draw(&study, sample);
     let all = chains.iter().map(|&chain| study.chain(chain).count()).sum();
-    reports.tell(Event::Begun(Stage::Repeating, all))?;
+    reports.send(Event::Begun(Stage::Repeating, all))?;
     let mut verified = Verified { other_program, ..Verified::default() };
     for part in parts(&study, &chains) {
         let step = || reports.step(Stage::Repeating);
@@ -118,7 +118,7 @@ pub fn verify(
         reports.check()?;
         compare(&study, &archive, records, &mut verified)?;
     }
-    reports.tell(Event::Ended(Stage::Repeating))?;
+    reports.send(Event::Ended(Stage::Repeating))?;
     verified.sort();
     Ok(verified)
 }
@@ -198,7 +198,7 @@ impl Verified {
         }
     }
 
-    /// Brings the differences of all parts into order; a variable that is not there is told once.
+    /// Brings the differences of all parts into order; a variable that is not there is listed once.
     fn sort(&mut self) {
         let differences = &mut self.differences;
         differences.sort_by(|a, b| a.variable.cmp(&b.variable));

@@ -1,4 +1,4 @@
-//! Defined: the vibro-impact capsule, its parameters, forces and modes, and what its motion costs and yields.
+//! The vibro-impact capsule: its parameters, forces and modes, and what its motion costs and yields.
 
 pub mod account;
 pub mod branch;

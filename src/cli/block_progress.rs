@@ -7,16 +7,16 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::terminal::tell;
-use super::words::{count, counted, estimated, rate};
+use super::readable::{count, counted, estimated, rate};
+use super::terminal::notify;
 use crate::run::{Forecast, Record};
 use crate::store::Summary;
 
 /// "Now" is the time since as long ago.
 const NOW: Duration = Duration::from_secs(20);
-/// So few cases may all be under way at a time.
+/// So few cases may all be in the lanes at a time.
 const FEW: usize = 128;
-/// A time left shorter than this is no use to anybody [s].
+/// A time left shorter than this is not shown [s].
 const LAST: f64 = 1.0;
 /// The bar is brought up to date this often.
 const TICK: Duration = Duration::from_millis(200);
@@ -73,12 +73,12 @@ impl BlockProgress {
         while state.recent.len() > 2 && state.recent[1].0.elapsed() > NOW {
             state.recent.pop_front();
         }
-        let words = self.words(&state);
-        // Whoever reads the terminal may be slow, and nobody is to wait for that.
+        let line = self.line(&state);
+        // Writing to the terminal may be slow; the lock is released before.
         drop(state);
         if let Some(bar) = &self.bar {
             bar.set_position(done as u64);
-            bar.set_message(words);
+            bar.set_message(line);
         }
     }
 
@@ -86,17 +86,17 @@ impl BlockProgress {
     pub fn block(&self, block: &Summary) {
         let mut state = self.state();
         state.blocks += 1;
-        let words = self.words(&state);
+        let line = self.line(&state);
         drop(state);
         if self.bar.is_none() {
             let cases = counted(block.cases, "case");
             let cycles = counted(block.cycles as usize, "cycle");
-            tell(&format!("block {}: {cases}, {cycles}; {words}", block.number));
+            notify(&format!("block {}: {cases}, {cycles}; {line}", block.number));
         }
     }
 
     /// How far the run is, in a line.
-    fn words(&self, state: &State) -> String {
+    fn line(&self, state: &State) -> String {
         let (done, cycles) = state.forecast.done();
         let seconds = self.begun.elapsed().as_secs_f64();
         let average = (done - state.before.0) as f64 / seconds;
@@ -104,11 +104,11 @@ impl BlockProgress {
         let now = (done - before) as f64 / then.elapsed().as_secs_f64();
         let pace = seconds / (cycles - state.before.1) as f64;
         let left = state.forecast.seconds_left(pace).filter(|left| left.value.is_finite());
-        let under_way = self.total[1] - done;
+        let cases_left = self.total[1] - done;
         let left = match left {
             None => "time left not known yet".to_owned(),
-            Some(left) if left.value < LAST && (1..=FEW).contains(&under_way) => {
-                format!("the last {} under way", counted(under_way, "case"))
+            Some(left) if left.value < LAST && (1..=FEW).contains(&cases_left) => {
+                format!("the last {} are computed", counted(cases_left, "case"))
             }
             Some(left) => format!("{} left", estimated(left)),
         };

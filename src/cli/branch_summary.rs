@@ -1,4 +1,4 @@
-//! What a person wants to know first of followed branches: where they end, and where they change.
+//! The summary of branches: where they end, and where they change.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -6,28 +6,28 @@ use std::path::Path;
 use crate::branch::{Curve, End, SpecialKind, is_followed};
 use crate::capsule::branch::{Branch, Found, Special};
 use crate::capsule::{Output, Parameter};
-use crate::run::Followed;
+use crate::run::Continued;
 use crate::study::{Continuation, FirstOrbit, Study};
 
 /// What came of the branches of `study`, and which file keeps it.
-pub fn summary(study: &Study, followed: &[Followed], output: &Path, seconds: f64) -> String {
-    let found = || followed.iter().flatten();
+pub fn summary(study: &Study, continued: &[Continued], output: &Path, seconds: f64) -> String {
+    let found = || continued.iter().flatten();
     let branches: usize = found().map(|found| found.branches.len()).sum();
     let points: usize = found().flat_map(|it| &it.branches).map(|it| it.points.len()).sum();
     let plural = if branches == 1 { "branch" } else { "branches" };
     let shown = output.display();
     let mut text = format!("{shown}: {branches} {plural}, {points} points in {seconds:.1} s\n");
-    for (continuation, followed) in study.branches.iter().zip(followed) {
-        match followed {
-            Ok(found) => tell_found(&mut text, continuation, found),
+    for (continuation, outcome) in study.branches.iter().zip(continued) {
+        match outcome {
+            Ok(found) => write_found(&mut text, continuation, found),
             // Writing to a String cannot fail.
-            Err(why) => drop(writeln!(text, "\n{}: not followed: {why}", continuation.name)),
+            Err(why) => drop(writeln!(text, "\n{}: not continued: {why}", continuation.name)),
         }
     }
     text
 }
 
-fn tell_found(text: &mut String, continuation: &Continuation, found: &Found) {
+fn write_found(text: &mut String, continuation: &Continuation, found: &Found) {
     let Continuation { name, along, .. } = continuation;
     for (number, branch) in found.branches.iter().enumerate() {
         let from = branch.parent.map(|(parent, special)| {
@@ -50,25 +50,25 @@ fn tell_found(text: &mut String, continuation: &Continuation, found: &Found) {
             branch.period,
             from.unwrap_or_default()
         );
-        tell_branch(text, *along, branch);
+        write_branch(text, *along, branch);
     }
     for curve in &found.curves {
         let Curve { kind, period, points, ends, .. } = curve;
         let (name, points) = (kind_name(*kind), points.len());
-        let ends = told_ends(*ends);
+        let ends = shown_ends(*ends);
         let _ = writeln!(text, "  curve of {name}, period {period}: {points} points{ends}");
     }
     if continuation.second.is_some() {
-        tell_without_curve(text, found);
+        write_without_curve(text, found);
     }
 }
 
 /// How many special points of which kind no curve goes through.
-fn tell_without_curve(text: &mut String, found: &Found) {
+fn write_without_curve(text: &mut String, found: &Found) {
     let specials = || found.branches.iter().flat_map(|branch| &branch.special);
     let counts = SpecialKind::NAMES.iter().filter_map(|(name, kind)| {
         let ours = |it: &&Special| it.kind == *kind && it.curve.is_none();
-        let never = if is_followed(*kind) { "" } else { " (never followed)" };
+        let never = if is_followed(*kind) { "" } else { " (never continued)" };
         let count = specials().filter(ours).count();
         (count > 0).then(|| format!("{count} {name}{never}"))
     });
@@ -78,7 +78,7 @@ fn tell_without_curve(text: &mut String, found: &Found) {
     }
 }
 
-fn tell_branch(text: &mut String, along: Parameter, branch: &Branch) {
+fn write_branch(text: &mut String, along: Parameter, branch: &Branch) {
     let is_stable =
         |it: &&crate::capsule::branch::Point| it.multipliers.iter().all(|m| m.abs() < 1.0);
     let stable = branch.points.iter().filter(is_stable).count();
@@ -110,11 +110,11 @@ fn tell_branch(text: &mut String, along: Parameter, branch: &Branch) {
 }
 
 /// What is said of two ends; nothing of those at the edge of the range.
-fn told_ends(ends: [End; 2]) -> String {
+fn shown_ends(ends: [End; 2]) -> String {
     if ends.contains(&End::Closed) {
         return ", closed".to_owned();
     }
-    match ends.map(end_words) {
+    match ends.map(end_text) {
         [Some(first), Some(last)] if first == last => format!(", both ends {first}"),
         [first, last] => {
             let told = [("first", first), ("last", last)].map(|(which, words)| {
@@ -126,14 +126,14 @@ fn told_ends(ends: [End; 2]) -> String {
 }
 
 /// Why an end is none of the range's.
-fn end_words(end: End) -> Option<&'static str> {
+fn end_text(end: End) -> Option<&'static str> {
     match end {
         End::Bound | End::Closed => None,
         End::Merged => Some("at an orbit of half the period"),
         End::MostPoints => Some("where `most_points` is reached"),
         End::Corner => Some("at a corner of the return map"),
         End::Vanishes => Some("where its touch of the stop vanishes"),
-        End::Stopped => Some("where it cannot be followed further"),
+        End::Stopped => Some("where it cannot be continued further"),
     }
 }
 
@@ -148,9 +148,9 @@ fn reach(along: Parameter, branch: &Branch) -> String {
     let [first, .., last] = &branch.points[..] else { return "a single orbit".to_owned() };
     let closed = branch.ends.contains(&End::Closed);
     let (from, to) = if closed { (least, most) } else { (first.parameter, last.parameter) };
-    // Where a branch left another is told above.
+    // Where a branch left another is shown above.
     let left = if branch.parent.is_some() { End::Bound } else { branch.ends[0] };
-    let ends = told_ends([left, branch.ends[1]]);
+    let ends = shown_ends([left, branch.ends[1]]);
     let beyond = least < from.min(to) || most > from.max(to);
     let range = match beyond {
         true => format!(", over the range {} to {}", quantity(along, least), quantity(along, most)),
@@ -191,7 +191,7 @@ mod tests {
     use crate::capsule::Outputs;
     use crate::capsule::branch::Point;
     use crate::orbit::matrix::Complex;
-    use crate::run::Unfollowed;
+    use crate::run::NotContinued;
 
     const STUDY: &str = "\
 [parameters]
@@ -230,7 +230,7 @@ to = \"5 N\"
     }
 
     #[test]
-    fn branches_are_told_with_their_ends_and_changes() {
+    fn branches_are_shown_with_their_ends_and_changes() {
         let study = Study::parse("study.toml", STUDY).expect("a study");
         let special =
             |kind, curve| Special { kind, after: 1, point: point(4.123_456_789_123, 1.0), curve };
@@ -260,8 +260,8 @@ to = \"5 N\"
             ends: [End::MostPoints; 2],
         };
         let found = Found { branches: vec![branch, ring], curves: vec![curve] };
-        let followed = [Ok(found), Err(Unfollowed::NoOrbit)];
-        let text = summary(&study, &followed, Path::new("a.h5"), 2.0);
+        let continued = [Ok(found), Err(NotContinued::NoOrbit)];
+        let text = summary(&study, &continued, Path::new("a.h5"), 2.0);
         let expected = "\
 a.h5: 2 branches, 8 points in 2.0 s
 
@@ -277,9 +277,9 @@ a, branch 2: period 2
   event-sequence        4.123456789       2      12.500000
   event-sequence        4.123456789       2      12.500000
   curve of fold, period 1: 7 points, both ends where `most_points` is reached
-  no curve through 1 grazing, 2 event-sequence (never followed)
+  no curve through 1 grazing, 2 event-sequence (never continued)
 
-b: not followed: no periodic orbit was found near the start; give one closer to it
+b: not continued: no periodic orbit was found near the start; give one closer to it
 ";
         assert_eq!(text, expected);
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::ValueEnum;
 
 use super::failure::Failure;
-use super::terminal::tell;
+use super::terminal::notify;
 use crate::figure::{FigureError, Format, Needs, draw, needs, variables};
 use crate::store::{Archive, Dataset, has_branches, has_cases};
 use crate::study::{Drawing, DrawingKind};
@@ -57,8 +57,8 @@ pub fn draw_each(
     Failure::all(failures).map_or(Ok(()), Err)
 }
 
-/// Draws the figures from results without a single value, so that a mistake in one of them is told
-/// before a long run and not after it.
+/// Draws the figures from results without a single value, so that a mistake in one of them is
+/// reported before a long run and not after it.
 pub fn rehearse(empty: &Dataset, drawings: &[Drawing]) -> Result<(), Failure> {
     let ready: Vec<Drawing> =
         drawings.iter().filter(|it| waits_for(it.kind, empty.into()).is_none()).cloned().collect();
@@ -66,7 +66,7 @@ pub fn rehearse(empty: &Dataset, drawings: &[Drawing]) -> Result<(), Failure> {
     draw_all(empty, &ready, Path::new("."), &[])
 }
 
-/// Draws each figure and says where it went; one that cannot be drawn does not keep the others.
+/// Draws each figure and prints its files; one that cannot be drawn does not prevent the others.
 fn draw_all(
     dataset: &Dataset,
     drawings: &[Drawing],
@@ -81,7 +81,7 @@ fn draw_all(
             Ok(paths) => {
                 let names: Vec<String> =
                     paths.iter().map(|path| path.display().to_string()).collect();
-                tell(&names.join(" "));
+                notify(&names.join(" "));
             }
             Err(error) => failures.push(failure(error)),
         }
@@ -117,13 +117,13 @@ impl From<&Archive> for Holds {
     }
 }
 
-/// The figures among `drawings` for which there is all that they show; of the others it is told what
+/// The figures among `drawings` for which there is all that they show; the others are reported with what
 /// they wait for.
 fn ready(holds: Holds, drawings: &[Drawing]) -> Vec<Drawing> {
     let is_ready = |drawing: &&Drawing| match waits_for(drawing.kind, holds) {
         None => true,
         Some(command) => {
-            tell(&format!("figure `{}`: waits for `capsulemap {command}`", drawing.name));
+            notify(&format!("figure `{}`: waits for `capsulemap {command}`", drawing.name));
             false
         }
     };
@@ -133,7 +133,7 @@ fn ready(holds: Holds, drawings: &[Drawing]) -> Vec<Drawing> {
 /// The command that finds what a figure shows and is not there.
 fn waits_for(kind: DrawingKind, Holds { cases, branches }: Holds) -> Option<&'static str> {
     match needs(kind) {
-        Needs::Branches => (!branches).then_some("follow"),
+        Needs::Branches => (!branches).then_some("continue"),
         Needs::CasesOrBranches => (!cases && !branches).then_some("sweep"),
         Needs::Cases => (!cases && branches).then_some("sweep"),
     }

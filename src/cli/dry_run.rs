@@ -1,11 +1,11 @@
-//! What a sweep would take: cases, time and room, foretold from a probe.
+//! What a sweep would take: cases, time and disk space, estimated from a probe.
 
 use std::path::Path;
 use std::time::Duration;
 
 use super::failure::Failure;
+use super::readable::{count, counted, estimated, size, time};
 use super::terminal::print;
-use super::words::{count, counted, estimated, size, time};
 use crate::campaign::{Probe, probe, silent};
 use crate::run::{Machine, has_attractors};
 use crate::study::Study;
@@ -14,12 +14,12 @@ use crate::study::Study;
 const PROBE: Duration = Duration::from_secs(5);
 
 /// Computes a few blocks, spread over the study, and says what all would take. Writes nothing.
-pub fn foretell(study: &Study, machine: Machine, output: &Path) -> Result<(), Failure> {
+pub fn estimate(study: &Study, machine: Machine, output: &Path) -> Result<(), Failure> {
     let probe = probe(study, machine, PROBE, &silent)?;
-    print(&words(study, machine, output, &probe))
+    print(&text(study, machine, output, &probe))
 }
 
-fn words(study: &Study, machine: Machine, output: &Path, probe: &Probe) -> String {
+fn text(study: &Study, machine: Machine, output: &Path, probe: &Probe) -> String {
     let (cases, blocks) = (count(study.cases()), counted(study.blocks(), "block"));
     let whole = probe.seconds.map_or("not known".to_owned(), estimated);
     let threads = match machine.threads {
@@ -31,7 +31,7 @@ fn words(study: &Study, machine: Machine, output: &Path, probe: &Probe) -> Strin
     format!(
         "{}\n  cases  {cases} in {blocks}\n  time   {whole} with {threads}{more}\n  \
          room   {} for the blocks, and as much again while they are joined\n  \
-         foretold by {} in {}, computed in {}; nothing was written\n",
+         estimated from {} in {}, computed in {}; nothing was written\n",
         output.display(),
         size(probe.bytes),
         counted(probe.cases, "case"),

@@ -1,9 +1,9 @@
-//! What the program could not do, and whose fault it was.
+//! Failures of a command, and their exit codes.
 
 use std::fmt;
 use std::process::ExitCode;
 
-use super::words::blocks_kept;
+use super::readable::blocks_kept;
 use crate::campaign::{CampaignError, Cause};
 
 /// A command that was not carried out.
@@ -19,7 +19,7 @@ impl Failure {
         Failure { message: message.to_string(), code: 2 }
     }
 
-    /// Several mistakes, told together.
+    /// Several mistakes in one message.
     pub fn requests(messages: &[String]) -> Self {
         Failure::request(messages.join("\ncapsulemap: "))
     }
@@ -29,14 +29,14 @@ impl Failure {
         Failure { message: message.to_string(), code: 3 }
     }
 
-    /// Several failures told together; none if there are none. A fault of the machine outweighs.
+    /// Several failures in one message; none if there are none. A fault of the machine outweighs.
     pub fn all(failures: Vec<Failure>) -> Option<Self> {
         let code = failures.iter().map(|failure| failure.code).max()?;
         let messages: Vec<String> = failures.into_iter().map(|failure| failure.message).collect();
         Some(Failure { code, ..Failure::requests(&messages) })
     }
 
-    /// The same, told of the file it concerns.
+    /// The same, with the file that it concerns.
     pub fn within(self, file: &str) -> Self {
         Failure { message: format!("{file}: {}", self.message), ..self }
     }
@@ -78,7 +78,7 @@ fn advice(error: &CampaignError) -> String {
         CampaignError::NoFolder { .. } => "; name another --output",
         CampaignError::Refused { .. } => "; choose a place that you may use with --output",
         CampaignError::Missing { .. } => {
-            "\nrun `capsulemap sweep` again, or those tasks that did not end well; --partial joins what \
+            "\nrun `capsulemap sweep` again, or those tasks that failed; --partial joins what \
              there is"
         }
         CampaignError::NotKept { blocks, folder, .. } => {

@@ -49,7 +49,7 @@ pub struct Figure {
     /// Width in mm.
     #[arg(long, requires = "kind")]
     width: Option<f64>,
-    /// Leave the followed orbits out of a bifurcation diagram.
+    /// Leave the branches out of a bifurcation diagram.
     #[arg(long, requires = "kind")]
     no_branches: bool,
     /// Stem of the files; the kind of figure and what it shows by default.
@@ -92,7 +92,7 @@ impl Figure {
         })
     }
 
-    /// The kind and what is drawn, told apart from the figures of the study.
+    /// The kind and what is drawn, different from the names of the figures of the study.
     fn free_name(&self, kind: DrawingKind, archive: &Archive) -> String {
         let parts = std::iter::once(kind.name()).chain(self.of.iter().map(String::as_str));
         let name = parts.collect::<Vec<_>>().join("-");

@@ -40,7 +40,7 @@ impl Inspect {
         } else if self.json {
             print(&format!("{:#}\n", describe(&dataset)))
         } else {
-            print(&tell(&dataset))
+            print(&notify(&dataset))
         }
     }
 }
@@ -96,7 +96,7 @@ fn outcomes(dataset: &Dataset) -> Vec<(String, Value)> {
         .collect()
 }
 
-fn tell(dataset: &Dataset) -> String {
+fn notify(dataset: &Dataset) -> String {
     let mut text = String::new();
     // Writing to a String cannot fail.
     for (name, value) in &dataset.attributes {
@@ -110,20 +110,20 @@ fn tell(dataset: &Dataset) -> String {
     let constant = |variable: &Variable| variable.dimensions.is_empty();
     text.push_str("\ncoordinates\n");
     for (name, variable) in &dataset.coordinates {
-        tell_variable(&mut text, name, variable);
+        write_variable(&mut text, name, variable);
     }
     text.push_str("\nvariables\n");
     for (name, variable) in dataset.variables.iter().filter(|(_, v)| !constant(v)) {
-        tell_variable(&mut text, name, variable);
+        write_variable(&mut text, name, variable);
     }
     text.push_str("\nconstants\n");
     for (name, variable) in dataset.variables.iter().filter(|(_, v)| constant(v)) {
-        tell_variable(&mut text, name, variable);
+        write_variable(&mut text, name, variable);
     }
     text
 }
 
-fn tell_variable(text: &mut String, name: &str, variable: &Variable) {
+fn write_variable(text: &mut String, name: &str, variable: &Variable) {
     let shape: Vec<String> = variable.values.shape().iter().map(ToString::to_string).collect();
     let (range, missing) = range(&variable.values);
     let mut values = match range {

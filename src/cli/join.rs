@@ -8,15 +8,15 @@ use clap::Args;
 use super::arguments::machine;
 use super::drawing::{FormatChoice, draw_from};
 use super::failure::Failure;
-use super::terminal::tell;
+use super::terminal::notify;
 use super::watch::Watch;
 use crate::campaign::{Campaign, Event, output_path, read_study};
 use crate::store;
 
 const EXAMPLES: &str = "\
 Examples:
-  capsulemap join night.toml
-  capsulemap join night.toml --partial
+  capsulemap join STUDY.toml
+  capsulemap join STUDY.toml --partial
 
 `sweep` joins by itself unless it was one task of several. With --partial the file and the figures go to a
 folder `partial` beside the blocks; cases that are not done have the outcome `missing`.";
@@ -58,7 +58,7 @@ impl Join {
         let watch = Watch::new(&self.study, &study);
         let report = |event: Event<'_>| match event {
             Event::Before { .. } => {
-                tell(&format!("{}: is there, whole, from this study", output.display()));
+                notify(&format!("{}: is there, whole, from this study", output.display()));
                 ControlFlow::Continue(())
             }
             other => watch.hear(other),

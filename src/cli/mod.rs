@@ -1,17 +1,18 @@
-//! Asked for: connects the floors and talks to the person.
+//! The command line: one file per command, messages and progress.
 
 mod arguments;
 mod block_progress;
 mod branch_summary;
+mod continuation;
 mod drawing;
 mod dry_run;
 mod failure;
 mod figure;
-mod follow;
 mod inspect;
 mod join;
 mod phases;
 mod progress;
+mod readable;
 mod simulate;
 mod slurm;
 mod status;
@@ -21,26 +22,25 @@ mod sweep;
 mod terminal;
 mod verify;
 mod watch;
-mod words;
 
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use terminal::{print, tell};
+use terminal::{notify, print};
 
 const EXAMPLES: &str = "\
 Examples:
   capsulemap simulate --omega \"77.91 rad/s\" --p-d \"4 N\" --k2 \"2.42 kN/m\" --delta \"3.5 mm\"
   capsulemap sweep studies/overview.toml
   capsulemap status studies/overview.toml
-  capsulemap follow branches.toml
+  capsulemap continue branches.toml
   capsulemap inspect results/overview/overview.h5
   capsulemap figure results/overview/overview.h5 --kind map --of work_positive
 
 Exit codes: 0 done; 2 a mistake in what was asked; 3 a fault of the machine (disk, memory); 130 stopped by
-Ctrl-C, 143 by a scheduler or `kill`: what is done is kept, and the same command goes on.";
+Ctrl-C, 143 by a scheduler or `kill`: what is done is kept, and the same command resumes.";
 
 const COMPLETIONS_EXAMPLES: &str = "\
 Examples:
@@ -58,7 +58,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Follow one case in full: section, events, and what it settles to.
+    /// Compute one case in full: section, events, and what it settles to.
     Simulate(Box<simulate::Simulate>),
     /// Compute a study: its cases over all cores, one HDF5 file, and its figures.
     Sweep(sweep::Sweep),
@@ -68,8 +68,9 @@ enum Command {
     Status(status::Status),
     /// Compute a random sample of a file's cases again and compare every bit.
     Verify(verify::Verify),
-    /// Follow periodic orbits, stable or not, through parameters, and find where they change.
-    Follow(follow::Follow),
+    /// Continue periodic orbits, stable or not, in parameters, and find where they change.
+    #[command(visible_alias = "follow")]
+    Continue(continuation::Continue),
     /// Draw figures from a file of results.
     Figure(figure::Figure),
     /// Say what is in a file of results.
@@ -90,7 +91,7 @@ pub fn main() -> ExitCode {
         Command::Join(join) => join.run(),
         Command::Status(status) => status.run(),
         Command::Verify(verify) => verify.run(),
-        Command::Follow(follow) => follow.run(),
+        Command::Continue(continuation) => continuation.run(),
         Command::Figure(figure) => figure.run(),
         Command::Inspect(inspect) => inspect.run(),
         Command::Completions { shell } => {
@@ -102,7 +103,7 @@ pub fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            tell(&format!("capsulemap: {failure}"));
+            notify(&format!("capsulemap: {failure}"));
             failure.exit_code()
         }
     }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::terminal::tell;
+use super::terminal::notify;
 
 /// Before the first line of a log, as quick work needs none.
 const FIRST_LINE: Duration = Duration::from_secs(2);
@@ -56,7 +56,7 @@ impl Progress {
             let left = (self.total - lines.done) as f64 / rate;
             let (done, total, what) = (lines.done, self.total, self.what);
             let decimals = if rate < 10.0 { 2 } else { 0 };
-            tell(&format!("{done}/{total} {what}, {rate:.decimals$} a second, {left:.0} s left"));
+            notify(&format!("{done}/{total} {what}, {rate:.decimals$} a second, {left:.0} s left"));
         }
     }
 

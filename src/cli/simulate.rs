@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use super::arguments::{named, plain_or_quantity};
 use super::failure::Failure;
 use super::phases::Phases;
-use super::terminal::{print, tell};
+use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study, silent};
 use crate::capsule::{
     Case, Dimension, Orbit, Output, Parameter, Parameters, Resistance, Simulation, State,
@@ -29,7 +29,7 @@ Examples:
 
 A number without a unit is in SI. What is not given is as in the paper's Table 1 and Fig 5.";
 
-/// Follow one case from its start, then on to what it settles to.
+/// Compute one case from its start, then on to what it settles to.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Simulate {
@@ -38,7 +38,7 @@ pub struct Simulate {
         "delta", "set", "phase", "start_phase", "section_phase", "tolerance", "max_cycles",
         "friction_switching", "resistance"])]
     study: Option<PathBuf>,
-    /// Its number, counted from 0 with the last axis fastest, as failures are told.
+    /// Its number, counted from 0 with the last axis fastest, as in the reports of failures.
     #[arg(long, requires = "study")]
     case: Option<usize>,
     /// Frequency of the drive, as "77.91 rad/s" or "12.4 Hz".
@@ -62,14 +62,14 @@ pub struct Simulate {
     start: Option<String>,
     #[command(flatten)]
     phases: Phases,
-    /// Drive cycles to follow in full.
+    /// Drive cycles to compute in full.
     #[arg(long, default_value_t = 20)]
     cycles: u64,
     /// Relative local error of a step.
     #[arg(long, default_value = "1e-12")]
     tolerance: f64,
-    /// Drive cycles within which the motion must settle; if it does not, up to 2048 more are followed with the
-    /// linearised flow to tell chaos from long periods, and 128 are measured.
+    /// Drive cycles within which the motion must settle; if it does not, up to 2048 more are computed with the
+    /// linearised flow to distinguish chaos from long periods, and 128 are measured.
     #[arg(long, default_value_t = 2000)]
     max_cycles: u64,
     /// Reading of the switching between stick and slip.
@@ -83,7 +83,7 @@ pub struct Simulate {
     json: bool,
 }
 
-/// A case as it was asked for, and how to follow it.
+/// A case as it was asked for, and how to compute it.
 struct Request {
     case: Case,
     protocol: Protocol,
@@ -100,7 +100,7 @@ impl Simulate {
         let drag = parameters.drag();
         if drag.static_limit < drag.at_onset {
             let force = parameters.break_away();
-            tell(&format!("note: mu_s is below the friction at onset; rest ends at {force} N"));
+            notify(&format!("note: mu_s is below the friction at onset; rest ends at {force} N"));
         }
         let simulation = simulate_case(&case, self.cycles, protocol.tolerance);
         let orbit = settle_case(&case, &protocol);
@@ -140,7 +140,7 @@ impl Simulate {
             None => {
                 let before = replay.cases_before();
                 if before > 0 {
-                    tell(&format!(
+                    notify(&format!(
                         "case {index} starts where its neighbour settles: {before} cases come before it"
                     ));
                 }
@@ -357,13 +357,13 @@ fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
     .map(|output| orbit.outputs[output]);
     match orbit.outcome {
         Outcome::QuasiPeriodic => {
-            remarks.push(format!("no period up to {excluded} cycles, as far as the section tells"));
+            remarks.push(format!("no period up to {excluded} cycles, as far as the section shows"));
         }
         Outcome::Undecided if excluded.is_nan() => {
             let residual = orbit.outputs[Output::SectionResidual];
             remarks.push(format!(
                 "undecided: what was found is not certified; its largest defect is {defect:.1e} (allowed: \
-                 10 000 tolerances), and followed without derivatives it closes to {residual:.1e} (allowed: \
+                 10 000 tolerances), and integrated without derivatives it closes to {residual:.1e} (allowed: \
                  100 000 tolerances)"
             ));
         }

@@ -1,21 +1,21 @@
-//! `capsulemap status`: how far a sweep is, told from what lies on disk.
+//! `capsulemap status`: how far a sweep is, from the files on disk.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::failure::Failure;
+use super::readable::{count, counted, estimated, rate, size, time};
 use super::summary::outcomes;
 use super::terminal::print;
-use super::words::{count, counted, estimated, rate, size, time};
 use crate::campaign::{BlockStatus, Campaign, block_path, output_path, read_study};
 use crate::store::Archive;
 use crate::study::Study;
 
 const EXAMPLES: &str = "\
 Examples:
-  capsulemap status night.toml
-  watch -n 10 capsulemap status night.toml";
+  capsulemap status STUDY.toml
+  watch -n 10 capsulemap status STUDY.toml";
 
 /// Say how far a sweep is.
 #[derive(Debug, Args)]
@@ -36,7 +36,7 @@ impl Status {
         let status = Campaign::new(&study, &output).status()?;
         let mut text = String::new();
         if let Some(blocks) = &status.blocks {
-            text.push_str(&on_the_way(&study, blocks));
+            text.push_str(&unfinished(&study, blocks));
         }
         match status.file {
             Ok(None) => {}
@@ -60,8 +60,8 @@ fn whole(output: &Path, archive: &Archive) -> String {
     format!("{}: {holds}, written {created}\n", output.display())
 }
 
-/// A run that has not come to its end.
-fn on_the_way(study: &Study, blocks: &BlockStatus) -> String {
+/// A run that is not finished.
+fn unfinished(study: &Study, blocks: &BlockStatus) -> String {
     let done = count(blocks.done.len());
     let all = count(study.blocks());
     let shown = blocks.folder.display();
@@ -70,11 +70,11 @@ fn on_the_way(study: &Study, blocks: &BlockStatus) -> String {
     let mut text = format!("{shown}: {done} of {all} blocks, {cases} of {wanted} cases, {bytes}\n");
     text.push_str(&outcomes(&blocks.done));
     if blocks.is_busy {
-        text.push_str("at work now");
+        text.push_str("a run is active");
     } else if blocks.done.len() == study.blocks() {
-        text.push_str("all blocks are there: `capsulemap join` puts them together");
+        text.push_str("all blocks are there: `capsulemap join` joins them");
     } else {
-        text.push_str("nobody is at work: `capsulemap sweep` goes on");
+        text.push_str("no run is active: `capsulemap sweep` resumes");
     }
     text.push_str(&pace(study, blocks));
     text.push('\n');

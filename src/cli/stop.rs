@@ -1,27 +1,27 @@
-//! Ctrl-C and a scheduler's notice: a word on how to go on, and an end at once.
+//! Ctrl-C and the signal of a scheduler: prints how to resume, and ends the program.
 
 use std::sync::{Mutex, mpsc};
 use std::thread;
 use std::time::Duration;
 
 use super::failure::Failure;
-use super::terminal::tell;
+use super::terminal::notify;
 
-/// What to say.
-type Word = Box<dyn Fn() -> String + Send>;
+/// Gives the message.
+type Message = Box<dyn Fn() -> String + Send>;
 
-/// The word is waited for no longer.
+/// The longest wait for the message to be written.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// What is said now; nothing as long as the system's own end of a program will do.
-static WORD: Mutex<Option<Word>> = Mutex::new(None);
+/// The message now; none as long as the system's own handling of the signal suffices.
+static MESSAGE: Mutex<Option<Message>> = Mutex::new(None);
 
-/// From now on, when the program is told to stop, says `word` and ends as a program does that was stopped
-/// by the signal, so that shells and schedulers see what happened.
+/// From now on, when a signal asks the program to stop, prints `message` and ends as a program does that was
+/// stopped by the signal, so that shells and schedulers see the cause.
 ///
-/// Nothing is forced to an end: finished blocks are whole on disk, and unfinished ones are begun again.
-pub fn say_when_stopped(word: impl Fn() -> String + Send + 'static) -> Result<(), Failure> {
-    let before = WORD.lock().unwrap_or_else(|it| it.into_inner()).replace(Box::new(word));
+/// Finished blocks are complete on disk; unfinished ones are computed again.
+pub fn say_when_stopped(message: impl Fn() -> String + Send + 'static) -> Result<(), Failure> {
+    let before = MESSAGE.lock().unwrap_or_else(|it| it.into_inner()).replace(Box::new(message));
     if before.is_none() { listen() } else { Ok(()) }
 }
 
@@ -31,20 +31,23 @@ fn listen() -> Result<(), Failure> {
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
-    let failed = |error| Failure::machine(format!("signals cannot be heard: {error}"));
+    let failed = |error| Failure::machine(format!("signals cannot be handled: {error}"));
     let heard = [SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
     let mut signals = Signals::new(heard).map_err(failed)?;
     thread::spawn(move || {
         if let Some(signal) = signals.forever().next() {
             let (said, hears) = mpsc::channel();
             thread::spawn(move || {
-                let word = WORD.lock().unwrap_or_else(|it| it.into_inner());
+                let message = MESSAGE.lock().unwrap_or_else(|it| it.into_inner());
                 // The line of the terminal may hold a bar, or ^C.
-                tell(&format!("\ncapsulemap: {}", word.as_ref().map_or(String::new(), |it| it())));
-                // Nobody is there to hear it once the time is over.
+                notify(&format!(
+                    "\ncapsulemap: {}",
+                    message.as_ref().map_or(String::new(), |it| it())
+                ));
+                // The receiver is gone once the time is over.
                 let _ = said.send(());
             });
-            // Whoever should read the word may not.
+            // The reader of standard error may be blocked.
             let _ = hears.recv_timeout(PATIENCE);
             if emulate_default_handler(signal).is_err() {
                 std::process::exit(128 + signal);
@@ -54,7 +57,7 @@ fn listen() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether whoever started the program wants it to go on when a signal comes, as for jobs in the background.
+/// Whether the signal is set to be ignored, as for jobs in the background.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::words::{count, counted};
+use super::readable::{count, counted};
 use crate::orbit::Outcome;
 use crate::store::{Blocks, StoreError, Summary, by_outcome};
 use crate::study::Study;
@@ -22,8 +22,8 @@ pub fn summary(
     let shown = output.display();
     let cases = summaries.iter().map(|block| block.cases).sum();
     let cycles = summaries.iter().map(|block| block.cycles).sum::<u64>() as usize;
-    let (cases_told, cycles) = (counted(cases, "case"), counted(cycles, "cycle"));
-    let mut text = format!("{shown}: {cases_told}, {cycles}\n");
+    let (cases_shown, cycles) = (counted(cases, "case"), counted(cycles, "cycle"));
+    let mut text = format!("{shown}: {cases_shown}, {cycles}\n");
     let missing = study.cases() - cases;
     text.push_str(&outcomes(&summaries));
     if missing > 0 {

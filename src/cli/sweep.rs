@@ -7,10 +7,10 @@ use clap::Args;
 
 use super::arguments::{machine, named};
 use super::drawing::{FormatChoice, draw_from, rehearse};
-use super::dry_run::foretell;
+use super::dry_run::estimate;
 use super::failure::Failure;
 use super::slurm;
-use super::terminal::tell;
+use super::terminal::notify;
 use super::watch::Watch;
 use crate::campaign::{Campaign, Complete, Done, Event, Task, output_path, read_study};
 use crate::lane::Instructions;
@@ -20,11 +20,11 @@ use crate::study::Study;
 const EXAMPLES: &str = "\
 Examples:
   capsulemap sweep studies/overview.toml
-  capsulemap sweep night.toml --dry-run
-  capsulemap sweep night.toml --output /data/night.h5 --threads 8
-  capsulemap sweep night.toml --task 3/8      # on each of 8 machines; then: capsulemap join night.toml
+  capsulemap sweep STUDY.toml --dry-run
+  capsulemap sweep STUDY.toml --output /data/NAME.h5 --threads 8
+  capsulemap sweep STUDY.toml --task 3/8      # on each of 8 machines; then: capsulemap join STUDY.toml
 
-A run that was stopped, by whatever, goes on with the same command. Without --task, a job of a Slurm array
+A run that was interrupted is resumed by the same command. Without --task, a job of a Slurm array
 takes its part by itself; scripts/slurm has the array script.";
 
 /// More values on an axis than this are alike to every figure.
@@ -43,7 +43,7 @@ pub struct Sweep {
     /// Compute the I-th of N parts only, and do not join them; 1/1 is all, whatever Slurm says.
     #[arg(long, value_name = "I/N")]
     task: Option<Task>,
-    /// Compute nothing but a few blocks as a probe, and foretell time and size.
+    /// Compute nothing but a few blocks as a probe, and estimate time and size.
     #[arg(long, conflicts_with = "task")]
     dry_run: bool,
     /// Worker threads; one per core by default, or SLURM_CPUS_PER_TASK.
@@ -74,15 +74,15 @@ impl Sweep {
         let campaign = Campaign { study: &study, output: &output, machine, overwrite };
         if self.dry_run {
             campaign.kept()?;
-            return foretell(&study, machine, &output);
+            return estimate(&study, machine, &output);
         }
         let task = self.task()?;
         let watch = Watch::new(&self.study, &study);
         let done = campaign.run(task, &|event| match event {
-            Event::Before { same_words } => {
-                let words = if same_words { "this study" } else { "a study with the same cases" };
+            Event::Before { same_text } => {
+                let source = if same_text { "this study" } else { "a study with the same cases" };
                 let shown = output.display();
-                tell(&format!("{shown}: already computed, by this program from {words}"));
+                notify(&format!("{shown}: already computed, by this program from {source}"));
                 ControlFlow::Continue(())
             }
             Event::Accepted(_) => watch.heed(self.rehearse(&study)),
@@ -118,13 +118,15 @@ impl Sweep {
                 None => return Ok(Task::WHOLE),
                 Some(task) => {
                     let task = task.map_err(Failure::request)?;
-                    tell(&format!("{task}, as SLURM_ARRAY_TASK_ID says; --task 1/1 computes all"));
+                    notify(&format!(
+                        "{task}, as SLURM_ARRAY_TASK_ID says; --task 1/1 computes all"
+                    ));
                     task
                 }
             },
         };
         if task.of > 1 {
-            tell(&format!("{task}: one block in {}", task.of));
+            notify(&format!("{task}: one block in {}", task.of));
         }
         Ok(task)
     }
@@ -132,7 +134,7 @@ impl Sweep {
     /// The end of a task.
     fn part_with(&self, task: Task, blocks: &Path) {
         let (shown, study) = (blocks.display(), self.study.display());
-        tell(&format!(
+        notify(&format!(
             "{task}: its blocks are in {shown}; once all tasks are done: capsulemap join {study}"
         ));
     }

@@ -1,10 +1,10 @@
-//! Writes to the terminal: what was asked for to standard output, all else to standard error.
+//! Writes to the terminal: results to standard output, messages to standard error.
 
 use std::io::Write;
 
 use super::failure::Failure;
 
-/// Prints to standard output; a reader that has gone away is no fault.
+/// Prints to standard output; a closed pipe is no fault.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -15,8 +15,8 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Tells the person a line; a long run does not stop because nobody listens any more.
-pub fn tell(line: &str) {
-    // There is nowhere left to report that the line could not be written.
+/// Prints a line to standard error; a long run does not stop if it cannot be written.
+pub fn notify(line: &str) {
+    // A failure to write to standard error cannot be reported.
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }

@@ -7,19 +7,19 @@ use clap::Args;
 
 use super::arguments::{machine, named};
 use super::failure::Failure;
-use super::terminal::{print, tell};
+use super::readable::{count, counted};
+use super::terminal::{notify, print};
 use super::watch::Stages;
-use super::words::{count, counted};
 use crate::campaign::{Event, Sample, Verified, verify};
 use crate::lane::Instructions;
 
 const EXAMPLES: &str = "\
 Examples:
-  capsulemap verify results/night/night.h5
-  capsulemap verify results/night/night.h5 --cases 5000 --seed 7 --instructions scalar
+  capsulemap verify results/NAME/NAME.h5
+  capsulemap verify results/NAME/NAME.h5 --cases 5000 --seed 7 --instructions scalar
 
 What a case has settled to is compared in every number; attractors are numbered by all cases together, and
-are not looked at. Where cases are followed along an axis, whole lines of them are computed.";
+are not looked at. Where cases inherit their start along an axis, whole lines of them are computed.";
 
 /// So many differences are shown.
 const SHOWN: usize = 10;
@@ -54,7 +54,7 @@ impl Verify {
         let verified = verify(&self.file, sample, machine, &|event| {
             match event {
                 Event::OtherProgram { theirs, ours } => {
-                    tell(&format!("{shown}: {}", notice(theirs, ours)));
+                    notify(&format!("{shown}: {}", notice(theirs, ours)));
                 }
                 other => stages.show(other),
             }

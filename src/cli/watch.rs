@@ -1,4 +1,4 @@
-//! Shows on the terminal what a campaign tells, and has a signal say how to resume it.
+//! Shows the events of a campaign on the terminal, and how to resume it after a signal.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -7,10 +7,10 @@ use std::sync::{Arc, Mutex, OnceLock};
 use super::block_progress::BlockProgress;
 use super::failure::Failure;
 use super::progress::Progress;
+use super::readable::{blocks_kept, count, counted, time};
 use super::stop::say_when_stopped;
 use super::summary::summary;
-use super::terminal::{print, tell};
-use super::words::{blocks_kept, count, counted, time};
+use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Event, Stage, Survey};
 use crate::store::Blocks;
 use crate::study::Study;
@@ -39,7 +39,7 @@ impl<'a> Watch<'a> {
         self.heed(self.show(event))
     }
 
-    /// Continues after a success; after a failure, which `end` then tells, stops the campaign.
+    /// Continues after a success; after a failure, which `end` then returns, stops the campaign.
     pub fn heed(&self, done: Result<(), Failure>) -> ControlFlow<()> {
         match done {
             Ok(()) => ControlFlow::Continue(()),
@@ -70,16 +70,16 @@ impl<'a> Watch<'a> {
             }
             Event::Block(block) => blocks.into_iter().for_each(|it| it.block(block)),
             Event::Again { file, why } => {
-                tell(&format!("{}: {why}; it is computed again", file.display()));
+                notify(&format!("{}: {why}; it is computed again", file.display()));
             }
             Event::LeftOut { file, why } => {
-                tell(&format!("{}: {why}; it is left out", file.display()));
+                notify(&format!("{}: {why}; it is left out", file.display()));
             }
             Event::Surveyed(survey) => return self.survey(&survey),
             Event::Computed { cases, time: took } => {
                 blocks.map(|it| it.finish());
                 let (cases, took) = (counted(cases, "case"), time(took.as_secs_f64()));
-                tell(&format!("{cases} computed in {took}"));
+                notify(&format!("{cases} computed in {took}"));
             }
             Event::Joining { folder } => {
                 let place = folder.display().to_string();
@@ -93,12 +93,12 @@ impl<'a> Watch<'a> {
         Ok(())
     }
 
-    /// Tells which blocks are there, and begins to show the progress of the others.
+    /// Says which blocks are there, and begins to show the progress of the others.
     fn survey(&self, survey: &Survey<'_>) -> Result<(), Failure> {
         let (kept, all) = (survey.kept.len(), survey.blocks);
         let place = survey.folder.display().to_string();
         if kept > 0 {
-            tell(&format!("{place}: {} of {} blocks are done and kept", count(kept), count(all)));
+            notify(&format!("{place}: {} of {} blocks are done and kept", count(kept), count(all)));
         }
         if kept == all {
             return Ok(());
@@ -141,8 +141,8 @@ impl Stages {
 fn what(stage: Stage) -> &'static str {
     match stage {
         Stage::Linking => "links of attractors",
-        Stage::Writing => "pieces written",
-        Stage::Following => "branches",
+        Stage::Writing => "parts written",
+        Stage::Continuing => "branches",
         Stage::Repeating => "cases",
     }
 }

@@ -2,13 +2,13 @@
 
 use super::attractors::{Attractors, Look};
 use super::axis::AxisRequest;
+use super::branch_lines::BranchLines;
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::cloud::{self, Dot};
-use super::diagram::{has_points, request, span, with_followed};
+use super::diagram::{has_points, request, span, with_branch_lines};
 use super::error::FigureError;
 use super::event_marks::EventMarks;
-use super::followed::Followed;
 use super::geometry::{Point, Rect};
 use super::header::{self, Mark};
 use super::panel::Panel;
@@ -49,24 +49,24 @@ pub fn draw(
         .collect::<Result<Vec<_>, _>>()?;
     let marks = EventMarks::of(view, x_name, attractors)?;
     let windows = windows(&values, attractors);
-    let followed: Vec<Followed> =
-        outputs.iter().map(|output| Followed::shown(view, x_name, output)).collect();
+    let lines: Vec<BranchLines> =
+        outputs.iter().map(|output| BranchLines::shown(view, x_name, output)).collect();
     // Branches bring their special points along, events of attractors among them.
-    let marks = if followed.iter().all(Followed::is_empty) { marks } else { EventMarks::none() };
-    let reached: Vec<f64> = followed.iter().flat_map(Followed::places).map(|at| at.0).collect();
+    let marks = if lines.iter().all(BranchLines::is_empty) { marks } else { EventMarks::none() };
+    let reached: Vec<f64> = lines.iter().flat_map(BranchLines::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
-    let mut page = request(view, &outputs, (&clouds, &followed), abscissa, &attractors.free);
+    let mut page = request(view, &outputs, (&clouds, &lines), abscissa, &attractors.free);
     if let Some(first) = page.rows.first_mut().and_then(|row| row.first_mut()) {
         first.header.legend = legend(attractors, &marks, !windows.is_empty());
     }
-    page.rows = with_followed(page.rows, &clouds, &followed);
+    page.rows = with_branch_lines(page.rows, &clouds, &lines);
     let (mut canvas, panels) = page.lay_out();
-    let shown = clouds.iter().zip(&followed).zip(&outputs);
-    for (panel, ((cloud, followed), output)) in panels.iter().flatten().zip(shown) {
+    let shown = clouds.iter().zip(&lines).zip(&outputs);
+    for (panel, ((cloud, lines), output)) in panels.iter().flatten().zip(shown) {
         shade(&mut canvas, panel, &windows);
         mark_zero(&mut canvas, panel, output, view);
         // Points stand out on both sides of the lines through them.
-        let wider = if followed.is_empty() { 1.0 } else { 1.4 };
+        let wider = if lines.is_empty() { 1.0 } else { 1.4 };
         let radius = wider * cloud::radius(cloud.iter().map(Vec::len).sum());
         for (dots, look) in cloud.iter().zip(&looks) {
             let share = if *look == Look::Undecided { 0.6 } else { 1.0 };
@@ -76,7 +76,7 @@ pub fn draw(
             let symbols = marks.on(view, output, &values, attractors)?;
             draw_symbols(&mut canvas, panel, &symbols);
         }
-        followed.draw(&mut canvas, panel);
+        lines.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }
     Ok(canvas.finish(&view.about(&outputs, &attractors.free)))

@@ -51,7 +51,7 @@ pub struct Attractors<'a> {
 }
 
 impl<'a> Attractors<'a> {
-    /// The attractors over the axis `x`; none where the results do not follow any along it.
+    /// The attractors over the axis `x`; none where the results do not link any along it.
     pub fn along(view: &View<'a>, x: &'a str) -> Result<Option<Attractors<'a>>, FigureError> {
         let numbered = view.dataset.attributes.get(ATTRACTOR_AXIS).is_some_and(|axis| axis == x);
         if !numbered || view.dataset.variable(ATTRACTOR.name).is_none() {
@@ -97,7 +97,7 @@ impl<'a> Attractors<'a> {
     /// Whether several attractors exist at each value.
     ///
     /// An attractor exists from the first to the last value where a case shows it: between them it keeps
-    /// its number only if it has been followed.
+    /// its number only if it has been linked.
     pub fn coexist(&self) -> Vec<bool> {
         let mut extents: BTreeMap<i64, [usize; 2]> = BTreeMap::new();
         for (case, number) in self.numbers.iter().enumerate().filter(|(_, number)| **number >= 0) {

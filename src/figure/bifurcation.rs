@@ -5,11 +5,11 @@ use plotters::style::RGBColor;
 use super::attractor_diagram;
 use super::attractors::Attractors;
 use super::axis::AxisRequest;
+use super::branch_lines::{BranchLines, faded};
 use super::canvas::Drawn;
 use super::cloud::{self, Dot};
-use super::diagram::{has_points, request, span, with_followed};
+use super::diagram::{has_points, request, span, with_branch_lines};
 use super::error::FigureError;
-use super::followed::{Followed, faded};
 use super::header::Mark;
 use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
@@ -26,7 +26,7 @@ use crate::study::Drawing;
 /// Panels of a bifurcation diagram, unless others are asked for.
 const PANELS: [Entry; 2] = [SECTION_R, Entry::of_output(Output::ProgressionSpeed)];
 
-/// One way along the axis: its place on the axis of directions, its name and colour.
+/// One direction along the axis: its place on the axis of directions, its name and colour.
 struct Branch {
     index: usize,
     name: String,
@@ -60,7 +60,7 @@ fn reads(drawing: &Drawing) -> Names {
         .and_named(outputs)
 }
 
-/// The axis along the abscissa, or the parameter along which orbits were followed.
+/// The axis along the abscissa, or the parameter along which orbits were continued.
 fn abscissa<'a>(view: &View<'a>) -> Result<&'a str, FigureError> {
     let free = view.drawable_axes();
     let named = view.drawing.x.as_ref();
@@ -90,25 +90,25 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let quantity = view.quantity(x_name);
     let values: Vec<f64> =
         view.coordinate_values(x_name).iter().map(|value| value * quantity.factor).collect();
-    let followed: Vec<Followed> =
-        outputs.iter().map(|output| Followed::shown(view, x_name, output)).collect();
-    if followed.iter().any(|followed| !followed.is_empty()) {
+    let lines: Vec<BranchLines> =
+        outputs.iter().map(|output| BranchLines::shown(view, x_name, output)).collect();
+    if lines.iter().any(|lines| !lines.is_empty()) {
         branches.iter_mut().for_each(Branch::step_back);
     }
     let clouds = outputs
         .iter()
         .map(|output| points(view, output, &values, &free, &branches))
         .collect::<Result<Vec<_>, _>>()?;
-    let reached: Vec<f64> = followed.iter().flat_map(Followed::places).map(|at| at.0).collect();
+    let reached: Vec<f64> = lines.iter().flat_map(BranchLines::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
-    let page = request(view, &outputs, (&clouds, &followed), abscissa, &free);
-    // Without cases there are only the lines of followed orbits to explain.
+    let page = request(view, &outputs, (&clouds, &lines), abscissa, &free);
+    // Without cases there are only the lines of branches to explain.
     let shown = if values.is_empty() { &[][..] } else { &branches[..] };
     let rows = with_legend(page.rows, shown);
-    let page = PageRequest { rows: with_followed(rows, &clouds, &followed), ..page };
+    let page = PageRequest { rows: with_branch_lines(rows, &clouds, &lines), ..page };
     let (mut canvas, panels) = page.lay_out();
-    let shown = clouds.iter().zip(&followed).zip(&outputs);
-    for (panel, ((cloud, followed), output)) in panels.iter().flatten().zip(shown) {
+    let shown = clouds.iter().zip(&lines).zip(&outputs);
+    for (panel, ((cloud, lines), output)) in panels.iter().flatten().zip(shown) {
         if !has_points(view, output) {
             panel.mark_zero(&mut canvas);
         }
@@ -116,13 +116,13 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         for (dots, branch) in cloud.iter().zip(&branches) {
             cloud::draw(&mut canvas, panel, dots, radius * branch.size);
         }
-        followed.draw(&mut canvas, panel);
+        lines.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }
     Ok(canvas.finish(&view.about(&outputs, &free)))
 }
 
-/// The branches of the diagram; one without a name where the axis was not followed both ways.
+/// The branches of the diagram; one without a name where the starts were not inherited in both directions.
 fn branches(view: &View<'_>, x_name: &str) -> Vec<Branch> {
     let count = view.coordinate_values(DIRECTION.name).len();
     if x_name == DIRECTION.name || count < 2 || !view.free_axes().contains(&DIRECTION.name) {
@@ -148,9 +148,9 @@ fn points(
     free: &[&str],
     branches: &[Branch],
 ) -> Result<Vec<Vec<Dot>>, FigureError> {
-    // Orbits may have been followed alone, or along what is no axis.
-    let is_followed = view.dataset.variable(&Place::Branch.name(output)).is_some();
-    if is_followed && (x_values.is_empty() || view.dataset.variable(output).is_none()) {
+    // Orbits may have been continued alone, or along what is no axis.
+    let is_continued = view.dataset.variable(&Place::Branch.name(output)).is_some();
+    if is_continued && (x_values.is_empty() || view.dataset.variable(output).is_none()) {
         return Ok(branches.iter().map(|_| Vec::new()).collect());
     }
     let array = view.shown(output, free)?;

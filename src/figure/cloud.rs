@@ -18,7 +18,7 @@ pub struct Dot {
     pub crowding: f64,
 }
 
-/// The radius at which `count` points can be seen and told apart [pt].
+/// The radius at which `count` points can be distinguished [pt].
 pub fn radius(count: usize) -> f64 {
     match count {
         0..=60 => 1.6,

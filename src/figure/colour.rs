@@ -1,4 +1,4 @@
-//! From numbers to colours, and the bar that tells the numbers back.
+//! Colours of numbers, and the colour bar with their scale.
 
 use plotters::style::RGBColor;
 

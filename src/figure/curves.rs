@@ -1,9 +1,9 @@
 //! Curves of special points in two parameters, with the special points that they go through.
 
 use super::axis::AxisRequest;
+use super::branch_lines::{draw_symbols, faded};
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::error::FigureError;
-use super::followed::{draw_symbols, faded};
 use super::header::{self, Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
@@ -94,7 +94,7 @@ fn axes(view: &View<'_>) -> Result<[String; 2], FigureError> {
         (Some(x), Some(y)) if x != y => Ok([x, y]),
         _ => Err(view.unfit(
             "the results hold no curves in two parameters: give a branch of the study a `second` \
-             parameter and run `capsulemap follow`",
+             parameter and run `capsulemap continue`",
         )),
     }
 }
@@ -124,7 +124,7 @@ fn curves(view: &View<'_>, axes: &[String; 2]) -> Vec<Curve> {
         let points: Vec<_> = places.into_iter().map(place).collect();
         let within = fits.get(asked).copied().unwrap_or(false);
         let drawn = within && points.iter().all(|(x, y)| x.is_finite() && y.is_finite());
-        // What is not followed at the special point has the value of the request.
+        // What does not vary at the special point has the value of the request.
         let special = |special: usize| {
             let [x, y] = [0, 1].map(|i| {
                 let [own, given] = [at_special[i][0].one(special), at_special[i][1].one(asked)];

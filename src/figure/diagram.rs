@@ -1,8 +1,8 @@
-//! The page of a diagram over one axis: a row for each output, as far as cases and followed orbits reach.
+//! The page of a diagram over one axis: a row for each output, as far as cases and branches reach.
 
 use super::axis::AxisRequest;
+use super::branch_lines::BranchLines;
 use super::cloud::Dot;
-use super::followed::Followed;
 use super::header::{Header, Mark};
 use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::Pointing;
@@ -17,7 +17,7 @@ const SECTION_HEIGHT: f64 = 125.0;
 /// Height of the frames of outputs with one value per case [pt].
 const OUTPUT_HEIGHT: f64 = 80.0;
 
-/// The abscissa, with room for points that stand at its ends, and as far as orbits were followed.
+/// The abscissa, with room for points that stand at its ends, and as far as orbits were continued.
 pub fn span(values: &[f64], reached: &[f64]) -> Scale {
     let axis = Scale::of_axis(values);
     let plain = match finite_range(reached.iter().copied()) {
@@ -43,15 +43,15 @@ pub fn has_points(view: &View<'_>, output: &str) -> bool {
     let is_inner = |name: &String| !axes.contains(&name.as_str());
     let stored = view.dataset.variable(output);
     let stored = stored.filter(|variable| variable.dimensions.iter().any(is_inner));
-    let followed = view.dataset.variable(&Place::Branch.name(output));
-    stored.is_some() || followed.is_some_and(|variable| variable.dimensions.len() > 1)
+    let stored_on_branch = view.dataset.variable(&Place::Branch.name(output));
+    stored.is_some() || stored_on_branch.is_some_and(|variable| variable.dimensions.len() > 1)
 }
 
 /// The page with a row for each output.
 pub fn request(
     view: &View<'_>,
     outputs: &[String],
-    (clouds, followed): (&[Vec<Vec<Dot>>], &[Followed]),
+    (clouds, lines): (&[Vec<Vec<Dot>>], &[BranchLines]),
     abscissa: AxisRequest,
     free: &[&str],
 ) -> PageRequest {
@@ -59,7 +59,7 @@ pub fn request(
     let mut heights = Vec::new();
     for (index, (output, cloud)) in outputs.iter().zip(clouds).enumerate() {
         let dots = cloud.iter().flatten().map(|dot| dot.at.1);
-        let values: Vec<f64> = dots.chain(followed[index].places().map(|at| at.1)).collect();
+        let values: Vec<f64> = dots.chain(lines[index].places().map(|at| at.1)).collect();
         let y = AxisRequest::around(view.quantity(output), &values, 0.06);
         let last = index + 1 == outputs.len();
         let x = AxisRequest { labelled: last, numbered: last, ..abscissa.clone() };
@@ -78,13 +78,13 @@ pub fn request(
     }
 }
 
-/// The rows with what the lines of followed orbits and their symbols mean in the first legend.
-pub fn with_followed(
+/// The rows with what the lines of branches and their symbols mean in the first legend.
+pub fn with_branch_lines(
     mut rows: Vec<Vec<PanelRequest>>,
     clouds: &[Vec<Vec<Dot>>],
-    followed: &[Followed],
+    lines: &[BranchLines],
 ) -> Vec<Vec<PanelRequest>> {
-    let entries = followed.iter().map(Followed::legend).max_by_key(Vec::len).unwrap_or_default();
+    let entries = lines.iter().map(BranchLines::legend).max_by_key(Vec::len).unwrap_or_default();
     let first = rows.first_mut().and_then(|row| row.first_mut());
     let Some(first) = first.filter(|_| !entries.is_empty()) else { return rows };
     let legend = &mut first.header.legend;

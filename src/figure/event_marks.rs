@@ -80,13 +80,13 @@ impl EventMarks {
         let count = |symbol: Symbol| events.iter().filter(|it| it.symbol == symbol).count();
         let crowded: Vec<Symbol> = SYMBOLS.into_iter().filter(|it| count(*it) > MOST).collect();
         events.retain(|event| !crowded.contains(&event.symbol));
-        // Where symbols crowd, that of the shortest orbit is drawn first.
+        // Where symbols overlap, that of the shortest orbit is drawn first.
         let layer = |symbol| SYMBOLS.iter().position(|it| *it == symbol);
         events.sort_by_key(|event| (layer(event.symbol), event.period));
         Ok(EventMarks { events, factor })
     }
 
-    /// The symbols that occur, with their words.
+    /// The symbols that occur, with their names.
     pub fn legend(&self) -> impl Iterator<Item = (Symbol, Text)> {
         let occurs = |symbol: Symbol| self.events.iter().any(|event| event.symbol == symbol);
         let kinds = SYMBOLS.into_iter().rev().filter(move |symbol| occurs(*symbol));

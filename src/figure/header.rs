@@ -26,7 +26,7 @@ pub enum Mark {
     Discs(&'static [RGBColor], f64),
     /// The area without values.
     Hatched,
-    /// No mark: the words go on with those of the entry before.
+    /// No mark: the text continues that of the entry before.
     Nothing,
 }
 
@@ -58,7 +58,7 @@ pub struct Header {
 const MARK_WIDTH: f64 = 13.0;
 /// Width of a point in a legend [pt].
 const POINT_WIDTH: f64 = 6.0;
-/// Distance between a mark and its words [pt].
+/// Distance between a mark and its text [pt].
 const MARK_GAP: f64 = 3.0;
 /// Distance between lines of a header [pt].
 const HEADER_LINE: f64 = 10.5;

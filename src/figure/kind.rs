@@ -13,7 +13,7 @@ use crate::study::Drawing;
 pub enum Needs {
     /// The cases of a sweep.
     Cases,
-    /// Followed orbits.
+    /// Branches of continued orbits.
     Branches,
     /// One of both.
     CasesOrBranches,

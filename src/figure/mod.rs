@@ -12,7 +12,7 @@ mod colour;
 mod curves;
 mod diagram;
 mod error;
-mod followed;
+mod branch_lines;
 mod event_marks;
 mod font;
 mod geometry;
@@ -59,11 +59,11 @@ pub fn needs(kind: DrawingKind) -> Needs {
 /// than their labels.
 pub fn variables(drawing: &Drawing) -> BTreeSet<String> {
     let reads = registry::kind(drawing.kind).reads;
-    // Every figure looks for the parameters along which orbits were followed.
+    // Every figure looks for the parameters along which orbits were continued.
     reads(drawing).and(varied::READS).into_set()
 }
 
-/// Draws `drawing` from the results in `dataset` and writes `<folder>/<name>.<ending>` in each of
+/// Draws `drawing` from the results in `dataset` and writes `<folder>/<name>.<extension>` in each of
 /// `formats`, each file complete or absent; gives the paths written.
 pub fn draw(
     dataset: &Dataset,

@@ -1,4 +1,4 @@
-//! What became of each case, as the figures tell cases apart.
+//! The outcome of each case, as the figures distinguish cases.
 
 use super::error::FigureError;
 use super::view::View;

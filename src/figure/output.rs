@@ -28,7 +28,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The ending of file names.
+    /// The extension of file names.
     pub fn extension(self) -> &'static str {
         match self {
             Format::Png => "png",

@@ -54,8 +54,8 @@ impl Panel {
     /// A curve, broken where values are missing.
     pub fn curve(&self, canvas: &mut Canvas, values: &[(f64, f64)], stroke: Stroke) {
         canvas.clipped(self.frame, |canvas| {
-            for piece in values.split(|(x, y)| !x.is_finite() || !y.is_finite()) {
-                let places = self.places(piece);
+            for part in values.split(|(x, y)| !x.is_finite() || !y.is_finite()) {
+                let places = self.places(part);
                 match places.as_slice() {
                     [] => {}
                     [alone] => canvas.discs(&[(*alone, stroke.colour)], CURVE_WIDTH),

@@ -8,7 +8,7 @@ use crate::store::dataset::{Dataset, Values, Variable};
 /// A quantity as figures show it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
-    /// What it is, in words.
+    /// Its name as text.
     name: Text,
     /// Its symbol, with markup; empty if it has none.
     symbol: String,
@@ -75,7 +75,7 @@ impl Quantity {
         })
     }
 
-    /// The short form for legends: the symbol, or the words where there is none.
+    /// The short form for legends: the symbol, or the name where there is none.
     pub fn short_name(&self) -> Text {
         if self.symbol.is_empty() { self.name.clone() } else { Text::markup(&self.symbol) }
     }

@@ -77,7 +77,7 @@ pub const HATCH: RGBColor = RGBColor(160, 160, 160);
 /// Cells whose value is infinite.
 pub const INFINITE: RGBColor = RGBColor(120, 120, 120);
 
-/// Colours of periods 1 to 8, after Tol's muted set, which the colour-blind can tell apart.
+/// Colours of periods 1 to 8, after Tol's muted set, which the colour-blind can distinguish.
 pub const PERIODS: [RGBColor; 8] = [
     RGBColor(136, 204, 238),
     RGBColor(51, 34, 136),
@@ -90,7 +90,7 @@ pub const PERIODS: [RGBColor; 8] = [
 ];
 /// Periods above 8.
 pub const LONG_PERIOD: RGBColor = RGBColor(170, 68, 153);
-/// Colours of attractors, after Okabe and Ito, which the colour-blind can tell apart.
+/// Colours of attractors, after Okabe and Ito, which the colour-blind can distinguish.
 pub const ATTRACTORS: [RGBColor; 7] = [
     BLUE,
     VERMILION,
@@ -112,5 +112,5 @@ pub const CHAOTIC: RGBColor = RGBColor(20, 20, 20);
 pub const QUASI_PERIODIC: RGBColor = RGBColor(238, 119, 51);
 /// Cases that have not been computed yet.
 pub const NOT_YET: RGBColor = RGBColor(228, 228, 228);
-/// Motion that could not be told within the budget of cycles.
+/// Motion that is undecided within the budget of cycles.
 pub const UNDECIDED: RGBColor = RGBColor(136, 136, 136);

@@ -14,7 +14,7 @@ pub struct Symbol {
     /// Its name in legends.
     pub words: &'static str,
     shape: Shape,
-    /// The colour of curves of it; the symbol itself is black, as colours of points tell attractors.
+    /// The colour of curves of it; the symbol itself is black, as colours of points distinguish attractors.
     pub colour: RGBColor,
     /// How curves of it are drawn.
     pub dash: Dash,

@@ -99,13 +99,13 @@ impl Text {
     pub fn wrapped(&self, width: f64, size: f64) -> Vec<Text> {
         let mut words = vec![Text::default()];
         for run in &self.runs {
-            for (at, piece) in run.content.split(' ').enumerate() {
+            for (at, part) in run.content.split(' ').enumerate() {
                 if at > 0 {
                     words.push(Text::default());
                 }
-                let word = words.last_mut().filter(|_| !piece.is_empty());
+                let word = words.last_mut().filter(|_| !part.is_empty());
                 word.into_iter().for_each(|word| {
-                    word.runs.push(Run { content: piece.to_string(), ..run.clone() });
+                    word.runs.push(Run { content: part.to_string(), ..run.clone() });
                 });
             }
         }

@@ -40,9 +40,9 @@ pub fn in_view(view: &View<'_>, drawn: &[&str]) -> Vec<bool> {
     fits
 }
 
-/// A stop on the way along a branch, in SI.
+/// A point of a branch, in SI.
 pub struct Stop {
-    /// Value of the followed parameter.
+    /// Value of the parameter of the branch.
     pub x: f64,
     /// The output, once or for each cycle of the period.
     pub values: Vec<f64>,

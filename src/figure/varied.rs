@@ -1,4 +1,4 @@
-//! The parameters in which the orbits of a file of results were followed.
+//! The parameters in which the orbits of a file of results were continued.
 
 use crate::capsule::Parameter;
 use crate::store::catalogue::{CURVE_POINT, Entry, Place, REQUEST_ALONG};
@@ -7,7 +7,7 @@ use crate::store::dataset::Dataset;
 /// What is read here.
 pub const READS: [Entry; 1] = [REQUEST_ALONG];
 
-/// The parameters along which orbits were followed, in the order of the study.
+/// The parameters along which orbits were continued, in the order of the study.
 pub fn along(dataset: &Dataset) -> Vec<&str> {
     let mut names = Vec::new();
     if let Some(variable) = dataset.variable(REQUEST_ALONG.name) {

@@ -238,9 +238,9 @@ impl<'a> View<'a> {
     /// The index along `axis` of case number `case` over the axes `free`.
     pub fn place_along(&self, axis: &str, free: &[&str], case: usize) -> usize {
         let later = free.iter().skip_while(|name| **name != axis).skip(1);
-        let stride: usize = later.map(|name| self.coordinate_values(name).len()).product();
+        let spacing: usize = later.map(|name| self.coordinate_values(name).len()).product();
         let length = self.coordinate_values(axis).len();
-        (case / stride.max(1)) % length.max(1)
+        (case / spacing.max(1)) % length.max(1)
     }
 
     /// A value of an axis, as "symbol = value unit" or by its name where values have names.

@@ -1,4 +1,4 @@
-//! Moved: advances any switched system by Taylor steps and locates every event on the way.
+//! Integrates any switched system by Taylor steps and locates every event.
 
 pub mod cycle;
 pub mod defect;

@@ -13,7 +13,7 @@ const PATIENCE: f64 = 64.0;
 /// A step shorter than this share of the cycle gets nowhere.
 const STANDSTILL: f64 = 1e-14;
 
-/// A motion under way: where it is, and in which mode.
+/// A motion: its time, its state and its mode.
 #[derive(Debug, Clone, Copy)]
 pub struct Motion<L: Lane, S: Switched<L>> {
     /// Time since the start of the cycle [s].

@@ -1,4 +1,4 @@
-//! Computed: the numbers of the program, one case as an `f64` or several side by side.
+//! The numbers of the program: one case as an `f64`, or several side by side.
 //!
 //! The integrator is written once over [`Lane`]. Besides choices and shifts of bits, only additions,
 //! multiplications, divisions and square roots occur, which IEEE 754 rounds the same way on every machine,

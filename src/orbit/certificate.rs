@@ -137,7 +137,7 @@ pub fn certify<M: System<D>, const D: usize>(
             .max(found.first_residual.min(same(protocol.tolerance)));
         let is_near = found.moved * found.slowest() <= OBLIQUE * within;
         let closes = found.residual <= closes(protocol.recurrence) && is_near;
-        // What is on the way to an orbit only, and not there to rounding, does not stay near one that repels.
+        // A motion that only approaches an orbit, and is not on it to rounding, does not stay near one that repels.
         let stays = period == repeats_after && settled.within <= protocol.recurrence;
         if closes && (found.attracts() || stays) {
             let Found { point: section, multipliers, neutral, .. } = found;

@@ -5,11 +5,11 @@ use crate::flow::metric::greater;
 use crate::flow::{Field, Metric, Observer, Stroboscopic, Switched, System};
 use crate::lane::Dual;
 
+use super::aperiodic::{Aperiodic, follow_aperiodic};
 use super::certificate::certify;
 use super::matrix::Complex;
-use super::precision::{GRAZES, same, sound};
+use super::precision::{GRAZES, STANDS_STILL, same, sound};
 use super::recurrence::Settled;
-use super::wandering::{Wandering, wander};
 use super::{
     Case, Certificate, Exponent, Failure, Orbit, OrbitOf, Outcome, Proof, Protocol, Trajectory,
 };
@@ -20,19 +20,19 @@ pub(super) enum Found<const D: usize> {
     /// Its section repeats.
     Repeats(Settled),
     /// It does not within the budget of cycles; the linearised flow has not been asked yet.
-    Wanders,
+    Aperiodic,
     /// It does not, and this is what the linearised flow says of it.
-    Followed(Wandering<D>),
+    Followed(Aperiodic<D>),
 }
 
 impl<const D: usize> From<Option<Settled>> for Found<D> {
     fn from(settled: Option<Settled>) -> Self {
-        settled.map_or(Found::Wanders, Found::Repeats)
+        settled.map_or(Found::Aperiodic, Found::Repeats)
     }
 }
 
-/// The way of a case in the numbers of its system.
-type Way<'a, M, const D: usize> = Trajectory<'a, <M as System<D>>::Single, D>;
+/// The motion of a case of a system.
+type Moving<'a, M, const D: usize> = Trajectory<'a, <M as System<D>>::Single, D>;
 /// Where and why a case of a system failed.
 type Fails<M, const D: usize> = Failure<<M as System<D>>::State<f64>>;
 
@@ -84,7 +84,7 @@ impl<const D: usize> Verdict<D> {
 
 /// Measures a case that was `found` to do something, going on from where its trajectory is.
 pub(super) fn conclude<M: System<D>, const D: usize>(
-    trajectory: &mut Way<'_, M, D>,
+    trajectory: &mut Moving<'_, M, D>,
     case: &Case<M, D>,
     found: Result<Found<D>, Fails<M, D>>,
     protocol: &Protocol,
@@ -102,7 +102,7 @@ pub(super) fn conclude<M: System<D>, const D: usize>(
 
 /// Says what a case is, and leads its trajectory onto the orbit where it is a periodic one.
 fn judge<M: System<D>, const D: usize>(
-    trajectory: &mut Way<'_, M, D>,
+    trajectory: &mut Moving<'_, M, D>,
     case: &Case<M, D>,
     found: Found<D>,
     protocol: &Protocol,
@@ -112,36 +112,36 @@ fn judge<M: System<D>, const D: usize>(
             let section = trajectory.section();
             match certified(trajectory, case, (&section, settled), protocol) {
                 Some(verdict) => Ok(verdict),
-                None => judge(trajectory, case, Found::Wanders, protocol),
+                None => judge(trajectory, case, Found::Aperiodic, protocol),
             }
         }
-        Found::Followed(wandering) => {
-            trajectory.progress.cycles += wandering.cycles;
-            let outcome = wandering.outcome();
+        Found::Followed(aperiodic) => {
+            trajectory.progress.cycles += aperiodic.cycles;
+            let outcome = aperiodic.outcome();
             // A period too long for the recurrence of sections, or one that is approached slowly.
-            let recurs = wandering.recurs.filter(|_| outcome != Outcome::Chaotic);
+            let recurs = aperiodic.recurs.filter(|_| outcome != Outcome::Chaotic);
             let periodic = recurs.and_then(|settled| {
-                certified(trajectory, case, (&wandering.last, settled), protocol)
+                certified(trajectory, case, (&aperiodic.last, settled), protocol)
             });
             Ok(periodic.unwrap_or_else(|| Verdict {
                 outcome,
                 period: 0,
                 cycles: protocol.measured_cycles,
                 certificate: Certificate::none(),
-                exponent: wandering.exponent,
-                excluded: wandering.excluded as f64,
+                exponent: aperiodic.exponent,
+                excluded: aperiodic.excluded as f64,
                 size: 0.0,
             }))
         }
-        Found::Wanders => {
-            let followed = wander::<f64, M::In<Dual<f64, 1>>, D>(
+        Found::Aperiodic => {
+            let followed = follow_aperiodic::<f64, M::In<Dual<f64, 1>>, D>(
                 &case.system.constant(),
                 &[(trajectory.section(), case.system.metric())],
                 protocol.exponent_cycles,
                 protocol.tolerance,
             );
             match followed[0] {
-                Ok(wandering) => judge(trajectory, case, Found::Followed(wandering), protocol),
+                Ok(aperiodic) => judge(trajectory, case, Found::Followed(aperiodic), protocol),
                 Err(reason) => Err(trajectory.failure(reason)),
             }
         }
@@ -150,7 +150,7 @@ fn judge<M: System<D>, const D: usize>(
 
 /// The verdict on a section that repeats: periodic if Newton's method closes the orbit, else none.
 fn certified<M: System<D>, const D: usize>(
-    trajectory: &mut Way<'_, M, D>,
+    trajectory: &mut Moving<'_, M, D>,
     case: &Case<M, D>,
     (section, settled): (&[f64; D], Settled),
     protocol: &Protocol,
@@ -177,7 +177,7 @@ pub fn measured<M: System<D>, const D: usize>(
 }
 
 fn measure<M: System<D>, const D: usize>(
-    trajectory: &mut Way<'_, M, D>,
+    trajectory: &mut Moving<'_, M, D>,
     system: &M,
     verdict: &Verdict<D>,
     protocol: &Protocol,
@@ -190,17 +190,21 @@ fn measure<M: System<D>, const D: usize>(
     let mut section = Vec::new();
     // The largest size at the section, and at any step.
     let (mut size, mut swing): (f64, f64) = (0.0, 0.0);
+    // How far the motion gets from where a measured cycle begins.
+    let mut excursion: f64 = 0.0;
     let mut largest_defect = 0.0;
     for _ in 0..verdict.cycles {
         size = size.max(metric.size(&trajectory.section()));
         if section.len() < protocol.points {
             section.push(trajectory.section());
         }
+        let here = trajectory.section();
         trajectory.cycle(|step| {
             observed.see(moving, step);
             largest_defect = greater(largest_defect, defect(moving, step));
             let begins = M::Single::point(&moving.beginning(&step.jet));
             swing = swing.max(metric.size(&begins));
+            excursion = excursion.max(metric.distance(&begins, &here));
         })?;
     }
     let duration = if M::Single::AUTONOMOUS {
@@ -215,7 +219,9 @@ fn measure<M: System<D>, const D: usize>(
     // An orbit that Newton's method has closed with derivatives closes without them, too.
     let closes =
         certificate.proof == Proof::None || certificate.residual <= same(protocol.tolerance);
-    let is_sound = defect <= sound(protocol.tolerance) && closes;
+    // An equilibrium of an autonomous system has no section: its derivatives there would be rounding.
+    let moves = !M::Single::AUTONOMOUS || excursion > STANDS_STILL * motion;
+    let is_sound = defect <= sound(protocol.tolerance) && closes && moves;
     let orbit = Orbit {
         outcome: verdict.outcome,
         period: verdict.period,

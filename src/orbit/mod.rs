@@ -1,4 +1,4 @@
-//! Understood: says what a motion is, from its sections and from what it settles to.
+//! What a motion is, from its sections and from what it settles to.
 
 mod case;
 pub mod certificate;
@@ -20,7 +20,7 @@ mod settle_all;
 mod settling;
 pub mod side_by_side;
 pub mod trajectory;
-pub mod wandering;
+pub mod aperiodic;
 
 pub use case::{Case, Orbit, OrbitOf};
 pub use certificate::{Certificate, Proof};

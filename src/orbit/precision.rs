@@ -17,6 +17,10 @@ pub const ONE: f64 = 1e-7;
 /// An extremum this near to a surface, relative to the motion, is taken for one that touches it.
 pub const GRAZES: f64 = 1e-9;
 
+/// An autonomous motion that gets no farther than this within a cycle, relative to its size, is at an
+/// equilibrium as far as derivatives of its section can tell.
+pub const STANDS_STILL: f64 = 1e-7;
+
 /// How closely the section must repeat, relative to the motion, where steps have this tolerance and no more
 /// than `usual` is asked for: it cannot repeat more closely than the steps are.
 pub fn recurrence(usual: f64, tolerance: f64) -> f64 {

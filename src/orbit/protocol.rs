@@ -16,7 +16,8 @@ pub enum Outcome {
     Chaotic,
     /// Neither repeats nor parts.
     QuasiPeriodic,
-    /// Not settled within the budget of cycles.
+    /// Not settled within the budget of cycles, or at an equilibrium of an autonomous system, whose section has
+    /// no meaning there.
     Undecided,
     /// Could not be followed.
     Failed,

@@ -26,7 +26,7 @@ pub enum Verdict<const D: usize> {
     Settled(Settled),
 }
 
-/// A case on the way to settling.
+/// A case that has not settled yet.
 #[derive(Debug, Clone)]
 pub struct Settling<const D: usize> {
     recurrence: Recurrence<D>,

@@ -3,11 +3,11 @@
 use crate::flow::{Motion, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
 use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
+use super::aperiodic::follow_aperiodic_side_by_side;
 use super::measure::{Found, conclude};
 use super::settle::find_period;
 use super::settling::{Settling, Verdict};
 use super::trajectory::{Progress, leap};
-use super::wandering::wander_side_by_side;
 use super::{Case, Failure, OrbitOf, Protocol, Trajectory};
 
 /// What a case has settled to, if it has, or why it could not be followed.
@@ -80,8 +80,8 @@ pub fn settle_side_by_side<M: System<D>, const D: usize>(
     protocol: &Protocol,
     queue: &mut dyn Queue<M, D>,
 ) -> Vec<Underway<M, D>> {
-    let (wandering, ready) = (Vec::new(), Vec::new());
-    instructions.run(Supply { instructions, protocol, queue, wandering, ready })
+    let (aperiodic, ready) = (Vec::new(), Vec::new());
+    instructions.run(Supply { instructions, protocol, queue, aperiodic, ready })
 }
 
 /// Where the lanes take their cases from.
@@ -92,7 +92,7 @@ struct Supply<'a, M: System<D>, const D: usize> {
     queue: &'a mut dyn Queue<M, D>,
     /// Cases that have not settled, gathered until there are enough to follow their linearised flow side by
     /// side.
-    wandering: Vec<Underway<M, D>>,
+    aperiodic: Vec<Underway<M, D>>,
     /// Cases that could depart, had they a lane.
     ready: Vec<Underway<M, D>>,
 }
@@ -115,8 +115,8 @@ impl<M: System<D>, const D: usize> Work for Supply<'_, M, D> {
         let worthwhile = |cases: usize| cases * WORTHWHILE > L::WIDTH;
         loop {
             let moving = worthwhile(lanes.occupied.count_ones() as usize);
-            let wandering = lanes.cases.wandering.len();
-            if wandering >= L::WIDTH || (!moving && worthwhile(wandering)) {
+            let aperiodic = lanes.cases.aperiodic.len();
+            if aperiodic >= L::WIDTH || (!moving && worthwhile(aperiodic)) {
                 lanes.cases.follow_wandering();
                 lanes.fill();
             } else if moving {
@@ -140,12 +140,12 @@ impl<M: System<D>, const D: usize> Supply<'_, M, D> {
         Some(Underway::new(number, case, self.protocol))
     }
 
-    /// Follows the cases that wander with their linearised flow, side by side, and concludes them.
+    /// Follows the cases that follow_aperiodic with their linearised flow, side by side, and concludes them.
     fn follow_wandering(&mut self) {
-        let cases = std::mem::take(&mut self.wandering);
+        let cases = std::mem::take(&mut self.aperiodic);
         let start = |it: &Underway<M, D>| M::Single::point(&it.motion.state);
         let motions: Vec<_> = cases.iter().map(|it| (&it.case.system, start(it))).collect();
-        let followed = wander_side_by_side(self.instructions, &motions, self.protocol);
+        let followed = follow_aperiodic_side_by_side(self.instructions, &motions, self.protocol);
         for (case, followed) in cases.into_iter().zip(followed) {
             let done = case.conclude(self.protocol, |trajectory, _| {
                 followed.map(Found::Followed).map_err(|reason| trajectory.failure(reason))
@@ -231,7 +231,7 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
             // At the end of the budget the motion is measured where it is.
             _ if exhausted => {
                 let case = self.take(lane).expect("the lane is occupied");
-                self.cases.wandering.push(case);
+                self.cases.aperiodic.push(case);
                 let next = self.cases.next(None);
                 self.fill_lane(lane, next);
             }
@@ -304,10 +304,10 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
         }
     }
 
-    /// The cases that are still under way.
+    /// The cases that have not settled yet.
     fn unfinished(mut self) -> Vec<Underway<M, D>> {
         let mut cases: Vec<_> = (0..L::WIDTH).filter_map(|lane| self.take(lane)).collect();
-        cases.append(&mut self.cases.wandering);
+        cases.append(&mut self.cases.aperiodic);
         cases.append(&mut self.cases.ready);
         cases
     }

@@ -1,4 +1,4 @@
-//! A case on its way, one cycle at a time.
+//! The motion of a case, one cycle at a time.
 
 use crate::flow::{Motion, Reason, Step, Stroboscopic, cycle};
 
@@ -22,7 +22,7 @@ pub struct Progress {
     pub steps: u64,
     /// Duration of the whole cycles [s].
     pub elapsed: f64,
-    /// Time of the first section since the start [s]; on the way there the time, below zero, of the section
+    /// Time of the first section since the start [s]; until that is reached the time, below zero, of the section
     /// before the start.
     pub origin: f64,
 }
@@ -46,7 +46,7 @@ impl Progress {
     }
 }
 
-/// A case on its way.
+/// The motion of a case.
 pub struct Trajectory<'a, S: Stroboscopic<f64, D>, const D: usize> {
     system: &'a S,
     motion: Motion<f64, S>,
@@ -77,7 +77,7 @@ impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
         Trajectory::resume(system, motion, Progress::begun(time), tolerance)
     }
 
-    /// Goes on with a `motion` under way.
+    /// Continues a `motion` that has begun.
     pub fn resume(
         system: &'a S,
         motion: Motion<f64, S>,

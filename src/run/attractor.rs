@@ -13,7 +13,7 @@ use super::cases::{Rayon, RunError, pool};
 use super::change::Change;
 use super::family::{Links, Neighbours};
 use super::natural::{Along, ROUNDING};
-use super::{Ending, Machine};
+use super::{FinalMotion, Machine};
 use crate::attractor::Table;
 use crate::study::layout::{Layout, linked_axis};
 use crate::study::{CaseSet, Coordinate, Study};
@@ -77,7 +77,7 @@ pub fn links(study: &Study) -> usize {
     layout.lines() * layout.cells().saturating_sub(1)
 }
 
-/// Finds the attractors of a study from the `endings` of its cases by index, none for a case that is
+/// Finds the attractors of a study from the `final_motions` of its cases by index, none for a case that is
 /// missing; calls `linked` after each link.
 ///
 /// A periodic attractor is known by its certified orbit, see [`Table::sort`] and `Neighbours::link`. Every line
@@ -85,7 +85,7 @@ pub fn links(study: &Study) -> usize {
 /// neighbours, as there may be a single line. The threads do not matter.
 pub fn attractors(
     study: &Study,
-    endings: &[Option<Ending>],
+    final_motions: &[Option<FinalMotion>],
     machine: Machine,
     linked: impl Fn() + Sync,
 ) -> Result<Attractors, RunError> {
@@ -93,21 +93,21 @@ pub fn attractors(
         return Ok(Attractors { of_case: vec![None; study.cases()], ..Attractors::default() });
     }
     Ok(pool(machine.threads)?.install(|| match study.base.switching {
-        Switching::Filippov => find::<Filippov>(study, endings, &linked),
-        Switching::AsPrinted => find::<AsPrinted>(study, endings, &linked),
+        Switching::Filippov => find::<Filippov>(study, final_motions, &linked),
+        Switching::AsPrinted => find::<AsPrinted>(study, final_motions, &linked),
     }))
 }
 
 fn find<R: Reading>(
     study: &Study,
-    endings: &[Option<Ending>],
+    final_motions: &[Option<FinalMotion>],
     linked: impl Fn() + Sync,
 ) -> Attractors {
     let layout = Layout::of(study);
     let of_case = Mutex::new(vec![None; study.cases()]);
     let search = |number: usize| {
         let line = Line { study, layout: &layout, number };
-        let cells = line.cells::<R>(endings);
+        let cells = line.cells::<R>(final_motions);
         let (links, bridges) = line.links::<R>(&cells, &linked);
         let numbers = numbers(&cells, &links, &bridges);
         let events = events(&cells, &links, &bridges, &numbers);
@@ -129,17 +129,17 @@ struct Line<'a> {
 
 impl<'a> Line<'a> {
     /// The cells, their cases sorted by attractor.
-    fn cells<R: Reading>(&self, endings: &[Option<Ending>]) -> Vec<Table<3>> {
+    fn cells<R: Reading>(&self, final_motions: &[Option<FinalMotion>]) -> Vec<Table<3>> {
         let Line { study, layout, number } = *self;
         let sort = |at: usize| {
-            let ending = |place: usize| {
+            let final_motion = |place: usize| {
                 let case = layout.case(number, at, place);
-                (case, endings[case])
+                (case, final_motions[case])
             };
             let first = study.case(layout.case(number, at, 0));
             {
                 let system = first.read::<R>().system;
-                Table::sort(layout.cases(), ending, &system, &study.protocol, &Rayon)
+                Table::sort(layout.cases(), final_motion, &system, &study.protocol, &Rayon)
             }
         };
         (0..layout.cells()).into_par_iter().map(sort).collect()
@@ -178,7 +178,7 @@ impl<'a> Line<'a> {
         let case = study.case(layout.case(number, at, 0));
         let along = Along { case, parameter, protocol: &study.protocol, reading: PhantomData };
         let values = [axis.values[at], axis.values[at + 1]];
-        let directions = study.follow().map_or(&[][..], |follow| &follow.directions);
+        let directions = study.inherit().map_or(&[][..], |inherit| &inherit.directions);
         Some(Neighbours { along, values, cells: [&cells[at], &cells[at + 1]], directions })
     }
 

@@ -16,7 +16,7 @@ pub struct Bridge {
     pub from: [usize; 2],
     /// The cell where it is seen again, and the attractor there.
     pub to: [usize; 2],
-    /// What happens to it on the way.
+    /// Its changes in between.
     pub changes: Vec<Change>,
 }
 

@@ -138,7 +138,7 @@ struct Worker<'a, K> {
     /// Chains that this thread may still begin with, so that a few are not all in the lanes of one.
     share: usize,
     keep: &'a K,
-    /// The cases that are under way in its lanes, by their index.
+    /// The cases in its lanes, by their index.
     links: BTreeMap<usize, Link>,
 }
 
@@ -151,7 +151,7 @@ impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Queue<CapsuleSystem<R>
     ) -> Option<(usize, orbit::Case<CapsuleSystem<R>, 3>)> {
         let next = match done {
             Some((index, orbit)) => {
-                let link = self.links.remove(&index).expect("the case was under way");
+                let link = self.links.remove(&index).expect("the case was in a lane");
                 self.follow::<R>(link, orbit).or_else(|| self.take())
             }
             None => {
@@ -227,7 +227,7 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
 
     /// A case that leaves the lanes unfinished, with what follows it.
     fn part_with<R: Reading>(&mut self, case: Underway<CapsuleSystem<R>, 3>) -> Unfinished<R> {
-        let link = self.links.remove(&case.number()).expect("the case was under way");
+        let link = self.links.remove(&case.number()).expect("the case was in a lane");
         (link, case)
     }
 

@@ -12,12 +12,12 @@ const MOST: usize = 16;
 /// Sequences of events that change without an impact more or less are located to this, relative to the
 /// parameter.
 const COARSE: f64 = 1e-9;
-/// How far beside the expected zero of a property to look, as a share of the way between two orbits.
+/// How far beside the expected zero of a property to look, as a share of the distance between two orbits.
 const BESIDE: f64 = 1e-3;
 /// A multiplier this near to one belongs to an orbit that is about to end in a fold.
 const NEAR_ONE: f64 = 0.01;
 
-/// It has come nearer to one by this factor on the way.
+/// It has come nearer to one by this factor along the path.
 const SHRINKS: f64 = 0.5;
 
 /// A change of an orbit, located.
@@ -71,7 +71,7 @@ pub fn changes<R: Reading>(along: &Along<'_, R>, path: &[Solution]) -> Vec<Chang
         let until = loss.as_ref().map_or(high, |(below, _)| below);
         found.extend(sequence.every(along, low, until));
         if let Some((below, above)) = loss {
-            // Multipliers jump where the order of events changes, and then it is that which happens.
+            // Multipliers jump where the sequence of events changes; the change is then one of the sequence.
             let kind = match () {
                 () if below.events != above.events => of_events(&below, &above),
                 () if doubles(&below, &above) => SpecialKind::PeriodDoubling,
@@ -96,7 +96,7 @@ const DOUBLING: Property<'static> = Property {
     kind: &|_, _| SpecialKind::PeriodDoubling,
 };
 
-/// What may change on the way from one orbit to another.
+/// What may change between two orbits.
 struct Property<'a> {
     /// Whether it differs between two orbits.
     differs: &'a dyn Fn(&Solution, &Solution) -> bool,
@@ -153,7 +153,7 @@ impl Property<'_> {
         mut low: Solution,
         mut high: Solution,
     ) -> (Solution, Solution) {
-        // A parameter that passes zero is measured against the way to it.
+        // A parameter that passes zero is measured against its change.
         let scale = low.value.abs().max(high.value.abs());
         loop {
             let width = high.value - low.value;
@@ -177,8 +177,8 @@ impl Property<'_> {
         }
     }
 
-    /// Where to try between two orbits, as shares of the way: on both sides of where the measure passes
-    /// zero if it is straight, and then half way.
+    /// Where to try between two orbits, as shares of the distance: on both sides of where the measure passes
+    /// zero if it is straight, and then in the middle.
     fn shares(&self, low: &Solution, high: &Solution) -> [f64; 3] {
         let Some(measure) = self.measure else { return [0.5, 1.0, 1.0] };
         let (a, b) = (measure(low), measure(high));
@@ -187,14 +187,14 @@ impl Property<'_> {
     }
 }
 
-/// What happens where the last orbit of a path, on its way to the value `to`, does not go on for `step`
+/// The change at which the last orbit of a path towards the value `to` does not continue for `step`
 /// more of the parameter.
 ///
 /// It is a period doubling if the orbit runs into one of half its period, which then is located on that
 /// shorter orbit, and a fold if a multiplier tends to +1; else it ends at a change of its events. Near a
 /// fold Newton's method gives up before the orbit ends: the last two orbits foretell how much is left,
 /// which then is the uncertainty if it is more than the step.
-pub fn ending<R: Reading>(
+pub fn branch_end<R: Reading>(
     along: &Along<'_, R>,
     path: &[Solution],
     (to, step): (f64, f64),
@@ -222,7 +222,7 @@ pub fn ending<R: Reading>(
     })
 }
 
-/// The period doubling of the orbit that a longer one on the way from the first value to the second has run
+/// The period doubling of the orbit that a longer one between the first value and the second has run
 /// into. Near it the two are hard to tell apart, so that it may lie before or behind.
 fn doubling<R: Reading>(
     along: &Along<'_, R>,

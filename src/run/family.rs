@@ -1,11 +1,11 @@
-//! Which attractors of two neighbouring cells are one, and what happens to them in between.
+//! Which attractors of two neighbouring cells are one, and their changes in between.
 
 use crate::branch::SpecialKind;
 use crate::capsule::Reading;
 use crate::flow::Metric;
 use crate::orbit::Outcome;
 
-use super::change::{Change, changes, ending, straddles};
+use super::change::{Change, branch_end, changes, straddles};
 use super::natural::{Along, End, Solution};
 use crate::attractor::{Attractor, Table, coincide};
 use crate::study::Direction;
@@ -24,7 +24,7 @@ pub struct Links {
 /// The attractors of the two cells, by place, whose orbits are known not to be one in the other cell.
 #[derive(Default)]
 struct Apart {
-    /// The orbit ends on the way.
+    /// The orbit ends in between.
     ended: [Vec<usize>; 2],
     /// The orbit attracts at the other value, where no case shows it.
     unseen: [Vec<usize>; 2],
@@ -55,7 +55,7 @@ impl<R: Reading> Neighbours<'_, R> {
     /// Links the attractors of the two cells.
     ///
     /// Periodic orbits by continuation, the shortest first, to the other cell; where an orbit has lost
-    /// its stability at a period doubling on the way, it goes on in the orbit of twice the period that lies
+    /// its stability at a period doubling in between, it goes on in the orbit of twice the period that lies
     /// on both sides of it. What is left by what the followed cases say, see [`Neighbours::led`].
     pub fn link(&self) -> Links {
         let mut links = Links::default();
@@ -70,7 +70,7 @@ impl<R: Reading> Neighbours<'_, R> {
         links
     }
 
-    /// Follows an orbit to the other cell and notes what happens.
+    /// Continues an orbit to the other cell and notes its changes.
     fn follow(&self, side: usize, place: usize, links: &mut Links, apart: &mut Apart) {
         let attractor = &self.cells[side].attractors[place];
         let Some(start) = self.solution(side, attractor) else { return };
@@ -95,7 +95,7 @@ impl<R: Reading> Neighbours<'_, R> {
             }
             End::Stopped(step) => {
                 apart.ended[side].push(place);
-                found.extend(ending(&self.along, &path, (to, step)));
+                found.extend(branch_end(&self.along, &path, (to, step)));
             }
             End::Lost => {}
         }

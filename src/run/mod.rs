@@ -1,20 +1,20 @@
-//! Repeated: turns the cases of a study into records, in parallel, in any order.
+//! Turns the cases of a study into records, in parallel, in any order.
 
 pub mod attractor;
 pub mod block;
 mod bridge;
 pub mod cases;
 mod change;
-pub mod ending;
+pub mod final_motion;
 mod family;
 mod natural;
-pub mod follow;
+pub mod continuation;
 pub mod forecast;
 
 pub use crate::orbit::Machine;
 pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors, links};
 pub use block::run_blocks;
 pub use cases::{Record, RunError, run, run_sample};
-pub use ending::{Ending, ending, endings};
-pub use follow::{Followed, Unfollowed, follow};
+pub use continuation::{Continued, NotContinued, continue_branches};
+pub use final_motion::{FinalMotion, final_motion, final_motions};
 pub use forecast::{Estimate, Forecast};

@@ -19,7 +19,7 @@ const ATTEMPTS: usize = 200;
 const CYCLES: usize = 400;
 /// Values tried between two however long the orbit is.
 const FEW: usize = 8;
-/// A repelling orbit is not worth steps shorter than this share of the way.
+/// A repelling orbit is not worth steps shorter than this share of the distance.
 const SHORTEST: f64 = 1e-3;
 
 /// A periodic orbit at one value of the parameter.
@@ -136,7 +136,7 @@ impl<R: Reading> Along<'_, R> {
         is_finite.then_some(Solution { error, jacobian, ..solution })
     }
 
-    /// Follows an orbit to another value of the parameter; tells the orbits on the way, itself the first.
+    /// Follows an orbit to another value of the parameter; returns the orbits of the path, itself the first.
     ///
     /// Method: natural continuation, with the slope of the orbit over the parameter from the linearised
     /// flow as predictor and Newton's method as corrector; steps are halved where it does not close, and

@@ -1,4 +1,4 @@
-//! The variables that tell attractors apart and list their events.
+//! The variables that number the attractors and list their events.
 
 use ndarray::{ArrayD, IxDyn};
 
@@ -57,7 +57,7 @@ fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
         real(Place::Event.of(entry), &|event| event.section[i]);
     }
     let uncertainties = events.iter().map(|event| event.uncertainty).collect();
-    let followed = attractors.axis.map(|axis| study.axes()[axis].coordinate);
-    let unit = followed.map_or("1", |coordinate| coordinate.dimension().unit());
+    let coordinate = attractors.axis.map(|axis| study.axes()[axis].coordinate);
+    let unit = coordinate.map_or("1", |coordinate| coordinate.dimension().unit());
     dataset.put_column(EVENT_UNCERTAINTY, Values::reals(uncertainties)).unit = unit.to_owned();
 }

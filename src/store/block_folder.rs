@@ -1,8 +1,8 @@
 //! The folder in which the finished blocks of a study are kept until they are joined.
 //!
-//! Beside the blocks lie `begun.toml`, the study as it was when the first was begun, `begun.json`, which
-//! tells it and the program from others, and `lock`, which whoever works there holds. Blocks prove by
-//! themselves whose they are; the lock keeps others from clearing away what is under way.
+//! Beside the blocks lie `begun.toml`, the study of the first run in the folder, `begun.json`, the fingerprint of
+//! that study and the program, and `lock`, which every run in the folder holds. Each block file names its study and
+//! program; the lock prevents other runs from removing unfinished files.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
@@ -17,38 +17,38 @@ use crate::orbit::Outcome;
 use crate::run::Record;
 use crate::study::Study;
 
+use super::block_file::{self, BlockFile, Column, Head, Numbers, Summary, Unusable};
 use super::catalogue::{END_R, END_Y1, END_Y2, RESIDUAL, starts};
 use super::file::{discard_unfinished_in, has_no_locks, put};
-use super::shard::{self, Column, Head, Numbers, Shard, Summary, Unusable};
 use super::{StoreError, Values, provenance, schema};
 
-/// What the folder was begun with.
+/// The fingerprint of the study and the program of the first run.
 const BEGUN: &str = "begun.json";
-/// The study as it was then.
+/// The study of the first run.
 const STUDY: &str = "begun.toml";
-/// Held by whoever works in the folder.
+/// Held by every run in the folder.
 const LOCK: &str = "lock";
-/// What the name of every block begins with.
+/// Prefix of the name of every block.
 const BLOCK: &str = "block-";
-/// How often a lock is tried that somebody holds, who may only have looked whether it is held.
+/// How often a lock is tried that another process holds, perhaps only to test whether it is held.
 const TRIES: u32 = 10;
-/// How long between.
+/// Time between two tries.
 const PAUSE: Duration = Duration::from_millis(100);
 /// Lines that are shown of a change of the study.
 const LINES_SHOWN: usize = 6;
 
-/// Who else may work in a folder at the same time.
+/// Which other runs may use a folder at the same time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Company {
-    /// Nobody.
+    /// None.
     Alone,
     /// Other tasks of the same study.
     Tasks,
-    /// Anybody: the folder is only looked at.
+    /// All: the folder is only read.
     Anybody,
 }
 
-/// A folder of blocks that belong to one study and were made by this program.
+/// A folder of blocks of one study that this program wrote.
 #[derive(Debug)]
 pub struct BlockFolder {
     path: PathBuf,
@@ -60,14 +60,14 @@ pub struct BlockFolder {
 #[derive(Debug, Serialize, Deserialize)]
 struct Begun {
     fingerprint: String,
-    /// By whom and when.
-    made: BTreeMap<String, String>,
+    /// Program, time and machine.
+    #[serde(rename = "made")]
+    provenance: BTreeMap<String, String>,
 }
 
 impl BlockFolder {
-    /// Opens the folder at `path` for the blocks of `study`, and begins it if it is not there and `company`
-    /// is to work in it. Blocks of another study or by another program are refused, or given up if they
-    /// are to be `replaced`.
+    /// Opens the folder at `path` for the blocks of `study`, and creates it if it is not there and `company`
+    /// allows to write in it. Blocks of another study or by another program are refused, or removed with `replace`.
     pub fn enter(
         path: &Path,
         study: &Study,
@@ -79,7 +79,7 @@ impl BlockFolder {
             Company::Anybody => None,
             _ => lock(path, company)?,
         };
-        let now = Begun { fingerprint: study.fingerprint(), made: provenance::attributes() };
+        let now = Begun { fingerprint: study.fingerprint(), provenance: provenance::attributes() };
         let folder =
             BlockFolder { path: path.to_owned(), fingerprint: now.fingerprint.clone(), lock };
         match folder.changes(&now, study)? {
@@ -113,13 +113,13 @@ impl BlockFolder {
         path.join(BEGUN).is_file()
     }
 
-    /// Whether anybody works in the folder at `path`.
+    /// Whether a run uses the folder at `path`.
     pub fn is_busy(path: &Path) -> bool {
         let lock = File::options().read(true).write(true).open(path.join(LOCK));
         lock.is_ok_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)))
     }
 
-    /// What has changed since the folder was begun, in words; none if it was not.
+    /// What has changed since the folder was begun, as text; none if it was not.
     fn changes(&self, now: &Begun, study: &Study) -> Result<Option<Vec<String>>, StoreError> {
         let path = self.path.join(BEGUN);
         let begun = match fs::read(&path) {
@@ -127,12 +127,12 @@ impl BlockFolder {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(said) => return Err(StoreError::system(&path, "reading", said)),
         };
-        // What cannot be read tells nothing; the blocks tell themselves whose they are.
+        // If it cannot be read, the heads of the blocks decide.
         let Ok(begun) = serde_json::from_slice::<Begun>(&begun) else { return Ok(None) };
         let mut changes = Vec::new();
-        if !provenance::is_ours(&begun.made) {
-            let [made, now] = [&begun.made, &now.made].map(provenance::program);
-            changes.push(format!("the blocks were made by {made}, this is {now}"));
+        if !provenance::is_ours(&begun.provenance) {
+            let [older, now] = [&begun.provenance, &now.provenance].map(provenance::program);
+            changes.push(format!("the blocks were made by {older}, this is {now}"));
         }
         if begun.fingerprint != now.fingerprint {
             let older = fs::read_to_string(self.path.join(STUDY)).unwrap_or_default();
@@ -151,12 +151,12 @@ impl BlockFolder {
         Ok(others)
     }
 
-    /// Notes for what the folder is, and gives up the blocks that are of something else.
+    /// Writes study and fingerprint, and removes the blocks of other studies.
     fn begin(&self, now: &Begun, study: &Study) -> Result<(), StoreError> {
         let failed =
             |said| StoreError::system(&self.path, "beginning the folder of the blocks", said);
         for number in 0..study.blocks() {
-            if let Err(Unusable::Foreign(_)) = self.glance(number) {
+            if let Err(Unusable::Foreign(_)) = self.head(number) {
                 remove_if_there(&self.file(number)).map_err(failed)?;
             }
         }
@@ -167,20 +167,20 @@ impl BlockFolder {
 
     /// The file of a block.
     pub fn file(&self, block: usize) -> PathBuf {
-        shard::path(&self.path, block)
+        block_file::path(&self.path, block)
     }
 
-    /// A block, once every byte of it has been checked.
-    pub fn open(&self, block: usize) -> Result<Shard, Unusable> {
-        shard::open(&self.path, &self.fingerprint, block)
+    /// A block, after a check of its checksum.
+    pub fn open(&self, block: usize) -> Result<BlockFile, Unusable> {
+        block_file::open(&self.path, &self.fingerprint, block)
     }
 
-    /// What a block says of itself, without a look at its numbers.
-    pub fn glance(&self, block: usize) -> Result<Head, Unusable> {
-        shard::glance(&self.path, &self.fingerprint, block)
+    /// The head of a block; its numbers are not read.
+    pub fn head(&self, block: usize) -> Result<Head, Unusable> {
+        block_file::read_head_of(&self.path, &self.fingerprint, block)
     }
 
-    /// Keeps the records of block `number`, whole or not at all; returns what it says of itself.
+    /// Writes the records of block `number`, completely or not at all; returns their summary.
     pub fn keep(
         &self,
         study: &Study,
@@ -189,12 +189,11 @@ impl BlockFolder {
     ) -> Result<Summary, StoreError> {
         let summary = summary(number, records);
         let columns = columns(study, records);
-        shard::write(&self.path, &self.fingerprint, summary.clone(), &columns)?;
+        block_file::write(&self.path, &self.fingerprint, summary.clone(), &columns)?;
         Ok(summary)
     }
 
-    /// Removes all blocks, once they are not needed any more, and the folder with them unless somebody else
-    /// has put something there.
+    /// Removes all blocks, and the folder with them unless it holds other files.
     pub fn remove(mut self) -> Result<(), StoreError> {
         let failed =
             |path: &Path, said| StoreError::system(path, "removing the joined blocks", said);
@@ -205,7 +204,7 @@ impl BlockFolder {
                 remove_if_there(&path).map_err(|said| failed(&path, said))?;
             }
         }
-        // A network disk does not let go of a file that is open.
+        // A network disk does not remove a file that is open.
         drop(self.lock.take());
         let lock = self.path.join(LOCK);
         remove_if_there(&lock).map_err(|said| failed(&lock, said))?;
@@ -235,19 +234,20 @@ fn remove_if_there(path: &Path) -> io::Result<()> {
 
 /// Bytes that a block of these records takes.
 pub fn packed_bytes(study: &Study, records: &[Record]) -> io::Result<usize> {
-    let image = shard::image(&study.fingerprint(), summary(0, records), &columns(study, records));
+    let image =
+        block_file::image(&study.fingerprint(), summary(0, records), &columns(study, records));
     image.map(|image| image.len())
 }
 
-/// Takes the lock of a folder, which is made if need be; none where the file system has no locks, as blocks
-/// are whole without them.
+/// Takes the lock of a folder, which is created if need be; none where the file system has no locks, as blocks
+/// are written completely or not at all without them too.
 fn lock(path: &Path, company: Company) -> Result<Option<File>, StoreError> {
     let file = path.join(LOCK);
     let failed = |said| StoreError::system(&file, "taking the lock", said);
     for tried in 1.. {
         fs::create_dir_all(path)
             .map_err(|said| StoreError::system(path, "making the folder of the blocks", said))?;
-        // Network disks lend a lock only to those who may write, and one that is shared to those who may read.
+        // On network disks a lock needs a file open for writing, and a shared lock one open for reading.
         let mut options = File::options();
         let opened = options.create(true).read(true).write(true).truncate(false).open(&file);
         let lock = match opened {
@@ -259,7 +259,7 @@ fn lock(path: &Path, company: Company) -> Result<Option<File>, StoreError> {
             _ => lock.try_lock_shared(),
         };
         match taken {
-            // Whoever held it before may have removed the folder with the file that is locked now.
+            // The run that held it before may have removed the folder with the file that is locked now.
             Ok(()) if file.exists() => return Ok(Some(lock)),
             Ok(()) => {}
             Err(TryLockError::WouldBlock) if tried == TRIES => break,
@@ -281,7 +281,7 @@ fn summary(number: usize, records: &[Record]) -> Summary {
     Summary { number, cases: records.len(), outcomes, cycles }
 }
 
-/// What a block keeps of its cases: their variables, and what is needed to replay them and to find their
+/// The columns of a block: the variables, and what is needed to compute cases again and to find their
 /// attractors.
 fn columns(study: &Study, records: &[Record]) -> Vec<Column> {
     let variables = schema::columns(study, records).variables.into_iter();

@@ -13,7 +13,7 @@ use super::{Dataset, Values};
 pub struct Row<'a> {
     /// Number of the branch.
     pub branch: usize,
-    /// The parameter that is followed on it.
+    /// The parameter in which it is continued.
     pub along: Parameter,
     /// Period of its orbits [cycles].
     pub period: u64,
@@ -28,7 +28,7 @@ impl Row<'_> {
     }
 }
 
-/// Adds the columns of every orbit on a branch at a `place`; a parameter that a branch does not follow is NaN.
+/// Adds the columns of every orbit on a branch at a `place`; a parameter that does not vary on a branch is NaN.
 pub fn add_points(
     dataset: &mut Dataset,
     (place, own): (Place, &OrbitColumns),

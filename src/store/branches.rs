@@ -1,8 +1,8 @@
-//! Which variables the followed orbits have in a file of results, beside those of the sweep.
+//! The variables of the branches in a file of results, beside those of the sweep.
 
 use crate::branch::End;
 use crate::capsule::Parameter;
-use crate::run::Followed;
+use crate::run::Continued;
 use crate::study::{Continuation, Study};
 
 use super::branch_columns::add_points;
@@ -15,7 +15,7 @@ pub fn is_of_branches(dimension: &str) -> bool {
     OF_BRANCHES.iter().any(|entry| entry.name == dimension)
 }
 
-/// Whether `dataset` holds what `capsulemap follow` finds.
+/// Whether `dataset` holds branches, which `capsulemap continue` finds.
 pub fn has_branches(dataset: &Dataset) -> bool {
     dataset.coordinate(REQUEST.name).is_some()
 }
@@ -46,8 +46,8 @@ pub fn keep_branches(dataset: &mut Dataset, older: &Dataset) {
 }
 
 /// Adds what came of the branches of `study`, in its order.
-pub fn add_branches(dataset: &mut Dataset, study: &Study, followed: &[Followed]) {
-    let flat = Flat::new(&study.branches, followed);
+pub fn add_branches(dataset: &mut Dataset, study: &Study, continued: &[Continued]) {
+    let flat = Flat::new(&study.branches, continued);
     let longest = flat.points.iter().chain(&flat.specials).map(|row| row.point.section.len());
     for (dimension, length) in [
         (REQUEST, study.branches.len()),
@@ -63,7 +63,7 @@ pub fn add_branches(dataset: &mut Dataset, study: &Study, followed: &[Followed])
     }
     let names: Vec<&str> = study.branches.iter().map(|branch| branch.name.as_str()).collect();
     dataset.texts.insert(BRANCH_NAMES.to_owned(), names.join("\n"));
-    add_requests(dataset, study, followed);
+    add_requests(dataset, study, continued);
     add_index(dataset, &flat);
     let along = parameters(study.branches.iter().map(|branch| branch.along));
     let (points, specials) = (&flat.points, &flat.specials);
@@ -91,10 +91,10 @@ fn integers(dataset: &mut Dataset, entry: Entry, values: impl Iterator<Item = i6
     dataset.put_column(entry, Values::integers(values.collect()));
 }
 
-/// What each branch of the study follows and from where, and what came of it.
-fn add_requests(dataset: &mut Dataset, study: &Study, followed: &[Followed]) {
+/// The parameter, the start and the result of each branch of the study.
+fn add_requests(dataset: &mut Dataset, study: &Study, continued: &[Continued]) {
     let branches = &study.branches;
-    integers(dataset, REQUEST_RESULT, followed.iter().map(result));
+    integers(dataset, REQUEST_RESULT, continued.iter().map(result));
     integers(dataset, REQUEST_ALONG, branches.iter().map(|branch| branch.along as i64));
     reals(dataset, REQUEST_PHASE, branches.iter().map(|branch| branch.section_phase));
     for &parameter in Parameter::ALL {

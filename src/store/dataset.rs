@@ -101,7 +101,7 @@ impl Variable {
     }
 }
 
-/// Coordinates, variables and what made them: what xarray calls a dataset.
+/// Coordinates, variables and their provenance: a dataset in the sense of xarray.
 ///
 /// Invariant: each dimension of every variable is the name of a coordinate, and the lengths agree.
 /// A coordinate is a variable of one dimension, its own name.

@@ -1,4 +1,4 @@
-//! Turns a file on disk back into the dataset it was made of, trusting nothing that it says.
+//! Reads a file of results back into its dataset, and checks all that the file says.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use ndarray::{ArrayD, IxDyn};
 use super::branches::is_of_branches;
 use super::catalogue::OUTCOME;
 use super::names::*;
-use super::piece::Piece;
+use super::slab::Slab;
 use super::{Dataset, StoreError, Values, Variable};
 
 /// zlib cannot shrink further than this, so a file that claims more is damaged.
@@ -83,15 +83,15 @@ impl Archive {
         }
         let array = self.file.dataset(name).map_err(failed)?;
         let row = |position: &Vec<usize>| {
-            let piece = Piece { start: position.clone(), count: vec![1; position.len()] };
-            values_of(&array, &self.file, &piece).map_err(failed)
+            let slab = Slab { start: position.clone(), count: vec![1; position.len()] };
+            values_of(&array, &self.file, &slab).map_err(failed)
         };
         at.iter().map(row).collect()
     }
 
-    /// A variable at the cases of a piece, with what each has several of.
-    pub(super) fn piece(&self, name: &str, piece: &Piece) -> Result<Option<Variable>, StoreError> {
-        self.numbers(name, |array| values_of(&array, &self.file, piece))
+    /// A variable at the cases of a slab, with what each has several of.
+    pub(super) fn slab(&self, name: &str, slab: &Slab) -> Result<Option<Variable>, StoreError> {
+        self.numbers(name, |array| values_of(&array, &self.file, slab))
     }
 
     fn numbers(
@@ -110,7 +110,7 @@ impl Archive {
         self.labels.contains_key(OUTCOME.name)
     }
 
-    /// What `capsulemap follow` has found.
+    /// The branches that `capsulemap continue` has found.
     pub fn branches(&self) -> Result<Dataset, StoreError> {
         self.dataset(|_, dimensions| dimensions.iter().any(|it| is_of_branches(it)))
     }
@@ -136,24 +136,24 @@ impl Archive {
     }
 }
 
-/// What the cases of a piece have of an array.
-fn values_of(array: &Array, file: &File, piece: &Piece) -> hdf5::Result<Values> {
-    let Some(part) = hyperslab(piece, &array.shape()) else { return values(array, file) };
+/// What the cases of a slab have of an array.
+fn values_of(array: &Array, file: &File, slab: &Slab) -> hdf5::Result<Values> {
+    let Some(part) = hyperslab(slab, &array.shape()) else { return values(array, file) };
     match array.dtype()?.to_descriptor()? {
         TypeDescriptor::Float(_) => Ok(Values::Real(array.read_slice::<f64, _, IxDyn>(part)?)),
         _ => Ok(Values::Integer(array.read_slice::<i64, _, IxDyn>(part)?)),
     }
 }
 
-/// The part of an array that a piece of a study covers, with all that each case has several of; none where
+/// The part of an array that a slab of a study covers, with all that each case has several of; none where
 /// that is the whole array.
-pub fn hyperslab(piece: &Piece, shape: &[usize]) -> Option<Hyperslab> {
-    let axes = piece.start.len();
-    if piece.count == shape[..axes] {
+pub fn hyperslab(slab: &Slab, shape: &[usize]) -> Option<Hyperslab> {
+    let axes = slab.start.len();
+    if slab.count == shape[..axes] {
         return None;
     }
-    let axes = piece.start.iter().zip(&piece.count).map(|(start, count)| *start..start + count);
-    let inner = shape[piece.start.len()..].iter().map(|length| 0..*length);
+    let axes = slab.start.iter().zip(&slab.count).map(|(start, count)| *start..start + count);
+    let inner = shape[slab.start.len()..].iter().map(|length| 0..*length);
     Some(axes.chain(inner).map(SliceOrIndex::from).collect::<Vec<_>>().into())
 }
 

@@ -19,8 +19,8 @@ pub fn difference(left: &Dataset, right: &Dataset) -> Option<String> {
         .filter_map(|((name, a), (_, b))| variable_difference(name, a, b))
         .next()
         .or_else(|| variables_difference(&left.variables, &right.variables))
-        .or_else(|| words_difference("attribute", &left.attributes, &right.attributes))
-        .or_else(|| words_difference("text", &left.texts, &right.texts))
+        .or_else(|| text_difference("attribute", &left.attributes, &right.attributes))
+        .or_else(|| text_difference("text", &left.texts, &right.texts))
 }
 
 fn variables_difference(
@@ -33,7 +33,7 @@ fn variables_difference(
     left.iter().find_map(|(name, a)| variable_difference(name, a, &right[name]))
 }
 
-fn words_difference(
+fn text_difference(
     kind: &str,
     left: &BTreeMap<String, String>,
     right: &BTreeMap<String, String>,

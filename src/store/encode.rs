@@ -61,7 +61,8 @@ pub fn lay_out(file: &File, dataset: &Dataset, path: &Path) -> Result<Scales, St
         put_text(file, name, text).map_err(failed(format!("storing the text {name}")))?;
     }
     for (name, words) in &dataset.attributes {
-        put_words(file, name, words).map_err(failed(format!("storing the attribute {name}")))?;
+        put_attribute(file, name, words)
+            .map_err(failed(format!("storing the attribute {name}")))?;
     }
     Ok(scales)
 }
@@ -79,8 +80,8 @@ pub fn blank(path: &Path, place: impl Fn(&mut FileAccessBuilder)) -> hdf5::Resul
             plist.libver_bounds(LibraryVersion::Earliest, LibraryVersion::V18)
         })
         .create(path)?;
-    put_words(&file, CONVENTIONS, CONVENTIONS_FOLLOWED)?;
-    put_words(&file, FORMAT, FORMAT_WRITTEN)?;
+    put_attribute(&file, CONVENTIONS, CONVENTIONS_FOLLOWED)?;
+    put_attribute(&file, FORMAT, FORMAT_WRITTEN)?;
     Ok(file)
 }
 
@@ -136,8 +137,8 @@ fn put_labelled(file: &File, name: &str, variable: &Variable) -> hdf5::Result<Ar
 
 /// Adds the unit, the meaning and the flags of a variable.
 pub fn label(array: &Array, variable: &Variable, element: Element) -> hdf5::Result<()> {
-    put_words(array, UNITS, &variable.unit)?;
-    put_words(array, LONG_NAME, &variable.long_name)?;
+    put_attribute(array, UNITS, &variable.unit)?;
+    put_attribute(array, LONG_NAME, &variable.long_name)?;
     if variable.flags.is_empty() {
         return Ok(());
     }
@@ -148,7 +149,7 @@ pub fn label(array: &Array, variable: &Variable, element: Element) -> hdf5::Resu
         Element::Long | Element::Real => put_flag_values(array, &values, |value| value)?,
     }
     let meanings: Vec<&str> = variable.flags.iter().map(|(_, text)| text.as_str()).collect();
-    put_words(array, FLAG_MEANINGS, &meanings.join(" "))
+    put_attribute(array, FLAG_MEANINGS, &meanings.join(" "))
 }
 
 /// The integers that a category takes, in the type of the category, as CF asks.
@@ -267,10 +268,10 @@ pub fn chunk_shape(shape: &[usize], element: usize) -> Vec<usize> {
 fn put_text(file: &File, name: &str, text: &str) -> hdf5::Result<()> {
     let array = file.new_dataset::<VarLenUnicode>().create(name)?;
     array.write_scalar(&string(text)?)?;
-    put_words(&array, LONG_NAME, "text kept beside the numbers")
+    put_attribute(&array, LONG_NAME, "text kept beside the numbers")
 }
 
-fn put_words(place: &Location, name: &str, words: &str) -> hdf5::Result<()> {
+fn put_attribute(place: &Location, name: &str, words: &str) -> hdf5::Result<()> {
     place.new_attr::<VarLenUnicode>().create(name)?.write_scalar(&string(words)?)
 }
 

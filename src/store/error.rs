@@ -41,7 +41,7 @@ pub enum StoreError {
         /// What the library, or the reader, said.
         said: String,
     },
-    /// The file is whole as far as anyone can tell, but not one of this program.
+    /// The file shows no damage, but is not one of this program.
     Foreign {
         /// The file concerned.
         path: PathBuf,
@@ -53,7 +53,7 @@ pub enum StoreError {
         /// The file concerned.
         path: PathBuf,
     },
-    /// The blocks in a folder are of another study, or another program made them.
+    /// The blocks in a folder are of another study, or another program wrote them.
     Changed {
         /// The folder.
         folder: PathBuf,
@@ -152,7 +152,7 @@ impl fmt::Display for StoreError {
             ),
             StoreError::Busy { folder } => write!(
                 f,
-                "{}: another run is at work on this study; wait for it, or stop it and run again (what it \
+                "{}: another run computes this study now; wait for it, or stop it and run again (what it \
                  has finished is kept)",
                 folder.display()
             ),

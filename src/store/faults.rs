@@ -19,7 +19,7 @@ pub fn faults(dataset: &Dataset) -> Vec<String> {
         check_variable(dataset, name, variable, &mut found);
     }
     for (name, words) in dataset.attributes.iter().chain(&dataset.texts) {
-        check_words(name, words, &mut found);
+        check_text(name, words, &mut found);
     }
     found
 }
@@ -53,8 +53,8 @@ fn is_portable(name: &str) -> bool {
 }
 
 fn check_variable(dataset: &Dataset, name: &str, variable: &Variable, found: &mut Vec<String>) {
-    check_words(name, &variable.unit, found);
-    check_words(name, &variable.long_name, found);
+    check_text(name, &variable.unit, found);
+    check_text(name, &variable.long_name, found);
     let shape = variable.values.shape();
     if shape.len() != variable.dimensions.len() {
         let (has, named) = (shape.len(), variable.dimensions.len());
@@ -77,14 +77,14 @@ fn check_flags(name: &str, variable: &Variable, found: &mut Vec<String>) {
         found.push(format!("{name}: flags belong to integers"));
     }
     for (value, meaning) in &variable.flags {
-        check_words(name, meaning, found);
+        check_text(name, meaning, found);
         if meaning.is_empty() || meaning.contains(char::is_whitespace) {
             found.push(format!("{name}: the meaning {meaning:?} of {value}: join words by '-'"));
         }
     }
 }
 
-fn check_words(name: &str, words: &str, found: &mut Vec<String>) {
+fn check_text(name: &str, words: &str, found: &mut Vec<String>) {
     if words.contains('\0') {
         found.push(format!("{name}: a text with the character NUL in it"));
     }

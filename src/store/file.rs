@@ -6,9 +6,9 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
+use super::checksum::{self, Checksum};
 use super::decode::Archive;
 use super::faults::faults;
-use super::seal::{self, Seal};
 use super::{Dataset, StoreError, difference, encode};
 
 /// The first bytes of every HDF5 file.
@@ -25,7 +25,7 @@ pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
         return Err(StoreError::Unfit { path: path.to_owned(), faults });
     }
     let mut image = encode::image(dataset, path)?;
-    seal::put(&mut image);
+    checksum::append(&mut image);
     let file = unnamed(path, &image)?;
     drop(image);
     let unequal = match read(file.path()) {
@@ -75,9 +75,9 @@ pub fn open(path: &Path) -> Result<Archive, StoreError> {
         return Err(StoreError::Foreign { path: path.to_owned(), why });
     }
     file.rewind().map_err(failed)?;
-    match seal::judge(file).map_err(failed)? {
-        Seal::Broken => Err(StoreError::Damaged { path: path.to_owned() }),
-        Seal::Whole | Seal::Absent => Archive::decode(path),
+    match checksum::check(file).map_err(failed)? {
+        Checksum::Invalid => Err(StoreError::Damaged { path: path.to_owned() }),
+        Checksum::Valid | Checksum::Absent => Archive::decode(path),
     }
 }
 
@@ -100,7 +100,7 @@ pub(super) fn temporary(path: &Path, folder: &Path) -> io::Result<NamedTempFile>
 }
 
 /// Keeps others that write results in the folder of `path` waiting as long as the answer lives, so that what
-/// two of them put into one file is not lost; on a disk without locks it keeps nobody.
+/// two of them put into one file is not lost; on a disk without locks it has no effect.
 pub fn hold(path: &Path) -> Result<File, StoreError> {
     let failed = |said| StoreError::system(path, "waiting for others that write there", said);
     let folder = File::open(folder(path)).map_err(failed)?;

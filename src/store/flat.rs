@@ -3,7 +3,7 @@
 use crate::branch::{Curve, End, SpecialKind};
 use crate::capsule::Parameter;
 use crate::capsule::branch::Branch;
-use crate::run::Followed;
+use crate::run::Continued;
 use crate::study::Continuation;
 
 use super::branch_columns::Row;
@@ -12,7 +12,7 @@ use super::branch_columns::Row;
 pub struct FlatBranch {
     /// The branch of the study that led to it.
     pub request: usize,
-    /// The parameter that is followed.
+    /// The parameter in which it is continued.
     pub along: Parameter,
     /// Period of its orbits [cycles].
     pub period: u64,
@@ -28,9 +28,9 @@ pub struct FlatCurve {
     pub kind: SpecialKind,
     /// Period of the orbits on it [cycles].
     pub period: u64,
-    /// The special point that it was followed from.
+    /// The special point that it was continued from.
     pub through: usize,
-    /// The followed and the second parameter.
+    /// The first and the second parameter.
     pub varied: [Option<Parameter>; 2],
     /// Why it ends at its first point and at its last.
     pub ends: [End; 2],
@@ -65,10 +65,10 @@ pub struct Flat<'a> {
 
 impl<'a> Flat<'a> {
     /// What came of `continuations`.
-    pub fn new(continuations: &[Continuation], followed: &'a [Followed]) -> Self {
+    pub fn new(continuations: &[Continuation], continued: &'a [Continued]) -> Self {
         let mut flat = Flat::default();
-        for (request, (continuation, followed)) in continuations.iter().zip(followed).enumerate() {
-            let Ok(found) = followed else { continue };
+        for (request, (continuation, outcome)) in continuations.iter().zip(continued).enumerate() {
+            let Ok(found) = outcome else { continue };
             let first_branch = flat.branches.len();
             // Where the special points of each branch of this request begin.
             let mut begins = Vec::new();

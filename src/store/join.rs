@@ -1,4 +1,4 @@
-//! Joins the blocks of a study into one file of results, a piece of a variable at a time.
+//! Joins the blocks of a study into one file of results, slab by slab.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -7,18 +7,18 @@ use std::path::Path;
 use crate::capsule::{REASONS, State};
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
-use crate::run::Ending;
+use crate::run::FinalMotion;
 use crate::study::Study;
 
+use super::block_file::{BlockFile, Summary, Unusable};
 use super::block_folder::BlockFolder;
 use super::catalogue::{
     BLOCK, BLOCK_CASES, BLOCK_FIRST_CASE, BLOCK_MAKER, END, Entry, FAILURE_REASON, FAILURE_TIME,
     MULTIPLIER_IMAG, MULTIPLIER_REAL, OUTCOME, PERIOD, RESIDUAL, starts,
 };
 use super::joined::{self, Column};
-use super::piece::{Filling, MISSING, Piece};
 use super::schema;
-use super::shard::{Shard, Summary, Unusable};
+use super::slab::{Filling, MISSING, Slab};
 use super::{Dataset, StoreError, Values, Variable, provenance};
 
 /// The name of the outcome of cases that failed.
@@ -27,7 +27,7 @@ const FAILED: &str = Outcome::Failed.name();
 /// The blocks of a study, of which some may be missing.
 pub struct Blocks<'a> {
     study: &'a Study,
-    shards: Vec<Shard>,
+    files: Vec<BlockFile>,
     /// The numbers of those that are not there, and why.
     pub missing: Vec<(usize, Unusable)>,
 }
@@ -39,51 +39,51 @@ impl<'a> Blocks<'a> {
         study: &'a Study,
         numbers: impl IntoIterator<Item = usize>,
     ) -> Blocks<'a> {
-        let (mut shards, mut missing) = (Vec::new(), Vec::new());
+        let (mut files, mut missing) = (Vec::new(), Vec::new());
         for number in numbers {
             match folder.open(number) {
-                // The seal fits what nobody of ours has written.
-                Ok(shard) if shard.head.block.cases != study.cases_of_block(number) => {
+                // The checksum is valid, but the number of cases is wrong.
+                Ok(file) if file.head.block.cases != study.cases_of_block(number) => {
                     missing.push((number, Unusable::Torn));
                 }
-                Ok(shard) => shards.push(shard),
+                Ok(file) => files.push(file),
                 Err(why) => missing.push((number, why)),
             }
         }
-        Blocks { study, shards, missing }
+        Blocks { study, files, missing }
     }
 
-    /// The blocks in a few numbers each, in their order.
+    /// The summary of each block, in their order.
     pub fn summaries(&self) -> Vec<Summary> {
-        self.shards.iter().map(|shard| shard.head.block.clone()).collect()
+        self.files.iter().map(|file| file.head.block.clone()).collect()
     }
 
     /// The first cases that failed, so many at most, with where they started.
     pub fn failures(&self, most: usize) -> Result<Vec<FailedCase>, StoreError> {
         let mut found = Vec::new();
-        for shard in &self.shards {
-            if found.len() < most && shard.head.block.outcomes.contains_key(FAILED) {
-                let cases = self.study.block_cases(shard.head.block.number);
-                found.extend(failures(shard, &cases)?);
+        for file in &self.files {
+            if found.len() < most && file.head.block.outcomes.contains_key(FAILED) {
+                let cases = self.study.block_cases(file.head.block.number);
+                found.extend(failures(file, &cases)?);
             }
         }
         found.truncate(most);
         Ok(found)
     }
 
-    /// How every case of the study has ended, by index; none for those that are missing.
-    pub fn endings(&self) -> Result<Vec<Option<Ending>>, StoreError> {
-        let mut endings = vec![None; self.study.cases()];
-        for shard in &self.shards {
-            let cases = self.study.block_cases(shard.head.block.number);
-            for (case, ending) in cases.into_iter().zip(shard_endings(shard)?) {
-                endings[case] = Some(ending);
+    /// The final state of every case of the study, by index; none for those that are missing.
+    pub fn final_states(&self) -> Result<Vec<Option<FinalMotion>>, StoreError> {
+        let mut states = vec![None; self.study.cases()];
+        for file in &self.files {
+            let cases = self.study.block_cases(file.head.block.number);
+            for (case, state) in cases.into_iter().zip(final_states(file)?) {
+                states[case] = Some(state);
             }
         }
-        Ok(endings)
+        Ok(states)
     }
 
-    /// The study with all that belongs to no case: axes, constants, and who made each block.
+    /// The study with all that belongs to no case: axes, constants, and the program that wrote each block.
     pub fn frame(&self) -> Dataset {
         let mut frame = schema::frame(self.study);
         frame.coordinates.extend(schema::columns(self.study, &[]).coordinates);
@@ -105,18 +105,18 @@ impl<'a> Blocks<'a> {
         let labels: Vec<Column> =
             models.variables.iter().map(|(name, model)| self.column(name, model)).collect();
         let axes = self.study.shape().len();
-        begun(joined::count_pieces(&labels, axes));
-        let numbers = |column: &Column, piece: &Piece| {
+        begun(joined::count_slabs(&labels, axes));
+        let numbers = |column: &Column, slab: &Slab| {
             let model = &models.variables[&column.name].values;
-            self.fill(&column.name, model, piece)
+            self.fill(&column.name, model, slab)
         };
         joined::write(frame, (&labels, axes), path, numbers, done)
     }
 
     fn column(&self, name: &str, model: &Variable) -> Column {
         let label = schema::over_axes(self.study, name, model.clone(), !self.missing.is_empty());
-        let ranges = self.shards.iter().filter_map(|shard| shard.range(name)).flatten();
-        // What stands for missing cases is among the numbers too.
+        let ranges = self.files.iter().filter_map(|file| file.range(name)).flatten();
+        // The number for missing cases occurs too.
         let missing = if self.missing.is_empty() { None } else { Some([MISSING.0, 0]) };
         let all: Vec<i64> = ranges.chain(missing.into_iter().flatten()).collect();
         let range = all.iter().min().zip(all.iter().max()).map(|(&low, &high)| [low, high]);
@@ -125,41 +125,41 @@ impl<'a> Blocks<'a> {
         Column { name: name.to_owned(), label, shape, range }
     }
 
-    /// What the cases of a piece have of a variable.
-    fn fill(&self, name: &str, model: &Values, piece: &Piece) -> Result<Values, StoreError> {
+    /// The numbers of a variable at the cases of a slab.
+    fn fill(&self, name: &str, model: &Values, slab: &Slab) -> Result<Values, StoreError> {
         let shape = self.study.shape();
-        let [first, last] = piece.bounds(&shape);
+        let [first, last] = slab.bounds(&shape);
         let width: usize = model.shape()[1..].iter().product();
-        let mut filling = Filling::new(piece, name, model);
-        for shard in &self.shards {
-            let cases = self.study.block_cases(shard.head.block.number);
+        let mut filling = Filling::new(slab, name, model);
+        for file in &self.files {
+            let cases = self.study.block_cases(file.head.block.number);
             if cases[cases.len() - 1] < first || cases[0] > last {
                 continue;
             }
-            let places = cases.iter().map(|&case| piece.place(&shape, case));
+            let places = cases.iter().map(|&case| slab.place(&shape, case));
             match model {
-                Values::Real(_) => filling.put_reals(places, &shard.reals(name, width)?),
-                Values::Integer(_) => filling.put_integers(places, &shard.integers(name, width)?),
+                Values::Real(_) => filling.put_reals(places, &file.reals(name, width)?),
+                Values::Integer(_) => filling.put_integers(places, &file.integers(name, width)?),
             }
         }
         Ok(filling.finish())
     }
 
-    /// Says who made each block, and how many cases it has.
+    /// Adds the program that wrote each block, and its number of cases.
     fn add_makers(&self, frame: &mut Dataset) {
         let length = self.study.blocks();
         frame.put_coordinate(BLOCK, Values::count(length));
         let mut makers: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-        for shard in &self.shards {
-            let made = provenance::maker(&shard.head.made);
-            makers.entry(made).or_default().push(shard.head.block.number);
+        for file in &self.files {
+            let maker = provenance::maker(&file.head.provenance);
+            makers.entry(maker).or_default().push(file.head.block.number);
         }
         let mut codes = vec![MISSING.0; length];
         for (code, blocks) in makers.values().enumerate() {
             blocks.iter().for_each(|&block| codes[block] = code as i64);
         }
         let missing = (!self.missing.is_empty()).then(|| (MISSING.0, MISSING.1.to_owned()));
-        let makers = makers.into_keys().enumerate().map(|(code, made)| (code as i64, made));
+        let makers = makers.into_keys().enumerate().map(|(code, maker)| (code as i64, maker));
         let flags = missing.into_iter().chain(makers).collect();
         frame.put_column(BLOCK_MAKER, Values::integers(codes)).flags = flags;
         let firsts = (0..length).map(|block| self.study.block_cases(block)[0] as i64).collect();
@@ -176,17 +176,17 @@ pub struct FailedCase {
     pub index: usize,
     /// Where it started.
     pub start: State<f64>,
-    /// Why it could not be followed on, by its name in files.
+    /// Why the integration failed, by its name in files.
     pub reason: &'static str,
     /// When, since its start [s].
     pub time: f64,
 }
 
-/// The failed among the `cases` of a shard.
-fn failures(shard: &Shard, cases: &[usize]) -> Result<Vec<FailedCase>, StoreError> {
-    let [r, y1, y2] = starts().map(|entry| shard.reals(entry.name, 1));
-    let (r, y1, y2, times) = (r?, y1?, y2?, shard.reals(FAILURE_TIME.name, 1)?);
-    let reasons = shard.integers(FAILURE_REASON.name, 1)?;
+/// The failed among the `cases` of a block file.
+fn failures(file: &BlockFile, cases: &[usize]) -> Result<Vec<FailedCase>, StoreError> {
+    let [r, y1, y2] = starts().map(|entry| file.reals(entry.name, 1));
+    let (r, y1, y2, times) = (r?, y1?, y2?, file.reals(FAILURE_TIME.name, 1)?);
+    let reasons = file.integers(FAILURE_REASON.name, 1)?;
     let failed = |(place, code): (usize, &i64)| {
         let (_, reason) = REASONS.iter().find(|(reason, _)| *reason as i64 == *code)?;
         let start = State { r: r[place], y1: y1[place], y2: y2[place], ..State::default() };
@@ -195,23 +195,23 @@ fn failures(shard: &Shard, cases: &[usize]) -> Result<Vec<FailedCase>, StoreErro
     Ok(reasons.iter().enumerate().filter_map(failed).collect())
 }
 
-/// How the cases of a shard have ended.
-fn shard_endings(shard: &Shard) -> Result<Vec<Ending>, StoreError> {
-    let whole = |entry: Entry| shard.integers(entry.name, 1);
+/// The final states of the cases of a block file.
+fn final_states(file: &BlockFile) -> Result<Vec<FinalMotion>, StoreError> {
+    let whole = |entry: Entry| file.integers(entry.name, 1);
     let (outcomes, periods) = (whole(OUTCOME)?, whole(PERIOD)?);
-    let [r, y1, y2] = END.map(|entry| shard.reals(entry.name, 1));
-    let (r, y1, y2, residual) = (r?, y1?, y2?, shard.reals(RESIDUAL.name, 1)?);
-    let [real, imag] = [MULTIPLIER_REAL, MULTIPLIER_IMAG].map(|entry| shard.reals(entry.name, 3));
+    let [r, y1, y2] = END.map(|entry| file.reals(entry.name, 1));
+    let (r, y1, y2, residual) = (r?, y1?, y2?, file.reals(RESIDUAL.name, 1)?);
+    let [real, imag] = [MULTIPLIER_REAL, MULTIPLIER_IMAG].map(|entry| file.reals(entry.name, 3));
     let (real, imag) = (real?, imag?);
     let multipliers = |case: usize| {
         std::array::from_fn(|i| Complex { re: real[3 * case + i], im: imag[3 * case + i] })
     };
     let outcome = |code: i64| Outcome::ALL.iter().copied().find(|it| *it as i64 == code);
-    let ending = |case: usize| {
+    let state = |case: usize| {
         let section = [r[case], y1[case], y2[case]];
         let period = periods[case] as u32;
         let outcome = outcome(outcomes[case]).unwrap_or(Outcome::Failed);
-        Ending::new(outcome, period, section, residual[case], &multipliers(case))
+        FinalMotion::new(outcome, period, section, residual[case], &multipliers(case))
     };
-    Ok((0..outcomes.len()).map(ending).collect())
+    Ok((0..outcomes.len()).map(state).collect())
 }

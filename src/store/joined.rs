@@ -1,4 +1,4 @@
-//! Puts a dataset on disk whose largest variables come piece by piece, so that it need not fit into memory.
+//! Writes a dataset whose largest variables are given slab by slab, so that it need not fit into memory.
 
 use std::fs::File;
 use std::io;
@@ -12,13 +12,13 @@ use super::decode::{Archive, hyperslab};
 use super::encode::{self, Element, Scales};
 use super::faults::faults;
 use super::file::{folder, temporary};
-use super::piece::{MOST_NUMBERS, Piece, pieces};
-use super::{Dataset, StoreError, Values, Variable, difference, file, seal};
+use super::slab::{MOST_NUMBERS, Slab, slabs};
+use super::{Dataset, StoreError, Values, Variable, checksum, difference, file};
 
-/// What HDF5 may write beside the numbers of a piece [bytes].
+/// What HDF5 may write beside the numbers of a slab [bytes].
 const BESIDE: u64 = 1 << 20;
 
-/// A variable that comes piece by piece.
+/// A variable that is given slab by slab.
 pub struct Column {
     /// Its name.
     pub name: String,
@@ -31,16 +31,16 @@ pub struct Column {
 }
 
 /// Keeps `frame` and the `columns`, which have `axes` axes, in the file at `path`, replacing an older one
-/// only by a complete new one; `numbers` gives what a piece has of a column, and `done` is called after each and
+/// only by a complete new one; `numbers` gives what a slab has of a column, and `done` is called after each and
 /// may break off, which leaves nothing behind.
 ///
-/// The new file grows under a temporary name. Before HDF5 is given a piece, room for it is made sure of, as
-/// HDF5 may not tell of a full disk; at the end every piece is read back and compared by its checksum.
+/// The new file is written under a temporary name. Before each slab its disk space is reserved, as HDF5 may not
+/// report a full disk; at the end every slab is read back and compared by its checksum.
 pub fn write(
     frame: &Dataset,
     (columns, axes): (&[Column], usize),
     path: &Path,
-    numbers: impl Fn(&Column, &Piece) -> Result<Values, StoreError>,
+    numbers: impl Fn(&Column, &Slab) -> Result<Values, StoreError>,
     done: impl Fn() -> ControlFlow<()>,
 ) -> Result<ControlFlow<()>, StoreError> {
     let faults = faults(frame);
@@ -57,14 +57,14 @@ pub fn write(
     for column in columns {
         let array = begin(&file, column, &scales)
             .map_err(|said| StoreError::encoding(path, format!("storing {}", column.name), said))?;
-        for piece in column.pieces(axes) {
-            let values = numbers(column, &piece)?;
+        for slab in column.slabs(axes) {
+            let values = numbers(column, &slab)?;
             sums.push(checksum(&values));
             let bytes = column.element().bytes() * values.shape().iter().product::<usize>();
             make_room(path, BESIDE + bytes as u64)
                 .map_err(failed("making room for the results"))?;
-            let put = column.element().write(&array, &values, hyperslab(&piece, &column.shape));
-            put.and_then(|()| file.flush()).map_err(encoding("storing a piece"))?;
+            let put = column.element().write(&array, &values, hyperslab(&slab, &column.shape));
+            put.and_then(|()| file.flush()).map_err(encoding("storing a part of a variable"))?;
             if done().is_break() {
                 return Ok(ControlFlow::Break(()));
             }
@@ -72,7 +72,7 @@ pub fn write(
     }
     drop(scales);
     file.close().map_err(encoding("completing the file"))?;
-    seal::put_on(temporary.as_file_mut()).map_err(failed("sealing the file"))?;
+    checksum::append_to(temporary.as_file_mut()).map_err(failed("adding the checksum"))?;
     temporary.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
     check(&temporary, frame, (columns, axes), &sums, path)?;
     file::name(temporary, path).map(ControlFlow::Continue)
@@ -83,17 +83,17 @@ impl Column {
         Element::of(&self.label, self.range)
     }
 
-    /// The pieces in which it is put together, none of which shares a chunk with another.
-    fn pieces(&self, axes: usize) -> Vec<Piece> {
+    /// The slabs in which it is written, none of which shares a chunk with another.
+    fn slabs(&self, axes: usize) -> Vec<Slab> {
         let width = self.shape[axes..].iter().product::<usize>().max(1);
         let chunk = encode::chunk_shape(&self.shape, self.element().bytes());
-        pieces(&self.shape[..axes], &chunk[..axes], (MOST_NUMBERS / width).max(1))
+        slabs(&self.shape[..axes], &chunk[..axes], (MOST_NUMBERS / width).max(1))
     }
 }
 
 /// Pieces of all columns together.
-pub fn count_pieces(columns: &[Column], axes: usize) -> usize {
-    columns.iter().map(|column| column.pieces(axes).len()).sum()
+pub fn count_slabs(columns: &[Column], axes: usize) -> usize {
+    columns.iter().map(|column| column.slabs(axes).len()).sum()
 }
 
 fn begin(file: &hdf5::File, column: &Column, scales: &Scales) -> hdf5::Result<Array> {
@@ -111,7 +111,7 @@ fn frame_bytes(frame: &Dataset) -> u64 {
     (size_of::<f64>() * numbers + texts) as u64
 }
 
-/// Sees that so many bytes can be written beside `path`; a system that cannot tell is believed.
+/// Checks that so many bytes can be written beside `path`, on systems that can say so.
 fn make_room(path: &Path, bytes: u64) -> io::Result<()> {
     let file = temporary(path, folder(path))?;
     #[cfg(unix)]
@@ -166,8 +166,8 @@ fn check(
     }
     let mut sums = sums.iter();
     for column in columns {
-        for piece in column.pieces(axes) {
-            if !same(&archive, column, &piece, sums.next()) {
+        for slab in column.slabs(axes) {
+            if !same(&archive, column, &slab, sums.next()) {
                 return Err(unequal(format!("the values of {}", column.name)));
             }
         }
@@ -175,9 +175,9 @@ fn check(
     Ok(())
 }
 
-/// Whether a piece reads back with its checksum and its labels.
-fn same(archive: &Archive, column: &Column, piece: &Piece, sum: Option<&u32>) -> bool {
-    let Ok(Some(kept)) = archive.piece(&column.name, piece) else { return false };
+/// Whether a slab reads back with its checksum and its labels.
+fn same(archive: &Archive, column: &Column, slab: &Slab, sum: Option<&u32>) -> bool {
+    let Ok(Some(kept)) = archive.slab(&column.name, slab) else { return false };
     let Variable { dimensions, unit, long_name, flags, values } = &kept;
     let label = &column.label;
     (dimensions, unit, long_name, flags)

@@ -1,4 +1,4 @@
-//! Kept: keeps records and gives them back, with what made them.
+//! Files of results: writes records with their provenance and reads them back.
 
 mod attractors;
 pub mod block_folder;
@@ -17,14 +17,15 @@ mod flat;
 mod join;
 mod joined;
 mod names;
-mod piece;
+mod slab;
 pub mod provenance;
 mod scale;
 pub mod schema;
-mod seal;
-pub mod shard;
+mod checksum;
+pub mod block_file;
 
 pub use attractors::add_attractors;
+pub use block_file::{Summary, Unusable};
 pub use block_folder::{BlockFolder, Company, by_outcome, packed_bytes};
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
 pub use dataset::{Dataset, Values, Variable};
@@ -34,4 +35,3 @@ pub use error::StoreError;
 pub use file::{discard_unfinished, folder, hold, open, read, write};
 pub use join::{Blocks, FailedCase};
 pub use schema::{dataset, frame};
-pub use shard::{Summary, Unusable};

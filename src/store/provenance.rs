@@ -1,9 +1,9 @@
-//! What made a file: program, commit, time and machine.
+//! The provenance of a file: program, commit, time and machine.
 
 use std::collections::BTreeMap;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// The provenance of results made now by this program on this machine.
+/// The provenance of what this program writes now on this machine.
 pub fn attributes() -> BTreeMap<String, String> {
     [
         ("source", format!("capsulemap {}", env!("CARGO_PKG_VERSION"))),
@@ -17,23 +17,23 @@ pub fn attributes() -> BTreeMap<String, String> {
     .collect()
 }
 
-/// Whether this very program made something.
-pub fn is_ours(made: &BTreeMap<String, String>) -> bool {
+/// Whether a provenance names this version and commit of the program.
+pub fn is_ours(provenance: &BTreeMap<String, String>) -> bool {
     let now = attributes();
-    ["source", "commit"].iter().all(|&key| made.get(key) == now.get(key))
+    ["source", "commit"].iter().all(|&key| provenance.get(key) == now.get(key))
 }
 
-/// The program that made something: name, version and commit.
-pub fn program(made: &BTreeMap<String, String>) -> String {
-    let word = |key: &str| made.get(key).map_or("unknown", String::as_str);
-    format!("{} (commit {})", word("source"), word("commit"))
+/// The program of a provenance: name, version and commit.
+pub fn program(provenance: &BTreeMap<String, String>) -> String {
+    let value = |key: &str| provenance.get(key).map_or("unknown", String::as_str);
+    format!("{} (commit {})", value("source"), value("commit"))
 }
 
-/// Who made something, in one word: program, commit, architecture and the widest vector instructions.
-pub fn maker(made: &BTreeMap<String, String>) -> String {
+/// A provenance as one name without blanks: program, commit, architecture and the widest vector instructions.
+pub fn maker(provenance: &BTreeMap<String, String>) -> String {
     let keys = ["source", "commit", "host_architecture", "host_instruction_set"];
-    let words = keys.map(|key| made.get(key).map_or("unknown", String::as_str));
-    words.join("@").replace(' ', "-")
+    let values = keys.map(|key| provenance.get(key).map_or("unknown", String::as_str));
+    values.join("@").replace(' ', "-")
 }
 
 /// The time as ISO 8601 in UTC, to the second; where files are to be the same byte for byte, as the

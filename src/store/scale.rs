@@ -1,6 +1,6 @@
 //! The three calls of the HDF5 library that its Rust binding lacks, by `unsafe` calls.
 //!
-//! A *dimension scale* is HDF5's word for a coordinate: a dataset of one dimension that other
+//! A *dimension scale* is HDF5's term for a coordinate: a dataset of one dimension that other
 //! datasets name as the axis of theirs. Declared by hand as plain attributes it is understood by
 //! some readers only, so the library itself must do it.
 #![allow(unsafe_code)]
@@ -42,7 +42,7 @@ pub fn attach(
 
 /// The bytes of an open, flushed file.
 pub fn image(file: &hdf5::File) -> hdf5::Result<Vec<u8>> {
-    // SAFETY: without a buffer the call only tells the length; with one it writes at most that
+    // SAFETY: without a buffer the call only returns the length; with one it writes at most that
     // many bytes, all of which the vector owns. One lock spans both, so the length stays true.
     hdf5::sync::sync(|| unsafe {
         let length = H5Fget_file_image(file.id(), std::ptr::null_mut(), 0);

@@ -9,22 +9,22 @@ use crate::run::Record;
 use crate::study::{CaseSet, Coordinate, Study};
 
 use super::catalogue::*;
-use super::piece::{Filling, MISSING, Piece};
+use super::slab::{Filling, MISSING, Slab};
 use super::{Dataset, Values, Variable, drawn, provenance};
 
-/// Attribute: tells studies apart whose cases differ, see [`Study::fingerprint`].
+/// Attribute: differs between studies whose cases differ, see [`Study::fingerprint`].
 pub const FINGERPRINT: &str = "study_fingerprint";
 
 /// The dataset of a study; `records` holds one record per case, in any order, or fewer.
 ///
-/// Dimensions: the axes of the study, slowest first, then `direction` where the attractor was followed
-/// both ways, or `draw` alone; after them `point`, `impact_point` or `history_time` for what each case has several of.
+/// Dimensions: the axes of the study, slowest first, then `direction` where starts were inherited
+/// in several directions, or `draw` alone; after them `point`, `impact_point` or `history_time` for what each case has several of.
 pub fn dataset(study: &Study, records: &[Record]) -> Dataset {
     let mut dataset = frame(study);
     let columns = columns(study, records);
-    let piece = Piece::whole(&study.shape());
+    let slab = Slab::whole(&study.shape());
     for (name, variable) in columns.variables {
-        let mut filling = Filling::new(&piece, &name, &variable.values);
+        let mut filling = Filling::new(&slab, &name, &variable.values);
         let places = records.iter().map(|record| Some(record.index));
         match &variable.values {
             Values::Real(own) => filling.put_reals(places, own.as_slice().expect("a table")),
@@ -71,7 +71,7 @@ pub fn columns(study: &Study, records: &[Record]) -> Dataset {
     columns
 }
 
-/// A study without records: its axes, its constants, and what made the file.
+/// A study without records: its axes, its constants, and the provenance of the file.
 pub fn frame(study: &Study) -> Dataset {
     let mut dataset = Dataset::default();
     add_axes(&mut dataset, study);
@@ -88,7 +88,7 @@ pub fn frame(study: &Study) -> Dataset {
     dataset
 }
 
-/// How the cases were followed, so that the file tells it even where the study left it to the program.
+/// How the cases were integrated, which the file says even where the study left it to the program.
 fn protocol(study: &Study) -> [(String, String); 7] {
     let protocol = &study.protocol;
     [
@@ -159,7 +159,7 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
     }
 }
 
-/// Everything that the axes leave constant, so that a file tells its whole case.
+/// Everything that the axes leave constant, so that a file holds every parameter of its cases.
 fn add_constants(dataset: &mut Dataset, study: &Study) {
     let State { r, y1, y2, .. } = study.start;
     for constant in Coordinate::all() {

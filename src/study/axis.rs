@@ -48,7 +48,7 @@ impl Coordinate {
         }
     }
 
-    /// Whether it tells where a case starts, which does not act on what attractors there are.
+    /// Whether it is a coordinate of the start, on which the set of attractors does not depend.
     pub fn is_start(self) -> bool {
         !matches!(self, Coordinate::Parameter(_) | Coordinate::SectionPhase)
     }
@@ -125,7 +125,7 @@ impl Spacing {
         Spacing::NAMES[self as usize].0
     }
 
-    /// The value at a share of the way from `from` to `to`.
+    /// The value at a fraction of the distance from `from` to `to`.
     ///
     /// The logarithm and the exponential are those of the `libm` crate, the same on every machine.
     pub fn at(self, from: f64, to: f64, share: f64) -> f64 {

@@ -40,7 +40,7 @@ pub(super) fn read_case_set(top: &Table<'_, '_>) -> CaseSet {
     }
     match draws {
         Some(draws) => CaseSet::Draws(Draws { ranges, ..draws }),
-        None => CaseSet::Grid(Grid { axes, follow: None }),
+        None => CaseSet::Grid(Grid { axes, inherit: None }),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Blocks: a study cut into pieces that are computed, kept and repeated each as a whole.
+//! Blocks: a study is divided into blocks of cases, each of which is computed, kept and repeated as a whole.
 
 use std::ops::Range;
 

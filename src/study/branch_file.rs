@@ -78,7 +78,7 @@ fn read_name(table: &Table<'_, '_>) -> String {
     name.to_owned()
 }
 
-/// A branch without its name; none where what it needs is missing, which is told then.
+/// A branch without its name; none where what it needs is missing, which is noted as a fault.
 fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Continuation> {
     let along = read_parameter(table, "along");
     // The ends are known keys where the parameter is not, too.
@@ -129,7 +129,7 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
 fn read_parameter(table: &Table<'_, '_>, key: &str) -> Option<Parameter> {
     let names: Vec<(&str, Parameter)> = Parameter::ALL.iter().map(|&p| (p.symbol(), p)).collect();
     let Some(entry) = table.entry(key) else {
-        table.missing(key, "the parameter to follow the orbit in");
+        table.missing(key, "the parameter to continue the orbit in");
         return None;
     };
     entry.one_of("parameter", &names)
@@ -144,7 +144,7 @@ fn read_range(
     let ends = study.ends(parameter);
     let end = |key: &str, usual: Option<f64>| {
         let Some(entry) = table.entry(key) else {
-            // An axis without values has had its fault told.
+            // An axis without values has its fault noted already.
             if !study.varies(parameter) {
                 let expected =
                     format!("a value, as no axis varies the {} here", parameter.meaning());
@@ -175,7 +175,7 @@ fn read_second(
 ) -> (Option<Parameter>, Option<[f64; 2]>) {
     let parameter = read_parameter(&table, "name");
     if let (Some(name), true) = (table.entry("name"), parameter.is_some() && parameter == along) {
-        name.fault("is the parameter that the orbit is followed in already");
+        name.fault("is the parameter that the orbit is continued in already");
     }
     // As for the first.
     ["from", "to"].into_iter().for_each(|key| drop(table.entry(key)));
@@ -250,7 +250,8 @@ fn check_within(
 
 fn read_first(table: &Table<'_, '_>) -> FirstOrbit {
     let names = [("settle", false), ("newton", true)];
-    let newton = table.entry("orbit").and_then(|entry| entry.one_of("way to the orbit", &names));
+    let newton =
+        table.entry("orbit").and_then(|entry| entry.one_of("method to find the orbit", &names));
     let period = table.entry("period");
     match (newton.unwrap_or(false), &period) {
         (true, None) => table.missing("period", "the period of the orbit in cycles"),

@@ -1,4 +1,4 @@
-//! What a study asks to have followed: periodic orbits, stable or not, through a parameter.
+//! The branches that a study asks for: periodic orbits, stable or not, continued in a parameter.
 
 use crate::capsule::branch::Request;
 use crate::capsule::{Parameter, Parameters, Section, State};
@@ -15,12 +15,12 @@ pub enum FirstOrbit {
     },
 }
 
-/// A periodic orbit and the parameter that it is followed in.
+/// A periodic orbit and the parameter in which it is continued.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Continuation {
     /// Its name.
     pub name: String,
-    /// The parameter to follow it in.
+    /// The parameter to continue it in.
     pub along: Parameter,
     /// Where to stop, the lesser first.
     pub range: [f64; 2],
@@ -36,7 +36,7 @@ pub struct Continuation {
     pub first: FirstOrbit,
     /// How often to switch to the branch of twice the period.
     pub doublings: u32,
-    /// A second parameter with its range, in which the special points are followed as curves.
+    /// A second parameter with its range, in which the special points are continued as curves.
     pub second: Option<(Parameter, [f64; 2])>,
     /// Longest step, as a share of the range.
     pub longest_step: f64,
@@ -45,7 +45,7 @@ pub struct Continuation {
 }
 
 impl Continuation {
-    /// The request to follow the orbit of `period` cycles near `section`.
+    /// The request to continue the orbit of `period` cycles near `section`.
     pub fn request(&self, section: Section, period: u64, tolerance: f64) -> Request {
         Request {
             parameters: self.parameters.clone(),
@@ -62,7 +62,7 @@ impl Continuation {
         }
     }
 
-    /// The parameters that vary: the followed one, then the second.
+    /// The parameters that vary: the one of the branch, then the second.
     pub fn varied(&self) -> impl Iterator<Item = Parameter> + '_ {
         std::iter::once(self.along).chain(self.second.map(|(parameter, _)| parameter))
     }

@@ -8,7 +8,7 @@ use crate::capsule::{Case, Output, Parameters, State};
 use crate::orbit::Protocol;
 
 use super::grid::Chain;
-use super::{Axis, CaseSet, Continuation, Direction, Drawing, Follow, Grid};
+use super::{Axis, CaseSet, Continuation, Direction, Drawing, Grid, Inherit};
 
 /// What to compute.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,11 +27,11 @@ pub struct Study {
     pub section_phase: f64,
     /// The cases.
     pub case_set: CaseSet,
-    /// How each case is followed and judged.
+    /// How each case is integrated and judged.
     pub protocol: Protocol,
     /// The outputs to keep.
     pub outputs: Vec<Output>,
-    /// The branches of periodic orbits to follow.
+    /// The branches of periodic orbits to continue.
     pub branches: Vec<Continuation>,
     /// The figures to draw.
     pub drawings: Vec<Drawing>,
@@ -72,9 +72,9 @@ impl Study {
         self.case_set.axes()
     }
 
-    /// Along which axis the attractor is followed, if any.
-    pub fn follow(&self) -> Option<&Follow> {
-        self.grid()?.follow.as_ref()
+    /// Along which axis the cases inherit their start, if any.
+    pub fn inherit(&self) -> Option<&Inherit> {
+        self.grid()?.inherit.as_ref()
     }
 
     /// The directions, where there are several and they make a dimension of the results.
@@ -89,7 +89,7 @@ impl Study {
         }
     }
 
-    /// Tells studies apart whose cases or records differ in anything; titles, figures, branches and the way
+    /// Differs between studies whose cases or records differ in anything; titles, figures, branches and the form
     /// in which a study is written make no difference.
     pub fn fingerprint(&self) -> String {
         let computed = Study {
@@ -100,7 +100,7 @@ impl Study {
             ..self.clone()
         };
         let mut hasher = SipHasher13::new();
-        // Numbers are shown with all the digits that tell them apart.
+        // Numbers are shown with all the digits that distinguish them.
         format!("{computed:?}").hash(&mut hasher);
         let Hash128 { h1, h2 } = hasher.finish128();
         format!("{h1:016x}{h2:016x}")
@@ -138,7 +138,7 @@ impl Study {
         self.grid().map_or(1, Grid::cases_of_group)
     }
 
-    /// The cases of chain `number`, to be run in order; a chain is one case where none is followed.
+    /// The cases of chain `number`, to be run in order; a chain is one case where no start is inherited.
     pub fn chain(&self, number: usize) -> Chain {
         self.grid().map_or(Chain::one(number), |grid| grid.chain(number))
     }

@@ -73,8 +73,8 @@ impl<'a> Reader<'a> {
     pub fn syntax(&self, error: &toml::de::Error) {
         let at = error.span().map(|span| span.start.min(self.text.len()));
         let line = at.and_then(|at| self.text.get(..at)).map(|before| before.matches('\n').count());
-        let told = |fault: &Fault| fault.line == line.map(|line| line + 1);
-        if self.faults.borrow().iter().any(told) {
+        let is_noted = |fault: &Fault| fault.line == line.map(|line| line + 1);
+        if self.faults.borrow().iter().any(is_noted) {
             return;
         }
         let found = line.and_then(|line| self.text.lines().nth(line)).map_or("", str::trim);
@@ -135,6 +135,11 @@ impl<'r, 'a> Table<'r, 'a> {
         Some(Entry { reader: self.reader, key: self.path_of(key), value })
     }
 
+    /// The value of a `key` that is accepted and is not named among the allowed keys.
+    pub fn alias(&self, key: &str) -> Option<Entry<'r, 'a>> {
+        if self.table.contains_key(key) { self.entry(key) } else { None }
+    }
+
     /// Notes that `key` is missing.
     pub fn missing(&self, key: &str, expected: &str) {
         let message = format!("missing; expected {expected}");
@@ -152,7 +157,7 @@ impl<'r, 'a> Table<'r, 'a> {
         keys.filter_map(|key| self.entry(&key).map(|entry| (key, entry))).collect()
     }
 
-    /// Notes every key that nobody asked for.
+    /// Notes every key that was not read.
     pub fn finish(self) {
         let asked = self.asked.borrow();
         for (key, _) in self.table.iter() {

@@ -22,12 +22,12 @@ pub struct Keys {
     others: &'static [&'static [&'static str]],
     /// How many names `of` takes.
     pub most: usize,
-    /// Whether `x` and `y` may name parameters along which orbits are followed.
-    pub followed: bool,
+    /// Whether `x` and `y` may name parameters in which orbits are continued.
+    pub continued: bool,
 }
 
 /// Keys that name axes only.
-const AXES: Keys = Keys { outputs: false, others: &[], most: 0, followed: false };
+const AXES: Keys = Keys { outputs: false, others: &[], most: 0, continued: false };
 /// How many names `of` takes where there is no limit.
 const ANY: usize = usize::MAX;
 
@@ -58,13 +58,13 @@ kinds! {
     PhasePortrait "phase-portrait" AXES;
     /// A section coordinate over an axis, with the progression speed below it.
     Bifurcation "bifurcation"
-        Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, followed: true };
+        Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true };
     /// One output over two axes.
     Map "map" Keys { outputs: true, others: &[&VERDICTS], most: 1, ..AXES };
     /// Progression speed against an energy per cycle.
     TradeOff "trade-off" Keys { outputs: true, most: 1, ..AXES };
-    /// Special points of followed orbits as curves in two parameters.
-    Curves "curves" Keys { followed: true, ..AXES };
+    /// Special points of branches as curves in two parameters.
+    Curves "curves" Keys { continued: true, ..AXES };
 }
 
 impl DrawingKind {
@@ -101,7 +101,7 @@ pub struct Drawing {
     pub at: BTreeMap<String, f64>,
     /// Range of cycles shown by a history, counted from its start; all by default.
     pub cycles: Option<[f64; 2]>,
-    /// Whether a bifurcation diagram shows the followed orbits, too.
+    /// Whether a bifurcation diagram shows the branches, too.
     pub branches: bool,
     /// Width of the figure [mm]; by default one or two columns of a journal, as the kind needs.
     pub width_mm: Option<f64>,

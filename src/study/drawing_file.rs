@@ -10,7 +10,7 @@ use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind};
 /// The unit of widths [m].
 const MILLIMETRE: f64 = 1e-3;
 
-/// Longest name of a figure [bytes]; with an ending it still is a file name everywhere.
+/// Longest name of a figure [bytes]; with an extension it still is a file name everywhere.
 const LONGEST_NAME: usize = 200;
 
 /// The figures of a study with the cases of `case_set` and `branches` that keeps `outputs`.
@@ -79,13 +79,13 @@ fn read_drawing(
     }
 }
 
-/// What a figure of this kind can run along: the axes, and what is followed where it shows that.
+/// What a figure of this kind can run along: the axes, and the parameters of branches where it shows them.
 fn abscissae(
     kind: Option<DrawingKind>,
     axes: &[Axis],
     branches: &[Continuation],
 ) -> Vec<(&'static str, &'static str)> {
-    let shows_branches = kind.is_some_and(|kind| kind.keys().followed);
+    let shows_branches = kind.is_some_and(|kind| kind.keys().continued);
     let varied = branches.iter().filter(|_| shows_branches).flat_map(Continuation::varied);
     let mut names: Vec<_> = axes.iter().map(|axis| axis.coordinate.name()).collect();
     for name in varied.map(Parameter::symbol) {
@@ -104,7 +104,7 @@ fn older_name(axis: &Axis) -> Option<(&'static str, &'static str)> {
     has_one.then_some((Coordinate::PHASE, axis.coordinate.name()))
 }
 
-/// A name that can stand before the ending of a file.
+/// A name that can stand before the extension of a file.
 fn read_name(entry: &Entry<'_, '_>) -> Option<String> {
     let name = entry.text()?;
     let is_stem = !name.trim().is_empty()

@@ -1,8 +1,8 @@
-//! A grid: every combination of the values of some axes, in which a line of cases may follow each other.
+//! A grid: every combination of the values of some axes, in which a case may inherit its start from its neighbour.
 
 use super::Axis;
 
-/// The way along an axis in which each case starts where its neighbour settled, or that none does.
+/// The direction along an axis in which each case starts from the final state of its neighbour, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
     /// From the first value to the last.
@@ -27,9 +27,9 @@ impl Direction {
     }
 }
 
-/// Following the attractor along an axis, which is how hysteresis is found.
+/// Each case starts from the final state of its neighbour along an axis, which is how hysteresis is found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Follow {
+pub struct Inherit {
     /// Position of the axis in the study.
     pub axis: usize,
     /// In which directions; several of them make one more dimension, `direction`, the last.
@@ -41,11 +41,11 @@ pub struct Follow {
 pub struct Grid {
     /// The axes, slowest first; none for a single case.
     pub axes: Vec<Axis>,
-    /// Along which axis the attractor is followed, if any.
-    pub follow: Option<Follow>,
+    /// Along which axis the cases inherit their start, if any.
+    pub inherit: Option<Inherit>,
 }
 
-/// Indices of cases, each of which starts where the one before has settled.
+/// Indices of cases, each of which starts from the final state of the one before.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Chain {
     first: usize,
@@ -86,52 +86,52 @@ impl Grid {
 
     /// The directions, where there are several and they make a dimension of the results.
     pub fn direction_axis(&self) -> Option<&[Direction]> {
-        let follow = self.follow.as_ref()?;
-        (follow.directions.len() > 1).then_some(&follow.directions)
+        let inherit = self.inherit.as_ref()?;
+        (inherit.directions.len() > 1).then_some(&inherit.directions)
     }
 
-    /// Chains of a group of cases, which differ along the followed axis and in direction only: one for each
-    /// direction that is followed, and one for each case that starts afresh. Where no axis is followed, each
-    /// case is a group.
+    /// Chains of a group of cases, which differ in direction and along the axis of `inherit` only: one for each
+    /// direction upward or downward, and one for each case that starts afresh. Without `inherit` each case is a
+    /// group.
     pub(super) fn chains_of_group(&self) -> usize {
-        let Some(follow) = &self.follow else { return 1 };
+        let Some(inherit) = &self.inherit else { return 1 };
         let length = |direction: &Direction| match direction {
             Direction::Upward | Direction::Downward => 1,
-            Direction::Afresh => self.axes[follow.axis].values.len(),
+            Direction::Afresh => self.axes[inherit.axis].values.len(),
         };
-        follow.directions.iter().map(length).sum()
+        inherit.directions.iter().map(length).sum()
     }
 
     /// Cases of such a group.
     pub(super) fn cases_of_group(&self) -> usize {
-        let follow = self.follow.as_ref();
-        follow.map_or(1, |it| self.axes[it.axis].values.len() * it.directions.len())
+        let inherit = self.inherit.as_ref();
+        inherit.map_or(1, |it| self.axes[it.axis].values.len() * it.directions.len())
     }
 
-    /// The cases of chain `number`, to be run in order; a chain is one case where none is followed.
+    /// The cases of chain `number`, to be run in order; a chain is one case where no start is inherited.
     pub fn chain(&self, number: usize) -> Chain {
-        let Some(follow) = &self.follow else {
+        let Some(inherit) = &self.inherit else {
             return Chain::one(number);
         };
-        let length = self.axes[follow.axis].values.len();
-        let stride: usize = self.shape()[follow.axis + 1..].iter().product();
-        let inner = stride / follow.directions.len();
+        let length = self.axes[inherit.axis].values.len();
+        let spacing: usize = self.shape()[inherit.axis + 1..].iter().product();
+        let inner = spacing / inherit.directions.len();
         let (group, mut left) = (number / self.chains_of_group(), number % self.chains_of_group());
-        let corner = group / inner * stride * length + group % inner * follow.directions.len();
-        for (place, direction) in follow.directions.iter().enumerate() {
+        let corner = group / inner * spacing * length + group % inner * inherit.directions.len();
+        for (place, direction) in inherit.directions.iter().enumerate() {
             let first = corner + place;
             match direction {
                 Direction::Afresh if left < length => {
-                    return Chain::one(first + left * stride);
+                    return Chain::one(first + left * spacing);
                 }
                 Direction::Afresh => left -= length,
                 _ if left > 0 => left -= 1,
                 Direction::Upward => {
-                    return Chain { first, step: stride as isize, left: length };
+                    return Chain { first, step: spacing as isize, left: length };
                 }
                 Direction::Downward => {
-                    let last = first + (length - 1) * stride;
-                    return Chain { first: last, step: -(stride as isize), left: length };
+                    let last = first + (length - 1) * spacing;
+                    return Chain { first: last, step: -(spacing as isize), left: length };
                 }
             }
         }

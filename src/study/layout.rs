@@ -16,8 +16,8 @@ impl Dimensions {
     /// What position `number` adds to the index of a case.
     fn offset(&self, number: usize) -> usize {
         let (mut rest, mut offset) = (number, 0);
-        for [length, stride] in self.0.iter().rev() {
-            offset += rest % length * stride;
+        for [length, spacing] in self.0.iter().rev() {
+            offset += rest % length * spacing;
             rest /= length;
         }
         offset
@@ -84,10 +84,10 @@ impl Layout {
     }
 }
 
-/// The axis that is followed, or else the only parameter that varies.
+/// The axis along which cases inherit their start, or else the only parameter that varies.
 pub fn linked_axis(study: &Study) -> Option<usize> {
-    if let Some(follow) = study.follow() {
-        return Some(follow.axis);
+    if let Some(inherit) = study.inherit() {
+        return Some(inherit.axis);
     }
     let is_parameter = |axis: &usize| !study.axes()[*axis].coordinate.is_start();
     let mut varies = (0..study.axes().len()).filter(is_parameter);
@@ -101,7 +101,7 @@ pub fn linked_axis(study: &Study) -> Option<usize> {
 mod tests {
     use super::*;
 
-    fn layout(follow: &str) -> (Study, Layout) {
+    fn layout(start: &str) -> (Study, Layout) {
         let axis =
             |name: &str, values: &str| format!("[[axes]]\nname = \"{name}\"\nvalues = {values}\n");
         let text = [
@@ -110,7 +110,7 @@ mod tests {
             axis("omega", "[\"20 rad/s\", \"30 rad/s\", \"40 rad/s\"]"),
             axis("start_r", "[\"0 mm\", \"1 mm\"]"),
             axis("p_d", "[\"1 N\", \"2 N\"]"),
-            follow.to_owned(),
+            start.to_owned(),
         ]
         .concat();
         let study = Study::parse("study.toml", &text).unwrap_or_else(|faults| panic!("{faults}"));
@@ -120,9 +120,9 @@ mod tests {
 
     #[test]
     fn every_case_is_in_one_cell_with_those_of_its_parameters() {
-        let both = "[start]\nfollow = \"omega\"\ndirections = [\"upward\", \"downward\"]";
-        for (follow, shape) in [("", [6, 1, 4]), (both, [2, 3, 8])] {
-            let (study, layout) = layout(follow);
+        let both = "[start]\ninherit = \"omega\"\ndirections = [\"upward\", \"downward\"]";
+        for (start, shape) in [("", [6, 1, 4]), (both, [2, 3, 8])] {
+            let (study, layout) = layout(start);
             assert_eq!([layout.lines(), layout.cells(), layout.cases()], shape);
             let mut seen = vec![0; study.cases()];
             for (line, cell) in
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn the_cells_of_a_line_differ_along_the_axis_alone() {
-        let (study, layout) = layout("[start]\nfollow = \"omega\"");
+        let (study, layout) = layout("[start]\ninherit = \"omega\"");
         for line in 0..layout.lines() {
             let positions =
                 (0..layout.cells()).map(|cell| study.position(layout.case(line, cell, 0)));

@@ -27,5 +27,5 @@ pub use definition::Study;
 pub use document::{Fault, Faults};
 pub use drawing::{Drawing, DrawingKind};
 pub use draws::{DrawKind, Draws, Range};
-pub use grid::{Direction, Follow, Grid};
+pub use grid::{Direction, Grid, Inherit};
 pub use quantity::parse_quantity;

@@ -1,9 +1,12 @@
-//! The start in a study file: the state, the phases of the drive and what is followed from case to case.
+//! The start in a study file: the state, the phases of the drive and the axis along which cases inherit it.
 
 use crate::capsule::{Allowed, State};
 
-use super::document::Table;
-use super::{Axis, CaseSet, Coordinate, Direction, Follow};
+use super::document::{Entry, Table};
+use super::{Axis, CaseSet, Coordinate, Direction, Inherit};
+
+/// Keys of an inherited start, with the older name of the first.
+const INHERITED: [&str; 3] = ["inherit", "follow", "directions"];
 
 /// Where a motion starts, and where its section is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -16,15 +19,15 @@ pub(super) struct Start {
     pub section_phase: f64,
 }
 
-/// Reads `[start]`, and what is followed into `case_set`; what is given there must not vary.
+/// Reads `[start]`, and its `inherit` into `case_set`; what is given there must not vary.
 pub(super) fn read_start(top: &Table<'_, '_>, case_set: &mut CaseSet) -> Start {
     let Some(table) = top.table("start") else { return Start::default() };
     let start = read_state(&table, Start::default(), &case_set.varied());
     match case_set {
-        CaseSet::Grid(grid) => grid.follow = read_follow(&table, &grid.axes),
+        CaseSet::Grid(grid) => grid.inherit = read_inherit(&table, &grid.axes),
         CaseSet::Draws(_) => {
-            for entry in ["follow", "directions"].into_iter().filter_map(|key| table.entry(key)) {
-                entry.fault("does not go with `[draws]`, whose cases have no neighbours to follow");
+            for entry in INHERITED.into_iter().filter_map(|key| table.entry(key)) {
+                entry.fault("does not go with `[draws]`, whose cases have no neighbours");
             }
         }
     }
@@ -66,20 +69,29 @@ pub(super) fn read_state(table: &Table<'_, '_>, usual: Start, varied: &[Coordina
     start
 }
 
-fn read_follow(table: &Table<'_, '_>, axes: &[Axis]) -> Option<Follow> {
+/// The axis of `inherit`, also under the older name of the key.
+fn inherit_entry<'r, 'a>(table: &Table<'r, 'a>) -> Option<Entry<'r, 'a>> {
+    let (inherit, older) = (table.entry("inherit"), table.alias("follow"));
+    if let (Some(_), Some(older)) = (&inherit, &older) {
+        older.fault("is an older name of `inherit`, which is given too; give one of them");
+    }
+    inherit.or(older)
+}
+
+fn read_inherit(table: &Table<'_, '_>, axes: &[Axis]) -> Option<Inherit> {
     let names = Direction::ALL.map(|direction| (direction.name(), direction));
     let directions = table.entry("directions");
-    let Some(follow) = table.entry("follow") else {
+    let Some(inherit) = inherit_entry(table) else {
         if let Some(directions) = directions {
-            directions.fault("needs `follow`, the axis to go along");
+            directions.fault("needs `inherit`, the axis along which cases inherit their start");
         }
         return None;
     };
     let choices: Vec<(&str, usize)> =
         axes.iter().enumerate().map(|(i, axis)| (axis.coordinate.name(), i)).collect();
-    let axis = follow.one_of("axis of this study", &choices)?;
+    let axis = inherit.one_of("axis of this study", &choices)?;
     if !matches!(axes[axis].coordinate, Coordinate::Parameter(_)) {
-        follow.fault("must be a parameter: a start is not followed but given");
+        inherit.fault("must be a parameter; an axis over the start gives the start itself");
     }
     let mut chosen = Vec::new();
     for entry in directions.map(|entry| entry.list()).unwrap_or_default() {
@@ -92,5 +104,5 @@ fn read_follow(table: &Table<'_, '_>, axes: &[Axis]) -> Option<Follow> {
     if chosen.is_empty() {
         chosen.push(Direction::Upward);
     }
-    Some(Follow { axis, directions: chosen })
+    Some(Inherit { axis, directions: chosen })
 }

@@ -27,7 +27,7 @@ const LONGEST_PERIOD: u64 = 100_000;
 const OPEN: [Parameter; 4] = [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta];
 
 impl Study {
-    /// Reads a study from its text; every fault is told at once. `name` is the file's, for messages.
+    /// Reads a study from its text; all faults are reported at once. `name` is the file's, for messages.
     pub fn parse(name: &str, text: &str) -> Result<Study, Faults> {
         let reader = Reader::new(text);
         let (document, errors) = DeTable::parse_recoverable(text);

@@ -9,7 +9,7 @@ use super::continuation::FirstOrbit;
 use super::draws::Range;
 use super::toml_text::{Document, inline, list, number, quantity, text};
 use super::{
-    Axis, CaseSet, Continuation, Coordinate, Drawing, Draws, Fault, Faults, Follow, Grid, Spacing,
+    Axis, CaseSet, Continuation, Coordinate, Drawing, Draws, Fault, Faults, Grid, Inherit, Spacing,
     Study,
 };
 
@@ -85,14 +85,14 @@ impl Study {
                 document.put(key, quantity(value, coordinate.dimension()));
             }
         }
-        let CaseSet::Grid(Grid { axes, follow: Some(Follow { axis, directions }) }) =
+        let CaseSet::Grid(Grid { axes, inherit: Some(Inherit { axis, directions }) }) =
             &self.case_set
         else {
             return;
         };
         // An axis that is not there is named by its number, which is refused as unknown.
-        let followed = axes.get(*axis).map(|axis| axis.coordinate.name().to_owned());
-        document.put("follow", text(&followed.unwrap_or_else(|| axis.to_string())));
+        let name = axes.get(*axis).map(|axis| axis.coordinate.name().to_owned());
+        document.put("inherit", text(&name.unwrap_or_else(|| axis.to_string())));
         document.put("directions", list(directions.iter().map(|it| text(it.name()))));
     }
 

@@ -49,7 +49,7 @@ fn a_leap_ends_on_the_attractor_of_plain_iteration() {
         }
     }
     println!(
-        "{both} periodic both ways, in {} and {} cycles; {more} by leaping alone, {fewer} by waiting \
+        "{both} periodic with and without, in {} and {} cycles; {more} by leaping alone, {fewer} by waiting \
          alone; on another attractor: {:?}",
         cycles[0], cycles[1], others
     );
@@ -64,7 +64,7 @@ fn whoever_asks_for_period_one_alone_is_served_as_fast() {
     let cases = draws::cases(100, 4);
     let cycles = |protocol: &Protocol| -> u64 {
         let orbits = draws::settled(&cases, protocol, Instructions::widest());
-        // Longer periods are found only after the budget of cycles, whichever way.
+        // Longer periods are found only after the budget of cycles, with and without acceleration.
         let periodic = orbits.iter().filter(|orbit| orbit.period == 1);
         periodic.map(|orbit| orbit.cycles).sum()
     };

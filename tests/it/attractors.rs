@@ -12,11 +12,11 @@ use capsulemap::orbit::matrix::eigenvalues;
 use capsulemap::orbit::newton::close;
 use capsulemap::orbit::return_map::Cycles;
 use capsulemap::orbit::{Outcome, Proof, Protocol};
-use capsulemap::run::{self, AttractorEvent, Attractors, Ending, Machine, Record};
+use capsulemap::run::{self, AttractorEvent, Attractors, FinalMotion, Machine, Record};
 use capsulemap::store;
 use capsulemap::study::Study;
 
-use super::program::Desk;
+use super::program::WorkDir;
 
 /// The capsule that moves on or shakes in place, see `studies/hysteresis.toml`.
 const TWO_MOTIONS: &str = r#"[parameters]
@@ -43,14 +43,14 @@ fn records(study: &Study) -> Vec<Record> {
 }
 
 fn found(study: &Study, records: &[Record]) -> Attractors {
-    on(study, &run::endings(study, records), Machine::default())
+    on(study, &run::final_motions(study, records), Machine::default())
 }
 
-fn on(study: &Study, endings: &[Option<Ending>], machine: Machine) -> Attractors {
-    run::attractors(study, endings, machine, || ()).expect("the threads start")
+fn on(study: &Study, final_motions: &[Option<FinalMotion>], machine: Machine) -> Attractors {
+    run::attractors(study, final_motions, machine, || ()).expect("the threads start")
 }
 
-/// The frequency of the two motions on an axis, followed as `start` says.
+/// The frequency of the two motions on an axis, with the starts that `start` says.
 fn window(from: f64, to: f64, points: usize, start: &str) -> String {
     format!(
         "{TWO_MOTIONS}[[axes]]\nname = \"omega\"\nfrom = \"{from} rad/s\"\nto = \"{to} rad/s\"\n\
@@ -66,7 +66,8 @@ fn cascade(omega: &str) -> String {
     )
 }
 
-const BOTH_WAYS: &str = "[start]\nfollow = \"omega\"\ndirections = [\"upward\", \"downward\"]";
+const BOTH_DIRECTIONS: &str =
+    "[start]\ninherit = \"omega\"\ndirections = [\"upward\", \"downward\"]";
 
 #[test]
 fn grazing_of_the_stuck_capsule_is_where_its_amplitude_is_the_gap() {
@@ -108,7 +109,7 @@ fn grazing_of_the_stuck_capsule_is_where_its_amplitude_is_the_gap() {
 
 #[test]
 fn two_certified_attractors_coexist_between_two_folds() {
-    let study = study(&window(150.0, 166.0, 33, BOTH_WAYS));
+    let study = study(&window(150.0, 166.0, 33, BOTH_DIRECTIONS));
     let records = records(&study);
     let attractors = found(&study, &records);
     for (at, omega) in study.axes()[0].values.iter().enumerate() {
@@ -136,16 +137,16 @@ fn an_attractor_that_no_start_shows_in_between_keeps_its_number() {
     // An orbit of period 3 beside one of period 1 and 2, which only some starts from rest lead to.
     let study = study(&cascade(
         "from = \"39.3 rad/s\"\nto = \"40.1 rad/s\"\npoints = 81\n\
-         [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"afresh\"]",
+         [start]\ninherit = \"omega\"\ndirections = [\"upward\", \"afresh\"]",
     ));
     let records = records(&study);
     let linked = AtomicUsize::new(0);
     let note = || {
         linked.fetch_add(1, Ordering::Relaxed);
     };
-    let endings = run::endings(&study, &records);
-    let attractors =
-        run::attractors(&study, &endings, Machine::default(), note).expect("the threads start");
+    let final_motions = run::final_motions(&study, &records);
+    let attractors = run::attractors(&study, &final_motions, Machine::default(), note)
+        .expect("the threads start");
     assert_eq!((linked.into_inner(), run::links(&study)), (80, 80));
     let seen: Vec<usize> = (0..study.cases()).filter(|&i| records[i].orbit.period == 3).collect();
     assert!(seen.len() > 10 && seen.windows(2).any(|pair| pair[1] / 2 - pair[0] / 2 > 3));
@@ -160,7 +161,7 @@ fn a_case_that_falls_to_another_attractor_takes_its_number() {
     // From the orbit of period 3 the next case falls to that of period 1, while both go on attracting.
     let omegas =
         "values = [\"39.3 rad/s\", \"39.65 rad/s\"]\n[start]\ny1 = \"-0.2142857142857143 m/s\"";
-    let study = study(&cascade(&format!("{omegas}\nfollow = \"omega\"")));
+    let study = study(&cascade(&format!("{omegas}\ninherit = \"omega\"")));
     let records = records(&study);
     let periods: Vec<u64> = records.iter().map(|record| record.orbit.period).collect();
     assert_eq!(periods, [3, 1]);
@@ -171,7 +172,7 @@ fn a_case_that_falls_to_another_attractor_takes_its_number() {
 fn a_period_doubling_among_cases_that_settle_too_slowly_is_located_once() {
     let study = study(&cascade(
         "from = \"39.7975 rad/s\"\nto = \"39.7987 rad/s\"\npoints = 61\n\
-         [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"downward\"]",
+         [start]\ninherit = \"omega\"\ndirections = [\"upward\", \"downward\"]",
     ));
     let records = records(&study);
     let undecided = |record: &&Record| record.orbit.outcome == Outcome::Undecided;
@@ -201,10 +202,10 @@ fn a_parameter_may_begin_at_zero() {
 
 #[test]
 fn attractors_do_not_depend_on_the_threads() {
-    let study = study(&window(124.0, 126.0, 21, BOTH_WAYS));
-    let endings = run::endings(&study, &records(&study));
+    let study = study(&window(124.0, 126.0, 21, BOTH_DIRECTIONS));
+    let final_motions = run::final_motions(&study, &records(&study));
     let with = |threads: usize| {
-        on(&study, &endings, Machine { threads: Some(threads), ..Machine::default() })
+        on(&study, &final_motions, Machine { threads: Some(threads), ..Machine::default() })
     };
     let one = with(1);
     assert!(one.events.len() > 4, "{one:?}");
@@ -217,14 +218,14 @@ fn a_line_among_others_has_the_attractors_that_it_has_alone() {
     // Frequencies within a line and forces across lines, with so many starts that threads share a cell.
     let omegas = "values = [\"39.3 rad/s\", \"39.65 rad/s\", \"40.1 rad/s\"]";
     let starts = "[[axes]]\nname = \"start_y1\"\nfrom = \"-0.3 m/s\"\nto = \"0.3 m/s\"\npoints = 40\n\
-                  [start]\nfollow = \"omega\"\ndirections = [\"afresh\"]";
+                  [start]\ninherit = \"omega\"\ndirections = [\"afresh\"]";
     let force = |values: &str| format!("[[axes]]\nname = \"p_d\"\nvalues = {values}\n{starts}");
     let text = cascade(omegas).replace("p_d = \"3.4 N\"\n", "");
     let study_at = |values: &str| study(&format!("{text}{}", force(values)));
     let both = study_at("[\"3.4 N\", \"3.41 N\"]");
-    let endings = run::endings(&both, &records(&both));
+    let final_motions = run::final_motions(&both, &records(&both));
     let with = |threads: usize| {
-        on(&both, &endings, Machine { threads: Some(threads), ..Machine::default() })
+        on(&both, &final_motions, Machine { threads: Some(threads), ..Machine::default() })
     };
     let together = with(1);
     assert_eq!(together, with(2));
@@ -245,7 +246,7 @@ fn a_line_among_others_has_the_attractors_that_it_has_alone() {
 
 #[test]
 fn a_case_that_is_missing_leaves_the_others_linked() {
-    let study = study(&window(150.0, 166.0, 33, BOTH_WAYS));
+    let study = study(&window(150.0, 166.0, 33, BOTH_DIRECTIONS));
     let records = records(&study);
     let whole = found(&study, &records);
     // Single cases of four cells, and both of a fifth: what attracts there is followed on to the next.
@@ -261,7 +262,7 @@ fn a_case_that_is_missing_leaves_the_others_linked() {
 
 #[test]
 fn a_multiplier_is_minus_one_where_the_period_doubles() {
-    let study = study(&window(124.6, 125.0, 5, BOTH_WAYS));
+    let study = study(&window(124.6, 125.0, 5, BOTH_DIRECTIONS));
     let attractors = found(&study, &records(&study));
     let doubles = |event: &&AttractorEvent| event.kind == SpecialKind::PeriodDoubling;
     let events: Vec<&AttractorEvent> = attractors.events.iter().filter(doubles).collect();
@@ -273,7 +274,8 @@ fn a_multiplier_is_minus_one_where_the_period_doubles() {
         let (system, metric) = (capsule.constant::<Dual<f64, 3>>(), capsule.metric());
         let tolerance = Protocol::default().tolerance;
         let cycles = Cycles { count: event.period, tolerance };
-        let orbit = close(&system, &metric, &event.section, &cycles, 0.5).expect("it goes on");
+        let orbit = close(&system, &metric, &event.section, &cycles, 0.5)
+            .expect("the integration continues");
         let orbit = orbit.expect("an orbit");
         assert!(orbit.residual < 1e-11, "{orbit:?}");
         let from = |it: &capsulemap::orbit::matrix::Complex| f64::hypot(it.re + 1.0, it.im);
@@ -285,7 +287,7 @@ fn a_multiplier_is_minus_one_where_the_period_doubles() {
 #[test]
 fn given_starts_and_both_directions_meet_in_one_study() {
     let start = "[[axes]]\nname = \"start_y1\"\nvalues = [\"0 m/s\", \"0.5 m/s\", \"-1 m/s\"]\n\
-                 [start]\nfollow = \"omega\"\ndirections = [\"upward\", \"downward\", \"afresh\"]";
+                 [start]\ninherit = \"omega\"\ndirections = [\"upward\", \"downward\", \"afresh\"]";
     let study = study(&window(150.0, 165.0, 16, start));
     assert_eq!(study.cases(), 16 * 3 * 3);
     let mut seen: Vec<usize> = (0..study.chains()).flat_map(|number| study.chain(number)).collect();
@@ -305,11 +307,11 @@ fn given_starts_and_both_directions_meet_in_one_study() {
 
 #[test]
 fn the_file_lists_the_events_and_the_figure_shows_them() {
-    let desk = Desk::new();
+    let dir = WorkDir::new();
     let figure = "[[figures]]\nname = \"diagram\"\nkind = \"bifurcation\"";
-    desk.put("two.toml", window(150.0, 166.0, 33, &format!("{BOTH_WAYS}\n{figure}")));
-    desk.run(&["sweep", "two.toml", "--formats", "svg,png"]).done();
-    let dataset = store::read(&desk.path("results/two/two.h5")).expect("a file of results");
+    dir.put("two.toml", window(150.0, 166.0, 33, &format!("{BOTH_DIRECTIONS}\n{figure}")));
+    dir.run(&["sweep", "two.toml", "--formats", "svg,png"]).done();
+    let dataset = store::read(&dir.path("results/two/two.h5")).expect("a file of results");
     let column = |name: &str| dataset.variable(name).expect(name).values.to_real();
     let kinds = column("event_kind");
     let events = column("event_omega");
@@ -317,7 +319,7 @@ fn the_file_lists_the_events_and_the_figure_shows_them() {
     assert!(events.iter().any(|omega| (omega - 164.1555).abs() < 1e-3), "{events}");
     assert_eq!(column("attractor").shape(), [33, 2]);
     assert_eq!(dataset.attributes.get("attractor_axis").map(String::as_str), Some("omega"));
-    let svg = fs::read_to_string(desk.path("results/two/diagram.svg")).expect("a figure");
+    let svg = fs::read_to_string(dir.path("results/two/diagram.svg")).expect("a figure");
     assert!(svg.contains("section_r, progression_speed, work_positive, lyapunov_exponent"));
     // The light shading of the window.
     assert!(svg.contains("#f4edda"), "no window is shaded");

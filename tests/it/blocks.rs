@@ -8,7 +8,7 @@ use capsulemap::run::{self, Machine, Record};
 
 use capsulemap::study::Study;
 
-/// Studies that are cut differently: not followed, followed one way, and in all directions.
+/// Studies that are cut differently: no start inherited, in one direction, and in all directions.
 fn studies() -> Vec<Study> {
     let study = |points: usize, start: &str| {
         let text = format!(
@@ -21,8 +21,8 @@ fn studies() -> Vec<Study> {
     };
     vec![
         study(13, ""),
-        study(13, "[start]\nfollow = \"omega\""),
-        study(7, "[start]\nfollow = \"p_d\"\ndirections = [\"upward\", \"downward\", \"afresh\"]"),
+        study(13, "[start]\ninherit = \"omega\""),
+        study(7, "[start]\ninherit = \"p_d\"\ndirections = [\"upward\", \"downward\", \"afresh\"]"),
     ]
 }
 
@@ -88,7 +88,7 @@ fn a_block_has_the_same_records_whatever_is_run_beside_it() {
 }
 
 #[test]
-fn a_run_stops_when_it_is_told_to() {
+fn a_run_stops_when_it_is_asked_to() {
     let study = &studies()[1];
     let numbers: Vec<usize> = (0..study.blocks()).collect();
     let machine = Machine { threads: Some(1), ..Machine::default() };

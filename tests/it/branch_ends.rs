@@ -18,7 +18,7 @@ fn a_branch_says_why_it_ends() {
     let found = follow(&request).expect("a branch");
     assert_eq!(found.branches[0].ends, [End::MostPoints; 2]);
     assert_eq!(found.branches[0].points.len(), 6);
-    // From the end of the range the branch leads one way, and the first orbit is there once.
+    // From the end of the range the branch leads in one direction, and the first orbit is there once.
     request = moving([130.0, 132.0]);
     let found = follow(&request).expect("a branch");
     let points = &found.branches[0].points;

@@ -1,16 +1,16 @@
-//! Figures of followed orbits: what they show, where, and what they leave out.
+//! Figures of branches: what they show, where, and what they leave out.
 
 use std::collections::BTreeMap;
 use std::fs;
 
 use capsulemap::figure::{Format, draw};
-use capsulemap::run::Followed;
+use capsulemap::run::Continued;
 use capsulemap::store::{self, Dataset};
 use capsulemap::study::{Drawing, DrawingKind, Study};
 
-use super::figure::made::Made;
+use super::continuation::fixtures::{STUDY, branches_alone, continued, found, with_branches};
+use super::figure::fixtures::Fixture;
 use super::figure::{drawing, folder};
-use super::follow::made::{STUDY, branches_alone, followed, found, with_branches};
 use super::program::FIG5;
 
 const ALL: [Format; 3] = [Format::Png, Format::Svg, Format::Pdf];
@@ -41,8 +41,9 @@ fn swept() -> Dataset {
         near.get((place + point) % near.len().max(1)).copied().unwrap_or(f64::NAN)
     };
     let speed = height.clone();
-    let made = Made(with_branches(store::frame(&study), &study, &followed()));
-    made.coordinate("point", "1", vec![0.0])
+    let fixture = Fixture(with_branches(store::frame(&study), &study, &continued()));
+    fixture
+        .coordinate("point", "1", vec![0.0])
         .real("section_r", &["omega", "p_d", "point"], move |i| height(i[0], i[2]))
         .real("progression_speed", &["omega", "p_d"], move |i| speed(i[0], 0))
         .0
@@ -54,7 +55,7 @@ fn branches_are_drawn_over_what_was_swept() {
     let of = ["section_r", "progression_speed"].map(String::from).to_vec();
     draw(&swept, &diagram("overlay"), &folder("branches"), &ALL).expect("a figure");
     let wide = Drawing {
-        title: Some("Followed and swept".into()),
+        title: Some("Continued and swept".into()),
         width_mm: Some(180.0),
         ..diagram("overlay-wide")
     };
@@ -81,7 +82,7 @@ fn branches_alone_make_a_diagram() {
         "{FIG5}[[branches]]\nname = \"a\"\nalong = \"p_d\"\nfrom = \"1 N\"\nto = \"5 N\"\n"
     );
     let study = Study::parse("a", &text).expect("a study");
-    let second: Vec<Followed> = followed().drain(1..2).collect();
+    let second: Vec<Continued> = continued().drain(1..2).collect();
     let dataset = with_branches(store::frame(&study), &study, &second);
     let request = drawing("no-axis", DrawingKind::Bifurcation);
     assert!(svg(&dataset, &request).contains("progression_speed over p_d"));
@@ -115,7 +116,7 @@ fn the_cycles_of_an_orbit_may_begin_anywhere() {
     let apart =
         |point: &capsulemap::capsule::branch::Point| point.section[0][0] - point.section[1][0];
     assert!(straight.branches[1].points.iter().all(|point| apart(point) >= 0.0));
-    let mut others = followed();
+    let mut others = continued();
     assert_ne!(others[0], Ok(straight.clone()));
     others[0] = Ok(straight);
     let straight = with_branches(store::frame(&study), &study, &others);
@@ -135,20 +136,20 @@ fn curves_lie_over_two_parameters() {
     let said = draw(&store::frame(&study), &request, &folder("branches"), &[]);
     let said = said.expect_err("there are no curves").to_string();
     assert!(said.contains("no curves in two parameters"), "{said}");
-    // A second parameter that no branch follows, beside the columns that say what the curves are.
+    // A second parameter that no branch varies, beside the columns that say what the curves are.
     let (first, rest) = STUDY.split_once("[[branches]]\nname = \"in amplitude\"").expect("two");
     let figures = rest.find("[[figures]]").expect("figures");
     let lone = Study::parse("a", &format!("{first}{}", &rest[figures..])).expect("a study");
-    let lone = with_branches(store::frame(&lone), &lone, &followed()[..1]);
+    let lone = with_branches(store::frame(&lone), &lone, &continued()[..1]);
     assert!(svg(&lone, &drawing("lone", DrawingKind::Curves)).contains("fold over omega, p_d"));
     // Every special point that a curve goes through is marked on it.
-    let mut unmarked = followed();
+    let mut unmarked = continued();
     if let Ok(found) = &mut unmarked[0] {
         found.branches[0].special.last_mut().expect("one").curve = None;
     }
     let unmarked = with_branches(store::frame(&study), &study, &unmarked);
     assert!(svg(&unmarked, &request).len() < svg(&alone, &request).len());
-    let mut doubled = followed();
+    let mut doubled = continued();
     if let Ok(found) = &mut doubled[0] {
         found.curves[1].period = 2;
     }

@@ -17,8 +17,8 @@ use capsulemap::capsule::settle_case;
 use capsulemap::run::{self, Machine, Record};
 use capsulemap::store::{self, Values, has_branches, has_cases};
 
-use super::overnight::{LINES, NIGHT};
-use place::{after, names, night, parse, place, timeless, uninterrupted};
+use super::interrupted_runs::{LINES, LONG_STUDY};
+use place::{after, long_study, names, parse, place, timeless, uninterrupted};
 
 /// A branch beside cases that are quickly computed.
 const BRANCH: &str = r#"
@@ -44,7 +44,7 @@ to = "22 rad/s"
 
 #[test]
 fn what_is_stopped_resumed_shared_and_joined_has_the_bytes_of_one_run() {
-    let study = night();
+    let study = long_study();
     let (_folder, output) = place();
     let machine = Machine { threads: Some(1), ..Machine::default() };
     let campaign = Campaign { machine, ..Campaign::new(&study, &output) };
@@ -59,19 +59,19 @@ fn what_is_stopped_resumed_shared_and_joined_has_the_bytes_of_one_run() {
     let kept = blocks.done.len();
     assert!((1..3).contains(&kept) && !blocks.is_busy && blocks.faults.is_empty());
 
-    let told = Mutex::new((0, 0, 0));
+    let ran = Mutex::new((0, 0, 0));
     let resumed = campaign.run(first, &|event| {
-        let mut told = told.lock().expect("a lock");
+        let mut ran = ran.lock().expect("a lock");
         match event {
-            Event::Surveyed(survey) => told.0 = survey.kept.len(),
-            Event::Case { .. } => told.1 += 1,
-            Event::Computed { cases, .. } => told.2 = cases,
+            Event::Surveyed(survey) => ran.0 = survey.kept.len(),
+            Event::Case { .. } => ran.1 += 1,
+            Event::Computed { cases, .. } => ran.2 = cases,
             _ => {}
         }
         ControlFlow::Continue(())
     });
     assert!(matches!(resumed, Ok(Done::Shared(folder)) if folder == block_path(&output)));
-    assert_eq!(told.into_inner().expect("a lock"), (kept, 512 * (3 - kept), 512 * (3 - kept)));
+    assert_eq!(ran.into_inner().expect("a lock"), (kept, 512 * (3 - kept), 512 * (3 - kept)));
 
     let error = campaign.join(&silent).expect_err("half is missing");
     let CampaignError::Missing { blocks, .. } = &error else { panic!("{error}") };
@@ -91,19 +91,19 @@ fn what_is_stopped_resumed_shared_and_joined_has_the_bytes_of_one_run() {
     assert!(timeless(&output) == uninterrupted(&study), "the bytes differ");
     let status = campaign.status().expect("a status");
     let file = status.file.expect("a file of this study").expect("a file");
-    assert!(status.blocks.is_none() && file.same_words && file.archive.has_cases());
+    assert!(status.blocks.is_none() && file.same_text && file.archive.has_cases());
 }
 
 #[test]
 fn a_file_that_is_complete_stays() {
-    let study = night();
+    let study = long_study();
     let (_folder, output) = place();
     let campaign = Campaign::new(&study, &output);
     campaign.run(Task::WHOLE, &silent).expect("the study runs");
     let bytes = fs::read(&output).expect("a result");
     let events = AtomicUsize::new(0);
     let report = |event: Event<'_>| {
-        assert!(matches!(event, Event::Before { same_words: true }));
+        assert!(matches!(event, Event::Before { same_text: true }));
         events.fetch_add(1, Ordering::Relaxed);
         ControlFlow::Continue(())
     };
@@ -120,7 +120,7 @@ fn a_file_that_is_complete_stays() {
     assert!(fs::read(&output).expect("a result") == bytes);
     let campaign = Campaign { overwrite: true, ..campaign };
     campaign.run(Task::WHOLE, &silent).expect("it is replaced");
-    assert!(campaign.kept().expect("a file").expect("a file of this study").same_words);
+    assert!(campaign.kept().expect("a file").expect("a file of this study").same_text);
 }
 
 #[test]
@@ -152,8 +152,8 @@ fn a_join_that_is_stopped_leaves_the_blocks_and_nothing_else() {
 }
 
 #[test]
-fn a_torn_block_is_told_and_computed_again() {
-    let study = night();
+fn a_torn_block_is_reported_and_computed_again() {
+    let study = long_study();
     let (_folder, output) = place();
     let campaign = Campaign::new(&study, &output);
     let all_but_joined =
@@ -175,15 +175,15 @@ fn a_torn_block_is_told_and_computed_again() {
             ControlFlow::Continue(())
         })
         .expect("it is computed again");
-    let (told, blocks) = again.into_inner().expect("a lock");
-    assert!(told.len() == 1 && told[0].0 == block && told[0].1.contains("torn"), "{told:?}");
+    let (ran, blocks) = again.into_inner().expect("a lock");
+    assert!(ran.len() == 1 && ran[0].0 == block && ran[0].1.contains("torn"), "{ran:?}");
     assert_eq!(blocks, 1);
     assert!(timeless(&output) == uninterrupted(&study), "the bytes differ");
 }
 
 #[test]
 fn a_fault_of_the_machine_is_no_mistake_in_the_request() {
-    let study = night();
+    let study = long_study();
     let (folder, output) = place();
     let campaign = Campaign::new(&study, &output);
     let blocks = block_path(&output);
@@ -217,7 +217,7 @@ fn a_fault_of_the_machine_is_no_mistake_in_the_request() {
 
 #[test]
 fn a_sample_of_a_file_is_compared_bit_for_bit() {
-    let study = night();
+    let study = long_study();
     let (_folder, output) = place();
     Campaign::new(&study, &output).run(Task::WHOLE, &silent).expect("the study runs");
     let all = Sample { cases: usize::MAX, seed: 1 };
@@ -266,7 +266,7 @@ fn a_case_is_replayed_from_where_it_started_to_the_same_bits() {
     let archive = store::open(&output).expect("a result");
     let study = study_of(&archive, &output).expect("the study in the file");
     // First and last of a line, upward and downward, and cases between.
-    let mut followed = 0;
+    let mut inherited = 0;
     for index in [0, 1, 60 * 39, 60 * 39 + 1, 60 * 20 + 14, 60 * 21 + 15] {
         let replay = Replay::new(&study, index).expect("a case");
         let case = replay.as_run(Machine::default(), &silent).expect("it is computed");
@@ -278,7 +278,7 @@ fn a_case_is_replayed_from_where_it_started_to_the_same_bits() {
         let upward = index % 2 == 0;
         let place = if upward { index / 60 } else { 39 - index / 60 };
         assert_eq!(replay.cases_before(), place, "{index}");
-        followed += usize::from(case.start != replay.as_asked().start);
+        inherited += usize::from(case.start != replay.as_asked().start);
         for (name, column) in store::schema::columns(&study, &[again]).variables {
             let kept = archive.rows(&name, &[study.position(index)]).expect("it is read");
             let bits = |values: &Values| -> Vec<u64> {
@@ -287,7 +287,7 @@ fn a_case_is_replayed_from_where_it_started_to_the_same_bits() {
             assert_eq!(bits(&kept[0]), bits(&column.values), "case {index}: {name}");
         }
     }
-    assert_eq!(followed, 4, "the other two come first in their lines");
+    assert_eq!(inherited, 4, "the other two come first in their lines");
     let error = Replay::new(&study, study.cases()).expect_err("no such case");
     assert!(matches!(error, CampaignError::NoCase { index: 2400, cases: 2400 }), "{error}");
 }
@@ -297,32 +297,32 @@ fn branches_join_the_cases_in_the_file() {
     let study = parse(BRANCH);
     let (_folder, output) = place();
     let campaign = Campaign::new(&study, &output);
-    let Ok(BranchesDone::Now { followed, .. }) = campaign.follow(&silent) else {
-        panic!("the branch is followed")
+    let Ok(BranchesDone::Now { continued, .. }) = campaign.continue_branches(&silent) else {
+        panic!("the branch is continued")
     };
-    assert!(followed.len() == 1 && followed[0].is_ok());
+    assert!(continued.len() == 1 && continued[0].is_ok());
     campaign.run(Task::WHOLE, &silent).expect("the study runs");
     let dataset = store::read(&output).expect("a result");
     assert!(has_cases(&dataset) && has_branches(&dataset));
-    assert!(matches!(campaign.follow(&silent), Ok(BranchesDone::Before(_))));
-    // Branches in other words would be lost, and are not.
+    assert!(matches!(campaign.continue_branches(&silent), Ok(BranchesDone::Before(_))));
+    // Branches of a study with another text would be lost, and are kept.
     let other = parse(&study.text.replace("to = \"22 rad/s\"", "to = \"21 rad/s\""));
     let campaign = Campaign { study: &other, ..campaign };
-    let error = campaign.follow(&silent).expect_err("other branches");
+    let error = campaign.continue_branches(&silent).expect_err("other branches");
     assert!(matches!(error, CampaignError::OtherBranches { .. }), "{error}");
     let alone = parse(BRANCH.split("[[branches]]").next().expect("a study"));
-    let error = Campaign::new(&alone, &output).follow(&silent).expect_err("no branches");
+    let error = Campaign::new(&alone, &output).continue_branches(&silent).expect_err("no branches");
     assert!(matches!(error, CampaignError::NoBranches), "{error}");
 }
 
 #[test]
 fn a_study_and_its_results_are_found_by_their_paths() {
     let (folder, output) = place();
-    let path = folder.path().join("night.toml");
-    fs::write(&path, NIGHT).expect("a study");
+    let path = folder.path().join("long.toml");
+    fs::write(&path, LONG_STUDY).expect("a study");
     assert_eq!(read_study(&path).expect("a study").blocks(), 24);
     let default = output_path(&path, None).expect("a path");
-    assert_eq!(default, Path::new("results/night/night.h5"));
+    assert_eq!(default, Path::new("results/long/long.h5"));
     assert_eq!(output_path(&path, Some(&output)).expect("a path"), output);
     for wrong in [folder.path(), &path, &folder.path().join("a.blocks")] {
         let error = output_path(&path, Some(wrong)).expect_err("no place for results");
@@ -337,7 +337,7 @@ fn a_study_and_its_results_are_found_by_their_paths() {
 
 #[test]
 fn a_probe_tells_time_and_room_and_writes_nothing() {
-    let study = night();
+    let study = long_study();
     let found = probe(&study, Machine::default(), Duration::from_secs(60), &silent);
     let found = found.expect("it is computed");
     // So short a study is over before the time.

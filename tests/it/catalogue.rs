@@ -8,7 +8,7 @@ use capsulemap::store::{self, Dataset, Values, Variable};
 use capsulemap::study::{DrawingKind, Study};
 
 use super::house::{sources, string_length};
-use super::program::Desk;
+use super::program::WorkDir;
 
 /// The files that give parameters, starts, outputs and the dimensions of cases their names.
 const DEFINING: [&str; 5] = [
@@ -143,7 +143,7 @@ from = "118 rad/s"
 to = "132 rad/s"
 points = 71
 [start]
-follow = "omega"
+inherit = "omega"
 directions = ["upward", "downward"]
 [history]
 cycles = 2
@@ -223,14 +223,14 @@ fn is_axis(dimension: &str) -> bool {
 fn files_hold_what_the_catalogue_says() {
     let mut seen = BTreeSet::new();
     for text in STUDIES {
-        let desk = Desk::new();
-        desk.put("a.toml", text);
-        desk.run(&["sweep", "a.toml", "--no-figures"]).done();
+        let dir = WorkDir::new();
+        dir.put("a.toml", text);
+        dir.run(&["sweep", "a.toml", "--no-figures"]).done();
         let study = Study::parse("a.toml", text).expect("a study");
         if !study.branches.is_empty() {
-            desk.run(&["follow", "a.toml", "--no-figures"]).done();
+            dir.run(&["continue", "a.toml", "--no-figures"]).done();
         }
-        let dataset = store::read(&desk.path("results/a/a.h5")).expect("a result");
+        let dataset = store::read(&dir.path("results/a/a.h5")).expect("a result");
         let coordinates = dataset.coordinates.iter().map(|(name, it)| (name, it));
         for (name, variable) in coordinates.chain(&dataset.variables) {
             let fault = fault(&dataset, name, variable);

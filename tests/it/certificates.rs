@@ -87,7 +87,7 @@ fn a_certified_orbit_closes_and_answers_pushes_as_its_multipliers_say() {
             orbit.outputs[Output::LargestMultiplier],
             orbit.certificate.multipliers[0].abs()
         );
-        // Followed by the plain flow, the section repeats after the period and after no divisor of it.
+        // Continued by the plain flow, the section repeats after the period and after no divisor of it.
         let [r, y1, y2] = orbit.section[0];
         let start = State { r, y1, x2: 0.0, y2 };
         let run = simulate(&case.parameters, case.section_phase, start, orbit.period, 1e-13);

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::house::{Source, sources, words};
+use super::house::{Source, identifiers, sources};
 
 /// The files of the library by their module paths, and what each module re-exports from where.
 struct Library {
@@ -60,7 +60,7 @@ fn paths<'a>(tree: &'a str, before: &str, found: &mut Vec<String>) -> &'a str {
 /// The paths that a file names from the root or from the module that it lies in.
 fn named(source: &Source, own: &str) -> Vec<String> {
     let mut found = Vec::new();
-    for (before, word, after) in words(&source.code) {
+    for (before, word, after) in identifiers(&source.code) {
         let start = match word {
             "crate" => String::new(),
             "super" if !before.ends_with("::") => parent(own),
@@ -85,7 +85,7 @@ impl Library {
         let mut library = Library { files: BTreeMap::new(), exports: BTreeMap::new() };
         for (place, source) in all.iter().enumerate() {
             let own = module(&source.path);
-            for (before, word, after) in words(&source.code) {
+            for (before, word, after) in identifiers(&source.code) {
                 if word == "use" && statement(before) == "pub " {
                     let mut found = Vec::new();
                     paths(after, "", &mut found);

@@ -6,14 +6,14 @@ use capsulemap::capsule::{Output, Parameter, Parameters, State, settle};
 use capsulemap::orbit::Protocol;
 use serde_json::Value;
 
-use super::program::{Desk, FIG5, Ran};
+use super::program::{FIG5, Ran, WorkDir};
 
-const COMMANDS: [&str; 6] = ["simulate", "sweep", "follow", "figure", "inspect", "completions"];
+const COMMANDS: [&str; 6] = ["simulate", "sweep", "continue", "figure", "inspect", "completions"];
 
 fn simulate(more: &[&str]) -> Ran {
     let mut arguments = vec!["simulate", "--json"];
     arguments.extend(more);
-    Desk::new().run(&arguments)
+    WorkDir::new().run(&arguments)
 }
 
 fn fig5(more: &[&str]) -> Value {
@@ -31,8 +31,8 @@ fn list<'v>(object: &'v Value, key: &str) -> &'v Vec<Value> {
 
 #[test]
 fn fig5_prints_the_published_numbers() {
-    let told = fig5(&["--cycles", "3"]);
-    let orbit = &told["orbit"];
+    let ran = fig5(&["--cycles", "3"]);
+    let orbit = &ran["orbit"];
     assert_eq!(orbit["outcome"], "periodic");
     assert_eq!(orbit["period"], 1);
     assert_eq!(format!("{:.6}", number(&orbit["progression_speed"]) * 1e3), "10.298005");
@@ -44,7 +44,7 @@ fn fig5_prints_the_published_numbers() {
 fn the_summary_says_what_the_numbers_do_not() {
     let said = |more: &[&str]| {
         let arguments = [&["simulate", "--cycles", "0"], more].concat();
-        Desk::new().run(&arguments).out
+        WorkDir::new().run(&arguments).out
     };
     let frictionless = ["--omega", "268 rad/s", "--p-d", "12 N", "--set", "mu_d=0"];
     let text = said(&[&frictionless[..], &["--set", "mu_s=0.1", "--set", "c=0.1"]].concat());
@@ -64,14 +64,14 @@ fn the_summary_says_what_the_numbers_do_not() {
 
 #[test]
 fn every_key_of_the_contract_is_there() {
-    let told = fig5(&["--cycles", "2"]);
+    let ran = fig5(&["--cycles", "2"]);
     for symbol in ["m1", "m2", "k1", "c", "k2", "delta", "p_d", "omega", "mu_s", "mu_d", "v_s", "g"]
     {
-        assert!(told["parameters"][symbol].is_number(), "{symbol}");
+        assert!(ran["parameters"][symbol].is_number(), "{symbol}");
     }
-    assert_eq!(number(&told["parameters"]["k2"]), 2420.0);
-    assert_eq!(number(&told["parameters"]["delta"]), 0.0035);
-    let section = list(&told, "section");
+    assert_eq!(number(&ran["parameters"]["k2"]), 2420.0);
+    assert_eq!(number(&ran["parameters"]["delta"]), 0.0035);
+    let section = list(&ran, "section");
     assert_eq!(section.len(), 3);
     for key in [
         "n",
@@ -91,10 +91,10 @@ fn every_key_of_the_contract_is_there() {
         assert!(section.iter().all(|sample| sample[key].is_number()), "{key}");
     }
     for output in Output::ALL {
-        assert!(told["orbit"][output.name()].is_number(), "{}", output.name());
+        assert!(ran["orbit"][output.name()].is_number(), "{}", output.name());
     }
     for key in ["outcome", "period", "energy_residual", "momentum_residual", "grazing_margin"] {
-        assert!(!told["orbit"][key].is_null(), "{key}");
+        assert!(!ran["orbit"][key].is_null(), "{key}");
     }
 }
 
@@ -106,14 +106,14 @@ fn sections_events_and_sums_agree_with_each_other() {
         &["--cycles", "12", "--omega", "20.73", "--k2", "18960", "--delta", "1.5e-3"],
         &["--cycles", "12", "--start", "r=-2mm,y1=0.3,x2=1 m,y2=-0.2", "--phase", "90 deg"],
     ] {
-        let told = simulate(more).json();
-        let period = 2.0 * PI / number(&told["parameters"]["omega"]);
-        let section = list(&told, "section");
+        let ran = simulate(more).json();
+        let period = 2.0 * PI / number(&ran["parameters"]["omega"]);
+        let section = list(&ran, "section");
         for (n, sample) in section.iter().enumerate() {
             assert_eq!(sample["n"], n);
             assert_eq!(number(&sample["t"]), n as f64 * period, "{more:?}");
         }
-        let events = list(&told, "events");
+        let events = list(&ran, "events");
         let times: Vec<f64> = events.iter().map(|event| number(&event["t"])).collect();
         assert!(times.is_sorted(), "{more:?}");
         let kinds = [
@@ -142,20 +142,20 @@ fn sections_events_and_sums_agree_with_each_other() {
 
 #[test]
 fn the_start_is_the_first_section_point() {
-    let told = fig5(&["--start", "r=-2 mm, y1=0.1, x2=-7e-3, y2=10 mm/s", "--cycles", "0"]);
-    let section = list(&told, "section");
+    let ran = fig5(&["--start", "r=-2 mm, y1=0.1, x2=-7e-3, y2=10 mm/s", "--cycles", "0"]);
+    let section = list(&ran, "section");
     assert_eq!(section.len(), 1);
     let found = ["r", "y1", "x2", "y2"].map(|key| number(&section[0][key]));
     assert_eq!(found, [-0.002, 0.1, -7e-3, 0.01]);
-    assert!(list(&told, "events").is_empty());
+    assert!(list(&ran, "events").is_empty());
 }
 
 #[test]
 fn plain_numbers_are_in_si_and_every_parameter_can_be_set() {
     for &parameter in Parameter::ALL {
         let text = format!("{}=0.625", parameter.symbol());
-        let told = simulate(&["--set", &text, "--cycles", "0", "--max-cycles", "3"]).json();
-        assert_eq!(number(&told["parameters"][parameter.symbol()]), 0.625, "{text}");
+        let ran = simulate(&["--set", &text, "--cycles", "0", "--max-cycles", "3"]).json();
+        assert_eq!(number(&ran["parameters"][parameter.symbol()]), 0.625, "{text}");
     }
     let heavy = simulate(&["--set", "m1=1e12", "--cycles", "1", "--max-cycles", "2"]).json();
     assert_eq!(number(&heavy["parameters"]["m1"]), 1e12);
@@ -165,10 +165,10 @@ fn plain_numbers_are_in_si_and_every_parameter_can_be_set() {
 
 #[test]
 fn the_orbit_is_that_of_the_library_bit_for_bit() {
-    let told = simulate(&["--cycles", "0"]).done();
+    let ran = simulate(&["--cycles", "0"]).done();
     let orbit = settle(&Parameters::default(), 0.0, State::default(), &Protocol::default());
     for &output in Output::ALL {
-        let printed = told.printed(output.name());
+        let printed = ran.printed(output.name());
         assert_eq!(printed.to_bits(), orbit.outputs[output].to_bits(), "{}", output.name());
     }
 }
@@ -192,9 +192,9 @@ fn degenerate_and_failing_cases_print_json_all_the_same() {
         for reading in ["filippov", "as-printed"] {
             let usual = ["--max-cycles", "50", "--cycles", "2", "--friction-switching", reading];
             let usual = if more[0] == "--max-cycles" { &usual[2..] } else { &usual[..] };
-            let told = simulate(&[more, usual].concat()).json();
-            assert!(told["orbit"]["outcome"].is_string(), "{more:?}");
-            assert!(!list(&told, "section").is_empty(), "{more:?}");
+            let ran = simulate(&[more, usual].concat()).json();
+            assert!(ran["orbit"]["outcome"].is_string(), "{more:?}");
+            assert!(!list(&ran, "section").is_empty(), "{more:?}");
         }
     }
     let failed = simulate(&["--start", "r=1e300"]).json();
@@ -204,7 +204,7 @@ fn degenerate_and_failing_cases_print_json_all_the_same() {
 }
 
 #[test]
-fn wrong_units_and_names_are_all_told_at_once() {
+fn wrong_units_and_names_are_all_reported_at_once() {
     simulate(&["--omega", "4 N", "--k2", "soft", "--delta", "3 furlongs", "--set", "mud=1"])
         .refused(&[
             "--omega: \"4 N\" is a force; expected a frequency in rad/s, Hz",
@@ -254,50 +254,50 @@ fn impossible_parameters_are_all_named() {
 
 #[test]
 fn every_command_explains_itself_by_examples() {
-    let desk = Desk::new();
-    assert!(desk.run(&["--help"]).done().out.contains("Exit codes"));
+    let dir = WorkDir::new();
+    assert!(dir.run(&["--help"]).done().out.contains("Exit codes"));
     for command in COMMANDS {
-        let told = desk.run(&[command, "--help"]).done();
-        assert!(told.out.contains("Examples:\n  capsulemap"), "{command}: {}", told.out);
+        let ran = dir.run(&[command, "--help"]).done();
+        assert!(ran.out.contains("Examples:\n  capsulemap"), "{command}: {}", ran.out);
     }
-    desk.run(&["swep"]).refused(&["sweep"]);
-    desk.run(&[]).refused(&["Usage"]);
+    dir.run(&["swep"]).refused(&["sweep"]);
+    dir.run(&[]).refused(&["Usage"]);
 }
 
 #[test]
 fn completions_name_every_command() {
-    let desk = Desk::new();
+    let dir = WorkDir::new();
     for shell in ["bash", "zsh", "fish"] {
-        let told = desk.run(&["completions", shell]).done();
-        assert!(COMMANDS.iter().all(|command| told.out.contains(command)), "{shell}");
-        assert!(told.out.contains("friction-switching"), "{shell}");
+        let ran = dir.run(&["completions", shell]).done();
+        assert!(COMMANDS.iter().all(|command| ran.out.contains(command)), "{shell}");
+        assert!(ran.out.contains("friction-switching"), "{shell}");
     }
-    desk.put("complete.bash", desk.run(&["completions", "bash"]).out);
-    assert_eq!(desk.shell("bash -n complete.bash").code, 0);
-    desk.run(&["completions", "cmd"]).refused(&["cmd", "bash"]);
+    dir.put("complete.bash", dir.run(&["completions", "bash"]).out);
+    assert_eq!(dir.shell("bash -n complete.bash").code, 0);
+    dir.run(&["completions", "cmd"]).refused(&["cmd", "bash"]);
 }
 
 #[test]
 fn a_reader_that_goes_away_is_no_fault() {
-    let desk = Desk::new();
+    let dir = WorkDir::new();
     for command in
         ["simulate --cycles 3000 --json", "simulate --cycles 3000", "completions zsh", "--help"]
     {
-        let ran = desk
+        let ran = dir
             .shell(&format!("\"$0\" {command} | head -n 1 > /dev/null; exit ${{PIPESTATUS[0]}}"));
         assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{command}");
     }
-    desk.put("fig5.toml", FIG5);
-    let ran = desk.shell("\"$0\" sweep fig5.toml 2>&1 >/dev/null | true; exit ${PIPESTATUS[0]}");
+    dir.put("fig5.toml", FIG5);
+    let ran = dir.shell("\"$0\" sweep fig5.toml 2>&1 >/dev/null | true; exit ${PIPESTATUS[0]}");
     assert_eq!(ran.code, 0, "{}", ran.err);
 }
 
 #[test]
 #[cfg(target_os = "linux")]
 fn a_full_standard_output_is_a_fault_of_the_machine() {
-    let ran = Desk::new().shell("\"$0\" simulate --json > /dev/full");
+    let ran = WorkDir::new().shell("\"$0\" simulate --json > /dev/full");
     assert_eq!(ran.code, 3, "{}", ran.err);
     assert!(ran.err.contains("cannot write to standard output: No space left"), "{}", ran.err);
-    // Nor does a message that nobody can read make it panic.
-    assert_eq!(Desk::new().shell("\"$0\" inspect nothing 2> /dev/full").code, 2);
+    // Nor does a message to a closed pipe make it panic.
+    assert_eq!(WorkDir::new().shell("\"$0\" inspect nothing 2> /dev/full").code, 2);
 }

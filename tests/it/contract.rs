@@ -1,5 +1,12 @@
-//! What every system owes the integrator: its steps satisfy its equations, and one that hides a scale from the
-//! step control is found out.
+//! What every system owes the integrator: the laws that six of them are checked by, and that one which hides a
+//! scale from the step control is found out.
+
+mod lanes;
+mod maps;
+mod orbits;
+mod steps;
+mod subject;
+mod systems;
 
 use capsulemap::flow::{Field, Motion, Step, Stroboscopic};
 

@@ -46,7 +46,7 @@ where
     S: Stroboscopic<Dual<f64, 3>, 3>,
 {
     let cycles = Cycles { count: k, tolerance: TOLERANCE };
-    jacobian(&returned(system, seeded(point), &cycles, |_| ()).expect("it goes on"))
+    jacobian(&returned(system, seeded(point), &cycles, |_| ()).expect("the integration continues"))
 }
 
 /// The capsule of a case over numbers with derivatives along the section's coordinates.

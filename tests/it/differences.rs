@@ -28,7 +28,7 @@ where
         loop {
             motion.step(system, period, TOLERANCE, &mut step);
             see(&step);
-            assert_eq!(motion.breakdown(system, 0), None, "it goes on");
+            assert_eq!(motion.breakdown(system, 0), None, "the integration continues");
             if period.le(motion.time) {
                 break;
             }
@@ -51,7 +51,7 @@ pub struct Slope<const D: usize> {
 ///
 /// Method: central differences at widths that shrink from `widest`, each pair of them extrapolated after
 /// Richardson; of the successive extrapolations those are taken that agree best. The exact slope is not
-/// looked at. Where a guard is nearly touched no two widths agree, which `doubt` tells.
+/// looked at. Where a guard is nearly touched no two widths agree, which `doubt` shows.
 pub fn slope<const D: usize>(
     image: impl Fn(f64) -> [f64; D],
     widest: f64,

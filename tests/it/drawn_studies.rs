@@ -1,4 +1,4 @@
-//! Studies whose cases are drawn: where the draws lie, how evenly, and what is made of them.
+//! Studies whose cases are drawn: where the draws lie, how evenly, and the results of them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use capsulemap::run::{self, Machine};
 use capsulemap::store;
 use capsulemap::study::{CaseSet, Coordinate, DrawKind, Draws, Range, Spacing, Study};
 
-use super::program::{Desk, FIG5};
+use super::program::{FIG5, WorkDir};
 
 /// The capsule of `studies/hysteresis.toml` where it has two motions, with starts drawn.
 const STARTS: &str = r#"[parameters]
@@ -190,12 +190,12 @@ fn low_discrepancy_draws_are_spread_more_evenly_than_uniform_ones() {
 }
 
 /// The shares of the cases of a study that end on its motion at rest and on the one that gets on, which its
-/// attractors tell apart.
+/// attractors distinguish.
 fn shares(study: &Study) -> [f64; 2] {
     let chains = Vec::from_iter(0..study.chains());
     let records = run::run_sample(study, Machine::default(), &chains, || ()).expect("it runs");
-    let endings = run::endings(study, &records);
-    let found = run::attractors(study, &endings, Machine::default(), || ()).expect("threads");
+    let final_motions = run::final_motions(study, &records);
+    let found = run::attractors(study, &final_motions, Machine::default(), || ()).expect("threads");
     let mut counts = BTreeMap::new();
     for (record, attractor) in records.iter().zip(&found.of_case) {
         let moves = record.orbit.outputs[Output::ProgressionSpeed] > 0.05;
@@ -230,11 +230,11 @@ fn a_study_of_drawn_starts_has_the_attractors_of_one_cell() {
 
 #[test]
 fn a_file_of_draws_holds_them_along_one_dimension_and_their_figures() {
-    let desk = Desk::new();
-    desk.put("draws.toml", PARAMETERS);
-    desk.run(&["sweep", "draws.toml", "--formats", "svg"]).done();
-    assert!(desk.path("results/draws/trade-off.svg").is_file());
-    let file = desk.path("results/draws/draws.h5");
+    let dir = WorkDir::new();
+    dir.put("draws.toml", PARAMETERS);
+    dir.run(&["sweep", "draws.toml", "--formats", "svg"]).done();
+    assert!(dir.path("results/draws/trade-off.svg").is_file());
+    let file = dir.path("results/draws/draws.h5");
     let dataset = store::read(&file).expect("results");
     let study = read(PARAMETERS);
     let CaseSet::Draws(draws) = &study.case_set else { panic!("draws") };
@@ -253,39 +253,38 @@ fn a_file_of_draws_holds_them_along_one_dimension_and_their_figures() {
     assert!(dataset.variable("attractor").is_none());
     // One draw is the case with its parameters.
     let case = study.case(17);
-    let told = desk.run(&["simulate", "--study", "draws.toml", "--case", "17", "--json"]).json();
+    let ran = dir.run(&["simulate", "--study", "draws.toml", "--case", "17", "--json"]).json();
     let speed = dataset.variables["progression_speed"].values.to_real()[[17]];
-    assert_eq!(told["orbit"]["progression_speed"].as_f64(), Some(speed));
+    assert_eq!(ran["orbit"]["progression_speed"].as_f64(), Some(speed));
     let k2 = case.parameters[capsulemap::capsule::Parameter::K2];
-    assert_eq!(told["parameters"]["k2"].as_f64(), Some(k2));
-    desk.run(&["verify", "results/draws/draws.h5", "--cases", "10"]).done();
+    assert_eq!(ran["parameters"]["k2"].as_f64(), Some(k2));
+    dir.run(&["verify", "results/draws/draws.h5", "--cases", "10"]).done();
     for kind in ["map", "bifurcation"] {
         let file = file.to_str().expect("a path");
-        desk.run(&["figure", file, "--kind", kind, "--of", "progression_speed"])
-            .refused(&["needs"]);
+        dir.run(&["figure", file, "--kind", kind, "--of", "progression_speed"]).refused(&["needs"]);
     }
 }
 
 #[test]
-fn what_does_not_go_with_draws_is_told_before_the_run() {
+fn what_does_not_go_with_draws_is_reported_before_the_run() {
     let said = |text: &str, expected: &[&str]| {
         let faults = Study::parse("study.toml", text).expect_err(text);
-        let told: Vec<String> = faults.to_string().lines().skip(1).map(str::to_owned).collect();
-        let fits = told.len() == expected.len()
-            && told.iter().zip(expected).all(|(told, words)| told.contains(words));
-        assert!(fits, "{told:#?}\n{expected:#?}");
+        let ran: Vec<String> = faults.to_string().lines().skip(1).map(str::to_owned).collect();
+        let fits = ran.len() == expected.len()
+            && ran.iter().zip(expected).all(|(ran, words)| ran.contains(words));
+        assert!(fits, "{ran:#?}\n{expected:#?}");
     };
     let axis = "[[axes]]\nname = \"start_r\"\n";
     let range = "from = \"0 mm\"\nto = \"1 mm\"\n";
     let draws = format!("{FIG5}[draws]\ncount = 10\n");
     assert_eq!(read(&format!("{draws}{axis}{range}")).cases(), 10);
     said(&draws, &["axes: missing; expected ranges to draw from"]);
-    let start = "[start]\nfollow = \"start_r\"\ndirections = [\"upward\"]\nr = \"1 mm\"\n";
+    let start = "[start]\ninherit = \"start_r\"\ndirections = [\"upward\"]\nr = \"1 mm\"\n";
     said(
         &format!("{draws}{axis}{range}points = 3\n{start}"),
         &[
             "axes[1].points: does not go with `[draws]`",
-            "start.follow: does not go with `[draws]`",
+            "start.inherit: does not go with `[draws]`",
             "start.directions: does not go with `[draws]`",
             "start.r: is given here and on an axis",
         ],

@@ -7,24 +7,26 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// Uniform random numbers.
-struct Random(ChaCha8Rng);
+pub struct Random(ChaCha8Rng);
 
 impl Random {
-    fn new(seed: u64) -> Self {
+    /// Those of a seed.
+    pub fn new(seed: u64) -> Self {
         Random(ChaCha8Rng::seed_from_u64(seed))
     }
 
-    fn uniform(&mut self, low: f64, high: f64) -> f64 {
+    /// Uniform between these.
+    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// Uniform in the logarithm.
-    fn logarithmic(&mut self, low: f64, high: f64) -> f64 {
+    pub fn logarithmic(&mut self, low: f64, high: f64) -> f64 {
         libm::exp(self.uniform(libm::log(low), libm::log(high)))
     }
 
     /// Uniform, but for one draw in sixteen that is the lower bound itself.
-    fn or_least(&mut self, low: f64, high: f64) -> f64 {
+    pub fn or_least(&mut self, low: f64, high: f64) -> f64 {
         if self.uniform(0.0, 16.0) < 1.0 { low } else { self.uniform(low, high) }
     }
 }

@@ -32,7 +32,7 @@ fn a_start_on_the_stop_goes_where_it_is_heading() {
     assert_eq!(modes(&p, at_stop(0.0)).0, Contact::Closed);
     let weak = Parameters::with(&[(Parameter::Delta, 1e-3), (Parameter::Pd, 1.0)]);
     assert_eq!(modes(&weak, at_stop(0.0)).0, Contact::Open);
-    // The mode at the start is no event: of the one that leads away from the stop, none is told at t = 0.
+    // The mode at the start is no event: of the one that leads away from the stop, none is reported at t = 0.
     for y1 in [-0.1, 0.0, 0.1] {
         let simulation = simulate(&p, 0.0, at_stop(y1), 2, 1e-12);
         assert!(simulation.events.iter().all(|event| event.t > 1e-6), "{y1}");

@@ -9,9 +9,9 @@ use capsulemap::flow::{Field, Metric, NoEvent, Stroboscopic, Switched, System, T
 use capsulemap::lane::{
     Dual, Instructions, Lane, Mask, ORDER, Series, SideBySide, elementary::sin_cos, series,
 };
+use capsulemap::orbit::aperiodic::{follow_aperiodic_side_by_side, irregularity};
 use capsulemap::orbit::exponent::stretching;
 use capsulemap::orbit::return_map::Cycles;
-use capsulemap::orbit::wandering::{irregularity, wander_side_by_side};
 use capsulemap::orbit::{Outcome, Protocol, Trajectory};
 
 use super::draws;
@@ -166,7 +166,7 @@ fn the_duffing_oscillator_has_its_published_exponents() {
     let cycles = Cycles { count: 60_000, tolerance: 1e-10 };
     let (stretching, period) =
         stretching::<_, 2, 2>(&Duffing, Duffing.metric(), &[0.1, 0.1], &cycles)
-            .expect("it goes on");
+            .expect("the integration continues");
     let [first, second] = stretching.exponents(period);
     assert!((first.value - 0.159).abs() < 0.001, "{first:?}");
     assert!(first.uncertainty < 0.001, "{first:?}");
@@ -192,13 +192,13 @@ fn an_orbit_stretches_as_its_largest_multiplier_says() {
         let count = 3200 * orbit.period;
         let cycles = Cycles { count, tolerance: 1e-12 };
         let metric = capsule.metric();
-        let (stretching, period) =
-            stretching::<_, 3, 1>(&system, metric, &[r, y1, y2], &cycles).expect("it goes on");
+        let (stretching, period) = stretching::<_, 3, 1>(&system, metric, &[r, y1, y2], &cycles)
+            .expect("the integration continues");
         let [exponent] = stretching.exponents(period);
-        let told = orbit.outputs[Output::LyapunovExponent];
-        assert!(told < 0.0, "{told}");
+        let ran = orbit.outputs[Output::LyapunovExponent];
+        assert!(ran < 0.0, "{ran}");
         let scale = 1.0 / p.drive_period();
-        assert!((exponent.value - told).abs() < 1e-6 * scale, "{exponent:?} {told}");
+        assert!((exponent.value - ran).abs() < 1e-6 * scale, "{exponent:?} {ran}");
         compared += 1;
     }
     assert!(compared > 30, "{compared}");
@@ -213,8 +213,8 @@ fn a_capsule_at_rest_answers_as_the_linear_oscillator_it_is() {
     assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
     // Free vibration of the mass on the resting capsule decays at the rate c / (2 m1).
     let rate = -p[Parameter::C] / (2.0 * p[Parameter::M1]);
-    let told = orbit.outputs[Output::LyapunovExponent];
-    assert!((told / rate - 1.0).abs() < 1e-10, "{told} {rate}");
+    let ran = orbit.outputs[Output::LyapunovExponent];
+    assert!((ran / rate - 1.0).abs() < 1e-10, "{ran} {rate}");
 }
 
 /// Cases of a kind, with what they settle to.
@@ -234,9 +234,9 @@ fn neighbouring_trajectories_part_at_the_rate_of_the_exponent() {
     let capsules: Vec<_> =
         cases.iter().zip(&systems).map(|((_, start), system)| (system, *start)).collect();
     let protocol = Protocol::default();
-    let followed = wander_side_by_side(Instructions::widest(), &capsules, &protocol);
+    let followed = follow_aperiodic_side_by_side(Instructions::widest(), &capsules, &protocol);
     for ((case, start), followed) in cases.iter().zip(followed) {
-        let exponent = followed.expect("it goes on").exponent;
+        let exponent = followed.expect("the integration continues").exponent;
         let (rate, spread) = parting(case, *start, 3000);
         let apart = (rate - exponent.value).abs();
         let allowed = 4.0 * exponent.uncertainty.hypot(spread);
@@ -263,8 +263,8 @@ fn parting(case: &Case, start: Section, cycles: usize) -> (f64, f64) {
     let mut second = Trajectory::new(&system, state(neighbour), 1e-13);
     let mut logs = Vec::new();
     for _ in 0..cycles {
-        first.cycle(|_| ()).expect("it goes on");
-        second.cycle(|_| ()).expect("it goes on");
+        first.cycle(|_| ()).expect("the integration continues");
+        second.cycle(|_| ()).expect("the integration continues");
         let (a, b) = (first.section(), second.section());
         let difference: Section = std::array::from_fn(|i| b[i] - a[i]);
         let now = distance(&difference);
@@ -315,9 +315,9 @@ fn a_stretch_has_the_same_bits_by_any_instructions() {
     let capsules: Vec<_> =
         cases.iter().zip(&systems).map(|(case, system)| (system, start(case))).collect();
     let protocol = Protocol { exponent_cycles: 200, ..Protocol::default() };
-    let alone = wander_side_by_side(Instructions::Scalar, &capsules, &protocol);
+    let alone = follow_aperiodic_side_by_side(Instructions::Scalar, &capsules, &protocol);
     for instructions in Instructions::available() {
-        let among = wander_side_by_side(instructions, &capsules, &protocol);
+        let among = follow_aperiodic_side_by_side(instructions, &capsules, &protocol);
         assert_eq!(format!("{alone:?}"), format!("{among:?}"), "{}", instructions.name());
     }
 }

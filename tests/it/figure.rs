@@ -1,4 +1,4 @@
-//! Figures of made-up results: every kind, the awkward cases, and what the files must hold.
+//! Figures of synthetic results: every kind, the awkward cases, and what the files must hold.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,9 +8,9 @@ use capsulemap::figure::{Format, draw};
 use capsulemap::store::dataset::Dataset;
 use capsulemap::study::{Drawing, DrawingKind};
 
-pub mod made;
+pub mod fixtures;
 
-use made::{Made, OUTCOMES, cascade, plane, steps, with_history};
+use fixtures::{Fixture, OUTCOMES, cascade, plane, steps, with_history};
 
 const ALL: [Format; 3] = [Format::Png, Format::Svg, Format::Pdf];
 
@@ -38,8 +38,8 @@ pub fn drawing(name: &str, kind: DrawingKind) -> Drawing {
 #[test]
 fn every_kind_comes_out_in_every_format() {
     let folder = folder("kinds");
-    let single = with_history(Made::default().real("omega", &[], |_| 20.73), &[], 6.0, 3000).0;
-    let axis = Made::default().coordinate("omega", "rad/s", vec![26.58, 37.33, 46.0, 54.6]);
+    let single = with_history(Fixture::default().real("omega", &[], |_| 20.73), &[], 6.0, 3000).0;
+    let axis = Fixture::default().coordinate("omega", "rad/s", vec![26.58, 37.33, 46.0, 54.6]);
     let four = with_history(axis, &["omega"], 10.0, 3000).0;
     let plane = plane(101, 61);
     let of = |name, kind, of: &str| Drawing { of: vec![of.to_string()], ..drawing(name, kind) };
@@ -79,7 +79,7 @@ fn drawn_twice(dataset: &Dataset, request: &Drawing, place: &str) -> [Vec<Vec<u8
 
 #[test]
 fn the_same_results_give_the_same_bytes() {
-    let single = with_history(Made::default().real("omega", &[], |_| 20.73), &[], 4.0, 500).0;
+    let single = with_history(Fixture::default().real("omega", &[], |_| 20.73), &[], 4.0, 500).0;
     let [first, second] = drawn_twice(&single, &drawing("a", DrawingKind::PhasePortrait), "same");
     assert!(first == second);
     let [first, second] = drawn_twice(&plane(31, 21), &drawing("b", DrawingKind::TradeOff), "same");
@@ -142,14 +142,14 @@ fn maps_keep_the_edges_of_their_cells() {
 fn awkward_results_are_drawn() {
     let folder = folder("awkward");
     let mut requests: Vec<(Dataset, Drawing)> = Vec::new();
-    let bare = |made: Made| made.coordinate("point", "1", vec![0.0]);
+    let bare = |fixture: Fixture| fixture.coordinate("point", "1", vec![0.0]);
     let sweep = |name: &str, omega: Vec<f64>, r: fn(f64) -> f64, speed: fn(f64) -> f64| {
         let values = omega.clone();
-        let made = bare(Made::default().coordinate("omega", "rad/s", omega))
+        let fixture = bare(Fixture::default().coordinate("omega", "rad/s", omega))
             .real("section_r", &["omega", "point"], |i| r(values[i[0]]))
             .real("progression_speed", &["omega"], |i| speed(values[i[0]]))
             .integer("outcome", &["omega"], &OUTCOMES, |_| 0);
-        (made.0, drawing(name, DrawingKind::Bifurcation))
+        (fixture.0, drawing(name, DrawingKind::Bifurcation))
     };
     requests.push(sweep("constant", steps(10.0, 20.0, 30), |_| 1.5e-3, |_| 0.0));
     requests.push(sweep("missing", steps(10.0, 20.0, 30), |_| f64::NAN, |_| f64::NAN));
@@ -175,19 +175,20 @@ fn awkward_results_are_drawn() {
     requests.push((cascade(1000, 1000, false), drawing("million", DrawingKind::Bifurcation)));
     requests.push((cascade(1500, 100, true), drawing("dense-both", DrawingKind::Bifurcation)));
 
-    let single =
-        Made::default()
-            .real("work_positive", &[], |_| 5e-3)
-            .real("progression_speed", &[], |_| 2e-3);
+    let single = Fixture::default().real("work_positive", &[], |_| 5e-3).real(
+        "progression_speed",
+        &[],
+        |_| 2e-3,
+    );
     requests.push((single.0, drawing("trade-off-one", DrawingKind::TradeOff)));
-    let none = Made::default()
+    let none = Fixture::default()
         .coordinate("omega", "rad/s", steps(1.0, 9.0, 5))
         .real("work_positive", &["omega"], |_| f64::NAN)
         .real("progression_speed", &["omega"], |_| f64::NAN);
     requests.push((none.0, drawing("trade-off-none", DrawingKind::TradeOff)));
 
     let grid = |columns: usize, rows: usize, of: fn(&[usize]) -> f64| {
-        Made::default()
+        Fixture::default()
             .coordinate("start_r", "m", steps(-2e-3, 2e-3, columns))
             .coordinate("start_y1", "m/s", steps(-0.4, 0.4, rows))
             .real("progression_speed", &["start_r", "start_y1"], of)
@@ -203,9 +204,10 @@ fn awkward_results_are_drawn() {
         requests.push((dataset, drawing(name, DrawingKind::Map)));
     }
     let mut basin = grid(160, 120, |_| 0.0);
-    let mut kinds = Made(basin.clone()).integer("attractor", &["start_r", "start_y1"], &[], |i| {
-        ((i[0] as f64 * 0.11).sin() * 8.0 + i[1] as f64 * 0.1).rem_euclid(3.0) as i64
-    });
+    let mut kinds =
+        Fixture(basin.clone()).integer("attractor", &["start_r", "start_y1"], &[], |i| {
+            ((i[0] as f64 * 0.11).sin() * 8.0 + i[1] as f64 * 0.1).rem_euclid(3.0) as i64
+        });
     basin = std::mem::take(&mut kinds.0);
     if let Some(it) = basin.variables.get_mut("attractor") {
         it.long_name = "attractor".into();
@@ -218,7 +220,7 @@ fn awkward_results_are_drawn() {
     let request = Drawing { of: vec!["attractor".into()], ..drawing("basin", DrawingKind::Map) };
     requests.push((basin, request));
 
-    let counts = Made::default()
+    let counts = Fixture::default()
         .coordinate("delta", "m", steps(0.0, 5e-3, 60))
         .integer("impacts", &["delta"], &[], |i| (i[0] / 20) as i64)
         .real("acceleration_of_mass", &["delta"], |i| 10f64.powf(i[0] as f64 / 12.0));
@@ -230,21 +232,22 @@ fn awkward_results_are_drawn() {
     let of = vec!["impacts".to_string(), "acceleration_of_mass".to_string()];
     requests.push((counts, Drawing { of, ..drawing("counts", DrawingKind::Bifurcation) }));
 
-    let long = with_history(Made::default().real("omega", &[], |_| 77.91), &[], 400.0, 200_000).0;
+    let long =
+        with_history(Fixture::default().real("omega", &[], |_| 77.91), &[], 400.0, 200_000).0;
     let some = Drawing { cycles: Some([395.0, 400.0]), ..drawing("cut", DrawingKind::History) };
     requests.push((long.clone(), drawing("long-history", DrawingKind::History)));
     requests.push((long, some));
-    let axis = Made::default().coordinate("k2", "N/m", vec![2420.0, 18960.0, 59410.0]);
+    let axis = Fixture::default().coordinate("k2", "N/m", vec![2420.0, 18960.0, 59410.0]);
     let three = with_history(axis.real("omega", &[], |_| 30.0), &["k2"], 5.0, 900).0;
     let of = ["history_x2", "history_r", "velocities"].map(String::from).to_vec();
     let wide = Drawing { width_mm: Some(180.0), of, ..drawing("grid", DrawingKind::History) };
     requests.push((three, wide));
 
-    let single = with_history(Made::default().real("omega", &[], |_| 20.73), &[], 2.0, 300).0;
+    let single = with_history(Fixture::default().real("omega", &[], |_| 20.73), &[], 2.0, 300).0;
     let small = Drawing { width_mm: Some(45.0), ..drawing("small", DrawingKind::PhasePortrait) };
     requests.push((single, small));
     let uneven = vec![5.0, 1.0, 2.0, 30.0, 12.0];
-    let cube = Made::default()
+    let cube = Fixture::default()
         .coordinate("p_d", "N", uneven)
         .coordinate("phase", "rad", steps(0.0, 6.0, 7))
         .coordinate("k2", "N/m", vec![1e3, 1e4, 1e5])
@@ -353,12 +356,12 @@ fn the_font_can_draw_the_label_of_every_quantity() {
                    backward_slips_per_cycle reversals_per_cycle stick_share peak_contact_force \
                    grazing_margin section_r section_y1 section_y2 impact_phase impact_y1 impact_y2";
     for parameter in parameters.split_whitespace() {
-        let mut made = Made::default().coordinate(parameter, "1", steps(1.0, 2.0, 4));
+        let mut fixture = Fixture::default().coordinate(parameter, "1", steps(1.0, 2.0, 4));
         for output in outputs.split_whitespace() {
-            made = made.real(output, &[parameter], |index| index[0] as f64);
+            fixture = fixture.real(output, &[parameter], |index| index[0] as f64);
         }
         let of = outputs.split_whitespace().map(String::from).collect();
         let request = Drawing { of, ..drawing(parameter, DrawingKind::Bifurcation) };
-        draw(&made.0, &request, &folder("labels"), &[Format::Svg]).unwrap();
+        draw(&fixture.0, &request, &folder("labels"), &[Format::Svg]).unwrap();
     }
 }

@@ -71,7 +71,7 @@ pub fn settle(
 
 /// What a case settles to among others.
 fn among<R: Reading>(case: &Case, protocol: &Protocol) -> Orbit {
-    let mut queue = Crowd::<R> { case, dealt: 0, orbit: None };
+    let mut queue = CaseAmongOthers::<R> { case, given: 0, orbit: None };
     settle_side_by_side::<CapsuleSystem<R>, 3>(Instructions::widest(), protocol, &mut queue);
     let orbit = queue.orbit.expect("the case has been in the lanes to its end");
     Orbit::of::<R>(orbit, case, protocol)
@@ -84,14 +84,14 @@ fn neighbour(case: &Case, number: usize) -> Case {
     other
 }
 
-/// Deals one case and then others until it is done.
-struct Crowd<'a, R: Reading> {
+/// A queue that gives one case, and then others until it is finished.
+struct CaseAmongOthers<'a, R: Reading> {
     case: &'a Case,
-    dealt: usize,
+    given: usize,
     orbit: Option<OrbitOf<CapsuleSystem<R>, 3>>,
 }
 
-impl<R: Reading> Queue<CapsuleSystem<R>, 3> for Crowd<'_, R> {
+impl<R: Reading> Queue<CapsuleSystem<R>, 3> for CaseAmongOthers<'_, R> {
     fn next(
         &mut self,
         done: Option<(usize, OrbitOf<CapsuleSystem<R>, 3>)>,
@@ -99,8 +99,8 @@ impl<R: Reading> Queue<CapsuleSystem<R>, 3> for Crowd<'_, R> {
         if let Some((0, orbit)) = done {
             self.orbit = Some(orbit);
         }
-        let number = self.dealt;
-        self.dealt += 1;
+        let number = self.given;
+        self.given += 1;
         match number {
             0 => Some((0, self.case.read())),
             _ if self.orbit.is_none() => Some((number, neighbour(self.case, number).read())),

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::program::Desk;
+use super::program::WorkDir;
 use super::store::say;
 
 /// More than a megabyte of blocks.
@@ -58,41 +58,41 @@ impl Drop for Disk {
 
 #[test]
 fn a_disk_that_fills_stops_the_run_and_room_lets_it_go_on() {
-    let desk = Desk::new();
-    let Some(disk) = Disk::mount(&desk.path("disk"), 600) else {
+    let dir = WorkDir::new();
+    let Some(disk) = Disk::mount(&dir.path("disk"), 600) else {
         say("SKIPPED: a disk that fills (a file system cannot be mounted here)");
         return;
     };
-    desk.put("a.toml", STUDY);
+    dir.put("a.toml", STUDY);
     let sweep = |output: &str| {
-        let mut command = desk.command(&["sweep", "a.toml", "--no-figures", "--output", output]);
+        let mut command = dir.command(&["sweep", "a.toml", "--no-figures", "--output", output]);
         let output = command.env("SOURCE_DATE_EPOCH", "1700000000").output();
         super::program::Ran::from(output.expect("the program starts"))
     };
     sweep("whole.h5").done();
-    let undisturbed = fs::read(desk.path("whole.h5")).expect("a result");
+    let undisturbed = fs::read(dir.path("whole.h5")).expect("a result");
     // While cases are computed, and while blocks are joined.
     let mut stops = [0, 0];
     let mut kilobytes = 600;
     loop {
-        let told = sweep("disk/a.h5");
-        if told.code == 0 {
+        let ran = sweep("disk/a.h5");
+        if ran.code == 0 {
             break;
         }
-        stops[usize::from(told.err.contains("a.h5: making room for the results"))] += 1;
-        assert_eq!((told.code, told.out.as_str()), (3, ""), "{}", told.err);
-        assert!(told.err.contains("No space left on device"), "{}", told.err);
-        assert!(told.err.contains("free some space and run again"), "{}", told.err);
-        assert!(!told.err.contains("panicked"), "{}", told.err);
-        assert!(!desk.path("disk/a.h5").exists(), "nothing half-written has the name of a result");
+        stops[usize::from(ran.err.contains("a.h5: making room for the results"))] += 1;
+        assert_eq!((ran.code, ran.out.as_str()), (3, ""), "{}", ran.err);
+        assert!(ran.err.contains("No space left on device"), "{}", ran.err);
+        assert!(ran.err.contains("free some space and run again"), "{}", ran.err);
+        assert!(!ran.err.contains("panicked"), "{}", ran.err);
+        assert!(!dir.path("disk/a.h5").exists(), "nothing half-written has the name of a result");
         kilobytes += 400;
         disk.resize(kilobytes);
-        assert!(kilobytes < 40_000, "there is room enough: {}", told.err);
+        assert!(kilobytes < 40_000, "there is room enough: {}", ran.err);
     }
     assert!(stops.iter().all(|count| *count > 0), "the disk was full in both: {stops:?}");
-    assert!(fs::read(desk.path("disk/a.h5")).expect("a result") == undisturbed);
+    assert!(fs::read(dir.path("disk/a.h5")).expect("a result") == undisturbed);
     assert_eq!(
-        fs::read_dir(desk.path("disk")).expect("the disk").count(),
+        fs::read_dir(dir.path("disk")).expect("the disk").count(),
         1,
         "nothing else is left"
     );

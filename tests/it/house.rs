@@ -1,5 +1,7 @@
 //! The house rules, checked on the source as text: the order of the floors and what each may use.
 
+mod names;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -150,14 +152,14 @@ pub fn string_length(text: &str) -> usize {
     text.len()
 }
 
-/// Every word of `code` with the text before and after it.
-pub fn words(code: &str) -> impl Iterator<Item = (&str, &str, &str)> {
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+/// Every identifier or number of `code` with the text before and after it.
+pub fn identifiers(code: &str) -> impl Iterator<Item = (&str, &str, &str)> {
+    let is_part_of_name = |c: char| c.is_alphanumeric() || c == '_';
     let starts = code.char_indices().filter(move |(place, c)| {
-        is_word(*c) && !code[..*place].chars().next_back().is_some_and(is_word)
+        is_part_of_name(*c) && !code[..*place].chars().next_back().is_some_and(is_part_of_name)
     });
     starts.map(move |(start, _)| {
-        let length = code[start..].find(|c| !is_word(c)).unwrap_or(code.len() - start);
+        let length = code[start..].find(|c| !is_part_of_name(c)).unwrap_or(code.len() - start);
         (&code[..start], &code[start..start + length], &code[start + length..])
     })
 }
@@ -165,7 +167,7 @@ pub fn words(code: &str) -> impl Iterator<Item = (&str, &str, &str)> {
 /// Floors that `code` names as `crate::floor` or inside `crate::{...}`.
 fn floors_used(code: &str) -> Vec<&str> {
     let mut used = Vec::new();
-    for (_, _, after) in words(code).filter(|(_, word, _)| *word == "crate") {
+    for (_, _, after) in identifiers(code).filter(|(_, word, _)| *word == "crate") {
         let Some(path) = after.trim_start().strip_prefix("::").map(str::trim_start) else {
             continue;
         };
@@ -174,7 +176,7 @@ fn floors_used(code: &str) -> Vec<&str> {
             None => vec![path],
         };
         used.extend(
-            named.into_iter().filter_map(|name| words(name).next()).map(|(_, name, _)| name),
+            named.into_iter().filter_map(|name| identifiers(name).next()).map(|(_, name, _)| name),
         );
     }
     used.retain(|name| FLOORS.contains(name));
@@ -192,7 +194,7 @@ fn floor_faults(source: &Source) -> Vec<String> {
 
 fn crate_faults(source: &Source) -> Vec<String> {
     let mut faults = Vec::new();
-    for (before, word, after) in words(&source.code) {
+    for (before, word, after) in identifiers(&source.code) {
         let is_path = after.starts_with("::") && !before.ends_with("::");
         let is_import = before.ends_with("use ") || before.ends_with("extern crate ");
         let owner = RESERVED.iter().find(|(_, crates)| crates.contains(&word));
@@ -213,7 +215,7 @@ fn print_faults(source: &Source) -> Vec<String> {
     }
     let is_macro = |word: &str, after: &str| PRINTS.contains(&word) && after.starts_with('!');
     let is_stream = |word: &str| ["stdout", "stderr"].contains(&word);
-    let found = words(&source.code)
+    let found = identifiers(&source.code)
         .filter(|(_, word, after)| is_macro(word, after) || is_stream(word))
         .map(|(_, word, _)| format!("{}: {word} outside cli", source.path));
     found.collect()
@@ -230,7 +232,7 @@ fn form_faults(source: &Source) -> Vec<String> {
         faults.push(format!("{}: {lines} lines, more than {LONGEST_FILE}", source.path));
     }
     let allowed = UNSAFE_ALLOWED.contains(&source.path.as_str());
-    if !allowed && words(&source.code).any(|(_, word, _)| word == "unsafe") {
+    if !allowed && identifiers(&source.code).any(|(_, word, _)| word == "unsafe") {
         faults.push(format!("{}: unsafe outside {}", source.path, UNSAFE_ALLOWED.join(", ")));
     }
     faults
@@ -238,8 +240,11 @@ fn form_faults(source: &Source) -> Vec<String> {
 
 /// The modules that a file declares, in its order.
 fn modules(code: &str) -> Vec<&str> {
-    let after_mod = words(code).filter(|(_, word, _)| *word == "mod");
-    after_mod.filter_map(|(_, _, after)| words(after).next()).map(|(_, name, _)| name).collect()
+    let after_mod = identifiers(code).filter(|(_, word, _)| *word == "mod");
+    after_mod
+        .filter_map(|(_, _, after)| identifiers(after).next())
+        .map(|(_, name, _)| name)
+        .collect()
 }
 
 fn order_faults(code: &str, present: &[&str]) -> Vec<String> {

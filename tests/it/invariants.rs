@@ -147,7 +147,7 @@ proptest! {
         let state = State { r: middle.r, y1: middle.y1, x2: middle.x2, y2: middle.y2 };
         let rest = simulate(&p, 0.0, state, 5, 1e-12);
         for (a, b) in whole.section[5..].iter().zip(&rest.section) {
-            // A mode that is told anew at a section may differ by a guard's rounding, no more.
+            // A mode that is decided again at a section may differ by a guard's rounding, no more.
             prop_assert!((a.r - b.r).abs() < 1e-9 && (a.y1 - b.y1).abs() < 1e-7);
         }
     }

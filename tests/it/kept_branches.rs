@@ -8,13 +8,13 @@ use capsulemap::orbit::{Outcome, Protocol};
 use capsulemap::store::{self, Dataset};
 use capsulemap::study::Study;
 
-use super::program::Desk;
+use super::program::WorkDir;
 
-/// A study that is kept, the file of its branches, and what the program tells of them.
+/// A study that is kept, the file of its branches, and what the program prints of them.
 struct Kept {
     study: Study,
     dataset: Dataset,
-    told: String,
+    ran: String,
 }
 
 /// A special point: the frequency, and the first section point of the orbit.
@@ -24,13 +24,13 @@ struct Point {
 }
 
 impl Kept {
-    fn follow(name: &str) -> Kept {
-        let desk = Desk::new();
+    fn continued(name: &str) -> Kept {
+        let dir = WorkDir::new();
         let text = fs::read_to_string(format!("studies/{name}.toml")).expect("the study");
-        desk.put("s.toml", &text);
-        let told = desk.run(&["follow", "s.toml", "--no-figures"]).done().out;
-        let dataset = store::read(&desk.path("results/s/s.h5")).expect("a result");
-        Kept { study: Study::parse("s.toml", &text).expect("a study"), dataset, told }
+        dir.put("s.toml", &text);
+        let ran = dir.run(&["continue", "s.toml", "--no-figures"]).done().out;
+        let dataset = store::read(&dir.path("results/s/s.h5")).expect("a result");
+        Kept { study: Study::parse("s.toml", &text).expect("a study"), dataset, ran }
     }
 
     /// A variable over the special points; of a section point, that of the first cycle.
@@ -63,7 +63,7 @@ impl Kept {
 
 #[test]
 fn the_cascade_doubles_where_the_motion_does() {
-    let kept = Kept::follow("cascade");
+    let kept = Kept::continued("cascade");
     let doublings: Vec<Point> =
         (0..5).map(|n| kept.points(n, SpecialKind::PeriodDoubling).remove(0)).collect();
     let omegas: Vec<f64> = doublings.iter().map(|it| it.omega).collect();
@@ -72,7 +72,7 @@ fn the_cascade_doubles_where_the_motion_does() {
     for (omega, digits) in omegas.iter().zip(digits) {
         assert!((omega - digits).abs() < 2e-9, "{omega}");
         let shown = format!("{omega:.8}");
-        assert!(kept.told.contains(&shown) && readme.contains(&shown), "{omega}\n{}", kept.told);
+        assert!(kept.ran.contains(&shown) && readme.contains(&shown), "{omega}\n{}", kept.ran);
     }
     // Beside each of the first three the motion from its section point repeats after k cycles, and 2 k.
     for (n, pair) in omegas.windows(2).take(3).enumerate() {
@@ -91,7 +91,7 @@ fn the_cascade_doubles_where_the_motion_does() {
     assert!((ratios[2] - 4.669_201_609).abs() < 0.15);
     // Beside it lies a branch of period 3 that closes upon itself between two folds.
     let folds: Vec<f64> = kept.points(5, SpecialKind::Fold).iter().map(|it| it.omega).collect();
-    assert!(folds.len() == 2 && kept.told.contains(", closed"), "{}", kept.told);
+    assert!(folds.len() == 2 && kept.ran.contains(", closed"), "{}", kept.ran);
     let ends = kept.dataset.variable("index_end_last").expect("ends").values.to_real();
     assert_eq!(ends[[5]], f64::from(End::Closed as u8));
     assert!((folds[0].min(folds[1]) - 39.276_239_7).abs() < 1e-7, "{folds:?}");
@@ -100,9 +100,9 @@ fn the_cascade_doubles_where_the_motion_does() {
 
 #[test]
 fn the_hysteresis_has_an_unstable_branch_between_its_folds() {
-    let kept = Kept::follow("hysteresis");
+    let kept = Kept::continued("hysteresis");
     let folds = kept.points(0, SpecialKind::Fold);
-    let [upper, lower] = &folds[..] else { panic!("two folds\n{}", kept.told) };
+    let [upper, lower] = &folds[..] else { panic!("two folds\n{}", kept.ran) };
     assert!(
         (upper.omega - 164.155_503_150).abs() < 2e-9
             && (lower.omega - 151.018_049_610).abs() < 2e-9

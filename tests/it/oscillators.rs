@@ -226,7 +226,7 @@ where
     S: Stroboscopic<Dual<f64, 2>, 2>,
 {
     let cycles = Cycles { count, tolerance: 1e-15 };
-    let end = returned(system, seeded(&point), &cycles, |_| ()).expect("it goes on");
+    let end = returned(system, seeded(&point), &cycles, |_| ()).expect("the integration continues");
     (values(&end), jacobian(&end))
 }
 
@@ -281,6 +281,6 @@ fn a_bouncing_ball_never_falls_through_the_floor() {
         let exact = fall * (3.0 - 2.0 * 0.5_f64.powi(n as i32));
         assert!((bounce - exact).abs() < 1e-12, "bounce {n}: {bounce} {exact}");
     }
-    assert_eq!(breakdown, Some(Breakdown::NoProgress), "an endless series of bounces is told");
+    assert_eq!(breakdown, Some(Breakdown::NoProgress), "an endless series of bounces is ran");
     assert!((motion.time - 3.0 * fall).abs() < 1e-9, "{}", motion.time);
 }

@@ -12,7 +12,7 @@ use capsulemap::run::{self, Machine, Record};
 use capsulemap::study::{Coordinate, Study};
 
 use super::draws;
-use super::program::{Desk, FIG5};
+use super::program::{FIG5, WorkDir};
 
 /// The capsule of `studies/hysteresis.toml`, without its frequency.
 const TWO_MOTIONS: &str = r#"[parameters]
@@ -54,8 +54,9 @@ fn there_are_two_attractors_whatever_the_phase_of_the_start() {
     let omega = "delta = \"4.33 mm\"\nomega = \"158 rad/s\"";
     let study = study(&(TWO_MOTIONS.replace("delta = \"4.33 mm\"", omega) + axes));
     let records = records(&study);
-    let endings = run::endings(&study, &records);
-    let found = run::attractors(&study, &endings, Machine::default(), || ()).expect("threads");
+    let final_motions = run::final_motions(&study, &records);
+    let found =
+        run::attractors(&study, &final_motions, Machine::default(), || ()).expect("threads");
     let mut speeds: [Vec<f64>; 2] = Default::default();
     for (record, attractor) in records.iter().zip(&found.of_case) {
         assert_eq!((record.orbit.outcome, record.orbit.period), (Outcome::Periodic, 1));
@@ -240,11 +241,11 @@ fn a_history_from_the_start_begins_there_wherever_the_section_is() {
 }
 
 #[test]
-fn what_is_followed_starts_on_the_section() {
-    let follow = "[[axes]]\nname = \"omega\"\nvalues = [\"130 rad/s\", \"131 rad/s\"]\n[start]\n\
+fn an_inherited_start_lies_on_the_section() {
+    let inherit = "[[axes]]\nname = \"omega\"\nvalues = [\"130 rad/s\", \"131 rad/s\"]\n[start]\n\
                   y1 = \"0.3 m/s\"\nstart_phase = \"40 deg\"\nsection_phase = \"10 deg\"\n\
-                  follow = \"omega\"\n";
-    let study = study(&(TWO_MOTIONS.to_owned() + follow));
+                  inherit = \"omega\"\n";
+    let study = study(&(TWO_MOTIONS.to_owned() + inherit));
     let [start, section] = [study.start_phase, study.section_phase];
     assert_eq!([start, section], [40.0 * (PI / 180.0), 10.0 * (PI / 180.0)]);
     let records = records(&study);
@@ -289,10 +290,9 @@ fn the_older_key_is_both_phases_and_the_older_axis_that_of_the_start() {
 
 #[test]
 fn the_program_takes_both_phases_apart_or_together() {
-    let desk = Desk::new();
+    let dir = WorkDir::new();
     let run = |more: &[&str]| {
-        desk.run(&[&["simulate", "--omega", "130", "--cycles", "1", "--json"], more].concat())
-            .json()
+        dir.run(&[&["simulate", "--omega", "130", "--cycles", "1", "--json"], more].concat()).json()
     };
     let together = run(&["--phase", "90 deg"]);
     assert_eq!(together, run(&["--start-phase", "90 deg", "--section-phase", "90 deg"]));
@@ -300,6 +300,6 @@ fn the_program_takes_both_phases_apart_or_together() {
     let first = apart["section"][0]["t"].as_f64().expect("a time");
     assert!((first - 0.75 * TAU / 130.0).abs() < 1e-15, "{first}");
     let both = ["simulate", "--phase", "1", "--start-phase", "1"];
-    desk.run(&both).refused(&["--start-phase"]);
-    desk.run(&["simulate", "--section-phase", "1 m"]).refused(&["--section-phase: ", "an angle"]);
+    dir.run(&both).refused(&["--start-phase"]);
+    dir.run(&["simulate", "--section-phase", "1 m"]).refused(&["--section-phase: ", "an angle"]);
 }

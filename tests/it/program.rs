@@ -17,7 +17,7 @@ delta = \"3.5 mm\"
 ";
 
 /// An empty folder to run the program in.
-pub struct Desk {
+pub struct WorkDir {
     folder: TempDir,
 }
 
@@ -31,10 +31,10 @@ pub struct Ran {
     pub err: String,
 }
 
-impl Desk {
+impl WorkDir {
     /// A new, empty one.
     pub fn new() -> Self {
-        Desk { folder: TempDir::new().expect("a folder for the test") }
+        WorkDir { folder: TempDir::new().expect("a folder for the test") }
     }
 
     /// The folder.
@@ -113,7 +113,7 @@ impl Ran {
         serde_json::from_str(&self.out).expect("one JSON object")
     }
 
-    /// Sure that a person's mistake was told, each of `parts` named, and nothing else printed.
+    /// Sure that a person's mistake was reported, each of `parts` named, and nothing else printed.
     pub fn refused(&self, parts: &[&str]) {
         assert_eq!((self.code, self.out.as_str()), (2, ""), "{}", self.err);
         for part in parts {

@@ -8,7 +8,7 @@ use std::process::Command;
 use capsulemap::store::{self, Dataset, Values};
 use serde_json::{Value, json};
 
-use super::program::Desk;
+use super::program::WorkDir;
 use super::store::{rich, say};
 
 /// What the Python side must find, read from the dataset in memory and not from the file.
@@ -37,7 +37,7 @@ fn expectation(dataset: &Dataset) -> Value {
     })
 }
 
-/// The Python that has the readers; a word and none where there is none.
+/// The Python that has the readers; a printed line and none where there is none.
 fn python() -> Option<String> {
     let python = std::env::var("CAPSULEMAP_PYTHON").unwrap_or_else(|_| "python3".into());
     let readers = "import h5py, netCDF4, h5netcdf, xarray";
@@ -86,7 +86,7 @@ points = 160
 name = "start_y1"
 values = ["0 m/s", "0.2 m/s"]
 [start]
-follow = "omega"
+inherit = "omega"
 directions = ["upward", "downward"]
 [history]
 cycles = 1
@@ -107,18 +107,18 @@ to = "24 rad/s"
 #[test]
 fn every_file_that_the_program_writes_opens_with_all_its_labels() {
     let Some(python) = python() else { return };
-    let desk = Desk::new();
-    desk.put("all.toml", STUDY);
+    let dir = WorkDir::new();
+    dir.put("all.toml", STUDY);
     let read = |path: &Path| store::read(path).expect("a result");
     // Branches alone; then, beside them, a look at a part of the cases; then all.
-    let file = desk.path("results/all/all.h5");
-    desk.run(&["follow", "all.toml"]).done();
+    let file = dir.path("results/all/all.h5");
+    dir.run(&["continue", "all.toml"]).done();
     assert_readers_find(&python, &file, &read(&file));
-    desk.run(&["sweep", "all.toml", "--task", "1/2"]).done();
-    desk.run(&["join", "all.toml", "--partial"]).done();
-    let partial = desk.path("results/all/partial/all.h5");
+    dir.run(&["sweep", "all.toml", "--task", "1/2"]).done();
+    dir.run(&["join", "all.toml", "--partial"]).done();
+    let partial = dir.path("results/all/partial/all.h5");
     assert_readers_find(&python, &partial, &read(&partial));
-    desk.run(&["sweep", "all.toml"]).done();
+    dir.run(&["sweep", "all.toml"]).done();
     let whole = read(&file);
     for name in ["progression_speed", "branch_stable", "attractor", "history_r", "block_maker"] {
         assert!(whole.variable(name).is_some(), "{name}");

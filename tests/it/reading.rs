@@ -6,7 +6,7 @@ use capsulemap::figure::{Format, draw, variables};
 use capsulemap::store;
 use capsulemap::study::Study;
 
-use super::program::Desk;
+use super::program::WorkDir;
 
 /// Figures of every kind, over cases that differ in all that figures look at.
 const STUDY: &str = r#"title = "All figures"
@@ -23,7 +23,7 @@ points = 16
 name = "start_y1"
 values = ["-0.4 m/s", "0.4 m/s"]
 [start]
-follow = "omega"
+inherit = "omega"
 directions = ["upward", "downward"]
 [history]
 cycles = 2
@@ -77,11 +77,11 @@ at = { omega = "39 rad/s", start_y1 = "0.4 m/s" }
 
 #[test]
 fn what_a_figure_leaves_unread_does_not_change_it() {
-    let desk = Desk::new();
-    desk.put("a.toml", STUDY);
-    desk.run(&["sweep", "a.toml", "--no-figures"]).done();
-    desk.run(&["follow", "a.toml", "--no-figures"]).done();
-    let archive = store::open(&desk.path("results/a/a.h5")).expect("a result");
+    let dir = WorkDir::new();
+    dir.put("a.toml", STUDY);
+    dir.run(&["sweep", "a.toml", "--no-figures"]).done();
+    dir.run(&["continue", "a.toml", "--no-figures"]).done();
+    let archive = store::open(&dir.path("results/a/a.h5")).expect("a result");
     let whole = archive.dataset(|_, _| true).expect("all of it");
     let study = Study::parse("a.toml", STUDY).unwrap_or_else(|faults| panic!("{faults}"));
     let mut left = 0;
@@ -89,7 +89,7 @@ fn what_a_figure_leaves_unread_does_not_change_it() {
         let shown = variables(drawing);
         let part = archive.labelled(|name| shown.contains(name)).expect("a part of it");
         let drawn = [("whole", &whole), ("part", &part)].map(|(folder, dataset)| {
-            let folder = desk.path(folder);
+            let folder = dir.path(folder);
             draw(dataset, drawing, &folder, &[Format::Svg])
                 .unwrap_or_else(|error| panic!("{}: {error}", drawing.name));
             fs::read(folder.join(format!("{}.svg", drawing.name))).expect("a figure")

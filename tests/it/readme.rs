@@ -51,8 +51,11 @@ fn the_main_job_leaves_a_file_and_its_figures() {
     assert!(README.contains("34 221 cases"));
     let results = folder.path().join("results/overview");
     for figure in ["bifurcation", "speed", "period", "trade-off"] {
-        for ending in ["png", "svg", "pdf"] {
-            assert!(results.join(format!("{figure}.{ending}")).is_file(), "{figure}.{ending}");
+        for extension in ["png", "svg", "pdf"] {
+            assert!(
+                results.join(format!("{figure}.{extension}")).is_file(),
+                "{figure}.{extension}"
+            );
         }
     }
     let dataset = store::read(&results.join("overview.h5")).expect("results");
@@ -138,7 +141,7 @@ fn read_in_python(folder: &Path) {
 fn every_study_that_is_kept_can_be_read() {
     for entry in std::fs::read_dir("studies").expect("the studies") {
         let path = entry.expect("an entry").path();
-        if path.extension().is_none_or(|ending| ending != "toml") {
+        if path.extension().is_none_or(|extension| extension != "toml") {
             continue;
         }
         let text = std::fs::read_to_string(&path).expect("text");
@@ -183,11 +186,11 @@ fn the_table_of_the_readme_is_the_tested_one() {
 }
 
 #[test]
-fn the_commands_of_a_night_do_what_is_said_of_them() {
+fn the_commands_of_a_long_run_do_what_is_said_of_them() {
     let lines = blocks("sh").into_iter().find(|block| block.contains("--dry-run"));
     let folder = tempfile::tempdir().expect("a folder");
     let study = blocks("toml")[0].replace("points = 351", "points = 15");
-    std::fs::write(folder.path().join("night.toml"), study).expect("a study");
+    std::fs::write(folder.path().join("long.toml"), study).expect("a study");
     let mut said = String::new();
     for line in lines.expect("the commands").lines() {
         let command = line.split('#').next().expect("a command").trim();

@@ -69,7 +69,7 @@ fn number(printed: &str, name: &str) -> String {
 
 /// The blocks in the jobs' folder, by name, each with the number of its file.
 fn blocks(cluster: &Cluster) -> BTreeMap<String, u64> {
-    let folder = cluster.desk().join("results/starts/starts.blocks");
+    let folder = cluster.dir().join("results/starts/starts.blocks");
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).into_iter().flatten() {
         let entry = entry.expect("the folder can be read");
@@ -101,7 +101,7 @@ fn kill(cluster: &Cluster, tasks: &[&str]) {
 }
 
 fn log(cluster: &Cluster, name: &str) -> String {
-    fs::read_to_string(cluster.desk().join(name)).expect("a log")
+    fs::read_to_string(cluster.dir().join(name)).expect("a log")
 }
 
 /// The file that the study gives without a cluster.
@@ -121,7 +121,7 @@ fn tasks_that_die_cost_nothing_but_time() {
         return;
     }
     let cluster = Cluster::start();
-    fs::write(cluster.desk().join("starts.toml"), STUDY).expect("a study");
+    fs::write(cluster.dir().join("starts.toml"), STUDY).expect("a study");
     let tasks = TASKS.to_string();
     let mut command = cluster.command(script("submit.sh"));
     let printed = submit(command.args(["starts.toml", &tasks, "--cpus-per-task=1"]));
@@ -137,7 +137,7 @@ fn tasks_that_die_cost_nothing_but_time() {
     assert_kept(&late, &cluster);
     assert_eq!(blocks(&cluster).len(), BLOCKS);
     run_alone(&cluster, &["--cpus-per-task=2"], "join.sh", &["starts.toml"]);
-    let joined = fs::read(cluster.desk().join("results/starts/starts.h5")).expect("the results");
+    let joined = fs::read(cluster.dir().join("results/starts/starts.h5")).expect("the results");
     assert!(joined == computed_plainly(), "the cluster's file differs from the plain one");
 }
 
@@ -149,7 +149,7 @@ fn interrupt(cluster: &Cluster, array: &str) -> BTreeMap<String, u64> {
     cluster.wait_while_running(&first, || blocks(cluster).len() > 1);
     kill(cluster, &[&first, &second]);
     cluster.run("scontrol", &["requeue", &first]);
-    // Task 3 makes room for others: it is told to stop, and goes back to the queue.
+    // Task 3 makes room for others: it is asked to stop, and goes back to the queue.
     cluster.wait_for(&third, "RUNNING");
     let before = blocks(cluster).len();
     cluster.wait_while_running(&third, || blocks(cluster).len() > before);
@@ -161,9 +161,9 @@ fn interrupt(cluster: &Cluster, array: &str) -> BTreeMap<String, u64> {
 fn assert_join_names_what_is_missing(cluster: &Cluster, join: &str) {
     cluster.wait_for(join, "FAILED");
     assert_eq!(cluster.job(join, "ExitCode"), "2:0");
-    let told = log(cluster, &format!("capsulemap-join-{join}.log"));
-    assert!(told.contains("missing"), "the join does not say what is missing:\n{told}");
-    assert!(!cluster.desk().join("results/starts/starts.h5").exists());
+    let ran = log(cluster, &format!("capsulemap-join-{join}.log"));
+    assert!(ran.contains("missing"), "the join does not say what is missing:\n{ran}");
+    assert!(!cluster.dir().join("results/starts/starts.h5").exists());
     let whole = blocks(cluster).len();
     assert!((1..BLOCKS).contains(&whole), "{whole} blocks are there");
 }
@@ -176,8 +176,8 @@ fn assert_all_but_task_2_have_ended_well(cluster: &Cluster, array: &str) {
         assert_eq!(cluster.job(&task, "JobState"), "COMPLETED", "task {number}");
         assert_eq!(cluster.job(&task, "Restarts"), restarts, "task {number}");
     }
-    let told = log(cluster, &format!("capsulemap-{array}-3.log"));
-    assert!(told.contains("goes on from there"), "task 3 does not say how to go on:\n{told}");
+    let ran = log(cluster, &format!("capsulemap-{array}-3.log"));
+    assert!(ran.contains("resumes from there"), "task 3 does not say how to resume:\n{ran}");
 }
 
 /// Submits a script by itself, as it says in its first lines, and waits until it has succeeded.

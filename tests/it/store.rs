@@ -86,9 +86,9 @@ fn entries(folder: &Path) -> Vec<String> {
     entries.map(|entry| name(entry.expect("an entry"))).collect()
 }
 
-/// A word that is seen even when the test passes: the usual macros are heard only on failure.
-pub fn say(words: &str) {
-    writeln!(std::io::stderr(), "{words}").expect("a word can be said");
+/// Prints a line even when the test passes: the usual macros print on failure only.
+pub fn say(line: &str) {
+    writeln!(std::io::stderr(), "{line}").expect("a line can be printed");
 }
 
 fn assert_round_trip(dataset: &Dataset) {
@@ -253,7 +253,7 @@ fn a_full_disk_keeps_the_older_file() {
 }
 
 #[test]
-fn what_is_not_a_result_is_refused_with_a_word() {
+fn what_is_not_a_result_is_refused_with_a_message() {
     let (folder, path) = place();
     let missing = store::read(&path).expect_err("there is no file");
     assert!(missing.to_string().contains("result.nc"), "{missing}");

@@ -1,8 +1,8 @@
-//! The study file: every way of writing one, and every fault with its line and key.
+//! The study file: every form of it, and every fault with its line and key.
 
 use capsulemap::study::Study;
 
-use super::program::{Desk, FIG5};
+use super::program::{FIG5, WorkDir};
 
 fn read(text: &str) -> Study {
     Study::parse("study.toml", text).unwrap_or_else(|faults| panic!("{faults}"))
@@ -65,7 +65,7 @@ values = ["1 mm", "2"]
 [[axes]]
 nam = "x"
 [start]
-follow = "omega"
+inherit = "omega"
 directions = ["up", "upward", "upward"]
 r = "4"
 [protocol]
@@ -82,7 +82,7 @@ cycles = [3, 1]
 "#;
 
 #[test]
-fn many_faults_are_told_at_once_each_with_line_and_key() {
+fn many_faults_are_reported_at_once_each_with_line_and_key() {
     assert_said(
         MANY,
         &[
@@ -107,7 +107,7 @@ fn many_faults_are_told_at_once_each_with_line_and_key() {
             "line 31: axes[6].to: missing",
             "line 31: axes[6].points: missing",
             "line 32: axes[6].nam: unknown key \"nam\"; did you mean \"name\"?",
-            "line 34: start.follow: unknown axis of this study \"omega\"",
+            "line 34: start.inherit: unknown axis of this study \"omega\"",
             "line 36: start.r: \"4\" has no unit; expected a length",
             "line 38: protocol.tolerance: 1 must lie between 1e-15 and 1e-3",
             "line 39: protocol.max_cycles: expected a whole number, 1 or above, found -3",
@@ -122,23 +122,23 @@ fn many_faults_are_told_at_once_each_with_line_and_key() {
 }
 
 #[test]
-fn a_faulty_study_is_told_by_the_program_and_leaves_nothing() {
-    let desk = Desk::new();
-    desk.put("many.toml", MANY);
-    desk.put("broken.toml", "title = \"x\"\nomega = [1\np_d = \"4 N\n");
-    desk.put("twice.toml", FIG5.to_owned() + "omega = \"3 Hz\"\n");
-    desk.put("binary.toml", b"title = \"fine\"\n\nnote = \"\xff\"\n");
-    std::fs::create_dir(desk.path("folder.toml")).expect("a folder");
-    let before = desk.files();
-    desk.run(&["sweep", "many.toml"])
+fn a_faulty_study_is_reported_by_the_program_and_leaves_nothing() {
+    let dir = WorkDir::new();
+    dir.put("many.toml", MANY);
+    dir.put("broken.toml", "title = \"x\"\nomega = [1\np_d = \"4 N\n");
+    dir.put("twice.toml", FIG5.to_owned() + "omega = \"3 Hz\"\n");
+    dir.put("binary.toml", b"title = \"fine\"\n\nnote = \"\xff\"\n");
+    std::fs::create_dir(dir.path("folder.toml")).expect("a folder");
+    let before = dir.files();
+    dir.run(&["sweep", "many.toml"])
         .refused(&["many.toml: 31 faults", "line 47: figures[1].cycles"]);
-    desk.run(&["sweep", "broken.toml"]).refused(&["broken.toml", "line 3"]);
-    desk.run(&["sweep", "twice.toml"])
+    dir.run(&["sweep", "broken.toml"]).refused(&["broken.toml", "line 3"]);
+    dir.run(&["sweep", "twice.toml"])
         .refused(&["1 fault\n", "line 6: duplicate key, in: omega = \"3 Hz\""]);
-    desk.run(&["sweep", "binary.toml"]).refused(&["binary.toml: line 3: is not text in UTF-8"]);
-    desk.run(&["sweep", "absent.toml"]).refused(&["absent.toml: cannot be read: No such file"]);
-    desk.run(&["sweep", "folder.toml"]).refused(&["folder.toml: cannot be read: Is a directory"]);
-    assert_eq!(desk.files(), before);
+    dir.run(&["sweep", "binary.toml"]).refused(&["binary.toml: line 3: is not text in UTF-8"]);
+    dir.run(&["sweep", "absent.toml"]).refused(&["absent.toml: cannot be read: No such file"]);
+    dir.run(&["sweep", "folder.toml"]).refused(&["folder.toml: cannot be read: Is a directory"]);
+    assert_eq!(dir.files(), before);
 }
 
 #[test]
@@ -205,29 +205,46 @@ fn starts_and_the_phase_can_be_axes() {
     let case = study.case(0b1010);
     assert_eq!((case.start.r, case.start.y1, case.start.y2), (0.002, 1.0, 2.0));
     assert!((case.start_phase - 1_f64.to_radians()).abs() < 1e-16 && case.section_phase == 0.0);
-    assert!(said(&(text + "[start]\nfollow = \"start_phase\""))[0].contains("must be a parameter"));
+    assert!(
+        said(&(text + "[start]\ninherit = \"start_phase\""))[0].contains("must be a parameter")
+    );
 }
 
 #[test]
-fn a_study_follows_up_down_or_both_ways() {
-    let follow = |lines: &str| figures(&format!("[start]\n{lines}"));
-    let chains = |lines: &str| chains(&read(&follow(lines)));
+fn cases_inherit_their_start_upward_downward_or_both() {
+    let inherit = |lines: &str| figures(&format!("[start]\n{lines}"));
+    let chains = |lines: &str| chains(&read(&inherit(lines)));
     assert_eq!(chains(""), [[0], [1]]);
-    assert_eq!(chains("follow = \"omega\""), [[0, 1]]);
-    assert_eq!(chains("follow = \"omega\"\ndirections = [\"downward\"]"), [[1, 0]]);
-    let both = "follow = \"omega\"\ndirections = [\"upward\", \"downward\"]";
+    assert_eq!(chains("inherit = \"omega\""), [[0, 1]]);
+    assert_eq!(chains("inherit = \"omega\"\ndirections = [\"downward\"]"), [[1, 0]]);
+    let both = "inherit = \"omega\"\ndirections = [\"upward\", \"downward\"]";
     assert_eq!(chains(both), [[0, 2], [3, 1]]);
-    assert_said(&follow("follow = \"p_d\""), &["line 9: start.follow: unknown axis of this study"]);
     assert_said(
-        &follow("follow = \"omega\"\ndirections = [\"up\", \"upward\", \"upward\"]"),
+        &inherit("inherit = \"p_d\""),
+        &["line 9: start.inherit: unknown axis of this study"],
+    );
+    assert_said(
+        &inherit("inherit = \"omega\"\ndirections = [\"up\", \"upward\", \"upward\"]"),
         &[
             "line 10: start.directions[1]: unknown direction \"up\"",
             "line 10: start.directions[3]: is given twice",
         ],
     );
     assert_said(
-        &follow("directions = [\"upward\"]"),
-        &["line 9: start.directions: needs `follow`"],
+        &inherit("directions = [\"upward\"]"),
+        &["line 9: start.directions: needs `inherit`"],
+    );
+}
+
+#[test]
+fn the_older_key_of_an_inherited_start_is_accepted_alone() {
+    let start = |lines: &str| figures(&format!("[start]\n{lines}"));
+    let [older, now] = ["follow", "inherit"].map(|key| read(&start(&format!("{key} = \"omega\""))));
+    assert!(older.inherit().is_some());
+    assert_eq!(older.inherit(), now.inherit());
+    assert_said(
+        &start("inherit = \"omega\"\nfollow = \"omega\""),
+        &["line 10: start.follow: is an older name of `inherit`"],
     );
 }
 
@@ -256,7 +273,7 @@ fn names_of_figures_are_checked_before_the_run() {
 }
 
 #[test]
-fn what_a_figure_cannot_show_is_told_before_the_run() {
+fn what_a_figure_cannot_show_is_reported_before_the_run() {
     let shown = |kind: &str, of: &str| {
         figures(&format!("[[figures]]\nname = 'a'\nkind = '{kind}'\nof = [{of}]\n"))
     };

@@ -6,7 +6,7 @@ use capsulemap::capsule::{Allowed, Output, Parameter, Parameters, Resistance, St
 use capsulemap::orbit::{HistorySpan, Protocol};
 use capsulemap::study::{
     Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Drawing, DrawingKind, Draws,
-    FirstOrbit, Follow, Grid, Range, Spacing, Study,
+    FirstOrbit, Grid, Inherit, Range, Spacing, Study,
 };
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -106,9 +106,9 @@ impl Random {
         let parameter = |axis: &usize| matches!(axes[*axis].coordinate, Coordinate::Parameter(_));
         let parameters: Vec<usize> = (0..axes.len()).filter(parameter).collect();
         let directions = self.some(&Direction::ALL);
-        let follow = (!parameters.is_empty() && !directions.is_empty())
-            .then(|| Follow { axis: self.one(&parameters), directions });
-        CaseSet::Grid(Grid { axes, follow })
+        let inherit = (!parameters.is_empty() && !directions.is_empty())
+            .then(|| Inherit { axis: self.one(&parameters), directions });
+        CaseSet::Grid(Grid { axes, inherit })
     }
 
     fn state(&mut self) -> State<f64> {
@@ -285,7 +285,7 @@ fn a_study_of_any_keys_is_read_back_as_it_was_written() {
         assert_eq!(shown(&validated), shown(&study));
         let text = study.to_toml();
         assert_eq!(validated.text, text);
-        for key in ["[draws]", "follow =", "[[branches]]", "second =", "points =", "values ="]
+        for key in ["[draws]", "inherit =", "[[branches]]", "second =", "points =", "values ="]
             .into_iter()
             .chain(["\"logarithmic\"", "[history]", "outputs =", "at = {", "width =", "cycles = ["])
         {
@@ -300,7 +300,7 @@ fn every_study_that_is_kept_is_read_back_as_it_was_written() {
     let mut count = 0;
     for entry in std::fs::read_dir("studies").expect("the studies") {
         let path = entry.expect("an entry").path();
-        if path.extension().is_some_and(|ending| ending == "toml") {
+        if path.extension().is_some_and(|extension| extension == "toml") {
             let text = std::fs::read_to_string(&path).expect("text");
             let study = Study::parse(&path.display().to_string(), &text);
             assert_round_trip(&study.unwrap_or_else(|faults| panic!("{faults}")));
@@ -315,7 +315,7 @@ fn an_axis_keeps_its_form_and_its_bits() {
     let axis = |values: Vec<f64>| Study {
         case_set: CaseSet::Grid(Grid {
             axes: vec![Axis { coordinate: Coordinate::Parameter(Parameter::K2), values }],
-            follow: None,
+            inherit: None,
         }),
         ..Study::default()
     };
@@ -331,14 +331,14 @@ fn an_axis_keeps_its_form_and_its_bits() {
 }
 
 #[test]
-fn all_faults_of_a_study_built_in_code_are_told_at_once() {
+fn all_faults_of_a_study_built_in_code_are_reported_at_once() {
     let values = vec![60.0, f64::NAN, 60.0];
     let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Omega), values }];
     let mut study = Study {
         title: "two\nlines".to_owned(),
         case_set: CaseSet::Grid(Grid {
             axes,
-            follow: Some(Follow { axis: 3, directions: vec![Direction::Upward; 2] }),
+            inherit: Some(Inherit { axis: 3, directions: vec![Direction::Upward; 2] }),
         }),
         protocol: Protocol { tolerance: 1.0, max_cycles: 0, ..Protocol::default() },
         ..Study::default()
@@ -347,42 +347,40 @@ fn all_faults_of_a_study_built_in_code_are_told_at_once() {
     study.start.y1 = f64::INFINITY;
     let faults = study.validated("built").expect_err("a faulty study");
     assert!(faults.faults.iter().all(|fault| fault.line.is_none()));
-    let told = faults.to_string();
+    let ran = faults.to_string();
     for words in [
         "built: ",
         "title: must be one line",
         "parameters.m1: -1 kg must be a finite number above zero",
         "axes[1].values[2]: NaN rad/s must be",
         "axes[1].values[3]: is given twice",
-        "start.follow: unknown axis of this study \"3\"",
+        "start.inherit: unknown axis of this study \"3\"",
         "start.y1: inf m/s must be a finite number",
         "protocol.tolerance: 1 must lie between",
         "protocol.max_cycles: expected a whole number",
     ] {
-        assert!(told.contains(words), "{words}: {told}");
+        assert!(ran.contains(words), "{words}: {ran}");
     }
 }
 
 #[test]
-fn what_a_study_file_cannot_hold_is_told() {
-    let told = |study: Study| study.validated("built").expect_err("a fault").to_string();
+fn what_a_study_file_cannot_hold_is_reported() {
+    let ran = |study: Study| study.validated("built").expect_err("a fault").to_string();
     let mut study = Study::default();
     study.start.x2 = 1.0;
-    assert!(told(study).contains("start: a study file cannot hold"));
+    assert!(ran(study).contains("start: a study file cannot hold"));
     let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd), values: vec![1.0] }];
-    let follow = Some(Follow { axis: 0, directions: Vec::new() });
-    let case_set = CaseSet::Grid(Grid { axes, follow });
-    assert!(
-        told(Study { case_set, ..Study::default() }).contains("axes: a study file cannot hold")
-    );
+    let inherit = Some(Inherit { axis: 0, directions: Vec::new() });
+    let case_set = CaseSet::Grid(Grid { axes, inherit });
+    assert!(ran(Study { case_set, ..Study::default() }).contains("axes: a study file cannot hold"));
     let mut random = Random(ChaCha8Rng::seed_from_u64(4));
     let mut branch = random.branch(&Study::default(), "one".to_owned());
     branch.range.reverse();
     let reversed = Study { branches: vec![branch], ..Study::default() };
-    assert!(told(reversed).contains("branches[1]: a study file cannot hold"));
+    assert!(ran(reversed).contains("branches[1]: a study file cannot hold"));
     // What is held constant of a coordinate that varies does not count.
     let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd), values: vec![1.0] }];
-    let case_set = CaseSet::Grid(Grid { axes, follow: None });
+    let case_set = CaseSet::Grid(Grid { axes, inherit: None });
     let mut study = Study { case_set, ..Study::default() };
     study.base[Parameter::Pd] = -1.0;
     assert!(study.validated("built").is_ok());

@@ -1,4 +1,4 @@
-//! The entries of the followed branches, their special points and their curves.
+//! The entries of the branches, their special points and their curves.
 
 use super::entry::{Entry, Extent::*, Type::*, entries};
 use super::flags::{ends, parameters, results, specials, stabilities};

@@ -3,9 +3,9 @@
 use super::entry::{Entry, Extent::*, Type::*, entries, shown, words};
 use super::flags::{directions, outcomes, proofs, reasons};
 
-/// The dimension of the cases of a block, which in a file of results gives way to the axes.
+/// The dimension of the cases of a block, which in a file of results is replaced by the axes.
 pub const CASE: &str = "case";
-/// The text of a file that holds the study, word for word.
+/// The text of a file that holds the text of the study.
 pub const STUDY_TEXT: &str = "study";
 /// The attribute of a file that names the axis along which attractors are numbered.
 pub const ATTRACTOR_AXIS: &str = "attractor_axis";

@@ -57,7 +57,7 @@ pub enum Type {
 /// How figures show a quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shown {
-    /// What it is, in words; empty where the symbol says it.
+    /// Its name as text; empty where the symbol says it.
     pub label: &'static str,
     /// Its symbol, with markup: stars for italics, braces for scripts; empty where it has none.
     pub symbol: &'static str,
@@ -87,12 +87,12 @@ impl Entry {
     }
 }
 
-/// A quantity that is shown by words, in SI.
+/// A quantity that is shown by its name, in SI.
 pub(super) const fn words(label: &'static str, unit: &'static str) -> Option<Shown> {
     shown(label, "", unit, 1.0)
 }
 
-/// A quantity with its words, its symbol, the unit shown and its factor from SI.
+/// A quantity with its name, its symbol, the unit shown and its factor from SI.
 pub(super) const fn shown(
     label: &'static str,
     symbol: &'static str,

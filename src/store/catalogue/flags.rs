@@ -3,7 +3,7 @@
 use crate::branch::{End, SpecialKind};
 use crate::capsule::{Parameter, REASONS};
 use crate::orbit::{Outcome, Proof};
-use crate::run::{Followed, Unfollowed};
+use crate::run::{Continued, NotContinued};
 use crate::study::Direction;
 
 use super::entry::Flags;
@@ -13,7 +13,7 @@ pub fn outcomes() -> Flags {
     Outcome::ALL.iter().map(|&outcome| (outcome as i64, outcome.name().to_owned())).collect()
 }
 
-/// Why a case could not be followed; 0 where it could.
+/// Why the integration of a case failed; 0 where it did not.
 pub fn reasons() -> Flags {
     let names = REASONS.map(|(reason, name)| (reason as i64, name.to_owned()));
     std::iter::once((0, "none".to_owned())).chain(names).collect()
@@ -24,7 +24,7 @@ pub fn proofs() -> Flags {
     Proof::NAMES.map(|(name, proof)| (proof as i64, name.to_owned())).to_vec()
 }
 
-/// The directions in which an attractor can be followed.
+/// The directions in which a start can be inherited.
 pub fn directions() -> Flags {
     Direction::ALL.iter().map(|&it| (it as i64, it.name().to_owned())).collect()
 }
@@ -50,28 +50,29 @@ pub fn stabilities() -> Flags {
 }
 
 /// The number of what came of a branch.
-pub fn result(followed: &Followed) -> i64 {
+pub fn result(continued: &Continued) -> i64 {
     let reasons = REASONS.len() as i64;
-    match followed {
+    match continued {
         Ok(_) => 0,
-        Err(Unfollowed::Failed(reason)) => *reason as i64,
-        Err(Unfollowed::NoOrbit) => reasons + 1,
+        Err(NotContinued::Failed(reason)) => *reason as i64,
+        Err(NotContinued::NoOrbit) => reasons + 1,
         // Two more has stood for the equation as printed in files of earlier versions.
-        Err(Unfollowed::Neutral) => reasons + 3,
-        // No outcome that is told here has the number zero.
-        Err(Unfollowed::Unsettled(outcome)) => reasons + 3 + *outcome as i64,
+        Err(NotContinued::Neutral) => reasons + 3,
+        // No outcome in this list has the number zero.
+        Err(NotContinued::Unsettled(outcome)) => reasons + 3 + *outcome as i64,
     }
 }
 
 /// Everything that may come of a branch.
 pub fn results() -> Flags {
-    let reasons = REASONS.map(|(reason, name)| (Err(Unfollowed::Failed(reason)), name.to_owned()));
-    let no_orbit = (Err(Unfollowed::NoOrbit), "no-orbit".to_owned());
-    let neutral = (Err(Unfollowed::Neutral), "neutral".to_owned());
+    let reasons =
+        REASONS.map(|(reason, name)| (Err(NotContinued::Failed(reason)), name.to_owned()));
+    let no_orbit = (Err(NotContinued::NoOrbit), "no-orbit".to_owned());
+    let neutral = (Err(NotContinued::Neutral), "neutral".to_owned());
     let unsettled = Outcome::ALL
         .into_iter()
         .filter(|outcome| !matches!(outcome, Outcome::Periodic | Outcome::Failed))
-        .map(|outcome| (Err(Unfollowed::Unsettled(outcome)), outcome.name().to_owned()));
+        .map(|outcome| (Err(NotContinued::Unsettled(outcome)), outcome.name().to_owned()));
     let failures = reasons.into_iter().chain([no_orbit, neutral]).chain(unsettled);
     let followed = std::iter::once((0, "followed".to_owned()));
     followed.chain(failures.map(|(why, name)| (result(&why), name))).collect()

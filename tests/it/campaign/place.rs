@@ -10,11 +10,11 @@ use capsulemap::store;
 use capsulemap::study::Study;
 use tempfile::TempDir;
 
-use crate::overnight::NIGHT;
+use crate::interrupted_runs::LONG_STUDY;
 
 /// A quarter of a study of many blocks: 6 blocks of 512 cases.
-pub fn night() -> Study {
-    parse(&NIGHT.replace("points = 96", "points = 24"))
+pub fn long_study() -> Study {
+    parse(&LONG_STUDY.replace("points = 96", "points = 24"))
 }
 
 /// The study in `text`, which has no fault.

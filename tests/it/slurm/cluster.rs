@@ -65,15 +65,15 @@ impl Cluster {
     }
 
     /// A folder for the jobs.
-    pub fn desk(&self) -> PathBuf {
-        self.path("desk")
+    pub fn dir(&self) -> PathBuf {
+        self.path("dir")
     }
 
     /// A command that is to be run in the jobs' folder, talks to this cluster, and never hangs.
     pub fn command(&self, program: impl AsRef<Path>) -> Command {
         let mut command = Command::new("timeout");
         command.args(["--kill-after=5", ANSWER]).arg(program.as_ref());
-        command.current_dir(self.desk()).env("SLURM_CONF", self.path("slurm.conf"));
+        command.current_dir(self.dir()).env("SLURM_CONF", self.path("slurm.conf"));
         command.stdin(Stdio::null());
         command
     }
@@ -121,12 +121,12 @@ impl Cluster {
         self.folder.path().join(name)
     }
 
-    /// Puts down what the daemons read. The key is new, so nobody else can submit here.
+    /// Puts down what the daemons read. The key is new, so no other user can submit here.
     fn prepare(&self) {
         // munged refuses a folder that not everybody may enter.
         let everybody = Permissions::from_mode(0o755);
         fs::set_permissions(self.folder.path(), everybody).expect("the folder is ours");
-        for name in ["desk", "state", "spool"] {
+        for name in ["dir", "state", "spool"] {
             fs::create_dir(self.path(name)).expect("a folder");
         }
         let mut key = [0; 128];
@@ -138,7 +138,7 @@ impl Cluster {
         fs::write(self.path("slurm.conf"), self.configuration()).expect("a file");
     }
 
-    /// The least that Slurm needs to be told.
+    /// The shortest configuration of Slurm.
     fn configuration(&self) -> String {
         let user = said(Command::new("id").arg("-un"));
         // Held both at once, so that they differ.
@@ -212,10 +212,10 @@ PartitionName=test Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 
     /// The last lines of every log, of the daemons and of the jobs.
     fn show_logs(&self) {
-        for folder in [self.folder.path(), &self.desk()] {
+        for folder in [self.folder.path(), &self.dir()] {
             for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
                 let path = entry.path();
-                if path.extension().is_some_and(|ending| ending == "log") {
+                if path.extension().is_some_and(|extension| extension == "log") {
                     let log = text(&fs::read(&path).unwrap_or_default());
                     let lines: Vec<&str> = log.lines().collect();
                     let last = lines[lines.len().saturating_sub(40)..].join("\n");

@@ -1,4 +1,4 @@
-//! Followed orbits over the parameter that they were followed in: lines along the branches, and special
+//! Branches over the parameter in which they were continued: lines along them, and special
 //! points.
 
 use plotters::style::RGBColor;
@@ -12,28 +12,28 @@ use super::text::Text;
 use super::track::{Track, tracks};
 use super::view::View;
 
-/// The followed orbits that a diagram shows, as one output of theirs.
+/// The branches that a diagram shows, as one output of theirs.
 #[derive(Default)]
-pub struct Followed {
+pub struct BranchLines {
     /// Lines of unstable orbits, then of stable ones.
     lines: [Vec<Vec<(f64, f64)>>; 2],
     /// Special points.
     specials: Vec<(Symbol, (f64, f64))>,
 }
 
-impl Followed {
-    /// The orbits followed in `x` that lie where `view` holds the other axes, as their `output`.
-    pub fn shown(view: &View<'_>, x: &str, output: &str) -> Followed {
-        let mut followed = Followed::default();
+impl BranchLines {
+    /// The orbits continued in `x` that lie where `view` holds the other axes, as their `output`.
+    pub fn shown(view: &View<'_>, x: &str, output: &str) -> BranchLines {
+        let mut branches = BranchLines::default();
         if !view.drawing.branches {
-            return followed;
+            return branches;
         }
         let factors = (view.quantity(x).factor, view.quantity(output).factor);
         let scaled = |(x, y): (f64, f64)| (x * factors.0, y * factors.1);
         for track in tracks(view, x, output) {
-            followed.add(&track, scaled);
+            branches.add(&track, scaled);
         }
-        followed
+        branches
     }
 
     fn add(&mut self, track: &Track, scaled: impl Fn((f64, f64)) -> (f64, f64)) {

@@ -1,29 +1,29 @@
-//! Parts of a variable over a study's axes, small enough to be held in memory one at a time.
+//! Slabs of a variable over a study's axes, small enough to be held in memory one at a time.
 
 use ndarray::{ArrayD, IxDyn};
 
 use super::Values;
 use super::catalogue::OUTCOME;
 
-/// A variable is put together in parts of this size at most [numbers], which no study makes larger.
+/// Largest slab of a variable, for studies of every size [numbers].
 pub const MOST_NUMBERS: usize = 1 << 23;
 
 /// The category of a case that has not been computed.
 pub const MISSING: (i64, &str) = (-1, "missing");
 
-/// A box of a study's cases: where it begins along each axis, slowest first, and how far it goes.
+/// A box of a study's cases: its first position and its length along each axis, slowest first.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Piece {
+pub struct Slab {
     /// First position along each axis.
     pub start: Vec<usize>,
     /// Positions along each axis.
     pub count: Vec<usize>,
 }
 
-impl Piece {
+impl Slab {
     /// All cases of a study of so many values along each axis.
-    pub fn whole(shape: &[usize]) -> Piece {
-        Piece { start: vec![0; shape.len()], count: shape.to_vec() }
+    pub fn whole(shape: &[usize]) -> Slab {
+        Slab { start: vec![0; shape.len()], count: shape.to_vec() }
     }
 
     /// Number of cases.
@@ -31,16 +31,16 @@ impl Piece {
         self.count.iter().product()
     }
 
-    /// The place of a case of a study of the given shape among those of the piece; none if it is outside.
+    /// The place of a case of a study of the given shape among those of the slab; none if it is outside.
     pub fn place(&self, shape: &[usize], case: usize) -> Option<usize> {
-        let (mut rest, mut place, mut stride) = (case, 0, 1);
+        let (mut rest, mut place, mut spacing) = (case, 0, 1);
         for axis in (0..shape.len()).rev() {
             let inside = (rest % shape[axis]).checked_sub(self.start[axis])?;
             if inside >= self.count[axis] {
                 return None;
             }
-            place += inside * stride;
-            stride *= self.count[axis];
+            place += inside * spacing;
+            spacing *= self.count[axis];
             rest /= shape[axis];
         }
         Some(place)
@@ -58,31 +58,31 @@ impl Piece {
     }
 }
 
-/// Cuts a study of the given shape into pieces of at most `most` cases, or of one chunk if that has more;
-/// no chunk is in two pieces.
-pub fn pieces(shape: &[usize], chunk: &[usize], most: usize) -> Vec<Piece> {
-    let mut pieces = vec![Piece::whole(shape)];
+/// Divides a study of the given shape into slabs of at most `most` cases, or of one chunk if that has more;
+/// no chunk is in two slabs.
+pub fn slabs(shape: &[usize], chunk: &[usize], most: usize) -> Vec<Slab> {
+    let mut slabs = vec![Slab::whole(shape)];
     for axis in 0..shape.len() {
-        if pieces[0].cases() <= most {
+        if slabs[0].cases() <= most {
             break;
         }
-        let across = pieces[0].cases() / pieces[0].count[axis];
+        let across = slabs[0].cases() / slabs[0].count[axis];
         let length = (most / across / chunk[axis]).max(1) * chunk[axis];
-        let cut = |piece: &Piece| {
-            let piece = piece.clone();
+        let divide = |slab: &Slab| {
+            let slab = slab.clone();
             (0..shape[axis]).step_by(length).map(move |from| {
-                let mut part = piece.clone();
-                part.start[axis] = from;
-                part.count[axis] = length.min(shape[axis] - from);
-                part
+                let mut slab = slab.clone();
+                slab.start[axis] = from;
+                slab.count[axis] = length.min(shape[axis] - from);
+                slab
             })
         };
-        pieces = pieces.iter().flat_map(cut).collect();
+        slabs = slabs.iter().flat_map(divide).collect();
     }
-    pieces
+    slabs
 }
 
-/// What the cases of a piece have of a variable, most of which may still be missing.
+/// The numbers of a variable at the cases of a slab, most of which may still be missing.
 pub struct Filling {
     numbers: Numbers,
     /// Numbers of each case.
@@ -98,10 +98,10 @@ enum Numbers {
 impl Filling {
     /// The variable `name` without any case; of `model`, which is what a block has of it, the kind of
     /// numbers and how many each case has are taken.
-    pub fn new(piece: &Piece, name: &str, model: &Values) -> Filling {
+    pub fn new(slab: &Slab, name: &str, model: &Values) -> Filling {
         let inner = &model.shape()[1..];
         let width = inner.iter().product();
-        let length = piece.cases() * width;
+        let length = slab.cases() * width;
         let numbers = match model {
             Values::Real(_) => Numbers::Real(vec![f64::NAN; length]),
             // Zero stands for no period, no failure, no proof; an outcome has no such number.
@@ -110,7 +110,7 @@ impl Filling {
                 Numbers::Integer(vec![nothing; length])
             }
         };
-        let shape = piece.count.iter().chain(inner).copied().collect();
+        let shape = slab.count.iter().chain(inner).copied().collect();
         Filling { numbers, width, shape }
     }
 
@@ -134,7 +134,7 @@ impl Filling {
         put_rows(all, self.width, places, own);
     }
 
-    /// The numbers over the axes of the piece.
+    /// The numbers over the axes of the slab.
     pub fn finish(self) -> Values {
         let shape = IxDyn(&self.shape);
         let fits = "as many numbers as the shape has";
@@ -165,21 +165,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_case_has_its_place_in_one_piece() {
+    fn every_case_has_its_place_in_one_slab() {
         let shape = [7, 5, 9, 2];
         let chunk = [3, 2, 4, 2];
         for most in [1, 10, 24, 48, 100, 200, 10_000] {
-            let pieces = pieces(&shape, &chunk, most);
-            assert!(pieces.iter().all(|piece| piece.cases() <= most.max(48)));
+            let slabs = slabs(&shape, &chunk, most);
+            assert!(slabs.iter().all(|slab| slab.cases() <= most.max(48)));
             let mut seen = vec![0; shape.iter().product()];
-            for piece in &pieces {
-                let of = |case| piece.place(&shape, case).map(|place| (place, case));
+            for slab in &slabs {
+                let of = |case| slab.place(&shape, case).map(|place| (place, case));
                 let mut places: Vec<(usize, usize)> = (0..seen.len()).filter_map(of).collect();
-                let [first, last] = piece.bounds(&shape);
+                let [first, last] = slab.bounds(&shape);
                 assert_eq!((places[0].1, places[places.len() - 1].1), (first, last));
                 places.iter().for_each(|(_, case)| seen[*case] += 1);
                 places.sort_unstable();
-                assert!(places.iter().map(|(place, _)| *place).eq(0..piece.cases()));
+                assert!(places.iter().map(|(place, _)| *place).eq(0..slab.cases()));
                 assert!(places.is_sorted_by_key(|(_, case)| *case));
             }
             assert!(seen.iter().all(|&count| count == 1), "{most}");
@@ -187,8 +187,8 @@ mod tests {
     }
 
     #[test]
-    fn a_study_of_one_case_is_one_piece() {
-        assert_eq!(pieces(&[], &[], 1), [Piece { start: vec![], count: vec![] }]);
-        assert_eq!(Piece::whole(&[]).place(&[], 0), Some(0));
+    fn a_study_of_one_case_is_one_slab() {
+        assert_eq!(slabs(&[], &[], 1), [Slab { start: vec![], count: vec![] }]);
+        assert_eq!(Slab::whole(&[]).place(&[], 0), Some(0));
     }
 }

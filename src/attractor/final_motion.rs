@@ -5,7 +5,7 @@ use crate::orbit::{Orbit, Outcome};
 
 /// What a case has settled to, without the orbit itself, which can be followed again from its last point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Summary<const D: usize> {
+pub struct FinalMotion<const D: usize> {
     /// What the case turned out to be.
     pub outcome: Outcome,
     /// Whether small pushes die out, by its multipliers.
@@ -20,8 +20,8 @@ pub struct Summary<const D: usize> {
     pub from_one: f64,
 }
 
-impl<const D: usize> Summary<D> {
-    /// The summary of a case with this outcome, period, last section point, and residual and multipliers of
+impl<const D: usize> FinalMotion<D> {
+    /// The motion of a case with this outcome, period, last section point, and residual and multipliers of
     /// its certificate, the largest magnitude first; they are NaN where there is none.
     pub fn new(
         outcome: Outcome,
@@ -32,14 +32,14 @@ impl<const D: usize> Summary<D> {
     ) -> Self {
         let is_stable = multipliers[0].abs() < 1.0;
         let from_one = least_from_one(multipliers);
-        Summary { outcome, is_stable, period, section, residual, from_one }
+        FinalMotion { outcome, is_stable, period, section, residual, from_one }
     }
 
-    /// The summary of what a case of any system has settled to.
+    /// The motion of what a case of any system has settled to.
     pub fn of<S, O>(orbit: &Orbit<S, O, D>, section: [f64; D]) -> Self {
         let certificate = &orbit.certificate;
         let (period, multipliers) = (orbit.period as u32, &certificate.multipliers);
-        Summary::new(orbit.outcome, period, section, certificate.residual, multipliers)
+        FinalMotion::new(orbit.outcome, period, section, certificate.residual, multipliers)
     }
 }
 
@@ -49,17 +49,17 @@ mod tests {
 
     #[test]
     fn a_summary_is_small_and_a_missing_one_takes_no_more() {
-        assert_eq!(size_of::<Summary<3>>(), 48);
-        assert_eq!(size_of::<Option<Summary<3>>>(), 48);
+        assert_eq!(size_of::<FinalMotion<3>>(), 48);
+        assert_eq!(size_of::<Option<FinalMotion<3>>>(), 48);
     }
 
     #[test]
     fn only_known_multipliers_within_the_unit_circle_are_stable() {
-        let summary = |re: f64| {
+        let motion = |re: f64| {
             let multipliers = [re, 0.25, 0.0].map(|re| Complex { re, im: 0.0 });
-            Summary::new(Outcome::Periodic, 1, [0.0; 3], 0.0, &multipliers)
+            FinalMotion::new(Outcome::Periodic, 1, [0.0; 3], 0.0, &multipliers)
         };
-        assert_eq!((summary(-0.5).is_stable, summary(-0.5).from_one), (true, 0.75));
-        assert!(!summary(-1.5).is_stable && !summary(f64::NAN).is_stable);
+        assert_eq!((motion(-0.5).is_stable, motion(-0.5).from_one), (true, 0.75));
+        assert!(!motion(-1.5).is_stable && !motion(f64::NAN).is_stable);
     }
 }

@@ -1,4 +1,4 @@
-//! Made-up results for the tests of figures.
+//! Synthetic results for the tests of figures.
 
 use std::f64::consts::TAU;
 
@@ -18,20 +18,20 @@ fn variable(dimensions: &[&str], unit: &str, values: Values) -> Variable {
     }
 }
 
-/// Made-up results, put together piece by piece.
+/// Synthetic results, built by adding one variable after the other.
 #[derive(Clone, Default)]
-pub struct Made(pub Dataset);
+pub struct Fixture(pub Dataset);
 
-impl Made {
-    pub fn coordinate(mut self, name: &str, unit: &str, values: Vec<f64>) -> Made {
+impl Fixture {
+    pub fn coordinate(mut self, name: &str, unit: &str, values: Vec<f64>) -> Fixture {
         let values = ArrayD::from_shape_vec(IxDyn(&[values.len()]), values).unwrap();
         let coordinate = variable(&[name], unit, Values::Real(values));
         self.0.coordinates.push((name.to_string(), coordinate));
         self
     }
 
-    /// Two ways along an axis.
-    pub fn directions(mut self) -> Made {
+    /// Both directions along an axis.
+    pub fn directions(mut self) -> Fixture {
         let values = ArrayD::from_shape_vec(IxDyn(&[2]), vec![0, 1]).unwrap();
         let mut coordinate = variable(&["direction"], "1", Values::Integer(values));
         coordinate.flags = vec![(0, "upward".into()), (1, "downward".into())];
@@ -45,7 +45,12 @@ impl Made {
     }
 
     /// A variable whose numbers `of` gives from the index along each dimension.
-    pub fn real(mut self, name: &str, dimensions: &[&str], of: impl Fn(&[usize]) -> f64) -> Made {
+    pub fn real(
+        mut self,
+        name: &str,
+        dimensions: &[&str],
+        of: impl Fn(&[usize]) -> f64,
+    ) -> Fixture {
         let shape = self.shape(dimensions);
         let array = ArrayD::from_shape_fn(IxDyn(&shape), |index| {
             of(&(0..shape.len()).map(|at| index[at]).collect::<Vec<_>>())
@@ -60,15 +65,15 @@ impl Made {
         dimensions: &[&str],
         flags: &[&str],
         of: impl Fn(&[usize]) -> i64,
-    ) -> Made {
+    ) -> Fixture {
         let shape = self.shape(dimensions);
         let array = ArrayD::from_shape_fn(IxDyn(&shape), |index| {
             of(&(0..shape.len()).map(|at| index[at]).collect::<Vec<_>>())
         });
-        let mut made = variable(dimensions, "1", Values::Integer(array));
-        made.flags =
+        let mut fixture = variable(dimensions, "1", Values::Integer(array));
+        fixture.flags =
             flags.iter().enumerate().map(|(at, name)| (at as i64, name.to_string())).collect();
-        self.0.variables.insert(name.into(), made);
+        self.0.variables.insert(name.into(), fixture);
         self
     }
 }
@@ -79,8 +84,8 @@ pub fn steps(first: f64, last: f64, count: usize) -> Vec<f64> {
 }
 
 /// A motion that looks like the capsule's: `omega` [rad/s] over `cycles`.
-pub fn with_history(made: Made, axes: &[&str], cycles: f64, samples: usize) -> Made {
-    let made = made.coordinate("history_time", "1", steps(0.0, cycles, samples));
+pub fn with_history(fixture: Fixture, axes: &[&str], cycles: f64, samples: usize) -> Fixture {
+    let fixture = fixture.coordinate("history_time", "1", steps(0.0, cycles, samples));
     let times = steps(0.0, cycles, samples);
     let phase = move |index: &[usize]| TAU * times[index[index.len() - 1]];
     let case = |index: &[usize]| if index.len() > 1 { index[0] as f64 + 1.0 } else { 1.0 };
@@ -98,7 +103,8 @@ pub fn with_history(made: Made, axes: &[&str], cycles: f64, samples: usize) -> M
         let cycle = p(i) / TAU;
         case(i) * 1e-4 * (cycle.floor() + (3.0 * cycle.fract()).min(1.0))
     };
-    made.coordinate("point", "1", vec![0.0, 1.0])
+    fixture
+        .coordinate("point", "1", vec![0.0, 1.0])
         .coordinate("impact_point", "1", vec![0.0, 1.0, 2.0])
         .real("history_r", &dimensions, r)
         .real("history_y1", &dimensions, y1)
@@ -112,17 +118,17 @@ pub fn with_history(made: Made, axes: &[&str], cycles: f64, samples: usize) -> M
         .real("delta", &[], |_| 1.5e-3)
 }
 
-/// A cascade of period doublings along the frequency, followed both ways if asked for.
-pub fn cascade(count: usize, points: usize, both_ways: bool) -> Dataset {
+/// A cascade of period doublings along the frequency, in both directions if asked for.
+pub fn cascade(count: usize, points: usize, both_directions: bool) -> Dataset {
     let omega = steps(40.0, 70.0, count);
-    let made = Made::default().coordinate("omega", "rad/s", omega.clone());
-    let (made, axes) = match both_ways {
-        true => (made.directions(), vec!["omega", "direction"]),
-        false => (made, vec!["omega"]),
+    let fixture = Fixture::default().coordinate("omega", "rad/s", omega.clone());
+    let (fixture, axes) = match both_directions {
+        true => (fixture.directions(), vec!["omega", "direction"]),
+        false => (fixture, vec!["omega"]),
     };
     let with_points: Vec<&str> = axes.iter().copied().chain(["point"]).collect();
     let orbit = |index: &[usize]| {
-        let shift = if both_ways && index[1] == 1 { 0.06 } else { 0.0 };
+        let shift = if both_directions && index[1] == 1 { 0.06 } else { 0.0 };
         let a = 2.8 + 1.2 * (index[0] as f64 / (count - 1).max(1) as f64) - shift;
         let mut x = 0.4;
         for _ in 0..300 + index[index.len() - 1] {
@@ -130,13 +136,14 @@ pub fn cascade(count: usize, points: usize, both_ways: bool) -> Dataset {
         }
         x
     };
-    made.coordinate("point", "1", steps(0.0, points as f64 - 1.0, points))
+    fixture
+        .coordinate("point", "1", steps(0.0, points as f64 - 1.0, points))
         .real("section_r", &with_points, |i| 2e-3 * orbit(i) - 0.5e-3)
         .real("section_y1", &with_points, |i| 0.2 * orbit(i))
         .real("progression_speed", &axes, |i| {
             let x = i[0] as f64 / count as f64;
-            let way = if both_ways && i[1] == 1 { 0.8e-3 } else { 0.0 };
-            let jump = if x > 0.55 - 150.0 * way { 3e-3 } else { 0.0 };
+            let shift = if both_directions && i[1] == 1 { 0.8e-3 } else { 0.0 };
+            let jump = if x > 0.55 - 150.0 * shift { 3e-3 } else { 0.0 };
             4e-3 * (x - 0.3) + jump + 0.4e-3 * (20.0 * x).sin() * x
         })
         .integer("outcome", &axes, &OUTCOMES, |i| if i[0] % 37 == 36 { 4 } else { 0 })
@@ -170,7 +177,7 @@ pub fn plane(columns: usize, rows: usize) -> Dataset {
             _ => (1, 0),
         }
     };
-    Made::default()
+    Fixture::default()
         .coordinate("omega", "rad/s", omega)
         .coordinate("k2", "N/m", k2)
         .real("progression_speed", &axes, move |i| {

@@ -1,7 +1,7 @@
-//! A block of a study on disk: a small file that says by itself whether it is whole, and whose it is.
+//! The file of a block of cases, which has a checksum and names the study and the program that wrote it.
 //!
 //! After a line that names the format comes one of JSON, then each column deflated, lowest byte first, and
-//! at the end the seal of all bytes.
+//! at the end the checksum of all bytes.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -13,11 +13,11 @@ use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use serde::{Deserialize, Serialize};
 
+use super::checksum::{self, Checksum};
 use super::provenance;
-use super::seal::{self, Seal};
 use super::{StoreError, file};
 
-/// The first line of every shard; its number grows with the layout.
+/// The first line of every block file; the number is increased with every change of the layout.
 const FORMAT: &str = "capsulemap shard 1";
 /// No head is longer [bytes].
 const LONGEST_HEAD: u64 = 1 << 20;
@@ -31,7 +31,7 @@ pub enum Numbers {
     Integer(Vec<i64>),
 }
 
-/// What the cases of a block have of one variable: as many numbers each, case by case.
+/// The numbers of one variable at the cases of a block: the same count for each case, case by case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
     /// Name of the variable.
@@ -40,15 +40,16 @@ pub struct Column {
     pub numbers: Numbers,
 }
 
-/// What a shard says of itself.
+/// The head of a block file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Head {
-    /// What tells its study, and the program that computed it, from others.
+    /// Fingerprint of the study.
     pub fingerprint: String,
     /// The block.
     pub block: Summary,
-    /// Who made it, when and on what, see [`provenance::attributes`].
-    pub made: BTreeMap<String, String>,
+    /// Program, time and machine that wrote it, see [`provenance::attributes`].
+    #[serde(rename = "made")]
+    pub provenance: BTreeMap<String, String>,
     columns: Vec<Place>,
 }
 
@@ -61,7 +62,7 @@ pub struct Summary {
     pub cases: usize,
     /// Cases by outcome, those that occur.
     pub outcomes: BTreeMap<String, usize>,
-    /// Drive cycles that they were followed.
+    /// Drive cycles that were computed for them.
     pub cycles: u64,
 }
 
@@ -75,24 +76,24 @@ struct Place {
     bytes: u64,
 }
 
-/// A shard on disk that is whole.
+/// A block file whose checksum is valid.
 #[derive(Debug)]
-pub struct Shard {
-    /// What it says of itself.
+pub struct BlockFile {
+    /// Its head.
     pub head: Head,
     path: PathBuf,
     /// Where the first column begins.
     begin: u64,
 }
 
-/// Why a file is not the shard that was looked for.
+/// Why a block file cannot be used.
 #[derive(Debug)]
 pub enum Unusable {
     /// It is not there.
     Missing,
     /// It is cut short, or has changed since it was written.
     Torn,
-    /// It is whole, but of another study, version or block, as the words tell.
+    /// Its checksum is valid, but it is of another study, version or block, as the text says.
     Foreign(String),
     /// The operating system refused.
     Refused(io::Error),
@@ -114,7 +115,7 @@ pub fn path(folder: &Path, number: usize) -> PathBuf {
     folder.join(format!("block-{number:07}"))
 }
 
-/// Keeps the columns of a block in its file in `folder`, whole or not at all.
+/// Writes the columns of a block to its file in `folder`, completely or not at all.
 pub fn write(
     folder: &Path,
     fingerprint: &str,
@@ -127,7 +128,7 @@ pub fn write(
     file::put(&path, &image)
 }
 
-/// The bytes of a shard.
+/// The bytes of a block file.
 pub fn image(fingerprint: &str, block: Summary, columns: &[Column]) -> io::Result<Vec<u8>> {
     let packed: Vec<Vec<u8>> =
         columns.iter().map(|column| pack(&column.numbers)).collect::<io::Result<_>>()?;
@@ -139,32 +140,32 @@ pub fn image(fingerprint: &str, block: Summary, columns: &[Column]) -> io::Resul
     let head = Head {
         fingerprint: fingerprint.to_owned(),
         block,
-        made: provenance::attributes(),
+        provenance: provenance::attributes(),
         columns: columns.iter().zip(&packed).map(place).collect(),
     };
     let mut image = format!("{FORMAT}\n{}\n", serde_json::to_string(&head)?).into_bytes();
     packed.iter().for_each(|column| image.extend_from_slice(column));
-    seal::put(&mut image);
+    checksum::append(&mut image);
     Ok(image)
 }
 
-/// The shard of block `number` in `folder`, once every byte has been checked.
-pub fn open(folder: &Path, fingerprint: &str, number: usize) -> Result<Shard, Unusable> {
+/// The file of block `number` in `folder`, after a check of its checksum.
+pub fn open(folder: &Path, fingerprint: &str, number: usize) -> Result<BlockFile, Unusable> {
     let path = path(folder, number);
     let mut file = File::open(&path).map_err(refused)?;
-    if seal::judge(&file).map_err(Unusable::Refused)? != Seal::Whole {
+    if checksum::check(&file).map_err(Unusable::Refused)? != Checksum::Valid {
         return Err(Unusable::Torn);
     }
     file.rewind().map_err(Unusable::Refused)?;
     let (head, begin) = read_head(file)?;
     match foreign(&head, fingerprint, number) {
-        None => Ok(Shard { head, path, begin }),
+        None => Ok(BlockFile { head, path, begin }),
         Some(why) => Err(Unusable::Foreign(why)),
     }
 }
 
-/// What the shard of block `number` in `folder` says of itself, without a look at its columns.
-pub fn glance(folder: &Path, fingerprint: &str, number: usize) -> Result<Head, Unusable> {
+/// The head of the file of block `number` in `folder`; its columns are not read.
+pub fn read_head_of(folder: &Path, fingerprint: &str, number: usize) -> Result<Head, Unusable> {
     let file = File::open(path(folder, number)).map_err(refused)?;
     let (head, _) = read_head(file)?;
     foreign(&head, fingerprint, number).map_or(Ok(head), |why| Err(Unusable::Foreign(why)))
@@ -177,7 +178,7 @@ fn refused(error: io::Error) -> Unusable {
     }
 }
 
-/// The head of a shard, and where the first column begins.
+/// The head of a block file, and where the first column begins.
 fn read_head(file: File) -> Result<(Head, u64), Unusable> {
     let mut reader = BufReader::new(file);
     let mut line = || {
@@ -194,10 +195,10 @@ fn read_head(file: File) -> Result<(Head, u64), Unusable> {
     Ok((head, first + second))
 }
 
-/// Why a shard is not the one that was looked for, if it is not.
+/// Why a block file is not of this study, version and number, if it is not.
 fn foreign(head: &Head, fingerprint: &str, number: usize) -> Option<String> {
-    if !provenance::is_ours(&head.made) {
-        return Some(format!("made by another version, {}", provenance::program(&head.made)));
+    if !provenance::is_ours(&head.provenance) {
+        return Some(format!("made by another version, {}", provenance::program(&head.provenance)));
     }
     if head.fingerprint != fingerprint {
         return Some("made for another study".to_owned());
@@ -206,7 +207,7 @@ fn foreign(head: &Head, fingerprint: &str, number: usize) -> Option<String> {
     (other != number).then(|| format!("it is block {other} under another name"))
 }
 
-impl Shard {
+impl BlockFile {
     /// The numbers of a column; none if there is none of this name.
     pub fn column(&self, name: &str) -> Result<Option<Numbers>, StoreError> {
         let failed = |said| StoreError::system(&self.path, "reading", said);
@@ -269,10 +270,10 @@ fn pack(numbers: &Numbers) -> io::Result<Vec<u8>> {
 fn unpack(packed: impl Read, real: bool) -> io::Result<Numbers> {
     let mut bytes = Vec::new();
     ZlibDecoder::new(packed).read_to_end(&mut bytes)?;
-    let (words, _) = bytes.as_chunks::<8>();
+    let (numbers, _) = bytes.as_chunks::<8>();
     Ok(match real {
-        true => Numbers::Real(words.iter().map(|it| f64::from_le_bytes(*it)).collect()),
-        false => Numbers::Integer(words.iter().map(|it| i64::from_le_bytes(*it)).collect()),
+        true => Numbers::Real(numbers.iter().map(|it| f64::from_le_bytes(*it)).collect()),
+        false => Numbers::Integer(numbers.iter().map(|it| i64::from_le_bytes(*it)).collect()),
     })
 }
 
@@ -298,22 +299,22 @@ mod tests {
     fn every_number_comes_back_bit_for_bit() {
         let folder = tempfile::tempdir().expect("a folder");
         write(folder.path(), "a", block(12), &columns()).expect("it is written");
-        let shard = open(folder.path(), "a", 12).expect("it is whole");
-        assert_eq!(shard.head.block, block(12));
-        assert_eq!(glance(folder.path(), "a", 12).expect("a head"), shard.head);
-        assert_eq!((shard.range("period"), shard.range("speed")), (Some([-7, i64::MAX]), None));
-        assert!(shard.head.made.contains_key("commit"));
-        let Ok(Some(Numbers::Real(reals))) = shard.column("speed") else { panic!("reals") };
+        let file = open(folder.path(), "a", 12).expect("it is whole");
+        assert_eq!(file.head.block, block(12));
+        assert_eq!(read_head_of(folder.path(), "a", 12).expect("a head"), file.head);
+        assert_eq!((file.range("period"), file.range("speed")), (Some([-7, i64::MAX]), None));
+        assert!(file.head.provenance.contains_key("commit"));
+        let Ok(Some(Numbers::Real(reals))) = file.column("speed") else { panic!("reals") };
         let Numbers::Real(expected) = &columns()[0].numbers else { panic!("reals") };
         let bits = |reals: &[f64]| reals.iter().map(|it| it.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&reals), bits(expected));
-        let period = shard.column("period").expect("it is read");
+        let period = file.column("period").expect("it is read");
         assert_eq!(period, Some(columns()[1].numbers.clone()));
-        assert!(shard.column("nothing").expect("it is read").is_none());
+        assert!(file.column("nothing").expect("it is read").is_none());
     }
 
     #[test]
-    fn what_is_torn_or_foreign_is_never_opened() {
+    fn damaged_and_foreign_blocks_are_never_opened() {
         let folder = tempfile::tempdir().expect("a folder");
         let place = folder.path();
         assert!(matches!(open(place, "a", 0), Err(Unusable::Missing)));

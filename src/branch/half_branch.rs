@@ -1,16 +1,16 @@
-//! One way along a branch, from an orbit to where the branch ends.
+//! Half of a branch: from an orbit in one direction to where the branch ends.
 
 use crate::flow::{Event, System};
 
 use super::End;
 use super::arclength::{Equations, Linear, between, norm};
 use super::corner::{is_corner, rounded};
-use super::orbits::{OrbitStation, Orbits, Seen};
+use super::orbits::{OrbitPoint, Orbits, Seen};
 use super::periodic::{Goal, Periodic};
-use super::special::{Happening, happenings};
-use super::walk::{Stride, Walk};
+use super::special::{SpecialOrbit, special_orbits};
+use super::step_control::{Advance, StepControl};
 
-/// Corners that are rounded on one way at most.
+/// Corners that are passed on half of a branch at most.
 const CORNERS: usize = 40;
 /// Orbits closer together than this are one.
 const ONE: f64 = 1e-12;
@@ -19,11 +19,11 @@ const MERGES: f64 = 1.5;
 
 /// A stretch of a branch.
 #[derive(Debug, Clone)]
-pub struct Way<E, const D: usize, const U: usize> {
+pub struct HalfBranch<E, const D: usize, const U: usize> {
     /// Its orbits in order, that at the beginning included.
-    pub stations: Vec<OrbitStation<E, D, U>>,
+    pub points: Vec<OrbitPoint<E, D, U>>,
     /// What happens, each between the orbit with this index and the next.
-    pub happenings: Vec<(usize, Happening<E, D, U>)>,
+    pub special_orbits: Vec<(usize, SpecialOrbit<E, D, U>)>,
     /// Why it ends.
     pub end: End,
     /// Which of the doublings it ends at.
@@ -32,11 +32,11 @@ pub struct Way<E, const D: usize, const U: usize> {
     last_step: f64,
 }
 
-impl<E: Event, const D: usize, const U: usize> Way<E, D, U> {
-    /// A way that has yet to leave these orbits.
-    pub fn new(stations: Vec<OrbitStation<E, D, U>>) -> Self {
-        let (happenings, end) = (Vec::new(), End::MostPoints);
-        Way { stations, happenings, end, merged: None, last_step: 0.0 }
+impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
+    /// A half branch that begins with these orbits.
+    pub fn new(points: Vec<OrbitPoint<E, D, U>>) -> Self {
+        let (special_orbits, end) = (Vec::new(), End::MostPoints);
+        HalfBranch { points, special_orbits, end, merged: None, last_step: 0.0 }
     }
 
     /// Follows the branch on until it ends, closes at `goal` or has `most` orbits.
@@ -46,27 +46,27 @@ impl<E: Event, const D: usize, const U: usize> Way<E, D, U> {
     pub fn follow<M: System<D, Event = E>>(
         &mut self,
         orbits: &Orbits<M, D, U>,
-        walk: &mut Walk<U>,
+        control: &mut StepControl<U>,
         most: usize,
         goal: &Goal<U, Seen<E, D, U>>,
     ) {
         let mut corners_left = CORNERS;
-        while self.stations.len() < most
-            && let Some(last) = self.stations.last()
+        while self.points.len() < most
+            && let Some(last) = self.points.last()
         {
-            let (from, stride) = match walk.stride(orbits, last) {
-                Stride::Nowhere if corners_left > 0 => match rounded(orbits, walk, last) {
+            let (from, advance) = match control.advance(orbits, last) {
+                Advance::Nowhere if corners_left > 0 => match rounded(orbits, control, last) {
                     Some(goes_on) => goes_on,
-                    None => (last.clone(), Stride::Nowhere),
+                    None => (last.clone(), Advance::Nowhere),
                 },
-                stride => (last.clone(), stride),
+                advance => (last.clone(), advance),
             };
             corners_left -= usize::from(from.tangent != last.tangent);
-            let end = match stride {
-                Stride::Inside(next) => self.add(orbits, &from, next, goal),
-                Stride::AtBound(next) => self.add(orbits, &from, next, goal).or(Some(End::Bound)),
-                Stride::Nowhere if is_corner(orbits, last) => Some(End::Corner),
-                Stride::Nowhere => Some(End::Stopped),
+            let end = match advance {
+                Advance::Inside(next) => self.add(orbits, &from, next, goal),
+                Advance::AtBound(next) => self.add(orbits, &from, next, goal).or(Some(End::Bound)),
+                Advance::Nowhere if is_corner(orbits, last) => Some(End::Corner),
+                Advance::Nowhere => Some(End::Stopped),
             };
             if let Some(end) = end {
                 self.end = end;
@@ -79,12 +79,12 @@ impl<E: Event, const D: usize, const U: usize> Way<E, D, U> {
     pub fn merge<M: System<D, Event = E>>(
         &mut self,
         orbits: &Orbits<M, D, U>,
-        doublings: &[(usize, OrbitStation<E, D, U>)],
+        doublings: &[(usize, OrbitPoint<E, D, U>)],
     ) {
-        let Some(last) = self.stations.last() else { return };
+        let Some(last) = self.points.last() else { return };
         let parent = orbits.with_period(orbits.family.period / 2);
-        let ends = doublings.iter().flat_map(|(place, station)| {
-            let images = parent.section_points(&station.at).into_iter();
+        let ends = doublings.iter().flat_map(|(place, point)| {
+            let images = parent.section_points(&point.at).into_iter();
             images.map(|image| (*place, image, norm(&between(&last.at, &image))))
         });
         let Some((place, image, away)) = ends.min_by(|a, b| a.2.total_cmp(&b.2)) else { return };
@@ -92,7 +92,7 @@ impl<E: Event, const D: usize, const U: usize> Way<E, D, U> {
             && let Ok(Linear { rows, seen, .. }) = orbits.at(&image)
         {
             (self.merged, self.end) = (Some(place), End::Merged);
-            self.stations.push(OrbitStation { at: image, tangent: last.tangent, rows, seen });
+            self.points.push(OrbitPoint { at: image, tangent: last.tangent, rows, seen });
         }
     }
 
@@ -100,22 +100,22 @@ impl<E: Event, const D: usize, const U: usize> Way<E, D, U> {
     fn add<M: System<D, Event = E>>(
         &mut self,
         orbits: &Orbits<M, D, U>,
-        from: &OrbitStation<E, D, U>,
-        next: OrbitStation<E, D, U>,
+        from: &OrbitPoint<E, D, U>,
+        next: OrbitPoint<E, D, U>,
         goal: &Goal<U, Seen<E, D, U>>,
     ) -> Option<End> {
         self.last_step = norm(&between(&from.at, &next.at));
         if orbits.halves(&from.at, &next.at) {
             return Some(End::Merged);
         }
-        let before = self.stations.len() - 1;
+        let before = self.points.len() - 1;
         let closing = goal.met(orbits, [from, &next], before);
         let end = closing.is_some().then_some(End::Closed);
         let next = closing.unwrap_or(next);
-        let found = happenings(orbits, from, &next);
-        self.happenings.extend(found.into_iter().map(|happening| (before, happening)));
+        let found = special_orbits(orbits, from, &next);
+        self.special_orbits.extend(found.into_iter().map(|special| (before, special)));
         if norm(&between(&from.at, &next.at)) > ONE {
-            self.stations.push(next);
+            self.points.push(next);
         }
         end
     }

@@ -1,4 +1,4 @@
-//! `capsulemap follow`: the branches of a study, into the file of its results.
+//! `capsulemap continue`: the branches of a study, into the file of its results.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -8,24 +8,24 @@ use clap::Args;
 use super::branch_summary::summary;
 use super::drawing::{FormatChoice, draw_from, rehearse};
 use super::failure::Failure;
-use super::terminal::{print, tell};
+use super::terminal::{notify, print};
 use super::watch::Watch;
 use crate::campaign::{
     BranchesDone, Campaign, CampaignError, Event, Kept, output_path, read_study,
 };
-use crate::run::{Machine, Unfollowed};
+use crate::run::{Machine, NotContinued};
 use crate::store::{self, add_branches, folder};
 
 const EXAMPLES: &str = "\
 Examples:
-  capsulemap follow studies/hysteresis.toml
-  capsulemap follow branches.toml --output /data/branches.h5 --threads 2
-  capsulemap sweep STUDY.toml && capsulemap follow STUDY.toml --formats pdf";
+  capsulemap continue studies/hysteresis.toml
+  capsulemap continue branches.toml --output /data/branches.h5 --threads 2
+  capsulemap sweep STUDY.toml && capsulemap continue STUDY.toml --formats pdf";
 
-/// Follow periodic orbits through parameters.
+/// Continue periodic orbits in parameters.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Follow {
+pub struct Continue {
     /// The study, a TOML file with [[branches]].
     study: PathBuf,
     /// The file to add the branches to; results/NAME/NAME.h5 for a study NAME.toml by default.
@@ -34,7 +34,7 @@ pub struct Follow {
     /// Worker threads; one per core by default.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// Follow again, and replace a file of results that another study left under that name.
+    /// Continue the branches again, and replace a file of results that another study left under that name.
     #[arg(long)]
     overwrite: bool,
     /// Do not draw the study's figures.
@@ -45,7 +45,7 @@ pub struct Follow {
     formats: Vec<FormatChoice>,
 }
 
-impl Follow {
+impl Continue {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let name = self.study.display().to_string();
@@ -59,10 +59,12 @@ impl Follow {
         let overwrite = self.overwrite;
         let campaign = Campaign { study: &study, output: &output, machine, overwrite };
         let watch = Watch::new(&self.study, &study);
-        let done = campaign.follow(&|event| match event {
+        let done = campaign.continue_branches(&|event| match event {
             Event::Before { .. } => {
                 let shown = output.display();
-                tell(&format!("{shown}: already followed, by this program from this study"));
+                notify(&format!(
+                    "{shown}: branches are there already, by this program from this study"
+                ));
                 ControlFlow::Continue(())
             }
             Event::Accepted(older) => watch.heed(self.rehearse(&campaign, older)),
@@ -70,13 +72,13 @@ impl Follow {
         });
         let archive = match done {
             Err(error @ CampaignError::OtherBranches { .. }) => {
-                let advice = "--overwrite follows anew and keeps the cases";
+                let advice = "--overwrite continues the branches again and keeps the cases";
                 return Err(Failure::request(format!("{error}; {advice}")));
             }
             done => match watch.end(done)? {
                 BranchesDone::Before(file) => file.archive,
-                BranchesDone::Now { followed, time } => {
-                    print(&summary(&study, &followed, &output, time.as_secs_f64()))?;
+                BranchesDone::Now { continued, time } => {
+                    print(&summary(&study, &continued, &output, time.as_secs_f64()))?;
                     store::open(&output).map_err(Failure::machine)?
                 }
             },
@@ -87,14 +89,14 @@ impl Follow {
         Ok(())
     }
 
-    /// Draws the figures as if no branch could be followed.
+    /// Draws the figures as if no branch could be continued.
     fn rehearse(&self, campaign: &Campaign<'_>, older: Option<&Kept>) -> Result<(), Failure> {
         if self.no_figures {
             return Ok(());
         }
         let study = campaign.study;
         let mut dataset = campaign.without_branches(older)?;
-        let nothing = vec![Err(Unfollowed::NoOrbit); study.branches.len()];
+        let nothing = vec![Err(NotContinued::NoOrbit); study.branches.len()];
         add_branches(&mut dataset, study, &nothing);
         let drawn = rehearse(&dataset, &study.drawings);
         drawn.map_err(|failure| failure.within(&self.study.display().to_string()))

@@ -1,4 +1,4 @@
-//! A study of a night, and the file of a run of it that nothing has disturbed.
+//! A long study, and the file of a run of it without interruption.
 
 use std::fs;
 use std::io::Read;
@@ -7,10 +7,10 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use crate::program::{Desk, Ran};
+use crate::program::{Ran, WorkDir};
 
-/// A second or two of work in 24 blocks.
-pub const NIGHT: &str = r#"title = "A night"
+/// A study of one or two seconds in 24 blocks.
+pub const LONG_STUDY: &str = r#"title = "A long run"
 [parameters]
 k2 = "18.96 kN/m"
 delta = "1.5 mm"
@@ -47,7 +47,7 @@ from = "2 N"
 to = "8 N"
 points = 30
 [start]
-follow = "omega"
+inherit = "omega"
 directions = ["upward", "downward"]
 [protocol]
 points = 4
@@ -72,33 +72,33 @@ pub fn drawn(count: usize) -> String {
     .concat()
 }
 
-/// A desk with the study and the file of a run that nothing has disturbed.
-pub struct Night {
+/// A folder with the study, and the file of a run without interruption.
+pub struct LongRun {
     /// Where it is run.
-    pub desk: Desk,
+    pub dir: WorkDir,
     /// The bytes of the file.
     pub undisturbed: Vec<u8>,
 }
 
-impl Night {
-    /// That of `NIGHT`.
-    pub fn new() -> Night {
-        Night::of(NIGHT)
+impl LongRun {
+    /// That of `LONG_STUDY`.
+    pub fn new() -> LongRun {
+        LongRun::of(LONG_STUDY)
     }
 
     /// That of a study.
-    pub fn of(study: &str) -> Night {
-        let night = Night { desk: Desk::new(), undisturbed: Vec::new() };
-        night.desk.put("night.toml", study);
-        night.sweep(&["--output", "whole.h5"]).done();
-        let undisturbed = fs::read(night.desk.path("whole.h5")).expect("a result");
-        assert!(!night.desk.path("whole.blocks").exists(), "joined blocks are removed");
-        Night { undisturbed, ..night }
+    pub fn of(study: &str) -> LongRun {
+        let long = LongRun { dir: WorkDir::new(), undisturbed: Vec::new() };
+        long.dir.put("long.toml", study);
+        long.sweep(&["--output", "whole.h5"]).done();
+        let undisturbed = fs::read(long.dir.path("whole.h5")).expect("a result");
+        assert!(!long.dir.path("whole.blocks").exists(), "joined blocks are removed");
+        LongRun { undisturbed, ..long }
     }
 
     /// The command with a fixed time of creation, so that files can be compared byte for byte.
     pub fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = self.desk.command(arguments);
+        let mut command = self.dir.command(arguments);
         command.env("SOURCE_DATE_EPOCH", "1700000000").env_remove("SLURM_ARRAY_TASK_ID");
         command
     }
@@ -110,28 +110,28 @@ impl Night {
 
     /// Sweeps to the end, without figures.
     pub fn sweep(&self, more: &[&str]) -> Ran {
-        self.run(&[&["sweep", "night.toml", "--no-figures"], more].concat())
+        self.run(&[&["sweep", "long.toml", "--no-figures"], more].concat())
     }
 
     /// Starts a sweep without figures.
     pub fn start(&self, more: &[&str]) -> Child {
-        let mut command = self.command(&[&["sweep", "night.toml", "--no-figures"], more].concat());
+        let mut command = self.command(&[&["sweep", "long.toml", "--no-figures"], more].concat());
         command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts")
     }
 
     /// The file that a sweep writes.
     pub fn file(&self) -> PathBuf {
-        self.desk.path("results/night/night.h5")
+        self.dir.path("results/long/long.h5")
     }
 
     /// The file of a block.
     pub fn block(&self, number: usize) -> PathBuf {
-        self.desk.path(&format!("results/night/night.blocks/block-{number:07}"))
+        self.dir.path(&format!("results/long/long.blocks/block-{number:07}"))
     }
 
     /// Names of the blocks that are there.
     pub fn blocks(&self) -> Vec<PathBuf> {
-        let entries = fs::read_dir(self.desk.path("results/night/night.blocks"));
+        let entries = fs::read_dir(self.dir.path("results/long/long.blocks"));
         let paths = entries.into_iter().flatten().map(|entry| entry.expect("an entry").path());
         let is_block = |path: &PathBuf| {
             path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("block-"))
@@ -141,8 +141,8 @@ impl Night {
 
     /// Whether the joined file has been begun, and has no name yet.
     pub fn is_being_joined(&self) -> bool {
-        let begun = |name: &String| name.contains("/.night.h5.") && name.ends_with(".tmp");
-        self.desk.files().iter().any(begun)
+        let begun = |name: &String| name.contains("/.long.h5.") && name.ends_with(".tmp");
+        self.dir.files().iter().any(begun)
     }
 
     /// Waits until so many blocks are there.
@@ -158,14 +158,14 @@ impl Night {
     pub fn assert_undisturbed(&self) {
         let bytes = fs::read(self.file()).expect("a result");
         assert!(bytes == self.undisturbed, "the file differs from that of an undisturbed run");
-        assert!(!self.desk.path("results/night/night.blocks").exists());
-        let left = self.desk.files();
+        assert!(!self.dir.path("results/long/long.blocks").exists());
+        let left = self.dir.files();
         assert!(left.iter().all(|name| !name.ends_with(".tmp")), "{left:?}");
     }
 
     /// Removes all results.
     pub fn forget(&self) {
-        fs::remove_dir_all(self.desk.path("results")).expect("results to forget");
+        fs::remove_dir_all(self.dir.path("results")).expect("results to forget");
     }
 }
 

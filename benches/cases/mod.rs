@@ -1,14 +1,14 @@
-//! What the benches measure: the cases of Figs 5 to 7 and a grid, followed from rest side by side.
+//! The cases that the benches measure: those of Figs 5 to 7 and a grid, computed from rest side by side.
 
 use capsulemap::capsule::{Capsule, Parameter, Parameters, State};
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
-/// Each case is followed for so many drive cycles.
+/// Drive cycles of each case.
 pub const CYCLES: u64 = 100;
 /// Relative local error of a step.
 pub const TOLERANCE: f64 = 1e-12;
-/// So many copies of a figure's one case fill the lanes.
+/// Copies of a figure's one case, which fill the lanes.
 const COPIES: usize = 64;
 
 /// Table 1's capsule with these.
@@ -21,9 +21,9 @@ pub fn parameters(k2: f64, omega: f64, p_d: f64, delta: f64) -> Parameters {
     ])
 }
 
-/// The works by name: copies of the case of a figure, and a grid of 32 x 32 cases over omega 10..100 rad/s
+/// The sets of cases by name: copies of the case of a figure, and a grid of 32 x 32 cases over omega 10..100 rad/s
 /// and p_d 1..6 N (k2 18.96 kN/m, delta 1.5 mm).
-pub fn works() -> [(&'static str, Vec<Parameters>); 4] {
+pub fn case_sets() -> [(&'static str, Vec<Parameters>); 4] {
     let along = |index: usize, from: f64, to: f64| from + (to - from) * index as f64 / 31.0;
     let grid = (0..32 * 32)
         .map(|i| parameters(18_960.0, along(i % 32, 10.0, 100.0), along(i / 32, 1.0, 6.0), 0.0015));
@@ -47,23 +47,23 @@ pub struct End {
     pub events: u64,
 }
 
-/// Follows every case from rest for so many cycles.
-pub fn follow(
+/// Integrates every case from rest over so many cycles.
+pub fn integrate(
     instructions: Instructions,
     cases: &[Parameters],
     cycles: u64,
     tolerance: f64,
 ) -> Vec<End> {
-    instructions.run(Follow { cases, cycles, tolerance })
+    instructions.run(Integrate { cases, cycles, tolerance })
 }
 
-struct Follow<'a> {
+struct Integrate<'a> {
     cases: &'a [Parameters],
     cycles: u64,
     tolerance: f64,
 }
 
-impl Work for Follow<'_> {
+impl Work for Integrate<'_> {
     type Output = Vec<End>;
 
     #[inline(always)]
@@ -74,7 +74,7 @@ impl Work for Follow<'_> {
         let mut motion = Motion::<L, Capsule<L>>::splat(&Motion::new(&one, 0.0, State::default()));
         let mut periods = L::splat(first.drive_period());
         let (mut steps, mut events) = (L::splat(0.0), L::splat(0.0));
-        let mut seated: Vec<Option<usize>> = vec![None; L::WIDTH];
+        let mut case_of_lane: Vec<Option<usize>> = vec![None; L::WIDTH];
         let mut cycles_left = vec![0; L::WIDTH];
         let mut ends = vec![End::default(); self.cases.len()];
         let (mut next, mut busy) = (0, 0);
@@ -89,7 +89,7 @@ impl Work for Follow<'_> {
                     cycles_left[lane] -= 1;
                     continue;
                 }
-                if let Some(done) = seated[lane].take() {
+                if let Some(done) = case_of_lane[lane].take() {
                     busy -= 1;
                     let (steps, events) = (steps.lane(lane) as u64, events.lane(lane) as u64);
                     ends[done] = End { state: motion.state.lane(lane), steps, events };
@@ -100,7 +100,7 @@ impl Work for Follow<'_> {
                     motion.put(lane, &Motion::new(&one, 0.0, State::default()));
                     periods = periods.with_lane(lane, case.drive_period());
                     (steps, events) = (steps.with_lane(lane, 0.0), events.with_lane(lane, 0.0));
-                    (seated[lane], cycles_left[lane]) = (Some(next), self.cycles);
+                    (case_of_lane[lane], cycles_left[lane]) = (Some(next), self.cycles);
                     next += 1;
                     busy += 1;
                 }
@@ -109,7 +109,7 @@ impl Work for Follow<'_> {
                 return ends;
             }
             motion.step(&system, periods, self.tolerance, &mut step);
-            assert!(!motion.broken(&system).any(), "the cases can be followed");
+            assert!(!motion.broken(&system).any(), "the cases can be integrated");
             let one = L::splat(1.0);
             steps = steps + one;
             events = events + L::select(L::splat(0.0).lt(step.event), one, L::splat(0.0));

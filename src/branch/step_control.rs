@@ -1,6 +1,6 @@
 //! Steps along a curve of solutions: as long as its bends allow, and no farther than its bounds.
 
-use super::arclength::{Equations, Plane, Station, between, corrected, dot, moved, norm};
+use super::arclength::{CurvePoint, Equations, Plane, between, corrected, dot, moved, norm};
 
 /// A shorter step, relative to the longest, is none.
 const SHORTEST: f64 = 1e-8;
@@ -50,7 +50,7 @@ impl<const U: usize> Bounds<U> {
 
 /// Where a step leads.
 #[derive(Debug, Clone)]
-pub enum Stride<S> {
+pub enum Advance<S> {
     /// To a solution within the bounds.
     Inside(S),
     /// To the solution at a bound.
@@ -61,7 +61,7 @@ pub enum Stride<S> {
 
 /// The length of steps along a curve.
 #[derive(Debug, Clone, Copy)]
-pub struct Walk<const U: usize> {
+pub struct StepControl<const U: usize> {
     /// Where it ends.
     pub bounds: Bounds<U>,
     /// The longest step.
@@ -70,38 +70,38 @@ pub struct Walk<const U: usize> {
     pub next: f64,
 }
 
-type Met<const U: usize, E> = Station<U, <E as Equations<U>>::Seen>;
+type Met<const U: usize, E> = CurvePoint<U, <E as Equations<U>>::Seen>;
 
-impl<const U: usize> Walk<U> {
+impl<const U: usize> StepControl<U> {
     /// A walk that begins with small steps.
     pub fn new(bounds: Bounds<U>, longest: f64) -> Self {
-        Walk { bounds, longest, next: 0.1 * longest }
+        StepControl { bounds, longest, next: 0.1 * longest }
     }
 
     /// The next solution along the tangent.
     ///
     /// A step that fails, or turns too sharply, is halved until it is below 1e-8 of the longest. A curve
     /// with a corner is followed round it where the turn is below a right angle.
-    pub fn stride<E: Equations<U>>(
+    pub fn advance<E: Equations<U>>(
         &mut self,
         equations: &E,
         from: &Met<U, E>,
-    ) -> Stride<Met<U, E>> {
+    ) -> Advance<Met<U, E>> {
         while self.next >= SHORTEST * self.longest {
             match self.attempt(equations, from, self.next) {
-                Some((stride, taken)) => {
+                Some((advance, taken)) => {
                     if taken <= EASY_AND_HARD[0] {
                         self.next = (self.next * LENGTHEN).min(self.longest);
                     } else if taken >= EASY_AND_HARD[1] {
                         self.next *= SHORTEN;
                     }
-                    return stride;
+                    return advance;
                 }
                 None => self.next *= SHORTEN,
             }
         }
         self.next = CORNER * self.longest;
-        Stride::Nowhere
+        Advance::Nowhere
     }
 
     /// The solution one step of this length along the tangent, and the steps of Newton that it took.
@@ -110,7 +110,7 @@ impl<const U: usize> Walk<U> {
         equations: &E,
         from: &Met<U, E>,
         length: f64,
-    ) -> Option<(Stride<Met<U, E>>, usize)> {
+    ) -> Option<(Advance<Met<U, E>>, usize)> {
         let predicted = moved(&from.at, length, &from.tangent);
         if self.bounds.passed(&from.at, &predicted).is_none() {
             let plane = Plane::through(&predicted, from.tangent);
@@ -119,7 +119,7 @@ impl<const U: usize> Walk<U> {
                 return None;
             }
             if self.bounds.passed(&from.at, &met.at).is_none() {
-                return Some((Stride::Inside(met), taken));
+                return Some((Advance::Inside(met), taken));
             }
         }
         let (unknown, bound, share) = self.bounds.passed(&from.at, &predicted)?;
@@ -128,15 +128,15 @@ impl<const U: usize> Walk<U> {
         let (mut met, taken) = corrected(equations, &plane, &guess, &from.tangent)?;
         met.at[unknown] = bound;
         let near = self.is_near(from, &guess, &met, length) && equations.belongs(from, &met);
-        near.then_some((Stride::AtBound(met), taken))
+        near.then_some((Advance::AtBound(met), taken))
     }
 
     /// Whether a solution is the one that was predicted rather than another.
     fn is_near<T>(
         &self,
-        from: &Station<U, T>,
+        from: &CurvePoint<U, T>,
         predicted: &[f64; U],
-        met: &Station<U, T>,
+        met: &CurvePoint<U, T>,
         length: f64,
     ) -> bool {
         let tight = length > CORNER * self.longest;

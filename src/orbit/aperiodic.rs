@@ -16,14 +16,14 @@ const GROWTH: f64 = 12.0;
 const LOOK: usize = 128;
 /// Averages over the two halves of a regular motion agree this well, relative to the motion.
 const REGULAR: f64 = 1e-6;
-/// A point that comes so near to an earlier one, relative to the motion, may be on its way to a period.
+/// A point that comes so near to an earlier one, relative to the motion, may belong to an orbit that is approached.
 const RECURS: f64 = 1e-5;
 /// Periods up to this are looked at for that.
 const LONGEST: usize = 1024;
 
 /// A motion followed for many cycles with its linearised flow.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wandering<const D: usize> {
+pub struct Aperiodic<const D: usize> {
     /// The largest Lyapunov exponent.
     pub exponent: Exponent,
     /// Logarithm of how much farther apart neighbours are in the end.
@@ -41,7 +41,7 @@ pub struct Wandering<const D: usize> {
     pub cycles: u64,
 }
 
-impl<const D: usize> Wandering<D> {
+impl<const D: usize> Aperiodic<D> {
     /// What the motion is: chaotic, quasi-periodic, or undecided.
     ///
     /// Chaotic: the exponent is positive by five of its uncertainties, and neighbours have parted by more
@@ -57,8 +57,8 @@ impl<const D: usize> Wandering<D> {
     }
 }
 
-/// One motion on the way.
-struct Wanderer<const D: usize> {
+/// One motion that is followed.
+struct Follower<const D: usize> {
     metric: Metric<D>,
     stretching: Stretching<D, 1>,
     points: Vec<[f64; D]>,
@@ -73,22 +73,22 @@ struct Wanderer<const D: usize> {
 ///
 /// The bits of each do not depend on the others.
 #[inline(always)]
-pub fn wander<L, S, const D: usize>(
+pub fn follow_aperiodic<L, S, const D: usize>(
     system: &S,
     starts: &[([f64; D], Metric<D>)],
     cycles: u64,
     tolerance: f64,
-) -> Vec<Result<Wandering<D>, Reason>>
+) -> Vec<Result<Aperiodic<D>, Reason>>
 where
     L: Lane,
     S: Stroboscopic<Dual<L, 1>, D>,
 {
-    let mut wanderers: Vec<Wanderer<D>> =
-        starts.iter().map(|(_, metric)| Wanderer::new(*metric, cycles)).collect();
+    let mut followers: Vec<Follower<D>> =
+        starts.iter().map(|(_, metric)| Follower::new(*metric, cycles)).collect();
     let start = |i: usize| Dual {
         value: L::from_fn(|lane| starts[lane.min(starts.len() - 1)].0[i]),
-        gradient: [L::from_fn(|lane| match wanderers.get(lane) {
-            Some(wanderer) => wanderer.stretching.first()[i][0],
+        gradient: [L::from_fn(|lane| match followers.get(lane) {
+            Some(follower) => follower.stretching.first()[i][0],
             None => 0.0,
         })],
     };
@@ -96,23 +96,23 @@ where
     let mut motion = Motion::new(system, Dual::splat(0.0), S::state(from));
     let mut step = Step::default();
     let until = system.period();
-    while wanderers.iter().any(|wanderer| wanderer.done.is_none()) {
+    while followers.iter().any(|follower| follower.done.is_none()) {
         motion.step(system, until, tolerance, &mut step);
         let broken = motion.broken(system);
         let mut point = S::point(&motion.state);
-        for (lane, wanderer) in wanderers.iter_mut().enumerate() {
-            wanderer.steps += 1;
-            if wanderer.done.is_some() {
+        for (lane, follower) in followers.iter_mut().enumerate() {
+            follower.steps += 1;
+            if follower.done.is_some() {
                 continue;
             }
-            if broken.lane(lane) || wanderer.steps >= STEPS_PER_CYCLE {
+            if broken.lane(lane) || follower.steps >= STEPS_PER_CYCLE {
                 let why = motion.breakdown(system, lane).map_or(Reason::TooManySteps, Reason::from);
-                wanderer.done = Some(Err(why));
+                follower.done = Some(Err(why));
             } else if step.arrives.lane(lane) {
-                wanderer.steps = 0;
-                wanderer.elapsed += motion.time.lane(lane);
+                follower.steps = 0;
+                follower.elapsed += motion.time.lane(lane);
                 let period = until.lane(lane);
-                wanderer.meet(lane, &mut point, cycles, |it| it.duration::<S, _>(period));
+                follower.meet(lane, &mut point, cycles, |it| it.duration::<S, _>(period));
             }
         }
         if step.arrives.any() {
@@ -120,16 +120,16 @@ where
             motion.state = S::state(point);
         }
     }
-    let told = wanderers.iter().enumerate();
+    let told = followers.iter().enumerate();
     told.map(|(lane, it)| it.tell(it.duration::<S, _>(until.lane(lane)))).collect()
 }
 
-/// Follows motions from points of the section as [`wander`] does, as many at a time as there are lanes.
-pub fn wander_side_by_side<M: System<D>, const D: usize>(
+/// Follows motions from points of the section as [`follow_aperiodic`] does, as many at a time as there are lanes.
+pub fn follow_aperiodic_side_by_side<M: System<D>, const D: usize>(
     instructions: Instructions,
     starts: &[(&M, [f64; D])],
     protocol: &Protocol,
-) -> Vec<Result<Wandering<D>, Reason>> {
+) -> Vec<Result<Aperiodic<D>, Reason>> {
     instructions.run(Crowd { starts, protocol })
 }
 
@@ -139,7 +139,7 @@ struct Crowd<'a, M, const D: usize> {
 }
 
 impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
-    type Output = Vec<Result<Wandering<D>, Reason>>;
+    type Output = Vec<Result<Aperiodic<D>, Reason>>;
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Self::Output {
@@ -152,15 +152,15 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
             }
             let starts: Vec<_> =
                 group.iter().map(|(system, start)| (*start, system.metric())).collect();
-            followed.extend(wander(&system, &starts, exponent_cycles, tolerance));
+            followed.extend(follow_aperiodic(&system, &starts, exponent_cycles, tolerance));
         }
         followed
     }
 }
 
-impl<const D: usize> Wanderer<D> {
+impl<const D: usize> Follower<D> {
     fn new(metric: Metric<D>, cycles: u64) -> Self {
-        Wanderer {
+        Follower {
             metric,
             stretching: Stretching::new(metric),
             points: Vec::new(),
@@ -201,7 +201,7 @@ impl<const D: usize> Wanderer<D> {
         value > 2.0 * CERTAINTY * uncertainty && self.stretching.total(0) > 2.0 * GROWTH
     }
 
-    fn tell(&self, duration: f64) -> Result<Wandering<D>, Reason> {
+    fn tell(&self, duration: f64) -> Result<Aperiodic<D>, Reason> {
         if let Some(Err(why)) = self.done {
             return Err(why);
         }
@@ -210,7 +210,7 @@ impl<const D: usize> Wanderer<D> {
         let [exponent] = self.stretching.exponents(duration);
         let recurs = recurrence(&self.points, metric, size);
         let longest = LONGEST.min(self.points.len().saturating_sub(1));
-        Ok(Wandering {
+        Ok(Aperiodic {
             exponent,
             growth: self.stretching.total(0),
             irregularity: irregularity(&self.points, metric, size),

@@ -1,4 +1,4 @@
-"""The works that every contestant does: the cases of benches/cycles.rs, from rest."""
+"""The cases that every program computes: those of benches/cycles.rs, from rest."""
 
 FIG_5 = (2420.0, 77.91, 4.0, 0.0035)  # k2 N/m, omega rad/s, p_d N, delta m
 FIG_6 = (18960.0, 20.73, 4.0, 0.0015)
@@ -17,8 +17,8 @@ GRID = [
 ]
 
 
-def works(short):
-    """Return the number of cycles and each work's cases."""
+def case_sets(short):
+    """Return the number of cycles and the sets of cases by name."""
     if short:
         # Every 13th case: all frequencies and amplitudes have their share.
         return 20, {"Fig 5": [FIG_5] * 16, "Fig 6": [FIG_6] * 16, "grid": GRID[::13]}
@@ -27,8 +27,8 @@ def works(short):
 
 
 def sample(cases):
-    """Return the indices of the few cases that a slow contestant does."""
+    """Return the indices of the few cases that a slow program computes."""
     if cases[0] == cases[-1]:
         return [0]
-    # A stride that shares no factor with the grid's 32 columns.
+    # A spacing that shares no factor with the grid's 32 columns.
     return list(range(0, len(cases), 61 if len(cases) > 100 else 16))

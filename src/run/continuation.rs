@@ -14,11 +14,11 @@ use super::cases::{RunError, pool};
 use crate::study::{Continuation, FirstOrbit, Study};
 
 /// What came of one branch of a study.
-pub type Followed = Result<Found, Unfollowed>;
+pub type Continued = Result<Found, NotContinued>;
 
 /// Why a branch of a study has no points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unfollowed {
+pub enum NotContinued {
     /// The motion from the start settles to no periodic orbit, but to this.
     Unsettled(Outcome),
     /// No periodic orbit was found near the start.
@@ -29,24 +29,24 @@ pub enum Unfollowed {
     Neutral,
 }
 
-impl fmt::Display for Unfollowed {
+impl fmt::Display for NotContinued {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Unfollowed::Unsettled(outcome) => write!(
+            NotContinued::Unsettled(outcome) => write!(
                 f,
                 "the motion from the start is {}, not periodic; move the start, give it more \
                  `max_cycles`, or look for the orbit with `orbit = \"newton\"`",
                 outcome.name()
             ),
-            Unfollowed::NoOrbit => {
+            NotContinued::NoOrbit => {
                 f.write_str("no periodic orbit was found near the start; give one closer to it")
             }
-            Unfollowed::Failed(reason) => {
+            NotContinued::Failed(reason) => {
                 let name = REASONS.iter().find(|(known, _)| known == reason);
                 let name = name.map_or("", |(_, name)| name);
                 write!(f, "the motion could not be followed there ({name})")
             }
-            Unfollowed::Neutral => f.write_str(
+            NotContinued::Neutral => f.write_str(
                 "the first orbit has a multiplier that cannot be told from one: it belongs to a family of \
                  orbits, as without friction of sliding, or lies in a fold; give it friction or another start",
             ),
@@ -58,20 +58,20 @@ impl fmt::Display for Unfollowed {
 /// any thread.
 ///
 /// The results stand in the order of the study and do not depend on the threads.
-pub fn follow(
+pub fn continue_branches(
     study: &Study,
     threads: Option<usize>,
     done: impl Fn() + Sync,
-) -> Result<Vec<Followed>, RunError> {
+) -> Result<Vec<Continued>, RunError> {
     let one = |continuation: &Continuation| {
-        let followed = follow_one(continuation, &study.protocol);
+        let followed = continue_one(continuation, &study.protocol);
         done();
         followed
     };
     Ok(pool(threads)?.install(|| study.branches.par_iter().map(one).collect()))
 }
 
-fn follow_one(continuation: &Continuation, protocol: &Protocol) -> Followed {
+fn continue_one(continuation: &Continuation, protocol: &Protocol) -> Continued {
     let (section, period) = match continuation.first {
         FirstOrbit::Settle => settled(continuation, protocol)?,
         FirstOrbit::Newton { period } => {
@@ -81,14 +81,17 @@ fn follow_one(continuation: &Continuation, protocol: &Protocol) -> Followed {
     };
     let request = continuation.request(section, period, protocol.tolerance);
     branch::follow(&request).map_err(|why| match why {
-        NotFollowed::NoOrbit => Unfollowed::NoOrbit,
-        NotFollowed::Failed(reason) => Unfollowed::Failed(reason),
-        NotFollowed::Neutral => Unfollowed::Neutral,
+        NotFollowed::NoOrbit => NotContinued::NoOrbit,
+        NotFollowed::Failed(reason) => NotContinued::Failed(reason),
+        NotFollowed::Neutral => NotContinued::Neutral,
     })
 }
 
 /// A section point and the period of the orbit that the motion settles to.
-fn settled(continuation: &Continuation, protocol: &Protocol) -> Result<(Section, u64), Unfollowed> {
+fn settled(
+    continuation: &Continuation,
+    protocol: &Protocol,
+) -> Result<(Section, u64), NotContinued> {
     let protocol = Protocol { points: 1, impact_points: 0, history: None, ..*protocol };
     let Continuation { start, start_phase, section_phase, .. } = *continuation;
     let parameters = continuation.parameters.clone();
@@ -96,7 +99,7 @@ fn settled(continuation: &Continuation, protocol: &Protocol) -> Result<(Section,
     let orbit = settle_case(&case, &protocol);
     match (orbit.outcome, orbit.section.first(), orbit.failure) {
         (Outcome::Periodic, Some(&section), _) => Ok((section, orbit.period)),
-        (_, _, Some(failure)) => Err(Unfollowed::Failed(failure.reason)),
-        (outcome, _, None) => Err(Unfollowed::Unsettled(outcome)),
+        (_, _, Some(failure)) => Err(NotContinued::Failed(failure.reason)),
+        (outcome, _, None) => Err(NotContinued::Unsettled(outcome)),
     }
 }

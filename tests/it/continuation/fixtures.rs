@@ -1,15 +1,15 @@
-//! Made-up branches for the tests of what is around following.
+//! Synthetic branches for the tests of the file and the figures of branches.
 
 use capsulemap::branch::{Curve, End, SpecialKind};
 use capsulemap::capsule::branch::{Branch, Found, Point, Special};
 use capsulemap::capsule::{Output, Outputs};
 use capsulemap::orbit::matrix::Complex;
-use capsulemap::run::{Followed, Unfollowed};
+use capsulemap::run::{Continued, NotContinued};
 use capsulemap::store::{self, Dataset};
 use capsulemap::study::Study;
 
 /// A study of three branches, the last of which leads nowhere.
-pub const STUDY: &str = r#"title = "Followed"
+pub const STUDY: &str = r#"title = "Continued"
 outputs = ["progression_speed", "work_net"]
 [parameters]
 k2 = "18.96 kN/m"
@@ -50,7 +50,7 @@ name = "m"
 kind = "map"
 "#;
 
-/// An orbit whose motion is all told by `height`.
+/// An orbit whose motion is determined by `height`.
 pub fn point(parameter: f64, period: usize, height: f64, multiplier: f64) -> Point {
     let mut outputs = Outputs::unknown();
     outputs[Output::ProgressionSpeed] = 1e-3 * height;
@@ -65,7 +65,7 @@ pub fn point(parameter: f64, period: usize, height: f64, multiplier: f64) -> Poi
     }
 }
 
-/// Along a branch that turns back twice: the parameter at `share` of the way, and the height there.
+/// Along a branch that turns back twice: the parameter at `share` of its length, and the height there.
 fn bent(share: f64) -> (f64, f64) {
     let s = 2.4 * share - 1.2;
     (145.0 + 12.0 * s - 9.5 * s * s * s, 3.0 * s + 1.0)
@@ -144,12 +144,12 @@ pub fn found() -> Found {
 }
 
 /// What the branches of `STUDY` might lead to.
-pub fn followed() -> Vec<Followed> {
+pub fn continued() -> Vec<Continued> {
     let orbits = (0..30).map(|step| point(1.0 + 0.1 * f64::from(step), 1, 0.5, 0.3)).collect();
     let ends = [End::Bound; 2];
     let plain = Branch { period: 1, parent: None, points: orbits, special: Vec::new(), ends };
     let second = Found { branches: vec![plain], curves: Vec::new() };
-    vec![Ok(found()), Ok(second), Err(Unfollowed::NoOrbit)]
+    vec![Ok(found()), Ok(second), Err(NotContinued::NoOrbit)]
 }
 
 /// The study of these branches.
@@ -160,11 +160,11 @@ pub fn study() -> Study {
 /// The file of `STUDY` with branches alone.
 pub fn branches_alone() -> Dataset {
     let study = study();
-    with_branches(store::frame(&study), &study, &followed())
+    with_branches(store::frame(&study), &study, &continued())
 }
 
 /// `dataset` with what came of the branches of `study`.
-pub fn with_branches(mut dataset: Dataset, study: &Study, followed: &[Followed]) -> Dataset {
-    store::add_branches(&mut dataset, study, followed);
+pub fn with_branches(mut dataset: Dataset, study: &Study, continued: &[Continued]) -> Dataset {
+    store::add_branches(&mut dataset, study, continued);
     dataset
 }

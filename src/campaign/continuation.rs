@@ -1,4 +1,4 @@
-//! Follows the branches of a study and puts them into its file, beside the cases that it holds.
+//! Continues the branches of a study and puts them into its file, beside the cases that it holds.
 
 use std::time::Instant;
 
@@ -12,55 +12,55 @@ use super::request::{BranchesDone, Campaign, Complete};
 use super::result_file::prepare;
 
 impl Campaign<'_> {
-    /// Follows the branches of the study and puts them into the file; cases that are there stay, and branches of
+    /// Continues the branches of the study and puts them into the file; cases that are there stay, and branches of
     /// this study that are there too, unless they are to be overwritten.
     ///
     /// Fails if the study asks for no branches or the file holds results of something else.
-    pub fn follow(&self, report: &Report<'_>) -> Result<BranchesDone, CampaignError> {
+    pub fn continue_branches(&self, report: &Report<'_>) -> Result<BranchesDone, CampaignError> {
         if self.study.branches.is_empty() {
             return Err(CampaignError::NoBranches);
         }
         let reports = Reports::new(report);
         let older = match self.kept()? {
             Some(older) if self.has_its_branches(&older) => {
-                reports.tell(Event::Before { same_words: true })?;
+                reports.send(Event::Before { same_text: true })?;
                 let (path, archive) = (self.output.to_owned(), older.archive);
                 return Ok(BranchesDone::Before(Complete { path, archive }));
             }
             older => older,
         };
         check_branches(older.as_ref(), self.output, self.overwrite)?;
-        reports.tell(Event::Accepted(older.as_ref()))?;
+        reports.send(Event::Accepted(older.as_ref()))?;
         drop(older);
         prepare(store::folder(self.output))?;
-        reports.tell(Event::Begun(Stage::Following, self.study.branches.len()))?;
+        reports.send(Event::Begun(Stage::Continuing, self.study.branches.len()))?;
         let (begun, threads) = (Instant::now(), self.machine.threads);
-        let done = || reports.step(Stage::Following);
-        let followed = run::follow(self.study, threads, done)?;
+        let done = || reports.step(Stage::Continuing);
+        let continued = run::continue_branches(self.study, threads, done)?;
         let time = begun.elapsed();
-        reports.tell(Event::Ended(Stage::Following))?;
-        self.put(&followed)?;
-        Ok(BranchesDone::Now { followed, time })
+        reports.send(Event::Ended(Stage::Continuing))?;
+        self.put(&continued)?;
+        Ok(BranchesDone::Now { continued, time })
     }
 
     /// Whether a file that is there has the branches of this study and is to stay.
     fn has_its_branches(&self, older: &Kept) -> bool {
-        older.same_words && has_branches(older.archive.frame()) && !self.overwrite
+        older.same_text && has_branches(older.archive.frame()) && !self.overwrite
     }
 
     /// Writes the branches beside what the file holds by now.
-    fn put(&self, followed: &[run::Followed]) -> Result<(), CampaignError> {
+    fn put(&self, continued: &[run::Continued]) -> Result<(), CampaignError> {
         // Cases that were joined meanwhile are in the file, and none can come before it is replaced.
         let _held = store::hold(self.output)?;
         let older = self.kept()?;
         check_branches(older.as_ref(), self.output, self.overwrite)?;
         let mut dataset = self.without_branches(older.as_ref())?;
         drop(older);
-        add_branches(&mut dataset, self.study, followed);
+        add_branches(&mut dataset, self.study, continued);
         Ok(store::write(&dataset, self.output)?)
     }
 
-    /// What the file holds beside branches, in the words of this study, whatever else has changed in it.
+    /// What the file holds beside branches, with the text of this study.
     ///
     /// Fails if the file cannot be read.
     pub fn without_branches(&self, older: Option<&Kept>) -> Result<Dataset, CampaignError> {

@@ -1,4 +1,4 @@
-//! What is around following: the study's keys, the columns of the file, and the command.
+//! What surrounds the continuation of branches: the study's keys, the columns of the file, and the command.
 
 use std::fs;
 use std::path::Path;
@@ -6,15 +6,15 @@ use std::process::Command;
 
 use capsulemap::branch::SpecialKind;
 use capsulemap::capsule::Parameter;
-use capsulemap::run::follow;
+use capsulemap::run::continue_branches;
 use capsulemap::store::{self, Dataset, Values};
 use capsulemap::study::{FirstOrbit, Study};
 
-use super::program::{Desk, FIG5};
+use super::program::{FIG5, WorkDir};
 
-pub mod made;
+pub mod fixtures;
 
-use made::{STUDY, branches_alone, followed, found, study};
+use fixtures::{STUDY, branches_alone, continued, found, study};
 
 /// What is said of `text`, one fault a line.
 fn said(text: &str) -> Vec<String> {
@@ -67,7 +67,7 @@ fn a_branch_has_the_rest_of_its_study() {
 }
 
 #[test]
-fn the_faults_of_branches_are_told_at_once() {
+fn the_faults_of_branches_are_reported_at_once() {
     assert_said(
         &branch("along = \"omga\"\nform = \"3\"\nat = { p_d = \"4 N\", omega = \"60 N\" }\n"),
         &[
@@ -86,13 +86,13 @@ fn the_faults_of_branches_are_told_at_once() {
         &[
             "line 8: branches[1].at.omega: missing; expected the frequency of the drive of the",
             "line 11: branches[1].from: 0 rad/s must be a finite number above zero",
-            "line 12: branches[1].orbit: unknown way to the orbit \"newtn\"; did you mean \"newt",
+            "line 12: branches[1].orbit: unknown method to find the orbit \"newtn\"; did you mean \"newt",
             "line 13: branches[1].period: expected a whole number, 1 to",
             "line 14: branches[1].doublings: expected a whole number, 0 to 20",
             "line 15: branches[1].longest_step: 2 must lie above 0 and up to 1",
             "line 16: branches[1].most_points: expected a whole number, 2 to",
             "line 17: branches[1].start.x: unknown key \"x\"",
-            "line 18: branches[1].second.name: is the parameter that the orbit is followed in",
+            "line 18: branches[1].second.name: is the parameter that the orbit is continued in",
         ],
     );
     let twice = branch(&format!("{PLAIN}[[branches]]\n{PLAIN}"));
@@ -113,13 +113,13 @@ fn the_faults_of_branches_are_told_at_once() {
     assert_said(&newton, &["line 8: branches[1].period: missing"]);
     let printed =
         branch(PLAIN).replace("[[axes]]", "friction_switching = \"as-printed\"\n[[axes]]");
-    assert!(Study::parse("a", &printed).is_ok(), "the equation as printed is followed too");
+    assert!(Study::parse("a", &printed).is_ok(), "the equation as printed is continued too");
     let name = branch(&PLAIN.replace("\"a\"", "\" \""));
     assert_said(&name, &["line 9: branches[1].name: must be one line, not empty"]);
 }
 
 #[test]
-fn figures_run_along_what_is_followed() {
+fn figures_run_along_the_parameters_of_branches() {
     let figure = |kind: &str, more: &str| {
         format!("{STUDY}[[figures]]\nname = \"x\"\nkind = \"{kind}\"\n{more}\n")
     };
@@ -198,14 +198,14 @@ fn every_number_of_every_branch_is_in_the_file() {
 }
 
 #[test]
-fn what_was_followed_is_kept_beside_what_was_swept() {
+fn branches_are_kept_beside_the_cases_of_a_sweep() {
     let study = study();
     let mut both = store::dataset(&study, &[]);
     let swept = both.clone();
     assert!(store::has_cases(&both) && !store::has_branches(&both));
     store::keep_branches(&mut both, &branches_alone());
     let mut added = swept;
-    store::add_branches(&mut added, &study, &followed());
+    store::add_branches(&mut added, &study, &continued());
     added.attributes.clone_from(&both.attributes);
     assert_eq!(store::difference(&both, &added), None);
     assert!(store::has_branches(&both) && !store::has_cases(&branches_alone()));
@@ -235,11 +235,11 @@ fn a_python_reader_finds_branches() {
 }
 
 #[test]
-fn any_threads_follow_alike() {
+fn any_number_of_threads_gives_the_same_branches() {
     let study = study();
-    let one = follow(&study, Some(1), || ()).expect("a run");
+    let one = continue_branches(&study, Some(1), || ()).expect("a run");
     for threads in [Some(2), Some(5), None] {
-        assert_eq!(one, follow(&study, threads, || ()).expect("a run"), "{threads:?}");
+        assert_eq!(one, continue_branches(&study, threads, || ()).expect("a run"), "{threads:?}");
     }
     assert_eq!(one.len(), 3);
 }
@@ -249,85 +249,91 @@ fn kept(path: &Path) -> Dataset {
 }
 
 #[test]
-fn following_and_sweeping_share_a_file_in_either_order() {
-    let desk = Desk::new();
-    desk.put("s.toml", STUDY);
-    let told = desk.run(&["follow", "s.toml", "--formats", "svg"]).done();
+fn branches_and_cases_share_a_file_in_either_order() {
+    let dir = WorkDir::new();
+    dir.put("s.toml", STUDY);
+    let ran = dir.run(&["continue", "s.toml", "--formats", "svg"]).done();
     let path = "results/s/s.h5";
-    assert!(told.out.starts_with(&format!("{path}: ")), "{}", told.out);
-    assert!(told.err.contains("figure `m`: waits for `capsulemap sweep`"), "{}", told.err);
-    let alone = kept(&desk.path(path));
+    assert!(ran.out.starts_with(&format!("{path}: ")), "{}", ran.out);
+    assert!(ran.err.contains("figure `m`: waits for `capsulemap sweep`"), "{}", ran.err);
+    let alone = kept(&dir.path(path));
     assert!(store::has_branches(&alone) && !store::has_cases(&alone));
-    let again = desk.run(&["follow", "s.toml", "--formats", "svg"]).done();
-    assert!(again.err.contains("s.h5: already followed") && again.out.is_empty(), "{}", again.err);
-    let told = desk.run(&["sweep", "s.toml", "--formats", "svg"]).done();
-    assert!(told.out.contains("16 cases") && told.err.contains("m.svg"), "{}", told.err);
-    let mut both = kept(&desk.path(path));
+    let again = dir.run(&["continue", "s.toml", "--formats", "svg"]).done();
+    assert!(
+        again.err.contains("s.h5: branches are there already") && again.out.is_empty(),
+        "{}",
+        again.err
+    );
+    let ran = dir.run(&["sweep", "s.toml", "--formats", "svg"]).done();
+    assert!(ran.out.contains("16 cases") && ran.err.contains("m.svg"), "{}", ran.err);
+    let mut both = kept(&dir.path(path));
     assert!(store::has_branches(&both) && store::has_cases(&both));
-    let again = desk.run(&["sweep", "s.toml", "--no-figures"]).done();
+    let again = dir.run(&["sweep", "s.toml", "--no-figures"]).done();
     assert!(again.err.contains("already computed"), "{}", again.err);
-    // The other way round, the same is in the file.
-    let told = desk.run(&["sweep", "s.toml", "--output", "o.h5", "--formats", "svg"]).done();
-    assert!(told.err.contains("figure `c`: waits for `capsulemap follow`"), "{}", told.err);
-    desk.run(&["follow", "s.toml", "--output", "o.h5", "--no-figures"]).done();
-    let mut other = kept(&desk.path("o.h5"));
+    // In the other order, the same is in the file.
+    let ran = dir.run(&["sweep", "s.toml", "--output", "o.h5", "--formats", "svg"]).done();
+    assert!(ran.err.contains("figure `c`: waits for `capsulemap continue`"), "{}", ran.err);
+    dir.run(&["continue", "s.toml", "--output", "o.h5", "--no-figures"]).done();
+    let mut other = kept(&dir.path("o.h5"));
     for dataset in [&mut both, &mut other] {
         dataset.attributes.remove("created").expect("a time");
     }
     assert_eq!(store::difference(&both, &other), None);
-    desk.run(&["figure", "o.h5", "--formats", "svg", "--folder", "again"]).done();
-    assert!(desk.path("again/c.svg").is_file());
+    dir.run(&["figure", "o.h5", "--formats", "svg", "--folder", "again"]).done();
+    assert!(dir.path("again/c.svg").is_file());
 }
 
 #[test]
-fn other_words_for_the_same_cases_keep_them() {
-    let desk = Desk::new();
-    desk.put("s.toml", STUDY);
-    desk.run(&["sweep", "s.toml", "--no-figures"]).done();
-    let words = format!("# Another figure.\n{STUDY}").replace("name = \"m\"", "name = \"other\"");
-    desk.put("s.toml", &words);
-    let told = desk.run(&["sweep", "s.toml", "--formats", "svg"]).done().err;
-    assert!(
-        told.contains("from a study with the same cases") && told.contains("other.svg"),
-        "{told}"
-    );
-    let follow = |more: &[&str]| desk.run(&[&["follow", "s.toml", "--no-figures"], more].concat());
-    follow(&[]).done();
-    let both = kept(&desk.path("results/s/s.h5"));
+fn another_text_of_the_same_cases_keeps_them() {
+    let dir = WorkDir::new();
+    dir.put("s.toml", STUDY);
+    dir.run(&["sweep", "s.toml", "--no-figures"]).done();
+    let other = format!("# Another figure.\n{STUDY}").replace("name = \"m\"", "name = \"other\"");
+    dir.put("s.toml", &other);
+    let ran = dir.run(&["sweep", "s.toml", "--formats", "svg"]).done().err;
+    assert!(ran.contains("from a study with the same cases") && ran.contains("other.svg"), "{ran}");
+    let continue_branches =
+        |more: &[&str]| dir.run(&[&["continue", "s.toml", "--no-figures"], more].concat());
+    continue_branches(&[]).done();
+    let both = kept(&dir.path("results/s/s.h5"));
     assert!(store::has_branches(&both) && store::has_cases(&both));
-    assert_eq!(both.texts["study"], words);
-    // Branches are of their words.
-    desk.put("s.toml", STUDY);
-    follow(&[]).refused(&["holds branches of a study in other words", "--overwrite"]);
-    follow(&["--overwrite"]).done();
-    desk.put("s.toml", words);
-    desk.run(&["follow", "s.toml", "--output", "b.h5", "--no-figures"]).done();
-    desk.put("s.toml", STUDY);
-    desk.run(&["sweep", "s.toml", "--output", "b.h5"]).refused(&["branches of a study in other"]);
+    assert_eq!(both.texts["study"], other);
+    // Branches belong to the text of their study.
+    dir.put("s.toml", STUDY);
+    continue_branches(&[]).refused(&["holds branches of a study with another text", "--overwrite"]);
+    continue_branches(&["--overwrite"]).done();
+    dir.put("s.toml", other);
+    dir.run(&["continue", "s.toml", "--output", "b.h5", "--no-figures"]).done();
+    dir.put("s.toml", STUDY);
+    dir.run(&["sweep", "s.toml", "--output", "b.h5"])
+        .refused(&["branches of a study with another text"]);
 }
 
 #[test]
-fn results_of_others_are_not_followed_into() {
-    let desk = Desk::new();
-    desk.put("s.toml", STUDY);
-    desk.put("plain.toml", FIG5);
-    desk.run(&["sweep", "plain.toml", "--output", "r.h5"]).done();
-    let before = fs::read(desk.path("r.h5")).expect("a result");
+fn results_of_others_receive_no_branches() {
+    let dir = WorkDir::new();
+    dir.put("s.toml", STUDY);
+    dir.put("plain.toml", FIG5);
+    dir.run(&["sweep", "plain.toml", "--output", "r.h5"]).done();
+    let before = fs::read(dir.path("r.h5")).expect("a result");
     let into = |more: &[&str]| {
-        desk.run(&[&["follow", "s.toml", "--output", "r.h5", "--no-figures"], more].concat())
+        dir.run(&[&["continue", "s.toml", "--output", "r.h5", "--no-figures"], more].concat())
     };
     into(&[]).refused(&["r.h5: holds results of another study", "--overwrite"]);
-    assert_eq!(fs::read(desk.path("r.h5")).expect("a result"), before);
+    assert_eq!(fs::read(dir.path("r.h5")).expect("a result"), before);
     into(&["--overwrite"]).done();
-    assert!(!store::has_cases(&kept(&desk.path("r.h5"))));
+    assert!(!store::has_cases(&kept(&dir.path("r.h5"))));
     // What the other command left of the same study stays.
     let sweep = ["sweep", "s.toml", "--output", "r.h5", "--no-figures", "--overwrite"];
-    desk.run(&sweep).done();
+    dir.run(&sweep).done();
     assert!(!into(&["--overwrite"]).done().out.is_empty());
-    let both = kept(&desk.path("r.h5"));
+    let both = kept(&dir.path("r.h5"));
     assert!(store::has_cases(&both) && store::has_branches(&both));
-    let told = desk.run(&["inspect", "r.h5"]).done().out;
-    assert!(told.contains("branch_point") && told.contains("16 periodic"), "{told}");
-    desk.run(&["follow", "plain.toml"]).refused(&["plain.toml: asks for no [[branches]]"]);
-    desk.run(&["follow", "s.toml", "--threads", "0"]).refused(&["--threads"]);
+    let ran = dir.run(&["inspect", "r.h5"]).done().out;
+    assert!(ran.contains("branch_point") && ran.contains("16 periodic"), "{ran}");
+    // The older name of the command is the same command.
+    for command in ["continue", "follow"] {
+        dir.run(&[command, "plain.toml"]).refused(&["plain.toml: asks for no [[branches]]"]);
+    }
+    dir.run(&["continue", "s.toml", "--threads", "0"]).refused(&["--threads"]);
 }
