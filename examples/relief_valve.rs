@@ -10,7 +10,6 @@ use capsulemap::branch::{self, SpecialKind};
 use capsulemap::flow::{Event, Field, Stroboscopic, Switched, System, Taylor, Zeros};
 use capsulemap::lane::elementary::not_finite;
 use capsulemap::lane::{Lane, ORDER, Series, series};
-use capsulemap::orbit::return_map::{Cycles, returned};
 use capsulemap::orbit::{self, Case, Machine, Outcome, Proof, Protocol, Returns};
 use capsulemap::{in_lanes, own_system};
 
@@ -263,28 +262,10 @@ fn main() {
     assert_eq!(orbit.certificate.proof, Proof::Newton);
     let [largest, _] = orbit.certificate.multipliers.map(|it| it.abs());
     assert!((orbit.exponent.value - libm::log(largest) / orbit.duration).abs() < 1e-9);
-    // Followed in the flow rate, it shrinks onto the equilibrium at one end and touches the seat at the other.
+    // Followed in the flow rate, it shrinks onto the equilibrium.
     let cycle = request(valve::<true>(8.0), orbit.section[0], [5.0, 9.0]);
     let found = branch::follow(&cycle).expect("the cycle");
-    let first_touch = special(&found, SpecialKind::Grazing);
     assert!((special(&found, SpecialKind::Fold) - exact).abs() < 1e-6);
-    // By a second method: the least y1 of the settled cycle vanishes there, nearly linearly.
-    let lift = |q: f64| {
-        let system = valve::<true>(q);
-        let from = orbit::settle(&Case::new(system, [4.0, 0.0, 15.0]), &protocol).section[0];
-        let mut least = f64::INFINITY;
-        let cycle = Cycles { count: 1, tolerance: protocol.tolerance };
-        returned(&system, from, &cycle, |step| {
-            let at = |i: u32| system.at(&step.jet, step.length * f64::from(i) / 64.0)[0];
-            least = (0..=64).map(at).fold(least, f64::min);
-        })
-        .expect("the cycle is closed");
-        least
-    };
-    let [near, far] = [2e-4, 4e-4].map(|away| lift(first_touch + away));
-    let zero = 2e-4 * (1.0 - near / (far - near));
-    assert!(near > 0.0 && zero.abs() < 2e-6, "{near} {far}: {zero}");
-
     // Two starts at one flow rate lead to one attractor or to two.
     let starts = [[0.5, 0.0, 10.0], [6.0, 0.0, 12.0], [4.0, 0.0, 15.0]];
     let cases: Vec<_> = starts.map(|start| Case::new(valve::<true>(7.0), start)).to_vec();
@@ -306,7 +287,7 @@ fn main() {
     }
     if arguments.iter().any(|argument| argument == "--json") {
         println!(
-            "{{\"loss_of_stability_q\": {loss_of_stability}, \"first_touch_q\": {first_touch}, \
+            "{{\"loss_of_stability_q\": {loss_of_stability}, \
              \"values_per_second\": {values_per_second:.0}, \"unfinished\": {unfinished}, \
              \"attractors_at_7\": {attractors}}}"
         );
@@ -315,6 +296,5 @@ fn main() {
     println!(
         "the equilibrium loses its stability at q = {loss_of_stability:.12} (exactly {exact:.12})"
     );
-    println!("the cycle touches the seat first at q = {first_touch:.12}");
     println!("{values_per_second:.0} flow rates a second, {unfinished} of {} cut off", flows.len());
 }
