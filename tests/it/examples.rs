@@ -46,5 +46,5 @@ fn the_belts_cycle_disappears_where_published() {
     let number = |name: &str| belt[name].as_f64().expect("a number");
     assert!((number("cycle_disappears_v") - 1.8366).abs() < 5e-5);
     // Steady sliding loses its stability where the slope of friction beats the damper, at s ln(a/(c s)).
-    assert!((number("sliding_unstable_v") - 0.5 * 10.0_f64.ln()).abs() < 1e-9);
+    assert!((number("sliding_unstable_v") - 0.5 * 10.0_f64.ln()).abs() < 1e-8);
 }
