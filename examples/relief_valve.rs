@@ -1,15 +1,17 @@
 //! A pressure relief valve (Hos and Champneys 2012), which no drive moves: y1' = y2, y2' = -kappa y2 -
 //! (y1 + delta) + y3, y3' = beta (q - y1 sqrt(y3)), with an impact y2 -> -r y2 on the seat y1 = 0.
 //!
-//! `cargo run --release --no-default-features --example relief_valve -- --json`
+//! `cargo run --release --no-default-features --example relief_valve -- --json`; `--values 1000` computes a diagram
+//! of fewer flow rates than 30 720, `--svg FILE` draws it.
 
 use std::time::Instant;
 
 use capsulemap::attractor::attractors_of;
-use capsulemap::branch::{self, SpecialKind};
+use capsulemap::branch::{self, End, SpecialKind};
 use capsulemap::flow::{Event, Field, Stroboscopic, Switched, System, Taylor, Zeros};
 use capsulemap::lane::elementary::not_finite;
 use capsulemap::lane::{Lane, ORDER, Series, series};
+use capsulemap::orbit::return_map::{Cycles, returned};
 use capsulemap::orbit::{self, Case, Machine, Outcome, Proof, Protocol, Returns};
 use capsulemap::{in_lanes, own_system};
 
@@ -219,6 +221,27 @@ fn special<O, const D: usize>(found: &branch::Found<O, D>, kind: SpecialKind) ->
     special.expect("the special point").point.parameter
 }
 
+/// Where the least y1 of the settled cycle vanishes, which is nearly linear there, from two flow rates above `near`.
+fn touch_of_settled_cycles(near: f64) -> f64 {
+    let protocol = Protocol::default();
+    let least = |q: f64| {
+        let system = valve::<true>(q);
+        let orbit = orbit::settle(&Case::new(system, [4.0, 0.0, 15.0]), &protocol);
+        let mut least = f64::INFINITY;
+        let cycle = Cycles { count: 1, tolerance: protocol.tolerance };
+        returned(&system, orbit.section[0], &cycle, |step| {
+            let at = |i: u32| system.at(&step.jet, step.length * f64::from(i) / 64.0)[0];
+            least = (0..=64).map(at).fold(least, f64::min);
+        })
+        .expect("the cycle is closed");
+        assert!(least > 0.0, "no impact at {q}");
+        least
+    };
+    let flows = [near + 2e-4, near + 4e-4];
+    let [a, b] = flows.map(least);
+    flows[0] - a * (flows[1] - flows[0]) / (b - a)
+}
+
 /// The maxima of y1 over the flow rate as a picture, one dot each.
 fn diagram(flows: &[f64], maxima: &[Returns<2>]) -> String {
     let mut dots = String::new();
@@ -262,10 +285,16 @@ fn main() {
     assert_eq!(orbit.certificate.proof, Proof::Newton);
     let [largest, _] = orbit.certificate.multipliers.map(|it| it.abs());
     assert!((orbit.exponent.value - libm::log(largest) / orbit.duration).abs() < 1e-9);
-    // Followed in the flow rate, it shrinks onto the equilibrium.
+    // Continued in the flow rate, it shrinks onto the equilibrium at one end and touches the seat at the other.
     let cycle = request(valve::<true>(8.0), orbit.section[0], [5.0, 9.0]);
     let found = branch::follow(&cycle).expect("the cycle");
-    assert!((special(&found, SpecialKind::Fold) - exact).abs() < 1e-6);
+    let last = found.branches[0].points.last().expect("a point").parameter;
+    assert_eq!(found.branches[0].ends, [End::Bound, End::Equilibrium]);
+    assert!((last - exact).abs() < 1e-6, "{last}");
+    let first_touch = special(&found, SpecialKind::Grazing);
+    let settled = touch_of_settled_cycles(first_touch);
+    assert!((first_touch - settled).abs() < 2e-6, "{first_touch} {settled}");
+
     // Two starts at one flow rate lead to one attractor or to two.
     let starts = [[0.5, 0.0, 10.0], [6.0, 0.0, 12.0], [4.0, 0.0, 15.0]];
     let cases: Vec<_> = starts.map(|start| Case::new(valve::<true>(7.0), start)).to_vec();
@@ -273,7 +302,11 @@ fn main() {
     let attractors = attractors_of(&valve::<true>(7.0), &orbits, &protocol).attractors.len();
 
     // The diagram: 30 720 flow rates, 1024 maxima of y1 waited and 32 kept, on one core.
-    let flows: Vec<f64> = (0..30_720).map(|i| 0.2 + 9.8 * f64::from(i) / 30_719.0).collect();
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let given = |key: &str| arguments.iter().skip_while(|it| *it != key).nth(1);
+    let values = given("--values").map_or(30_720, |it| it.parse().expect("a number of flow rates"));
+    let flow = |i: u32| 0.2 + 9.8 * f64::from(i) / f64::from(values - 1);
+    let flows: Vec<f64> = (0..values).map(flow).collect();
     let cases: Vec<_> =
         flows.iter().map(|q| Case::new(valve::<true>(*q), [0.2, 0.0, 10.0])).collect();
     let begun = Instant::now();
@@ -281,13 +314,13 @@ fn main() {
     let values_per_second = flows.len() as f64 / begun.elapsed().as_secs_f64();
     let unfinished = maxima.iter().filter(|it| it.failure.is_some()).count();
 
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    if let Some(file) = arguments.iter().skip_while(|it| *it != "--svg").nth(1) {
+    if let Some(file) = given("--svg") {
         std::fs::write(file, diagram(&flows, &maxima)).expect("the picture can be written");
     }
     if arguments.iter().any(|argument| argument == "--json") {
         println!(
             "{{\"loss_of_stability_q\": {loss_of_stability}, \
+             \"first_touch_q\": {first_touch}, \
              \"values_per_second\": {values_per_second:.0}, \"unfinished\": {unfinished}, \
              \"attractors_at_7\": {attractors}}}"
         );
@@ -296,5 +329,6 @@ fn main() {
     println!(
         "the equilibrium loses its stability at q = {loss_of_stability:.12} (exactly {exact:.12})"
     );
+    println!("the cycle touches the seat first at q = {first_touch:.9}");
     println!("{values_per_second:.0} flow rates a second, {unfinished} of {} cut off", flows.len());
 }

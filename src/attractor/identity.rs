@@ -31,9 +31,6 @@ pub struct Attractor<const D: usize> {
 impl<const D: usize> Attractor<D> {
     /// What a case has ended on; none where that repels or is not known.
     ///
-    /// The bound of a periodic orbit: its residual, or the error of the integrator if that is larger, over
-    /// the least distance of a multiplier from one, is how far the true orbit is along the slowest
-    /// direction.
     pub fn of<M: System<D>>(
         index: usize,
         system: &M,
@@ -48,8 +45,7 @@ impl<const D: usize> Attractor<D> {
         let points = section_points(system, motion.section, wanted, protocol)?;
         let metric = system.metric();
         let size = points.iter().map(|point| metric.size(point)).fold(0.0, f64::max);
-        let residual = motion.residual.max(protocol.tolerance);
-        let bound = OBLIQUE * residual / motion.from_one * size;
+        let bound = relative_bound(motion.residual, motion.from_one, protocol) * size;
         Some(Attractor { case: index, outcome: motion.outcome, points, bound, size })
     }
 
@@ -70,6 +66,14 @@ impl<const D: usize> Attractor<D> {
             _ => same_neighbours(&self.points, &other.points, metric) <= MIXED,
         }
     }
+}
+
+/// How far the true orbit may be from one that repeats to this residual, relative to its size.
+///
+/// The residual, or the error of the integrator if that is larger, over the least distance of a multiplier from
+/// one, is how far the true orbit is along the slowest direction.
+pub fn relative_bound(residual: f64, from_one: f64, protocol: &Protocol) -> f64 {
+    OBLIQUE * residual.max(protocol.tolerance) / from_one
 }
 
 /// Whether two orbits are one up to where they begin.

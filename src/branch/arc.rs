@@ -5,7 +5,7 @@ use super::arclength::{CurvePoint, Equations, Plane, between, corrected, dot, mo
 /// Trials of a search at most.
 const TRIALS: usize = 120;
 /// A bracket this narrow, relative to the arc, is not narrowed further.
-const NARROW: f64 = 1e-14;
+pub const NARROW: f64 = 1e-14;
 /// A sign that changes while the test stays above this share of its size at the ends is a jump, not a zero.
 const JUMP: f64 = 1e-5;
 
@@ -30,21 +30,32 @@ impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
         (dot(&self.normal, &between(&self.start, &point.at)), point.clone())
     }
 
-    /// The solution at a distance between two others.
+    /// The solution at a distance near a guess.
+    fn at(&self, distance: f64, guess: &[f64; U]) -> Option<Placed<U, E::Seen>> {
+        let offset = dot(&self.normal, &self.start) + distance;
+        let plane = Plane { normal: self.normal, offset };
+        let (point, _) = corrected(self.equations, &plane, guess, &self.normal)?;
+        Some((distance, point))
+    }
+
+    /// The solution at a distance between two others, near the straight line from one to the other.
     fn within(
         &self,
         [a, b]: [&Placed<U, E::Seen>; 2],
         distance: f64,
     ) -> Option<Placed<U, E::Seen>> {
         let share = (distance - a.0) / (b.0 - a.0);
-        let guess = moved(&a.1.at, share, &between(&a.1.at, &b.1.at));
-        let offset = dot(&self.normal, &self.start) + distance;
-        let plane = Plane { normal: self.normal, offset };
-        let (point, _) = corrected(self.equations, &plane, &guess, &self.normal)?;
-        Some((distance, point))
+        self.at(distance, &moved(&a.1.at, share, &between(&a.1.at, &b.1.at)))
     }
 
-    /// Where `test` changes its sign between two solutions, to rounding.
+    /// The solution at a distance beyond another, near its tangent.
+    fn beyond(&self, a: &Placed<U, E::Seen>, distance: f64) -> Option<Placed<U, E::Seen>> {
+        let share = (distance - a.0) / dot(&self.normal, &a.1.tangent);
+        self.at(distance, &moved(&a.1.at, share, &a.1.tangent))
+    }
+
+    /// Where `test` changes its sign between two solutions, to rounding, with the distance of the last two
+    /// trials.
     ///
     /// Method: the secant, with the older end's value halved when it stays (the Illinois rule), and
     /// bisection where that does not halve the bracket in three trials. None where the test jumps.
@@ -52,12 +63,13 @@ impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
         &self,
         ends: [&Placed<U, E::Seen>; 2],
         test: impl Fn(&CurvePoint<U, E::Seen>) -> f64,
-    ) -> Option<Placed<U, E::Seen>> {
+    ) -> Option<(Placed<U, E::Seen>, f64)> {
         let [mut a, mut b] = ends.map(Clone::clone);
         let (mut at_a, mut at_b) = (test(&a.1), test(&b.1));
         let size = at_a.abs().max(at_b.abs());
         let length = b.0 - a.0;
         let (mut best, mut least) = (a.clone(), f64::INFINITY);
+        let (mut last, mut apart) = (a.0, length);
         let mut goal = length;
         let mut moved_before = None;
         for trial in 0..TRIALS {
@@ -71,6 +83,7 @@ impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
             let share = if late { 0.5 } else { at_a / (at_a - at_b) };
             let next = self.within([&a, &b], a.0 + share * (b.0 - a.0))?;
             let value = test(&next.1);
+            (last, apart) = (next.0, (next.0 - last).abs());
             if value.abs() < least {
                 (best, least) = (next.clone(), value.abs());
             }
@@ -83,29 +96,33 @@ impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
             }
             moved_before = Some(upper);
         }
-        (least <= JUMP * size).then_some(best)
+        (least <= JUMP * size).then_some((best, apart))
     }
 
-    /// The last solution that is `as_before` and the first that is not, down to rounding.
+    /// The last solution that is `as_before` and the first that is not, to the share `narrow` of their distance.
+    ///
+    /// Method: bisection, with the tangent of the last solution as predictor, as solutions may jump where they
+    /// change; where none is found there, the last one is still before it.
     pub fn change(
         &self,
         ends: [&Placed<U, E::Seen>; 2],
         as_before: impl Fn(&CurvePoint<U, E::Seen>) -> bool,
-    ) -> Option<[Placed<U, E::Seen>; 2]> {
+        narrow: f64,
+    ) -> [Placed<U, E::Seen>; 2] {
         let [mut a, mut b] = ends.map(Clone::clone);
-        let narrow = NARROW * (b.0 - a.0);
+        let narrow = narrow * (b.0 - a.0);
         while b.0 - a.0 > narrow {
             let middle = a.0 + 0.5 * (b.0 - a.0);
             if middle <= a.0 || middle >= b.0 {
                 break;
             }
-            let next = self.within([&a, &b], middle)?;
-            if as_before(&next.1) {
-                a = next;
-            } else {
-                b = next;
+            let next = self.beyond(&a, middle).or_else(|| self.within([&a, &b], middle));
+            match next {
+                Some(next) if as_before(&next.1) => a = next,
+                Some(next) => b = next,
+                None => b.0 = middle,
             }
         }
-        Some([a, b])
+        [a, b]
     }
 }

@@ -6,9 +6,9 @@ use crate::orbit::matrix::{Matrix, solve};
 /// Newton's steps at most.
 const PATIENCE: usize = 12;
 /// A residual below this is not worth another step.
-const EXACT: f64 = 1e-14;
+pub const EXACT: f64 = 1e-14;
 /// A residual that has ceased to shrink is rounding below this.
-const ROUNDING: f64 = 1e-11;
+pub const ROUNDING: f64 = 1e-11;
 /// A residual has ceased to shrink if it keeps this share.
 const SHRINKS: f64 = 0.3;
 /// No unknown may move farther than this from the guess.
@@ -18,6 +18,11 @@ const FARTHEST: f64 = 0.5;
 pub trait Equations<const U: usize> {
     /// What else is seen of a solution.
     type Seen: Clone;
+
+    /// A residual below this is not worth another step of Newton's method.
+    fn exact(&self) -> f64 {
+        EXACT
+    }
 
     /// The equations at these unknowns.
     fn at(&self, unknowns: &[f64; U]) -> Result<Linear<U, Self::Seen>, Reason>;
@@ -110,7 +115,7 @@ pub fn corrected_by<const U: usize, E: Equations<U>>(
             let tangent = tangent(rows, ahead).unwrap_or(*ahead);
             best = Some((left, CurvePoint { at, tangent, rows, seen }, taken));
         }
-        if left <= EXACT || (before <= ROUNDING && left > SHRINKS * before) {
+        if left <= equations.exact() || (before <= ROUNDING && left > SHRINKS * before) {
             break;
         }
         rows[U - 1] = normal;

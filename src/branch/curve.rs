@@ -82,7 +82,7 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
         .with(D, request.range.map(|end| end / along))
         .with(D + 1, range.map(|end| end / width));
     let control = StepControl::new(bounds, request.longest_step);
-    let (points, ends) = both_ways(&locus, &start, control, request.most_points);
+    let (points, ends) = both_directions(&locus, &start, control, request.most_points);
     traces.push(Trace { locus, through, points, ends });
     Some(traces.len() - 1)
 }
@@ -108,7 +108,7 @@ fn start<M: System<D>, O, const D: usize, const W: usize>(
 }
 
 /// The curve through an orbit from one end to the other, of so many points at most.
-fn both_ways<M: System<D>, const D: usize, const W: usize>(
+fn both_directions<M: System<D>, const D: usize, const W: usize>(
     locus: &Locus<M, D, W>,
     start: &LocusPoint<W>,
     control: StepControl<W>,
@@ -116,14 +116,14 @@ fn both_ways<M: System<D>, const D: usize, const W: usize>(
 ) -> (Vec<[f64; W]>, [End; 2]) {
     let back = turned(start);
     let (mut points, last, end) =
-        one_way(locus, &back, control, most.div_ceil(2), &Goal::at(locus, &back));
+        one_direction(locus, &back, control, most.div_ceil(2), &Goal::at(locus, &back));
     if end == End::Closed {
         return (points, [end; 2]);
     }
     // A closed curve that is longer than one half meets the end of that half.
     let left = most + 1 - points.len();
     let goal = Goal::at(locus, &turned(&last));
-    let (forward, _, other_end) = one_way(locus, start, control, left, &goal);
+    let (forward, _, other_end) = one_direction(locus, start, control, left, &goal);
     points.reverse();
     points.extend(forward.into_iter().skip(1));
     (points, if other_end == End::Closed { [other_end; 2] } else { [end, other_end] })
@@ -135,7 +135,7 @@ fn turned<const W: usize>(point: &LocusPoint<W>) -> LocusPoint<W> {
 }
 
 /// The curve from a point on along its tangent, its last point with the tangent, and why it ends.
-fn one_way<M: System<D>, const D: usize, const W: usize>(
+fn one_direction<M: System<D>, const D: usize, const W: usize>(
     locus: &Locus<M, D, W>,
     start: &LocusPoint<W>,
     mut control: StepControl<W>,

@@ -1,7 +1,7 @@
 //! A family of motions: where each returns to, and what it passes, as functions of its point and parameters.
 
 use crate::flow::guard::crossings;
-use crate::flow::{Event, Reason, Switched, System};
+use crate::flow::{Event, Reason, Stroboscopic, Switched, System};
 use crate::lane::{Lane, Series, series};
 use crate::orbit::return_map::{Cycles, returned};
 
@@ -25,6 +25,9 @@ pub struct Passage<L, E, const D: usize> {
     pub events: Vec<E>,
     /// The local extrema of the coordinate that may touch a surface, in order.
     pub extrema: Vec<Extremum<L>>,
+    /// How far an autonomous motion gets from where it begins, in the units of the metric; infinite for a driven
+    /// one, which need not move to return.
+    pub excursion: f64,
 }
 
 /// A local maximum or minimum of the coordinate that may touch a surface: on the surface it is a grazing.
@@ -57,27 +60,64 @@ impl<M: System<D>, const D: usize> Family<M, D> {
             given.map_or(L::splat(self.system.value(parameter)), |(_, value)| *value)
         });
         let period = system.period().lane(0);
+        let (metric, begins) = (self.system.metric(), point.map(|coordinate| coordinate.lane(0)));
+        let mut excursion: f64 = if M::In::<L>::AUTONOMOUS { 0.0 } else { f64::INFINITY };
         let (mut events, mut extrema, mut elapsed) = (Vec::new(), Vec::new(), 0.0);
+        let mut turns = Turns::default();
         let cycles = Cycles { count: self.period, tolerance: self.tolerance };
         let end = returned(&system, point, &cycles, |step| {
             events.extend(M::Event::from_code(step.event.lane(0)));
             let length = step.length.lane(0);
+            if M::In::<L>::AUTONOMOUS {
+                let here = M::In::<L>::point(&system.at(&step.jet, L::splat(0.0)));
+                let here = here.map(|coordinate| coordinate.lane(0));
+                excursion = excursion.max(metric.distance(&here, &begins));
+            }
             if let Some((coordinate, surface)) = system.touching(&step.jet) {
-                turns(coordinate, length, |time, value| {
+                let has_event = step.event.lane(0) > 0.0;
+                turns.during(coordinate, (length, has_event), |time, value| {
                     let time = (elapsed + time) / period;
                     extrema.push(Extremum { margin: surface - value, time });
                 });
             }
             elapsed += length;
         })?;
-        Ok(Passage { end, events, extrema })
+        Ok(Passage { end, events, extrema, excursion })
     }
 }
 
-/// Shows the local extrema of a coordinate during a step, each with its time.
-fn turns<L: Lane>(coordinate: &Series<L>, length: f64, mut found: impl FnMut(f64, L)) {
-    let rate = series::derivative(&std::array::from_fn(|k| coordinate[k].lane(0)));
-    crossings(&rate, length, |time, _| found(time, series::value(coordinate, L::splat(time))));
+/// The local extrema of a coordinate, step by step.
+#[derive(Default)]
+struct Turns {
+    /// Whether the coordinate rose at the end of the last step; none where an event may have changed its rate.
+    rose: Option<bool>,
+}
+
+impl Turns {
+    /// Shows the extrema during a step, each with its time.
+    ///
+    /// A step may end just at an extremum, where rounding leaves the zero of the rate to neither step: then the rate
+    /// has other signs in the two.
+    fn during<L: Lane>(
+        &mut self,
+        coordinate: &Series<L>,
+        (length, has_event): (f64, bool),
+        mut found: impl FnMut(f64, L),
+    ) {
+        let rate = series::derivative(&std::array::from_fn(|k| coordinate[k].lane(0)));
+        let mut times = Vec::new();
+        crossings(&rate, length, |time, falls| times.push((time, falls)));
+        let within = series::value(&rate, 0.5 * length) > 0.0;
+        let begins_rising = times.first().map_or(within, |(_, falls)| *falls);
+        if self.rose.is_some_and(|rose| rose != begins_rising) {
+            found(0.0, coordinate[0]);
+        }
+        for (time, _) in &times {
+            found(*time, series::value(coordinate, L::splat(*time)));
+        }
+        let ends_rising = times.last().map_or(within, |(_, falls)| !falls);
+        self.rose = (!has_event).then_some(ends_rising);
+    }
 }
 
 /// How far two times of a motion of this period are apart, modulo the period.

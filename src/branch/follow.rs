@@ -5,7 +5,7 @@ use crate::flow::{Event, System};
 use crate::orbit::measured;
 use crate::orbit::neutral::may_be_neutral;
 
-use super::arclength::{Plane, corrected, tangent};
+use super::arclength::{EXACT, Plane, corrected, tangent};
 use super::curve::{Trace, trace};
 use super::doubling::doubled;
 use super::family::Family;
@@ -59,7 +59,7 @@ fn follow_with<M: System<D>, const D: usize, const U: usize, const W: usize>(
 ) -> Result<FoundOf<M, D>, NotFollowed> {
     let (orbits, first) = first_orbit::<M, D, U>(request)?;
     let mut found = Found { branches: Vec::new(), curves: Vec::new() };
-    let (half, beginning) = both_ways(request, &orbits, first);
+    let (half, beginning) = both_directions(request, &orbits, first);
     let mut followed = vec![Followed { orbits, level: 0, half, beginning }];
     found.branches.push(branch(&followed[0], None));
     let mut next = 0;
@@ -135,11 +135,12 @@ fn first_orbit<M: System<D>, const D: usize, const U: usize>(
     }
     let Request { period, tolerance, .. } = *request;
     let family = Family { system: system.clone(), period, tolerance };
+    let measured_by = |points: &[[f64; D]]| units(system, (*along, request.range), points);
     let in_units = |section: &[f64; D]| -> [f64; U] {
         std::array::from_fn(|i| *section.get(i).unwrap_or(&width))
     };
-    let mut orbits =
-        Orbits { family, along: *along, units: in_units(&units(request, &[request.section])) };
+    let units = in_units(&measured_by(&[request.section]));
+    let mut orbits = Orbits { family, along: *along, units, oriented: false, exact: EXACT };
     let plane = Plane::fixing(D, value / width);
     let mut section = request.section;
     for _ in 0..APPROACHES {
@@ -150,7 +151,7 @@ fn first_orbit<M: System<D>, const D: usize, const U: usize>(
             let points = orbits.section_points(&point.at);
             let points: Vec<[f64; D]> = points.iter().map(|at| orbits.section(at)).collect();
             let section = orbits.section(&point.at);
-            orbits.units = in_units(&units(request, &points));
+            orbits.units = in_units(&measured_by(&points));
             let met = corrected(&orbits, &plane, &orbits.unknowns(&section, value), &plane.normal);
             let (point, _) = met.ok_or(NotFollowed::NoOrbit)?;
             if may_be_neutral(&point.seen.multipliers()) {
@@ -178,7 +179,7 @@ fn least_period<M: System<D>, const D: usize, const U: usize>(
 }
 
 /// The branch through an orbit, down to the lesser end first, and why it begins there.
-fn both_ways<M: System<D>, const D: usize, const U: usize>(
+fn both_directions<M: System<D>, const D: usize, const U: usize>(
     request: &Request<M, D>,
     orbits: &Orbits<M, D, U>,
     first: OrbitPoint<M::Event, D, U>,

@@ -3,6 +3,7 @@
 use crate::flow::{Event, System};
 
 use super::End;
+use super::arc::NARROW;
 use super::arclength::{Equations, Linear, between, norm};
 use super::corner::{is_corner, rounded};
 use super::orbits::{OrbitPoint, Orbits, Seen};
@@ -30,13 +31,31 @@ pub struct HalfBranch<E, const D: usize, const U: usize> {
     pub merged: Option<usize>,
     /// Length of the last step, or of the one that would have passed a merger.
     last_step: f64,
+    /// Corners that may still be passed.
+    corners: usize,
+    /// Changes of events are located to this share of a step.
+    narrow: f64,
 }
 
 impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
     /// A half branch that begins with these orbits.
     pub fn new(points: Vec<OrbitPoint<E, D, U>>) -> Self {
         let (special_orbits, end) = (Vec::new(), End::MostPoints);
-        HalfBranch { points, special_orbits, end, merged: None, last_step: 0.0 }
+        let (merged, last_step) = (None, 0.0);
+        HalfBranch {
+            points,
+            special_orbits,
+            end,
+            merged,
+            last_step,
+            corners: CORNERS,
+            narrow: NARROW,
+        }
+    }
+
+    /// The same without a look round corners, with changes of events located to the share `narrow` of a step.
+    pub fn coarse(self, narrow: f64) -> Self {
+        HalfBranch { corners: 0, narrow, ..self }
     }
 
     /// Follows the branch on until it ends, closes at `goal` or has `most` orbits.
@@ -50,28 +69,36 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         most: usize,
         goal: &Goal<U, Seen<E, D, U>>,
     ) {
-        let mut corners_left = CORNERS;
-        while self.points.len() < most
-            && let Some(last) = self.points.last()
-        {
-            let (from, advance) = match control.advance(orbits, last) {
-                Advance::Nowhere if corners_left > 0 => match rounded(orbits, control, last) {
-                    Some(goes_on) => goes_on,
-                    None => (last.clone(), Advance::Nowhere),
-                },
-                advance => (last.clone(), advance),
-            };
-            corners_left -= usize::from(from.tangent != last.tangent);
-            let end = match advance {
-                Advance::Inside(next) => self.add(orbits, &from, next, goal),
-                Advance::AtBound(next) => self.add(orbits, &from, next, goal).or(Some(End::Bound)),
-                Advance::Nowhere if is_corner(orbits, last) => Some(End::Corner),
-                Advance::Nowhere => Some(End::Stopped),
-            };
-            if let Some(end) = end {
+        while self.points.len() < most {
+            if let Some(end) = self.advance(orbits, control, goal) {
                 self.end = end;
                 return;
             }
+        }
+    }
+
+    /// Adds the next orbit, and says why the branch ends if it does.
+    pub fn advance<M: System<D, Event = E>>(
+        &mut self,
+        orbits: &Orbits<M, D, U>,
+        control: &mut StepControl<U>,
+        goal: &Goal<U, Seen<E, D, U>>,
+    ) -> Option<End> {
+        let last = self.points.last()?.clone();
+        let (from, advance) = match control.advance(orbits, &last) {
+            Advance::Nowhere if self.corners > 0 => match rounded(orbits, control, &last) {
+                Some(goes_on) => goes_on,
+                None => (last.clone(), Advance::Nowhere),
+            },
+            advance => (last.clone(), advance),
+        };
+        self.corners = self.corners.saturating_sub(usize::from(from.tangent != last.tangent));
+        match advance {
+            Advance::Inside(next) => self.add(orbits, &from, next, goal),
+            Advance::AtBound(next) => self.add(orbits, &from, next, goal).or(Some(End::Bound)),
+            Advance::Nowhere if last.seen.is_smallest() => Some(End::Equilibrium),
+            Advance::Nowhere if is_corner(orbits, &last) => Some(End::Corner),
+            Advance::Nowhere => Some(End::Stopped),
         }
     }
 
@@ -112,7 +139,7 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         let closing = goal.met(orbits, [from, &next], before);
         let end = closing.is_some().then_some(End::Closed);
         let next = closing.unwrap_or(next);
-        let found = special_orbits(orbits, from, &next);
+        let found = special_orbits(orbits, from, &next, self.narrow);
         self.special_orbits.extend(found.into_iter().map(|special| (before, special)));
         if norm(&between(&from.at, &next.at)) > ONE {
             self.points.push(next);

@@ -7,17 +7,18 @@ mod curve;
 mod doubling;
 mod family;
 mod follow;
+mod half_branch;
 mod locus;
-
 mod orbits;
 mod periodic;
 mod scales;
+mod segment;
 mod special;
 mod step_control;
-mod half_branch;
 
 pub use curve::is_followed;
 pub use follow::follow;
+pub use segment::{Along, ONE_VALUE, PeriodicOrbit, Segment, SegmentEnd, SpecialValue, segment};
 
 use crate::flow::{Reason, System};
 use crate::orbit::OrbitOf;
@@ -128,11 +129,13 @@ pub enum End {
     Vanishes,
     /// It could not be followed further.
     Stopped,
+    /// Orbits of an autonomous system shrink onto an equilibrium there: a Hopf bifurcation.
+    Equilibrium,
 }
 
 impl End {
     /// Every reason by its name in files, in the order of declaration.
-    pub const NAMES: [(&str, End); 7] = [
+    pub const NAMES: [(&str, End); 8] = [
         ("edge-of-range", End::Bound),
         ("closed", End::Closed),
         ("half-period", End::Merged),
@@ -140,6 +143,7 @@ impl End {
         ("corner", End::Corner),
         ("touch-vanishes", End::Vanishes),
         ("stopped", End::Stopped),
+        ("equilibrium", End::Equilibrium),
     ];
 }
 

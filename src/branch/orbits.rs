@@ -4,7 +4,7 @@ use crate::flow::{Event, Reason, System};
 use crate::lane::Dual;
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 
-use super::arclength::{CurvePoint, Equations, Linear};
+use super::arclength::{CurvePoint, EXACT, Equations, Linear};
 use super::family::{Family, cyclic, nearest};
 use super::periodic::Periodic;
 
@@ -19,10 +19,19 @@ pub struct Orbits<M: System<D>, const D: usize, const U: usize> {
     pub along: M::Parameter,
     /// Units of the coordinates and of the parameter.
     pub units: [f64; U],
+    /// Whether an orbit belongs to the branch of another only if the determinant of J - I and the direction in the
+    /// parameter change their signs together, as they do on every branch of a continuous map. Round a corner the
+    /// derivatives beside it are not known, so that it cannot be asked there.
+    pub oriented: bool,
+    /// A residual below this is not worth another step of Newton's method.
+    pub exact: f64,
 }
 
 /// Where the return map is steeper than this, rounding makes too much of an orbit to follow it.
 const STEEPEST: f64 = 1e3;
+/// An autonomous orbit smaller than this, relative to the units, cannot be told from an equilibrium that attracts
+/// weakly: its residual would be rounding.
+const SMALLEST: f64 = 1e-4;
 /// Pairs of two of six coordinates.
 const MOST_PAIRS: usize = 15;
 
@@ -36,12 +45,19 @@ pub struct Seen<E, const D: usize, const U: usize> {
     /// Distance of the local extremum that is nearest to the surface that it may touch, in units of the first
     /// coordinate, with its derivatives along the unknowns.
     pub margin: Option<Dual<f64, U>>,
+    /// How far an autonomous motion gets from where it begins, relative to the units; infinite for a driven one.
+    pub excursion: f64,
 }
 
 /// An orbit on a branch.
 pub type OrbitPoint<E, const D: usize, const U: usize> = CurvePoint<U, Seen<E, D, U>>;
 
 impl<M: System<D>, const D: usize, const U: usize> Orbits<M, D, U> {
+    /// The same orbits down to rounding.
+    pub fn exactly(&self) -> Self {
+        Orbits { exact: EXACT, ..self.clone() }
+    }
+
     /// The parameter's value in its own unit.
     pub fn parameter(&self, at: &[f64; U]) -> f64 {
         at[D] * self.units[D]
@@ -89,6 +105,10 @@ impl<M: System<D>, const D: usize, const U: usize> Periodic<D, U> for Orbits<M, 
 impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<M, D, U> {
     type Seen = Seen<M::Event, D, U>;
 
+    fn exact(&self) -> f64 {
+        self.exact
+    }
+
     fn at(&self, at: &[f64; U]) -> Result<Linear<U, Self::Seen>, Reason> {
         if !self.family.system.admits(self.along, self.parameter(at)) {
             return Err(Reason::NotFinite);
@@ -112,13 +132,20 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<M, D,
             value: in_unit(extremum.margin.value),
             gradient: extremum.margin.gradient.map(in_unit),
         });
-        let seen = Seen { jacobian, events: cyclic(&passage.events), margin };
+        let excursion =
+            passage.excursion / self.family.system.metric().size(&self.section(&[1.0; U]));
+        let seen = Seen { jacobian, events: cyclic(&passage.events), margin, excursion };
         Ok(Linear { residual, rows, seen })
     }
 
-    fn belongs(&self, _: &CurvePoint<U, Self::Seen>, met: &CurvePoint<U, Self::Seen>) -> bool {
+    fn belongs(&self, from: &CurvePoint<U, Self::Seen>, met: &CurvePoint<U, Self::Seen>) -> bool {
         let steep = met.seen.jacobian.iter().flatten().any(|slope| slope.abs() > STEEPEST);
-        !steep && self.is_whole(&met.at)
+        let orientation = |it: &CurvePoint<U, Self::Seen>| {
+            it.tangent[D] * determinant(shifted(&it.seen.jacobian, -1.0))
+        };
+        let turns = self.oriented && orientation(from) * orientation(met) < 0.0;
+        let vanishes = met.seen.excursion <= SMALLEST;
+        !steep && !turns && !vanishes && self.is_whole(&met.at)
     }
 }
 
@@ -151,6 +178,16 @@ impl<E: Event, const D: usize, const U: usize> Seen<E, D, U> {
     /// The Floquet multipliers, the largest magnitude first.
     pub fn multipliers(&self) -> [Complex; D] {
         eigenvalues(&self.jacobian)
+    }
+
+    /// Whether an autonomous orbit is about to vanish in an equilibrium.
+    pub fn is_smallest(&self) -> bool {
+        self.excursion < 2.0 * SMALLEST
+    }
+
+    /// Whether small perturbations decay.
+    pub fn is_stable(&self) -> bool {
+        self.multipliers()[0].abs() < 1.0
     }
 
     /// How often the surface is met in a period that a grazing only touches.

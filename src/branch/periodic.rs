@@ -29,9 +29,19 @@ pub trait Periodic<const D: usize, const U: usize>: Equations<U> + Sized {
         even.then(|| self.with_period(self.period() / 2).displacement(at))?
     }
 
-    /// Whether an orbit needs both halves of its period.
+    /// Whether an orbit repeats after no part of its period.
     fn is_whole(&self, at: &[f64; U]) -> bool {
-        self.halfway(at).is_none_or(|apart| norm(&apart) > HALVES)
+        let repeats = |parts: u64| {
+            let apart = self.with_period(self.period() / parts).displacement(at);
+            apart.is_some_and(|apart| norm(&apart) <= HALVES)
+        };
+        !(2..=self.period()).filter(|parts| self.is_prime_divisor(*parts)).any(repeats)
+    }
+
+    /// Whether a number is a prime divisor of the period.
+    fn is_prime_divisor(&self, number: u64) -> bool {
+        let divides = |part: u64, of: u64| of.is_multiple_of(part);
+        divides(number, self.period()) && !(2..number).any(|part| divides(part, number))
     }
 
     /// Whether between two orbits of an even period the curve passes one of half the period: what follows
@@ -93,6 +103,11 @@ pub fn passes<const U: usize, E: Equations<U>>(
 pub struct Goal<const U: usize, T>(Vec<CurvePoint<U, T>>);
 
 impl<const U: usize, T: Clone> Goal<U, T> {
+    /// No goal: the curve is not followed until it closes.
+    pub fn none() -> Self {
+        Goal(Vec::new())
+    }
+
     /// The goal at a solution whose tangent is the direction of arrival.
     pub fn at<const D: usize, E: Periodic<D, U, Seen = T>>(
         equations: &E,

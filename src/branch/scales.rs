@@ -2,19 +2,17 @@
 
 use crate::flow::System;
 
-use super::Request;
-
 /// Units of the coordinates of the section.
 ///
 /// A coordinate counts relative to the largest of the sizes of the section points `first` and of those that
 /// the system expects of its motion at the ends of the range.
 pub fn units<M: System<D>, const D: usize>(
-    request: &Request<M, D>,
+    system: &M,
+    (along, range): (M::Parameter, [f64; 2]),
     first: &[[f64; D]],
 ) -> [f64; D] {
-    let metric = request.system.metric();
-    let expected =
-        request.range.map(|value| request.system.with(request.along, value).expected_size());
+    let metric = system.metric();
+    let expected = range.map(|value| system.with(along, value).expected_size());
     let sizes = first.iter().map(|point| metric.size(point));
     let size = sizes.chain(expected).filter(|size| size.is_finite()).fold(0.0, f64::max);
     let size = if size > 0.0 { size } else { 1.0 };

@@ -2,7 +2,7 @@
 
 use super::arclength::{CurvePoint, Equations, Plane, between, corrected, dot, moved, norm};
 
-/// A shorter step, relative to the longest, is none.
+/// Usually a shorter step, relative to the longest, is none.
 const SHORTEST: f64 = 1e-8;
 /// Below this share of the longest step the curve may turn by anything short of a right angle.
 const CORNER: f64 = 1e-3;
@@ -68,6 +68,12 @@ pub struct StepControl<const U: usize> {
     pub longest: f64,
     /// The next step.
     pub next: f64,
+    /// A shorter step, relative to the longest, is none.
+    pub shortest: f64,
+    /// An easy step is followed by one longer by this factor.
+    pub lengthen: f64,
+    /// Steps that may still be attempted.
+    pub attempts: usize,
 }
 
 type Met<const U: usize, E> = CurvePoint<U, <E as Equations<U>>::Seen>;
@@ -75,23 +81,30 @@ type Met<const U: usize, E> = CurvePoint<U, <E as Equations<U>>::Seen>;
 impl<const U: usize> StepControl<U> {
     /// A walk that begins with small steps.
     pub fn new(bounds: Bounds<U>, longest: f64) -> Self {
-        StepControl { bounds, longest, next: 0.1 * longest }
+        StepControl {
+            bounds,
+            longest,
+            next: 0.1 * longest,
+            shortest: SHORTEST,
+            lengthen: LENGTHEN,
+            attempts: usize::MAX,
+        }
     }
 
     /// The next solution along the tangent.
     ///
-    /// A step that fails, or turns too sharply, is halved until it is below 1e-8 of the longest. A curve
-    /// with a corner is followed round it where the turn is below a right angle.
+    /// A step that fails, or turns too sharply, is halved until it is shorter than the shortest. A curve with a corner is followed round it where the turn is below a right angle.
     pub fn advance<E: Equations<U>>(
         &mut self,
         equations: &E,
         from: &Met<U, E>,
     ) -> Advance<Met<U, E>> {
-        while self.next >= SHORTEST * self.longest {
+        while self.next >= self.shortest * self.longest && self.attempts > 0 {
+            self.attempts -= 1;
             match self.attempt(equations, from, self.next) {
                 Some((advance, taken)) => {
                     if taken <= EASY_AND_HARD[0] {
-                        self.next = (self.next * LENGTHEN).min(self.longest);
+                        self.next = (self.next * self.lengthen).min(self.longest);
                     } else if taken >= EASY_AND_HARD[1] {
                         self.next *= SHORTEN;
                     }

@@ -180,10 +180,10 @@ impl<L: Lane> Account<L> {
                 let product = integral_of_product(&values(cos, t), &values(y1, t), t);
                 done = L::select(inner, self.of.p_d * product, done);
             }
-            let piece = done - before;
+            let part = done - before;
             let Energies { work_positive, work_absolute, .. } = &mut self.energies;
-            *work_positive = *work_positive + L::select(open, piece.max(zero), zero);
-            *work_absolute = *work_absolute + L::select(open, piece.abs(), zero);
+            *work_positive = *work_positive + L::select(open, part.max(zero), zero);
+            *work_absolute = *work_absolute + L::select(open, part.abs(), zero);
             before = done;
             open = inner;
             for (turns, next) in turns.iter_mut().zip(&mut next) {

@@ -133,6 +133,7 @@ fn end_text(end: End) -> Option<&'static str> {
         End::MostPoints => Some("where `most_points` is reached"),
         End::Corner => Some("at a corner of the return map"),
         End::Vanishes => Some("where its touch of the stop vanishes"),
+        End::Equilibrium => Some("at an equilibrium"),
         End::Stopped => Some("where it cannot be continued further"),
     }
 }

@@ -55,8 +55,8 @@ pub fn first_fall<L: Lane>(guard: &mut Series<L>, length: L, watched: L::Mask) -
         if !open.any() {
             break;
         }
-        let (monotone, bent_one_way) = sums.keep_their_signs(guard, h);
-        let decided = open & (monotone | bent_one_way);
+        let (monotone, bent_to_one_side) = sums.keep_their_signs(guard, h);
+        let decided = open & (monotone | bent_to_one_side);
         let (value, slope) = series::value_and_slope(guard, h);
         let below = decided & value.lt(zero);
         let convex = zero.lt(guard[2]) & guard[1].lt(zero) & zero.lt(slope);

@@ -107,11 +107,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     ///
     /// Guards that are due at the start are obeyed at once: the mode at the start is no event.
     pub fn new(system: &S, time: L, state: S::State) -> Self {
-        let zero = L::splat(0.0);
-        let mut state = state;
-        let mode = system.start(time, &mut state);
-        let mut motion =
-            Motion { time, state, mode, zeros: [zero; MAX_GUARDS], idle: zero, side: zero };
+        let mut motion = Motion::begun(system, time, state);
         let mut step = Step::default();
         for _ in 0..MAX_GUARDS {
             if const { L::WIDTH == 1 } {
@@ -120,11 +116,27 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
                 motion.step(system, time, 1.0, &mut step);
             }
         }
-        if S::AUTONOMOUS {
-            system.expand(&motion.mode, time, &motion.state, &mut step.jet);
-            motion.side = side_of_section(system, &step.jet);
-        }
+        motion.face_section(system, &mut step);
         motion
+    }
+
+    /// The same before the guards that are due at the start are obeyed.
+    ///
+    /// [`MAX_GUARDS`] steps to the same time and [`Motion::face_section`] make it a new motion; a loop takes them with
+    /// the step that it has, as a copy of it for lanes with derivatives takes long to compile.
+    pub fn begun(system: &S, time: L, mut state: S::State) -> Self {
+        let zero = L::splat(0.0);
+        let mode = system.start(time, &mut state);
+        Motion { time, state, mode, zeros: [zero; MAX_GUARDS], idle: zero, side: zero }
+    }
+
+    /// Notes on which side of its section an autonomous motion is.
+    #[inline(always)]
+    pub fn face_section(&mut self, system: &S, step: &mut Step<L, S>) {
+        if S::AUTONOMOUS {
+            system.expand(&self.mode, self.time, &self.state, &mut step.jet);
+            self.side = side_of_section(system, &step.jet);
+        }
     }
 
     /// Takes one step, at most to `until`, obeys the guard that ends it, and describes it in `step`.

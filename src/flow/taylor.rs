@@ -43,7 +43,13 @@ impl<L: Lane, const N: usize> Taylor<L, N> {
     /// The first `K` quantities `h` after the start of the step.
     #[inline(always)]
     pub fn at<const K: usize>(&self, h: L) -> [L; K] {
-        std::array::from_fn(|i| series::value(&self.0[i], h))
+        // A loop: what the functions of the standard library for arrays call is not compiled for the instructions
+        // of a lane.
+        let mut at = [h; K];
+        for (value, series) in at.iter_mut().zip(&self.0) {
+            *value = series::value(series, h);
+        }
+        at
     }
 
     /// The same with the slopes of the series.

@@ -69,6 +69,16 @@ pub fn derivative<L: Lane>(series: &Series<L>) -> Series<L> {
     slope
 }
 
+/// A series times a number.
+#[inline(always)]
+pub fn scaled<L: Lane>(series: &Series<L>, by: L) -> Series<L> {
+    let mut scaled = *series;
+    for term in &mut scaled {
+        *term = by * *term;
+    }
+    scaled
+}
+
 /// Coefficient `k` of the product of two series.
 #[inline(always)]
 pub fn product_term<L: Lane>(a: &Series<L>, b: &Series<L>, k: usize) -> L {

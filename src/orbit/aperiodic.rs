@@ -1,6 +1,8 @@
 //! What a motion does that does not repeat: whether neighbours part, or time averages settle all the same.
 
-use crate::flow::{Metric, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, System};
+use crate::flow::{
+    MAX_GUARDS, Metric, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, System,
+};
 use crate::lane::{Dual, Instructions, Lane, Mask, SideBySide, Work};
 
 use super::exponent::{Exponent, Stretching};
@@ -93,11 +95,21 @@ where
         })],
     };
     let from = std::array::from_fn(start);
-    let mut motion = Motion::new(system, Dual::splat(0.0), S::state(from));
+    let mut motion = Motion::begun(system, Dual::splat(0.0), S::state(from));
     let mut step = Step::default();
     let until = system.period();
+    let mut first_steps = MAX_GUARDS;
     while followers.iter().any(|follower| follower.done.is_none()) {
-        motion.step(system, until, tolerance, &mut step);
+        let (to, tolerance) =
+            if first_steps > 0 { (Dual::splat(0.0), 1.0) } else { (until, tolerance) };
+        motion.step(system, to, tolerance, &mut step);
+        if first_steps > 0 {
+            first_steps -= 1;
+            if first_steps == 0 {
+                motion.face_section(system, &mut step);
+            }
+            continue;
+        }
         let broken = motion.broken(system);
         let mut point = S::point(&motion.state);
         for (lane, follower) in followers.iter_mut().enumerate() {

@@ -117,7 +117,7 @@ impl<M: System<D>, const D: usize> Work for Supply<'_, M, D> {
             let moving = worthwhile(lanes.occupied.count_ones() as usize);
             let aperiodic = lanes.cases.aperiodic.len();
             if aperiodic >= L::WIDTH || (!moving && worthwhile(aperiodic)) {
-                lanes.cases.follow_wandering();
+                lanes.cases.follow_aperiodic_cases();
                 lanes.fill();
             } else if moving {
                 lanes.advance(&mut step);
@@ -141,7 +141,7 @@ impl<M: System<D>, const D: usize> Supply<'_, M, D> {
     }
 
     /// Follows the cases that follow_aperiodic with their linearised flow, side by side, and concludes them.
-    fn follow_wandering(&mut self) {
+    fn follow_aperiodic_cases(&mut self) {
         let cases = std::mem::take(&mut self.aperiodic);
         let start = |it: &Underway<M, D>| M::Single::point(&it.motion.state);
         let motions: Vec<_> = cases.iter().map(|it| (&it.case.system, start(it))).collect();

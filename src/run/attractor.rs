@@ -1,22 +1,17 @@
 //! Which cases of a study share an attractor, how attractors go on along an axis, and where they change.
 
-use std::marker::PhantomData;
 use std::sync::Mutex;
 
 use rayon::prelude::*;
 
-use crate::branch::SpecialKind;
-use crate::capsule::{AsPrinted, Filippov, Reading, Section, Switching};
-
-use super::bridge::{Bridge, bridges};
-use super::cases::{Rayon, RunError, pool};
-use super::change::Change;
-use super::family::{Links, Neighbours};
-use super::natural::{Along, ROUNDING};
-use super::{FinalMotion, Machine};
-use crate::attractor::Table;
+use crate::attractor::{Bridge, Links, Neighbours, Table, bridges};
+use crate::branch::{Along, ONE_VALUE, SpecialKind, SpecialValue};
+use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Section, Switching};
 use crate::study::layout::{Layout, linked_axis};
-use crate::study::{CaseSet, Coordinate, Study};
+use crate::study::{CaseSet, Coordinate, Direction, Study};
+
+use super::cases::{Rayon, RunError, pool};
+use super::{FinalMotion, Machine};
 
 /// A change of an attractor along the axis, or its beginning or end.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +24,7 @@ pub struct AttractorEvent {
     pub case: usize,
     /// The value of the parameter of the axis.
     pub value: f64,
-    /// How far the true value may be, as bisection has it.
+    /// How far the true value may be.
     pub uncertainty: f64,
     /// Period of the orbit that changes [cycles].
     pub period: u64,
@@ -42,7 +37,7 @@ impl AttractorEvent {
     fn is(&self, other: &AttractorEvent) -> bool {
         let apart = (self.value - other.value).abs();
         (self.kind, self.attractor, self.period) == (other.kind, other.attractor, other.period)
-            && apart <= self.uncertainty + other.uncertainty + ROUNDING * self.value.abs()
+            && apart <= self.uncertainty + other.uncertainty + ONE_VALUE * self.value.abs()
     }
 }
 
@@ -150,7 +145,7 @@ impl<'a> Line<'a> {
         &self,
         cells: &[Table<3>],
         linked: impl Fn() + Sync,
-    ) -> (Vec<Links>, Vec<Bridge>) {
+    ) -> (Vec<Links<3>>, Vec<Bridge<3>>) {
         let between = |at: usize| self.neighbours::<R>(cells, at);
         let link = |at: usize| {
             let links = between(at).map_or_else(Links::default, |it| it.link());
@@ -158,8 +153,8 @@ impl<'a> Line<'a> {
             links
         };
         let last = cells.len().saturating_sub(1);
-        let links: Vec<Links> = (0..last).into_par_iter().map(link).collect();
-        let bridges = bridges(cells, &links, between);
+        let links: Vec<Links<3>> = (0..last).into_par_iter().map(link).collect();
+        let bridges = bridges(cells, &links, between, &Rayon);
         (links, bridges)
     }
 
@@ -168,7 +163,7 @@ impl<'a> Line<'a> {
         &self,
         cells: &'b [Table<3>],
         at: usize,
-    ) -> Option<Neighbours<'b, R>>
+    ) -> Option<Neighbours<'b, CapsuleSystem<R>, 3>>
     where
         'a: 'b,
     {
@@ -176,10 +171,15 @@ impl<'a> Line<'a> {
         let axis = &study.axes()[layout.axis?];
         let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
         let case = study.case(layout.case(number, at, 0));
-        let along = Along { case, parameter, protocol: &study.protocol, reading: PhantomData };
+        let (system, protocol) = (case.read::<R>().system, &study.protocol);
+        let along = Along { system, parameter, tolerance: protocol.tolerance };
         let values = [axis.values[at], axis.values[at + 1]];
+        let cells = [&cells[at], &cells[at + 1]];
         let directions = study.inherit().map_or(&[][..], |inherit| &inherit.directions);
-        Some(Neighbours { along, values, cells: [&cells[at], &cells[at + 1]], directions })
+        let inherited = [Direction::Upward, Direction::Downward].map(|direction| {
+            directions.contains(&direction).then(|| leads(cells, directions, direction))
+        });
+        Some(Neighbours { along, protocol, values, cells, inherited })
     }
 
     /// Notes the number of each case's attractor.
@@ -193,8 +193,24 @@ impl<'a> Line<'a> {
     }
 }
 
+/// The attractors of two cells between which the cases lead that have this one of the `directions` of a cell in
+/// turn, each pair once.
+fn leads(cells: [&Table<3>; 2], directions: &[Direction], direction: Direction) -> Vec<[usize; 2]> {
+    let [low, high] = cells.map(|cell| &cell.of_case);
+    let both = low.iter().zip(high).zip(directions.iter().cycle());
+    let mut pairs = Vec::new();
+    for ((a, b), _) in both.filter(|(_, it)| **it == direction) {
+        if let (Some(a), Some(b)) = (a, b)
+            && !pairs.contains(&[*a as usize, *b as usize])
+        {
+            pairs.push([*a as usize, *b as usize]);
+        }
+    }
+    pairs
+}
+
 /// The numbers of the attractors of a line, cell by cell.
-fn numbers(cells: &[Table<3>], links: &[Links], bridges: &[Bridge]) -> Vec<Vec<u32>> {
+fn numbers(cells: &[Table<3>], links: &[Links<3>], bridges: &[Bridge<3>]) -> Vec<Vec<u32>> {
     let mut numbers: Vec<Vec<u32>> = Vec::with_capacity(cells.len());
     let mut count = 0;
     for (at, cell) in cells.iter().enumerate() {
@@ -220,32 +236,32 @@ fn numbers(cells: &[Table<3>], links: &[Links], bridges: &[Bridge]) -> Vec<Vec<u
 /// The events of a line, in the order of the parameter.
 fn events(
     cells: &[Table<3>],
-    links: &[Links],
-    bridges: &[Bridge],
+    links: &[Links<3>],
+    bridges: &[Bridge<3>],
     numbers: &[Vec<u32>],
 ) -> Vec<AttractorEvent> {
     let mut events = Vec::new();
-    let mut add = |[at, place]: [usize; 2], change: &Change| {
+    let mut add = |[at, place]: [usize; 2], special: &SpecialValue<3>| {
         events.push(AttractorEvent {
-            kind: change.kind,
+            kind: special.kind,
             attractor: numbers[at][place],
             case: cells[at].attractors[place].case,
-            value: change.value,
-            uncertainty: change.uncertainty,
-            period: change.period as u64,
-            section: change.section,
+            value: special.value,
+            uncertainty: special.uncertainty,
+            period: special.period,
+            section: special.section,
         });
     };
     for (at, links) in links.iter().enumerate() {
         for side in [0, 1] {
-            links.changes[side].iter().for_each(|(place, it)| add([at + side, *place], it));
+            links.special[side].iter().for_each(|(place, it)| add([at + side, *place], it));
         }
     }
     for bridge in bridges {
-        bridge.changes.iter().for_each(|change| add(bridge.from, change));
+        bridge.special.iter().for_each(|special| add(bridge.from, special));
     }
     events.sort_by(|a, b| a.value.total_cmp(&b.value).then(a.attractor.cmp(&b.attractor)));
-    // What two cells know of the same change counts once.
+    // What two cells know of the same special point counts once.
     events.dedup_by(|b, a| a.is(b));
     events
 }

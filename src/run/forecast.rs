@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn slow_blocks_that_are_under_way_count_with_what_they_will_take() {
+    fn slow_blocks_in_progress_count_with_what_they_will_take() {
         // Forty blocks at once, each as many times slower than the first as its number; the quick are done.
         let cases = 1000;
         let cycles = |block: u64| 10 * (block + 1);

@@ -2,12 +2,8 @@
 
 pub mod attractor;
 pub mod block;
-mod bridge;
 pub mod cases;
-mod change;
 pub mod final_motion;
-mod family;
-mod natural;
 pub mod continuation;
 pub mod forecast;
 

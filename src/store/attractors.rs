@@ -14,7 +14,7 @@ use super::{Dataset, Values};
 /// Adds to the dataset of a study which attractor each case has ended on, and the table of events.
 ///
 /// A column for each parameter on an axis says where the event is; that of the axis along which attractors
-/// are followed was bisected to the uncertainty given. Without events there is no table.
+/// are continued was located to the uncertainty given. Without events there is no table.
 pub fn add_attractors(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
     let dimensions = study.dimensions();
     let number = |of: &Option<u32>| of.map_or(-1, i64::from);

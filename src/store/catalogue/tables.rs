@@ -13,7 +13,7 @@ entries! {
     EVENT_PERIOD "event_period" "1" Table(EVENT.name), Whole, None,
         "period of the orbit that changes, in drive cycles";
     EVENT_UNCERTAINTY "event_uncertainty" "" Table(EVENT.name), Real, None,
-        "half width of the bracket that bisection has left";
+        "how far the true value may be";
 
     BLOCK "block" "1" Dimension, Whole, None,
         "block of cases, the unit in which the study was computed";

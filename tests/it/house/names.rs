@@ -21,21 +21,6 @@ const FORBIDDEN: [&str; 15] = [
     "seal",
 ];
 
-/// Files and folders that still have such words, and which words; `*` is all of them.
-const ALLOWED: [(&str, &str); 10] = [
-    ("src/branch/", "*"),
-    ("src/orbit/", "*"),
-    ("src/run/", "*"),
-    ("src/flow/guard.rs", "way"),
-    ("src/capsule/account.rs", "piece"),
-    // These use names of the folders above.
-    ("src/store/join.rs", "ending"),
-    ("tests/it/attractors.rs", "ending"),
-    ("tests/it/drawn_studies.rs", "ending"),
-    ("tests/it/phases.rs", "ending"),
-    ("tests/it/exponents.rs", "wandering"),
-];
-
 /// The parts of an identifier in lower case: `LongRun` and `long_run` are "long" and "run".
 fn parts(identifier: &str) -> Vec<String> {
     let mut parts = vec![String::new()];
@@ -59,22 +44,13 @@ fn forbidden(part: &str) -> Option<&'static str> {
     FORBIDDEN.into_iter().find(is_part)
 }
 
-fn is_allowed(path: &str, word: &str) -> bool {
-    let covers = |(place, allowed): &(&str, &str)| {
-        let is_there = path == *place || (place.ends_with('/') && path.starts_with(place));
-        is_there && ["*", word].contains(allowed)
-    };
-    ALLOWED.iter().any(covers)
-}
-
 /// Every name in the code or path of a file that has a forbidden word in it.
 fn name_faults(source: &Source) -> Vec<String> {
     let in_code = identifiers(&source.code).map(|(_, name, _)| name);
     let in_path = source.path.split(['/', '.']);
     let mut faults = Vec::new();
     for name in in_code.chain(in_path) {
-        let words = parts(name).into_iter().filter_map(|part| forbidden(&part));
-        let refused = words.filter(|word| !is_allowed(&source.path, word));
+        let refused = parts(name).into_iter().filter_map(|part| forbidden(&part));
         faults.extend(refused.map(|word| format!("{}: {word} in {name}", source.path)));
     }
     faults.sort();
@@ -100,7 +76,6 @@ fn a_forbidden_word_in_a_name_is_seen() {
         "mod made;",
     ] {
         assert_eq!(name_faults(&Source::new("src/store/a.rs", code)).len(), 1, "{code}");
-        assert_clean(name_faults(&Source::new("src/branch/a.rs", code)));
     }
     assert_eq!(name_faults(&Source::new("tests/it/night.rs", "")).len(), 1);
     for code in [
@@ -111,12 +86,4 @@ fn a_forbidden_word_in_a_name_is_seen() {
     ] {
         assert_clean(name_faults(&Source::new("src/store/a.rs", code)));
     }
-}
-
-#[test]
-fn a_word_is_allowed_in_its_file_alone() {
-    let code = "use crate::run::Ending;";
-    assert_clean(name_faults(&Source::new("src/store/join.rs", code)));
-    assert_eq!(name_faults(&Source::new("src/store/joined.rs", code)).len(), 1);
-    assert_eq!(name_faults(&Source::new("src/store/join.rs", "let way = 1;")).len(), 1);
 }

@@ -1,0 +1,80 @@
+//! Attractors across cells whose cases do not show them: no start there leads to an orbit that exists.
+
+use crate::branch::{SegmentEnd, SpecialValue, segment};
+use crate::flow::System;
+
+use super::link::{Links, Neighbours, Unseen, doubles};
+use super::table::{Executor, Table};
+
+/// A periodic attractor of one cell that is seen again in a later one, but in none between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bridge<const D: usize> {
+    /// The cell where it was last seen, by its place on the line, and the attractor by its place there.
+    pub from: [usize; 2],
+    /// The cell where it is seen again, and the attractor there.
+    pub to: [usize; 2],
+    /// Its special points in between.
+    pub special: Vec<SpecialValue<D>>,
+}
+
+/// The bridges of a line, in order.
+///
+/// Method: an orbit that is stable at the next cell, where no case shows it, is continued from cell to cell
+/// until one has it, or until it ends or becomes unstable. One that has doubled its period is continued past
+/// cells that show nothing new, as cases settle slowly there. `between` gives what is held between a cell and the
+/// next.
+pub fn bridges<'a, M: System<D>, const D: usize>(
+    cells: &[Table<D>],
+    links: &[Links<D>],
+    between: impl Fn(usize) -> Option<Neighbours<'a, M, D>> + Sync,
+    executor: &impl Executor,
+) -> Vec<Bridge<D>> {
+    let unseen = links.iter().enumerate().flat_map(|(at, links)| {
+        links.unseen.iter().map(move |(place, unseen)| ([at, *place], unseen))
+    });
+    let unseen: Vec<([usize; 2], &Unseen<D>)> = unseen.collect();
+    let crossed = executor.map(0..unseen.len(), |number| {
+        let (from, unseen) = unseen[number];
+        cross(cells, links, from, unseen.clone(), &between)
+    });
+    let mut found: Vec<Bridge<D>> = Vec::new();
+    for bridge in crossed.into_iter().flatten() {
+        if found.iter().all(|other| other.to != bridge.to) {
+            found.push(bridge);
+        }
+    }
+    found
+}
+
+/// Continues an orbit, which is at the cell after `from`, to the next cell that shows it.
+fn cross<'a, M: System<D>, const D: usize>(
+    cells: &[Table<D>],
+    links: &[Links<D>],
+    from: [usize; 2],
+    mut here: Unseen<D>,
+    between: impl Fn(usize) -> Option<Neighbours<'a, M, D>>,
+) -> Option<Bridge<D>> {
+    let mut special = Vec::new();
+    for at in from[0] + 1..links.len() {
+        let Neighbours { along, protocol, values, .. } = between(at)?;
+        let was_stable = here.orbit.is_stable();
+        let found = segment(&along, (here.orbit.value, &here.orbit.points), values[1])?;
+        let SegmentEnd::Reached(orbit) = found.end else { return None };
+        here.orbit = orbit;
+        if was_stable {
+            here.doubled |= doubles(&found.special);
+            special.extend(found.special);
+        }
+        let metric = along.metric(here.orbit.value);
+        let next = &cells[at + 1].attractors;
+        let is_new = |place: usize| links[at].pairs.iter().all(|pair| pair[1] != place);
+        if let Some(place) = next.iter().position(|it| here.belongs_to(it, &metric, protocol)) {
+            return is_new(place).then_some(Bridge { from, to: [at + 1, place], special });
+        }
+        let something_new = || (0..next.len()).any(is_new);
+        if !here.is_continued() || (!here.orbit.is_stable() && something_new()) {
+            return None;
+        }
+    }
+    None
+}

@@ -1,0 +1,230 @@
+//! Which attractors of two neighbouring cells are one, and their special points in between.
+
+use crate::branch::{Along, PeriodicOrbit, SegmentEnd, SpecialKind, SpecialValue, segment};
+use crate::flow::{Metric, System};
+use crate::orbit::matrix::least_from_one;
+use crate::orbit::{Outcome, Protocol};
+
+use super::identity::{Attractor, coincide, relative_bound};
+use super::table::Table;
+
+/// How the attractors of a cell continue in the next.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Links<const D: usize> {
+    /// Pairs of places, in this cell and in the next, that are one attractor.
+    pub pairs: Vec<[usize; 2]>,
+    /// Special points of attractors of this cell, by place, and of the next.
+    pub special: [Vec<(usize, SpecialValue<D>)>; 2],
+    /// Orbits of this cell, by place, that continue at the next one, where no case shows them.
+    pub unseen: Vec<(usize, Unseen<D>)>,
+}
+
+impl<const D: usize> Default for Links<D> {
+    fn default() -> Self {
+        Links { pairs: Vec::new(), special: [Vec::new(), Vec::new()], unseen: Vec::new() }
+    }
+}
+
+impl<const D: usize> Links<D> {
+    /// Whether an attractor of a side is linked.
+    fn has(&self, side: usize, place: usize) -> bool {
+        self.pairs.iter().any(|pair| pair[side] == place)
+    }
+}
+
+/// An orbit at a value of the parameter where no case shows the attractor that it belongs to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unseen<const D: usize> {
+    /// The orbit.
+    pub orbit: PeriodicOrbit<D>,
+    /// Whether it has lost its stability by a period doubling, so that the attractor is of twice the period.
+    pub doubled: bool,
+}
+
+impl<const D: usize> Unseen<D> {
+    /// Whether it is worth continuing.
+    pub fn is_continued(&self) -> bool {
+        self.doubled || self.orbit.is_stable()
+    }
+
+    /// Whether the attractor at the same parameters is its own.
+    pub fn belongs_to(
+        &self,
+        attractor: &Attractor<D>,
+        metric: &Metric<D>,
+        protocol: &Protocol,
+    ) -> bool {
+        let Attractor { outcome, points, bound, size, .. } = attractor;
+        let Unseen { orbit, doubled } = self;
+        let from_one = least_from_one(&orbit.multipliers);
+        let own = relative_bound(orbit.residual, from_one, protocol).max(bound / size);
+        let own_size = orbit.points.iter().map(|point| metric.size(point)).fold(0.0, f64::max);
+        *outcome == Outcome::Periodic
+            && (coincide(&orbit.points, points, bound + own * own_size, metric)
+                || (*doubled && straddles(points, &orbit.points, metric)))
+    }
+}
+
+/// The attractors of the two cells, by place, whose orbits are known not to be one in the other cell.
+#[derive(Default)]
+struct Apart {
+    /// The orbit ends in between.
+    ended: [Vec<usize>; 2],
+    /// The orbit is stable at the other value, where no case shows it.
+    unseen: [Vec<usize>; 2],
+}
+
+impl Apart {
+    /// Whether one of the two attractors is among these.
+    fn among(places: &[Vec<usize>; 2], [a, b]: &[usize; 2]) -> bool {
+        places[0].contains(a) || places[1].contains(b)
+    }
+}
+
+/// Two neighbouring cells along a parameter.
+pub struct Neighbours<'a, M: System<D>, const D: usize> {
+    /// What is held, and the parameter.
+    pub along: Along<M, D>,
+    /// How closely orbits are computed.
+    pub protocol: &'a Protocol,
+    /// The two values of the parameter.
+    pub values: [f64; 2],
+    /// The cells.
+    pub cells: [&'a Table<D>; 2],
+    /// Pairs of places, in the first cell and in the second, between which cases lead that inherit their start from
+    /// the first cell, and from the second; none where no case does.
+    pub inherited: [Option<Vec<[usize; 2]>>; 2],
+}
+
+impl<M: System<D>, const D: usize> Neighbours<'_, M, D> {
+    /// Links the attractors of the two cells.
+    ///
+    /// Periodic orbits by continuation, the shortest first, to the other cell; where an orbit has lost
+    /// its stability at a period doubling in between, it continues in the orbit of twice the period that lies
+    /// on both sides of it. What is left by the cases that inherit their start, see [`Neighbours::inherit`].
+    pub fn link(&self) -> Links<D> {
+        let mut links = Links::default();
+        let mut apart = Apart::default();
+        for (side, place) in self.periodic() {
+            if !links.has(side, place) {
+                self.continued(side, place, &mut links, &mut apart);
+            }
+        }
+        self.inherit(&mut links, &apart);
+        links.pairs.sort_unstable();
+        links
+    }
+
+    /// Continues an orbit to the other cell and notes its special points.
+    fn continued(&self, side: usize, place: usize, links: &mut Links<D>, apart: &mut Apart) {
+        let points = &self.cells[side].attractors[place].points;
+        let [from, to] = [self.values[side], self.values[1 - side]];
+        let Some(found) = segment(&self.along, (from, points), to) else { return };
+        let doubled = doubles(&found.special);
+        links.special[side].extend(found.special.into_iter().map(|it| (place, it)));
+        match found.end {
+            SegmentEnd::Reached(orbit) => {
+                let here = Unseen { orbit, doubled };
+                match self.successor(side, links, &here) {
+                    Some(other) if side == 0 => links.pairs.push([place, other]),
+                    Some(other) => links.pairs.push([other, place]),
+                    None => {
+                        apart.unseen[side].extend(here.orbit.is_stable().then_some(place));
+                        if side == 0 && here.is_continued() {
+                            links.unseen.push((place, here));
+                        }
+                    }
+                }
+            }
+            SegmentEnd::Ended => apart.ended[side].push(place),
+            SegmentEnd::Merged | SegmentEnd::Lost => {}
+        }
+    }
+
+    /// The periodic attractors by side and place, the shortest periods first: beside a period doubling it
+    /// is the shorter orbit that continues, while the longer one ends.
+    fn periodic(&self) -> Vec<(usize, usize)> {
+        let mut all: Vec<(usize, usize, usize)> = Vec::new();
+        for (side, cell) in self.cells.iter().enumerate() {
+            let attractors = cell.attractors.iter().enumerate();
+            let periodic = attractors.filter(|(_, it)| it.outcome == Outcome::Periodic);
+            all.extend(periodic.map(|(place, it)| (it.points.len(), side, place)));
+        }
+        all.sort_unstable();
+        all.into_iter().map(|(_, side, place)| (side, place)).collect()
+    }
+
+    /// The attractor of the other cell that belongs to an orbit that was continued to it.
+    fn successor(&self, side: usize, links: &Links<D>, here: &Unseen<D>) -> Option<usize> {
+        let metric = self.along.metric(here.orbit.value);
+        let is_next = |(place, other): &(usize, &Attractor<D>)| {
+            !links.has(1 - side, *place) && here.belongs_to(other, &metric, self.protocol)
+        };
+        let mut others = self.cells[1 - side].attractors.iter().enumerate();
+        others.find(is_next).map(|(place, _)| place)
+    }
+
+    /// Links what continuation has left, by the cases that inherit their start.
+    ///
+    /// Two attractors are one if the upward cases lead from the first to the second and the downward ones
+    /// back; where starts are inherited in one direction only, if they lead so and neither orbit ends on
+    /// the way; where in none, if both are the only ones left that do not repeat. An orbit that
+    /// is known to be stable at the other value is no other attractor there. It breaks where a case
+    /// falls from one such attractor to another beside it in both directions.
+    fn inherit(&self, links: &mut Links<D>, apart: &Apart) {
+        let mut pairs = match &self.inherited {
+            [Some(upward), Some(downward)] => {
+                upward.iter().filter(|pair| downward.contains(pair)).copied().collect()
+            }
+            [None, None] => self.only_ones(links),
+            [Some(pairs), None] | [None, Some(pairs)] => {
+                let ends = |pair: &&[usize; 2]| Apart::among(&apart.ended, pair);
+                pairs.iter().filter(|pair| !ends(pair)).copied().collect()
+            }
+        };
+        pairs.retain(|pair| !Apart::among(&apart.unseen, pair));
+        for [a, b] in pairs {
+            if !links.has(0, a) && !links.has(1, b) {
+                links.pairs.push([a, b]);
+            }
+        }
+    }
+
+    /// The attractors that do not repeat, where each cell has just one that is not linked.
+    fn only_ones(&self, links: &Links<D>) -> Vec<[usize; 2]> {
+        let left = |side: usize| {
+            let attractors = self.cells[side].attractors.iter().enumerate();
+            let mut left = attractors
+                .filter(|(place, it)| it.outcome != Outcome::Periodic && !links.has(side, *place));
+            let first = left.next().map(|(place, it)| (place, it.outcome));
+            first.filter(|_| left.next().is_none())
+        };
+        match (left(0), left(1)) {
+            (Some((a, first)), Some((b, second))) if first == second => vec![[a, b]],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Whether a period doubling is among special points.
+pub fn doubles<const D: usize>(special: &[SpecialValue<D>]) -> bool {
+    special.iter().any(|it| it.kind == SpecialKind::PeriodDoubling)
+}
+
+/// Whether an orbit of twice the period lies on both sides of the shorter one, up to where they begin, as
+/// it does beside a period doubling.
+fn straddles<const D: usize>(
+    longer: &[[f64; D]],
+    shorter: &[[f64; D]],
+    metric: &Metric<D>,
+) -> bool {
+    let k = shorter.len();
+    let beside = |shift: usize| {
+        (0..k).all(|i| {
+            let (a, b) = (&longer[(i + shift) % k], &longer[(i + shift) % k + k]);
+            let middle = std::array::from_fn(|j| 0.5 * (a[j] + b[j]));
+            metric.distance(&middle, &shorter[i]) < 0.5 * metric.distance(a, b)
+        })
+    };
+    longer.len() == 2 * k && (0..k).any(beside)
+}
