@@ -52,7 +52,8 @@ fn what_is_stopped_resumed_shared_and_joined_has_the_bytes_of_one_run() {
     assert!(status.blocks.is_none() && matches!(status.file, Ok(None)));
 
     let [first, second] = [1, 2].map(|number| Task { number, of: 2 });
-    let stopped = campaign.run(first, &after(1, |it| matches!(it, Event::Block(_))));
+    // Within the third block, whenever the first two are reported to be written.
+    let stopped = campaign.run(first, &after(1100, |it| matches!(it, Event::Case { .. })));
     let error = stopped.expect_err("it was stopped");
     assert!(matches!(error, CampaignError::Stopped) && error.cause() == Cause::Listener);
     let blocks = campaign.status().expect("a status").blocks.expect("a folder");

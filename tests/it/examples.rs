@@ -29,7 +29,7 @@ fn duffings_oscillator_has_five_attractors() {
 }
 
 #[test]
-fn the_valve_loses_stability_and_touches_its_seat_where_it_does() {
+fn the_valve_loses_stability_and_grazes_where_it_does() {
     let valve = object("relief_valve", &["--values", "640"]);
     let number = |name: &str| valve[name].as_f64().expect("a number");
     // The closed form, by bisection in a few lines of another language: 8.49111763518333.
