@@ -101,7 +101,7 @@ impl<M: System<D>, const D: usize> Neighbours<'_, M, D> {
     ///
     /// Periodic orbits by continuation, the shortest first, to the other cell; where an orbit has lost
     /// its stability at a period doubling in between, it continues in the orbit of twice the period that lies
-    /// on both sides of it. What is left by the cases that inherit their start, see [`Neighbours::inherit`].
+    /// on both sides of it. What is left by the cases that inherit their start, see `Neighbours::inherit`.
     pub fn link(&self) -> Links<D> {
         let mut links = Links::default();
         let mut apart = Apart::default();
