@@ -262,11 +262,17 @@ fn diagram(flows: &[f64], maxima: &[Returns<2>]) -> String {
         )
     };
     let ticks: String = (0..=5).map(tick).collect();
+    let left_out = maxima.iter().filter(|it| it.failure.is_some()).count();
+    let note = format!(
+        "left out: {left_out} of {} flow rates, whose motion did not come back to its section",
+        flows.len()
+    );
     format!(
         "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 640 430' font-family='sans-serif' \
          font-size='13' text-anchor='middle'><rect width='640' height='430' fill='white'/>{dots}\
          <path d='M60 30V380H600' fill='none' stroke='black'/>{ticks}<text x='330' y='424'>flow \
-         rate q</text><text transform='rotate(-90 16 205)' x='16' y='205'>maximum of y1</text></svg>"
+         rate q</text><text transform='rotate(-90 16 205)' x='16' y='205'>maximum of y1</text>\
+         <text x='330' y='20'>{note}</text></svg>"
     )
 }
 
