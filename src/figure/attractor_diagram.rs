@@ -51,11 +51,13 @@ pub fn draw(
     let windows = windows(&values, attractors);
     let lines: Vec<BranchLines> =
         outputs.iter().map(|output| BranchLines::shown(view, x_name, output)).collect();
+    // Branches bring their special points along, events of attractors among them.
+    let marks = if lines.iter().all(BranchLines::is_empty) { marks } else { EventMarks::none() };
     let reached: Vec<f64> = lines.iter().flat_map(BranchLines::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
     let mut page = request(view, &outputs, (&clouds, &lines), abscissa, &attractors.free);
     if let Some(first) = page.rows.first_mut().and_then(|row| row.first_mut()) {
-        first.header.legend = legend(attractors, (&marks, &lines), !windows.is_empty());
+        first.header.legend = legend(attractors, &marks, !windows.is_empty());
     }
     page.rows = with_branch_lines(page.rows, &clouds, &lines);
     let (mut canvas, panels) = page.lay_out();
@@ -177,11 +179,7 @@ fn mark_zero(canvas: &mut Canvas, panel: &Panel, output: &str, view: &View<'_>) 
     }
 }
 
-fn legend(
-    attractors: &Attractors<'_>,
-    (marks, lines): (&EventMarks, &[BranchLines]),
-    shaded: bool,
-) -> Vec<header::Entry> {
+fn legend(attractors: &Attractors<'_>, marks: &EventMarks, shaded: bool) -> Vec<header::Entry> {
     let mut legend = Vec::new();
     let count = attractors.own.len();
     if (2..=NAMED).contains(&count) {
@@ -200,9 +198,6 @@ fn legend(
     if shaded {
         legend.push((Mark::Patch(COEXISTENCE), Text::plain("coexistence")));
     }
-    // Branches have an entry of their own for each of their symbols.
-    let is_new = |symbol| !lines.iter().any(|lines| lines.has(symbol));
-    let symbols = marks.legend().filter(|(symbol, _)| is_new(*symbol));
-    legend.extend(symbols.map(|(symbol, text)| (Mark::Symbol(symbol), text)));
+    legend.extend(marks.legend().map(|(symbol, words)| (Mark::Symbol(symbol), words)));
     legend
 }

@@ -85,18 +85,14 @@ impl BranchLines {
         }
     }
 
-    /// Whether a symbol is among the special points.
-    pub fn has(&self, symbol: Symbol) -> bool {
-        self.specials.iter().any(|(other, _)| *other == symbol)
-    }
-
     /// What the lines and symbols mean.
     pub fn legend(&self) -> Vec<Entry> {
         let lines = STROKES.iter().zip(["unstable", "stable"]).zip(&self.lines).rev();
         let lines = lines
             .filter(|(_, lines)| lines.iter().any(|line| line.len() > 1))
             .map(|((stroke, words), _)| (Mark::Line(*stroke), Text::plain(words)));
-        let symbols = SYMBOLS.into_iter().rev().filter(|symbol| self.has(*symbol));
+        let occurs = |symbol: &Symbol| self.specials.iter().any(|(other, _)| other == symbol);
+        let symbols = SYMBOLS.into_iter().rev().filter(occurs);
         let symbols = symbols.map(|symbol| (Mark::Symbol(symbol), Text::plain(symbol.words)));
         lines.chain(symbols).collect()
     }

@@ -38,6 +38,11 @@ pub struct EventMarks {
 }
 
 impl EventMarks {
+    /// None at all.
+    pub fn none() -> EventMarks {
+        EventMarks { events: Vec::new(), factor: 1.0 }
+    }
+
     /// The events along the axis `x` of attractors with colours of their own, where the other axes are held.
     pub fn of(
         view: &View<'_>,
