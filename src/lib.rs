@@ -105,6 +105,16 @@
 //! assert!((orbit.exponent.value + 0.05).abs() < 1e-11);
 //! ```
 //!
+//! `pace` names the series by which the length of a step is chosen, `weights` and `scales` what the coordinates of
+//! the state and of the section are measured by. An impact is a guard (`GUARDS`, `guard`), what follows it (`switch`,
+//! which sets `zeros[0] = 1` for the guard that it has put on its own surface), and two facts that have defaults and
+//! without which no grazing is found: `Event::is_impact`, and `touching`, the coordinate that may touch the surface.
+//!
+//! What is not there yet: a law of restitution whose impacts accumulate fails with `NoProgress` or `NoReturn`, as it
+//! needs a mode of its own for rest on the surface; and a branch of a driven system with rigid impacts ends as
+//! [`branch::End::Corner`] where an impact falls on the instant of the section, although the orbit goes on there
+//! (another phase of the section moves that end), and at a grazing beyond which no orbit lies near.
+//!
 //! Whole pages with guards, resets, modes and sections of autonomous systems: `examples/duffing.rs`,
 //! `examples/relief_valve.rs`, `examples/belt.rs`.
 //!

@@ -123,7 +123,8 @@ pub enum End {
     Merged,
     /// It has as many points as it may have.
     MostPoints,
-    /// The return map has a kink or a jump there, and beyond it no orbit goes on.
+    /// The return map has a kink or a jump there, and no step leads on. Beyond a jump there may be an orbit: where a
+    /// rigid impact falls on the instant of the section, the orbit goes on.
     Corner,
     /// The extremum that touches its surface meets another there, and both vanish.
     Vanishes,
@@ -189,7 +190,7 @@ pub struct Found<O, const D: usize> {
 /// Why nothing could be followed.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NotFollowed {
-    /// No periodic orbit was found near the point that was given.
+    /// No periodic orbit was found near the point that was given, or the parameter's value there is not in the range.
     NoOrbit,
     /// The motion could not be followed there.
     Failed(Reason),
