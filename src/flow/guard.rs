@@ -236,14 +236,8 @@ impl<L: Lane> Crossings<L> {
     #[inline(always)]
     pub fn new(polynomial: &Series<L>, length: L, taking_part: L::Mask) -> Self {
         let zero = L::splat(0.0);
-        // The sign just after the start is that of the first term which is not zero.
-        let mut sign = L::splat(1.0);
-        for term in polynomial.iter().rev() {
-            sign = L::select(zero.lt(*term), L::splat(1.0), sign);
-            sign = L::select(term.lt(zero), L::splat(-1.0), sign);
-        }
-        let mut rest = *polynomial;
-        rest.iter_mut().for_each(|term| *term = sign * *term);
+        let sign = series::sign_after_start(polynomial, L::splat(1.0));
+        let rest = series::scaled(polynomial, sign);
         let positive = zero.lt(sign);
         Crossings { rest, length, start: zero, positive, open: taking_part }
     }

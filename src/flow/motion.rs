@@ -285,15 +285,9 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
 
 /// The sign of the section's function at the start of a step; on the section, the sign that it takes next.
 fn side_of_section<L: Lane, S: Switched<L>>(system: &S, jet: &S::Jet) -> L {
-    let zero = L::splat(0.0);
     let mut section = series::zero();
     system.section(jet, &mut section);
-    let mut side = zero;
-    for term in section.iter().rev() {
-        side = L::select(zero.lt(*term), L::splat(1.0), side);
-        side = L::select(term.lt(zero), L::splat(-1.0), side);
-    }
-    side
+    series::sign_after_start(&section, L::splat(0.0))
 }
 
 impl<L, S> SideBySide for Motion<L, S>

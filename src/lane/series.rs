@@ -69,6 +69,19 @@ pub fn derivative<L: Lane>(series: &Series<L>) -> Series<L> {
     slope
 }
 
+/// The sign that a series takes just after its start, that of its first term which is not zero; `of_zero` where
+/// all terms vanish.
+#[inline(always)]
+pub fn sign_after_start<L: Lane>(series: &Series<L>, of_zero: L) -> L {
+    let zero = L::splat(0.0);
+    let mut sign = of_zero;
+    for term in series.iter().rev() {
+        sign = L::select(zero.lt(*term), L::splat(1.0), sign);
+        sign = L::select(term.lt(zero), L::splat(-1.0), sign);
+    }
+    sign
+}
+
 /// A series times a number.
 #[inline(always)]
 pub fn scaled<L: Lane>(series: &Series<L>, by: L) -> Series<L> {
