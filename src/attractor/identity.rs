@@ -44,7 +44,7 @@ impl<const D: usize> Attractor<D> {
         };
         let points = section_points(system, motion.section, wanted, protocol)?;
         let metric = system.metric();
-        let size = points.iter().map(|point| metric.size(point)).fold(0.0, f64::max);
+        let size = metric.largest(&points);
         let bound = relative_bound(motion.residual, motion.from_one, protocol) * size;
         Some(Attractor { case: index, outcome: motion.outcome, points, bound, size })
     }

@@ -58,7 +58,7 @@ impl<const D: usize> Unseen<D> {
         let Unseen { orbit, doubled } = self;
         let from_one = least_from_one(&orbit.multipliers);
         let own = relative_bound(orbit.residual, from_one, protocol).max(bound / size);
-        let own_size = orbit.points.iter().map(|point| metric.size(point)).fold(0.0, f64::max);
+        let own_size = metric.largest(&orbit.points);
         *outcome == Outcome::Periodic
             && (coincide(&orbit.points, points, bound + own * own_size, metric)
                 || (*doubled && straddles(points, &orbit.points, metric)))

@@ -125,11 +125,7 @@ fn touching<M: System<D>, const D: usize, const U: usize>(
     if impacts[0] == impacts[1] {
         return None;
     }
-    let near = [a, b].into_iter().find_map(|it| {
-        let point = with_margin(orbits, &it.1, 0.0)?;
-        (norm(&between(&it.1.at, &point.at)) < NEAR).then_some(point)
-    });
-    if let Some(point) = near {
+    if let Some(point) = [a, b].into_iter().find_map(|it| grazed(orbits, &it.1)) {
         return Some(arc.place(&point));
     }
     let fewer = if impacts[0] < impacts[1] { a } else { b };

@@ -15,6 +15,11 @@ impl<const D: usize> Metric<D> {
         scaled.fold(0.0, greater)
     }
 
+    /// The size of the largest of some points; zero of none.
+    pub fn largest(&self, points: &[[f64; D]]) -> f64 {
+        points.iter().map(|point| self.size(point)).fold(0.0, f64::max)
+    }
+
     /// How far two points are apart.
     #[inline]
     pub fn distance(&self, a: &[f64; D], b: &[f64; D]) -> f64 {

@@ -218,7 +218,7 @@ impl<const D: usize> Follower<D> {
             return Err(why);
         }
         let metric = &self.metric;
-        let size = self.points.iter().map(|point| metric.size(point)).fold(0.0, f64::max);
+        let size = metric.largest(&self.points);
         let [exponent] = self.stretching.exponents(duration);
         let recurs = recurrence(&self.points, metric, size);
         let longest = LONGEST.min(self.points.len().saturating_sub(1));

@@ -7,7 +7,7 @@ use super::derivatives::{Periodic, dual_capsule, linearised, periodic, weights};
 use super::differences::{distance, followed, size, slope};
 
 /// What acts under the Coulomb-Stribeck law.
-const DIRECTIONS: [Parameter; 12] = [
+pub const DIRECTIONS: [Parameter; 12] = [
     Parameter::M1,
     Parameter::M2,
     Parameter::K1,

@@ -5,11 +5,13 @@ use capsulemap::capsule::{
 };
 use capsulemap::orbit::{Case, Outcome, Protocol, settle};
 
+use super::super::directions::DIRECTIONS;
 use super::super::draws::{self, Random};
 use super::super::oscillators::{Impact, Of};
 use super::subject::Subject;
 use super::{lanes, maps, orbits, steps};
 
+// Of an example only its system is used here, not its program.
 #[path = "../../../examples/belt.rs"]
 #[allow(dead_code)]
 mod belt;
@@ -43,20 +45,7 @@ where
 
 impl<R: Reading> Subject<3> for CapsuleSystem<R> {
     fn directions() -> Vec<Parameter> {
-        vec![
-            Parameter::M1,
-            Parameter::M2,
-            Parameter::K1,
-            Parameter::C,
-            Parameter::K2,
-            Parameter::Delta,
-            Parameter::Pd,
-            Parameter::Omega,
-            Parameter::MuS,
-            Parameter::MuD,
-            Parameter::Vs,
-            Parameter::G,
-        ]
+        DIRECTIONS.to_vec()
     }
 
     /// Every law of resistance has its turn.
