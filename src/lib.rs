@@ -109,17 +109,15 @@
 //! the state and of the section are measured by. An impact is a guard (`GUARDS`, `guard`), what follows it (`switch`,
 //! which sets `zeros[0] = 1` for the guard that it has put on its own surface), and two facts that have defaults and
 //! without which no grazing is found: `Event::is_impact`, and `touching`, the coordinate that may touch the surface.
+//! `examples/impact_oscillator.rs` has all of it on a page, `examples/duffing.rs` none; `examples/relief_valve.rs` is
+//! autonomous and `examples/belt.rs` has modes.
 //!
-//! What is not there yet: a law of restitution whose impacts accumulate fails with `NoProgress` or `NoReturn`, as it
-//! needs a mode of its own for rest on the surface; and a branch of a driven system with rigid impacts ends as
-//! [`branch::End::Corner`] where an impact falls on the instant of the section, although the orbit goes on there
-//! (another phase of the section moves that end), and at a grazing beyond which no orbit lies near.
-//!
-//! Whole pages with guards, resets, modes and sections of autonomous systems: `examples/duffing.rs`,
-//! `examples/relief_valve.rs`, `examples/belt.rs`.
+//! What is not there yet: a law of restitution whose impacts accumulate fails with `NoProgress` or `NoReturn`, and
+//! ends a branch as [`branch::End::Corner`], as it needs a mode of its own for rest on the surface.
 //!
 //! # Traps
 //!
+//! - A start behind a surface is moved onto it by the first step, as its guard is due at once: that is no event.
 //! - A function over `L` outside [`in_lanes!`] that is called in every step is right, but slow by up to thirty.
 //! - Read [`flow::Zeros`] before writing [`flow::Switched::switch`]: a guard that the event has placed on its own
 //!   surface must be told.

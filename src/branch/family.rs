@@ -1,9 +1,10 @@
 //! A family of motions: where each returns to, and what it passes, as functions of its point and parameters.
 
-use crate::flow::guard::crossings;
 use crate::flow::{Event, Reason, Stroboscopic, Switched, System};
-use crate::lane::{Lane, Series, series};
+use crate::lane::Lane;
 use crate::orbit::return_map::{Cycles, returned};
+
+use super::extrema::{Extremum, Turns};
 
 /// Motions of a system, some of whose parameters are free.
 #[derive(Debug, Clone)]
@@ -30,22 +31,15 @@ pub struct Passage<L, E, const D: usize> {
     pub excursion: f64,
 }
 
-/// A local maximum or minimum of the coordinate that may touch a surface: on the surface it is a grazing.
-#[derive(Debug, Clone, Copy)]
-pub struct Extremum<L> {
-    /// How far it is below the surface; negative above it.
-    pub margin: L,
-    /// When it is met after the section [cycles].
-    pub time: f64,
-}
-
-/// The extremum that is nearest to the surface.
-pub fn nearest<L: Lane>(extrema: &[Extremum<L>]) -> Option<&Extremum<L>> {
-    let away = |extremum: &Extremum<L>| extremum.margin.lane(0).abs();
-    extrema.iter().min_by(|a, b| away(a).total_cmp(&away(b)))
-}
-
 impl<M: System<D>, const D: usize> Family<M, D> {
+    /// The system with these values of the `free` parameters.
+    pub fn with_free<L: Lane>(&self, free: &[(M::Parameter, L)]) -> M::In<L> {
+        self.system.system(|parameter| {
+            let given = free.iter().find(|(name, _)| *name == parameter);
+            given.map_or(L::splat(self.system.value(parameter)), |(_, value)| *value)
+        })
+    }
+
     /// The motion from a section point with these values of the `free` parameters.
     ///
     /// A margin carries derivatives too: at an extremum those at fixed time are those of the extremum. Times
@@ -55,10 +49,7 @@ impl<M: System<D>, const D: usize> Family<M, D> {
         point: [L; D],
         free: &[(M::Parameter, L)],
     ) -> Result<Passage<L, M::Event, D>, Reason> {
-        let system = self.system.system(|parameter| {
-            let given = free.iter().find(|(name, _)| *name == parameter);
-            given.map_or(L::splat(self.system.value(parameter)), |(_, value)| *value)
-        });
+        let system = self.with_free(free);
         let period = system.period().lane(0);
         let (metric, begins) = (self.system.metric(), point.map(|coordinate| coordinate.lane(0)));
         let mut excursion: f64 = if M::In::<L>::AUTONOMOUS { 0.0 } else { f64::INFINITY };
@@ -74,8 +65,8 @@ impl<M: System<D>, const D: usize> Family<M, D> {
                 excursion = excursion.max(metric.distance(&here, &begins));
             }
             if let Some((coordinate, surface)) = system.touching(&step.jet) {
-                let has_event = step.event.lane(0) > 0.0;
-                turns.during(coordinate, (length, has_event), |time, value| {
+                let event = M::Event::from_code(step.event.lane(0));
+                turns.during(coordinate, (length, event), |time, value| {
                     let time = (elapsed + time) / period;
                     extrema.push(Extremum { margin: surface - value, time });
                 });
@@ -83,40 +74,6 @@ impl<M: System<D>, const D: usize> Family<M, D> {
             elapsed += length;
         })?;
         Ok(Passage { end, events, extrema, excursion })
-    }
-}
-
-/// The local extrema of a coordinate, step by step.
-#[derive(Default)]
-struct Turns {
-    /// Whether the coordinate rose at the end of the last step; none where an event may have changed its rate.
-    rose: Option<bool>,
-}
-
-impl Turns {
-    /// Shows the extrema during a step, each with its time.
-    ///
-    /// A step may end just at an extremum, where rounding leaves the zero of the rate to neither step: then the rate
-    /// has other signs in the two.
-    fn during<L: Lane>(
-        &mut self,
-        coordinate: &Series<L>,
-        (length, has_event): (f64, bool),
-        mut found: impl FnMut(f64, L),
-    ) {
-        let rate = series::derivative(&std::array::from_fn(|k| coordinate[k].lane(0)));
-        let mut times = Vec::new();
-        crossings(&rate, length, |time, falls| times.push((time, falls)));
-        let within = series::value(&rate, 0.5 * length) > 0.0;
-        let begins_rising = times.first().map_or(within, |(_, falls)| *falls);
-        if self.rose.is_some_and(|rose| rose != begins_rising) {
-            found(0.0, coordinate[0]);
-        }
-        for (time, _) in &times {
-            found(*time, series::value(coordinate, L::splat(*time)));
-        }
-        let ends_rising = times.last().map_or(within, |(_, falls)| !falls);
-        self.rose = (!has_event).then_some(ends_rising);
     }
 }
 

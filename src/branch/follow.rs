@@ -130,7 +130,10 @@ fn first_orbit<M: System<D>, const D: usize, const U: usize>(
     let Request { system, range: [low, high], along, .. } = request;
     let value = system.value(*along);
     let width = high - low;
-    if !(*low..=*high).contains(&value) || width <= 0.0 || request.period == 0 {
+    if !(*low..=*high).contains(&value) || width <= 0.0 {
+        return Err(NotFollowed::OutOfRange);
+    }
+    if request.period == 0 {
         return Err(NotFollowed::NoOrbit);
     }
     let Request { period, tolerance, .. } = *request;

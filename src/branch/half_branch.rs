@@ -3,9 +3,11 @@
 use crate::flow::{Event, System};
 
 use super::End;
+use super::across::across_section;
 use super::arc::NARROW;
 use super::arclength::{Equations, Linear, between, norm};
 use super::corner::{is_corner, rounded};
+use super::grazing::{Passed, past_grazing};
 use super::orbits::{OrbitPoint, Orbits, Seen};
 use super::periodic::{Goal, Periodic};
 use super::special::{SpecialOrbit, special_orbits};
@@ -17,6 +19,14 @@ const CORNERS: usize = 40;
 const ONE: f64 = 1e-12;
 /// A branch merges with the one it left at a doubling that lies no more than so many steps from its end.
 const MERGES: f64 = 1.5;
+
+/// How a branch goes on where no step along its tangent leads on.
+enum Onward<E, const D: usize, const U: usize> {
+    /// Its next orbit is added already; why it ends there, if it does.
+    Leaps(Option<End>),
+    /// From the last orbit in another direction.
+    Turns(OrbitPoint<E, D, U>, Advance<OrbitPoint<E, D, U>>),
+}
 
 /// A stretch of a branch.
 #[derive(Debug, Clone)]
@@ -86,13 +96,13 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
     ) -> Option<End> {
         let last = self.points.last()?.clone();
         let (from, advance) = match control.advance(orbits, &last) {
-            Advance::Nowhere if self.corners > 0 => match rounded(orbits, control, &last) {
-                Some(goes_on) => goes_on,
+            Advance::Nowhere if self.corners > 0 => match self.around(orbits, control, &last) {
+                Some(Onward::Leaps(end)) => return end,
+                Some(Onward::Turns(from, advance)) => (from, advance),
                 None => (last.clone(), Advance::Nowhere),
             },
             advance => (last.clone(), advance),
         };
-        self.corners = self.corners.saturating_sub(usize::from(from.tangent != last.tangent));
         match advance {
             Advance::Inside(next) => self.add(orbits, &from, next, goal),
             Advance::AtBound(next) => self.add(orbits, &from, next, goal).or(Some(End::Bound)),
@@ -100,6 +110,37 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
             Advance::Nowhere if is_corner(orbits, &last) => Some(End::Corner),
             Advance::Nowhere => Some(End::Stopped),
         }
+    }
+
+    /// How the branch goes on where no step leads on: the section point may jump, the branch turn at a corner, or
+    /// pass a rigid grazing.
+    fn around<M: System<D, Event = E>>(
+        &mut self,
+        orbits: &Orbits<M, D, U>,
+        control: &StepControl<U>,
+        last: &OrbitPoint<E, D, U>,
+    ) -> Option<Onward<E, D, U>> {
+        self.corners -= 1;
+        match across_section(orbits, control, last) {
+            Some(Advance::Inside(next)) => {
+                self.points.push(next);
+                return Some(Onward::Leaps(None));
+            }
+            Some(Advance::AtBound(next)) => {
+                self.points.push(next);
+                return Some(Onward::Leaps(Some(End::Bound)));
+            }
+            _ => {}
+        }
+        if let Some((from, advance)) = rounded(orbits, control, last) {
+            return Some(Onward::Turns(from, advance));
+        }
+        let Passed { touching, beyond } = past_grazing(orbits, last)?;
+        let end = beyond.is_none().then_some(End::Corner);
+        let next = beyond.unwrap_or_else(|| touching.point.clone());
+        self.special_orbits.push((self.points.len() - 1, touching));
+        self.points.push(next);
+        Some(Onward::Leaps(end))
     }
 
     /// Ends at the one of these period doublings of the branch it left that it has run into, if it has.

@@ -5,8 +5,10 @@ use crate::lane::{Dual, Lane};
 
 use super::SpecialKind;
 use super::arclength::{CurvePoint, Equations, Linear};
-use super::family::{Extremum, Family, Passage, apart, nearest};
+use super::extrema::{Extremum, nearest};
+use super::family::{Family, Passage, apart};
 use super::periodic::Periodic;
+use super::scales::seeded;
 
 /// The extremum that touches the surface moves in a step by no more than this share of a cycle.
 const SAME_EXTREMUM: f64 = 0.02;
@@ -53,11 +55,7 @@ impl<M: System<D>, const D: usize, const W: usize> Locus<M, D, W> {
 
     /// The return and the test of grazing: the margin of the local extremum that is nearest to its surface.
     fn grazing(&self, at: &[f64; W]) -> Result<Tested<D, W>, Reason> {
-        let seeded: [Dual<f64, W>; W] = std::array::from_fn(|i| {
-            let mut seeded = Dual::constant(at[i] * self.units[i]);
-            seeded.gradient[i] = self.units[i];
-            seeded
-        });
+        let seeded = seeded(at, &self.units);
         let point = std::array::from_fn(|i| seeded[i]);
         let Passage { end, extrema, .. } = self.family.passage(point, &self.free(&seeded))?;
         let touch = nearest(&extrema).ok_or(Reason::NotFinite)?;

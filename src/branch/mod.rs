@@ -1,12 +1,15 @@
 //! Numerical continuation of periodic orbits, stable or not, in parameters, with their special points.
 
+mod across;
 mod arc;
 mod arclength;
 mod corner;
 mod curve;
 mod doubling;
+mod extrema;
 mod family;
 mod follow;
+mod grazing;
 mod half_branch;
 mod locus;
 mod orbits;
@@ -123,8 +126,8 @@ pub enum End {
     Merged,
     /// It has as many points as it may have.
     MostPoints,
-    /// The return map has a kink or a jump there, and no step leads on. Beyond a jump there may be an orbit: where a
-    /// rigid impact falls on the instant of the section, the orbit goes on.
+    /// The return map has a kink or a jump there, and no step leads on: where impacts accumulate, or at a grazing
+    /// beyond which no orbit was found.
     Corner,
     /// The extremum that touches its surface meets another there, and both vanish.
     Vanishes,
@@ -155,7 +158,7 @@ pub struct Branch<O, const D: usize> {
     pub period: u64,
     /// The branch that it left at a period doubling, and which of its special points that was.
     pub parent: Option<(usize, usize)>,
-    /// Its orbits in order.
+    /// Its orbits in order. Where a rigid impact passes the instant of the section, the section point jumps.
     pub points: Vec<Point<O, D>>,
     /// Its special points in order.
     pub special: Vec<Special<O, D>>,
@@ -190,8 +193,10 @@ pub struct Found<O, const D: usize> {
 /// Why nothing could be followed.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NotFollowed {
-    /// No periodic orbit was found near the point that was given, or the parameter's value there is not in the range.
+    /// No periodic orbit was found near the point that was given.
     NoOrbit,
+    /// The range does not hold the parameter's value at the first orbit, or is empty.
+    OutOfRange,
     /// The motion could not be followed there.
     Failed(Reason),
     /// A multiplier of the orbit cannot be told from one: it belongs to a family of orbits at one value of the

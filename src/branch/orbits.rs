@@ -5,8 +5,10 @@ use crate::lane::Dual;
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 
 use super::arclength::{CurvePoint, EXACT, Equations, Linear};
-use super::family::{Family, cyclic, nearest};
+use super::extrema::nearest;
+use super::family::{Family, cyclic};
 use super::periodic::Periodic;
+use super::scales::seeded;
 
 /// Periodic orbits in one parameter: a zero of P^k(s) - s, with s the section point and P the return map.
 ///
@@ -113,11 +115,7 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<M, D,
         if !self.family.system.admits(self.along, self.parameter(at)) {
             return Err(Reason::NotFinite);
         }
-        let seeded: [Dual<f64, U>; U] = std::array::from_fn(|i| {
-            let mut seeded = Dual::constant(at[i] * self.units[i]);
-            seeded.gradient[i] = self.units[i];
-            seeded
-        });
+        let seeded = seeded(at, &self.units);
         let point = std::array::from_fn(|i| seeded[i]);
         let passage = self.family.passage(point, &[(self.along, seeded[D])])?;
         let (mut residual, mut rows, mut jacobian) = ([0.0; U], [[0.0; U]; U], [[0.0; D]; D]);
@@ -139,13 +137,12 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<M, D,
     }
 
     fn belongs(&self, from: &CurvePoint<U, Self::Seen>, met: &CurvePoint<U, Self::Seen>) -> bool {
-        let steep = met.seen.jacobian.iter().flatten().any(|slope| slope.abs() > STEEPEST);
         let orientation = |it: &CurvePoint<U, Self::Seen>| {
             it.tangent[D] * determinant(shifted(&it.seen.jacobian, -1.0))
         };
         let turns = self.oriented && orientation(from) * orientation(met) < 0.0;
         let vanishes = met.seen.excursion <= SMALLEST;
-        !steep && !turns && !vanishes && self.is_whole(&met.at)
+        !met.seen.is_steep(1.0) && !turns && !vanishes && self.is_whole(&met.at)
     }
 }
 
@@ -188,6 +185,11 @@ impl<E: Event, const D: usize, const U: usize> Seen<E, D, U> {
     /// Whether small perturbations decay.
     pub fn is_stable(&self) -> bool {
         self.multipliers()[0].abs() < 1.0
+    }
+
+    /// Whether the return map is steeper than this share of what can be followed.
+    pub fn is_steep(&self, share: f64) -> bool {
+        self.jacobian.iter().flatten().any(|slope| slope.abs() > share * STEEPEST)
     }
 
     /// How often the surface is met in a period that a grazing only touches.

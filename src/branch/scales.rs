@@ -1,6 +1,7 @@
 //! What the section point and the parameters are measured by, so that arclength means something.
 
 use crate::flow::System;
+use crate::lane::Dual;
 
 /// Units of the coordinates of the section.
 ///
@@ -17,4 +18,13 @@ pub fn units<M: System<D>, const D: usize>(
     let size = sizes.chain(expected).filter(|size| size.is_finite()).fold(0.0, f64::max);
     let size = if size > 0.0 { size } else { 1.0 };
     metric.scales.map(|scale| size / scale)
+}
+
+/// Unknowns in their own units, with derivatives along them.
+pub fn seeded<const U: usize>(at: &[f64; U], units: &[f64; U]) -> [Dual<f64, U>; U] {
+    std::array::from_fn(|i| {
+        let mut seeded = Dual::constant(at[i] * units[i]);
+        seeded.gradient[i] = units[i];
+        seeded
+    })
 }

@@ -4,15 +4,13 @@ use crate::flow::{Event, System};
 
 use super::SpecialKind;
 use super::arc::{Arc, Placed};
-use super::arclength::{between, corrected_by, norm};
+use super::grazing::touching;
 use super::orbits::{OrbitPoint, Orbits, Seen};
 
 /// Changes of the event sequence between two neighbouring orbits at most.
 const CHANGES: usize = 16;
-/// The orbit that just touches the surface lies so near to where contact was seen to begin.
+/// A pair of multipliers is so near to the unit circle where it is found to pass it.
 const NEAR: f64 = 1e-5;
-/// An orbit whose margin is below this touches the surface.
-const TOUCHES: f64 = 1e-13;
 /// A located orbit is known along the arc to this share of it: the rounding of a test function.
 const RESOLVED: f64 = 1e-12;
 
@@ -108,66 +106,4 @@ fn changes<M: System<D>, const D: usize, const U: usize>(
         last = b;
     }
     found
-}
-
-/// The orbit that just touches a surface between two between which contact begins or ceases, or next to them;
-/// none where the number of impacts is the same, and the events change in another way.
-///
-/// Beyond a grazing with a rigid surface no orbit may lie near, and Newton's method finds one far away even before
-/// it: then the grazing is approached from the side of fewer impacts, and may be anywhere `within` the arc.
-fn touching<M: System<D>, const D: usize, const U: usize>(
-    orbits: &Orbits<M, D, U>,
-    arc: &Arc<'_, U, Orbits<M, D, U>>,
-    [a, b]: [&OnArc<M::Event, D, U>; 2],
-    within: [f64; 2],
-) -> Option<OnArc<M::Event, D, U>> {
-    let impacts = [a, b].map(|it| it.1.seen.impacts());
-    if impacts[0] == impacts[1] {
-        return None;
-    }
-    if let Some(point) = [a, b].into_iter().find_map(|it| grazed(orbits, &it.1)) {
-        return Some(arc.place(&point));
-    }
-    let fewer = if impacts[0] < impacts[1] { a } else { b };
-    let placed = arc.place(&approached(orbits, &fewer.1)?);
-    (within[0] - NEAR..=within[1] + NEAR).contains(&placed.0).then_some(placed)
-}
-
-/// The orbit that just touches a surface next to another, if there is one.
-pub fn grazed<M: System<D>, const D: usize, const U: usize>(
-    orbits: &Orbits<M, D, U>,
-    near: &OrbitPoint<M::Event, D, U>,
-) -> Option<OrbitPoint<M::Event, D, U>> {
-    let found = with_margin(orbits, near, 0.0)?;
-    (norm(&between(&near.at, &found.at)) < NEAR).then_some(found)
-}
-
-/// The orbit that touches a surface, approached by orbits that each have a tenth of the last one's margin.
-fn approached<M: System<D>, const D: usize, const U: usize>(
-    orbits: &Orbits<M, D, U>,
-    from: &OrbitPoint<M::Event, D, U>,
-) -> Option<OrbitPoint<M::Event, D, U>> {
-    let mut left = from.seen.margin?.value;
-    let mut here = from.clone();
-    while left.abs() > TOUCHES {
-        left *= 0.1;
-        here = with_margin(orbits, &here, left)?;
-    }
-    (here.seen.events == from.seen.events).then_some(here)
-}
-
-/// The orbit near another whose nearest local extremum is so far from the surface that it may touch: a maximum
-/// where contact begins, a minimum where contact opens.
-///
-/// Method: Newton's on the orbit and that margin together, whose derivatives are exact and continuous there.
-fn with_margin<M: System<D>, const D: usize, const U: usize>(
-    orbits: &Orbits<M, D, U>,
-    near: &OrbitPoint<M::Event, D, U>,
-    value: f64,
-) -> Option<OrbitPoint<M::Event, D, U>> {
-    let margin = |_: &[f64; U], seen: &Seen<M::Event, D, U>| {
-        let nearest = seen.margin?;
-        Some((nearest.value - value, nearest.gradient))
-    };
-    corrected_by(orbits, margin, &near.at, &near.tangent).map(|(point, _)| point)
 }

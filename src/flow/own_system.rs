@@ -7,7 +7,7 @@
 /// parameter of the system under its own name. `section` says how many coordinates the section has, `state`
 /// and `mode` name the types of [`Switched`](crate::flow::Switched) over `L`, `event` its events, and `scales`
 /// what the coordinates of the section are multiplied with to be compared. A page that uses it is
-/// `examples/duffing.rs`. A second parameter of the struct, a constant, is given its value after the name:
+/// `examples/impact_oscillator.rs`. A second parameter of the struct, a constant, is given its value after the name:
 /// `examples/relief_valve.rs` has one that chooses between two sections.
 ///
 /// # Panics
@@ -64,7 +64,11 @@ macro_rules! own_system {
                 $(if parameter == stringify!($parameter) {
                     return self.$parameter;
                 })*
-                panic!("{} has no parameter {parameter}", stringify!($name))
+                panic!(
+                    "{} has no parameter {parameter}; it has {}",
+                    stringify!($name),
+                    [$(stringify!($parameter)),*].join(", ")
+                )
             }
             fn with(&self, parameter: &'static str, value: f64) -> Self {
                 let mut other = *self;
@@ -72,7 +76,11 @@ macro_rules! own_system {
                     other.$parameter = value;
                     return other;
                 })*
-                panic!("{} has no parameter {parameter}", stringify!($name))
+                panic!(
+                    "{} has no parameter {parameter}; it has {}",
+                    stringify!($name),
+                    [$(stringify!($parameter)),*].join(", ")
+                )
             }
             fn metric(&self) -> $crate::flow::Metric<$coordinates> {
                 let scales: fn(&Self) -> [f64; $coordinates] = $scales;

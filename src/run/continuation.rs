@@ -81,7 +81,8 @@ fn continue_one(continuation: &Continuation, protocol: &Protocol) -> Continued {
     };
     let request = continuation.request(section, period, protocol.tolerance);
     branch::follow(&request).map_err(|why| match why {
-        NotFollowed::NoOrbit => NotContinued::NoOrbit,
+        // A study has seen to it that the range holds the value.
+        NotFollowed::NoOrbit | NotFollowed::OutOfRange => NotContinued::NoOrbit,
         NotFollowed::Failed(reason) => NotContinued::Failed(reason),
         NotFollowed::Neutral => NotContinued::Neutral,
     })

@@ -29,6 +29,16 @@ fn duffings_oscillator_has_five_attractors() {
 }
 
 #[test]
+fn the_impact_oscillator_goes_on_beyond_its_grazing() {
+    let impactor = object("impact_oscillator", &[]);
+    let number = |name: &str| impactor[name].as_f64().expect("a number");
+    assert_eq!(impactor["attractors"], 2);
+    assert!((number("grazing_w") - 1.99_f64.sqrt()).abs() < 1e-11);
+    // Where the closed form of the orbits of one impact has a double root, by another program.
+    assert!((number("fold_w") - 1.703_193_808_401_035).abs() < 1e-9);
+}
+
+#[test]
 fn the_valve_loses_stability_and_grazes_where_it_does() {
     let valve = object("relief_valve", &["--values", "640"]);
     let number = |name: &str| valve[name].as_f64().expect("a number");

@@ -49,6 +49,7 @@ mod readers;
 mod reading;
 mod readme;
 mod reference;
+mod rigid_branches;
 mod run;
 mod second_method;
 mod series_terms;

@@ -1,0 +1,98 @@
+//! Where an event passes the instant of the section: the section point jumps there, and the orbit goes on.
+
+use crate::flow::{Stroboscopic, Switched, System};
+use crate::lane::{Lane, Mask};
+use crate::orbit::return_map::{Cycles, returned};
+
+use super::arclength::{CurvePoint, dot, norm, unit};
+use super::family::Family;
+use super::orbits::{OrbitPoint, Orbits};
+use super::scales::seeded;
+use super::step_control::{Advance, StepControl};
+
+/// An event this close to the instant of the section may pass it in the next step, as a share of a cycle.
+const NEAR: f64 = 1e-5;
+/// The section point jumps if it moves by more than this, relative to the motion: by its restitution, an impact.
+const JUMPS: f64 = 1e-3;
+/// How far beyond the instant of the section the first orbit may lie, relative to the longest step.
+const BEYOND: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
+
+/// A section point on the other side of the event that lies next to the instant of the section.
+#[derive(Debug, Clone, Copy)]
+struct Across<L, const D: usize> {
+    /// The point: the field before the event continued beyond it, or the field after it continued back.
+    point: [L; D],
+    /// The time of the event after the section; negative before it [s].
+    time: L,
+}
+
+impl<M: System<D>, const D: usize> Family<M, D> {
+    /// The other side of the event that lies nearest to the instant of the section, if one is near.
+    fn across<L: Lane>(&self, point: [L; D], free: &[(M::Parameter, L)]) -> Option<Across<L, D>> {
+        if M::In::<L>::AUTONOMOUS {
+            return None;
+        }
+        let system = self.with_free(free);
+        let period = system.period();
+        let near = NEAR * period.lane(0);
+        let other_side = |state| M::In::<L>::point(&state);
+        let mut found: Option<Across<L, D>> = None;
+        let mut nearer = |across: Across<L, D>| {
+            let away = |it: &Across<L, D>| it.time.lane(0).abs();
+            if found.as_ref().is_none_or(|known| away(&across) < away(known)) {
+                found = Some(across);
+            }
+        };
+        let (mut cycle, mut begun_with) = (1, None);
+        let cycles = Cycles { count: self.period, tolerance: self.tolerance };
+        let end = returned(&system, point, &cycles, |step| {
+            if let Some(time) = begun_with.take() {
+                nearer(Across { point: other_side(system.at(&step.jet, -step.start)), time });
+            }
+            let at_end = step.start + step.length;
+            let left = period - at_end;
+            if step.event.lane(0) > 0.0 && cycle == 1 && at_end.lane(0) < near {
+                begun_with = Some(at_end);
+            }
+            if step.event.lane(0) > 0.0 && cycle == self.period && left.lane(0) < near {
+                let point = other_side(system.at(&step.jet, step.length + left));
+                nearer(Across { point, time: -left });
+            }
+            cycle += u64::from(step.arrives.lane(0));
+        });
+        end.ok().and(found)
+    }
+}
+
+/// The first orbit beyond the instant of the section, where the branch reaches it with an event that moves the
+/// section point.
+///
+/// Method: the orbit from the section point on the other side of the event is the same orbit; the direction of the
+/// branch there is that of its derivatives along the branch.
+pub fn across_section<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    control: &StepControl<U>,
+    last: &OrbitPoint<M::Event, D, U>,
+) -> Option<Advance<OrbitPoint<M::Event, D, U>>> {
+    let seeded = seeded(&last.at, &orbits.units);
+    let point = std::array::from_fn(|i| seeded[i]);
+    let Across { point, time } = orbits.family.across(point, &[(orbits.along, seeded[D])])?;
+    let (mut at, mut ahead) = (last.at, last.tangent);
+    let mut jump: f64 = 0.0;
+    for i in 0..D {
+        at[i] = point[i].value / orbits.units[i];
+        ahead[i] = dot(&point[i].gradient, &last.tangent) / orbits.units[i];
+        jump = jump.max((at[i] - last.at[i]).abs());
+    }
+    // The event comes to the instant of the section after this length along the branch.
+    let away = -time.value / dot(&time.gradient, &last.tangent);
+    if jump < JUMPS || away.is_nan() || away < -BEYOND[0] * control.longest {
+        return None;
+    }
+    let away = away.max(0.0) * norm(&ahead);
+    let start = CurvePoint { at, tangent: unit(&ahead), ..last.clone() };
+    BEYOND.into_iter().find_map(|beyond| {
+        let length = away + beyond * control.longest;
+        control.attempt(orbits, &start, length).map(|(advance, _)| advance)
+    })
+}
