@@ -10,7 +10,8 @@ use capsulemap::attractor::attractors_of;
 use capsulemap::branch::{self, End, SpecialKind};
 use capsulemap::flow::{Event, Field, Stroboscopic, Switched, System, Taylor, Zeros};
 use capsulemap::lane::elementary::not_finite;
-use capsulemap::lane::{Lane, ORDER, Series, series};
+use capsulemap::lane::series::{self, SquareRoot};
+use capsulemap::lane::{Lane, ORDER, Series};
 use capsulemap::orbit::return_map::{Cycles, returned};
 use capsulemap::orbit::{self, Case, Machine, Outcome, Proof, Protocol, Returns};
 use capsulemap::{in_lanes, own_system};
@@ -71,10 +72,11 @@ in_lanes! {
 
         fn expand(&self, _: &(), _: L, state: &[L; 3], jet: &mut Taylor<L, 4>) {
             jet.begin(state);
+            let root = SquareRoot::of(jet[2][0]);
             for k in 0..ORDER {
                 let per = L::splat(series::INVERSE[k + 1]);
-                jet[ROOT][k] = series::sqrt_term(&jet[2], &jet[ROOT], k);
-                let outflow = series::product_term(&jet[0], &jet[ROOT], k);
+                jet[ROOT][k] = root.term(&jet[2], &jet[ROOT], k);
+                let outflow = series::product_term(&jet[ROOT], &jet[0], k);
                 let [load, inflow] = if k == 0 { [self.delta, self.q] } else { [L::splat(0.0); 2] };
                 let force = jet[2][k] - jet[0][k] - load - self.kappa * jet[1][k];
                 jet[0][k + 1] = jet[1][k] * per;
@@ -264,7 +266,7 @@ fn diagram(flows: &[f64], maxima: &[Returns<2>]) -> String {
     let ticks: String = (0..=5).map(tick).collect();
     let left_out = maxima.iter().filter(|it| it.failure.is_some()).count();
     let note = format!(
-        "left out: {left_out} of {} flow rates, whose motion did not come back to its section",
+        "left out: {left_out} of {} flow rates, at which the valve comes to rest and has no more maxima",
         flows.len()
     );
     format!(
@@ -318,7 +320,10 @@ fn main() {
     let begun = Instant::now();
     let maxima = orbit::returns(&cases, (1024, 32), 1e-10, Machine::single());
     let values_per_second = flows.len() as f64 / begun.elapsed().as_secs_f64();
-    let unfinished = maxima.iter().filter(|it| it.failure.is_some()).count();
+    // What is not finished has come to rest where the equilibrium is stable.
+    let unfinished = flows.iter().zip(&maxima).filter(|(_, it)| it.failure.is_some());
+    assert!(unfinished.clone().all(|(q, _)| *q > exact));
+    let at_rest = unfinished.count();
 
     if let Some(file) = given("--svg") {
         std::fs::write(file, diagram(&flows, &maxima)).expect("the picture can be written");
@@ -327,7 +332,7 @@ fn main() {
         println!(
             "{{\"loss_of_stability_q\": {loss_of_stability}, \
              \"first_touch_q\": {first_touch}, \
-             \"values_per_second\": {values_per_second:.0}, \"unfinished\": {unfinished}, \
+             \"values_per_second\": {values_per_second:.0}, \"at_rest\": {at_rest}, \
              \"attractors_at_7\": {attractors}}}"
         );
         return;
@@ -336,5 +341,5 @@ fn main() {
         "the equilibrium loses its stability at q = {loss_of_stability:.12} (exactly {exact:.12})"
     );
     println!("the cycle touches the seat first at q = {first_touch:.9}");
-    println!("{values_per_second:.0} flow rates a second, {unfinished} of {} cut off", flows.len());
+    println!("{values_per_second:.0} flow rates a second, {at_rest} of {} at rest", flows.len());
 }

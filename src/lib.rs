@@ -112,8 +112,8 @@
 //! `examples/impact_oscillator.rs` has all of it on a page, `examples/duffing.rs` none; `examples/relief_valve.rs` is
 //! autonomous and `examples/belt.rs` has modes.
 //!
-//! What is not there yet: a law of restitution whose impacts accumulate fails with `NoProgress` or `NoReturn`, and
-//! ends a branch as [`branch::End::Corner`], as it needs a mode of its own for rest on the surface.
+//! What is not there yet: a law of restitution whose impacts accumulate fails with `NoProgress`, and ends a branch as
+//! [`branch::End::Corner`], as it needs a mode of its own for rest on the surface.
 //!
 //! # Traps
 //!

@@ -9,6 +9,17 @@ const REFINEMENTS: usize = 80;
 /// A step of third order this short, relative to the interval and to the bend, is the last one.
 const NEAR: f64 = 3e-6;
 
+/// k and k (k - 1), the factors of the terms of the first two derivatives.
+const FACTORS: [[f64; 2]; ORDER + 1] = {
+    let mut factors = [[0.0; 2]; ORDER + 1];
+    let mut k = 1;
+    while k <= ORDER {
+        factors[k] = [k as f64, (k * (k - 1)) as f64];
+        k += 1;
+    }
+    factors
+};
+
 /// What was found on a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Fall<L: Lane> {
@@ -106,11 +117,11 @@ impl<L: Lane> Sums<L> {
     fn new(guard: impl Fn(usize) -> L, h: L) -> Self {
         let zero = L::splat(0.0);
         let (mut value, mut slope, mut curvature) = (zero, zero, zero);
-        for k in (3..=ORDER).rev() {
+        for k in (3..ORDER + 1).rev() {
             let a = guard(k).abs();
             value = value * h + a;
-            slope = slope * h + a * L::splat(k as f64);
-            curvature = curvature * h + a * L::splat((k * (k - 1)) as f64);
+            slope = slope * h + a * L::splat(FACTORS[k][0]);
+            curvature = curvature * h + a * L::splat(FACTORS[k][1]);
         }
         Sums { value: value * h * h * h, slope: slope * h * h, curvature: curvature * h }
     }

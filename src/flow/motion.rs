@@ -13,6 +13,9 @@ const PATIENCE: f64 = 64.0;
 /// A step shorter than this share of the cycle gets nowhere.
 const STANDSTILL: f64 = 1e-14;
 
+/// A section's function this far beyond zero, relative to its change in a step, is not there by rounding.
+const ACROSS: f64 = 1e-9;
+
 /// A motion: its time, its state and its mode.
 #[derive(Debug, Clone, Copy)]
 pub struct Motion<L: Lane, S: Switched<L>> {
@@ -54,7 +57,7 @@ impl<L: Lane, S: Switched<L>> Step<L, S> {
     /// Copies the guard that each lane has `chosen`, by its number.
     #[inline(always)]
     fn choose(&mut self, chosen: L::Plain) {
-        for k in 0..=ORDER {
+        for k in 0..ORDER + 1 {
             let mut term = self.guards[0][k];
             for which in 1..Self::GUARDS {
                 let taken = L::Plain::splat(which as f64).le(chosen);
@@ -215,7 +218,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     /// Most guards cannot fall and are told at once; the others are decided in turn, each lane its own,
     /// so that lanes whose events differ share the search for a root.
     #[inline(always)]
-    fn locate(&self, system: &S, step: &mut Step<L, S>, length: L::Plain) -> StepEnd<L> {
+    fn locate(&mut self, system: &S, step: &mut Step<L, S>, length: L::Plain) -> StepEnd<L> {
         let none = L::Plain::splat(-1.0);
         let mut end = StepEnd { length, guard: none, root: L::from_plain(length) };
         let mut open = self.open_guards(system, step, length);
@@ -246,10 +249,23 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         }
     }
 
+    /// Gives the function of the section the sign by which it falls through zero next.
+    ///
+    /// An event that moves the state may take it across the section, which is no return to it: a value that is below
+    /// zero by more than rounding, of the size of what the function changes by in a step, tells so.
+    #[inline(always)]
+    fn turn_to_section(&mut self, section: &mut Series<L>, length: L::Plain) {
+        let [value, slope, bend] = [0, 1, 2].map(|k| (self.side * section[k]).plain());
+        let change = (slope * length).abs().max((bend * length * length).abs());
+        let is_across = value.lt(-(change * L::Plain::splat(ACROSS)));
+        self.side = L::select(is_across, -self.side, self.side);
+        section.iter_mut().for_each(|term| *term = self.side * *term);
+    }
+
     /// Writes the guards, with their known zeros divided out; where each of them might fall within `length`.
     #[inline(always)]
     fn open_guards(
-        &self,
+        &mut self,
         system: &S,
         step: &mut Step<L, S>,
         length: L::Plain,
@@ -267,7 +283,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             let guard = &mut step.guards[which];
             if is_section {
                 system.section(&step.jet, guard);
-                guard.iter_mut().for_each(|term| *term = self.side * *term);
+                self.turn_to_section(guard, length);
             } else {
                 system.guard(which, &self.mode, &step.jet, guard);
             }

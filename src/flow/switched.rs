@@ -147,7 +147,8 @@ pub trait Switched<L: Lane> {
     /// Where the state is not a finite number.
     fn lost(&self, state: &Self::State) -> L::Mask;
 
-    /// Writes the function whose fall through zero is the section of an autonomous system.
+    /// Writes the function whose fall through zero is the section of an autonomous system; where an event takes it
+    /// across zero, there is none.
     #[inline(always)]
     fn section(&self, _jet: &Self::Jet, _section: &mut Series<L>) {}
 

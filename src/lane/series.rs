@@ -4,6 +4,7 @@
 //! arguments up to `k` and those of the result below `k`. So they serve a recurrence in which the argument
 //! is itself found term by term.
 //! Source: Griewank and Walther, Evaluating Derivatives, 2nd ed. (SIAM 2008), section 13.2.
+//! Loops run to `k + 1` exclusively: an inclusive range counts and compares more in each turn.
 
 use super::{Lane, elementary};
 
@@ -96,7 +97,7 @@ pub fn scaled<L: Lane>(series: &Series<L>, by: L) -> Series<L> {
 #[inline(always)]
 pub fn product_term<L: Lane>(a: &Series<L>, b: &Series<L>, k: usize) -> L {
     let mut sum = a[0] * b[k];
-    for j in 1..=k {
+    for j in 1..k + 1 {
         sum = sum + a[j] * b[k - j];
     }
     sum
@@ -121,25 +122,46 @@ pub fn square_term<L: Lane>(a: &Series<L>, k: usize) -> L {
 #[inline(always)]
 pub fn quotient_term<L: Lane>(a: &Series<L>, b: &Series<L>, q: &Series<L>, k: usize) -> L {
     let mut rest = a[k];
-    for j in 1..=k {
+    for j in 1..k + 1 {
         rest = rest - b[j] * q[k - j];
     }
     rest / b[0]
 }
 
-/// Coefficient `k` of the square root `r` of a series.
+/// The square root `r` of a series `a`, term by term, with one division for all terms.
 ///
-/// Method: `r_k = (a_k - sum_{j=1..k-1} r_j r_(k-j)) / (2 r_0)`. Breaks: where `a_0` is not positive.
-#[inline(always)]
-pub fn sqrt_term<L: Lane>(a: &Series<L>, r: &Series<L>, k: usize) -> L {
-    if k == 0 {
-        return a[0].sqrt();
+/// Method: `r_k = (a_k - sum_{j=1..k-1} r_j r_(k-j)) / (2 r_0)`, by half the multiplications, as of a square.
+/// Breaks: where `a_0` is not positive.
+#[derive(Debug, Clone, Copy)]
+pub struct SquareRoot<L> {
+    root: L,
+    inverse: L,
+}
+
+impl<L: Lane> SquareRoot<L> {
+    /// That of a series which begins with `first`.
+    #[inline(always)]
+    pub fn of(first: L) -> Self {
+        let root = first.sqrt();
+        SquareRoot { root, inverse: L::splat(1.0) / root }
     }
-    let mut rest = a[k];
-    for j in 1..k {
-        rest = rest - r[j] * r[k - j];
+
+    /// Coefficient `k`.
+    #[inline(always)]
+    pub fn term(&self, a: &Series<L>, r: &Series<L>, k: usize) -> L {
+        if k == 0 {
+            return self.root;
+        }
+        let half = L::splat(0.5);
+        let mut rest = half * a[k];
+        for j in 1..k.div_ceil(2) {
+            rest = rest - r[j] * r[k - j];
+        }
+        if k.is_multiple_of(2) {
+            rest = rest - half * (r[k / 2] * r[k / 2]);
+        }
+        rest * self.inverse
     }
-    rest / (r[0] + r[0])
 }
 
 /// Coefficient `k` of the exponential `e` of a series.
@@ -188,7 +210,7 @@ pub fn power_term<L: Lane>(a: &Series<L>, exponent: L, p: &Series<L>, k: usize) 
         return elementary::power(a[0], exponent);
     }
     let mut sum = L::splat(0.0);
-    for j in 1..=k {
+    for j in 1..k + 1 {
         let weight = L::splat(j as f64) * exponent - L::splat((k - j) as f64);
         sum = sum + weight * a[j] * p[k - j];
     }
@@ -199,7 +221,7 @@ pub fn power_term<L: Lane>(a: &Series<L>, exponent: L, p: &Series<L>, k: usize) 
 #[inline(always)]
 fn slope_product_term<L: Lane>(a: &Series<L>, b: &Series<L>, k: usize) -> L {
     let mut sum = L::splat(0.0);
-    for j in 1..=k {
+    for j in 1..k + 1 {
         sum = sum + L::splat(j as f64) * a[j] * b[k - j];
     }
     sum * L::splat(INVERSE[k])

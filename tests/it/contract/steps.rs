@@ -113,6 +113,36 @@ pub fn defects<M: Subject<D>, const D: usize>() {
     assert!(followed > 60, "only {followed} can be followed");
 }
 
+/// The function of the section of an autonomous system falls through zero only where a return is told: it is looked
+/// at 32 times in each step. An event that moves the state may take it across.
+pub fn every_return<M: Subject<D>, const D: usize>() {
+    let mut told = 0;
+    for case in M::draws(count(60), 700) {
+        let system = case.system.single();
+        let mut motion = Motion::new(&system, case.begins, case.start);
+        let mut step = Step::default();
+        for _ in 0..if M::Single::AUTONOMOUS { 20 } else { 0 } {
+            let mut above = false;
+            let ended = cycle(&system, &mut motion, &mut step, (0, TOLERANCE), |step| {
+                let mut section = series::zero();
+                system.section(&step.jet, &mut section);
+                let rounding = ROUNDINGS * magnitude(&section, step.length);
+                for i in 0..=32 {
+                    let value = series::value(&section, step.length * f64::from(i) / 32.0);
+                    assert!(!above || value >= -rounding, "a return is missed: {:?}", case.system);
+                    above = value > rounding;
+                }
+                above &= step.event == 0.0 && !step.arrives;
+            });
+            if ended.is_err() {
+                break;
+            }
+            told += 1;
+        }
+    }
+    assert!(!M::Single::AUTONOMOUS || told > 300, "{told} returns");
+}
+
 /// The section of an autonomous system is where its function vanishes, to rounding; that of a driven one is a
 /// period after the one before.
 pub fn sections<M: Subject<D>, const D: usize>() {

@@ -199,6 +199,10 @@ macro_rules! contract {
                 steps::sections::<$system, $coordinates>();
             }
             #[test]
+            fn no_return_is_missed() {
+                steps::every_return::<$system, $coordinates>();
+            }
+            #[test]
             fn the_jacobian_is_that_of_differences() {
                 maps::derivatives_along_points::<$system, $coordinates>();
             }
@@ -239,4 +243,22 @@ fn an_equilibrium_is_certified_with_its_decay_or_not_at_all() {
     let exact = libm::exp(-rate * turn);
     let is_right = (found.abs() - exact).abs() < 1e-6 && (orbit.duration - turn).abs() < 1e-6;
     assert!(orbit.outcome != Outcome::Periodic || is_right, "{found:?} {exact}: {orbit:?} {turn}");
+}
+
+/// The valve at two flow rates at which an impact takes it across its section, against another code (DOP853 at 1e-12
+/// with events): the returns of a period, the mean time of one, and y1 and y3 at the highest.
+#[test]
+fn a_valve_that_hits_its_seat_returns_as_often_as_it_does() {
+    for (q, period, time, [y1, y3]) in [
+        (1.55, 1, 1.374_418_628, [1.002_484, 4.742_12]),
+        (1.0, 4, 1.221_441_321, [0.871_923, 4.217_32]),
+    ] {
+        let valve = Valve { kappa: 1.25, delta: 10.0, beta: 20.0, r: 0.8, q };
+        let start = [1.0, 0.0, 10.0];
+        let orbit = settle::<Valve<f64, true>, 2>(&Case::new(valve, start), &Protocol::default());
+        assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, period), "{q}");
+        assert!((orbit.duration - time).abs() < 1e-8, "{} {q}", orbit.duration);
+        let highest = orbit.section.iter().max_by(|a, b| a[0].total_cmp(&b[0])).expect("a return");
+        assert!((highest[0] - y1).abs() < 1e-6 && (highest[1] - y3).abs() < 1e-5, "{highest:?}");
+    }
 }
