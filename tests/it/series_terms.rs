@@ -159,7 +159,7 @@ fn all_terms<L: Lane>(start: L) -> Series<L> {
         let one = L::splat(if k == 0 { 1.0 } else { 0.0 });
         square[k] = square_term(&x, k) + one;
         a[k] = power_term(&square, L::splat(0.75), &a, k);
-        root[k] = sqrt_term(&a, &root, k);
+        root[k] = SquareRoot::of(a[0]).term(&a, &root, k);
         logarithm[k] = log_term(&a, &logarithm, k);
         (s[k], c[k]) = sin_cos_terms(&logarithm, &s, &c, k);
         sum[k] = s[k] + c[k];
