@@ -1,7 +1,7 @@
 //! From a period doubling onto the branch of twice the period.
 
 use crate::flow::System;
-use crate::orbit::matrix::Matrix;
+use crate::orbit::matrix::{Matrix, expanded_determinant};
 
 use super::arclength::{CurvePoint, Equations, Plane, between, corrected, dot, moved, norm, unit};
 use super::orbits::{OrbitPoint, Orbits, shifted};
@@ -53,25 +53,10 @@ fn annihilated<const D: usize>(matrix: &Matrix<D>) -> Option<[f64; D]> {
 
 /// The cofactors of a row.
 fn cofactors<const D: usize>(matrix: &Matrix<D>, row: usize) -> [f64; D] {
-    let rows: Vec<&[f64; D]> = (0..D).filter(|i| *i != row).map(|i| &matrix[i]).collect();
+    let rows: Vec<[f64; D]> = (0..D).filter(|i| *i != row).map(|i| matrix[i]).collect();
     std::array::from_fn(|column| {
         let columns: Vec<usize> = (0..D).filter(|j| *j != column).collect();
-        let minor = minor(&rows, &columns);
+        let minor = expanded_determinant(&rows, &columns);
         if (row + column).is_multiple_of(2) { minor } else { -minor }
     })
-}
-
-/// The determinant of the `columns` of some rows, expanded along the first.
-fn minor<const D: usize>(rows: &[&[f64; D]], columns: &[usize]) -> f64 {
-    let Some((first, below)) = rows.split_first() else { return 1.0 };
-    if let [a, b] = columns {
-        return first[*a] * below[0][*b] - first[*b] * below[0][*a];
-    }
-    let mut sum = 0.0;
-    for (place, column) in columns.iter().enumerate() {
-        let others: Vec<usize> = columns.iter().copied().filter(|other| other != column).collect();
-        let term = first[*column] * minor(below, &others);
-        sum += if place.is_multiple_of(2) { term } else { -term };
-    }
-    sum
 }

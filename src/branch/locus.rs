@@ -2,6 +2,7 @@
 
 use crate::flow::{Reason, System};
 use crate::lane::{Dual, Lane};
+use crate::orbit::matrix::expanded_determinant;
 
 use super::SpecialKind;
 use super::arclength::{CurvePoint, Equations, Linear};
@@ -98,28 +99,9 @@ impl<M: System<D>, const D: usize, const W: usize> Locus<M, D, W> {
                 slope / Dual::splat(self.units[i]) + Dual::splat(diagonal)
             })
         });
-        let determinant = expanded(&m, &std::array::from_fn::<usize, D, _>(|j| j));
+        let determinant = expanded_determinant(&m, &std::array::from_fn::<usize, D, _>(|j| j));
         Ok((std::array::from_fn(|i| inside(i, |dual, _| dual.value, 0)), determinant, None))
     }
-}
-
-/// The determinant of the last rows of a matrix in these columns, expanded along the first of them.
-fn expanded<L: Lane, const D: usize>(m: &[[L; D]; D], columns: &[usize]) -> L {
-    let row = &m[D - columns.len()];
-    if let [only] = columns {
-        return row[*only];
-    }
-    let mut sum: Option<L> = None;
-    for (place, column) in columns.iter().enumerate() {
-        let others: Vec<usize> = columns.iter().copied().filter(|other| other != column).collect();
-        let term = row[*column] * expanded(m, &others);
-        sum = Some(match sum {
-            None => term,
-            Some(sum) if place.is_multiple_of(2) => sum + term,
-            Some(sum) => sum - term,
-        });
-    }
-    sum.unwrap_or(L::splat(1.0))
 }
 
 impl<M: System<D>, const D: usize, const W: usize> Equations<W> for Locus<M, D, W> {

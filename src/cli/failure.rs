@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use super::readable::blocks_kept;
 use crate::campaign::{CampaignError, Cause};
+use crate::store::StoreError;
 
 /// A command that was not carried out.
 #[derive(Debug)]
@@ -75,6 +76,10 @@ fn advice(error: &CampaignError) -> String {
         CampaignError::OtherBranches { .. } => {
             "; name another --output, or give them up with --overwrite"
         }
+        CampaignError::Store(StoreError::Changed { .. }) => {
+            " (another place by --output, giving up by --overwrite)"
+        }
+        CampaignError::Store(StoreError::Occupied { .. }) => " by --output",
         CampaignError::NoFolder { .. } => "; name another --output",
         CampaignError::Refused { .. } => "; choose a place that you may use with --output",
         CampaignError::Missing { .. } => {

@@ -1,5 +1,7 @@
 //! Small square matrices: the solution of linear equations, and eigenvalues.
 
+use crate::lane::Lane;
+
 use super::francis;
 
 /// Rows of a square matrix.
@@ -76,6 +78,26 @@ pub fn determinant<const D: usize>(mut a: Matrix<D>) -> f64 {
         }
     }
     product
+}
+
+/// The determinant of as many `columns` as there are rows, expanded along the first row.
+///
+/// Without divisions and choices, so that it serves numbers with derivatives, and a matrix that is singular.
+///
+/// # Panics
+/// Where there are fewer columns than rows.
+pub fn expanded_determinant<L: Lane, const D: usize>(rows: &[[L; D]], columns: &[usize]) -> L {
+    let Some((first, below)) = rows.split_first() else { return L::splat(1.0) };
+    let term = |column: usize| {
+        let others: Vec<usize> = columns.iter().copied().filter(|other| *other != column).collect();
+        first[column] * expanded_determinant(below, &others)
+    };
+    let mut sum = term(columns[0]);
+    for (place, column) in columns.iter().enumerate().skip(1) {
+        let term = term(*column);
+        sum = if place.is_multiple_of(2) { sum + term } else { sum - term };
+    }
+    sum
 }
 
 /// The eigenvalues of a square matrix, the largest magnitude first, then the larger real part, then the

@@ -139,15 +139,14 @@ impl fmt::Display for StoreError {
                 write!(
                     f,
                     "they are kept, and not mixed with others: go back to the study and program that they \
-                     belong to (the study is in {}), name another --output, or give them up with \
-                     --overwrite",
+                     belong to (the study is in {}), choose another place, or give them up",
                     folder.join("begun.toml").display()
                 )
             }
             StoreError::Occupied { folder } => write!(
                 f,
-                "{}: is where the blocks of this study go, and holds other things; move them, or name \
-                 another --output",
+                "{}: is where the blocks of this study go, and holds other things; move them, or \
+                 choose another place",
                 folder.display()
             ),
             StoreError::Busy { folder } => write!(
