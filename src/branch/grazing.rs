@@ -5,8 +5,7 @@ use crate::flow::System;
 use super::SpecialKind;
 use super::arc::{Arc, Placed};
 use super::arclength::{CurvePoint, between, corrected_by, dot, moved, norm};
-use super::orbits::{OrbitPoint, Orbits, Seen};
-use super::special::SpecialOrbit;
+use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 
 /// The orbit that just touches the surface lies so near to where contact was seen to begin.
 const NEAR: f64 = 1e-5;

@@ -8,9 +8,9 @@ use super::arc::NARROW;
 use super::arclength::{Equations, Linear, between, norm};
 use super::corner::{is_corner, rounded};
 use super::grazing::{Passed, past_grazing};
-use super::orbits::{OrbitPoint, Orbits, Seen};
+use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 use super::periodic::{Goal, Periodic};
-use super::special::{SpecialOrbit, special_orbits};
+use super::special::special_orbits;
 use super::step_control::{Advance, StepControl};
 
 /// Corners that are passed on half of a branch at most.

@@ -4,6 +4,7 @@ use crate::flow::{Event, Reason, System};
 use crate::lane::Dual;
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 
+use super::SpecialKind;
 use super::arclength::{CurvePoint, EXACT, Equations, Linear};
 use super::extrema::nearest;
 use super::family::{Family, cyclic};
@@ -53,6 +54,21 @@ pub struct Seen<E, const D: usize, const U: usize> {
 
 /// An orbit on a branch.
 pub type OrbitPoint<E, const D: usize, const U: usize> = CurvePoint<U, Seen<E, D, U>>;
+
+/// A special orbit on its arc.
+#[derive(Debug, Clone)]
+pub struct SpecialOrbit<E, const D: usize, const U: usize> {
+    /// What happens.
+    pub kind: SpecialKind,
+    /// How far along the arc.
+    pub distance: f64,
+    /// How far the true one may be, along the arc.
+    pub uncertainty: f64,
+    /// The orbit.
+    pub point: OrbitPoint<E, D, U>,
+    /// Of a change of events: whether the orbit just beyond it is stable.
+    pub is_stable_beyond: bool,
+}
 
 impl<M: System<D>, const D: usize, const U: usize> Orbits<M, D, U> {
     /// The same orbits down to rounding.

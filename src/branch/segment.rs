@@ -7,10 +7,9 @@ use super::arclength::{Plane, ROUNDING, between, corrected, norm, tangent};
 use super::family::Family;
 use super::grazing::grazed;
 use super::half_branch::HalfBranch;
-use super::orbits::{OrbitPoint, Orbits};
+use super::orbits::{OrbitPoint, Orbits, SpecialOrbit};
 use super::periodic::{Goal, Periodic};
 use super::scales::units;
-use super::special::SpecialOrbit;
 use super::step_control::{Bounds, StepControl};
 use super::{End, SpecialKind};
 

@@ -5,7 +5,7 @@ use crate::flow::{Event, System};
 use super::SpecialKind;
 use super::arc::{Arc, Placed};
 use super::grazing::touching;
-use super::orbits::{OrbitPoint, Orbits, Seen};
+use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 
 /// Changes of the event sequence between two neighbouring orbits at most.
 const CHANGES: usize = 16;
@@ -13,21 +13,6 @@ const CHANGES: usize = 16;
 const NEAR: f64 = 1e-5;
 /// A located orbit is known along the arc to this share of it: the rounding of a test function.
 const RESOLVED: f64 = 1e-12;
-
-/// A special orbit on its arc.
-#[derive(Debug, Clone)]
-pub struct SpecialOrbit<E, const D: usize, const U: usize> {
-    /// What happens.
-    pub kind: SpecialKind,
-    /// How far along the arc.
-    pub distance: f64,
-    /// How far the true one may be, along the arc.
-    pub uncertainty: f64,
-    /// The orbit.
-    pub point: OrbitPoint<E, D, U>,
-    /// Of a change of events: whether the orbit just beyond it is stable.
-    pub is_stable_beyond: bool,
-}
 
 /// The test function of a special orbit of this kind: it changes its sign there.
 fn test<E: Event, const D: usize, const U: usize>(

@@ -9,6 +9,11 @@ pub enum Spacing {
     Log,
 }
 
+/// Numbers below this are zero to the eye, so near to the least that can be held that marks between them cannot.
+const LEAST: f64 = 1e-290;
+/// An axis ends here, so that its length can be held.
+const GREATEST: f64 = f64::MAX / 16.0;
+
 /// The range of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
@@ -24,11 +29,13 @@ impl Scale {
     /// The range of the finite `values`, widened by the share `margin` on both sides; a range
     /// without extent is widened so that its value stands in the middle.
     pub fn around(values: impl IntoIterator<Item = f64>, margin: f64) -> Scale {
-        let (low, high) = finite_range(values).unwrap_or((0.0, 1.0));
+        let finite = values.into_iter().filter(|value| value.is_finite());
+        let within = finite.map(|value| value.clamp(-GREATEST, GREATEST));
+        let (low, high) = finite_range(within).unwrap_or((0.0, 1.0));
         let size = low.abs().max(high.abs());
         // Differences below rounding are no extent.
-        let flat = high - low <= 1e-12 * size || high - low < f64::MIN_POSITIVE / f64::EPSILON;
-        let pad = match (flat, size > 0.0) {
+        let flat = high - low <= 1e-12 * size || high - low < LEAST;
+        let pad = match (flat, size > LEAST) {
             (true, true) => 0.1 * size,
             (true, false) => 1.0,
             _ => margin * (high - low),

@@ -34,6 +34,9 @@ fn multiples(scale: &Scale, step: f64) -> Vec<i64> {
 /// Linear marks whose numbers are `digit` times 10^`power` apart.
 pub fn linear_ticks(scale: &Scale, digit: i64, power: i32) -> Ticks {
     let step = digit as f64 * 10f64.powi(power);
+    if !step.is_normal() {
+        return Ticks::default();
+    }
     let size = scale.low.abs().max(scale.high.abs());
     let minor_parts = if digit == 2 { 4 } else { 5 };
     // A number with more than five digits that change little: the common part moves to the label.

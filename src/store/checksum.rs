@@ -2,7 +2,8 @@
 //!
 //! HDF5 checks its own structure only in part, some versions crash on a damaged file, and plain
 //! numbers carry no checksum at all. Every reader ignores bytes behind the end that HDF5 knows.
-//! A program that opens the file to change it drops the checksum, and the file is then read without it.
+//! A program that opens the file to change it drops the checksum; such a file is refused, as it cannot be told from one
+//! whose end is lost. It guards against damage, not against a person who forges it: HDF5 may crash on a forged file.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};

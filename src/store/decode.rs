@@ -10,11 +10,9 @@ use ndarray::{ArrayD, IxDyn};
 use super::branches::is_of_branches;
 use super::catalogue::OUTCOME;
 use super::names::*;
+use super::own_layout;
 use super::slab::Slab;
 use super::{Dataset, StoreError, Values, Variable};
-
-/// zlib cannot shrink further than this, so a file that claims more is damaged.
-const LARGEST_COMPRESSION: u64 = 1100;
 
 /// An open file of results, of which each variable can be read by itself.
 #[derive(Debug)]
@@ -36,9 +34,8 @@ impl Archive {
         let mut frame = Dataset::default();
         let mut numbered = Vec::new();
         let mut waiting = Vec::new();
-        let arrays = file.datasets().map_err(failed("listing the variables".into()))?;
-        for array in arrays {
-            let name = array.name().trim_start_matches('/').to_owned();
+        let arrays = own_layout::arrays(&file).map_err(failed("listing the variables".into()))?;
+        for (name, array) in arrays {
             let found = found(&array, &file, &name);
             match found.map_err(failed(format!("reading {name}")))? {
                 Found::Text(text) => drop(frame.texts.insert(name, text)),
@@ -70,7 +67,7 @@ impl Archive {
 
     /// A variable with its numbers; none if there is none of this name.
     pub fn variable(&self, name: &str) -> Result<Option<Variable>, StoreError> {
-        let read = |array: Array| values(&array, &self.file);
+        let read = |array: Array| values(&array);
         self.numbers(name, read)
     }
 
@@ -84,14 +81,14 @@ impl Archive {
         let array = self.file.dataset(name).map_err(failed)?;
         let row = |position: &Vec<usize>| {
             let slab = Slab { start: position.clone(), count: vec![1; position.len()] };
-            values_of(&array, &self.file, &slab).map_err(failed)
+            values_of(&array, &slab).map_err(failed)
         };
         at.iter().map(row).collect()
     }
 
     /// A variable at the cases of a slab, with what each has several of.
     pub(super) fn slab(&self, name: &str, slab: &Slab) -> Result<Option<Variable>, StoreError> {
-        self.numbers(name, |array| values_of(&array, &self.file, slab))
+        self.numbers(name, |array| values_of(&array, slab))
     }
 
     fn numbers(
@@ -137,8 +134,8 @@ impl Archive {
 }
 
 /// What the cases of a slab have of an array.
-fn values_of(array: &Array, file: &File, slab: &Slab) -> hdf5::Result<Values> {
-    let Some(part) = hyperslab(slab, &array.shape()) else { return values(array, file) };
+fn values_of(array: &Array, slab: &Slab) -> hdf5::Result<Values> {
+    let Some(part) = hyperslab(slab, &array.shape()) else { return values(array) };
     match array.dtype()?.to_descriptor()? {
         TypeDescriptor::Float(_) => Ok(Values::Real(array.read_slice::<f64, _, IxDyn>(part)?)),
         _ => Ok(Values::Integer(array.read_slice::<i64, _, IxDyn>(part)?)),
@@ -181,17 +178,16 @@ fn found(array: &Array, file: &File, name: &str) -> hdf5::Result<Found> {
     if let TypeDescriptor::VarLenUnicode = array.dtype()?.to_descriptor()? {
         return Ok(Found::Text(text(array.read_scalar::<VarLenUnicode>()?)?));
     }
-    check_size(array, file)?;
     let labels = [words(array, UNITS)?, words(array, LONG_NAME)?];
     let mut variable =
-        Variable::labelled(Vec::new(), labels, nothing(array)?).with_flags(flags(array)?);
+        Variable::labelled(Vec::new(), labels, nothing(array)?).with_flags(flags(array, file)?);
     if has(array, DIMENSION_ID)? {
-        variable.values = values(array, file)?;
+        variable.values = values(array)?;
         variable.dimensions.push(name.to_owned());
         return Ok(Found::Coordinate(array.attr(DIMENSION_ID)?.read_scalar()?, variable));
     }
     let ids = match has(array, DIMENSION_IDS)? {
-        true => array.attr(DIMENSION_IDS)?.read_raw()?,
+        true => own_layout::attribute(array, DIMENSION_IDS, file)?,
         false => Vec::new(),
     };
     Ok(Found::Variable(ids, variable))
@@ -206,16 +202,7 @@ fn nothing(array: &Array) -> hdf5::Result<Values> {
     })
 }
 
-fn check_size(array: &Array, file: &File) -> hdf5::Result<()> {
-    let elements = array.shape().iter().fold(1_u64, |size, n| size.saturating_mul(*n as u64));
-    if elements / LARGEST_COMPRESSION > file.size() {
-        return Err(format!("it claims {elements} numbers, more than the file can hold").into());
-    }
-    Ok(())
-}
-
-fn values(array: &Array, file: &File) -> hdf5::Result<Values> {
-    check_size(array, file)?;
+fn values(array: &Array) -> hdf5::Result<Values> {
     match array.dtype()?.to_descriptor()? {
         TypeDescriptor::Float(_) => Ok(Values::Real(array.read_dyn()?)),
         TypeDescriptor::Integer(_) => Ok(Values::Integer(array.read_dyn()?)),
@@ -223,11 +210,11 @@ fn values(array: &Array, file: &File) -> hdf5::Result<Values> {
     }
 }
 
-fn flags(array: &Array) -> hdf5::Result<Vec<(i64, String)>> {
+fn flags(array: &Array, file: &File) -> hdf5::Result<Vec<(i64, String)>> {
     if !has(array, FLAG_VALUES)? {
         return Ok(Vec::new());
     }
-    let values = array.attr(FLAG_VALUES)?.read_raw::<i64>()?;
+    let values = own_layout::attribute::<i64>(array, FLAG_VALUES, file)?;
     let meanings = words(array, FLAG_MEANINGS)?;
     let meanings: Vec<&str> = meanings.split(' ').collect();
     if values.len() != meanings.len() {

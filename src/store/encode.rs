@@ -234,7 +234,9 @@ impl Element {
 fn create<T: H5Type>(builder: DatasetBuilder, name: &str, shape: &[usize]) -> hdf5::Result<Array> {
     let bytes = shape.iter().product::<usize>() * size_of::<T>();
     let builder = if bytes >= COMPRESSED_FROM_BYTES {
-        builder.chunk(chunk_shape(shape, size_of::<T>())).shuffle().deflate(COMPRESSION)
+        let chunked = builder.chunk(chunk_shape(shape, size_of::<T>()));
+        // The file's own checksum serves this program; this one other readers, chunk by chunk.
+        chunked.shuffle().deflate(COMPRESSION).fletcher32()
     } else {
         builder.no_chunk()
     };

@@ -76,8 +76,13 @@ pub fn open(path: &Path) -> Result<Archive, StoreError> {
     }
     file.rewind().map_err(failed)?;
     match checksum::check(file).map_err(failed)? {
+        Checksum::Valid => Archive::decode(path),
         Checksum::Invalid => Err(StoreError::Damaged { path: path.to_owned() }),
-        Checksum::Valid | Checksum::Absent => Archive::decode(path),
+        Checksum::Absent => {
+            let why = "the checksum at its end is missing: another program wrote or changed it, or \
+                       its end is lost";
+            Err(StoreError::Foreign { path: path.to_owned(), why: why.to_owned() })
+        }
     }
 }
 

@@ -17,6 +17,7 @@ mod flat;
 mod join;
 mod joined;
 mod names;
+mod own_layout;
 mod slab;
 pub mod provenance;
 mod scale;

@@ -343,7 +343,7 @@ fn whatever_is_followed_closes_and_ends() {
 fn what_cannot_be_followed_is_said() {
     let p = Parameters::default();
     let nowhere = request(&p, [0.0; 3], 1, Parameter::Pd, [5.0, 6.0]);
-    assert_eq!(follow(&nowhere), Err(NotFollowed::NoOrbit));
+    assert_eq!(follow(&nowhere), Err(NotFollowed::OutOfRange));
 }
 
 #[test]

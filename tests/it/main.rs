@@ -32,6 +32,8 @@ mod exponents;
 mod figure;
 mod forms;
 mod full_disk;
+mod hostile_files;
+mod hostile_studies;
 mod house;
 mod impact_orbits;
 mod interference;

@@ -248,17 +248,17 @@ fn an_equilibrium_is_certified_with_its_decay_or_not_at_all() {
 /// The valve at two flow rates at which an impact takes it across its section, against another code (DOP853 at 1e-12
 /// with events): the returns of a period, the mean time of one, and y1 and y3 at the highest.
 #[test]
-fn a_valve_that_hits_its_seat_returns_as_often_as_it_does() {
+fn impacts_across_the_section_lose_no_return() {
     for (q, period, time, [y1, y3]) in [
-        (1.55, 1, 1.374_418_628, [1.002_484, 4.742_12]),
-        (1.0, 4, 1.221_441_321, [0.871_923, 4.217_32]),
+        (1.55, 1, 1.374_418_627_585, [1.002_483_819, 4.742_118_370]),
+        (1.0, 4, 1.220_925_595_692, [0.871_922_853, 4.217_318_873]),
     ] {
         let valve = Valve { kappa: 1.25, delta: 10.0, beta: 20.0, r: 0.8, q };
         let start = [1.0, 0.0, 10.0];
         let orbit = settle::<Valve<f64, true>, 2>(&Case::new(valve, start), &Protocol::default());
         assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, period), "{q}");
-        assert!((orbit.duration - time).abs() < 1e-8, "{} {q}", orbit.duration);
+        assert!((orbit.duration - time).abs() < 1e-11, "{} {q}", orbit.duration);
         let highest = orbit.section.iter().max_by(|a, b| a[0].total_cmp(&b[0])).expect("a return");
-        assert!((highest[0] - y1).abs() < 1e-6 && (highest[1] - y3).abs() < 1e-5, "{highest:?}");
+        assert!((highest[0] - y1).abs() < 2e-9 && (highest[1] - y3).abs() < 2e-9, "{highest:?}");
     }
 }
