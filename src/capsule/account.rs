@@ -64,6 +64,11 @@ pub struct Account<L: Lane> {
     pub time: L,
     /// Work of the drive and losses.
     pub energies: Energies<L>,
+    /// How far the capsule has advanced [m], summed step by step with what each sum rounds away: wherever x2
+    /// began, it has the same bits.
+    pub advance: L,
+    /// What the last sum of the advance rounded away [m].
+    rounded_away: L,
     /// Integral of the friction force over time [N s].
     pub friction_impulse: L,
     /// Time at rest [s].
@@ -116,6 +121,8 @@ impl<L: Lane> Account<L> {
                 friction_loss: zero,
                 damper_loss: zero,
             },
+            advance: zero,
+            rounded_away: zero,
             friction_impulse: zero,
             stick_time: zero,
             peak_contact_force: zero,
@@ -128,6 +135,17 @@ impl<L: Lane> Account<L> {
             reversals: zero,
             rate_of_r: zero,
         }
+    }
+
+    /// Adds how far the capsule advances in a step, by Kahan's compensated sum.
+    #[inline(always)]
+    fn add_advance<S: Locomotion<L>>(&mut self, system: &S, step: &Step<L, S>) {
+        let mut from_here = system.jet(&step.jet).x2;
+        from_here[0] = L::splat(0.0);
+        let part = series::value(&from_here, step.length) - self.rounded_away;
+        let sum = self.advance + part;
+        self.rounded_away = (sum - self.advance) - part;
+        self.advance = sum;
     }
 
     #[inline(always)]
@@ -279,6 +297,7 @@ impl<L: Lane, S: Locomotion<L>> Observer<L, S> for Account<L> {
     fn see(&mut self, system: &S, step: &Step<L, S>) {
         self.time = self.time + step.length;
         if L::splat(0.0).lt(step.length).any() {
+            self.add_advance(system, step);
             self.add_energies(system, step);
             self.add_extremes(system, step);
         }

@@ -15,6 +15,9 @@ use super::state::State;
 use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
 use super::{Failure, Section};
 
+/// The mean friction force of a periodic orbit, relative to the forces that act, is rounding below this.
+const BALANCED: f64 = 1e-5;
+
 /// What a case settled to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orbit {
@@ -108,6 +111,7 @@ impl Orbit {
         case: &Case,
         protocol: &Protocol,
     ) -> Orbit {
+        let orbit = if is_balanced(&orbit, &case.parameters) { orbit } else { orbit.withdrawn() };
         let settled = State { x2: 0.0, ..orbit.end };
         let wanted = protocol.history.filter(|_| orbit.failure.is_none());
         let history = wanted.map(|span: HistorySpan| {
@@ -154,6 +158,27 @@ impl Orbit {
     }
 }
 
+/// Whether the friction of a periodic orbit has a mean of zero, as that of a motion that repeats must.
+///
+/// Beside a velocity that no ground would bring to rest in a lifetime, a section repeats to every digit while the
+/// capsule slows down.
+fn is_balanced(orbit: &orbit::Orbit<State<f64>, Account<f64>, 3>, parameters: &Parameters) -> bool {
+    let residual = momentum_residual(&orbit.observed, parameters);
+    // Without dry friction and without a drive there is no force to compare with.
+    orbit.outcome != Outcome::Periodic || residual.is_infinite() || residual.abs() <= BALANCED
+}
+
+/// The mean friction force, relative to the forces that act.
+fn momentum_residual(account: &Account<f64>, parameters: &Parameters) -> f64 {
+    let force = parameters[Parameter::Pd] + parameters.break_away();
+    ratio(account.friction_impulse / account.time, force)
+}
+
+/// A part of a whole; zero where there is none.
+fn ratio(part: f64, whole: f64) -> f64 {
+    if part == 0.0 { 0.0 } else { part / whole }
+}
+
 /// The outputs of what a capsule has settled to; NaN where it failed.
 ///
 /// `recurrence` is how closely the section had to repeat, relative to the motion: a progression within a
@@ -167,7 +192,7 @@ pub fn outputs(
         return Outputs::unknown();
     }
     let cycles = orbit.measured_cycles as f64;
-    let progression = (orbit.end.x2 - orbit.begins.x2) / cycles;
+    let progression = orbit.observed.advance / cycles;
     let resolved = precision::resolution(recurrence) * orbit.size * parameters.drive_period();
     let moves = progression.abs() > resolved;
     let mut outputs = summed(&orbit.observed, parameters, (progression, moves), cycles);
@@ -192,8 +217,6 @@ fn summed(
     let mut outputs = Outputs::unknown();
     let energies = account.energies;
     let losses = energies.friction_loss + energies.damper_loss;
-    let force = parameters[Parameter::Pd] + parameters.break_away();
-    let ratio = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
     // Without a drive only losses are left to measure against.
     let exchanged = energies.work_absolute.max(losses);
     let cost_of_transport = if moves {
@@ -211,7 +234,7 @@ fn summed(
         (Output::FrictionLoss, energies.friction_loss / cycles),
         (Output::DamperLoss, energies.damper_loss / cycles),
         (Output::EnergyResidual, ratio(energies.work_net - losses, exchanged)),
-        (Output::MomentumResidual, ratio(account.friction_impulse / account.time, force)),
+        (Output::MomentumResidual, momentum_residual(account, parameters)),
         (Output::CostOfTransport, cost_of_transport),
         (Output::ImpactsPerCycle, account.impacts / cycles),
         (Output::ForwardSlips, account.forward_slips / cycles),

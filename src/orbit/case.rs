@@ -90,9 +90,9 @@ impl<S: Copy, O, const D: usize> Orbit<S, O, D> {
         }
     }
 
-    /// The same where its steps cannot be trusted: undecided, with no certificate and nothing that follows
+    /// The same where its steps or its balance cannot be trusted: undecided, with no certificate and nothing that follows
     /// from one.
-    pub(super) fn withdrawn(self) -> Self {
+    pub fn withdrawn(self) -> Self {
         let unknown = Exponent { value: f64::NAN, uncertainty: f64::NAN };
         // The exponent of an orbit is that of its multipliers, and goes with its certificate.
         let exponent = if self.outcome == Outcome::Periodic { unknown } else { self.exponent };

@@ -29,6 +29,7 @@ mod eigenvalues;
 mod elementary;
 mod examples;
 mod exponents;
+mod far_starts;
 mod figure;
 mod forms;
 mod full_disk;
