@@ -140,9 +140,7 @@ impl<L: Lane> Account<L> {
     /// Adds how far the capsule advances in a step, by Kahan's compensated sum.
     #[inline(always)]
     fn add_advance<S: Locomotion<L>>(&mut self, system: &S, step: &Step<L, S>) {
-        let mut from_here = system.jet(&step.jet).x2;
-        from_here[0] = L::splat(0.0);
-        let part = series::value(&from_here, step.length) - self.rounded_away;
+        let part = series::change(&system.jet(&step.jet).x2, step.length) - self.rounded_away;
         let sum = self.advance + part;
         self.rounded_away = (sum - self.advance) - part;
         self.advance = sum;

@@ -6,7 +6,7 @@ use clap::ValueEnum;
 
 use super::failure::Failure;
 use super::terminal::notify;
-use crate::figure::{FigureError, Format, Needs, draw, needs, variables};
+use crate::figure::{FigureError, Format, Needs, draw, needs, taken_for_another, variables};
 use crate::store::{Archive, Dataset, has_branches, has_cases};
 use crate::study::{Drawing, DrawingKind};
 
@@ -82,6 +82,9 @@ fn draw_all(
                 let names: Vec<String> =
                     paths.iter().map(|path| path.display().to_string()).collect();
                 notify(&names.join(" "));
+                for note in taken_for_another(dataset, drawing).map_err(failure)? {
+                    notify(&format!("  figure `{}`: {note}", drawing.name));
+                }
             }
             Err(error) => failures.push(failure(error)),
         }

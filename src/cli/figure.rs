@@ -37,7 +37,7 @@ pub struct Figure {
     /// Axis along the ordinate of a map.
     #[arg(long, requires = "kind")]
     y: Option<String>,
-    /// Where another axis is held; the nearest value is taken.
+    /// Where another axis is held, within its range; the nearest value is taken, and named.
     #[arg(long, value_name = "AXIS=VALUE", requires = "kind")]
     at: Vec<String>,
     /// Heading above the axes.

@@ -17,12 +17,10 @@ use super::symbol::Symbol;
 use super::text::Text;
 use super::view::View;
 use crate::capsule::Output;
-use crate::store::catalogue::{Entry, SECTION_R, SECTION_Y1, SECTION_Y2};
+use crate::store::catalogue::{Entry, SECTION, SECTION_R};
 
 /// Panels of the diagram, unless others are asked for: those of them that the results hold.
 pub const PANELS: [Entry; 4] = [SECTION_R, SPEED, Entry::of_output(Output::WorkPositive), EXPONENT];
-/// The panels on which events are marked.
-const MARKED: [Entry; 4] = [SECTION_R, SECTION_Y1, SECTION_Y2, SPEED];
 /// The output whose sign matters.
 const EXPONENT: Entry = Entry::of_output(Output::LyapunovExponent);
 /// The speed of the capsule.
@@ -47,12 +45,14 @@ pub fn draw(
         .iter()
         .map(|output| points(view, output, &values, attractors, &looks))
         .collect::<Result<Vec<_>, _>>()?;
-    let marks = EventMarks::of(view, x_name, attractors)?;
+    let has_section = SECTION.iter().any(|entry| outputs.iter().any(|it| it == entry.name));
+    let marks = match has_section {
+        true => EventMarks::of(view, x_name, attractors)?,
+        false => EventMarks::none(),
+    };
     let windows = windows(&values, attractors);
     let lines: Vec<BranchLines> =
         outputs.iter().map(|output| BranchLines::shown(view, x_name, output)).collect();
-    // Branches bring their special points along, events of attractors among them.
-    let marks = if lines.iter().all(BranchLines::is_empty) { marks } else { EventMarks::none() };
     let reached: Vec<f64> = lines.iter().flat_map(BranchLines::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
     let mut page = request(view, &outputs, (&clouds, &lines), abscissa, &attractors.free);
@@ -72,10 +72,7 @@ pub fn draw(
             let share = if *look == Look::Undecided { 0.6 } else { 1.0 };
             cloud::draw(&mut canvas, panel, dots, radius * share);
         }
-        if MARKED.iter().any(|entry| entry.name == output) {
-            let symbols = marks.on(view, output, &values, attractors)?;
-            draw_symbols(&mut canvas, panel, &symbols);
-        }
+        draw_symbols(&mut canvas, panel, &marks.on(view, output));
         lines.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }

@@ -87,13 +87,6 @@ impl<'a> Attractors<'a> {
         (!shown).then_some(own.map_or(Look::Other, Look::Own))
     }
 
-    /// The first case at value number `at` that shows an attractor.
-    pub fn case_of(&self, number: i64, at: usize) -> Option<usize> {
-        let first = at * self.per_value;
-        let here = self.numbers.get(first..first + self.per_value)?;
-        here.iter().position(|it| *it == number).map(|place| first + place)
-    }
-
     /// Whether several attractors exist at each value.
     ///
     /// An attractor exists from the first to the last value where a case shows it: between them it keeps

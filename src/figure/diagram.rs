@@ -92,6 +92,8 @@ pub fn with_branch_lines(
     if let (true, Some(dot)) = (legend.is_empty(), dots) {
         legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("settled")));
     }
-    legend.extend(entries);
+    // What the sweep and the branches both have is named once.
+    let known: Vec<Mark> = legend.iter().map(|(mark, _)| *mark).collect();
+    legend.extend(entries.into_iter().filter(|(mark, _)| !known.contains(mark)));
     rows
 }

@@ -22,7 +22,6 @@ pub fn reads() -> Names {
 /// One event.
 struct Event {
     symbol: Symbol,
-    attractor: i64,
     period: i64,
     /// Value of the axis [SI].
     at: f64,
@@ -70,7 +69,6 @@ impl EventMarks {
             if attractors.own.contains(&attractor) {
                 events.push(Event {
                     symbol,
-                    attractor,
                     period: periods[i] as i64,
                     at: places[i],
                     section: [r[i], y1[i], y2[i]],
@@ -93,52 +91,16 @@ impl EventMarks {
         kinds.map(|symbol| (symbol, Text::plain(symbol.words)))
     }
 
-    /// The symbols on the panel of an `output`, with their places in its units: at the section point of the
-    /// orbit, or at the value of the case of the attractor that is nearest.
-    pub fn on(
-        &self,
-        view: &View<'_>,
-        output: &str,
-        x_values: &[f64],
-        attractors: &Attractors<'_>,
-    ) -> Result<Vec<(Symbol, f64, f64)>, FigureError> {
-        let coordinate = SECTION.iter().position(|entry| entry.name == output);
-        let factor = view.quantity(output).factor;
-        let values: Vec<f64> = view.shown(output, &attractors.free)?.into_iter().collect();
-        let per_case = values.len().checked_div(attractors.values * attractors.per_value);
-        let place = |event: &Event| {
-            let x = event.at * self.factor;
-            let y = match coordinate {
-                Some(i) => event.section[i] * factor,
-                None if per_case == Some(1) => beside(event, x, x_values, &values, attractors)?,
-                None => return None,
-            };
-            Some((event.symbol, x, y))
+    /// The symbols on the panel of a section coordinate, with their places in its units: each at the section point
+    /// of its own orbit. No other output of that orbit is known, and on other panels there are none.
+    pub fn on(&self, view: &View<'_>, output: &str) -> Vec<(Symbol, f64, f64)> {
+        let Some(i) = SECTION.iter().position(|entry| entry.name == output) else {
+            return Vec::new();
         };
-        Ok(self.events.iter().filter_map(place).collect())
-    }
-}
-
-/// The output of the attractor of an event at `x`: on the straight line between its two nearest cases, or
-/// that of the nearest where it ends.
-fn beside(
-    event: &Event,
-    x: f64,
-    x_values: &[f64],
-    values: &[f64],
-    attractors: &Attractors<'_>,
-) -> Option<f64> {
-    let known = |at: usize| Some((x_values[at], values[attractors.case_of(event.attractor, at)?]));
-    let nearest = |side: fn(&f64, &f64) -> bool| {
-        let known = (0..x_values.len()).filter(|at| side(&x_values[*at], &x)).filter_map(known);
-        known.min_by(|a, b| (a.0 - x).abs().total_cmp(&(b.0 - x).abs()))
-    };
-    let (below, above) = (nearest(|at, x| at <= x), nearest(|at, x| at > x));
-    let spacing = x_values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
-    let near = |point: &(f64, f64)| (point.0 - x).abs() <= 1.01 * spacing;
-    match (below.filter(near), above.filter(near)) {
-        (Some((a, low)), Some((b, high))) => Some(low + (high - low) * (x - a) / (b - a)),
-        (one, other) => one.or(other).map(|(_, value)| value),
+        let factor = view.quantity(output).factor;
+        let place =
+            |event: &Event| (event.symbol, event.at * self.factor, event.section[i] * factor);
+        self.events.iter().map(place).collect()
     }
 }
 

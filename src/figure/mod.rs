@@ -84,6 +84,11 @@ pub fn draw(
     Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg }.write(folder, formats)
 }
 
+/// What `at` of a drawing asks for and the axes of the results do not have, with the value that is taken, for each.
+pub fn taken_for_another(dataset: &Dataset, drawing: &Drawing) -> Result<Vec<String>, FigureError> {
+    Ok(View::new(dataset, drawing)?.taken_for_another())
+}
+
 /// Checks what does not depend on the kind of figure.
 fn check_request(view: &View<'_>) -> Result<(), FigureError> {
     let name = &view.drawing.name;

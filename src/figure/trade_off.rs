@@ -7,24 +7,24 @@ use super::canvas::{Drawn, Stroke};
 use super::cloud::{self, Dot};
 use super::colour::Colours;
 use super::error::FigureError;
-use super::header::{Header, Mark};
+use super::header::{Entry, Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::Pointing;
 use super::scale::Scale;
-use super::style::{BLUE, CURVE_WIDTH, INK, ONE_COLUMN, VERMILION};
+use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, INK, ONE_COLUMN, VERMILION};
 use super::text::Text;
 use super::view::View;
 use crate::capsule::Output;
-use crate::store::catalogue::{DRAW, Entry};
+use crate::store::catalogue::{self, DRAW};
 use crate::study::Drawing;
-use crate::tradeoff::front;
+use crate::tradeoff::{front, speed_at_rest};
 
 /// The energy shown, unless another is asked for.
-const ENERGY: Entry = Entry::of_output(Output::WorkPositive);
+const ENERGY: catalogue::Entry = catalogue::Entry::of_output(Output::WorkPositive);
 /// The speed shown.
-const SPEED: Entry = Entry::of_output(Output::ProgressionSpeed);
+const SPEED: catalogue::Entry = catalogue::Entry::of_output(Output::ProgressionSpeed);
 /// Radius of the ring around the fastest case [pt].
 const BEST_RADIUS: f64 = 3.0;
 /// Height of the frame [pt].
@@ -35,6 +35,55 @@ struct Case {
     energy: f64,
     speed: f64,
     place: usize,
+    is_periodic: bool,
+}
+
+/// The cases of a figure.
+struct Cases {
+    /// Those with both outputs.
+    shown: Vec<Case>,
+    /// How many have none.
+    left_out: usize,
+    /// The speed up to which a case is at rest.
+    rest: f64,
+}
+
+/// A direction of motion.
+#[derive(Clone, Copy)]
+struct Direction {
+    name: &'static str,
+    sign: f64,
+}
+
+/// The directions, each with a front and a fastest case of its own.
+const DIRECTIONS: [Direction; 2] =
+    [Direction { name: "forward", sign: 1.0 }, Direction { name: "backward", sign: -1.0 }];
+
+impl Cases {
+    /// The periodic cases that move in a direction.
+    fn moving(&self, direction: Direction) -> impl Iterator<Item = &Case> {
+        let moves = move |case: &&Case| case.is_periodic && direction.sign * case.speed > self.rest;
+        self.shown.iter().filter(moves)
+    }
+
+    /// The fastest case in a direction.
+    fn fastest(&self, direction: Direction) -> Option<&Case> {
+        let speed = |case: &&Case| direction.sign * case.speed;
+        self.moving(direction).max_by(|a, b| speed(a).total_cmp(&speed(b)))
+    }
+
+    /// The Pareto front of a direction, as energies and speeds.
+    fn front(&self, direction: Direction) -> Vec<(f64, f64)> {
+        let (energies, speeds): (Vec<f64>, Vec<f64>) =
+            self.moving(direction).map(|case| (case.energy, direction.sign * case.speed)).unzip();
+        let front = front(&energies, &speeds).into_iter();
+        front.map(|case| (energies[case], direction.sign * speeds[case])).collect()
+    }
+
+    /// How many are shown that are not periodic.
+    fn aperiodic(&self) -> usize {
+        self.shown.iter().filter(|case| !case.is_periodic).count()
+    }
 }
 
 /// The kind of figure.
@@ -52,37 +101,57 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let free = view.free_axes();
     let cases = cases(view, &energy, &free)?;
     let hue = hue(view, &free)?;
-    let fastest = fastest(view, &cases, &free);
     let colours = hue.as_ref().map(|(colours, _)| colours);
-    let page = request(view, &cases, &energy, colours, fastest.as_ref());
+    let page = request(view, &cases, &energy, colours, &free);
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         panel.mark_zero(&mut canvas);
+        let crowding = cases.shown.len() as f64;
         let dot = |case: &Case| {
             let colour = hue.as_ref().map_or(BLUE, |(colours, of)| colours.of(of[case.place]));
-            Dot { at: (case.energy, case.speed), colour, crowding: cases.len() as f64 }
+            let colour = if case.is_periodic { colour } else { FAINT_INK };
+            Dot { at: (case.energy, case.speed), colour, crowding }
         };
-        let dots: Vec<_> = cases.iter().map(dot).collect();
-        let radius = 1.4 * cloud::radius(dots.len());
-        cloud::draw(&mut canvas, panel, &dots, radius);
-        if cases.len() > 1 {
-            let line = stairs(&best(&cases));
-            panel.curve(&mut canvas, &line, Stroke::solid(VERMILION, CURVE_WIDTH));
-        }
-        if let Some((at, _)) = &fastest {
-            let place = panel.place(cases[*at].energy, cases[*at].speed);
-            canvas.rings(&[place], BEST_RADIUS, Stroke::solid(INK, CURVE_WIDTH));
+        let (periodic, others): (Vec<&Case>, Vec<&Case>) =
+            cases.shown.iter().partition(|case| case.is_periodic);
+        let dots: Vec<_> = others.into_iter().chain(periodic).map(dot).collect();
+        cloud::draw(&mut canvas, panel, &dots, 1.4 * cloud::radius(dots.len()));
+        for direction in DIRECTIONS {
+            let line = stairs(&cases.front(direction));
+            if line.len() > 1 {
+                panel.curve(&mut canvas, &line, Stroke::solid(VERMILION, CURVE_WIDTH));
+            }
+            if let Some(case) = cases.fastest(direction) {
+                let place = panel.place(case.energy, case.speed);
+                canvas.rings(&[place], BEST_RADIUS, Stroke::solid(INK, CURVE_WIDTH));
+            }
         }
         if let Some((colours, _)) = &hue {
             colours.draw_bar(&mut canvas, panel.frame);
         }
         panel.finish(&mut canvas);
     }
-    Ok(canvas.finish(&view.about(&[SPEED.name.to_owned(), energy], &free)))
+    Ok(canvas.finish(&about(view, &cases, energy, &free)))
 }
 
-/// The periodic cases with finite outputs.
-fn cases(view: &View<'_>, energy: &str, free: &[&str]) -> Result<Vec<Case>, FigureError> {
+/// What the figure shows and leaves out, in a sentence kept inside its files.
+fn about(view: &View<'_>, cases: &Cases, energy: String, free: &[&str]) -> String {
+    let shows = view.about(&[SPEED.name.to_owned(), energy], free);
+    let rest = cases.rest / view.quantity(SPEED.name).factor;
+    format!(
+        "{shows}; {} periodic cases, {} others as means over their cycles, {} without values; the fronts are of \
+         periodic cases that move faster than {rest:e} m/s",
+        cases.shown.len() - cases.aperiodic(),
+        cases.aperiodic(),
+        cases.left_out
+    )
+}
+
+/// The cases with finite outputs.
+fn cases(view: &View<'_>, energy: &str, free: &[&str]) -> Result<Cases, FigureError> {
+    if !Output::ALL.iter().any(|output| output.name() == energy) {
+        return Err(view.unfit(format!("`{energy}` is no output of a motion")));
+    }
     let (energies, speeds) = (view.shown(energy, free)?, view.shown(SPEED.name, free)?);
     if energies.len() != speeds.len() {
         return Err(view.unfit(format!("`{energy}` does not have one value per case")));
@@ -92,36 +161,64 @@ fn cases(view: &View<'_>, energy: &str, free: &[&str]) -> Result<Vec<Case>, Figu
         energy: *energy,
         speed: *speed,
         place,
+        is_periodic: outcomes.periodic(place),
     };
     let all = energies.iter().zip(&speeds).enumerate().map(case);
-    let kept = |case: &Case| {
-        case.energy.is_finite() && case.speed.is_finite() && outcomes.periodic(case.place)
-    };
-    Ok(all.filter(kept).collect())
+    let (shown, left_out): (Vec<Case>, Vec<Case>) =
+        all.partition(|case| case.energy.is_finite() && case.speed.is_finite());
+    let factor = view.quantity(SPEED.name).factor;
+    let rest = factor * speed_at_rest(shown.iter().map(|case| case.speed / factor));
+    Ok(Cases { shown, left_out: left_out.len(), rest })
 }
 
 /// So many axes of the fastest case stand in one entry of the legend; the others follow in entries of their
 /// own.
 const AXES_TOGETHER: usize = 2;
 
-/// The case with the greatest speed, and where it stands along the axes, in parts of a legend's width.
-fn fastest(view: &View<'_>, cases: &[Case], free: &[&str]) -> Option<(usize, Vec<Text>)> {
-    let faster = |a: &usize, b: &usize| cases[*a].speed.total_cmp(&cases[*b].speed);
-    let at = (0..cases.len()).max_by(faster).filter(|_| cases.len() > 1)?;
+/// Where the fastest case in a direction stands along the axes, in parts of a legend's width.
+fn fastest(view: &View<'_>, case: &Case, direction: Direction, free: &[&str]) -> Vec<Text> {
     let long: Vec<&&str> =
         free.iter().filter(|name| view.coordinate_values(name).len() > 1).collect();
     let mut parts = Vec::new();
     for (i, name) in long.iter().enumerate() {
-        let place = view.place_along(name, free, cases[at].place);
+        let place = view.place_along(name, free, case.place);
         let joint = if i + 1 < long.len() { ", " } else { "" };
-        let words = view.value_note(name, place).then(Text::plain(joint));
+        let note = view.value_note(name, place).then(Text::plain(joint));
         match parts.last_mut() {
-            Some(part) if i % AXES_TOGETHER > 0 => *part = Text::then(std::mem::take(part), words),
-            Some(_) => parts.push(words),
-            None => parts.push(Text::plain("fastest forward: ").then(words)),
+            Some(part) if i % AXES_TOGETHER > 0 => *part = Text::then(std::mem::take(part), note),
+            Some(_) => parts.push(note),
+            None => {
+                let begins = Text::plain(&format!("fastest {}: ", direction.name));
+                parts.push(begins.then(note));
+            }
         }
     }
-    Some((at, parts))
+    parts
+}
+
+/// What the marks mean, and how many cases are shown otherwise or not at all.
+fn legend(view: &View<'_>, cases: &Cases, free: &[&str]) -> Vec<Entry> {
+    let mut legend = Vec::new();
+    if DIRECTIONS.iter().any(|direction| cases.front(*direction).len() > 1) {
+        let line = Mark::Line(Stroke::solid(VERMILION, CURVE_WIDTH));
+        let periodic = if cases.aperiodic() > 0 { " of periodic cases" } else { "" };
+        legend.push((line, Text::plain(&format!("Pareto front{periodic}"))));
+    }
+    for direction in DIRECTIONS {
+        let parts = cases.fastest(direction).map(|case| fastest(view, case, direction, free));
+        let marks = [Mark::Ring(INK, BEST_RADIUS)].into_iter().chain(repeat(Mark::Nothing));
+        legend.extend(marks.zip(parts.into_iter().flatten()));
+    }
+    let aperiodic = cases.aperiodic();
+    if aperiodic > 0 {
+        let said = Text::plain(&format!("not periodic, by their means: {aperiodic}"));
+        legend.push((Mark::Disc(FAINT_INK, 1.4), said));
+    }
+    if cases.left_out > 0 {
+        let said = Text::plain(&format!("without values, left out: {}", cases.left_out));
+        legend.push((Mark::Nothing, said));
+    }
+    legend
 }
 
 /// The colours of an axis, and the axis' value for each case.
@@ -140,24 +237,14 @@ fn hue(view: &View<'_>, free: &[&str]) -> Result<Option<(Colours, Vec<f64>)>, Fi
 
 fn request(
     view: &View<'_>,
-    cases: &[Case],
+    cases: &Cases,
     energy: &str,
     colours: Option<&Colours>,
-    fastest: Option<&(usize, Vec<Text>)>,
+    free: &[&str],
 ) -> PageRequest {
-    let energies: Vec<f64> = cases.iter().map(|case| case.energy).collect();
-    let speeds: Vec<f64> = cases.iter().map(|case| case.speed).collect();
-    let legend = match cases.len() {
-        0 | 1 => Vec::new(),
-        _ => {
-            let line = Mark::Line(Stroke::solid(VERMILION, CURVE_WIDTH));
-            let mut legend = vec![(line, Text::plain("Pareto front"))];
-            let parts = fastest.into_iter().flat_map(|(_, parts)| parts.iter().cloned());
-            let marks = [Mark::Ring(INK, BEST_RADIUS)].into_iter().chain(repeat(Mark::Nothing));
-            legend.extend(marks.zip(parts));
-            legend
-        }
-    };
+    let energies: Vec<f64> = cases.shown.iter().map(|case| case.energy).collect();
+    let speeds: Vec<f64> = cases.shown.iter().map(|case| case.speed).collect();
+    let legend = if cases.shown.len() > 1 { legend(view, cases, free) } else { Vec::new() };
     // Speeds differ in sign and stay linear, so that standing still keeps its place.
     let y = AxisRequest {
         scale: Scale::around(speeds.iter().copied(), 0.06),
@@ -166,7 +253,7 @@ fn request(
     let panel = PanelRequest {
         x: AxisRequest::around(view.quantity(energy), &energies, 0.04),
         y,
-        header: Header { legend, ..Header::default() },
+        header: Header { legend, note: view.held_note(free), ..Header::default() },
     };
     PageRequest {
         title: view.drawing.title.clone(),
@@ -176,13 +263,6 @@ fn request(
         right_room: colours.map_or(0.0, |colours| colours.room(HEIGHT)),
         pointing: Pointing::Inward,
     }
-}
-
-/// The Pareto front of the cases, as energies and speeds.
-fn best(cases: &[Case]) -> Vec<(f64, f64)> {
-    let (energies, speeds): (Vec<f64>, Vec<f64>) =
-        cases.iter().map(|case| (case.energy, case.speed)).unzip();
-    front(&energies, &speeds).into_iter().map(|case| (energies[case], speeds[case])).collect()
 }
 
 /// The front as stairs: up to the next case, the last one stays the best.

@@ -4,6 +4,7 @@ use ndarray::{ArrayD, Axis, IxDyn};
 
 use super::error::FigureError;
 use super::quantity::Quantity;
+use super::scale::finite_range;
 use super::text::Text;
 use super::varied::varied;
 use crate::store::catalogue::{self, DIRECTION, DRAW, Extent, HISTORY_TIME};
@@ -13,6 +14,16 @@ use crate::study::Drawing;
 /// Whether a dimension lies within a case or beside the cases, and is no axis of the study.
 fn is_inner(dimension: &str) -> bool {
     catalogue::named(dimension).is_some_and(|entry| entry.extent == Extent::Dimension)
+}
+
+/// Values that differ by no more than this, relative to them, are one.
+const ROUNDING: f64 = 1e-9;
+
+/// Whether a value lies between the least and the greatest of others, to rounding.
+fn is_within(value: f64, values: &[f64]) -> bool {
+    let Some((low, high)) = finite_range(values.iter().copied()) else { return false };
+    let margin = ROUNDING * low.abs().max(high.abs());
+    (low - margin..=high + margin).contains(&value)
 }
 
 /// The results as one figure sees them.
@@ -38,13 +49,45 @@ impl<'a> View<'a> {
             }
         }
         for (name, wanted) in &drawing.at {
-            let values = view.axis_values(name)?;
-            let away = |index: &usize| (values[*index] - wanted).abs();
-            let nearest = (0..values.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
-            let index = nearest.ok_or_else(|| view.unfit(format!("axis `{name}` is empty")))?;
+            let index = view.nearest(name, *wanted)?;
             view.held.push((name.clone(), index));
         }
         Ok(view)
+    }
+
+    /// The index of the value of an axis that is nearest to one within its range.
+    fn nearest(&self, name: &str, wanted: f64) -> Result<usize, FigureError> {
+        let values = self.axis_values(name)?;
+        let away = |index: &usize| (values[*index] - wanted).abs();
+        let nearest = (0..values.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
+        let index = nearest.ok_or_else(|| self.unfit(format!("axis `{name}` is empty")))?;
+        if is_within(wanted, &values) {
+            return Ok(index);
+        }
+        let (low, high) = finite_range(values).unwrap_or_default();
+        let unit = self.unit(name);
+        let why = format!(
+            "`at` holds {name} at {wanted}{unit}, and its axis goes from {low}{unit} to {high}{unit}"
+        );
+        Err(self.unfit(why))
+    }
+
+    /// The unit of an axis after a space; nothing where it has none.
+    fn unit(&self, name: &str) -> String {
+        let unit = self.dataset.coordinate(name).map_or("1", |it| it.unit.as_str());
+        if unit == "1" { String::new() } else { format!(" {unit}") }
+    }
+
+    /// What `at` asks for and the axes do not have, with the value that was taken, for each.
+    pub fn taken_for_another(&self) -> Vec<String> {
+        let note = |(name, index): &(String, usize)| {
+            let (wanted, values) = (*self.drawing.at.get(name)?, self.coordinate_values(name));
+            let (taken, unit) = (*values.get(*index)?, self.unit(name));
+            let differs = (taken - wanted).abs() > ROUNDING * taken.abs().max(wanted.abs());
+            let note = format!("{name} = {taken}{unit} is taken for {wanted}{unit}, the nearest");
+            differs.then_some(note)
+        };
+        self.held.iter().filter_map(note).collect()
     }
 
     /// The fault that the request does not fit.
@@ -219,8 +262,7 @@ impl<'a> View<'a> {
         let mut notes = Vec::new();
         for name in self.axes().into_iter().filter(|name| !free.contains(name)) {
             if let Some(value) = self.coordinate_values(name).get(self.held_index(name)) {
-                let unit = self.dataset.coordinate(name).map_or("", |it| it.unit.as_str());
-                notes.push(format!("{name} = {value} {}", if unit == "1" { "" } else { unit }));
+                notes.push(format!("{name} = {value}{}", self.unit(name)));
             }
         }
         notes.join(", ")

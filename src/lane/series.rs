@@ -37,6 +37,16 @@ pub fn value<L: Lane>(series: &Series<L>, h: L) -> L {
     sum
 }
 
+/// What the polynomial changes by until time `h`; its first coefficient takes no part, so that no digit is lost to it.
+#[inline(always)]
+pub fn change<L: Lane>(series: &Series<L>, h: L) -> L {
+    let mut sum = series[ORDER];
+    for k in (1..ORDER).rev() {
+        sum = sum * h + series[k];
+    }
+    sum * h
+}
+
 /// The polynomial and its derivative at time `h`.
 #[inline(always)]
 pub fn value_and_slope<L: Lane>(series: &Series<L>, h: L) -> (L, L) {

@@ -79,8 +79,8 @@ pub fn open(path: &Path) -> Result<Archive, StoreError> {
         Checksum::Valid => Archive::decode(path),
         Checksum::Invalid => Err(StoreError::Damaged { path: path.to_owned() }),
         Checksum::Absent => {
-            let why = "the checksum at its end is missing: another program wrote or changed it, or \
-                       its end is lost";
+            let why = "the checksum at its end is missing: it was cut short, or another program wrote or \
+                       changed it";
             Err(StoreError::Foreign { path: path.to_owned(), why: why.to_owned() })
         }
     }

@@ -97,7 +97,8 @@ pub struct Drawing {
     pub y: Option<String>,
     /// Outputs drawn; the kind of figure has its own default.
     pub of: Vec<String>,
-    /// Where the other axes are held, in SI; the nearest grid value is taken, by default the first.
+    /// Where the other axes are held, in SI, within their ranges; the nearest grid value is taken, by default the
+    /// first.
     pub at: BTreeMap<String, f64>,
     /// Range of cycles shown by a history, counted from its start; all by default.
     pub cycles: Option<[f64; 2]>,

@@ -2,4 +2,4 @@
 
 mod front;
 
-pub use front::front;
+pub use front::{front, speed_at_rest};

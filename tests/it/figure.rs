@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use capsulemap::figure::{Format, draw};
+use capsulemap::figure::{Format, draw, taken_for_another};
 use capsulemap::store::dataset::Dataset;
 use capsulemap::study::{Drawing, DrawingKind};
 
@@ -315,6 +315,17 @@ fn axes_are_held_at_the_nearest_value() {
     assert!(held(1e4) == held(1.01e4));
     assert!(held(1e4) != held(5e4));
     assert!(held(1e4).contains("progression_speed over omega at k2 = 10000 N/m"));
+    let asked = |k2: f64| {
+        let at = BTreeMap::from([("k2".to_string(), k2)]);
+        Drawing { at, ..drawing("asked", DrawingKind::Bifurcation) }
+    };
+    assert_eq!(taken_for_another(&plane, &asked(1e4)).unwrap(), Vec::<String>::new());
+    let said = taken_for_another(&plane, &asked(1.01e4)).unwrap();
+    assert_eq!(said, ["k2 = 10000 N/m is taken for 10100 N/m, the nearest"]);
+    for outside in [1.0, 1e9, f64::NAN] {
+        let said = draw(&plane, &asked(outside), &folder("held"), &[]).expect_err("outside");
+        assert!(said.to_string().contains("and its axis goes from"), "{said}");
+    }
 }
 
 #[test]

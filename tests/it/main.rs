@@ -60,6 +60,7 @@ mod slurm;
 mod store;
 mod stribeck_scan;
 mod study;
+mod trade_offs;
 mod tradeoff;
 mod unbounded;
 mod wide_box;

@@ -1,6 +1,6 @@
 //! The Pareto front against its definition, case by case.
 
-use capsulemap::tradeoff::front;
+use capsulemap::tradeoff::{front, speed_at_rest};
 use proptest::prelude::*;
 
 /// Whether the case `a` is at least as good as `b` in both numbers.
@@ -10,13 +10,9 @@ fn matches(a: (f64, f64), b: (f64, f64)) -> bool {
 
 /// The front by comparing every case with every other: energies and speeds, by rising energy.
 fn by_definition(cases: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let forward = cases.iter().any(|case| case.1 > 0.0);
-    let considered: Vec<(f64, f64)> =
-        cases.iter().copied().filter(|case| case.1 > 0.0 || !forward).collect();
     let beaten =
-        |case: &(f64, f64)| considered.iter().any(|other| other != case && matches(*other, *case));
-    let mut best: Vec<(f64, f64)> =
-        considered.iter().copied().filter(|case| !beaten(case)).collect();
+        |case: &(f64, f64)| cases.iter().any(|other| other != case && matches(*other, *case));
+    let mut best: Vec<(f64, f64)> = cases.iter().copied().filter(|case| !beaten(case)).collect();
     best.sort_by(|a, b| a.partial_cmp(b).expect("finite numbers"));
     best.dedup();
     best
@@ -53,9 +49,11 @@ proptest! {
 }
 
 #[test]
-fn standing_still_is_no_gain_where_a_case_moves_forward() {
-    assert_eq!(found(&[(0.0, 0.0), (2.0, 1.0), (1.0, -1.0), (3.0, 1.0)]).0, [1]);
-    assert_eq!(found(&[(2.0, -1.0), (1.0, -3.0), (3.0, -2.0), (4.0, 0.0)]).0, [1, 0, 3]);
+fn rounding_is_no_speed() {
+    // A front among motions of 1e-17 m/s would be one of rounding.
+    assert_eq!(speed_at_rest([1e-17, -3e-17]), 1e-10);
+    assert_eq!(speed_at_rest([2e-3, -5e-2, 0.0]), 5e-8);
+    assert_eq!(speed_at_rest([]), 1e-10);
 }
 
 #[test]

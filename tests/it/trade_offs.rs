@@ -1,0 +1,40 @@
+//! Trade-offs: a front for each direction, none of rounding, and every case shown or counted.
+
+use std::fs;
+
+use capsulemap::figure::{Format, draw};
+use capsulemap::study::{Drawing, DrawingKind};
+
+use super::figure::fixtures::{Fixture, OUTCOMES, plane, steps};
+use super::figure::{drawing, folder};
+
+/// A trade-off over motions with these speeds [m/s] and outcomes.
+fn trade_off(speeds: &[f64], outcomes: &[i64]) -> String {
+    let (speeds, outcomes) = (speeds.to_vec(), outcomes.to_vec());
+    let dataset = Fixture::default()
+        .coordinate("omega", "rad/s", steps(10.0, 20.0, speeds.len()))
+        .real("work_positive", &["omega"], |at| 1e-3 * (1 + at[0]) as f64)
+        .real("progression_speed", &["omega"], move |at| speeds[at[0]])
+        .integer("outcome", &["omega"], &OUTCOMES, move |at| outcomes[at[0]])
+        .0;
+    let request = drawing("directions", DrawingKind::TradeOff);
+    let paths = draw(&dataset, &request, &folder("directions"), &[Format::Svg]).unwrap();
+    fs::read_to_string(&paths[0]).unwrap()
+}
+
+#[test]
+fn a_trade_off_has_a_front_for_each_direction_and_none_of_rounding() {
+    let front = "#d55e00";
+    assert!(trade_off(&[-0.01, -0.02, -0.03], &[0; 3]).contains(front));
+    assert!(trade_off(&[0.01, 0.02, 0.03], &[0; 3]).contains(front));
+    assert!(!trade_off(&[1e-17, -2e-17, 3e-17], &[0; 3]).contains(front));
+    // What is not periodic is shown and counted, and on no front.
+    let mixed = trade_off(&[0.01, 0.02, 0.03, f64::NAN], &[1, 3, 0, 4]);
+    assert!(!mixed.contains(front));
+    let counted = "1 periodic cases, 2 others as means over their cycles, 1 without values";
+    assert!(mixed.contains(counted), "{mixed}");
+    let of = vec!["outcome".to_string()];
+    let request = Drawing { of, ..drawing("outcome", DrawingKind::TradeOff) };
+    let said = draw(&plane(5, 5), &request, &folder("directions"), &[]).expect_err("no output");
+    assert!(said.to_string().contains("`outcome` is no output of a motion"), "{said}");
+}
