@@ -9,6 +9,7 @@ use super::text::Text;
 use super::varied::varied;
 use crate::store::catalogue::{self, DIRECTION, DRAW, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
+use crate::store::schema::INHERITED_ALONG;
 use crate::study::Drawing;
 
 /// Whether a dimension lies within a case or beside the cases, and is no axis of the study.
@@ -285,11 +286,22 @@ impl<'a> View<'a> {
         (case / spacing.max(1)) % length.max(1)
     }
 
+    /// The name of a direction in which starts were inherited, with the axis that it goes along unless that is `x`.
+    pub fn direction_name(&self, name: &str, x: Option<&str>) -> String {
+        match self.dataset.attributes.get(INHERITED_ALONG) {
+            Some(axis) if x != Some(axis.as_str()) => format!("{name} in {axis}"),
+            _ => name.to_owned(),
+        }
+    }
+
     /// A value of an axis, as "symbol = value unit" or by its name where values have names.
     pub fn value_note(&self, axis: &str, index: usize) -> Text {
         let value = self.coordinate_values(axis).get(index).copied().unwrap_or(f64::NAN);
         let flags = self.dataset.coordinate(axis).map_or(&[][..], |it| &it.flags);
         match flags.iter().find(|(code, _)| *code as f64 == value) {
+            Some((_, name)) if axis == DIRECTION.name => {
+                Text::plain(&self.direction_name(name, None))
+            }
             Some((_, name)) => Text::plain(name),
             None => self.quantity(axis).note(value),
         }

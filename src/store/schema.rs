@@ -15,6 +15,9 @@ use super::{Dataset, Values, Variable, drawn, provenance};
 /// Attribute: differs between studies whose cases differ, see [`Study::fingerprint`].
 pub const FINGERPRINT: &str = "study_fingerprint";
 
+/// Attribute: the axis along which starts were inherited, which is the one that `direction` goes along.
+pub const INHERITED_ALONG: &str = "start_inherited_along";
+
 /// The dataset of a study; `records` holds one record per case, in any order, or fewer.
 ///
 /// Dimensions: the axes of the study, slowest first, then `direction` where starts were inherited
@@ -84,6 +87,10 @@ pub fn frame(study: &Study) -> Dataset {
         .insert("friction_switching".to_owned(), study.base.switching.name().to_owned());
     dataset.attributes.insert("resistance".to_owned(), study.base.resistance.name().to_owned());
     dataset.attributes.insert(FINGERPRINT.to_owned(), study.fingerprint());
+    if let Some(inherit) = study.inherit() {
+        let axis = study.axes()[inherit.axis].coordinate.name();
+        dataset.attributes.insert(INHERITED_ALONG.to_owned(), axis.to_owned());
+    }
     dataset.texts.insert(STUDY_TEXT.to_owned(), study.text.clone());
     dataset
 }

@@ -18,6 +18,7 @@ pub mod definition;
 mod study_file;
 mod study_text;
 mod toml_text;
+mod without_effect;
 
 pub use axis::{Axis, Coordinate, Spacing};
 pub use block::spread;

@@ -38,3 +38,27 @@ fn axes_that_are_too_short_or_too_long_for_marks_are_drawn() {
         assert_eq!(ran.code, 0, "{values:?}: {}", ran.err);
     }
 }
+
+#[test]
+fn an_axis_without_effect_is_named_with_the_reason() {
+    let dir = WorkDir::new();
+    let said = |top: &str, axis: &str, values: &str| {
+        dir.put(
+            "s.toml",
+            format!(
+                "[parameters]\n{top}\nk2 = \"18.96 kN/m\"\ndelta = \"1.5 mm\"\np_d = \"4 N\"\n\
+                 omega = \"20 rad/s\"\n[[axes]]\nname = \"{axis}\"\nvalues = {values}\n"
+            ),
+        );
+        let ran = dir.run(&["sweep", "s.toml", "--output", "s.h5", "--overwrite", "--no-figures"]);
+        ran.done().err
+    };
+    let mu_s = said("", "mu_s", "[0.1, 0.2, 0.3, 0.9]");
+    assert!(mu_s.contains("note: mu_s has no effect below 2 mu_d ="), "{mu_s}");
+    assert!(mu_s.contains("of its 4 values give the same motion"), "{mu_s}");
+    let c1 = said("", "c1", r#"["1 N s/m", "2 N s/m"]"#);
+    assert!(c1.contains("note: c1 has no effect under the law `coulomb-stribeck`"), "{c1}");
+    let v_s = said("resistance = \"coulomb\"", "v_s", r#"["0.1 m/s", "0.2 m/s"]"#);
+    assert!(v_s.contains("note: v_s has no effect under the law `coulomb`"), "{v_s}");
+    assert!(!said("", "v_s", r#"["0.1 m/s", "0.2 m/s"]"#).contains("note:"));
+}
