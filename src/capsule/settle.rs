@@ -17,6 +17,8 @@ use super::{Failure, Section};
 
 /// The mean friction force of a periodic orbit, relative to the forces that act, is rounding below this.
 const BALANCED: f64 = 1e-5;
+/// The same for steps of a coarse tolerance, relative to it.
+const PER_STEP: f64 = 1e3;
 
 /// What a case settled to.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,7 +113,8 @@ impl Orbit {
         case: &Case,
         protocol: &Protocol,
     ) -> Orbit {
-        let orbit = if is_balanced(&orbit, &case.parameters) { orbit } else { orbit.withdrawn() };
+        let is_balanced = is_balanced(&orbit, &case.parameters, protocol.tolerance);
+        let orbit = if is_balanced { orbit } else { orbit.withdrawn() };
         let settled = State { x2: 0.0, ..orbit.end };
         let wanted = protocol.history.filter(|_| orbit.failure.is_none());
         let history = wanted.map(|span: HistorySpan| {
@@ -162,10 +165,15 @@ impl Orbit {
 ///
 /// Beside a velocity that no ground would bring to rest in a lifetime, a section repeats to every digit while the
 /// capsule slows down.
-fn is_balanced(orbit: &orbit::Orbit<State<f64>, Account<f64>, 3>, parameters: &Parameters) -> bool {
+fn is_balanced(
+    orbit: &orbit::Orbit<State<f64>, Account<f64>, 3>,
+    parameters: &Parameters,
+    tolerance: f64,
+) -> bool {
     let residual = momentum_residual(&orbit.observed, parameters);
+    let rounding = BALANCED.max(PER_STEP * tolerance);
     // Without dry friction and without a drive there is no force to compare with.
-    orbit.outcome != Outcome::Periodic || residual.is_infinite() || residual.abs() <= BALANCED
+    orbit.outcome != Outcome::Periodic || residual.is_infinite() || residual.abs() <= rounding
 }
 
 /// The mean friction force, relative to the forces that act.

@@ -124,11 +124,13 @@ impl BlockFolder {
         let path = self.path.join(BEGUN);
         let begun = match fs::read(&path) {
             Ok(bytes) => bytes,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             Err(said) => return Err(StoreError::system(&path, "reading", said)),
         };
-        // If it cannot be read, the heads of the blocks decide.
-        let Ok(begun) = serde_json::from_slice::<Begun>(&begun) else { return Ok(None) };
+        // If it is lost or cannot be read, the heads of the blocks decide.
+        let Ok(begun) = serde_json::from_slice::<Begun>(&begun) else {
+            return Ok(self.foreign_blocks(study));
+        };
         let mut changes = Vec::new();
         if !provenance::is_ours(&begun.provenance) {
             let [older, now] = [&begun.provenance, &now.provenance].map(provenance::program);
@@ -140,6 +142,17 @@ impl BlockFolder {
             changes.extend(changed_lines(&older, &study.text));
         }
         Ok(Some(changes))
+    }
+
+    /// What tells blocks of another study or program from those of this one; none where there are none.
+    fn foreign_blocks(&self, study: &Study) -> Option<Vec<String>> {
+        let is_foreign = |number| matches!(self.head(number), Err(Unusable::Foreign(_)));
+        let older = fs::read_to_string(self.path.join(STUDY)).unwrap_or_default();
+        (0..study.blocks()).any(is_foreign).then(|| {
+            let said =
+                format!("{BEGUN} is lost, and blocks are there of another study or program:");
+            std::iter::once(said).chain(changed_lines(&older, &study.text)).collect()
+        })
     }
 
     /// Whether anything is in the folder that is not of this program.
@@ -194,16 +207,20 @@ impl BlockFolder {
     }
 
     /// Removes all blocks, and the folder with them unless it holds other files.
+    ///
+    /// What says that the folder is one of blocks goes last, so that a later run finds what is left and removes it.
     pub fn remove(mut self) -> Result<(), StoreError> {
         let failed =
             |path: &Path, said| StoreError::system(path, "removing the joined blocks", said);
         let entries = fs::read_dir(&self.path).map_err(|said| failed(&self.path, said))?;
         for path in entries.flatten().map(|entry| entry.path()) {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            if is_own(&name) && name != LOCK {
+            if is_own(&name) && ![LOCK, BEGUN].contains(&&*name) {
                 remove_if_there(&path).map_err(|said| failed(&path, said))?;
             }
         }
+        let begun = self.path.join(BEGUN);
+        remove_if_there(&begun).map_err(|said| failed(&begun, said))?;
         // A network disk does not remove a file that is open.
         drop(self.lock.take());
         let lock = self.path.join(LOCK);

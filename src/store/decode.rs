@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::Duration;
 
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset as Array, File, Hyperslab, Location, SliceOrIndex};
@@ -13,6 +15,10 @@ use super::names::*;
 use super::own_layout;
 use super::slab::Slab;
 use super::{Dataset, StoreError, Values, Variable};
+
+/// How often a file is tried that is locked, and the time between two tries.
+const LOCK_TRIES: u32 = 100;
+const LOCK_PAUSE: Duration = Duration::from_millis(100);
 
 /// An open file of results, of which each variable can be read by itself.
 #[derive(Debug)]
@@ -29,7 +35,7 @@ impl Archive {
     /// Opens the HDF5 file at `path`.
     pub(super) fn decode(path: &Path) -> Result<Archive, StoreError> {
         let failed = |doing: String| move |said| StoreError::decoding(path, doing, said);
-        let file = File::open(path).map_err(failed("opening the file".into()))?;
+        let file = opened(path).map_err(failed("opening the file".into()))?;
         check_format(&file, path)?;
         let mut frame = Dataset::default();
         let mut numbered = Vec::new();
@@ -131,6 +137,18 @@ impl Archive {
         }
         Ok(dataset)
     }
+}
+
+/// Opens a file, and waits for a lock on it: HDF5 takes one for a writer, and a process that is being started beside it
+/// holds that lock on.
+fn opened(path: &Path) -> hdf5::Result<File> {
+    for _ in 0..LOCK_TRIES {
+        match File::open(path) {
+            Err(said) if said.to_string().contains("unable to lock file") => sleep(LOCK_PAUSE),
+            opened => return opened,
+        }
+    }
+    File::open(path)
 }
 
 /// What the cases of a slab have of an array.

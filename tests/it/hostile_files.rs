@@ -100,6 +100,36 @@ fn blocks_beside_a_damaged_file_stay() {
 }
 
 #[test]
+fn blocks_whose_beginning_is_lost_are_not_given_up() {
+    let dir = WorkDir::new();
+    dir.put("s.toml", SMALL);
+    let sweep = ["sweep", "s.toml", "--no-figures", "--output", "s.h5"];
+    dir.run(&[&sweep[..], &["--task", "1/2"]].concat()).done();
+    let begun = fs::read(dir.path("s.blocks/begun.json")).expect("how it began");
+    let blocks = || fs::read_dir(dir.path("s.blocks")).map_or(0, Iterator::count);
+    for lost in [None, Some("")] {
+        fs::remove_file(dir.path("s.blocks/begun.json")).expect("it is lost");
+        if let Some(empty) = lost {
+            dir.put("s.blocks/begun.json", empty);
+        }
+        let before = blocks();
+        dir.put("s.toml", SMALL.replace("1.5 mm", "1.6 mm"));
+        dir.run(&sweep).refused(&["s.blocks: holds blocks of another run", "+ delta = \"1.6 mm\""]);
+        assert_eq!(blocks(), before);
+        dir.put("s.blocks/begun.json", &begun);
+    }
+    // The study that they belong to goes on with them, and what a removal that was killed has left goes too.
+    dir.put("s.toml", SMALL);
+    fs::remove_file(dir.path("s.blocks/begun.json")).expect("it is lost");
+    dir.run(&sweep).done();
+    assert_eq!(blocks(), 0);
+    fs::create_dir(dir.path("s.blocks")).expect("a folder");
+    dir.put("s.blocks/begun.json", &begun);
+    dir.run(&sweep).done();
+    assert!(!dir.path("s.blocks").exists());
+}
+
+#[test]
 fn what_lies_in_other_files_is_not_opened() {
     let (_folder, said) = changed(|file| {
         file.link_external("other.h5", "x", "far").expect("a link");

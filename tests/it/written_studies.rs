@@ -202,8 +202,11 @@ impl Random {
             of.truncate(1);
         }
         let held = self.some(&coordinates);
-        let at: BTreeMap<String, f64> =
-            held.iter().map(|it| (it.name().to_owned(), self.number(Allowed::Finite))).collect();
+        let held_at = |it: &Coordinate| {
+            let axis = study.axes().iter().find(|axis| axis.coordinate == *it);
+            (it.name().to_owned(), self.one(&axis.expect("an axis").values))
+        };
+        let at: BTreeMap<String, f64> = held.iter().map(held_at).collect();
         let from = self.uniform(0.0, 3.0);
         Drawing {
             name,
