@@ -4,13 +4,13 @@ use ndarray::{ArrayD, Axis, IxDyn};
 
 use super::error::FigureError;
 use super::quantity::Quantity;
-use super::scale::finite_range;
 use super::text::Text;
 use super::varied::varied;
 use crate::store::catalogue::{self, DIRECTION, DRAW, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::store::schema::INHERITED_ALONG;
 use crate::study::Drawing;
+use crate::study::axis::{is_within, range};
 
 /// Whether a dimension lies within a case or beside the cases, and is no axis of the study.
 fn is_inner(dimension: &str) -> bool {
@@ -19,13 +19,6 @@ fn is_inner(dimension: &str) -> bool {
 
 /// Values that differ by no more than this, relative to them, are one.
 const ROUNDING: f64 = 1e-9;
-
-/// Whether a value lies between the least and the greatest of others, to rounding.
-fn is_within(value: f64, values: &[f64]) -> bool {
-    let Some((low, high)) = finite_range(values.iter().copied()) else { return false };
-    let margin = ROUNDING * low.abs().max(high.abs());
-    (low - margin..=high + margin).contains(&value)
-}
 
 /// The results as one figure sees them.
 pub struct View<'a> {
@@ -65,7 +58,7 @@ impl<'a> View<'a> {
         if is_within(wanted, &values) {
             return Ok(index);
         }
-        let (low, high) = finite_range(values).unwrap_or_default();
+        let [low, high] = range(&values);
         let unit = self.unit(name);
         let why = format!(
             "`at` holds {name} at {wanted}{unit}, and its axis goes from {low}{unit} to {high}{unit}"

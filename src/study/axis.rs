@@ -105,6 +105,22 @@ pub struct Axis {
     pub values: Vec<f64>,
 }
 
+/// A value this little beyond an axis, relative to its values, is at its end.
+const ROUNDING: f64 = 1e-9;
+
+/// The least and the greatest of the values of an axis; an empty range where it has none.
+pub fn range(values: &[f64]) -> [f64; 2] {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    [least, values.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+}
+
+/// Whether a value lies in the range of the values of an axis, to rounding.
+pub fn is_within(value: f64, values: &[f64]) -> bool {
+    let [low, high] = range(values);
+    let margin = ROUNDING * low.abs().max(high.abs());
+    (low - margin..=high + margin).contains(&value)
+}
+
 /// What lies evenly between two ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Spacing {

@@ -4,14 +4,12 @@ use std::collections::BTreeMap;
 
 use crate::capsule::{Dimension, Output, Parameter};
 
+use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
 use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind};
 
 /// The unit of widths [m].
 const MILLIMETRE: f64 = 1e-3;
-
-/// A value this little beyond an axis, relative to its values, is at its end.
-const ROUNDING: f64 = 1e-9;
 
 /// Longest name of a figure [bytes]; with an extension it still is a file name everywhere.
 const LONGEST_NAME: usize = 200;
@@ -162,11 +160,8 @@ fn read_at(table: &Table<'_, '_>, axes: &[Axis]) -> BTreeMap<String, f64> {
         match axes.iter().find(is_named) {
             Some(axis) => {
                 let value = entry.quantity(axis.coordinate.dimension());
-                let low = axis.values.iter().copied().fold(f64::INFINITY, f64::min);
-                let high = axis.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-                let margin = ROUNDING * low.abs().max(high.abs());
-                let is_within = |value: &f64| (low - margin..=high + margin).contains(value);
-                if value.is_some_and(|value| !is_within(&value)) {
+                if value.is_some_and(|value| !is_within(value, &axis.values)) {
+                    let [low, high] = range(&axis.values);
                     entry.fault(format!(
                         "expected a value within the axis, from {low} to {high} in SI units"
                     ));

@@ -2,6 +2,7 @@
 
 use crate::capsule::{Parameter, Resistance, Switching};
 
+use super::axis::range;
 use super::{Axis, Coordinate, Study};
 
 impl Study {
@@ -37,7 +38,7 @@ impl Study {
     /// Rest ends where the force exceeds the friction at the onset of sliding, if static friction is less than that.
     fn too_little_static_friction(&self, axis: &Axis) -> Option<String> {
         let least_dynamic = match self.axes().iter().find(|it| is_dynamic(it)) {
-            Some(dynamic) => dynamic.values.iter().copied().fold(f64::INFINITY, f64::min),
+            Some(dynamic) => range(&dynamic.values)[0],
             None => self.base[Parameter::MuD],
         };
         let stribeck = self.base.resistance == Resistance::CoulombStribeck;
