@@ -171,6 +171,10 @@ fn one_direction<M: System<D>, const D: usize, const W: usize>(
         if at_bound {
             return (points, last, End::Bound);
         }
+        // Steps no longer than rounding lead nowhere.
+        if step <= ONE {
+            return (points, last, End::Stopped);
+        }
     }
     (points, last, End::MostPoints)
 }

@@ -105,7 +105,10 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         };
         match advance {
             Advance::Inside(next) => self.add(orbits, &from, next, goal),
-            Advance::AtBound(next) => self.add(orbits, &from, next, goal).or(Some(End::Bound)),
+            Advance::AtBound(next) => match self.add(orbits, &from, next, goal) {
+                None | Some(End::Stopped) => Some(End::Bound),
+                end => end,
+            },
             Advance::Nowhere if last.seen.is_smallest() => Some(End::Equilibrium),
             Advance::Nowhere if is_corner(orbits, &last) => Some(End::Corner),
             Advance::Nowhere => Some(End::Stopped),
@@ -184,7 +187,9 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         self.special_orbits.extend(found.into_iter().map(|special| (before, special)));
         if norm(&between(&from.at, &next.at)) > ONE {
             self.points.push(next);
+            return end;
         }
-        end
+        // Steps no longer than rounding lead nowhere.
+        end.or(Some(End::Stopped))
     }
 }

@@ -7,8 +7,9 @@ use super::arclength::{
 
 /// Half a period leads this far from where it began, or the orbit has half the period.
 const HALVES: f64 = 1e-8;
-/// A curve passes a solution that it comes by this near.
+/// A curve passes a solution that it comes by this near, or by a smaller share of a short step.
 const SAME: f64 = 1e-6;
+const SHARE: f64 = 1e-2;
 /// Steps before a curve may close.
 const LEAST_STEPS: usize = 3;
 
@@ -88,14 +89,15 @@ pub fn passes<const U: usize, E: Equations<U>>(
     if step == 0.0 {
         return false;
     }
+    let same = SAME.min(SHARE * step);
     let ahead = unit(&chord);
     let along = dot(&ahead, &between(from, point));
     let foot = moved(from, along, &ahead);
-    if !(-SAME..=step + SAME).contains(&along) || norm(&between(&foot, point)) > step {
+    if !(-same..=step + same).contains(&along) || norm(&between(&foot, point)) > step {
         return false;
     }
     let met = corrected(equations, &Plane::through(point, ahead), &foot, &ahead);
-    met.is_some_and(|(met, _)| norm(&between(&met.at, point)) <= SAME)
+    met.is_some_and(|(met, _)| norm(&between(&met.at, point)) <= same)
 }
 
 /// Where a curve closes: at a solution known to lie on it, from whichever of its section points.

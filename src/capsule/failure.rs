@@ -14,9 +14,9 @@ pub type Section = [f64; 3];
 pub type Failure = orbit::Failure<State<f64>>;
 
 /// Why a capsule may fail, with its names in files; under a drive it always comes back to its section.
-pub const REASONS: [(Reason, &str); 3] = {
-    let [no_progress, not_finite, too_many_steps, _] = Reason::NAMES;
-    [no_progress, not_finite, too_many_steps]
+pub const REASONS: [(Reason, &str); 4] = {
+    let [no_progress, not_finite, too_many_steps, _, out_of_steps] = Reason::NAMES;
+    [no_progress, not_finite, too_many_steps, out_of_steps]
 };
 
 impl fmt::Display for Failure {
@@ -27,6 +27,7 @@ impl fmt::Display for Failure {
             Reason::NotFinite => Breakdown::NotFinite.to_string(),
             Reason::NoReturn => Breakdown::NoReturn.to_string(),
             Reason::TooManySteps => format!("a drive cycle takes over {STEPS_PER_CYCLE} steps"),
+            Reason::OutOfSteps => "the case takes more steps than max_steps allows".to_owned(),
         };
         write!(
             f,

@@ -35,7 +35,7 @@ A number without a unit is in SI. What is not given is as in the paper's Table 1
 pub struct Simulate {
     /// Take a case of this study, with its parameters, its start and the study's protocol.
     #[arg(long, value_name = "STUDY", requires = "case", conflicts_with_all = ["omega", "p_d", "k2",
-        "delta", "set", "phase", "start_phase", "section_phase", "tolerance", "max_cycles",
+        "delta", "set", "phase", "start_phase", "section_phase", "tolerance", "max_cycles", "max_steps",
         "friction_switching", "resistance"])]
     study: Option<PathBuf>,
     /// Its number, counted from 0 with the last axis fastest, as in the reports of failures.
@@ -72,6 +72,9 @@ pub struct Simulate {
     /// linearised flow to distinguish chaos from long periods, and 128 are measured.
     #[arg(long, default_value_t = 2000)]
     max_cycles: u64,
+    /// Steps that all of it may take, else the case fails.
+    #[arg(long, default_value_t = Protocol::default().max_steps, value_parser = clap::value_parser!(u64).range(1..))]
+    max_steps: u64,
     /// Reading of the switching between stick and slip.
     #[arg(long, value_parser = named(&Switching::NAMES), default_value = "filippov")]
     friction_switching: Switching,
@@ -188,6 +191,7 @@ impl Simulate {
         if faults.is_empty() {
             let protocol = Protocol {
                 max_cycles: self.max_cycles,
+                max_steps: self.max_steps,
                 ..Protocol::with_tolerance(self.tolerance)
             };
             let case = Case { parameters, start, start_phase, section_phase };

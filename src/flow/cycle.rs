@@ -22,15 +22,18 @@ pub enum Reason {
     TooManySteps,
     /// An autonomous system does not come back to its section.
     NoReturn,
+    /// The case takes more steps than it may.
+    OutOfSteps,
 }
 
 impl Reason {
     /// Every reason with its name in files.
-    pub const NAMES: [(Reason, &str); 4] = [
+    pub const NAMES: [(Reason, &str); 5] = [
         (Reason::NoProgress, "no-progress"),
         (Reason::NotFinite, "not-finite"),
         (Reason::TooManySteps, "too-many-steps"),
         (Reason::NoReturn, "no-return"),
+        (Reason::OutOfSteps, "out-of-steps"),
     ];
 }
 
@@ -44,20 +47,19 @@ impl From<Breakdown> for Reason {
     }
 }
 
-/// Follows the motion in lane 0 to the end of its cycle, of which so many `steps` are taken already, and
-/// shows each step to `see`; returns the duration of the cycle.
+/// Follows the motion in lane 0 to the end of its cycle, for so many steps at `most`, and shows each step to
+/// `see`; returns the duration of the cycle.
 #[inline]
 pub fn cycle<L: Lane, S: Switched<L>>(
     system: &S,
     motion: &mut Motion<L, S>,
     step: &mut Step<L, S>,
-    (mut steps, tolerance): (u64, f64),
+    (most, tolerance): (u64, f64),
     mut see: impl FnMut(&Step<L, S>),
 ) -> Result<L, Reason> {
     let period = system.period();
-    while steps < STEPS_PER_CYCLE {
+    for _ in 0..most {
         motion.single_step(system, period, tolerance, step);
-        steps += 1;
         see(step);
         if let Some(breakdown) = motion.breakdown(system, 0) {
             return Err(breakdown.into());

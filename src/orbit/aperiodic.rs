@@ -41,6 +41,8 @@ pub struct Aperiodic<const D: usize> {
     pub last: [f64; D],
     /// Cycles followed.
     pub cycles: u64,
+    /// Steps taken.
+    pub steps: u64,
 }
 
 impl<const D: usize> Aperiodic<D> {
@@ -59,25 +61,39 @@ impl<const D: usize> Aperiodic<D> {
     }
 }
 
+/// Where a motion begins that is followed.
+#[derive(Debug, Clone, Copy)]
+pub struct Departure<const D: usize> {
+    /// The point of the section.
+    pub point: [f64; D],
+    /// The metric of its system.
+    pub metric: Metric<D>,
+    /// Steps that it may take.
+    pub max_steps: u64,
+}
+
 /// One motion that is followed.
 struct Follower<const D: usize> {
     metric: Metric<D>,
     stretching: Stretching<D, 1>,
     points: Vec<[f64; D]>,
+    /// Steps taken in the cycle, and before it.
     steps: u64,
+    steps_before: u64,
+    max_steps: u64,
     /// Duration of the cycles met [s].
     elapsed: f64,
     done: Option<Result<(), Reason>>,
 }
 
-/// Follows motions from the points of `starts`, each with its metric, one in each lane of `system` and no
-/// more than there are lanes, for so many `cycles` or until it is clear that neighbours part.
+/// Follows motions from `starts`, one in each lane of `system` and no more than there are lanes, for so many
+/// `cycles` or until it is clear that neighbours part.
 ///
 /// The bits of each do not depend on the others.
 #[inline(always)]
 pub fn follow_aperiodic<L, S, const D: usize>(
     system: &S,
-    starts: &[([f64; D], Metric<D>)],
+    starts: &[Departure<D>],
     cycles: u64,
     tolerance: f64,
 ) -> Vec<Result<Aperiodic<D>, Reason>>
@@ -86,9 +102,9 @@ where
     S: Stroboscopic<Dual<L, 1>, D>,
 {
     let mut followers: Vec<Follower<D>> =
-        starts.iter().map(|(_, metric)| Follower::new(*metric, cycles)).collect();
+        starts.iter().map(|start| Follower::new(start, cycles)).collect();
     let start = |i: usize| Dual {
-        value: L::from_fn(|lane| starts[lane.min(starts.len() - 1)].0[i]),
+        value: L::from_fn(|lane| starts[lane.min(starts.len() - 1)].point[i]),
         gradient: [L::from_fn(|lane| match followers.get(lane) {
             Some(follower) => follower.stretching.first()[i][0],
             None => 0.0,
@@ -117,11 +133,13 @@ where
             if follower.done.is_some() {
                 continue;
             }
-            if broken.lane(lane) || follower.steps >= STEPS_PER_CYCLE {
-                let why = motion.breakdown(system, lane).map_or(Reason::TooManySteps, Reason::from);
+            let out_of_steps = follower.out_of_steps();
+            if broken.lane(lane) || out_of_steps.is_some() {
+                let breakdown = motion.breakdown(system, lane).map(Reason::from);
+                let why = breakdown.or(out_of_steps).unwrap_or(Reason::TooManySteps);
                 follower.done = Some(Err(why));
             } else if step.arrives.lane(lane) {
-                follower.steps = 0;
+                follower.steps_before += std::mem::take(&mut follower.steps);
                 follower.elapsed += motion.time.lane(lane);
                 let period = until.lane(lane);
                 follower.meet(lane, &mut point, cycles, |it| it.duration::<S, _>(period));
@@ -136,17 +154,18 @@ where
     told.map(|(lane, it)| it.tell(it.duration::<S, _>(until.lane(lane)))).collect()
 }
 
-/// Follows motions from points of the section as [`follow_aperiodic`] does, as many at a time as there are lanes.
+/// Follows motions of systems from points of the section, each for so many steps at most, as [`follow_aperiodic`]
+/// does, as many at a time as there are lanes.
 pub fn follow_aperiodic_side_by_side<M: System<D>, const D: usize>(
     instructions: Instructions,
-    starts: &[(&M, [f64; D])],
+    starts: &[(&M, [f64; D], u64)],
     protocol: &Protocol,
 ) -> Vec<Result<Aperiodic<D>, Reason>> {
     instructions.run(Crowd { starts, protocol })
 }
 
 struct Crowd<'a, M, const D: usize> {
-    starts: &'a [(&'a M, [f64; D])],
+    starts: &'a [(&'a M, [f64; D], u64)],
     protocol: &'a Protocol,
 }
 
@@ -159,11 +178,15 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
         let mut followed = Vec::with_capacity(self.starts.len());
         for group in self.starts.chunks(L::WIDTH) {
             let mut system = M::In::<Dual<L, 1>>::splat(&group[0].0.single());
-            for (lane, (one, _)) in group.iter().enumerate() {
+            for (lane, (one, ..)) in group.iter().enumerate() {
                 system.put(lane, &one.single());
             }
-            let starts: Vec<_> =
-                group.iter().map(|(system, start)| (*start, system.metric())).collect();
+            let depart = |&(system, point, max_steps): &(&M, _, _)| Departure {
+                point,
+                metric: system.metric(),
+                max_steps,
+            };
+            let starts: Vec<_> = group.iter().map(depart).collect();
             followed.extend(follow_aperiodic(&system, &starts, exponent_cycles, tolerance));
         }
         followed
@@ -171,15 +194,25 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
 }
 
 impl<const D: usize> Follower<D> {
-    fn new(metric: Metric<D>, cycles: u64) -> Self {
+    fn new(start: &Departure<D>, cycles: u64) -> Self {
+        let Departure { metric, max_steps, .. } = *start;
         Follower {
             metric,
             stretching: Stretching::new(metric),
             points: Vec::new(),
             steps: 0,
+            steps_before: 0,
+            max_steps,
             elapsed: 0.0,
             done: (cycles == 0).then_some(Ok(())),
         }
+    }
+
+    /// Why it may take no more steps, if so.
+    fn out_of_steps(&self) -> Option<Reason> {
+        let cycle = (self.steps >= STEPS_PER_CYCLE).then_some(Reason::TooManySteps);
+        let all = self.steps_before + self.steps >= self.max_steps;
+        cycle.or(all.then_some(Reason::OutOfSteps))
     }
 
     /// Mean duration of the cycles, which is the period of the drive where there is one [s].
@@ -230,6 +263,7 @@ impl<const D: usize> Follower<D> {
             recurs,
             last: self.points.last().copied().unwrap_or([0.0; D]),
             cycles: self.points.len() as u64,
+            steps: self.steps_before,
         })
     }
 }

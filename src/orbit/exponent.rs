@@ -1,6 +1,6 @@
 //! How fast neighbouring motions part: Lyapunov exponents from the linearised flow.
 
-use crate::flow::{Metric, Motion, Reason, Step, Stroboscopic, cycle};
+use crate::flow::{Metric, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, cycle};
 use crate::lane::{Dual, Lane};
 
 use super::return_map::Cycles;
@@ -120,7 +120,9 @@ where
     let mut step = Step::default();
     let mut elapsed = 0.0;
     for _ in 0..cycles.count {
-        elapsed += cycle(system, &mut motion, &mut step, (0, cycles.tolerance), |_| ())?.value;
+        elapsed +=
+            cycle(system, &mut motion, &mut step, (STEPS_PER_CYCLE, cycles.tolerance), |_| ())?
+                .value;
         let mut point = S::point(&motion.state);
         let mut directions = point.map(|coordinate| coordinate.gradient);
         stretching.meet(&mut directions);

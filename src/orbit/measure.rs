@@ -5,7 +5,7 @@ use crate::flow::metric::greater;
 use crate::flow::{Field, Metric, Observer, Stroboscopic, Switched, System};
 use crate::lane::Dual;
 
-use super::aperiodic::{Aperiodic, follow_aperiodic};
+use super::aperiodic::{Aperiodic, Departure, follow_aperiodic};
 use super::certificate::certify;
 use super::matrix::Complex;
 use super::precision::{GRAZES, STANDS_STILL, same, sound};
@@ -117,6 +117,7 @@ fn judge<M: System<D>, const D: usize>(
         }
         Found::Followed(aperiodic) => {
             trajectory.progress.cycles += aperiodic.cycles;
+            trajectory.progress.steps_before += aperiodic.steps;
             let outcome = aperiodic.outcome();
             // A period too long for the recurrence of sections, or one that is approached slowly.
             let recurs = aperiodic.recurs.filter(|_| outcome != Outcome::Chaotic);
@@ -134,9 +135,14 @@ fn judge<M: System<D>, const D: usize>(
             }))
         }
         Found::Aperiodic => {
+            let start = Departure {
+                point: trajectory.section(),
+                metric: case.system.metric(),
+                max_steps: trajectory.progress.steps_left(protocol.max_steps),
+            };
             let followed = follow_aperiodic::<f64, M::In<Dual<f64, 1>>, D>(
                 &case.system.constant(),
-                &[(trajectory.section(), case.system.metric())],
+                &[start],
                 protocol.exponent_cycles,
                 protocol.tolerance,
             );
@@ -148,16 +154,23 @@ fn judge<M: System<D>, const D: usize>(
     }
 }
 
-/// The verdict on a section that repeats: periodic if Newton's method closes the orbit, else none.
+/// The verdict on a section that repeats: periodic if Newton's method closes the orbit within the steps left, else
+/// none.
 fn certified<M: System<D>, const D: usize>(
     trajectory: &mut Moving<'_, M, D>,
     case: &Case<M, D>,
     (section, settled): (&[f64; D], Settled),
     protocol: &Protocol,
 ) -> Option<Verdict<D>> {
+    let progress = &mut trajectory.progress;
+    let steps = |cycles: u64| progress.mean_steps().saturating_mul(cycles);
+    if steps(settled.repeats_after as u64) > progress.steps_left(protocol.max_steps) {
+        return None;
+    }
     let orbit = certify(&case.system, section, &settled, protocol)?;
+    progress.steps_before = progress.steps_before.saturating_add(steps(orbit.cycles));
+    progress.cycles += orbit.cycles;
     trajectory.leap(orbit.section);
-    trajectory.progress.cycles += orbit.cycles;
     Some(Verdict::periodic(orbit.period, (orbit.multipliers, orbit.neutral), settled.size))
 }
 

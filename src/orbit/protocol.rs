@@ -72,6 +72,9 @@ pub struct Protocol {
     pub recurrence: f64,
     /// Cycles after which a case that has not settled is undecided.
     pub max_cycles: u64,
+    /// Steps after which a case fails that is not done [steps]: those to settle, to compute its exponent and to measure
+    /// it, and for the orbits that are closed the mean of a cycle for each of theirs.
+    pub max_steps: u64,
     /// Longest period looked for while the motion settles [cycles]; longer ones, up to 1024, are looked for
     /// where it has not settled within the budget of cycles.
     pub max_period: usize,
@@ -95,6 +98,7 @@ impl Default for Protocol {
             tolerance: 1e-12,
             recurrence: 1e-11,
             max_cycles: 2000,
+            max_steps: 50_000_000,
             max_period: 32,
             measured_cycles: 128,
             exponent_cycles: 2048,

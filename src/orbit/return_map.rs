@@ -1,6 +1,6 @@
 //! The map from one section point to a later one, with its derivatives.
 
-use crate::flow::{Motion, Observer, Reason, Step, Stroboscopic, cycle};
+use crate::flow::{Motion, Observer, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, cycle};
 use crate::lane::{Dual, Lane};
 
 use super::matrix::Matrix;
@@ -38,7 +38,7 @@ where
     let mut motion = Motion::new(system, L::splat(0.0), S::state(from));
     let mut step = Step::default();
     for _ in 0..cycles.count {
-        cycle(system, &mut motion, &mut step, (0, cycles.tolerance), &mut see)?;
+        cycle(system, &mut motion, &mut step, (STEPS_PER_CYCLE, cycles.tolerance), &mut see)?;
     }
     Ok(S::point(&motion.state))
 }

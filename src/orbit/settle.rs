@@ -16,7 +16,8 @@ pub fn settle<M: System<D>, const D: usize>(
     protocol: &Protocol,
 ) -> OrbitOf<M, D> {
     let system = case.system.single();
-    let mut trajectory = Trajectory::begun(&system, case.start, case.begins, protocol.tolerance);
+    let mut trajectory = Trajectory::begun(&system, case.start, case.begins, protocol.tolerance)
+        .limited(protocol.max_steps);
     let mut settling = Settling::new(protocol, case.system.metric());
     if trajectory.is_at_section() {
         settling.meet(trajectory.section());

@@ -1,6 +1,6 @@
 //! Many cases side by side in the lanes of one thread, each lane refilled the moment its case settles.
 
-use crate::flow::{Motion, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
+use crate::flow::{Motion, Step, Stroboscopic, Switched, System};
 use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
 use super::aperiodic::follow_aperiodic_side_by_side;
@@ -58,7 +58,8 @@ impl<M: System<D>, const D: usize> Underway<M, D> {
         found: impl FnOnce(&mut Trajectory<'_, M::Single, D>, &mut Settling<D>) -> Finding<M, D>,
     ) -> (usize, OrbitOf<M, D>) {
         let mut trajectory =
-            Trajectory::resume(&self.system, self.motion, self.progress, protocol.tolerance);
+            Trajectory::resume(&self.system, self.motion, self.progress, protocol.tolerance)
+                .limited(protocol.max_steps);
         let found = found(&mut trajectory, &mut self.settling);
         (self.number, conclude(&mut trajectory, &self.case, found, protocol))
     }
@@ -143,8 +144,14 @@ impl<M: System<D>, const D: usize> Supply<'_, M, D> {
     /// Follows the cases that follow_aperiodic with their linearised flow, side by side, and concludes them.
     fn follow_aperiodic_cases(&mut self) {
         let cases = std::mem::take(&mut self.aperiodic);
-        let start = |it: &Underway<M, D>| M::Single::point(&it.motion.state);
-        let motions: Vec<_> = cases.iter().map(|it| (&it.case.system, start(it))).collect();
+        let max_steps = self.protocol.max_steps;
+        let motions: Vec<_> = cases
+            .iter()
+            .map(|it| {
+                let start = M::Single::point(&it.motion.state);
+                (&it.case.system, start, it.progress.steps_left(max_steps))
+            })
+            .collect();
         let followed = follow_aperiodic_side_by_side(self.instructions, &motions, self.protocol);
         for (case, followed) in cases.into_iter().zip(followed) {
             let done = case.conclude(self.protocol, |trajectory, _| {
@@ -170,7 +177,7 @@ struct Lanes<'a, L: Lane, M: System<D>, const D: usize> {
     /// Steps taken, and how many had been when the cycle of each lane began.
     steps: u64,
     cycle_began: Vec<u64>,
-    /// No cycle has taken too many steps before so many are taken.
+    /// No case has taken too many steps before so many are taken.
     deadline: u64,
 }
 
@@ -187,7 +194,7 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
             occupied: 0,
             steps: 0,
             cycle_began: vec![0; L::WIDTH],
-            deadline: STEPS_PER_CYCLE,
+            deadline: 0,
         }
     }
 
@@ -223,6 +230,7 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
     /// Takes note of the section point that the case in `lane` has reached.
     fn end_cycle(&mut self, lane: usize, state: &M::State<f64>, duration: f64) {
         let case = self.occupants[lane].as_mut().expect("the lane is occupied");
+        case.progress.steps = self.steps - self.cycle_began[lane];
         case.progress.count(duration);
         self.cycle_began[lane] = self.steps;
         let exhausted = case.progress.cycles >= self.cases.protocol.max_cycles;
@@ -245,17 +253,21 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
         self.replace(lane, |trajectory, _| Err(trajectory.stuck()));
     }
 
-    /// Concludes the cases whose cycle has taken too many steps.
+    /// Concludes the cases whose cycle has taken too many steps, or that have none left.
     fn give_up_the_slow(&mut self) {
         let mut occupied = self.occupied;
-        let mut earliest = self.steps;
+        let max_steps = self.cases.protocol.max_steps;
+        self.deadline = u64::MAX;
         while let Some(lane) = take_lowest(&mut occupied) {
-            if self.steps - self.cycle_began[lane] >= STEPS_PER_CYCLE {
+            let deadline = |it: &Self| {
+                let case = it.occupants[lane].as_ref()?;
+                Some(it.cycle_began[lane].saturating_add(case.progress.deadline(max_steps)))
+            };
+            if deadline(self).is_some_and(|deadline| self.steps >= deadline) {
                 self.give_up(lane);
             }
-            earliest = earliest.min(self.cycle_began[lane]);
+            self.deadline = self.deadline.min(deadline(self).unwrap_or(u64::MAX));
         }
-        self.deadline = earliest + STEPS_PER_CYCLE;
     }
 
     /// Concludes the case in `lane` as `found` says, and puts the next one there.

@@ -1,6 +1,6 @@
 //! The motion of a case, one cycle at a time.
 
-use crate::flow::{Motion, Reason, Step, Stroboscopic, cycle};
+use crate::flow::{Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, cycle};
 
 /// Where and why a case failed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Progress {
     pub cycles: u64,
     /// Steps taken in the cycle so far.
     pub steps: u64,
+    /// Steps taken before the cycle.
+    pub steps_before: u64,
     /// Duration of the whole cycles [s].
     pub elapsed: f64,
     /// Time of the first section since the start [s]; until that is reached the time, below zero, of the section
@@ -33,10 +35,25 @@ impl Progress {
         Progress { origin: 0.0 - time, ..Progress::default() }
     }
 
+    /// Steps after which the cycle is given up, of a case that may take so many in all.
+    pub fn deadline(&self, max_steps: u64) -> u64 {
+        STEPS_PER_CYCLE.min(self.steps_left(max_steps)).max(self.steps)
+    }
+
+    /// Steps left for the cycle and all after it, of a case that may take so many in all.
+    pub fn steps_left(&self, max_steps: u64) -> u64 {
+        max_steps.saturating_sub(self.steps_before)
+    }
+
+    /// Steps of a cycle in the mean of those before.
+    pub fn mean_steps(&self) -> u64 {
+        self.steps_before / self.cycles.max(1)
+    }
+
     /// Counts a cycle of this duration, unless it is the part of one that leads from the start to the first
     /// section.
     pub fn count(&mut self, duration: f64) {
-        self.steps = 0;
+        self.steps_before += std::mem::take(&mut self.steps);
         if self.origin < 0.0 {
             self.origin += duration;
         } else {
@@ -52,6 +69,8 @@ pub struct Trajectory<'a, S: Stroboscopic<f64, D>, const D: usize> {
     motion: Motion<f64, S>,
     step: Step<f64, S>,
     tolerance: f64,
+    /// Steps that it may take in all.
+    max_steps: u64,
     /// How far it has come.
     pub progress: Progress,
 }
@@ -84,7 +103,13 @@ impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
         progress: Progress,
         tolerance: f64,
     ) -> Self {
-        Trajectory { system, motion, step: Step::default(), tolerance, progress }
+        let (step, max_steps) = (Step::default(), u64::MAX);
+        Trajectory { system, motion, step, tolerance, max_steps, progress }
+    }
+
+    /// The same, and it may take so many steps in all.
+    pub fn limited(self, max_steps: u64) -> Self {
+        Trajectory { max_steps, ..self }
     }
 
     /// The system that moves.
@@ -124,13 +149,19 @@ impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
     }
 
     /// Goes on to the end of the cycle and shows each step to `see`.
-    pub fn cycle(&mut self, see: impl FnMut(&Step<f64, S>)) -> Result<(), Failure<S::State>> {
-        let Trajectory { system, motion, step, tolerance, progress } = self;
-        match cycle(*system, motion, step, (progress.steps, *tolerance), see) {
+    pub fn cycle(&mut self, mut see: impl FnMut(&Step<f64, S>)) -> Result<(), Failure<S::State>> {
+        let Trajectory { system, motion, step, tolerance, max_steps, progress } = self;
+        let most = progress.deadline(*max_steps) - progress.steps;
+        let counted = |step: &_| {
+            progress.steps += 1;
+            see(step);
+        };
+        match cycle(*system, motion, step, (most, *tolerance), counted) {
             Ok(duration) => {
                 progress.count(duration);
                 Ok(())
             }
+            Err(Reason::TooManySteps) => Err(self.stuck()),
             Err(reason) => Err(self.failure(reason)),
         }
     }
@@ -138,7 +169,11 @@ impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
     /// Tells where it is when it cannot go on, and why.
     pub fn stuck(&self) -> Failure<S::State> {
         let breakdown = self.motion.breakdown(self.system, 0);
-        self.failure(breakdown.map_or(Reason::TooManySteps, Reason::from))
+        let out_of = match self.progress.steps {
+            STEPS_PER_CYCLE.. => Reason::TooManySteps,
+            _ => Reason::OutOfSteps,
+        };
+        self.failure(breakdown.map_or(out_of, Reason::from))
     }
 
     /// Tells where it is when it cannot go on.

@@ -96,13 +96,14 @@ pub fn frame(study: &Study) -> Dataset {
 }
 
 /// How the cases were integrated, which the file says even where the study left it to the program.
-fn protocol(study: &Study) -> [(String, String); 7] {
+fn protocol(study: &Study) -> [(String, String); 8] {
     let protocol = &study.protocol;
     [
         ("tolerance", format!("{:e}", protocol.tolerance)),
         ("recurrence", format!("{:e}", protocol.recurrence)),
         ("accelerate", protocol.accelerate.to_string()),
         ("max_cycles", protocol.max_cycles.to_string()),
+        ("max_steps", protocol.max_steps.to_string()),
         ("max_period", protocol.max_period.to_string()),
         ("measured_cycles", protocol.measured_cycles.to_string()),
         ("exponent_cycles", protocol.exponent_cycles.to_string()),

@@ -12,6 +12,8 @@ use super::{CaseSet, Coordinate};
 
 /// Longest step unless another is asked for, as a share of the range.
 const LONGEST_STEP: f64 = 0.02;
+/// Shorter steps are too near the rounding of the orbits, as a share of the range.
+const SHORTEST_STEP: f64 = 1e-9;
 
 /// Points of a branch at most, unless another number is asked for.
 const USUAL_POINTS: usize = 2000;
@@ -271,9 +273,11 @@ fn read_first(table: &Table<'_, '_>) -> FirstOrbit {
 fn read_steps(table: &Table<'_, '_>) -> (f64, usize) {
     let step = table.entry("longest_step").and_then(|entry| {
         let step = entry.quantity(Dimension::Number)?;
-        let fits = step > 0.0 && step <= 1.0;
+        let fits = (SHORTEST_STEP..=1.0).contains(&step);
         if !fits {
-            entry.fault(format!("{step} must lie above 0 and up to 1, a share of the range"));
+            entry.fault(format!(
+                "{step} must lie between {SHORTEST_STEP:e} and 1, a share of the range"
+            ));
         }
         fits.then_some(step)
     });

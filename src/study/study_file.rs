@@ -139,6 +139,7 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
             *value = found.unwrap_or(*value);
         };
         whole("max_cycles", 1, u64::MAX, &mut protocol.max_cycles);
+        whole("max_steps", 1, u64::MAX, &mut protocol.max_steps);
         whole("measured_cycles", 1, u64::MAX, &mut protocol.measured_cycles);
         whole("exponent_cycles", 0, MOST_POINTS, &mut protocol.exponent_cycles);
         if (1..BATCHES as u64).contains(&protocol.exponent_cycles)

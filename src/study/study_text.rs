@@ -237,6 +237,7 @@ fn write_protocol(document: &mut Document, protocol: &Protocol) {
     document.put("recurrence", number(protocol.recurrence));
     document.put("accelerate", protocol.accelerate);
     document.put("max_cycles", protocol.max_cycles);
+    document.put("max_steps", protocol.max_steps);
     document.put("max_period", protocol.max_period);
     document.put("measured_cycles", protocol.measured_cycles);
     document.put("exponent_cycles", protocol.exponent_cycles);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::branch::{NotFollowed, SpecialKind};
+use capsulemap::branch::{End, NotFollowed, SpecialKind};
 use capsulemap::capsule::branch::{Branch, Found, Request, Special, follow};
 use capsulemap::capsule::{
     Orbit, Output, Parameter, Parameters, Section, State, Switching, settle, simulate,
@@ -366,5 +366,21 @@ fn the_equation_as_printed_is_followed_too() {
         let orbit = settle(&p, 0.0, start, &Protocol::default());
         let speeds = [&orbit.outputs, &point.measured].map(|it| it[Output::ProgressionSpeed]);
         assert!((speeds[0] - speeds[1]).abs() < 1e-9, "{}: {speeds:?}", point.parameter);
+    }
+}
+
+#[test]
+fn a_branch_of_tiny_steps_neither_closes_nor_goes_on_for_ever() {
+    let p = Parameters::with(&[(Parameter::Omega, 20.0), (Parameter::Pd, 0.5)]);
+    for longest_step in [1e-3, 1e-6, 1e-9, 1e-11, 1e-13, 1e-16, 0.0] {
+        let mut request = request(&p, quiet(&p), 1, Parameter::Omega, [15.0, 25.0]);
+        (request.longest_step, request.most_points) = (longest_step, 12);
+        let found = follow(&request).expect("the stuck capsule oscillates");
+        let Branch { points, ends, .. } = &found.branches[0];
+        let expected = if longest_step > 1e-12 { End::MostPoints } else { End::Stopped };
+        assert!(ends.iter().all(|&end| end == expected), "{longest_step:e}: {ends:?}");
+        assert!(points.len() <= 12, "{longest_step:e}");
+        let rises = points.is_sorted_by(|a, b| a.parameter < b.parameter);
+        assert!(rises, "{longest_step:e}: {:?}", points.iter().map(|it| it.parameter));
     }
 }

@@ -89,7 +89,7 @@ fn the_faults_of_branches_are_reported_at_once() {
             "line 12: branches[1].orbit: unknown method to find the orbit \"newtn\"; did you mean \"newt",
             "line 13: branches[1].period: expected a whole number, 1 to",
             "line 14: branches[1].doublings: expected a whole number, 0 to 20",
-            "line 15: branches[1].longest_step: 2 must lie above 0 and up to 1",
+            "line 15: branches[1].longest_step: 2 must lie between 1e-9 and 1",
             "line 16: branches[1].most_points: expected a whole number, 2 to",
             "line 17: branches[1].start.x: unknown key \"x\"",
             "line 18: branches[1].second.name: is the parameter that the orbit is continued in",

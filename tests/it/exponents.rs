@@ -232,7 +232,7 @@ fn neighbouring_trajectories_part_at_the_rate_of_the_exponent() {
     let systems: Vec<CapsuleSystem<Filippov>> =
         cases.iter().map(|(case, _)| case.read().system).collect();
     let capsules: Vec<_> =
-        cases.iter().zip(&systems).map(|((_, start), system)| (system, *start)).collect();
+        cases.iter().zip(&systems).map(|((_, start), system)| (system, *start, u64::MAX)).collect();
     let protocol = Protocol::default();
     let followed = follow_aperiodic_side_by_side(Instructions::widest(), &capsules, &protocol);
     for ((case, start), followed) in cases.iter().zip(followed) {
@@ -313,7 +313,7 @@ fn a_stretch_has_the_same_bits_by_any_instructions() {
         cases.iter().map(|case| case.read().system).collect();
     let start = |case: &Case| [case.start.r, case.start.y1, case.start.y2];
     let capsules: Vec<_> =
-        cases.iter().zip(&systems).map(|(case, system)| (system, start(case))).collect();
+        cases.iter().zip(&systems).map(|(case, system)| (system, start(case), u64::MAX)).collect();
     let protocol = Protocol { exponent_cycles: 200, ..Protocol::default() };
     let alone = follow_aperiodic_side_by_side(Instructions::Scalar, &capsules, &protocol);
     for instructions in Instructions::available() {

@@ -1,7 +1,9 @@
 //! The same source serves one case or many side by side, to the same bits.
 
-use capsulemap::capsule::{Capsule, Case, Orbit, Parameter, Parameters, State, settle};
-use capsulemap::flow::{Motion, Step};
+use capsulemap::capsule::{
+    Capsule, Case, Orbit, Parameter, Parameters, Resistance, State, settle, settle_case,
+};
+use capsulemap::flow::{Motion, Reason, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap::orbit::{Outcome, Protocol};
 
@@ -140,6 +142,40 @@ fn an_orbit_has_the_same_bits_by_any_instructions_and_in_any_order() {
         found.reverse();
         assert!(found == expected, "{} backward", instructions.name());
     }
+}
+
+#[test]
+fn a_case_has_so_many_steps_and_no_more_by_any_instructions() {
+    let cases = draws::wide(200, 31, Resistance::CoulombStribeck);
+    let usual = Protocol { max_cycles: 100, exponent_cycles: 64, ..Protocol::default() };
+    let unlimited = draws::settled(&cases, &usual, Instructions::widest());
+    let mut ended = [0, 0];
+    for max_steps in [1, 100, 3000, 10_000, 100_000] {
+        let protocol = Protocol { max_steps, ..usual };
+        let alone: Vec<Orbit> = cases.iter().map(|case| settle_case(case, &protocol)).collect();
+        for (limited, free) in alone.iter().zip(&unlimited) {
+            match limited.failure {
+                Some(failure) => {
+                    assert!(failure.reason == Reason::OutOfSteps, "{failure}");
+                    assert_eq!(limited.outcome, Outcome::Failed);
+                    // A cycle has a step at least.
+                    assert!(limited.cycles <= max_steps);
+                    ended[0] += 1;
+                }
+                // What is done in time is what it is without a limit.
+                None => {
+                    assert_eq!(format!("{limited:?}"), format!("{free:?}"));
+                    ended[1] += 1;
+                }
+            }
+        }
+        let alone = format!("{alone:?}");
+        for instructions in Instructions::available() {
+            let found = format!("{:?}", draws::settled(&cases, &protocol, instructions));
+            assert!(found == alone, "{max_steps} steps, {}", instructions.name());
+        }
+    }
+    assert!(ended.iter().all(|&cases| cases > 200), "{ended:?}");
 }
 
 #[test]

@@ -166,9 +166,10 @@ fn the_reference_of_studies_names_every_parameter_and_output() {
         let known = row.is_some_and(|row| row.contains(&format!("| {} |", output.unit())));
         assert!(known || output.name().starts_with("backward"), "{}", output.name());
     }
-    let Protocol { max_cycles, max_period, measured_cycles, .. } = Protocol::default();
+    let Protocol { max_cycles, max_steps, max_period, measured_cycles, .. } = Protocol::default();
     for (key, value) in [
         ("max_cycles", max_cycles),
+        ("max_steps", max_steps),
         ("max_period", max_period as u64),
         ("measured_cycles", measured_cycles),
     ] {

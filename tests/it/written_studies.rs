@@ -127,6 +127,7 @@ impl Random {
             tolerance: tolerance(self).clamp(1e-15, 1e-3),
             recurrence: tolerance(self).clamp(1e-15, 1e-3),
             max_cycles: 1 + (self.0.next_u64() >> self.one(&[1, 50])) / 2,
+            max_steps: 1 + (self.0.next_u64() >> self.one(&[1, 50])) / 2,
             max_period: 1 + self.below(100_000),
             measured_cycles: 1 + self.below(1000) as u64,
             exponent_cycles: self.one(&[0, 16, 2048, 1_000_000]),

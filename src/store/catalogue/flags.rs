@@ -51,15 +51,14 @@ pub fn stabilities() -> Flags {
 
 /// The number of what came of a branch.
 pub fn result(continued: &Continued) -> i64 {
-    let reasons = REASONS.len() as i64;
     match continued {
         Ok(_) => 0,
+        // 1, 2, 3 and 5: a capsule always returns to its section.
         Err(NotContinued::Failed(reason)) => *reason as i64,
-        Err(NotContinued::NoOrbit) => reasons + 1,
-        // Two more has stood for the equation as printed in files of earlier versions.
-        Err(NotContinued::Neutral) => reasons + 3,
+        Err(NotContinued::NoOrbit) => 4,
+        Err(NotContinued::Neutral) => 6,
         // No outcome in this list has the number zero.
-        Err(NotContinued::Unsettled(outcome)) => reasons + 3 + *outcome as i64,
+        Err(NotContinued::Unsettled(outcome)) => 6 + *outcome as i64,
     }
 }
 

@@ -27,7 +27,7 @@ fn alone<M: Subject<D>, const D: usize>(case: &Case<M, D>) -> Course<D> {
     let mut course = Course { points: Vec::new(), events: Vec::new(), failure: None };
     for _ in 0..CYCLES {
         let events = &mut course.events;
-        let ended = cycle(&system, &mut motion, &mut step, (0, TOLERANCE), |step| {
+        let ended = cycle(&system, &mut motion, &mut step, (STEPS_PER_CYCLE, TOLERANCE), |step| {
             if step.event != 0.0 {
                 events.push((step.event.to_bits(), (step.start + step.length).to_bits()));
             }
@@ -138,7 +138,7 @@ fn returned_alone<M: Subject<D>, const D: usize>(
     let mut motion = Motion::new(&system, case.begins, case.start);
     let (mut step, mut points) = (Step::default(), Vec::new());
     for met in 0..waited + kept {
-        match cycle(&system, &mut motion, &mut step, (0, TOLERANCE), |_| ()) {
+        match cycle(&system, &mut motion, &mut step, (STEPS_PER_CYCLE, TOLERANCE), |_| ()) {
             Err(reason) => return (points, Some(reason)),
             Ok(_) if met < waited => {}
             Ok(_) => points.push(M::Single::point(&motion.state).map(f64::to_bits)),

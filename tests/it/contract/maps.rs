@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use capsulemap::flow::{Motion, Step, Stroboscopic, cycle};
+use capsulemap::flow::{Motion, STEPS_PER_CYCLE, Step, Stroboscopic, cycle};
 use capsulemap::lane::{Dual, Lane};
 use capsulemap::orbit::Case;
 use capsulemap::orbit::matrix::Matrix;
@@ -27,7 +27,7 @@ pub fn point_after<M: Subject<D>, const D: usize>(
     let mut motion = Motion::new(&system, case.begins, case.start);
     let mut step = Step::default();
     for _ in 0..cycles {
-        cycle(&system, &mut motion, &mut step, (0, 1e-12), |_| ()).ok()?;
+        cycle(&system, &mut motion, &mut step, (STEPS_PER_CYCLE, 1e-12), |_| ()).ok()?;
     }
     Some(M::Single::point(&motion.state))
 }

@@ -2,7 +2,7 @@
 
 use capsulemap::flow::defect::defect;
 use capsulemap::flow::metric::greater;
-use capsulemap::flow::{Field, Motion, Step, Switched, System, cycle};
+use capsulemap::flow::{Field, Motion, STEPS_PER_CYCLE, Step, Switched, System, cycle};
 use capsulemap::lane::{ORDER, Series, series};
 use capsulemap::orbit::Case;
 
@@ -63,18 +63,19 @@ pub fn guard_signs<M: Subject<D>, const D: usize>() {
             let mut motion = Motion::new(&system, case.begins, case.start);
             let mut step = Step::default();
             for _ in 0..6 {
-                let ended = cycle(&system, &mut motion, &mut step, (0, TOLERANCE), |step| {
-                    let (deepest, nearest) = guards(&case, &system, step);
-                    let at = step.start;
-                    // A step without length is an event that is due at once, in a mode that does not last.
-                    let lasts = step.length > 0.0;
-                    assert!(!lasts || deepest <= 1.0, "{deepest:e} at {at}: {:?}", case.system);
-                    if step.event != 0.0 {
-                        assert!(nearest <= 1.0, "event {nearest:e} at {at}: {:?}", case.system);
-                        events += 1;
-                    }
-                    steps += 1;
-                });
+                let ended =
+                    cycle(&system, &mut motion, &mut step, (STEPS_PER_CYCLE, TOLERANCE), |step| {
+                        let (deepest, nearest) = guards(&case, &system, step);
+                        let at = step.start;
+                        // A step without length is an event that is due at once, in a mode that does not last.
+                        let lasts = step.length > 0.0;
+                        assert!(!lasts || deepest <= 1.0, "{deepest:e} at {at}: {:?}", case.system);
+                        if step.event != 0.0 {
+                            assert!(nearest <= 1.0, "event {nearest:e} at {at}: {:?}", case.system);
+                            events += 1;
+                        }
+                        steps += 1;
+                    });
                 if ended.is_err() {
                     break;
                 }
@@ -97,13 +98,14 @@ pub fn defects<M: Subject<D>, const D: usize>() {
             let (mut largest, mut size) = (0.0, 0.0_f64);
             let weights = system.weights();
             let lasts = (0..6).all(|_| {
-                let ended = cycle(&system, &mut motion, &mut step, (0, TOLERANCE), |step| {
-                    largest = greater(largest, defect(&system, step));
-                    let begins = M::Single::coordinates(&system.beginning(&step.jet));
-                    for (x, weight) in begins.as_ref().iter().zip(weights.as_ref()) {
-                        size = size.max((weight * x).abs());
-                    }
-                });
+                let ended =
+                    cycle(&system, &mut motion, &mut step, (STEPS_PER_CYCLE, TOLERANCE), |step| {
+                        largest = greater(largest, defect(&system, step));
+                        let begins = M::Single::coordinates(&system.beginning(&step.jet));
+                        for (x, weight) in begins.as_ref().iter().zip(weights.as_ref()) {
+                            size = size.max((weight * x).abs());
+                        }
+                    });
                 ended.is_ok()
             });
             followed += usize::from(lasts);
@@ -123,17 +125,22 @@ pub fn every_return<M: Subject<D>, const D: usize>() {
         let mut step = Step::default();
         for _ in 0..if M::Single::AUTONOMOUS { 20 } else { 0 } {
             let mut above = false;
-            let ended = cycle(&system, &mut motion, &mut step, (0, TOLERANCE), |step| {
-                let mut section = series::zero();
-                system.section(&step.jet, &mut section);
-                let rounding = ROUNDINGS * magnitude(&section, step.length);
-                for i in 0..=32 {
-                    let value = series::value(&section, step.length * f64::from(i) / 32.0);
-                    assert!(!above || value >= -rounding, "a return is missed: {:?}", case.system);
-                    above = value > rounding;
-                }
-                above &= step.event == 0.0 && !step.arrives;
-            });
+            let ended =
+                cycle(&system, &mut motion, &mut step, (STEPS_PER_CYCLE, TOLERANCE), |step| {
+                    let mut section = series::zero();
+                    system.section(&step.jet, &mut section);
+                    let rounding = ROUNDINGS * magnitude(&section, step.length);
+                    for i in 0..=32 {
+                        let value = series::value(&section, step.length * f64::from(i) / 32.0);
+                        assert!(
+                            !above || value >= -rounding,
+                            "a return is missed: {:?}",
+                            case.system
+                        );
+                        above = value > rounding;
+                    }
+                    above &= step.event == 0.0 && !step.arrives;
+                });
             if ended.is_err() {
                 break;
             }
@@ -152,7 +159,8 @@ pub fn sections<M: Subject<D>, const D: usize>() {
         let mut motion = Motion::new(&system, case.begins, case.start);
         let mut step = Step::default();
         for _ in 0..6 {
-            let ended = cycle(&system, &mut motion, &mut step, (0, TOLERANCE), |_| ());
+            let ended =
+                cycle(&system, &mut motion, &mut step, (STEPS_PER_CYCLE, TOLERANCE), |_| ());
             let Ok(duration) = ended else { break };
             met += 1;
             if !M::Single::AUTONOMOUS {
