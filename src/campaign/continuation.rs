@@ -32,14 +32,14 @@ impl Campaign<'_> {
         check_branches(older.as_ref(), self.output, self.overwrite)?;
         reports.send(Event::Accepted(older.as_ref()))?;
         drop(older);
-        prepare(store::folder(self.output))?;
+        prepare(self.output)?;
         reports.send(Event::Begun(Stage::Continuing, self.study.branches.len()))?;
         let (begun, threads) = (Instant::now(), self.machine.threads);
         let done = || reports.step(Stage::Continuing);
         let continued = run::continue_branches(self.study, threads, done)?;
         let time = begun.elapsed();
         reports.send(Event::Ended(Stage::Continuing))?;
-        self.put(&continued)?;
+        self.put(&continued, &reports)?;
         Ok(BranchesDone::Now { continued, time })
     }
 
@@ -49,27 +49,47 @@ impl Campaign<'_> {
     }
 
     /// Writes the branches beside what the file holds by now.
-    fn put(&self, continued: &[run::Continued]) -> Result<(), CampaignError> {
+    fn put(
+        &self,
+        continued: &[run::Continued],
+        reports: &Reports<'_>,
+    ) -> Result<(), CampaignError> {
         // Cases that were joined meanwhile are in the file, and none can come before it is replaced.
-        let _held = store::hold(self.output)?;
+        let _held = store::hold(self.output, |folder| reports.wait(folder))?;
+        store::discard_unfinished(self.output)?;
         let older = self.kept()?;
         check_branches(older.as_ref(), self.output, self.overwrite)?;
-        let mut dataset = self.without_branches(older.as_ref())?;
-        drop(older);
-        add_branches(&mut dataset, self.study, continued);
-        Ok(store::write(&dataset, self.output)?)
+        match older.filter(|older| older.archive.has_cases()) {
+            None => {
+                let mut dataset = store::frame(self.study);
+                add_branches(&mut dataset, self.study, continued);
+                store::write(&dataset, self.output)?;
+            }
+            Some(older) => {
+                let is_of_case = |name: &str| store::is_of_case(self.study, name);
+                let frame = older.archive.dataset(|name, _| !is_of_case(name))?;
+                let mut frame = self.renewed(frame);
+                add_branches(&mut frame, self.study, continued);
+                store::write_beside_cases(&older.archive, self.study, &frame, self.output)?;
+            }
+        }
+        Ok(())
     }
 
     /// What the file holds beside branches, with the text of this study.
     ///
     /// Fails if the file cannot be read.
     pub fn without_branches(&self, older: Option<&Kept>) -> Result<Dataset, CampaignError> {
+        let Some(older) = older else { return Ok(store::frame(self.study)) };
+        Ok(self.renewed(older.archive.dataset(|_, _| true)?))
+    }
+
+    /// What a file held, without branches and with the text of this study.
+    fn renewed(&self, mut dataset: Dataset) -> Dataset {
         let frame = store::frame(self.study);
-        let Some(older) = older else { return Ok(frame) };
-        let mut dataset = older.archive.dataset(|_, _| true)?;
         dataset.texts.extend(frame.texts);
         dataset.attributes.extend(frame.attributes);
         drop_branches(&mut dataset);
-        Ok(dataset)
+        dataset
     }
 }

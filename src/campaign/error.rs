@@ -115,7 +115,7 @@ pub enum Cause {
 impl CampaignError {
     /// What it comes from.
     pub fn cause(&self) -> Cause {
-        use StoreError::{Busy, Changed, Occupied};
+        use StoreError::{Busy, Changed, Held, NoBlocks, Occupied};
         match self {
             CampaignError::Path { .. }
             | CampaignError::Study(_)
@@ -127,9 +127,9 @@ impl CampaignError {
             | CampaignError::OtherBranches { .. }
             | CampaignError::NoFolder { .. }
             | CampaignError::Missing { .. }
-            | CampaignError::Store(Busy { .. } | Changed { .. } | Occupied { .. }) => {
-                Cause::Request
-            }
+            | CampaignError::Store(
+                Busy { .. } | Changed { .. } | Held { .. } | NoBlocks { .. } | Occupied { .. },
+            ) => Cause::Request,
             CampaignError::Refused { .. }
             | CampaignError::Block { .. }
             | CampaignError::NotKept { .. }

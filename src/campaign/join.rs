@@ -4,14 +4,15 @@ use std::path::{Path, PathBuf};
 
 use crate::run::{self, has_attractors};
 use crate::store::{
-    self, BlockFolder, Blocks, Company, Dataset, Unusable, add_attractors, keep_branches,
+    self, BlockFolder, Blocks, Company, Dataset, StoreError, Unusable, add_attractors,
+    keep_branches,
 };
 
 use super::error::CampaignError;
-use super::kept::{branches_of, check_branches, clear_away, kept};
+use super::kept::{Kept, branches_of, check_branches, clear_away, kept};
 use super::report::{Event, Report, Reports, Stage};
 use super::request::{Campaign, Complete};
-use super::result_file::{block_path, prepare};
+use super::result_file::{block_path, partial_path, prepare};
 
 impl Campaign<'_> {
     /// Joins the blocks that are there, which must be all, into the file, and removes them; a file with all
@@ -27,9 +28,7 @@ impl Campaign<'_> {
     ///
     /// Fails if no block was begun or the folder holds those of another study.
     pub fn join_partial(&self, report: &Report<'_>) -> Result<Complete, CampaignError> {
-        let name = self.output.file_name().unwrap_or_default();
-        let file = store::folder(self.output).join("partial").join(name);
-        Campaign { overwrite: true, ..*self }.join_or_keep(&file, report)
+        Campaign { overwrite: true, ..*self }.join_or_keep(&partial_path(self.output), report)
     }
 
     /// Joins the blocks into `file`, which is partial unless it is the output.
@@ -37,21 +36,40 @@ impl Campaign<'_> {
         let reports = Reports::new(report);
         let (study, is_partial) = (self.study, file != self.output);
         match self.kept()? {
-            Some(older) if older.archive.has_cases() => {
-                reports.send(Event::Before { same_text: older.same_text })?;
-                if !is_partial {
-                    clear_away(self.output, study)?;
-                }
-                Ok(Complete { path: self.output.to_owned(), archive: older.archive })
-            }
+            Some(older) if older.archive.has_cases() => self.keep(older, is_partial, &reports),
             older => {
                 check_branches(older.as_ref(), self.output, self.overwrite)?;
                 drop(older);
                 let company = if is_partial { Company::Anybody } else { Company::Alone };
-                let folder = BlockFolder::enter(&block_path(self.output), study, company, false)?;
-                self.join_blocks(folder, file, &reports)
+                let folder = BlockFolder::enter(&block_path(self.output), study, company, false);
+                let joined = folder
+                    .map_err(CampaignError::from)
+                    .and_then(|folder| self.join_blocks(folder, file, &reports));
+                // A run that has ended meanwhile has taken its blocks away and left the whole.
+                match (joined, self.kept()) {
+                    (Err(CampaignError::Store(_)), Ok(Some(whole)))
+                        if whole.archive.has_cases() =>
+                    {
+                        self.keep(whole, is_partial, &reports)
+                    }
+                    (joined, _) => joined,
+                }
             }
         }
+    }
+
+    /// Leaves a file with all cases as it is.
+    fn keep(
+        &self,
+        older: Kept,
+        is_partial: bool,
+        reports: &Reports<'_>,
+    ) -> Result<Complete, CampaignError> {
+        reports.send(Event::Before { same_text: older.same_text })?;
+        if !is_partial {
+            clear_away(self.output, self.study, reports)?;
+        }
+        Ok(Complete { path: self.output.to_owned(), archive: older.archive })
     }
 
     /// Joins the blocks in `folder` into `file`, beside branches that have been continued by then, and removes
@@ -63,9 +81,13 @@ impl Campaign<'_> {
         reports: &Reports<'_>,
     ) -> Result<Complete, CampaignError> {
         let is_partial = file != self.output;
-        prepare(store::folder(file))?;
+        prepare(file)?;
         let blocks = Blocks::open(&folder, self.study, 0..self.study.blocks());
         let blocks = if is_partial {
+            // A run that has ended since has removed some of them.
+            if !BlockFolder::is_begun(folder.path()) {
+                return Err(StoreError::NoBlocks { folder: folder.path().to_owned() }.into());
+            }
             report_left_out(&folder, &blocks, reports)?;
             blocks
         } else {
@@ -75,7 +97,7 @@ impl Campaign<'_> {
         let mut frame = blocks.frame();
         self.add_attractors(&mut frame, &blocks, reports)?;
         // Branches that were continued meanwhile are in the file, and none can come before it is replaced.
-        let _held = store::hold(file)?;
+        let _held = store::hold(file, |folder| reports.wait(folder))?;
         self.write(&blocks, frame, file, reports)?;
         let archive = store::open(file)?;
         reports.send(Event::Joined { path: file, blocks: &blocks })?;
@@ -120,6 +142,7 @@ impl Campaign<'_> {
         }
         drop(older);
         store::discard_unfinished(file)?;
+        store::discard_unfinished(&partial_path(self.output))?;
         let begun = |parts| {
             // A request to stop takes effect at the first part.
             let _ = reports.note(Event::Begun(Stage::Writing, parts));
@@ -136,6 +159,11 @@ impl Campaign<'_> {
 fn all_of<'a>(folder: &BlockFolder, mut blocks: Blocks<'a>) -> Result<Blocks<'a>, CampaignError> {
     if blocks.missing.is_empty() {
         return Ok(blocks);
+    }
+    let is_refused = |(_, why): &(usize, Unusable)| matches!(why, Unusable::Refused(_));
+    if let Some(place) = blocks.missing.iter().position(is_refused) {
+        let (number, why) = blocks.missing.swap_remove(place);
+        return Err(CampaignError::Block { file: folder.file(number), why });
     }
     let missing = std::mem::take(&mut blocks.missing).into_iter();
     let named =

@@ -8,7 +8,8 @@ use crate::store::{self, Archive, BlockFolder, Company, Dataset, has_branches, p
 use crate::study::Study;
 
 use super::error::CampaignError;
-use super::result_file::block_path;
+use super::report::Reports;
+use super::result_file::{block_path, partial_path};
 
 /// A file of results of the cases of a study, by this version of the program.
 #[derive(Debug)]
@@ -69,8 +70,17 @@ pub(super) fn branches_of(older: Option<&Kept>) -> Result<Option<Dataset>, Campa
     }
 }
 
-/// Removes the blocks of `study` that a run has left which was stopped after it had joined them.
-pub(super) fn clear_away(output: &Path, study: &Study) -> Result<(), CampaignError> {
+/// Removes what runs have left that were stopped while they wrote the file, or a part of it, and the blocks of `study`
+/// that a run has left which was stopped after it had joined them.
+pub(super) fn clear_away(
+    output: &Path,
+    study: &Study,
+    reports: &Reports<'_>,
+) -> Result<(), CampaignError> {
+    let held = store::hold(output, |folder| reports.wait(folder))?;
+    store::discard_unfinished(output)?;
+    store::discard_unfinished(&partial_path(output))?;
+    drop(held);
     let path = block_path(output);
     if !BlockFolder::is_begun(&path) {
         return Ok(());

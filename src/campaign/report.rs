@@ -68,6 +68,11 @@ pub enum Event<'a> {
         /// The time they took.
         time: Duration,
     },
+    /// Another run writes results in the same folder; this one waits until it is done.
+    Waiting {
+        /// The folder.
+        folder: &'a Path,
+    },
     /// The blocks in this folder are joined now.
     Joining {
         /// Where they are.
@@ -141,6 +146,11 @@ impl<'a> Reports<'a> {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
+    }
+
+    /// Reports that another run is waited for.
+    pub(super) fn wait(&self, folder: &Path) {
+        let _ = self.note(Event::Waiting { folder });
     }
 
     /// Reports a step of a stage that cannot be interrupted; a request to stop takes effect after the stage.

@@ -3,7 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use super::error::CampaignError;
+use crate::store;
 
+/// File systems allow 255 bytes, and a file has a longer name until it is finished.
+const LONGEST_NAME: usize = 243;
+/// The folder of files of what has been computed so far, beside the file of results.
+const PARTIAL: &str = "partial";
 /// The extension of the folder of blocks.
 const BLOCKS: &str = "blocks";
 
@@ -12,10 +17,17 @@ pub fn block_path(output: &Path) -> PathBuf {
     output.with_extension(BLOCKS)
 }
 
+/// The file of what has been computed so far of the results that go to `output`.
+pub(super) fn partial_path(output: &Path) -> PathBuf {
+    let name = output.file_name().unwrap_or_default();
+    store::folder(output).join(PARTIAL).join(name)
+}
+
 /// The file that the results of the study at the path `study` go to: `output`, or
 /// results/NAME/NAME.h5 for a study NAME.toml.
 ///
-/// Fails if it cannot be a file of results, as a folder, or the study itself.
+/// Fails if it cannot be a file of results, as a folder, a link that leads nowhere, a name that HDF5 does not take, or
+/// the study itself.
 pub fn output_path(study: &Path, output: Option<&Path>) -> Result<PathBuf, CampaignError> {
     let stem = file_stem(study)?;
     let default = || Path::new("results").join(&stem).join(format!("{stem}.h5"));
@@ -23,6 +35,16 @@ pub fn output_path(study: &Path, output: Option<&Path>) -> Result<PathBuf, Campa
     let unfit = |path: &Path, fault: &str| {
         Err(CampaignError::Path { path: path.to_owned(), fault: fault.to_owned() })
     };
+    if output.to_str().is_none() {
+        return unfit(&output, "the name is not text in UTF-8, as names of HDF5 files are");
+    }
+    let name = output.file_name().map_or(0, |name| name.len());
+    if name > LONGEST_NAME {
+        return unfit(&output, &format!("the name has {name} bytes; {LONGEST_NAME} are the most"));
+    }
+    if output.is_symlink() && !output.exists() {
+        return unfit(&output, "is a link that leads to no file; remove it, or name another file");
+    }
     if output.exists() && !output.is_file() {
         let what = if output.is_dir() { "a folder" } else { "not a plain file" };
         return unfit(&output, &format!("is {what}; name a file"));
@@ -47,8 +69,9 @@ fn file_stem(path: &Path) -> Result<String, CampaignError> {
     stem.map(str::to_owned).ok_or(CampaignError::Path { path: path.to_owned(), fault })
 }
 
-/// Creates the folder of the results, and checks that a file can be written there before a long run.
-pub(super) fn prepare(folder: &Path) -> Result<(), CampaignError> {
+/// Creates the folder of the results, and checks before a long run that the file can be written there.
+pub(super) fn prepare(output: &Path) -> Result<(), CampaignError> {
+    let folder = store::folder(output);
     if let Some(file) = folder.ancestors().find(|ancestor| ancestor.is_file()) {
         let (folder, file) = (folder.to_owned(), file.to_owned());
         return Err(CampaignError::NoFolder { folder, file });
@@ -56,6 +79,5 @@ pub(super) fn prepare(folder: &Path) -> Result<(), CampaignError> {
     let failed =
         |refused| move |said| CampaignError::Refused { folder: folder.to_owned(), refused, said };
     std::fs::create_dir_all(folder).map_err(failed("cannot be created"))?;
-    let probe = tempfile::tempfile_in(folder).map(drop);
-    probe.map_err(failed("no file can be written there"))
+    store::try_to_begin(output).map_err(failed("no file can be written there"))
 }

@@ -1,6 +1,6 @@
 //! Starts a campaign or resumes it: what is missing is computed, and joined unless tasks share the study.
 
-use crate::store::{self, BlockFolder, Company};
+use crate::store::{BlockFolder, Company};
 
 use super::error::CampaignError;
 use super::kept::{Kept, check_branches, clear_away};
@@ -27,7 +27,7 @@ impl Campaign<'_> {
                 reports.send(Event::Accepted(older.as_ref()))?;
             }
         }
-        prepare(store::folder(self.output))?;
+        prepare(self.output)?;
         let company = if task.of > 1 { Company::Tasks } else { Company::Alone };
         let path = block_path(self.output);
         let folder = BlockFolder::enter(&path, self.study, company, self.overwrite)?;
@@ -51,7 +51,7 @@ impl Campaign<'_> {
     /// Leaves a file as it is, and removes the blocks of a run that was stopped at its very end.
     fn leave(&self, older: Kept, reports: &Reports<'_>) -> Result<Done, CampaignError> {
         reports.send(Event::Before { same_text: older.same_text })?;
-        clear_away(self.output, self.study)?;
+        clear_away(self.output, self.study, reports)?;
         let (path, archive) = (self.output.to_owned(), older.archive);
         Ok(Done::Complete(Complete { path, archive }))
     }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
 
 use crate::run::{Estimate, Forecast};
-use crate::store::{BlockFolder, Company, Summary, Unusable, provenance};
+use crate::store::{BlockFolder, Company, StoreError, Summary, Unusable, provenance};
 use crate::study::Study;
 
 use super::error::CampaignError;
@@ -61,12 +61,10 @@ impl Campaign<'_> {
     /// Fails if the folder of blocks holds those of another study or cannot be read.
     pub fn status(&self) -> Result<Status, CampaignError> {
         let path = block_path(self.output);
-        let blocks = match path.is_dir() {
-            true => {
-                let folder = BlockFolder::enter(&path, self.study, Company::Anybody, false)?;
-                Some(BlockStatus::of(self.study, &folder))
-            }
-            false => None,
+        let blocks = match BlockFolder::enter(&path, self.study, Company::Anybody, false) {
+            Ok(folder) => Some(BlockStatus::of(self.study, &folder)),
+            Err(StoreError::NoBlocks { .. }) => None,
+            Err(error) => return Err(error.into()),
         };
         Ok(Status { blocks, file: kept(self.output, self.study, false) })
     }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::readable::{count, counted, estimated, rate};
-use super::terminal::notify;
+use super::terminal::{in_turn, notify};
 use crate::run::{Forecast, Record};
 use crate::store::Summary;
 
@@ -74,11 +74,12 @@ impl BlockProgress {
             state.recent.pop_front();
         }
         let line = self.line(&state);
-        // Writing to the terminal may be slow; the lock is released before.
         drop(state);
-        if let Some(bar) = &self.bar {
-            bar.set_position(done as u64);
-            bar.set_message(line);
+        if let Some(bar) = self.bar.clone() {
+            in_turn(Box::new(move || {
+                bar.set_position(done as u64);
+                bar.set_message(line);
+            }));
         }
     }
 
@@ -125,8 +126,8 @@ impl BlockProgress {
 
     /// Ends the watch; returns the time it took.
     pub fn finish(&self) -> Duration {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
+        if let Some(bar) = self.bar.clone() {
+            in_turn(Box::new(move || bar.finish_and_clear()));
         }
         self.begun.elapsed()
     }

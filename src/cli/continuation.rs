@@ -6,13 +6,14 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::branch_summary::summary;
-use super::drawing::{FormatChoice, draw_from, rehearse};
+use super::drawing::{FormatChoice, draw_from, formats, rehearse};
 use super::failure::Failure;
 use super::terminal::{notify, print};
 use super::watch::Watch;
 use crate::campaign::{
     BranchesDone, Campaign, CampaignError, Event, Kept, output_path, read_study,
 };
+use crate::figure::Place;
 use crate::run::{Machine, NotContinued};
 use crate::store::{self, add_branches, folder};
 
@@ -34,7 +35,8 @@ pub struct Continue {
     /// Worker threads; one per core by default.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// Continue the branches again, and replace a file of results that another study left under that name.
+    /// Continue the branches again, and replace a file of results that another study left under that name, and files
+    /// in the place of figures.
     #[arg(long)]
     overwrite: bool,
     /// Do not draw the study's figures.
@@ -58,6 +60,8 @@ impl Continue {
         let machine = Machine { threads: self.threads.map(usize::from), instructions: None };
         let overwrite = self.overwrite;
         let campaign = Campaign { study: &study, output: &output, machine, overwrite };
+        let formats = formats(&self.formats);
+        let place = Place { folder: folder(&output), formats: &formats, overwrite };
         let watch = Watch::new(&self.study, &study);
         let done = campaign.continue_branches(&|event| match event {
             Event::Before { .. } => {
@@ -67,7 +71,7 @@ impl Continue {
                 ));
                 ControlFlow::Continue(())
             }
-            Event::Accepted(older) => watch.heed(self.rehearse(&campaign, older)),
+            Event::Accepted(older) => watch.heed(self.rehearse(&campaign, older, &place)),
             other => watch.hear(other),
         });
         let archive = match done {
@@ -84,13 +88,18 @@ impl Continue {
             },
         };
         if !self.no_figures {
-            draw_from(&archive, &study.drawings, folder(&output), &self.formats)?;
+            draw_from(&archive, &study.drawings, &place)?;
         }
         Ok(())
     }
 
     /// Draws the figures as if no branch could be continued.
-    fn rehearse(&self, campaign: &Campaign<'_>, older: Option<&Kept>) -> Result<(), Failure> {
+    fn rehearse(
+        &self,
+        campaign: &Campaign<'_>,
+        older: Option<&Kept>,
+        place: &Place<'_>,
+    ) -> Result<(), Failure> {
         if self.no_figures {
             return Ok(());
         }
@@ -98,7 +107,7 @@ impl Continue {
         let mut dataset = campaign.without_branches(older)?;
         let nothing = vec![Err(NotContinued::NoOrbit); study.branches.len()];
         add_branches(&mut dataset, study, &nothing);
-        let drawn = rehearse(&dataset, &study.drawings);
+        let drawn = rehearse(&dataset, &study.drawings, place);
         drawn.map_err(|failure| failure.within(&self.study.display().to_string()))
     }
 }

@@ -1,12 +1,10 @@
 //! Draws the figures of a study: those for which there is all that they show, or all without a value.
 
-use std::path::Path;
-
 use clap::ValueEnum;
 
 use super::failure::Failure;
 use super::terminal::notify;
-use crate::figure::{FigureError, Format, Needs, draw, needs, taken_for_another, variables};
+use crate::figure::{FigureError, Format, Needs, Place, draw, needs, taken_for_another, variables};
 use crate::store::{Archive, Dataset, has_branches, has_cases};
 use crate::study::{Drawing, DrawingKind};
 
@@ -21,62 +19,57 @@ pub enum FormatChoice {
     Pdf,
 }
 
-impl From<FormatChoice> for Format {
-    fn from(choice: FormatChoice) -> Self {
-        match choice {
-            FormatChoice::Png => Format::Png,
-            FormatChoice::Svg => Format::Svg,
-            FormatChoice::Pdf => Format::Pdf,
-        }
-    }
+/// The formats chosen.
+pub fn formats(choices: &[FormatChoice]) -> Vec<Format> {
+    let format = |choice: &FormatChoice| match choice {
+        FormatChoice::Png => Format::Png,
+        FormatChoice::Svg => Format::Svg,
+        FormatChoice::Pdf => Format::Pdf,
+    };
+    choices.iter().map(format).collect()
 }
 
 /// Draws those figures of a study for which there is all that they show.
 pub fn draw_from(
     archive: &Archive,
     drawings: &[Drawing],
-    folder: &Path,
-    formats: &[FormatChoice],
+    place: &Place<'_>,
 ) -> Result<(), Failure> {
-    draw_each(archive, &ready(archive.into(), drawings), folder, formats)
+    draw_each(archive, &ready(archive.into(), drawings), place)
 }
 
 /// Draws figures, each from no more of the results than it shows.
 pub fn draw_each(
     archive: &Archive,
     drawings: &[Drawing],
-    folder: &Path,
-    formats: &[FormatChoice],
+    place: &Place<'_>,
 ) -> Result<(), Failure> {
     let mut failures = Vec::new();
     for drawing in drawings {
         let shown = variables(drawing);
         let dataset = archive.labelled(|name| shown.contains(name)).map_err(Failure::machine)?;
-        failures.extend(draw_all(&dataset, std::slice::from_ref(drawing), folder, formats).err());
+        failures.extend(draw_all(&dataset, std::slice::from_ref(drawing), place).err());
     }
     Failure::all(failures).map_or(Ok(()), Err)
 }
 
 /// Draws the figures from results without a single value, so that a mistake in one of them is
 /// reported before a long run and not after it.
-pub fn rehearse(empty: &Dataset, drawings: &[Drawing]) -> Result<(), Failure> {
+pub fn rehearse(empty: &Dataset, drawings: &[Drawing], place: &Place<'_>) -> Result<(), Failure> {
     let ready: Vec<Drawing> =
         drawings.iter().filter(|it| waits_for(it.kind, empty.into()).is_none()).cloned().collect();
+    for drawing in &ready {
+        place.check(&drawing.name).map_err(failure)?;
+    }
     // In no format at all, nothing is written.
-    draw_all(empty, &ready, Path::new("."), &[])
+    draw_all(empty, &ready, &Place { formats: &[], ..*place })
 }
 
 /// Draws each figure and prints its files; one that cannot be drawn does not prevent the others.
-fn draw_all(
-    dataset: &Dataset,
-    drawings: &[Drawing],
-    folder: &Path,
-    formats: &[FormatChoice],
-) -> Result<(), Failure> {
-    let formats: Vec<Format> = formats.iter().copied().map(Format::from).collect();
+fn draw_all(dataset: &Dataset, drawings: &[Drawing], place: &Place<'_>) -> Result<(), Failure> {
     let mut failures = Vec::new();
     for drawing in drawings {
-        match draw(dataset, drawing, folder, &formats) {
+        match draw(dataset, drawing, place) {
             Ok(paths) if paths.is_empty() => {}
             Ok(paths) => {
                 let names: Vec<String> =
@@ -97,6 +90,9 @@ fn failure(error: FigureError) -> Failure {
         FigureError::Missing { .. } | FigureError::Unfit { .. } | FigureError::Glyph { .. } => {
             Failure::request(error)
         }
+        FigureError::Occupied { .. } => Failure::request(format!(
+            "{error}; move it, choose another place, or replace it with --overwrite"
+        )),
         FigureError::Render { .. } | FigureError::Write { .. } => Failure::machine(error),
     }
 }

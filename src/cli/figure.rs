@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::arguments::{named, plain_or_quantity};
-use super::drawing::{FormatChoice, draw_each, draw_from};
+use super::drawing::{FormatChoice, draw_each, draw_from, formats};
 use super::failure::Failure;
 use crate::campaign::study_of;
+use crate::figure::Place;
 use crate::store::{self, Archive, Dataset};
 use crate::study::document::unknown;
 use crate::study::{Coordinate, Drawing, DrawingKind};
@@ -58,6 +59,9 @@ pub struct Figure {
     /// Folder to write to; that of the file of results by default.
     #[arg(long)]
     folder: Option<PathBuf>,
+    /// Replace files in the place of figures that this program did not write, or that were changed since.
+    #[arg(long)]
+    overwrite: bool,
     /// File formats.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "png,svg,pdf")]
     formats: Vec<FormatChoice>,
@@ -69,11 +73,11 @@ impl Figure {
         let archive = store::open(&self.file).map_err(Failure::request)?;
         let here = self.file.parent().unwrap_or(Path::new("."));
         let folder = self.folder.as_deref().unwrap_or(here);
+        let formats = formats(&self.formats);
+        let place = Place { folder, formats: &formats, overwrite: self.overwrite };
         match self.kind {
-            Some(kind) => {
-                draw_each(&archive, &[self.drawing(kind, &archive)?], folder, &self.formats)
-            }
-            None => draw_from(&archive, &studied(&archive, &self.file)?, folder, &self.formats),
+            Some(kind) => draw_each(&archive, &[self.drawing(kind, &archive)?], &place),
+            None => draw_from(&archive, &studied(&archive, &self.file)?, &place),
         }
     }
 

@@ -7,7 +7,7 @@ use clap::Args;
 use serde_json::{Map, Value, json};
 
 use super::failure::Failure;
-use super::terminal::print;
+use super::terminal::{print, print_as_it_is};
 use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
 use crate::store::{self, Dataset, Values, Variable};
 
@@ -36,7 +36,7 @@ impl Inspect {
     pub fn run(&self) -> Result<(), Failure> {
         let dataset = store::read(&self.file).map_err(Failure::request)?;
         if self.study {
-            print(dataset.texts.get(STUDY_TEXT).map_or("", String::as_str))
+            print_as_it_is(dataset.texts.get(STUDY_TEXT).map_or("", String::as_str))
         } else if self.json {
             print(&format!("{:#}\n", describe(&dataset)))
         } else {

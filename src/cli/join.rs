@@ -6,11 +6,12 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::machine;
-use super::drawing::{FormatChoice, draw_from};
+use super::drawing::{FormatChoice, draw_from, formats};
 use super::failure::Failure;
 use super::terminal::notify;
 use super::watch::Watch;
 use crate::campaign::{Campaign, Event, output_path, read_study};
+use crate::figure::Place;
 use crate::store;
 
 const EXAMPLES: &str = "\
@@ -70,7 +71,9 @@ impl Join {
         let file = watch.end(joined)?;
         if !self.no_figures {
             let folder = store::folder(&file.path);
-            draw_from(&file.archive, &study.drawings, folder, &self.formats)?;
+            let formats = formats(&self.formats);
+            let place = Place { folder, formats: &formats, overwrite };
+            draw_from(&file.archive, &study.drawings, &place)?;
         }
         Ok(())
     }

@@ -28,7 +28,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use terminal::{notify, print};
+use terminal::{flush, notify, print};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -100,11 +100,13 @@ pub fn main() -> ExitCode {
             print(&String::from_utf8_lossy(&script))
         }
     };
-    match done {
+    let code = match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             notify(&format!("capsulemap: {failure}"));
             failure.exit_code()
         }
-    }
+    };
+    flush();
+    code
 }

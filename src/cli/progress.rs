@@ -6,10 +6,12 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::terminal::notify;
+use super::terminal::{in_turn, notify};
 
 /// Before the first line of a log, as quick work needs none.
 const FIRST_LINE: Duration = Duration::from_secs(2);
+/// The bar is brought up to date this often.
+const TICK: Duration = Duration::from_millis(100);
 /// Between two lines of a log at least.
 const LINE_INTERVAL: Duration = Duration::from_secs(10);
 
@@ -37,20 +39,24 @@ impl Progress {
             .unwrap_or_else(|_| ProgressStyle::default_bar());
             ProgressBar::new(total as u64).with_style(style)
         });
-        let lines = Mutex::new(Lines { done: 0, next: FIRST_LINE });
+        let next = if bar.is_some() { Duration::ZERO } else { FIRST_LINE };
+        let lines = Mutex::new(Lines { done: 0, next });
         Progress { total, what, begun: Instant::now(), bar, lines }
     }
 
     /// Notes that one more case is done.
     pub fn step(&self) {
-        if let Some(bar) = &self.bar {
-            bar.inc(1);
-            return;
-        }
         let Ok(mut lines) = self.lines.lock() else { return };
         lines.done += 1;
         let elapsed = self.begun.elapsed();
-        if elapsed >= lines.next {
+        if elapsed < lines.next {
+            return;
+        }
+        if let Some(bar) = self.bar.clone() {
+            lines.next = elapsed + TICK;
+            let done = lines.done as u64;
+            in_turn(Box::new(move || bar.set_position(done)));
+        } else {
             lines.next = elapsed + LINE_INTERVAL;
             let rate = lines.done as f64 / elapsed.as_secs_f64();
             let left = (self.total - lines.done) as f64 / rate;
@@ -62,8 +68,8 @@ impl Progress {
 
     /// Ends the watch; returns the time it took.
     pub fn finish(&self) -> Duration {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
+        if let Some(bar) = self.bar.clone() {
+            in_turn(Box::new(move || bar.finish_and_clear()));
         }
         self.begun.elapsed()
     }

@@ -38,15 +38,15 @@ impl Status {
         if let Some(blocks) = &status.blocks {
             text.push_str(&unfinished(&study, blocks));
         }
-        match status.file {
-            Ok(None) => {}
-            Ok(Some(kept)) => text.push_str(&whole(&output, &kept.archive)),
-            Err(refused) => text.push_str(&format!("{}\n", Failure::from(refused))),
+        let file = status.file.map_err(Failure::from);
+        if let Ok(Some(kept)) = &file {
+            text.push_str(&whole(&output, &kept.archive));
         }
-        if text.is_empty() {
+        if text.is_empty() && file.is_ok() {
             text = format!("{}: nothing is there yet\n", block_path(&output).display());
         }
-        print(&text)
+        print(&text)?;
+        file.map(drop)
     }
 }
 

@@ -1,17 +1,13 @@
 //! Ctrl-C and the signal of a scheduler: prints how to resume, and ends the program.
 
-use std::sync::{Mutex, mpsc};
+use std::sync::Mutex;
 use std::thread;
-use std::time::Duration;
 
 use super::failure::Failure;
-use super::terminal::notify;
+use super::terminal::{flush, notify};
 
 /// Gives the message.
 type Message = Box<dyn Fn() -> String + Send>;
-
-/// The longest wait for the message to be written.
-const PATIENCE: Duration = Duration::from_secs(2);
 
 /// The message now; none as long as the system's own handling of the signal suffices.
 static MESSAGE: Mutex<Option<Message>> = Mutex::new(None);
@@ -36,19 +32,10 @@ fn listen() -> Result<(), Failure> {
     let mut signals = Signals::new(heard).map_err(failed)?;
     thread::spawn(move || {
         if let Some(signal) = signals.forever().next() {
-            let (said, hears) = mpsc::channel();
-            thread::spawn(move || {
-                let message = MESSAGE.lock().unwrap_or_else(|it| it.into_inner());
-                // The line of the terminal may hold a bar, or ^C.
-                notify(&format!(
-                    "\ncapsulemap: {}",
-                    message.as_ref().map_or(String::new(), |it| it())
-                ));
-                // The receiver is gone once the time is over.
-                let _ = said.send(());
-            });
-            // The reader of standard error may be blocked.
-            let _ = hears.recv_timeout(PATIENCE);
+            let message = MESSAGE.lock().unwrap_or_else(|it| it.into_inner());
+            // The line of the terminal may hold a bar, or ^C.
+            notify(&format!("\ncapsulemap: {}", message.as_ref().map_or(String::new(), |it| it())));
+            flush();
             if emulate_default_handler(signal).is_err() {
                 std::process::exit(128 + signal);
             }

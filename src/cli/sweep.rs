@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::arguments::{machine, named};
-use super::drawing::{FormatChoice, draw_from, rehearse};
+use super::drawing::{FormatChoice, draw_from, formats, rehearse};
 use super::dry_run::estimate;
 use super::failure::Failure;
 use super::slurm;
 use super::terminal::notify;
 use super::watch::Watch;
 use crate::campaign::{Campaign, Complete, Done, Event, Task, output_path, read_study};
+use crate::figure::Place;
 use crate::lane::Instructions;
 use crate::store::{self, Dataset, folder};
 use crate::study::Study;
@@ -53,7 +54,8 @@ pub struct Sweep {
     /// Results do not depend on them.
     #[arg(long, value_parser = named(&Instructions::NAMES))]
     instructions: Option<Instructions>,
-    /// Replace a file of results that another study left under that name, and give up its blocks.
+    /// Replace a file of results that another study left under that name, and give up its blocks; replace files in
+    /// the place of figures, too.
     #[arg(long)]
     overwrite: bool,
     /// Do not draw the study's figures.
@@ -73,8 +75,11 @@ impl Sweep {
         let output = output_path(&self.study, self.output.as_deref())?;
         let overwrite = self.overwrite;
         let campaign = Campaign { study: &study, output: &output, machine, overwrite };
+        let formats = formats(&self.formats);
+        let place = Place { folder: folder(&output), formats: &formats, overwrite };
         if self.dry_run {
             campaign.kept()?;
+            self.rehearse(&study, &place)?;
             return estimate(&study, machine, &output);
         }
         let task = self.task()?;
@@ -86,12 +91,12 @@ impl Sweep {
                 notify(&format!("{shown}: already computed, by this program from {source}"));
                 ControlFlow::Continue(())
             }
-            Event::Accepted(_) => watch.heed(self.rehearse(&study)),
+            Event::Accepted(_) => watch.heed(self.rehearse(&study, &place)),
             other => watch.hear(other),
         });
         match watch.end(done)? {
             Done::Complete(Complete { archive, .. }) if !self.no_figures && task.of == 1 => {
-                draw_from(&archive, &study.drawings, folder(&output), &self.formats)
+                draw_from(&archive, &study.drawings, &place)
             }
             Done::Complete(_) => Ok(()),
             Done::Shared(blocks) => {
@@ -102,11 +107,11 @@ impl Sweep {
     }
 
     /// Draws the figures as if no case were done.
-    fn rehearse(&self, study: &Study) -> Result<(), Failure> {
+    fn rehearse(&self, study: &Study, place: &Place<'_>) -> Result<(), Failure> {
         if self.no_figures {
             return Ok(());
         }
-        let drawn = rehearse(&without_cases(study), &study.drawings);
+        let drawn = rehearse(&without_cases(study), &study.drawings, place);
         drawn.map_err(|failure| failure.within(&self.study.display().to_string()))
     }
 

@@ -1,11 +1,39 @@
 //! Writes to the terminal: results to standard output, messages to standard error.
+//!
+//! Messages go through a thread of their own, as nobody may read them: a run goes on where standard error is a pipe that
+//! is full or a terminal that is halted. What comes from files may hold control characters, which are shown as text.
 
+use std::borrow::Cow;
 use std::io::Write;
+use std::sync::mpsc::{Receiver, SyncSender, TrySendError, channel, sync_channel};
+use std::sync::{Mutex, OnceLock};
+use std::thread;
+use std::time::Duration;
 
 use super::failure::Failure;
 
+/// Messages that wait to be written at most; those beyond are dropped, and counted.
+const MOST_WAITING: usize = 4096;
+/// The longest wait for messages to be written before results are, and at the end.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// What the thread does: a message to write, or something else in its turn.
+type Turn = Box<dyn FnOnce() + Send>;
+
+/// The way to the thread, and the messages dropped since one was last taken.
+struct Messages {
+    turns: SyncSender<Turn>,
+    dropped: Mutex<u64>,
+}
+
 /// Prints to standard output; a closed pipe is no fault.
 pub fn print(text: &str) -> Result<(), Failure> {
+    print_as_it_is(&visible(text))
+}
+
+/// Prints a text with its control characters, as a file that is to be the same.
+pub fn print_as_it_is(text: &str) -> Result<(), Failure> {
+    flush();
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
@@ -15,8 +43,89 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Prints a line to standard error; a long run does not stop if it cannot be written.
+/// Prints a line to standard error, in its turn and without waiting for it; a long run does not stop if it cannot be
+/// written.
 pub fn notify(line: &str) {
+    let line = visible(line).into_owned();
+    in_turn(Box::new(move || write_line(&line)));
+}
+
+/// Does something that writes to standard error, in its turn and without waiting for it.
+pub fn in_turn(turn: Turn) {
+    let Some(messages) = messages() else { return turn() };
+    let mut dropped = messages.dropped.lock().unwrap_or_else(|it| it.into_inner());
+    let count = *dropped;
+    let turn: Turn = match count {
+        0 => turn,
+        _ => Box::new(move || {
+            write_line(&format!("({count} messages before this one were not read in time)"));
+            turn();
+        }),
+    };
+    *dropped = match messages.turns.try_send(turn) {
+        Ok(()) => 0,
+        Err(TrySendError::Full(_) | TrySendError::Disconnected(_)) => count + 1,
+    };
+}
+
+/// Waits until all messages are written, but not for long.
+pub fn flush() {
+    let (done, is_done) = channel();
+    in_turn(Box::new(move || {
+        // The receiver is gone once the time is over.
+        let _ = done.send(());
+    }));
+    let _ = is_done.recv_timeout(PATIENCE);
+}
+
+/// The way to the thread; none if the system has no thread for it.
+fn messages() -> Option<&'static Messages> {
+    static MESSAGES: OnceLock<Option<Messages>> = OnceLock::new();
+    let begin = || {
+        let (turns, taken): (_, Receiver<Turn>) = sync_channel(MOST_WAITING);
+        let work = move || taken.into_iter().for_each(|turn| turn());
+        thread::Builder::new().spawn(work).ok()?;
+        Some(Messages { turns, dropped: Mutex::new(0) })
+    };
+    MESSAGES.get_or_init(begin).as_ref()
+}
+
+fn write_line(line: &str) {
     // A failure to write to standard error cannot be reported.
     let _ = writeln!(std::io::stderr().lock(), "{line}");
+}
+
+/// A text in which a terminal finds nothing to obey: control characters, but for the ends of lines and tabs, and those
+/// that change the direction of a text are shown by their numbers, as JSON writes them.
+fn visible(text: &str) -> Cow<'_, str> {
+    let obeyed = |c: char| {
+        let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        turns || (c.is_control() && c != '\n' && c != '\t')
+    };
+    if !text.contains(obeyed) {
+        return Cow::Borrowed(text);
+    }
+    let shown = |c: char| match obeyed(c) {
+        true => format!("\\u{:04x}", u32::from(c)),
+        false => c.to_string(),
+    };
+    // The end of a line as Windows writes it.
+    Cow::Owned(text.replace("\r\n", "\n").chars().map(shown).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::visible;
+
+    #[test]
+    fn what_a_terminal_would_obey_is_shown() {
+        assert_eq!(visible("5 \u{b5}m\tat\r\n77 rad/s\n"), "5 \u{b5}m\tat\n77 rad/s\n");
+        assert_eq!(
+            visible("\u{1b}[2Ja\rb\u{7f}\u{9b}\u{202e}c"),
+            "\\u001b[2Ja\\u000db\\u007f\\u009b\\u202ec"
+        );
+        let json = serde_json::json!({ "a": "\u{1b}\u{7f}\u{9b}\u{202e}" }).to_string();
+        let read: serde_json::Value = serde_json::from_str(&visible(&json)).expect("it is JSON");
+        assert_eq!(read["a"], "\u{1b}\u{7f}\u{9b}\u{202e}");
+    }
 }

@@ -75,6 +75,10 @@ impl<'a> Watch<'a> {
             Event::LeftOut { file, why } => {
                 notify(&format!("{}: {why}; it is left out", file.display()));
             }
+            Event::Waiting { folder } => {
+                let shown = folder.display();
+                notify(&format!("{shown}: another run writes results there; it is waited for"));
+            }
             Event::Surveyed(survey) => return self.survey(&survey),
             Event::Computed { cases, time: took } => {
                 blocks.map(|it| it.finish());

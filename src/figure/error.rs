@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::store::StoreError;
+
 /// Why a figure could not be drawn.
 #[derive(Debug)]
 pub enum FigureError {
@@ -44,10 +46,15 @@ pub enum FigureError {
     Write {
         /// Name of the figure.
         figure: String,
+        /// The file, and what the system said.
+        source: StoreError,
+    },
+    /// A file is in the place of a figure that this program did not write, or that was changed since.
+    Occupied {
+        /// Name of the figure.
+        figure: String,
         /// The file.
         path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
     },
 }
 
@@ -84,9 +91,12 @@ impl fmt::Display for FigureError {
             FigureError::Render { figure, why } => {
                 write!(f, "figure `{figure}`: the drawing could not be rendered: {why}")
             }
-            FigureError::Write { figure, path, source } => {
-                write!(f, "figure `{figure}`: cannot write {}: {source}", path.display())
-            }
+            FigureError::Write { figure, source } => write!(f, "figure `{figure}`: {source}"),
+            FigureError::Occupied { figure, path } => write!(
+                f,
+                "figure `{figure}`: {}: is there, and is no figure that capsulemap drew or was changed since; it is kept",
+                path.display()
+            ),
         }
     }
 }

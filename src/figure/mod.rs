@@ -20,6 +20,7 @@ mod header;
 mod history;
 mod kind;
 mod map;
+mod mark;
 mod outcome;
 mod output;
 mod page;
@@ -39,11 +40,11 @@ mod varied;
 mod view;
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 pub use error::FigureError;
 pub use kind::Needs;
-pub use output::Format;
+pub use output::{Format, Place};
 
 use crate::store::dataset::Dataset;
 use crate::study::{Drawing, DrawingKind};
@@ -63,13 +64,12 @@ pub fn variables(drawing: &Drawing) -> BTreeSet<String> {
     reads(drawing).and(varied::READS).into_set()
 }
 
-/// Draws `drawing` from the results in `dataset` and writes `<folder>/<name>.<extension>` in each of
-/// `formats`, each file complete or absent; gives the paths written.
+/// Draws `drawing` from the results in `dataset` and writes `<folder>/<name>.<extension>` in each format of `place`,
+/// each file complete or absent; gives the paths written.
 pub fn draw(
     dataset: &Dataset,
     drawing: &Drawing,
-    folder: &Path,
-    formats: &[Format],
+    place: &Place<'_>,
 ) -> Result<Vec<PathBuf>, FigureError> {
     let view = View::new(dataset, drawing)?;
     check_request(&view)?;
@@ -81,7 +81,7 @@ pub fn draw(
     if let Some(why) = drawn.fault {
         return Err(FigureError::Render { figure, why });
     }
-    Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg }.write(folder, formats)
+    Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg }.write(place)
 }
 
 /// What `at` of a drawing asks for and the axes of the results do not have, with the value that is taken, for each.

@@ -1,6 +1,7 @@
 //! From a drawing to files: SVG with outlined text, PNG and PDF, each complete or absent.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use krilla::Document;
@@ -13,8 +14,10 @@ use resvg::usvg::{Options, Tree, WriteOptions};
 
 use super::error::FigureError;
 use super::font;
+use super::mark;
 use super::style::{DPI, FAMILY};
 use super::text::escape;
+use crate::store;
 
 /// A file format for figures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,6 +41,37 @@ impl Format {
     }
 }
 
+/// Where figures are written.
+#[derive(Debug, Clone, Copy)]
+pub struct Place<'a> {
+    /// Their folder.
+    pub folder: &'a Path,
+    /// Their formats.
+    pub formats: &'a [Format],
+    /// Whether they replace files that this program did not write, or that were changed since.
+    pub overwrite: bool,
+}
+
+impl Place<'_> {
+    /// The file of a figure in a format.
+    fn path(&self, name: &str, format: Format) -> PathBuf {
+        self.folder.join(format!("{name}.{}", format.extension()))
+    }
+
+    /// Whether a figure can be written there: fails if a file is in its place that is no figure of this program.
+    pub fn check(&self, name: &str) -> Result<(), FigureError> {
+        for &format in self.formats.iter().filter(|_| !self.overwrite) {
+            let path = self.path(name, format);
+            match fs::read(&path) {
+                Ok(bytes) if mark::is_valid(format, &bytes) => {}
+                Err(said) if said.kind() == ErrorKind::NotFound => {}
+                _ => return Err(FigureError::Occupied { figure: name.to_string(), path }),
+            }
+        }
+        Ok(())
+    }
+}
+
 /// A figure ready to be written.
 pub struct Figure<'a> {
     /// Its name, the stem of its files.
@@ -49,12 +83,15 @@ pub struct Figure<'a> {
 }
 
 impl Figure<'_> {
-    /// Writes the figure into `folder` in each of `formats`; says which files came out.
-    pub fn write(&self, folder: &Path, formats: &[Format]) -> Result<Vec<PathBuf>, FigureError> {
+    /// Writes the figure to its place in each of its formats; says which files came out.
+    pub fn write(&self, place: &Place<'_>) -> Result<Vec<PathBuf>, FigureError> {
+        let Place { folder, formats, .. } = *place;
+        place.check(self.name)?;
         let options =
             Options { fontdb: font::database(), font_family: FAMILY.into(), ..Options::default() };
         let tree = Tree::from_str(self.svg, &options).map_err(|e| self.render(e.to_string()))?;
-        fs::create_dir_all(folder).map_err(|source| self.failed(folder, source))?;
+        store::create_folder(folder)
+            .map_err(|source| FigureError::Write { figure: self.name.to_string(), source })?;
         let mut paths = Vec::new();
         for format in formats {
             let bytes = match format {
@@ -62,8 +99,8 @@ impl Figure<'_> {
                 Format::Svg => self.outlined(&tree).into_bytes(),
                 Format::Pdf => self.pdf(&tree)?,
             };
-            let path = folder.join(format!("{}.{}", self.name, format.extension()));
-            self.replace(&path, &bytes)?;
+            let path = place.path(self.name, *format);
+            self.replace(&path, &mark::add(*format, bytes))?;
             paths.push(path);
         }
         Ok(paths)
@@ -120,23 +157,15 @@ impl Figure<'_> {
         document.finish().map_err(|error| self.render(format!("{error:?}")))
     }
 
-    /// Puts `bytes` at `path` in one step, so that no reader meets half a file.
+    /// Puts `bytes` at `path` in one step, so that no reader meets half a file; what killed runs have left of it goes.
     fn replace(&self, path: &Path, bytes: &[u8]) -> Result<(), FigureError> {
-        let partial = path.with_extension(format!("{}.part", std::process::id()));
-        let written = fs::write(&partial, bytes).and_then(|()| fs::rename(&partial, path));
-        written.map_err(|source| {
-            // The first fault is the one to report; what is left of the file may be gone already.
-            let _ = fs::remove_file(&partial);
-            self.failed(path, source)
-        })
+        store::discard_abandoned(path)
+            .and_then(|()| store::put(path, bytes))
+            .map_err(|source| FigureError::Write { figure: self.name.to_string(), source })
     }
 
     fn render(&self, why: String) -> FigureError {
         FigureError::Render { figure: self.name.to_string(), why }
-    }
-
-    fn failed(&self, path: &Path, source: std::io::Error) -> FigureError {
-        FigureError::Write { figure: self.name.to_string(), path: path.to_path_buf(), source }
     }
 }
 

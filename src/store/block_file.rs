@@ -115,6 +115,12 @@ pub fn path(folder: &Path, number: usize) -> PathBuf {
     folder.join(format!("block-{number:07}"))
 }
 
+/// Whether a file of this name is one of a block.
+pub fn is_block(name: &str) -> bool {
+    let number = name.strip_prefix("block-").and_then(|number| number.parse().ok());
+    number.is_some_and(|number| path(Path::new(""), number) == Path::new(name))
+}
+
 /// Writes the columns of a block to its file in `folder`, completely or not at all.
 pub fn write(
     folder: &Path,

@@ -19,7 +19,7 @@ use crate::study::Study;
 
 use super::block_file::{self, BlockFile, Column, Head, Numbers, Summary, Unusable};
 use super::catalogue::{END_R, END_Y1, END_Y2, RESIDUAL, starts};
-use super::file::{discard_unfinished_in, has_no_locks, put};
+use super::file::{self, discard_unfinished_in, has_no_locks, put};
 use super::{StoreError, Values, provenance, schema};
 
 /// The fingerprint of the study and the program of the first run.
@@ -28,8 +28,6 @@ const BEGUN: &str = "begun.json";
 const STUDY: &str = "begun.toml";
 /// Held by every run in the folder.
 const LOCK: &str = "lock";
-/// Prefix of the name of every block.
-const BLOCK: &str = "block-";
 /// How often a lock is tried that another process holds, perhaps only to test whether it is held.
 const TRIES: u32 = 10;
 /// Time between two tries.
@@ -88,8 +86,10 @@ impl BlockFolder {
                 return Err(StoreError::Changed { folder: path.to_owned(), changes });
             }
             None if company == Company::Anybody => {
-                let said = io::ErrorKind::NotFound.into();
-                return Err(StoreError::system(path, "looking for blocks", said));
+                // What says that the folder is begun may be lost.
+                if !(0..study.blocks()).any(|number| folder.head(number).is_ok()) {
+                    return Err(StoreError::NoBlocks { folder: path.to_owned() });
+                }
             }
             None if folder.has_others().map_err(failed("looking for blocks"))? => {
                 return Err(StoreError::Occupied { folder: path.to_owned() });
@@ -97,7 +97,7 @@ impl BlockFolder {
             _ => folder.begin(&now, study)?,
         }
         if company == Company::Alone {
-            discard_unfinished_in(path, |of| of.starts_with(BLOCK))
+            discard_unfinished_in(path, |of, _| is_own(of))
                 .map_err(failed("clearing away unfinished blocks"))?;
         }
         Ok(folder)
@@ -108,9 +108,9 @@ impl BlockFolder {
         &self.path
     }
 
-    /// Whether blocks have been begun in the folder at `path`.
+    /// Whether blocks have been begun in the folder at `path`, or have been and were not removed to the end.
     pub fn is_begun(path: &Path) -> bool {
-        path.join(BEGUN).is_file()
+        [BEGUN, LOCK].iter().any(|name| path.join(name).is_file())
     }
 
     /// Whether a run uses the folder at `path`.
@@ -206,7 +206,7 @@ impl BlockFolder {
         Ok(summary)
     }
 
-    /// Removes all blocks, and the folder with them unless it holds other files.
+    /// Removes all blocks, and the folder with them unless it holds other files or is linked to from its place.
     ///
     /// What says that the folder is one of blocks goes last, so that a later run finds what is left and removes it.
     pub fn remove(mut self) -> Result<(), StoreError> {
@@ -225,6 +225,9 @@ impl BlockFolder {
         drop(self.lock.take());
         let lock = self.path.join(LOCK);
         remove_if_there(&lock).map_err(|said| failed(&lock, said))?;
+        if self.path.is_symlink() {
+            return Ok(());
+        }
         match fs::remove_dir(&self.path) {
             Err(said) if said.kind() != io::ErrorKind::DirectoryNotEmpty => {
                 Err(failed(&self.path, said))
@@ -234,11 +237,11 @@ impl BlockFolder {
     }
 }
 
-/// Whether a file in a folder of blocks, by its name, is one of this program.
+/// Whether a file in a folder of blocks, by its name, is one of this program, finished or not.
 fn is_own(name: &str) -> bool {
-    let name = name.strip_prefix('.').unwrap_or(name);
-    [BEGUN, STUDY, LOCK].contains(&name)
-        || [BLOCK, BEGUN, STUDY].iter().any(|own| name.starts_with(own))
+    let is_finished =
+        |name: &str| [BEGUN, STUDY, LOCK].contains(&name) || block_file::is_block(name);
+    is_finished(name) || file::unfinished(name).is_some_and(is_finished)
 }
 
 /// Removes a file; another task may have done so already.

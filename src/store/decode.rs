@@ -61,6 +61,11 @@ impl Archive {
         Ok(Archive { path: path.to_owned(), file, frame, labels })
     }
 
+    /// Where the file is.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The coordinates, the attributes and the texts: all but the variables.
     pub fn frame(&self) -> &Dataset {
         &self.frame
@@ -69,6 +74,11 @@ impl Archive {
     /// Name and dimensions of every variable.
     pub fn variables(&self) -> impl Iterator<Item = (&str, &[String])> {
         self.labels.iter().map(|(name, label)| (name.as_str(), label.dimensions.as_slice()))
+    }
+
+    /// A variable without its numbers; none if there is none of this name.
+    pub(super) fn label(&self, name: &str) -> Option<&Variable> {
+        self.labels.get(name)
     }
 
     /// A variable with its numbers; none if there is none of this name.
@@ -153,7 +163,12 @@ fn opened(path: &Path) -> hdf5::Result<File> {
 
 /// What the cases of a slab have of an array.
 fn values_of(array: &Array, slab: &Slab) -> hdf5::Result<Values> {
-    let Some(part) = hyperslab(slab, &array.shape()) else { return values(array) };
+    let shape = array.shape();
+    let ends = slab.start.iter().zip(&slab.count).map(|(start, count)| start + count);
+    if slab.start.len() > shape.len() || ends.zip(&shape).any(|(end, length)| end > *length) {
+        return Err("it has not the cases of the study in the file".into());
+    }
+    let Some(part) = hyperslab(slab, &shape) else { return values(array) };
     match array.dtype()?.to_descriptor()? {
         TypeDescriptor::Float(_) => Ok(Values::Real(array.read_slice::<f64, _, IxDyn>(part)?)),
         _ => Ok(Values::Integer(array.read_slice::<i64, _, IxDyn>(part)?)),

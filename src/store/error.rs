@@ -65,9 +65,19 @@ pub enum StoreError {
         /// The folder.
         folder: PathBuf,
     },
+    /// No blocks are in the folder, or it is not there.
+    NoBlocks {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// Another run works on the same study.
     Busy {
         /// The folder of its blocks.
+        folder: PathBuf,
+    },
+    /// Another run has written in the same folder for so long that it is not waited for any more.
+    Held {
+        /// The folder.
         folder: PathBuf,
     },
     /// What was written does not read back as it was; the new file was discarded.
@@ -149,10 +159,21 @@ impl fmt::Display for StoreError {
                  choose another place",
                 folder.display()
             ),
+            StoreError::NoBlocks { folder } => write!(
+                f,
+                "{}: no blocks of this study are there; compute them first",
+                folder.display()
+            ),
             StoreError::Busy { folder } => write!(
                 f,
                 "{}: another run computes this study now; wait for it, or stop it and run again (what it \
                  has finished is kept)",
+                folder.display()
+            ),
+            StoreError::Held { folder } => write!(
+                f,
+                "{}: another run has been writing results there for ten minutes; run again when it is done (what \
+                 is finished is kept)",
                 folder.display()
             ),
             StoreError::Unequal { path, difference } => write!(

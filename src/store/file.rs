@@ -1,8 +1,10 @@
 //! Puts a dataset on disk whole or not at all, and reads it back.
 
-use std::fs::File;
+use std::fs::{File, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::Path;
+use std::thread::sleep;
+use std::time::Duration;
 
 use tempfile::NamedTempFile;
 
@@ -11,6 +13,11 @@ use super::decode::Archive;
 use super::faults::faults;
 use super::{Dataset, StoreError, difference, encode};
 
+/// How often a folder is tried that another run holds, and the time between two tries: ten minutes in all.
+const HOLD_TRIES: u32 = 3000;
+const HOLD_PAUSE: Duration = Duration::from_millis(200);
+/// A file that is still unfinished after this time was abandoned: a figure is written in less.
+const ABANDONED: Duration = Duration::from_secs(3600);
 /// The first bytes of every HDF5 file.
 const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
 
@@ -38,8 +45,14 @@ pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
     name(file, path)
 }
 
+/// Creates a folder, and those it lies in.
+pub fn create_folder(folder: &Path) -> Result<(), StoreError> {
+    std::fs::create_dir_all(folder)
+        .map_err(|said| StoreError::system(folder, "making the folder", said))
+}
+
 /// Keeps bytes in the file at `path`, replacing an older one only by all of them.
-pub(super) fn put(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+pub fn put(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     name(unnamed(path, bytes)?, path)
 }
 
@@ -106,14 +119,30 @@ pub(super) fn temporary(path: &Path, folder: &Path) -> io::Result<NamedTempFile>
 
 /// Keeps others that write results in the folder of `path` waiting as long as the answer lives, so that what
 /// two of them put into one file is not lost; on a disk without locks it has no effect.
-pub fn hold(path: &Path) -> Result<File, StoreError> {
+///
+/// Calls `waits` once if another holds it, and fails if that one holds it for ten minutes.
+pub fn hold(path: &Path, waits: impl FnOnce(&Path)) -> Result<File, StoreError> {
     let failed = |said| StoreError::system(path, "waiting for others that write there", said);
-    let folder = File::open(folder(path)).map_err(failed)?;
-    match folder.lock() {
-        // A network disk may lend no lock on a folder.
-        Err(said) if !has_no_locks(&said) && said.raw_os_error() != Some(9) => Err(failed(said)),
-        _ => Ok(folder),
+    let place = folder(path);
+    let folder = File::open(place).map_err(failed)?;
+    let mut waits = Some(waits);
+    for _ in 0..HOLD_TRIES {
+        match folder.try_lock() {
+            Ok(()) => return Ok(folder),
+            Err(TryLockError::WouldBlock) => {
+                waits.take().into_iter().for_each(|waits| waits(place));
+                sleep(HOLD_PAUSE);
+            }
+            // A network disk may lend no lock on a folder.
+            Err(TryLockError::Error(said))
+                if has_no_locks(&said) || said.raw_os_error() == Some(9) =>
+            {
+                return Ok(folder);
+            }
+            Err(TryLockError::Error(said)) => return Err(failed(said)),
+        }
     }
+    Err(StoreError::Held { folder: place.to_owned() })
 }
 
 /// Whether a disk has said that it has no locks.
@@ -122,27 +151,57 @@ pub(super) fn has_no_locks(said: &io::Error) -> bool {
     said.kind() == io::ErrorKind::Unsupported || said.raw_os_error() == Some(37)
 }
 
-/// Removes what runs that were killed have left of the file at `path`; to be called by who [holds](hold) it.
-pub fn discard_unfinished(path: &Path) -> Result<(), StoreError> {
+/// Removes what runs have left of the file at `path` that were killed an hour ago or more, for whom does not hold it.
+pub fn discard_abandoned(path: &Path) -> Result<(), StoreError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    discard_unfinished_in(folder(path), |of| *of == name)
+    let is_old = |file: &Path| {
+        let written = std::fs::metadata(file).and_then(|it| it.modified());
+        written.is_ok_and(|at| at.elapsed().is_ok_and(|age| age >= ABANDONED))
+    };
+    discard_unfinished_in(folder(path), |of, file| of == name && is_old(file))
         .map_err(|said| StoreError::system(path, "clearing away what is unfinished", said))
 }
 
-/// Removes what runs that were killed have left in `folder` of those files that `is_ours` by their names.
+/// Removes what runs that were killed have left of the file at `path`; to be called by who [holds](hold) it.
+pub fn discard_unfinished(path: &Path) -> Result<(), StoreError> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    discard_unfinished_in(folder(path), |of, _| of == name)
+        .map_err(|said| StoreError::system(path, "clearing away what is unfinished", said))
+}
+
+/// Removes what runs that were killed have left in `folder` of those files that `is_ours` by what they were to become
+/// and where they are.
 pub(super) fn discard_unfinished_in(
     folder: &Path,
-    is_ours: impl Fn(&str) -> bool,
+    is_ours: impl Fn(&str, &Path) -> bool,
 ) -> io::Result<()> {
-    for entry in std::fs::read_dir(folder)? {
+    let entries = match std::fs::read_dir(folder) {
+        Err(said) if said.kind() == io::ErrorKind::NotFound => return Ok(()),
+        entries => entries?,
+    };
+    for entry in entries {
         let path = entry?.path();
         let found = path.file_name().unwrap_or_default().to_string_lossy();
-        let inside = found.strip_prefix('.').and_then(|it| it.strip_suffix(".tmp"));
-        if inside.and_then(|it| it.rsplit_once('.')).is_some_and(|(of, _)| is_ours(of)) {
-            std::fs::remove_file(path)?;
+        if unfinished(&found).is_some_and(|of| is_ours(of, &path)) {
+            match std::fs::remove_file(&path) {
+                // Another run may have removed it, or given it its name.
+                Err(said) if said.kind() != io::ErrorKind::NotFound => return Err(said),
+                _ => {}
+            }
         }
     }
     Ok(())
+}
+
+/// The name of the file that one of this name was to become: what [`temporary`] has made of it.
+pub(super) fn unfinished(name: &str) -> Option<&str> {
+    let inside = name.strip_prefix('.')?.strip_suffix(".tmp")?;
+    inside.rsplit_once('.').map(|(of, _)| of)
+}
+
+/// Creates the file that one at `path` begins as, and removes it: fails where a file of that name cannot be written.
+pub fn try_to_begin(path: &Path) -> io::Result<()> {
+    temporary(path, folder(path))?.close()
 }
 
 /// A new name is safe only once the folder that lists it is on the disk.

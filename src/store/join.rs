@@ -16,6 +16,7 @@ use super::catalogue::{
     BLOCK, BLOCK_CASES, BLOCK_FIRST_CASE, BLOCK_MAKER, END, Entry, FAILURE_REASON, FAILURE_TIME,
     MULTIPLIER_IMAG, MULTIPLIER_REAL, OUTCOME, PERIOD, RESIDUAL, starts,
 };
+use super::decode::Archive;
 use super::joined::{self, Column};
 use super::schema;
 use super::slab::{Filling, MISSING, Slab};
@@ -167,6 +168,35 @@ impl<'a> Blocks<'a> {
         let cases = (0..length).map(|block| self.study.cases_of_block(block) as i64).collect();
         frame.put_column(BLOCK_CASES, Values::integers(cases));
     }
+}
+
+/// Whether a variable of the results of `study` has numbers of each case, which its blocks hold.
+pub fn is_of_case(study: &Study, name: &str) -> bool {
+    schema::columns(study, &[]).variables.contains_key(name)
+}
+
+/// Keeps the cases of an older file of the results of `study` in the file at `path`, beside what `frame` holds, which is
+/// all else: the same bytes as if the blocks of the cases were joined beside it.
+pub fn write_beside_cases(
+    older: &Archive,
+    study: &Study,
+    frame: &Dataset,
+    path: &Path,
+) -> Result<(), StoreError> {
+    let mut columns = Vec::new();
+    for name in schema::columns(study, &[]).variables.into_keys() {
+        let (label, whole) = (older.label(&name).cloned(), older.variable(&name)?);
+        let Some((label, whole)) = label.zip(whole) else { continue };
+        let (shape, range) = (whole.values.shape().to_vec(), whole.values.range());
+        columns.push(Column { name, label, shape, range });
+    }
+    let numbers = |column: &Column, slab: &Slab| match older.slab(&column.name, slab)? {
+        Some(variable) => Ok(variable.values),
+        None => Err(StoreError::Damaged { path: older.path().to_owned() }),
+    };
+    let axes = study.shape().len();
+    let proceed = || ControlFlow::Continue(());
+    joined::write(frame, (&columns, axes), path, numbers, proceed).map(drop)
 }
 
 /// A case that failed.

@@ -33,6 +33,9 @@ pub use dataset::{Dataset, Values, Variable};
 pub use decode::Archive;
 pub use difference::difference;
 pub use error::StoreError;
-pub use file::{discard_unfinished, folder, hold, open, read, write};
-pub use join::{Blocks, FailedCase};
+pub use file::{
+    create_folder, discard_abandoned, discard_unfinished, folder, hold, open, put, read,
+    try_to_begin, write,
+};
+pub use join::{Blocks, FailedCase, is_of_case, write_beside_cases};
 pub use schema::{dataset, frame};

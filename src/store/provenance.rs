@@ -49,29 +49,18 @@ fn now() -> String {
 }
 
 /// The Gregorian date of a day counted from 1970-01-01.
-fn civil(mut days: u64) -> (u64, usize, u64) {
-    let leap = |year: u64| {
-        year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))
-    };
-    let mut year = 1970;
-    loop {
-        let length = if leap(year) { 366 } else { 365 };
-        if days < length {
-            break;
-        }
-        days -= length;
-        year += 1;
-    }
-    let february = if leap(year) { 29 } else { 28 };
-    let mut month = 1;
-    for length in [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31] {
-        if days < length {
-            break;
-        }
-        days -= length;
-        month += 1;
-    }
-    (year, month, days + 1)
+///
+/// Method: the calendar repeats after 400 years of 146 097 days; years are counted from a 1 March, so that the leap day
+/// is the last of its year.
+fn civil(days: u64) -> (u64, u64, u64) {
+    let from_march = days + 719_468;
+    let (era, day) = (from_march / 146_097, from_march % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let (month, next) = if month < 10 { (month + 3, 0) } else { (month - 9, 1) };
+    (400 * era + year + next, month, day)
 }
 
 /// The vector instructions that the processor offers.
@@ -99,5 +88,21 @@ mod tests {
         assert_eq!(civil(0), (1970, 1, 1));
         assert_eq!(civil(11_016), (2000, 2, 29));
         assert_eq!(civil(20_778), (2026, 11, 21));
+        // Day by day over the years in which the rules of leap years meet.
+        let (mut date, mut day) = ((1970, 1, 1), 0);
+        while date.0 < 2801 {
+            assert_eq!(civil(day), date, "day {day}");
+            let (year, month, of_month) = date;
+            let is_leap: bool = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+            let lengths = [31, 28 + u64::from(is_leap), 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+            date = match (of_month < lengths[month as usize - 1], month < 12) {
+                (true, _) => (year, month, of_month + 1),
+                (false, true) => (year, month + 1, 1),
+                (false, false) => (year + 1, 1, 1),
+            };
+            day += 1;
+        }
+        // The last second that the environment can name.
+        assert_eq!(civil(u64::MAX / 86_400).0, 584_554_051_223);
     }
 }

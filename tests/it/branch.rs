@@ -372,7 +372,7 @@ fn the_equation_as_printed_is_followed_too() {
 #[test]
 fn a_branch_of_tiny_steps_neither_closes_nor_goes_on_for_ever() {
     let p = Parameters::with(&[(Parameter::Omega, 20.0), (Parameter::Pd, 0.5)]);
-    for longest_step in [1e-3, 1e-6, 1e-9, 1e-11, 1e-13, 1e-16, 0.0] {
+    for longest_step in [1e-3, 1e-6, 1e-9, 1e-13, 1e-16, 0.0] {
         let mut request = request(&p, quiet(&p), 1, Parameter::Omega, [15.0, 25.0]);
         (request.longest_step, request.most_points) = (longest_step, 12);
         let found = follow(&request).expect("the stuck capsule oscillates");

@@ -10,7 +10,7 @@ use capsulemap::study::{Drawing, DrawingKind, Study};
 
 use super::continuation::fixtures::{STUDY, branches_alone, continued, found, with_branches};
 use super::figure::fixtures::Fixture;
-use super::figure::{drawing, folder};
+use super::figure::{drawing, folder, into};
 use super::program::FIG5;
 
 const ALL: [Format; 3] = [Format::Png, Format::Svg, Format::Pdf];
@@ -23,7 +23,7 @@ fn diagram(name: &str) -> Drawing {
 
 /// The SVG of a figure, without the name that stands in it.
 fn svg(dataset: &Dataset, request: &Drawing) -> String {
-    let paths = draw(dataset, request, &folder("branches"), &[Format::Svg])
+    let paths = draw(dataset, request, &into(&folder("branches"), &[Format::Svg]))
         .unwrap_or_else(|error| panic!("{error}"));
     fs::read_to_string(&paths[0]).expect("a figure").replace(&request.name, "")
 }
@@ -53,13 +53,13 @@ fn swept() -> Dataset {
 fn branches_are_drawn_over_what_was_swept() {
     let swept = swept();
     let of = ["section_r", "progression_speed"].map(String::from).to_vec();
-    draw(&swept, &diagram("overlay"), &folder("branches"), &ALL).expect("a figure");
+    draw(&swept, &diagram("overlay"), &into(&folder("branches"), &ALL)).expect("a figure");
     let wide = Drawing {
         title: Some("Continued and swept".into()),
         width_mm: Some(180.0),
         ..diagram("overlay-wide")
     };
-    draw(&swept, &wide, &folder("branches"), &ALL).expect("a figure");
+    draw(&swept, &wide, &into(&folder("branches"), &ALL)).expect("a figure");
     let with = svg(&swept, &Drawing { of: of.clone(), ..diagram("with") });
     let without = svg(&swept, &Drawing { branches: false, of, ..diagram("without") });
     assert!(with.contains("stroke-dasharray") && !without.contains("stroke-dasharray"));
@@ -76,7 +76,7 @@ fn branches_alone_make_a_diagram() {
     let alone = branches_alone();
     let of = ["section_r", "section_y1", "work_net", "period"].map(String::from).to_vec();
     let every = Drawing { of, ..diagram("alone") };
-    draw(&alone, &every, &folder("branches"), &ALL).expect("a figure");
+    draw(&alone, &every, &into(&folder("branches"), &ALL)).expect("a figure");
     // Where the study has no axis, too.
     let text = format!(
         "{FIG5}[[branches]]\nname = \"a\"\nalong = \"p_d\"\nfrom = \"1 N\"\nto = \"5 N\"\n"
@@ -87,7 +87,7 @@ fn branches_alone_make_a_diagram() {
     let request = drawing("no-axis", DrawingKind::Bifurcation);
     assert!(svg(&dataset, &request).contains("progression_speed over p_d"));
     let wrong = Drawing { x: Some("omega".into()), ..request };
-    let said = draw(&dataset, &wrong, &folder("branches"), &[]).expect_err("no such axis");
+    let said = draw(&dataset, &wrong, &into(&folder("branches"), &[])).expect_err("no such axis");
     assert!(said.to_string().contains("`omega` is not an axis"), "{said}");
 }
 
@@ -127,13 +127,13 @@ fn the_cycles_of_an_orbit_may_begin_anywhere() {
 fn curves_lie_over_two_parameters() {
     let alone = branches_alone();
     let request = drawing("curves", DrawingKind::Curves);
-    draw(&alone, &request, &folder("branches"), &ALL).expect("a figure");
+    draw(&alone, &request, &into(&folder("branches"), &ALL)).expect("a figure");
     assert!(svg(&alone, &request).contains("grazing, neimark-sacker, period-doubling, fold over"));
     let turned = Drawing { x: Some("p_d".into()), y: Some("omega".into()), ..request.clone() };
     assert!(svg(&alone, &turned).contains("fold over p_d, omega"));
     assert_ne!(svg(&alone, &request), svg(&alone, &turned));
     let study = Study::parse("a", STUDY).expect("a study");
-    let said = draw(&store::frame(&study), &request, &folder("branches"), &[]);
+    let said = draw(&store::frame(&study), &request, &into(&folder("branches"), &[]));
     let said = said.expect_err("there are no curves").to_string();
     assert!(said.contains("no curves in two parameters"), "{said}");
     // A second parameter that no branch varies, beside the columns that say what the curves are.
@@ -155,5 +155,5 @@ fn curves_lie_over_two_parameters() {
     }
     let doubled = with_branches(store::frame(&study), &study, &doubled);
     let request = drawing("curves-doubled", DrawingKind::Curves);
-    draw(&doubled, &request, &folder("branches"), &ALL).expect("a figure");
+    draw(&doubled, &request, &into(&folder("branches"), &ALL)).expect("a figure");
 }

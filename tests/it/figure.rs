@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use capsulemap::figure::{Format, draw, taken_for_another};
+use capsulemap::figure::{Format, Place, draw, taken_for_another};
 use capsulemap::store::dataset::Dataset;
 use capsulemap::study::{Drawing, DrawingKind};
 
@@ -17,6 +17,11 @@ const ALL: [Format; 3] = [Format::Png, Format::Svg, Format::Pdf];
 /// A folder for the figures of one test, kept in the build folder to be looked at.
 pub fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("figures").join(name)
+}
+
+/// A place for figures, whatever is there already.
+pub fn into<'a>(folder: &'a Path, formats: &'a [Format]) -> Place<'a> {
+    Place { folder, formats, overwrite: true }
 }
 
 /// A request for a figure of this kind, all else as usual.
@@ -61,7 +66,7 @@ fn every_kind_comes_out_in_every_format() {
         (&plane, drawing("trade-off", DrawingKind::TradeOff)),
     ];
     for (dataset, request) in requests {
-        let paths = draw(dataset, &request, &folder, &ALL).unwrap();
+        let paths = draw(dataset, &request, &into(&folder, &ALL)).unwrap();
         let starts: [&[u8]; 3] = [b"\x89PNG", b"<svg", b"%PDF"];
         for (path, start) in paths.iter().zip(starts) {
             assert!(fs::read(path).unwrap().starts_with(start), "{}", path.display());
@@ -72,7 +77,7 @@ fn every_kind_comes_out_in_every_format() {
 /// The bytes of each file, drawn twice.
 fn drawn_twice(dataset: &Dataset, request: &Drawing, place: &str) -> [Vec<Vec<u8>>; 2] {
     ["first", "second"].map(|turn| {
-        let paths = draw(dataset, request, &folder(place).join(turn), &ALL).unwrap();
+        let paths = draw(dataset, request, &into(&folder(place).join(turn), &ALL)).unwrap();
         paths.iter().map(|path| fs::read(path).unwrap()).collect()
     })
 }
@@ -94,7 +99,7 @@ fn only_whole_files_are_left_behind() {
     let folder = folder("whole");
     // The folder outlives the run of the test.
     let _ = fs::remove_dir_all(&folder);
-    draw(&plane(9, 7), &drawing("map", DrawingKind::Map), &folder, &ALL).unwrap();
+    draw(&plane(9, 7), &drawing("map", DrawingKind::Map), &into(&folder, &ALL)).unwrap();
     let mut names: Vec<_> =
         fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
@@ -109,7 +114,7 @@ fn chunk(png: &[u8], name: &[u8; 4]) -> usize {
 #[test]
 fn a_png_tells_its_size_on_paper() {
     let request = Drawing { width_mm: Some(100.0), ..drawing("paper", DrawingKind::Map) };
-    let paths = draw(&plane(9, 7), &request, &folder("paper"), &[Format::Png]).unwrap();
+    let paths = draw(&plane(9, 7), &request, &into(&folder("paper"), &[Format::Png])).unwrap();
     let png = fs::read(&paths[0]).unwrap();
     let number = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
     let (pixels, per_metre) = (number(chunk(&png, b"IHDR")), number(chunk(&png, b"pHYs")));
@@ -120,7 +125,7 @@ fn a_png_tells_its_size_on_paper() {
 #[test]
 fn maps_keep_the_edges_of_their_cells() {
     let request = Drawing { of: vec!["period".into()], ..drawing("edges", DrawingKind::Map) };
-    let paths = draw(&plane(12, 9), &request, &folder("edges"), &ALL).unwrap();
+    let paths = draw(&plane(12, 9), &request, &into(&folder("edges"), &ALL)).unwrap();
     let svg = fs::read_to_string(&paths[1]).unwrap();
     assert!(svg.contains("image-rendering:pixelated"));
     assert!(!svg.contains("<text"), "text in the file needs a font that the reader may lack");
@@ -270,14 +275,14 @@ fn awkward_results_are_drawn() {
     let down = Drawing { at, ..drawing("downward", DrawingKind::Bifurcation) };
     requests.push((cascade(120, 8, true), down));
     for (dataset, request) in &requests {
-        draw(dataset, request, &folder, &ALL)
+        draw(dataset, request, &into(&folder, &ALL))
             .unwrap_or_else(|error| panic!("{}: {error}", request.name));
     }
 }
 
 /// What is said of a request that cannot be drawn.
 fn complaint(dataset: &Dataset, request: Drawing) -> String {
-    draw(dataset, &request, &folder("refused"), &[Format::Svg]).unwrap_err().to_string()
+    draw(dataset, &request, &into(&folder("refused"), &[Format::Svg])).unwrap_err().to_string()
 }
 
 #[test]
@@ -309,7 +314,7 @@ fn axes_are_held_at_the_nearest_value() {
         let at = BTreeMap::from([("k2".to_string(), k2)]);
         let of = vec!["progression_speed".to_string()];
         let request = Drawing { at, of, ..drawing("held", DrawingKind::Bifurcation) };
-        let paths = draw(&plane, &request, &folder("held"), &[Format::Svg]).unwrap();
+        let paths = draw(&plane, &request, &into(&folder("held"), &[Format::Svg])).unwrap();
         fs::read_to_string(&paths[0]).unwrap()
     };
     assert!(held(1e4) == held(1.01e4));
@@ -323,7 +328,7 @@ fn axes_are_held_at_the_nearest_value() {
     let said = taken_for_another(&plane, &asked(1.01e4)).unwrap();
     assert_eq!(said, ["k2 = 10000 N/m is taken for 10100 N/m, the nearest"]);
     for outside in [1.0, 1e9, f64::NAN] {
-        let said = draw(&plane, &asked(outside), &folder("held"), &[]).expect_err("outside");
+        let said = draw(&plane, &asked(outside), &into(&folder("held"), &[])).expect_err("outside");
         assert!(said.to_string().contains("and its axis goes from"), "{said}");
     }
 }
@@ -332,7 +337,7 @@ fn axes_are_held_at_the_nearest_value() {
 fn an_svg_needs_no_fonts_to_show_what_the_png_shows() {
     use resvg::{tiny_skia, usvg};
     let request = Drawing { title: Some("Heading".into()), ..drawing("alike", DrawingKind::Map) };
-    let paths = draw(&plane(30, 20), &request, &folder("alike"), &ALL).unwrap();
+    let paths = draw(&plane(30, 20), &request, &into(&folder("alike"), &ALL)).unwrap();
     let svg = fs::read_to_string(&paths[1]).unwrap();
     // These options know no fonts at all.
     let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).unwrap();
@@ -350,7 +355,7 @@ fn an_svg_needs_no_fonts_to_show_what_the_png_shows() {
 #[test]
 fn a_pdf_embeds_its_fonts_and_no_time() {
     let request = Drawing { title: Some("Heading".into()), ..drawing("fonts", DrawingKind::Map) };
-    let paths = draw(&plane(9, 7), &request, &folder("fonts"), &[Format::Pdf]).unwrap();
+    let paths = draw(&plane(9, 7), &request, &into(&folder("fonts"), &[Format::Pdf])).unwrap();
     let pdf = fs::read(&paths[0]).unwrap();
     let holds = |words: &[u8]| pdf.windows(words.len()).any(|window| window == words);
     assert!(holds(b"LibertinusSerif-Regular") && holds(b"LibertinusSerif-Italic"));
@@ -373,6 +378,6 @@ fn the_font_can_draw_the_label_of_every_quantity() {
         }
         let of = outputs.split_whitespace().map(String::from).collect();
         let request = Drawing { of, ..drawing(parameter, DrawingKind::Bifurcation) };
-        draw(&fixture.0, &request, &folder("labels"), &[Format::Svg]).unwrap();
+        draw(&fixture.0, &request, &into(&folder("labels"), &[Format::Svg])).unwrap();
     }
 }

@@ -6,6 +6,7 @@ use capsulemap::figure::{Format, draw, variables};
 use capsulemap::store;
 use capsulemap::study::Study;
 
+use super::figure::into;
 use super::program::WorkDir;
 
 /// Figures of every kind, over cases that differ in all that figures look at.
@@ -90,7 +91,7 @@ fn what_a_figure_leaves_unread_does_not_change_it() {
         let part = archive.labelled(|name| shown.contains(name)).expect("a part of it");
         let drawn = [("whole", &whole), ("part", &part)].map(|(folder, dataset)| {
             let folder = dir.path(folder);
-            draw(dataset, drawing, &folder, &[Format::Svg])
+            draw(dataset, drawing, &into(&folder, &[Format::Svg]))
                 .unwrap_or_else(|error| panic!("{}: {error}", drawing.name));
             fs::read(folder.join(format!("{}.svg", drawing.name))).expect("a figure")
         });

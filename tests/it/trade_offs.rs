@@ -6,7 +6,7 @@ use capsulemap::figure::{Format, draw};
 use capsulemap::study::{Drawing, DrawingKind};
 
 use super::figure::fixtures::{Fixture, OUTCOMES, plane, steps};
-use super::figure::{drawing, folder};
+use super::figure::{drawing, folder, into};
 
 /// A trade-off over motions with these speeds [m/s] and outcomes.
 fn trade_off(speeds: &[f64], outcomes: &[i64]) -> String {
@@ -18,7 +18,7 @@ fn trade_off(speeds: &[f64], outcomes: &[i64]) -> String {
         .integer("outcome", &["omega"], &OUTCOMES, move |at| outcomes[at[0]])
         .0;
     let request = drawing("directions", DrawingKind::TradeOff);
-    let paths = draw(&dataset, &request, &folder("directions"), &[Format::Svg]).unwrap();
+    let paths = draw(&dataset, &request, &into(&folder("directions"), &[Format::Svg])).unwrap();
     fs::read_to_string(&paths[0]).unwrap()
 }
 
@@ -35,6 +35,7 @@ fn a_trade_off_has_a_front_for_each_direction_and_none_of_rounding() {
     assert!(mixed.contains(counted), "{mixed}");
     let of = vec!["outcome".to_string()];
     let request = Drawing { of, ..drawing("outcome", DrawingKind::TradeOff) };
-    let said = draw(&plane(5, 5), &request, &folder("directions"), &[]).expect_err("no output");
+    let said =
+        draw(&plane(5, 5), &request, &into(&folder("directions"), &[])).expect_err("no output");
     assert!(said.to_string().contains("`outcome` is no output of a motion"), "{said}");
 }
