@@ -107,7 +107,12 @@ fn read_values(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<
         table.entry("to")?.fault("is the same as `from`");
         return None;
     }
-    Some(spacing.values(from, to, points as usize))
+    let values = spacing.values(from, to, points as usize);
+    if values.windows(2).any(|pair| pair[0] == pair[1]) {
+        table.entry("points")?.fault("are more than there are numbers between `from` and `to`");
+        return None;
+    }
+    Some(values)
 }
 
 /// The range that an axis is drawn from.

@@ -10,6 +10,9 @@ use crate::capsule::{Allowed, Dimension};
 
 use super::quantity::{expectation, parse_in};
 
+/// Characters of a line that are shown at most.
+const LONGEST_SHOWN: usize = 80;
+
 /// One thing wrong in a document.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
@@ -71,15 +74,36 @@ impl<'a> Reader<'a> {
 
     /// Notes a fault of the syntax with the line it stands in, the first of each line only.
     pub fn syntax(&self, error: &toml::de::Error) {
-        let at = error.span().map(|span| span.start.min(self.text.len()));
+        let span = error.span().map(|span| span.start.min(self.text.len()));
+        let at = span.or_else(|| self.first_line_with(error.message()));
         let line = at.and_then(|at| self.text.get(..at)).map(|before| before.matches('\n').count());
         let is_noted = |fault: &Fault| fault.line == line.map(|line| line + 1);
         if self.faults.borrow().iter().any(is_noted) {
             return;
         }
         let found = line.and_then(|line| self.text.lines().nth(line)).map_or("", str::trim);
-        let found = if found.is_empty() { String::new() } else { format!(", in: {found}") };
+        let shown: String = found.chars().take(LONGEST_SHOWN).collect();
+        let more = if shown.len() < found.len() { " ..." } else { "" };
+        let found = if found.is_empty() { String::new() } else { format!(", in: {shown}{more}") };
         self.fault(at, "", format!("{}{found}", error.message()));
+    }
+
+    /// Where the first line begins with which the text gives a fault of the syntax that has no place of its own.
+    fn first_line_with(&self, message: &str) -> Option<usize> {
+        let ends: Vec<usize> = self
+            .text
+            .split_inclusive('\n')
+            .scan(0, |end, line| {
+                *end += line.len();
+                Some(*end)
+            })
+            .collect();
+        let gives = |end: usize| {
+            let (_, errors) = DeTable::parse_recoverable(&self.text[..end]);
+            errors.iter().any(|error| error.message() == message)
+        };
+        let line = ends.partition_point(|&end| !gives(end));
+        (line < ends.len()).then(|| if line == 0 { 0 } else { ends[line - 1] })
     }
 
     /// The faults in order of lines.

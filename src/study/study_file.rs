@@ -178,5 +178,12 @@ fn read_outputs(top: &Table<'_, '_>) -> Vec<Output> {
     let Some(entry) = top.entry("outputs") else { return Output::ALL.to_vec() };
     let names: Vec<(&str, Output)> =
         Output::ALL.iter().map(|&output| (output.name(), output)).collect();
-    entry.list().iter().filter_map(|entry| entry.one_of("output", &names)).collect()
+    let mut outputs = Vec::new();
+    for entry in entry.list() {
+        match entry.one_of("output", &names) {
+            Some(output) if outputs.contains(&output) => entry.fault("is given twice"),
+            output => outputs.extend(output),
+        }
+    }
+    outputs
 }
