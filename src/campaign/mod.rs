@@ -11,6 +11,7 @@ pub mod count;
 pub mod error;
 mod join;
 pub mod kept;
+pub mod memory;
 pub mod probe;
 pub mod replay;
 pub mod report;
@@ -24,6 +25,7 @@ pub mod verify;
 
 pub use error::{CampaignError, Cause};
 pub use kept::Kept;
+pub use memory::{Memory, memory};
 pub use probe::{Probe, probe};
 pub use replay::Replay;
 pub use report::{Event, Report, Stage, Survey, silent};

@@ -38,4 +38,5 @@ pub use file::{
     try_to_begin, write,
 };
 pub use join::{Blocks, FailedCase, is_of_case, write_beside_cases};
-pub use schema::{dataset, frame};
+pub use schema::{dataset, frame, numbers_of, numbers_of_case};
+pub use slab::MOST_NUMBERS;

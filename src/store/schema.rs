@@ -95,6 +95,19 @@ pub fn frame(study: &Study) -> Dataset {
     dataset
 }
 
+/// Numbers that a file has of each case of a study of a variable; zero where it has none of this name.
+pub fn numbers_of(study: &Study, name: &str) -> usize {
+    let columns = columns(study, &[]).variables;
+    columns.get(name).map_or(0, |it| it.values.shape()[1..].iter().product())
+}
+
+/// Numbers that a file has of each case of a study: of all variables together, and of the one that has most.
+pub fn numbers_of_case(study: &Study) -> [usize; 2] {
+    let variables = columns(study, &[]).variables.into_values();
+    let numbers = variables.map(|it| it.values.shape()[1..].iter().product());
+    numbers.fold([0, 0], |[all, most], numbers: usize| [all + numbers, most.max(numbers)])
+}
+
 /// How the cases were integrated, which the file says even where the study left it to the program.
 fn protocol(study: &Study) -> [(String, String); 8] {
     let protocol = &study.protocol;

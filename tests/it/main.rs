@@ -34,6 +34,7 @@ mod figure;
 mod forms;
 mod full_disk;
 mod hostile_files;
+mod hostile_places;
 mod hostile_studies;
 mod house;
 mod impact_orbits;

@@ -1,0 +1,40 @@
+//! How much memory a campaign takes, estimated from what it holds.
+
+use crate::run::{FinalMotion, has_attractors};
+use crate::store::{MOST_NUMBERS, numbers_of_case};
+use crate::study::Study;
+
+/// What the program itself takes, with its libraries and tables [bytes]; measured by `scripts/memory.sh`.
+const PROGRAM: f64 = 3e7;
+/// Numbers are held twice while they are packed, or written and compared.
+const COPIES: f64 = 2.0;
+/// Bytes of a number.
+const NUMBER: f64 = 8.0;
+
+/// The most memory that a campaign holds [bytes], to within a factor of about two.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Memory {
+    /// While cases are computed.
+    pub computing: f64,
+    /// While their blocks are joined.
+    pub joining: f64,
+}
+
+/// The memory that a campaign of `study` takes on so many threads.
+///
+/// Method: the numbers of the blocks under way, of the final motions among which attractors are searched, and of the slab
+/// that is written are counted.
+pub fn memory(study: &Study, threads: usize) -> Memory {
+    let cases = study.cases() as f64;
+    let [all, widest] = numbers_of_case(study).map(|numbers| numbers as f64);
+    let blocks = 0..study.blocks();
+    let block = blocks.map(|block| study.cases_of_block(block)).max().unwrap_or(0) as f64;
+    let under_way = threads as f64 * block * all * NUMBER * COPIES;
+    let labels = if has_attractors(study) { cases * NUMBER * COPIES } else { 0.0 };
+    let linking = match has_attractors(study) {
+        true => cases * (size_of::<Option<FinalMotion>>() + size_of::<Option<u32>>()) as f64,
+        false => 0.0,
+    };
+    let slab = (cases * widest).min(MOST_NUMBERS as f64) * NUMBER * COPIES;
+    Memory { computing: PROGRAM + under_way, joining: PROGRAM + linking.max(slab + labels) }
+}
