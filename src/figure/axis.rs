@@ -15,9 +15,6 @@ pub enum Along {
     Up,
 }
 
-/// Ratio of positive values above which their logarithm is shown.
-pub const MANY_DECADES: f64 = 1000.0;
-
 /// What an axis is to show.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisRequest {
@@ -39,11 +36,10 @@ impl AxisRequest {
         AxisRequest { quantity, scale, empty: false, labelled: true, numbered: true }
     }
 
-    /// An axis around `values`, without marks where none of them is finite; logarithmic where they
-    /// span many decades.
+    /// An axis around `values`, without marks where none of them is finite.
     pub fn around(quantity: Quantity, values: &[f64], margin: f64) -> AxisRequest {
         let empty = !values.iter().any(|value| value.is_finite());
-        let scale = Scale::fitting(values, margin, MANY_DECADES);
+        let scale = quantity.scale(values, margin);
         AxisRequest { empty, numbered: !empty, ..AxisRequest::new(quantity, scale) }
     }
 }

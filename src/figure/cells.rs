@@ -1,31 +1,34 @@
 //! The cells of a map along one of its axes.
 
-use super::scale::{Scale, Spacing};
+use super::scale::{Scale, finite_range};
+
+/// An axis is uneven where the widest step is longer than the shortest by this factor.
+const UNEVEN: f64 = 1.01;
 
 /// The cells along one axis: their places in the results, from the smallest value to the largest.
 pub struct Cells {
     order: Vec<usize>,
     /// Where each cell but the last ends, as a share of the axis.
     ends: Vec<f64>,
-    /// The axis, with half a cell beyond its first and last value.
+    /// The axis, from its first value to its last: beyond them nothing was computed.
     pub scale: Scale,
+    /// Its values, where they are not evenly spread along it, so that the width of a cell does not tell them.
+    pub uneven: Vec<f64>,
 }
 
 impl Cells {
-    /// Cells around `values`, each as far as half way to its neighbours.
+    /// Cells around `values`, each as far as half way to its neighbours, the first and the last from their own value.
     pub fn around(values: &[f64]) -> Cells {
         let mut order: Vec<usize> = (0..values.len()).collect();
         order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
         let sorted: Vec<f64> = order.iter().map(|index| values[*index]).collect();
-        let inner = Scale::of_axis(&sorted);
-        let scale = match sorted.as_slice() {
-            [first, second, .., before, last] => outer(inner, *first, *second, *before, *last),
-            [first, last] => outer(inner, *first, *last, *first, *last),
-            [first, second, last] => outer(inner, *first, *second, *second, *last),
-            _ => inner,
-        };
+        let scale = Scale::of_axis(&sorted);
         let middle = |pair: &[f64]| (scale.share(pair[0]) + scale.share(pair[1])) / 2.0;
-        Cells { order, ends: sorted.windows(2).map(middle).collect(), scale }
+        let ends: Vec<f64> = sorted.windows(2).map(middle).collect();
+        let steps = sorted.windows(2).map(|pair| scale.share(pair[1]) - scale.share(pair[0]));
+        let (least, most) = finite_range(steps).unwrap_or((1.0, 1.0));
+        let uneven = if most > UNEVEN * least { sorted } else { Vec::new() };
+        Cells { order, ends, scale, uneven }
     }
 
     /// How many cells there are.
@@ -50,21 +53,23 @@ impl Cells {
     }
 }
 
-/// `inner` and half a cell more at both ends.
-fn outer(inner: Scale, first: f64, second: f64, before: f64, last: f64) -> Scale {
-    if inner.low == inner.high || first == last {
-        return inner;
-    }
-    match inner.spacing {
-        Spacing::Linear => Scale {
-            low: first - (second - first) / 2.0,
-            high: last + (last - before) / 2.0,
-            ..inner
-        },
-        Spacing::Log => Scale {
-            low: first / (second / first).sqrt(),
-            high: last * (last / before).sqrt(),
-            ..inner
-        },
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_coloured_beyond_what_was_computed() {
+        for (values, uneven) in
+            [(vec![3.0, 1.0, 2.0], false), (vec![1.0, 2.0, 100.0], true), (vec![1.0, 2.0], false)]
+        {
+            let cells = Cells::around(&values);
+            let (low, high) = finite_range(values.iter().copied()).expect("there are values");
+            assert_eq!((cells.scale.low, cells.scale.high), (low, high));
+            assert_eq!(!cells.uneven.is_empty(), uneven, "{values:?}");
+            let at = |value: f64| values[cells.at(cells.scale.share(value))];
+            values.iter().for_each(|&value| assert_eq!(at(value), value));
+        }
+        // Each tenfold of the last is as far on a logarithmic axis.
+        assert!(Cells::around(&[1.0, 10.0, 100.0]).uneven.is_empty());
     }
 }

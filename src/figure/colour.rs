@@ -2,7 +2,7 @@
 
 use plotters::style::RGBColor;
 
-use super::axis::{Along, Axis, AxisRequest, MANY_DECADES};
+use super::axis::{Along, Axis, AxisRequest};
 use super::canvas::{Anchor, Canvas, Stroke};
 use super::geometry::Rect;
 use super::panel::draw_upward;
@@ -35,10 +35,11 @@ impl Colours {
     /// and none where no value is finite.
     pub fn for_values(values: &[f64], quantity: Quantity) -> Option<Colours> {
         let (low, high) = finite_range(values.iter().copied())?;
-        let scale = Scale::fitting(values, 0.0, MANY_DECADES);
+        let scale = quantity.scale(values, 0.0);
         // A trace of the other sign, as rounding leaves it, does not count.
         let most = high.max(-low);
-        let centred = (low < -1e-3 * most && high > 1e-3 * most).then_some(most);
+        let is_centred = low < -1e-3 * most && high > 1e-3 * most && most > quantity.noise;
+        let centred = is_centred.then_some(most);
         Some(Colours { scale, centred, quantity })
     }
 

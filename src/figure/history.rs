@@ -189,14 +189,14 @@ fn cell(view: &View<'_>, output: &str, case: usize, free: &[&str]) -> Result<Cel
 }
 
 /// The ordinates of the cells that show `output`: the same for all unless one would be lost in it.
-fn ordinates(cells: &[Cell], output: &str) -> Vec<Scale> {
+fn ordinates(cells: &[Cell], output: &str, noise: f64) -> Vec<Scale> {
     let ours: Vec<&Cell> = cells.iter().filter(|cell| cell.output == output).collect();
     let values = |cell: &Cell| {
         let curves = cell.curves.iter().flat_map(|curve| curve.points.iter().map(|(_, y)| *y));
         curves.chain(cell.gap).collect::<Vec<_>>()
     };
-    let own: Vec<Scale> = ours.iter().map(|cell| Scale::around(values(cell), 0.06)).collect();
-    let common = Scale::around(ours.iter().flat_map(|cell| values(cell)), 0.06);
+    let own: Vec<Scale> = ours.iter().map(|cell| Scale::above(noise, values(cell), 0.06)).collect();
+    let common = Scale::above(noise, ours.iter().flat_map(|cell| values(cell)), 0.06);
     let largest = own.iter().map(|scale| scale.high - scale.low).fold(0.0, f64::max);
     match common.high - common.low <= 2.0 * largest {
         true => vec![common; ours.len()],
@@ -250,7 +250,7 @@ fn axes(
     // Stacked panels of one case share their time; different cases last differently long.
     x.labelled = cells.get(index + columns).is_none();
     x.numbered = x.labelled || cases > 1;
-    let scales = ordinates(cells, &cell.output);
+    let scales = ordinates(cells, &cell.output, view.quantity(&cell.output).noise);
     let shared = scales.windows(2).all(|pair| pair[0] == pair[1]);
     let leftmost = cell.case.is_multiple_of(columns);
     let mut y = AxisRequest::new(view.quantity(&cell.output), scales[cell.case]);

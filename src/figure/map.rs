@@ -3,7 +3,7 @@
 use plotters::style::RGBColor;
 
 use super::axis::AxisRequest;
-use super::canvas::{Canvas, Drawn};
+use super::canvas::{Canvas, Drawn, Stroke};
 use super::category::{self, Kinds};
 use super::cells::Cells;
 use super::colour::Colours;
@@ -14,7 +14,7 @@ use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::raster::Raster;
-use super::style::{INFINITE, ONE_COLUMN};
+use super::style::{FRAME_WIDTH, INFINITE, INK, ONE_COLUMN};
 use super::text::Text;
 use super::view::View;
 use crate::capsule::Output;
@@ -23,6 +23,8 @@ use crate::study::Drawing;
 
 /// The output shown, unless another is asked for.
 const OUTPUT: Entry = Entry::of_output(Output::ProgressionSpeed);
+/// Length of the mark of a value of an uneven axis [pt].
+const VALUE_MARK: f64 = 3.0;
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
 
@@ -97,7 +99,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         y: AxisRequest::new(view.quantity(y_name), y.scale),
         header: Header {
             note: view.held_note(&[x_name, y_name]),
-            legend: paint.legend(),
+            legend: legend(&paint, &x, &y),
             ..Header::default()
         },
     };
@@ -112,10 +114,36 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         canvas.image(panel.frame, &raster(panel, &x, &y, &paint));
+        mark_values(&mut canvas, panel, &x.uneven, &y.uneven);
         panel.finish(&mut canvas);
         paint.explain(&mut canvas, panel);
     }
     Ok(canvas.finish(&view.about(&[output], &[x_name, y_name])))
+}
+
+/// What the colour bar does not explain, and what marks mean.
+fn legend(paint: &Paint, x: &Cells, y: &Cells) -> Vec<(Mark, Text)> {
+    let mut legend = paint.legend();
+    if !x.uneven.is_empty() || !y.uneven.is_empty() {
+        let mark = Mark::Line(Stroke::solid(INK, FRAME_WIDTH));
+        legend.push((mark, Text::plain("outside the frame: a computed value")));
+    }
+    legend
+}
+
+/// Marks the values of uneven axes at the upper and the right side of the frame.
+fn mark_values(canvas: &mut Canvas, panel: &Panel, x: &[f64], y: &[f64]) {
+    let frame = panel.frame;
+    let up = |&value: &f64| {
+        let place = frame.left + panel.x.scale.share(value) * frame.width();
+        ((place, frame.top), (place, frame.top - VALUE_MARK))
+    };
+    let right = |&value: &f64| {
+        let place = frame.bottom - panel.y.scale.share(value) * frame.height();
+        ((frame.right, place), (frame.right + VALUE_MARK, place))
+    };
+    let marks: Vec<_> = x.iter().map(up).chain(y.iter().map(right)).collect();
+    canvas.segments(&marks, Stroke::solid(INK, FRAME_WIDTH));
 }
 
 /// The cells along the axis called `name`.

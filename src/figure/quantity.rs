@@ -1,9 +1,25 @@
 //! How each quantity is named in figures, and its values in the unit that they show.
 
+use super::scale::{Scale, finite_range};
 use super::text::Text;
 use super::ticks::{power_of_ten, short};
 use crate::store::catalogue::{self, Place, Shown};
 use crate::store::dataset::{Dataset, Values, Variable};
+use crate::tradeoff::NOISE;
+
+/// Ratio of positive values above which their logarithm is shown.
+const MANY_DECADES: f64 = 1000.0;
+
+/// What rounding leaves of a result that is zero, by the unit in which it is stored: the motions have some metres per
+/// second, centimetres, joules and newtons, in which steps are exact to 1e-12.
+fn rounding(unit: &str) -> f64 {
+    match unit {
+        "m/s" => NOISE,
+        "m" | "J" => 1e-12,
+        "N" => 1e-10,
+        _ => 0.0,
+    }
+}
 
 /// A quantity as figures show it.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +34,11 @@ pub struct Quantity {
     pub factor: f64,
     /// Whether it counts, so that only whole numbers make sense.
     pub whole: bool,
+    /// What rounding leaves of a result, in the unit shown: less is nothing to see.
+    pub noise: f64,
+    /// Whether its logarithm is shown where it spans many decades: it is a ratio, and no speed, length or energy, whose
+    /// differences matter.
+    is_ratio: bool,
 }
 
 impl Quantity {
@@ -27,6 +48,10 @@ impl Quantity {
         let stored = dataset.variable(name).or_else(|| dataset.coordinate(name));
         let stored = stored.or_else(on_branches);
         let whole = stored.is_some_and(|it| matches!(it.values, Values::Integer(_)));
+        let is_result = dataset.coordinate(name).is_none();
+        let unit = stored.map_or("", |it| it.unit.as_str());
+        let least = if is_result { rounding(unit) } else { 0.0 };
+        let is_ratio = is_result && unit == "1";
         match catalogue::named(name).and_then(|entry| entry.shown) {
             Some(Shown { label, symbol, unit, factor }) => Quantity {
                 name: Text::plain(label),
@@ -34,8 +59,10 @@ impl Quantity {
                 unit: unit.to_string(),
                 factor,
                 whole,
+                noise: least * factor,
+                is_ratio,
             },
-            None => Quantity { whole, ..Quantity::as_stored(name, stored) },
+            None => Quantity { whole, noise: least, is_ratio, ..Quantity::as_stored(name, stored) },
         }
     }
 
@@ -50,6 +77,18 @@ impl Quantity {
             unit: if unit == "1" { String::new() } else { raised(unit) },
             factor: 1.0,
             whole: false,
+            noise: 0.0,
+            is_ratio: false,
+        }
+    }
+
+    /// The scale of values of it, in the unit shown: logarithmic for positive ratios that span many decades.
+    pub fn scale(&self, values: &[f64], margin: f64) -> Scale {
+        match finite_range(values.iter().copied()) {
+            Some((low, high)) if self.is_ratio && low > 0.0 && high / low > MANY_DECADES => {
+                Scale::log_around(values.iter().copied(), margin)
+            }
+            _ => Scale::above(self.noise, values.iter().copied(), margin),
         }
     }
 
@@ -104,4 +143,44 @@ fn raised(unit: &str) -> String {
         markup.push('}');
     }
     markup
+}
+
+#[cfg(test)]
+mod tests {
+    use ndarray::{ArrayD, IxDyn};
+
+    use super::*;
+    use crate::figure::scale::Spacing;
+
+    fn quantity(unit: &str) -> Quantity {
+        let mut dataset = Dataset::default();
+        let none = Values::Real(ArrayD::zeros(IxDyn(&[0])));
+        let labels = [unit, "a result"].map(str::to_owned);
+        dataset.variables.insert("result".into(), Variable::labelled(Vec::new(), labels, none));
+        Quantity::named("result", &dataset)
+    }
+
+    #[test]
+    fn rounding_fills_no_axis() {
+        let speed = quantity("m/s");
+        for values in [[-3e-15, 2e-15], [0.0, 9e-11], [1e-15, 1e-11]] {
+            let scale = speed.scale(&values, 0.06);
+            assert!(scale.low <= -0.1 && scale.high >= 0.1, "{values:?}: {scale:?}");
+        }
+        // A motion that differs by rounding alone is one value.
+        let scale = speed.scale(&[0.01, 0.01 + 5e-11], 0.06);
+        assert!(scale.high - scale.low > 1e-3, "{scale:?}");
+        let scale = speed.scale(&[0.01, 0.01 + 1e-8], 0.06);
+        assert!(scale.high - scale.low < 2e-8, "{scale:?}");
+    }
+
+    #[test]
+    fn only_ratios_become_logarithmic_by_themselves() {
+        let values = [1e-3, 0.1, 50.0];
+        for (unit, spacing) in
+            [("m/s", Spacing::Linear), ("J", Spacing::Linear), ("1", Spacing::Log)]
+        {
+            assert_eq!(quantity(unit).scale(&values, 0.06).spacing, spacing, "{unit}");
+        }
+    }
 }

@@ -52,14 +52,14 @@ impl Scale {
         }
     }
 
-    /// The range of the finite `values`, logarithmic where they are positive and their largest is
-    /// more than `ratio` times their smallest.
-    pub fn fitting(values: &[f64], margin: f64, ratio: f64) -> Scale {
-        match finite_range(values.iter().copied()) {
-            Some((low, high)) if low > 0.0 && high / low > ratio => {
-                Scale::log_around(values.iter().copied(), margin)
-            }
-            _ => Scale::around(values.iter().copied(), margin),
+    /// The range of the finite `values` as [`around`](Scale::around) has it, where differences up to `noise` are those of
+    /// rounding: values that are no larger are zero to the eye.
+    pub fn above(noise: f64, values: impl IntoIterator<Item = f64>, margin: f64) -> Scale {
+        let finite: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
+        match finite_range(finite.iter().copied()) {
+            Some((low, high)) if low.abs().max(high.abs()) <= noise => Scale::around([0.0], margin),
+            Some((low, high)) if high - low <= noise => Scale::around([low], margin),
+            _ => Scale::around(finite, margin),
         }
     }
 

@@ -12,7 +12,6 @@ use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::Pointing;
-use super::scale::Scale;
 use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, INK, ONE_COLUMN, VERMILION};
 use super::text::Text;
 use super::view::View;
@@ -245,11 +244,7 @@ fn request(
     let energies: Vec<f64> = cases.shown.iter().map(|case| case.energy).collect();
     let speeds: Vec<f64> = cases.shown.iter().map(|case| case.speed).collect();
     let legend = if cases.shown.len() > 1 { legend(view, cases, free) } else { Vec::new() };
-    // Speeds differ in sign and stay linear, so that standing still keeps its place.
-    let y = AxisRequest {
-        scale: Scale::around(speeds.iter().copied(), 0.06),
-        ..AxisRequest::around(view.quantity(SPEED.name), &speeds, 0.06)
-    };
+    let y = AxisRequest::around(view.quantity(SPEED.name), &speeds, 0.06);
     let panel = PanelRequest {
         x: AxisRequest::around(view.quantity(energy), &energies, 0.04),
         y,

@@ -3,7 +3,7 @@
 /// A capsule slower than this share of the fastest is at rest beside it.
 const REST: f64 = 1e-6;
 /// A section repeats no more closely than that a capsule at rest seems to move so fast [m/s].
-const NOISE: f64 = 1e-10;
+pub const NOISE: f64 = 1e-10;
 
 /// The speed up to which a case counts as at rest among cases with these speeds [m/s].
 ///

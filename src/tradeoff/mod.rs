@@ -2,4 +2,4 @@
 
 mod front;
 
-pub use front::{front, speed_at_rest};
+pub use front::{NOISE, front, speed_at_rest};
