@@ -9,8 +9,9 @@
 # What to change for your cluster, here or by options of sbatch, which go before these lines.
 # Cores of a task, all of one node; the program starts as many threads.
 #SBATCH --cpus-per-task=8
-# Memory of a core; the program needs little of it.
-#SBATCH --mem-per-cpu=1G
+# Memory, with one # less, as --mem or --mem-per-cpu, of which Slurm takes one; the program needs little, and
+# `capsulemap sweep STUDY.toml --dry-run` says how much. submit.sh asks for 1G a core unless an option says otherwise.
+##SBATCH --mem-per-cpu=1G
 # The longest that a task may take, as hours:minutes:seconds; short jobs are started sooner.
 #SBATCH --time=04:00:00
 # Where your cluster asks for them, with one # less:
@@ -32,4 +33,4 @@ study=$1
 tasks=$2
 
 # If the program comes from a module, load it here. It is the capsulemap on the PATH, or $CAPSULEMAP.
-exec "${CAPSULEMAP:-capsulemap}" sweep "$study" --task "$SLURM_ARRAY_TASK_ID/$tasks"
+exec "${CAPSULEMAP:-capsulemap}" sweep --task "$SLURM_ARRAY_TASK_ID/$tasks" -- "$study"

@@ -6,7 +6,7 @@
 
 # What to change for your cluster, as in array.sh. A study of ten million cases takes less than 1 GB.
 #SBATCH --cpus-per-task=4
-#SBATCH --mem=2G
+##SBATCH --mem-per-cpu=1G
 #SBATCH --time=01:00:00
 ##SBATCH --partition=NAME
 ##SBATCH --account=NAME
@@ -20,4 +20,4 @@ set -eu
 [ $# -eq 1 ] || { echo "usage: sbatch join.sh STUDY.toml" >&2; exit 2; }
 
 # If the program comes from a module, load it here. It is the capsulemap on the PATH, or $CAPSULEMAP.
-exec "${CAPSULEMAP:-capsulemap}" join "$1"
+exec "${CAPSULEMAP:-capsulemap}" join -- "$1"

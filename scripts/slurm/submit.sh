@@ -6,7 +6,7 @@ set -eu
 usage() {
     echo "usage: scripts/slurm/submit.sh STUDY.toml [TASKS [SBATCH-OPTION...]]"
     echo "TASKS is 8 by default; the options go to both jobs, as in"
-    echo "  scripts/slurm/submit.sh studies/million.toml 20 --partition=short --account=physics"
+    echo "  scripts/slurm/submit.sh studies/million.toml 20 --partition=short --mem-per-cpu=2G"
 }
 
 fail() {
@@ -27,6 +27,15 @@ esac
 command -v sbatch >/dev/null || fail "there is no sbatch here: Slurm's login node has it"
 shift "$(($# < 2 ? $# : 2))"
 scripts=$(dirname "$0")
+
+# Slurm takes one option for memory, so that there is one of our own only where the caller has none.
+memory=--mem-per-cpu=1G
+for option; do
+    case $option in
+        --mem | --mem=* | --mem-per-[cg]pu | --mem-per-[cg]pu=*) memory='' ;;
+    esac
+done
+set -- ${memory:+"$memory"} "$@"
 
 # Where there are several clusters, sbatch adds the name of one after a semicolon.
 array=$(sbatch --parsable --array="1-$tasks" "$@" "$scripts/array.sh" "$study" "$tasks")

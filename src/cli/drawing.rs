@@ -4,7 +4,7 @@ use clap::ValueEnum;
 
 use super::failure::Failure;
 use super::terminal::notify;
-use crate::figure::{FigureError, Format, Needs, Place, draw, needs, taken_for_another, variables};
+use crate::figure::{FigureError, Files, Format, Needs, Place, draw, needs, variables};
 use crate::store::{Archive, Dataset, has_branches, has_cases};
 use crate::study::{Drawing, DrawingKind};
 
@@ -70,12 +70,12 @@ fn draw_all(dataset: &Dataset, drawings: &[Drawing], place: &Place<'_>) -> Resul
     let mut failures = Vec::new();
     for drawing in drawings {
         match draw(dataset, drawing, place) {
-            Ok(paths) if paths.is_empty() => {}
-            Ok(paths) => {
+            Ok(Files { paths, .. }) if paths.is_empty() => {}
+            Ok(Files { paths, notes }) => {
                 let names: Vec<String> =
                     paths.iter().map(|path| path.display().to_string()).collect();
                 notify(&names.join(" "));
-                for note in taken_for_another(dataset, drawing).map_err(failure)? {
+                for note in notes {
                     notify(&format!("  figure `{}`: {note}", drawing.name));
                 }
             }

@@ -15,6 +15,7 @@ use super::panel::Panel;
 use super::style::{ATTRACTORS, COEXISTENCE, FAINT_INK, MINOR_WIDTH};
 use super::symbol::Symbol;
 use super::text::Text;
+use super::track::elsewhere;
 use super::view::View;
 use crate::capsule::Output;
 use crate::store::catalogue::{Entry, SECTION, SECTION_R};
@@ -55,7 +56,9 @@ pub fn draw(
         outputs.iter().map(|output| BranchLines::shown(view, x_name, output)).collect();
     let reached: Vec<f64> = lines.iter().flat_map(BranchLines::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
-    let mut page = request(view, &outputs, (&clouds, &lines), abscissa, &attractors.free);
+    let left_out = elsewhere(view, &[x_name]);
+    let note = view.note(&attractors.free, &left_out);
+    let mut page = request(view, &outputs, (&clouds, &lines), abscissa, note);
     if let Some(first) = page.rows.first_mut().and_then(|row| row.first_mut()) {
         first.header.legend = legend(attractors, &marks, !windows.is_empty());
     }
@@ -76,7 +79,7 @@ pub fn draw(
         lines.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }
-    Ok(canvas.finish(&view.about(&outputs, &attractors.free)))
+    Ok(canvas.finish(&view.about(&outputs, &attractors.free)).noting(left_out))
 }
 
 /// Draws symbols, without those that would hide an earlier one of their kind.

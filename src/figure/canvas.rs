@@ -112,6 +112,16 @@ pub struct Drawn {
     pub missing: Option<(char, String)>,
     /// What plotters could not draw.
     pub fault: Option<String>,
+    /// What it leaves out or takes for something else, a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl Drawn {
+    /// The same with a note, if there is one.
+    pub fn noting(mut self, note: Option<String>) -> Drawn {
+        self.notes.extend(note);
+        self
+    }
 }
 
 impl Canvas {
@@ -290,7 +300,8 @@ impl Canvas {
             escape(about),
             self.body
         );
-        Drawn { about: about.to_string(), svg, missing: self.missing, fault: self.fault }
+        let (about, notes) = (about.to_string(), Vec::new());
+        Drawn { about, svg, missing: self.missing, fault: self.fault, notes }
     }
 }
 

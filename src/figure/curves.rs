@@ -12,7 +12,7 @@ use super::scale::Scale;
 use super::style::{CURVE_WIDTH, ONE_COLUMN};
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
-use super::track::{Rows, in_view};
+use super::track::{Rows, elsewhere, in_view};
 use super::varied::{along, varied};
 use super::view::View;
 use crate::store::catalogue::{
@@ -59,7 +59,9 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         AxisRequest { empty, numbered: !empty, ..AxisRequest::new(view.quantity(name), scale) }
     };
     // Branches have no direction in which they were swept.
-    let note = view.held_note(&[&axes[0], &axes[1], DIRECTION.name]);
+    let drawn = [axes[0].as_str(), axes[1].as_str()];
+    let left_out = elsewhere(view, &drawn);
+    let note = view.note(&[drawn[0], drawn[1], DIRECTION.name], &left_out);
     let panel = PanelRequest {
         x: axis(&axes[0], range(|place| place.0)),
         y: axis(&axes[1], range(|place| place.1)),
@@ -78,7 +80,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         draw_curves(&mut canvas, panel, &curves);
     }
     let names = SYMBOLS.map(|symbol| symbol.name.to_owned());
-    Ok(canvas.finish(&view.about(&names, &[&axes[0], &axes[1]])))
+    Ok(canvas.finish(&view.about(&names, &drawn)).noting(left_out))
 }
 
 /// The parameters along the abscissa and the ordinate.

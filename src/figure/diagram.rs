@@ -53,7 +53,7 @@ pub fn request(
     outputs: &[String],
     (clouds, lines): (&[Vec<Vec<Dot>>], &[BranchLines]),
     abscissa: AxisRequest,
-    free: &[&str],
+    header: Option<Text>,
 ) -> PageRequest {
     let mut rows = Vec::new();
     let mut heights = Vec::new();
@@ -63,7 +63,7 @@ pub fn request(
         let y = AxisRequest::around(view.quantity(output), &values, 0.06);
         let last = index + 1 == outputs.len();
         let x = AxisRequest { labelled: last, numbered: last, ..abscissa.clone() };
-        let note = if index == 0 { view.held_note(free) } else { None };
+        let note = header.clone().filter(|_| index == 0);
         let header = Header { letter: letter(index, outputs.len()), note, legend: Vec::new() };
         rows.push(vec![PanelRequest { x, y, header }]);
         heights.push(if has_points(view, output) { SECTION_HEIGHT } else { OUTPUT_HEIGHT });

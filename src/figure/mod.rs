@@ -65,12 +65,8 @@ pub fn variables(drawing: &Drawing) -> BTreeSet<String> {
 }
 
 /// Draws `drawing` from the results in `dataset` and writes `<folder>/<name>.<extension>` in each format of `place`,
-/// each file complete or absent; gives the paths written.
-pub fn draw(
-    dataset: &Dataset,
-    drawing: &Drawing,
-    place: &Place<'_>,
-) -> Result<Vec<PathBuf>, FigureError> {
+/// each file complete or absent.
+pub fn draw(dataset: &Dataset, drawing: &Drawing, place: &Place<'_>) -> Result<Files, FigureError> {
     let view = View::new(dataset, drawing)?;
     check_request(&view)?;
     let drawn = (registry::kind(drawing.kind).draw)(&view)?;
@@ -81,12 +77,18 @@ pub fn draw(
     if let Some(why) = drawn.fault {
         return Err(FigureError::Render { figure, why });
     }
-    Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg }.write(place)
+    let notes = [view.taken_for_another(), drawn.notes].concat();
+    let figure = Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg };
+    Ok(Files { paths: figure.write(place)?, notes })
 }
 
-/// What `at` of a drawing asks for and the axes of the results do not have, with the value that is taken, for each.
-pub fn taken_for_another(dataset: &Dataset, drawing: &Drawing) -> Result<Vec<String>, FigureError> {
-    Ok(View::new(dataset, drawing)?.taken_for_another())
+/// The files of a figure.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Files {
+    /// Their paths, in the order of the formats.
+    pub paths: Vec<PathBuf>,
+    /// What the figure leaves out or takes for something else, a sentence each; it stands in the figure, too.
+    pub notes: Vec<String>,
 }
 
 /// Checks what does not depend on the kind of figure.

@@ -5,7 +5,7 @@ use super::symbol::Symbol;
 use super::view::View;
 use crate::store::catalogue::{
     AT_BRANCH_POINTS, AT_SPECIAL_POINTS, BRANCH_STABLE, INDEX_REQUEST, OrbitColumns, Place,
-    REQUEST, SECTION, SPECIAL_AFTER, SPECIAL_KIND,
+    REQUEST, REQUEST_ALONG, SECTION, SPECIAL_AFTER, SPECIAL_KIND,
 };
 use crate::store::dataset::Dataset;
 
@@ -38,6 +38,20 @@ pub fn in_view(view: &View<'_>, drawn: &[&str]) -> Vec<bool> {
         }
     }
     fits
+}
+
+/// How many branches are not shown as they lie where the axes that are not `drawn` have other values than `view` holds;
+/// none if all are shown.
+pub fn elsewhere(view: &View<'_>, drawn: &[&str]) -> Option<String> {
+    let along = view.dataset.variable(REQUEST_ALONG.name).filter(|_| view.drawing.branches)?;
+    let is_drawn = |code: &f64| {
+        let flag = along.flags.iter().find(|(value, _)| *value as f64 == *code);
+        flag.is_some_and(|(_, name)| drawn.contains(&name.as_str()))
+    };
+    let ours: Vec<bool> = along.values.to_real().iter().map(is_drawn).collect();
+    let both = || ours.iter().zip(in_view(view, drawn)).filter(|(ours, _)| **ours);
+    let (all, shown) = (both().count(), both().filter(|(_, fits)| *fits).count());
+    (shown < all).then(|| format!("{} of {all} branches lie at other values", all - shown))
 }
 
 /// A point of a branch, in SI.

@@ -271,6 +271,13 @@ impl<'a> View<'a> {
             .reduce(|note, next| note.then(Text::plain(", ")).then(next))
     }
 
+    /// The note on where the axes are held, and on what is left out.
+    pub fn note(&self, free: &[&str], left_out: &Option<String>) -> Option<Text> {
+        let left_out = left_out.as_deref().map(Text::plain);
+        let parts = self.held_note(free).into_iter().chain(left_out);
+        parts.reduce(|note, next| note.then(Text::plain("; ")).then(next))
+    }
+
     /// The index along `axis` of case number `case` over the axes `free`.
     pub fn place_along(&self, axis: &str, free: &[&str], case: usize) -> usize {
         let later = free.iter().skip_while(|name| **name != axis).skip(1);

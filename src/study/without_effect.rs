@@ -3,56 +3,100 @@
 use crate::capsule::{Parameter, Resistance, Switching};
 
 use super::axis::range;
-use super::{Axis, Coordinate, Study};
+use super::{Axis, Continuation, Coordinate, Study};
 
 impl Study {
     /// The axes of which several values give the same motion, each with the reason, in a sentence.
-    pub fn without_effect(&self) -> Vec<String> {
+    pub fn axes_without_effect(&self) -> Vec<String> {
         self.axes().iter().filter_map(|axis| self.why_without_effect(axis)).collect()
+    }
+
+    /// The branches along which orbits stay the same, at least in a part, each with the reason, in a sentence.
+    pub fn branches_without_effect(&self) -> Vec<String> {
+        let each = |branch: &Continuation| {
+            let second = branch.second.map(|(parameter, [low, _])| (parameter, low));
+            let varied = [(branch.along, branch.range[0])].into_iter().chain(second);
+            let why = |(parameter, low)| {
+                let why = match self.reason(parameter) {
+                    Some(reason) => self.unfelt(parameter, reason),
+                    None if parameter == Parameter::MuS => {
+                        self.idle_below(branch.parameters[Parameter::MuD], low)?
+                    }
+                    None => return None,
+                };
+                Some(format!("branch `{}`: {why}; its orbits stay the same there", branch.name))
+            };
+            varied.filter_map(why).collect::<Vec<String>>()
+        };
+        self.branches.iter().flat_map(each).collect()
     }
 
     fn why_without_effect(&self, axis: &Axis) -> Option<String> {
         let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
-        let (name, law) = (parameter.symbol(), self.base.resistance);
-        let reason = match (parameter, law) {
+        match self.reason(parameter) {
+            Some(reason) if axis.values.len() > 1 => {
+                let why = self.unfelt(parameter, reason);
+                Some(format!("{why}; all its values give the same motion"))
+            }
+            None if parameter == Parameter::MuS => self.too_little_static_friction(axis),
+            _ => None,
+        }
+    }
+
+    /// Why a parameter has no effect under the law of resistance, whatever its value.
+    fn reason(&self, parameter: Parameter) -> Option<&'static str> {
+        match (parameter, self.base.resistance) {
             (Parameter::MuS | Parameter::MuD | Parameter::Vs, Resistance::Medium) => {
-                "a medium has no dry friction"
+                Some("a medium has no dry friction")
             }
             (Parameter::Vs, Resistance::Coulomb) => {
-                "friction under this law does not depend on speed"
+                Some("friction under this law does not depend on speed")
             }
             (Parameter::C1 | Parameter::C2, Resistance::Coulomb | Resistance::CoulombStribeck) => {
-                "it belongs to the law `medium` alone"
+                Some("it belongs to the law `medium` alone")
             }
-            (Parameter::MuS, _) if self.base.switching == Switching::Filippov => {
-                return self.too_little_static_friction(axis);
-            }
-            _ => return None,
-        };
-        (axis.values.len() > 1).then(|| {
-            let law = law.name();
-            format!("{name} has no effect under the law `{law}`: {reason}; all its values give the same motion")
+            _ => None,
+        }
+    }
+
+    /// That a parameter has no effect for a reason.
+    fn unfelt(&self, parameter: Parameter, reason: &str) -> String {
+        let (name, law) = (parameter.symbol(), self.base.resistance.name());
+        format!("{name} has no effect under the law `{law}`: {reason}")
+    }
+
+    /// Static friction below which it has no effect, beside so much dynamic friction: rest ends where the force exceeds
+    /// the friction at the onset of sliding.
+    fn least_static_friction(&self, dynamic: f64) -> f64 {
+        let stribeck = self.base.resistance == Resistance::CoulombStribeck;
+        let factor = if stribeck { 2.0 } else { 1.0 };
+        if self.base.switching == Switching::Filippov { factor * dynamic } else { 0.0 }
+    }
+
+    /// That static friction has no effect in a part of what is above `low`.
+    fn idle_below(&self, dynamic: f64, low: f64) -> Option<String> {
+        let limit = self.least_static_friction(dynamic);
+        let stribeck = self.base.resistance == Resistance::CoulombStribeck;
+        let times = if stribeck { "2 " } else { "" };
+        let [name, slides] = [Parameter::MuS, Parameter::MuD].map(Parameter::symbol);
+        (low < limit).then(|| {
+            format!(
+                "{name} has no effect below {times}{slides} = {limit}, where rest ends with the friction at the onset \
+                 of sliding"
+            )
         })
     }
 
-    /// Rest ends where the force exceeds the friction at the onset of sliding, if static friction is less than that.
     fn too_little_static_friction(&self, axis: &Axis) -> Option<String> {
         let least_dynamic = match self.axes().iter().find(|it| is_dynamic(it)) {
             Some(dynamic) => range(&dynamic.values)[0],
             None => self.base[Parameter::MuD],
         };
-        let stribeck = self.base.resistance == Resistance::CoulombStribeck;
-        let (times, factor) = if stribeck { ("2 ", 2.0) } else { ("", 1.0) };
-        let idle = axis.values.iter().filter(|mu_s| **mu_s < factor * least_dynamic).count();
-        (idle > 1).then(|| {
-            let all = axis.values.len();
-            let [limit, slides] = [Parameter::MuS, Parameter::MuD].map(Parameter::symbol);
-            format!(
-                "{limit} has no effect below {times}{slides} = {}, where rest ends with the friction at the onset of \
-                 sliding; {idle} of its {all} values give the same motion",
-                factor * least_dynamic
-            )
-        })
+        let limit = self.least_static_friction(least_dynamic);
+        let idle = axis.values.iter().filter(|mu_s| **mu_s < limit).count();
+        let why = self.idle_below(least_dynamic, range(&axis.values)[0]).filter(|_| idle > 1)?;
+        let all = axis.values.len();
+        Some(format!("{why}; {idle} of its {all} values give the same motion"))
     }
 }
 

@@ -23,9 +23,9 @@ fn diagram(name: &str) -> Drawing {
 
 /// The SVG of a figure, without the name that stands in it.
 fn svg(dataset: &Dataset, request: &Drawing) -> String {
-    let paths = draw(dataset, request, &into(&folder("branches"), &[Format::Svg]))
+    let files = draw(dataset, request, &into(&folder("branches"), &[Format::Svg]))
         .unwrap_or_else(|error| panic!("{error}"));
-    fs::read_to_string(&paths[0]).expect("a figure").replace(&request.name, "")
+    fs::read_to_string(&files.paths[0]).expect("a figure").replace(&request.name, "")
 }
 
 /// `STUDY` with branches, and cases that settle to the stable orbits of the first.
@@ -97,7 +97,13 @@ fn branches_that_lie_elsewhere_are_left_out() {
     let nothing = |request: Drawing| !svg(&alone, &request).contains("stroke-dasharray");
     assert!(!nothing(diagram("here")));
     let at = BTreeMap::from([("p_d".to_owned(), 2.0)]);
-    assert!(nothing(Drawing { at, ..diagram("elsewhere") }));
+    let elsewhere = Drawing { at, ..diagram("elsewhere") };
+    let notes = |request: &Drawing| {
+        draw(&alone, request, &into(&folder("branches"), &[])).expect("a figure").notes
+    };
+    assert_eq!(notes(&elsewhere), ["1 of 1 branches lie at other values"]);
+    assert_eq!(notes(&diagram("here")), Vec::<String>::new());
+    assert!(nothing(elsewhere));
     // Along the other axis lies the other branch, at one of the frequencies.
     let along = |omega: f64| {
         let at = BTreeMap::from([("omega".to_owned(), omega)]);

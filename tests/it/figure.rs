@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use capsulemap::figure::{Format, Place, draw, taken_for_another};
+use capsulemap::figure::{Format, Place, draw};
 use capsulemap::store::dataset::Dataset;
 use capsulemap::study::{Drawing, DrawingKind};
 
@@ -66,7 +66,7 @@ fn every_kind_comes_out_in_every_format() {
         (&plane, drawing("trade-off", DrawingKind::TradeOff)),
     ];
     for (dataset, request) in requests {
-        let paths = draw(dataset, &request, &into(&folder, &ALL)).unwrap();
+        let paths = draw(dataset, &request, &into(&folder, &ALL)).unwrap().paths;
         let starts: [&[u8]; 3] = [b"\x89PNG", b"<svg", b"%PDF"];
         for (path, start) in paths.iter().zip(starts) {
             assert!(fs::read(path).unwrap().starts_with(start), "{}", path.display());
@@ -77,7 +77,7 @@ fn every_kind_comes_out_in_every_format() {
 /// The bytes of each file, drawn twice.
 fn drawn_twice(dataset: &Dataset, request: &Drawing, place: &str) -> [Vec<Vec<u8>>; 2] {
     ["first", "second"].map(|turn| {
-        let paths = draw(dataset, request, &into(&folder(place).join(turn), &ALL)).unwrap();
+        let paths = draw(dataset, request, &into(&folder(place).join(turn), &ALL)).unwrap().paths;
         paths.iter().map(|path| fs::read(path).unwrap()).collect()
     })
 }
@@ -114,7 +114,8 @@ fn chunk(png: &[u8], name: &[u8; 4]) -> usize {
 #[test]
 fn a_png_tells_its_size_on_paper() {
     let request = Drawing { width_mm: Some(100.0), ..drawing("paper", DrawingKind::Map) };
-    let paths = draw(&plane(9, 7), &request, &into(&folder("paper"), &[Format::Png])).unwrap();
+    let paths =
+        draw(&plane(9, 7), &request, &into(&folder("paper"), &[Format::Png])).unwrap().paths;
     let png = fs::read(&paths[0]).unwrap();
     let number = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
     let (pixels, per_metre) = (number(chunk(&png, b"IHDR")), number(chunk(&png, b"pHYs")));
@@ -125,7 +126,7 @@ fn a_png_tells_its_size_on_paper() {
 #[test]
 fn maps_keep_the_edges_of_their_cells() {
     let request = Drawing { of: vec!["period".into()], ..drawing("edges", DrawingKind::Map) };
-    let paths = draw(&plane(12, 9), &request, &into(&folder("edges"), &ALL)).unwrap();
+    let paths = draw(&plane(12, 9), &request, &into(&folder("edges"), &ALL)).unwrap().paths;
     let svg = fs::read_to_string(&paths[1]).unwrap();
     assert!(svg.contains("image-rendering:pixelated"));
     assert!(!svg.contains("<text"), "text in the file needs a font that the reader may lack");
@@ -314,7 +315,7 @@ fn axes_are_held_at_the_nearest_value() {
         let at = BTreeMap::from([("k2".to_string(), k2)]);
         let of = vec!["progression_speed".to_string()];
         let request = Drawing { at, of, ..drawing("held", DrawingKind::Bifurcation) };
-        let paths = draw(&plane, &request, &into(&folder("held"), &[Format::Svg])).unwrap();
+        let paths = draw(&plane, &request, &into(&folder("held"), &[Format::Svg])).unwrap().paths;
         fs::read_to_string(&paths[0]).unwrap()
     };
     assert!(held(1e4) == held(1.01e4));
@@ -324,8 +325,9 @@ fn axes_are_held_at_the_nearest_value() {
         let at = BTreeMap::from([("k2".to_string(), k2)]);
         Drawing { at, ..drawing("asked", DrawingKind::Bifurcation) }
     };
-    assert_eq!(taken_for_another(&plane, &asked(1e4)).unwrap(), Vec::<String>::new());
-    let said = taken_for_another(&plane, &asked(1.01e4)).unwrap();
+    let notes = |k2: f64| draw(&plane, &asked(k2), &into(&folder("held"), &[])).unwrap().notes;
+    assert_eq!(notes(1e4), Vec::<String>::new());
+    let said = notes(1.01e4);
     assert_eq!(said, ["k2 = 10000 N/m is taken for 10100 N/m, the nearest"]);
     for outside in [1.0, 1e9, f64::NAN] {
         let said = draw(&plane, &asked(outside), &into(&folder("held"), &[])).expect_err("outside");
@@ -337,7 +339,7 @@ fn axes_are_held_at_the_nearest_value() {
 fn an_svg_needs_no_fonts_to_show_what_the_png_shows() {
     use resvg::{tiny_skia, usvg};
     let request = Drawing { title: Some("Heading".into()), ..drawing("alike", DrawingKind::Map) };
-    let paths = draw(&plane(30, 20), &request, &into(&folder("alike"), &ALL)).unwrap();
+    let paths = draw(&plane(30, 20), &request, &into(&folder("alike"), &ALL)).unwrap().paths;
     let svg = fs::read_to_string(&paths[1]).unwrap();
     // These options know no fonts at all.
     let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).unwrap();
@@ -355,7 +357,8 @@ fn an_svg_needs_no_fonts_to_show_what_the_png_shows() {
 #[test]
 fn a_pdf_embeds_its_fonts_and_no_time() {
     let request = Drawing { title: Some("Heading".into()), ..drawing("fonts", DrawingKind::Map) };
-    let paths = draw(&plane(9, 7), &request, &into(&folder("fonts"), &[Format::Pdf])).unwrap();
+    let paths =
+        draw(&plane(9, 7), &request, &into(&folder("fonts"), &[Format::Pdf])).unwrap().paths;
     let pdf = fs::read(&paths[0]).unwrap();
     let holds = |words: &[u8]| pdf.windows(words.len()).any(|window| window == words);
     assert!(holds(b"LibertinusSerif-Regular") && holds(b"LibertinusSerif-Italic"));

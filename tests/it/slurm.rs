@@ -141,6 +141,33 @@ fn tasks_that_die_cost_nothing_but_time() {
     assert!(joined == computed_plainly(), "the cluster's file differs from the plain one");
 }
 
+#[test]
+fn memory_may_be_asked_for_in_either_form_and_studies_have_any_name() {
+    if let Some(missing) = Cluster::lacks() {
+        say(&format!("SKIPPED: options of jobs (Slurm is not installed: no {missing})"));
+        return;
+    }
+    let cluster = Cluster::start();
+    let study = STUDY.replace("points = 512", "points = 2").replace("points = 64", "points = 2");
+    fs::write(cluster.dir().join("-n.toml"), study).expect("a study");
+    for (options, field, expected) in [
+        (&[][..], "MinMemoryCPU", "1G"),
+        (&["--mem=900M"], "MinMemoryNode", "900M"),
+        (&["--mem", "901M"], "MinMemoryNode", "901M"),
+        (&["--mem-per-cpu=300M"], "MinMemoryCPU", "300M"),
+    ] {
+        let mut command = cluster.command(script("submit.sh"));
+        let arguments = [&["-n.toml", "1", "--cpus-per-task=1"], options].concat();
+        let printed = submit(command.args(arguments));
+        let jobs = [number(&printed, "tasks") + "_1", number(&printed, "join")];
+        for job in jobs {
+            cluster.wait_for(&job, "COMPLETED");
+            assert_eq!(cluster.job(&job, field), expected, "{options:?}");
+        }
+        assert!(cluster.dir().join("results/-n/-n.h5").exists());
+    }
+}
+
 /// Does to tasks of the job `array` what happens on clusters; returns the blocks that are done by then.
 fn interrupt(cluster: &Cluster, array: &str) -> BTreeMap<String, u64> {
     let [first, second, third] = [1, 2, 3].map(|number| format!("{array}_{number}"));

@@ -18,7 +18,8 @@ fn trade_off(speeds: &[f64], outcomes: &[i64]) -> String {
         .integer("outcome", &["omega"], &OUTCOMES, move |at| outcomes[at[0]])
         .0;
     let request = drawing("directions", DrawingKind::TradeOff);
-    let paths = draw(&dataset, &request, &into(&folder("directions"), &[Format::Svg])).unwrap();
+    let paths =
+        draw(&dataset, &request, &into(&folder("directions"), &[Format::Svg])).unwrap().paths;
     fs::read_to_string(&paths[0]).unwrap()
 }
 
