@@ -8,8 +8,9 @@ use crate::store::{
     keep_branches,
 };
 
+use super::clear::clear_away;
 use super::error::CampaignError;
-use super::kept::{Kept, branches_of, check_branches, clear_away, kept};
+use super::kept::{Kept, branches_of, check_branches, kept};
 use super::report::{Event, Report, Reports, Stage};
 use super::request::{Campaign, Complete};
 use super::result_file::{block_path, partial_path, prepare};

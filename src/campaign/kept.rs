@@ -4,12 +4,10 @@ use std::path::Path;
 
 use crate::store::catalogue::STUDY_TEXT;
 use crate::store::schema::FINGERPRINT;
-use crate::store::{self, Archive, BlockFolder, Company, Dataset, has_branches, provenance};
+use crate::store::{self, Archive, Dataset, has_branches, provenance};
 use crate::study::Study;
 
 use super::error::CampaignError;
-use super::report::Reports;
-use super::result_file::{block_path, partial_path};
 
 /// A file of results of the cases of a study, by this version of the program.
 #[derive(Debug)]
@@ -67,27 +65,5 @@ pub(super) fn branches_of(older: Option<&Kept>) -> Result<Option<Dataset>, Campa
     match older {
         Some(Kept { archive, same_text: true }) => Ok(Some(archive.branches()?)),
         _ => Ok(None),
-    }
-}
-
-/// Removes what runs have left that were stopped while they wrote the file, or a part of it, and the blocks of `study`
-/// that a run has left which was stopped after it had joined them.
-pub(super) fn clear_away(
-    output: &Path,
-    study: &Study,
-    reports: &Reports<'_>,
-) -> Result<(), CampaignError> {
-    let held = store::hold(output, |folder| reports.wait(folder))?;
-    store::discard_unfinished(output)?;
-    store::discard_unfinished(&partial_path(output))?;
-    drop(held);
-    let path = block_path(output);
-    if !BlockFolder::is_begun(&path) {
-        return Ok(());
-    }
-    match BlockFolder::enter(&path, study, Company::Alone, false) {
-        Ok(joined) => Ok(joined.remove()?),
-        // They belong to another run.
-        Err(_) => Ok(()),
     }
 }

@@ -22,19 +22,19 @@ pub struct Memory {
 
 /// The memory that a campaign of `study` takes on so many threads.
 ///
-/// Method: the numbers of the blocks under way, of the final motions among which attractors are searched, and of the slab
+/// Method: the numbers of the blocks that are computed, of the final motions among which attractors are searched, and of the slab
 /// that is written are counted.
 pub fn memory(study: &Study, threads: usize) -> Memory {
     let cases = study.cases() as f64;
     let [all, widest] = numbers_of_case(study).map(|numbers| numbers as f64);
     let blocks = 0..study.blocks();
     let block = blocks.map(|block| study.cases_of_block(block)).max().unwrap_or(0) as f64;
-    let under_way = threads as f64 * block * all * NUMBER * COPIES;
+    let blocks_held = threads as f64 * block * all * NUMBER * COPIES;
     let labels = if has_attractors(study) { cases * NUMBER * COPIES } else { 0.0 };
     let linking = match has_attractors(study) {
         true => cases * (size_of::<Option<FinalMotion>>() + size_of::<Option<u32>>()) as f64,
         false => 0.0,
     };
     let slab = (cases * widest).min(MOST_NUMBERS as f64) * NUMBER * COPIES;
-    Memory { computing: PROGRAM + under_way, joining: PROGRAM + linking.max(slab + labels) }
+    Memory { computing: PROGRAM + blocks_held, joining: PROGRAM + linking.max(slab + labels) }
 }

@@ -5,6 +5,7 @@
 //! `status` reads what is there. [`verify()`] and [`Replay`] compute cases again. Each reports
 //! [`Event`]s to a listener, stops when the listener asks for it, and prints nothing.
 
+mod clear;
 mod compute;
 mod continuation;
 pub mod count;

@@ -2,8 +2,9 @@
 
 use crate::store::{BlockFolder, Company};
 
+use super::clear::clear_away;
 use super::error::CampaignError;
-use super::kept::{Kept, check_branches, clear_away};
+use super::kept::{Kept, check_branches};
 use super::report::{Event, Report, Reports};
 use super::request::{Campaign, Complete, Done};
 use super::result_file::{block_path, prepare};

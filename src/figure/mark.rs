@@ -3,7 +3,7 @@
 //! It holds a checksum of the rest, so that a figure that was changed by hand is known for another. Each format keeps it
 //! where readers ignore it: SVG and PDF in a comment at the end, PNG in a chunk of its own before the last.
 
-use super::output::Format;
+use super::format::Format;
 
 /// Before the checksum in a comment.
 const NAME: &str = "capsulemap ";

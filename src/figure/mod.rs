@@ -15,6 +15,7 @@ mod error;
 mod branch_lines;
 mod event_marks;
 mod font;
+mod format;
 mod geometry;
 mod header;
 mod history;
@@ -43,8 +44,9 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 pub use error::FigureError;
+pub use format::Format;
 pub use kind::Needs;
-pub use output::{Format, Place};
+pub use output::Place;
 
 use crate::store::dataset::Dataset;
 use crate::study::{Drawing, DrawingKind};

@@ -14,32 +14,11 @@ use resvg::usvg::{Options, Tree, WriteOptions};
 
 use super::error::FigureError;
 use super::font;
+use super::format::Format;
 use super::mark;
 use super::style::{DPI, FAMILY};
 use super::text::escape;
 use crate::store;
-
-/// A file format for figures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// Pixels, for screens and slides.
-    Png,
-    /// Vectors, for the web and for editing.
-    Svg,
-    /// Vectors, for papers.
-    Pdf,
-}
-
-impl Format {
-    /// The extension of file names.
-    pub fn extension(self) -> &'static str {
-        match self {
-            Format::Png => "png",
-            Format::Svg => "svg",
-            Format::Pdf => "pdf",
-        }
-    }
-}
 
 /// Where figures are written.
 #[derive(Debug, Clone, Copy)]

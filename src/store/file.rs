@@ -16,7 +16,7 @@ use super::{Dataset, StoreError, difference, encode};
 /// How often a folder is tried that another run holds, and the time between two tries: ten minutes in all.
 const HOLD_TRIES: u32 = 3000;
 const HOLD_PAUSE: Duration = Duration::from_millis(200);
-/// A file that is still unfinished after this time was abandoned: a figure is written in less.
+/// Without locks, a file that is still unfinished after this time was abandoned: a figure is written in less.
 const ABANDONED: Duration = Duration::from_secs(3600);
 /// The first bytes of every HDF5 file.
 const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
@@ -33,7 +33,7 @@ pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
     }
     let mut image = encode::image(dataset, path)?;
     checksum::append(&mut image);
-    let file = unnamed(path, &image)?;
+    let file = filled(begun(path)?, path, &image)?;
     drop(image);
     let unequal = match read(file.path()) {
         Ok(kept) => difference(dataset, &kept),
@@ -53,13 +53,21 @@ pub fn create_folder(folder: &Path) -> Result<(), StoreError> {
 
 /// Keeps bytes in the file at `path`, replacing an older one only by all of them.
 pub fn put(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
-    name(unnamed(path, bytes)?, path)
+    let file = begun(path)?;
+    // As long as it is locked it is not abandoned; where there are no locks its age tells.
+    let _ = file.as_file().try_lock();
+    name(filled(file, path, bytes)?, path)
 }
 
-/// Bytes on the disk, in a new file beside `path` that has not got its name yet.
-fn unnamed(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
+/// A new file beside `path` that has not got its name yet.
+fn begun(path: &Path) -> Result<NamedTempFile, StoreError> {
+    temporary(path, folder(path))
+        .map_err(|said| StoreError::system(path, "starting a new file", said))
+}
+
+/// A file that has not got its name yet, with bytes that are on the disk.
+fn filled(mut file: NamedTempFile, path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
     let failed = |doing| move |said| StoreError::system(path, doing, said);
-    let mut file = temporary(path, folder(path)).map_err(failed("starting a new file"))?;
     file.write_all(bytes).map_err(failed("writing"))?;
     file.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
     Ok(file)
@@ -151,14 +159,21 @@ pub(super) fn has_no_locks(said: &io::Error) -> bool {
     said.kind() == io::ErrorKind::Unsupported || said.raw_os_error() == Some(37)
 }
 
-/// Removes what runs have left of the file at `path` that were killed an hour ago or more, for whom does not hold it.
+/// Removes what runs that were killed have left of a file at `path` that is [put](put) there, for whom does not hold it.
 pub fn discard_abandoned(path: &Path) -> Result<(), StoreError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let is_old = |file: &Path| {
-        let written = std::fs::metadata(file).and_then(|it| it.modified());
+    let is_old = |file: &File| {
+        let written = file.metadata().and_then(|it| it.modified());
         written.is_ok_and(|at| at.elapsed().is_ok_and(|age| age >= ABANDONED))
     };
-    discard_unfinished_in(folder(path), |of, file| of == name && is_old(file))
+    let is_abandoned = |file: &Path| {
+        File::open(file).is_ok_and(|file| match file.try_lock() {
+            Ok(()) => true,
+            Err(TryLockError::WouldBlock) => false,
+            Err(TryLockError::Error(_)) => is_old(&file),
+        })
+    };
+    discard_unfinished_in(folder(path), |of, file| of == name && is_abandoned(file))
         .map_err(|said| StoreError::system(path, "clearing away what is unfinished", said))
 }
 

@@ -128,15 +128,12 @@ fn what_killed_runs_have_left_is_cleared() {
     dir.put("s.blocks/lock", "");
     sweep(&dir, "s.h5", &[]).done();
     assert_eq!(left(&dir), [".other.h5.aB3xYz.tmp"]);
-    // A figure that was abandoned an hour ago is, one that may be under way is not.
-    for (name, age) in [("old", 3700), ("new", 60)] {
-        let path = dir.path(&format!(".speed.svg.{name}.tmp"));
-        let file = fs::File::create(path).expect("a file");
-        let then = std::time::SystemTime::now() - Duration::from_secs(age);
-        file.set_modified(then).expect("its time is set");
-    }
+    // A figure that was abandoned is, one that is under way is not.
+    let [_, held] = ["old", "held"]
+        .map(|name| fs::File::create(dir.path(&format!(".speed.svg.{name}.tmp"))).expect("a file"));
+    held.lock().expect("a lock");
     dir.run(&["figure", "s.h5", "--formats", "svg"]).done();
-    assert_eq!(left(&dir), [".other.h5.aB3xYz.tmp", ".speed.svg.new.tmp"]);
+    assert_eq!(left(&dir), [".other.h5.aB3xYz.tmp", ".speed.svg.held.tmp"]);
 }
 
 #[test]

@@ -42,6 +42,7 @@ mod interference;
 mod interrupted_runs;
 mod invariants;
 mod kept_branches;
+mod killed_calls;
 mod lanes;
 mod neutral;
 mod observers;
