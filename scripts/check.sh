@@ -29,6 +29,20 @@ python_readers() {
     fi
 }
 
+# Kills at the n-th call of the system need it.
+strace_for_kills() {
+    local root=()
+    if command -v strace >/dev/null; then
+        return
+    elif [ -z "${CI:-}" ] || ! command -v apt-get >/dev/null; then
+        echo "strace is not installed: its test will be skipped"
+    else
+        [ "$(id -u)" -eq 0 ] || root=(sudo -n)
+        "${root[@]}" apt-get install -y -q --no-install-recommends strace >target/check-strace.log 2>&1 ||
+            echo "apt-get could not install strace (see target/check-strace.log): its test will be skipped"
+    fi
+}
+
 # Nobody wants a workload manager installed unasked, so it comes only where CI is set.
 slurm() {
     local log=target/check-slurm.log skipped="its test will be skipped"
@@ -92,6 +106,7 @@ step "what the machine needs" scripts/setup.sh
 step "formatting" cargo fmt --check
 step "Python readers" python_readers
 step "Slurm" slurm
+step "strace" strace_for_kills
 step "tests, as in the README" readme_test
 step "dependencies" dependencies
 step "engine alone" engine_alone

@@ -43,7 +43,8 @@ impl Place<'_> {
             let path = self.path(name, format);
             match fs::read(&path) {
                 Ok(bytes) if mark::is_valid(format, &bytes) => {}
-                Err(said) if said.kind() == ErrorKind::NotFound => {}
+                // What is not there, or is no file, cannot be lost: if it is in the way, writing says so.
+                Err(said) if said.kind() != ErrorKind::PermissionDenied => {}
                 _ => return Err(FigureError::Occupied { figure: name.to_string(), path }),
             }
         }

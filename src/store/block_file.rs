@@ -214,32 +214,39 @@ fn foreign(head: &Head, fingerprint: &str, number: usize) -> Option<String> {
 }
 
 impl BlockFile {
-    /// The numbers of a column; none if there is none of this name.
-    pub fn column(&self, name: &str) -> Result<Option<Numbers>, StoreError> {
+    /// The numbers of a column, of which each case has so many; none if there is none of this name.
+    ///
+    /// Fails if the file cannot be read, or holds another count of numbers; no more memory is taken than for those asked.
+    pub fn column(&self, name: &str, width: usize) -> Result<Option<Numbers>, StoreError> {
         let failed = |said| StoreError::system(&self.path, "reading", said);
         let columns = &self.head.columns;
         let Some(at) = columns.iter().position(|column| column.name == name) else {
             return Ok(None);
         };
-        let before: u64 = columns[..at].iter().map(|column| column.bytes).sum();
         let mut file = File::open(&self.path).map_err(failed)?;
-        file.seek(SeekFrom::Start(self.begin + before)).map_err(failed)?;
-        let real = columns[at].range.is_none();
-        unpack(file.take(columns[at].bytes), real).map(Some).map_err(failed)
+        let before = columns[..at].iter().map(|column| column.bytes);
+        let begin = before.fold(self.begin, u64::saturating_add);
+        file.seek(SeekFrom::Start(begin)).map_err(failed)?;
+        let (bytes, real) = (columns[at].bytes, columns[at].range.is_none());
+        let count = self.head.block.cases.saturating_mul(width);
+        match unpack(file.take(bytes), (count, real)).map_err(failed)? {
+            None => Err(StoreError::Damaged { path: self.path.clone() }),
+            numbers => Ok(numbers),
+        }
     }
 
     /// The numbers of a column of reals, of which each case has so many.
     pub fn reals(&self, name: &str, width: usize) -> Result<Vec<f64>, StoreError> {
-        match self.column(name)? {
-            Some(Numbers::Real(all)) if all.len() == self.head.block.cases * width => Ok(all),
+        match self.column(name, width)? {
+            Some(Numbers::Real(all)) => Ok(all),
             _ => Err(StoreError::Damaged { path: self.path.clone() }),
         }
     }
 
     /// The numbers of a column of integers, of which each case has so many.
     pub fn integers(&self, name: &str, width: usize) -> Result<Vec<i64>, StoreError> {
-        match self.column(name)? {
-            Some(Numbers::Integer(all)) if all.len() == self.head.block.cases * width => Ok(all),
+        match self.column(name, width)? {
+            Some(Numbers::Integer(all)) => Ok(all),
             _ => Err(StoreError::Damaged { path: self.path.clone() }),
         }
     }
@@ -273,14 +280,19 @@ fn pack(numbers: &Numbers) -> io::Result<Vec<u8>> {
     encoder.finish()
 }
 
-fn unpack(packed: impl Read, real: bool) -> io::Result<Numbers> {
+/// So many numbers; none if there is another count.
+fn unpack(packed: impl Read, (count, real): (usize, bool)) -> io::Result<Option<Numbers>> {
     let mut bytes = Vec::new();
-    ZlibDecoder::new(packed).read_to_end(&mut bytes)?;
+    let most = (count as u64).saturating_mul(8);
+    ZlibDecoder::new(packed).take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 != most {
+        return Ok(None);
+    }
     let (numbers, _) = bytes.as_chunks::<8>();
-    Ok(match real {
+    Ok(Some(match real {
         true => Numbers::Real(numbers.iter().map(|it| f64::from_le_bytes(*it)).collect()),
         false => Numbers::Integer(numbers.iter().map(|it| i64::from_le_bytes(*it)).collect()),
-    })
+    }))
 }
 
 #[cfg(test)]
@@ -310,13 +322,13 @@ mod tests {
         assert_eq!(read_head_of(folder.path(), "a", 12).expect("a head"), file.head);
         assert_eq!((file.range("period"), file.range("speed")), (Some([-7, i64::MAX]), None));
         assert!(file.head.provenance.contains_key("commit"));
-        let Ok(Some(Numbers::Real(reals))) = file.column("speed") else { panic!("reals") };
+        let Ok(Some(Numbers::Real(reals))) = file.column("speed", 2) else { panic!("reals") };
         let Numbers::Real(expected) = &columns()[0].numbers else { panic!("reals") };
         let bits = |reals: &[f64]| reals.iter().map(|it| it.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&reals), bits(expected));
-        let period = file.column("period").expect("it is read");
+        let period = file.column("period", 1).expect("it is read");
         assert_eq!(period, Some(columns()[1].numbers.clone()));
-        assert!(file.column("nothing").expect("it is read").is_none());
+        assert!(file.column("nothing", 1).expect("it is read").is_none());
     }
 
     #[test]

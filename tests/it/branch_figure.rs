@@ -21,11 +21,13 @@ fn diagram(name: &str) -> Drawing {
     Drawing { at, ..drawing(name, DrawingKind::Bifurcation) }
 }
 
-/// The SVG of a figure, without the name that stands in it.
+/// The SVG of a figure, without the name that stands in it and the mark at its end.
 fn svg(dataset: &Dataset, request: &Drawing) -> String {
     let files = draw(dataset, request, &into(&folder("branches"), &[Format::Svg]))
         .unwrap_or_else(|error| panic!("{error}"));
-    fs::read_to_string(&files.paths[0]).expect("a figure").replace(&request.name, "")
+    let svg = fs::read_to_string(&files.paths[0]).expect("a figure");
+    let (shown, _mark) = svg.trim_end().rsplit_once('\n').expect("several lines");
+    shown.replace(&request.name, "")
 }
 
 /// `STUDY` with branches, and cases that settle to the stable orbits of the first.
