@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The long forms of proofs whose short forms are among the tests; takes about two hours on two cores.
+# The long forms of proofs whose short forms are among the tests; takes about three hours on two cores.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -21,6 +21,18 @@ CASES=10000 cargo test --release --test it -- wide_box --nocapture
 
 echo "== invariants of 4096 motions over the whole box"
 PROPTEST_CASES=4096 cargo test --release --test it -- invariants --nocapture
+
+echo "== the same files whichever of the first 200 renames, removals, syncs, writes and new folders of a thread is the last"
+CALLS=200 cargo test --release --test it -- killed_calls --nocapture
+
+echo "== 1000 damaged files of results through every command that reads them"
+DAMAGES=1000 cargo test --release --test it -- no_command_takes_a_damaged_file --nocapture
+
+echo "== 3000 mutants of studies and 3000 sets of extreme parameters"
+MUTANTS=3000 EXTREMES=3000 cargo test --release --test it -- what_is_a_study extreme_parameters --nocapture
+
+echo "== ten minutes of random study texts, joined files and blocks"
+FUZZ_SECONDS=600 cargo test --release --test it -- any_text_is a_joined_file_with a_block_with_damage --nocapture
 
 echo "== ten million cases in less than 1 GiB: while they are computed, stopped, and while they are joined"
 folder=$(mktemp -d)

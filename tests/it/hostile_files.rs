@@ -160,3 +160,24 @@ fn sizes_beyond_the_file_are_not_allocated() {
     });
     assert!(said.contains("vast claims 140737488355328 bytes"), "{said}");
 }
+
+#[test]
+fn a_study_that_is_not_that_of_the_arrays_is_told() {
+    let dir = WorkDir::new();
+    dir.put("s.toml", SMALL);
+    dir.run(&["sweep", "s.toml", "--no-figures", "--output", "s.h5"]).done();
+    let honest = store::read(&dir.path("s.h5")).expect("a result");
+    let axis = "[[axes]]\nname = \"c\"\nfrom = \"1 N s/m\"\nto = \"2 N s/m\"\npoints = 3\n";
+    let more = format!("{SMALL}{axis}");
+    let longer = SMALL.replace("points = 12", "points = 13");
+    let fewer = SMALL.split("[[axes]]").next().expect("a table").to_owned() + "omega = 20\n";
+    let fewer = fewer.replace("omega = 20", "omega = \"20 rad/s\"");
+    for text in [more, longer, fewer] {
+        let mut forged = honest.clone();
+        forged.texts.insert("study".to_owned(), text.clone());
+        store::write(&forged, &dir.path("s.h5")).expect("it is written");
+        let ran = dir.run(&["verify", "s.h5"]);
+        assert!(!ran.err.contains("panicked"), "{text}: {}", ran.err);
+        assert_ne!(ran.code, 0, "{text}");
+    }
+}
