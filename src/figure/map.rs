@@ -125,8 +125,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 fn legend(paint: &Paint, x: &Cells, y: &Cells) -> Vec<(Mark, Text)> {
     let mut legend = paint.legend();
     if !x.uneven.is_empty() || !y.uneven.is_empty() {
-        let mark = Mark::Line(Stroke::solid(INK, FRAME_WIDTH));
-        legend.push((mark, Text::plain("outside the frame: a computed value")));
+        legend.push((Mark::Nothing, Text::plain("marks outside the frame: computed values")));
     }
     legend
 }
