@@ -103,7 +103,7 @@ fn branches_that_lie_elsewhere_are_left_out() {
     let notes = |request: &Drawing| {
         draw(&alone, request, &into(&folder("branches"), &[])).expect("a figure").notes
     };
-    assert_eq!(notes(&elsewhere), ["1 of 1 branches lie at other values"]);
+    assert_eq!(notes(&elsewhere), ["2 of 2 branches lie at other values"]);
     assert_eq!(notes(&diagram("here")), Vec::<String>::new());
     assert!(nothing(elsewhere));
     // Along the other axis lies the other branch, at one of the frequencies.

@@ -323,7 +323,8 @@ fn axes_are_held_at_the_nearest_value() {
     assert!(held(1e4).contains("progression_speed over omega at k2 = 10000 N/m"));
     let asked = |k2: f64| {
         let at = BTreeMap::from([("k2".to_string(), k2)]);
-        Drawing { at, ..drawing("asked", DrawingKind::Bifurcation) }
+        let of = vec!["progression_speed".to_string()];
+        Drawing { at, of, ..drawing("asked", DrawingKind::Bifurcation) }
     };
     let notes = |k2: f64| draw(&plane, &asked(k2), &into(&folder("held"), &[])).unwrap().notes;
     assert_eq!(notes(1e4), Vec::<String>::new());
