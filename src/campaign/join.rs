@@ -41,8 +41,12 @@ impl Campaign<'_> {
             older => {
                 check_branches(older.as_ref(), self.output, self.overwrite)?;
                 drop(older);
-                let company = if is_partial { Company::Anybody } else { Company::Alone };
-                let folder = BlockFolder::enter(&block_path(self.output), study, company, false);
+                let enter =
+                    |company| BlockFolder::enter(&block_path(self.output), study, company, false);
+                // A look first, which makes no folder where nothing was begun.
+                let seen = enter(Company::Anybody);
+                let folder =
+                    if is_partial { seen } else { seen.and_then(|_| enter(Company::Alone)) };
                 let joined = folder
                     .map_err(CampaignError::from)
                     .and_then(|folder| self.join_blocks(folder, file, &reports));
@@ -86,7 +90,7 @@ impl Campaign<'_> {
         let blocks = Blocks::open(&folder, self.study, 0..self.study.blocks());
         let blocks = if is_partial {
             // A run that has ended since has removed some of them.
-            if !BlockFolder::is_begun(folder.path()) {
+            if self.kept()?.is_some_and(|whole| whole.archive.has_cases()) {
                 return Err(StoreError::NoBlocks { folder: folder.path().to_owned() }.into());
             }
             report_left_out(&folder, &blocks, reports)?;

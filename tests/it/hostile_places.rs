@@ -262,4 +262,7 @@ fn the_join_of_a_part_finds_the_whole_where_the_run_has_ended() {
     fs::remove_file(dir.path("s.h5")).expect("it is removed");
     let ran = dir.run(&["join", "s.toml", "--output", "s.h5", "--partial", "--no-figures"]);
     ran.refused(&["no blocks of this study are there"]);
+    dir.run(&["join", "s.toml", "--output", "t.h5"])
+        .refused(&["no blocks of this study are there"]);
+    assert!(!dir.path("t.blocks").exists());
 }

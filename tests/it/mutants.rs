@@ -246,7 +246,10 @@ fn extreme_parameters_have_an_outcome_in_time() {
         assert_eq!(orbit.outcome == Outcome::Failed, orbit.failure.is_some(), "case {number}");
         if orbit.outcome == Outcome::Periodic && orbit.certificate.proof != Proof::None {
             let about = || format!("case {number}: {case:?}: {:?}", orbit.outputs);
-            assert!(orbit.outputs[Output::MomentumResidual].abs() <= 1e-5, "{}", about());
+            let residual = orbit.outputs[Output::MomentumResidual].abs();
+            // Without a drive a medium leaves no force to compare with.
+            let is_free = case.parameters[Parameter::Pd] == 0.0 && residual.is_infinite();
+            assert!(residual <= 1e-5 || is_free, "{}", about());
             assert!(orbit.outputs[Output::ProgressionSpeed].is_finite(), "{}", about());
         }
     }
