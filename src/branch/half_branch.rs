@@ -9,12 +9,14 @@ use super::arclength::{Equations, Linear, between, norm};
 use super::corner::{is_corner, rounded};
 use super::grazing::{Passed, past_grazing};
 use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
-use super::periodic::{Goal, Periodic};
+use super::periodic::{Goal, Periodic, passes};
 use super::special::special_orbits;
 use super::step_control::{Advance, StepControl};
 
 /// Corners that are passed on half of a branch at most.
 const CORNERS: usize = 40;
+/// So many steps before a corner are looked at for whether a branch turns back onto itself there.
+const RETRACED: usize = 40;
 /// Orbits closer together than this are one.
 const ONE: f64 = 1e-12;
 /// A branch merges with the one it left at a doubling that lies no more than so many steps from its end.
@@ -135,7 +137,9 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
             }
             _ => {}
         }
-        if let Some((from, advance)) = rounded(orbits, control, last) {
+        if let Some((from, advance)) = rounded(orbits, control, last)
+            && !self.retraces(orbits, &advance)
+        {
             return Some(Onward::Turns(from, advance));
         }
         let Passed { touching, beyond } = past_grazing(orbits, last)?;
@@ -144,6 +148,19 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         self.special_orbits.push((self.points.len() - 1, touching));
         self.points.push(next);
         Some(Onward::Leaps(end))
+    }
+
+    /// Whether a step leads back onto the orbits before.
+    fn retraces<M: System<D, Event = E>>(
+        &self,
+        orbits: &Orbits<M, D, U>,
+        advance: &Advance<OrbitPoint<E, D, U>>,
+    ) -> bool {
+        let (Advance::Inside(next) | Advance::AtBound(next)) = advance else { return false };
+        let images = orbits.section_points(&next.at);
+        let before = self.points.windows(2).rev().take(RETRACED);
+        let mut pairs = before.flat_map(|pair| images.iter().map(move |image| (pair, image)));
+        pairs.any(|(pair, image)| passes(orbits, [&pair[0].at, &pair[1].at], image))
     }
 
     /// Ends at the one of these period doublings of the branch it left that it has run into, if it has.

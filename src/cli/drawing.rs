@@ -19,14 +19,20 @@ pub enum FormatChoice {
     Pdf,
 }
 
-/// The formats chosen.
+/// The formats chosen, each once.
 pub fn formats(choices: &[FormatChoice]) -> Vec<Format> {
     let format = |choice: &FormatChoice| match choice {
         FormatChoice::Png => Format::Png,
         FormatChoice::Svg => Format::Svg,
         FormatChoice::Pdf => Format::Pdf,
     };
-    choices.iter().map(format).collect()
+    let mut formats: Vec<Format> = Vec::new();
+    for format in choices.iter().map(format) {
+        if !formats.contains(&format) {
+            formats.push(format);
+        }
+    }
+    formats
 }
 
 /// Draws those figures of a study for which there is all that they show.

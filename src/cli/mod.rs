@@ -28,7 +28,10 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
+use failure::Failure;
 use terminal::{flush, notify, print};
+
+use crate::store::provenance;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -85,7 +88,12 @@ enum Command {
 
 /// Runs the program on the command line it was started with.
 pub fn main() -> ExitCode {
-    let done = match Arguments::parse().command {
+    let command = Arguments::parse().command;
+    let done = provenance::given_time().map_err(|text| {
+        let expected = "expected a whole number of seconds since 1970";
+        Failure::request(format!("SOURCE_DATE_EPOCH = \"{text}\" in the environment: {expected}"))
+    });
+    let done = done.and_then(|_| match command {
         Command::Simulate(simulate) => simulate.run(),
         Command::Sweep(sweep) => sweep.run(),
         Command::Join(join) => join.run(),
@@ -99,7 +107,7 @@ pub fn main() -> ExitCode {
             clap_complete::generate(shell, &mut Arguments::command(), "capsulemap", &mut script);
             print(&String::from_utf8_lossy(&script))
         }
-    };
+    });
     let code = match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

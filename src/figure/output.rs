@@ -41,10 +41,11 @@ impl Place<'_> {
     pub fn check(&self, name: &str) -> Result<(), FigureError> {
         for &format in self.formats.iter().filter(|_| !self.overwrite) {
             let path = self.path(name, format);
-            match fs::read(&path) {
+            let is_file = fs::symlink_metadata(&path).map(|it| it.is_file());
+            match is_file.and_then(|is_file| if is_file { fs::read(&path) } else { Ok(Vec::new()) })
+            {
                 Ok(bytes) if mark::is_valid(format, &bytes) => {}
-                // What is not there, or is no file, cannot be lost: if it is in the way, writing says so.
-                Err(said) if said.kind() != ErrorKind::PermissionDenied => {}
+                Err(said) if said.kind() == ErrorKind::NotFound => {}
                 _ => return Err(FigureError::Occupied { figure: name.to_string(), path }),
             }
         }
@@ -70,8 +71,10 @@ impl Figure<'_> {
         let options =
             Options { fontdb: font::database(), font_family: FAMILY.into(), ..Options::default() };
         let tree = Tree::from_str(self.svg, &options).map_err(|e| self.render(e.to_string()))?;
-        store::create_folder(folder)
-            .map_err(|source| FigureError::Write { figure: self.name.to_string(), source })?;
+        if !formats.is_empty() {
+            store::create_folder(folder)
+                .map_err(|source| FigureError::Write { figure: self.name.to_string(), source })?;
+        }
         let mut paths = Vec::new();
         for format in formats {
             let bytes = match format {

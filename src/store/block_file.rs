@@ -158,7 +158,7 @@ pub fn image(fingerprint: &str, block: Summary, columns: &[Column]) -> io::Resul
 /// The file of block `number` in `folder`, after a check of its checksum.
 pub fn open(folder: &Path, fingerprint: &str, number: usize) -> Result<BlockFile, Unusable> {
     let path = path(folder, number);
-    let mut file = File::open(&path).map_err(refused)?;
+    let mut file = opened(&path)?;
     if checksum::check(&file).map_err(Unusable::Refused)? != Checksum::Valid {
         return Err(Unusable::Torn);
     }
@@ -170,11 +170,25 @@ pub fn open(folder: &Path, fingerprint: &str, number: usize) -> Result<BlockFile
     }
 }
 
-/// The head of the file of block `number` in `folder`; its columns are not read.
+/// The head of the file of block `number` in `folder`; its columns are not read, but they are all there.
 pub fn read_head_of(folder: &Path, fingerprint: &str, number: usize) -> Result<Head, Unusable> {
-    let file = File::open(path(folder, number)).map_err(refused)?;
-    let (head, _) = read_head(file)?;
+    let file = opened(&path(folder, number))?;
+    let length = file.metadata().map_err(Unusable::Refused)?.len();
+    let (head, begin) = read_head(file)?;
+    let columns = head.columns.iter().map(|column| column.bytes);
+    let expected = columns.fold(begin + checksum::CHECKSUM_BYTES as u64, u64::saturating_add);
+    if length != expected {
+        return Err(Unusable::Torn);
+    }
     foreign(&head, fingerprint, number).map_or(Ok(head), |why| Err(Unusable::Foreign(why)))
+}
+
+/// A file, which must be a plain one: a pipe would be waited for.
+fn opened(path: &Path) -> Result<File, Unusable> {
+    if !std::fs::metadata(path).map_err(refused)?.is_file() {
+        return Err(Unusable::Refused(io::Error::other("it is not a plain file")));
+    }
+    File::open(path).map_err(refused)
 }
 
 fn refused(error: io::Error) -> Unusable {

@@ -75,6 +75,12 @@ impl BlockFolder {
         let failed = |doing| move |said| StoreError::system(path, doing, said);
         let lock = match company {
             Company::Anybody => None,
+            // In a folder of others not even a lock is left.
+            _ if !Self::is_begun(path)
+                && holds_others(path).map_err(failed("looking for blocks"))? =>
+            {
+                return Err(StoreError::Occupied { folder: path.to_owned() });
+            }
             _ => lock(path, company)?,
         };
         let now = Begun { fingerprint: study.fingerprint(), provenance: provenance::attributes() };
@@ -91,7 +97,7 @@ impl BlockFolder {
                     return Err(StoreError::NoBlocks { folder: path.to_owned() });
                 }
             }
-            None if folder.has_others().map_err(failed("looking for blocks"))? => {
+            None if holds_others(path).map_err(failed("looking for blocks"))? => {
                 return Err(StoreError::Occupied { folder: path.to_owned() });
             }
             _ => folder.begin(&now, study)?,
@@ -153,15 +159,6 @@ impl BlockFolder {
                 format!("{BEGUN} is lost, and blocks are there of another study or program:");
             std::iter::once(said).chain(changed_lines(&older, &study.text)).collect()
         })
-    }
-
-    /// Whether anything is in the folder that is not of this program.
-    fn has_others(&self) -> io::Result<bool> {
-        let mut others = false;
-        for entry in fs::read_dir(&self.path)? {
-            others |= !is_own(&entry?.file_name().to_string_lossy());
-        }
-        Ok(others)
     }
 
     /// Writes study and fingerprint, and removes the blocks of other studies.
@@ -235,6 +232,19 @@ impl BlockFolder {
             _ => Ok(()),
         }
     }
+}
+
+/// Whether anything is in a folder that is not of this program.
+fn holds_others(path: &Path) -> io::Result<bool> {
+    let entries = match fs::read_dir(path) {
+        Err(said) if said.kind() == io::ErrorKind::NotFound => return Ok(false),
+        entries => entries?,
+    };
+    let mut others = false;
+    for entry in entries {
+        others |= !is_own(&entry?.file_name().to_string_lossy());
+    }
+    Ok(others)
 }
 
 /// Whether a file in a folder of blocks, by its name, is one of this program, finished or not.

@@ -10,7 +10,8 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 
 /// Mark before the checksum of all bytes before the mark, lowest byte first.
 const MARK: &[u8] = b"capsulemap";
-const CHECKSUM_BYTES: usize = MARK.len() + 4;
+/// Bytes of the mark and the checksum.
+pub const CHECKSUM_BYTES: usize = MARK.len() + 4;
 /// Bytes that are read at a time.
 const READ_BYTES: usize = 1 << 20;
 

@@ -88,6 +88,11 @@ pub fn read(path: &Path) -> Result<Dataset, StoreError> {
 /// The file of results at `path`, once every byte has been checked.
 pub fn open(path: &Path) -> Result<Archive, StoreError> {
     let failed = |said| StoreError::system(path, "opening the file", said);
+    // A pipe would be waited for.
+    if !std::fs::metadata(path).map_err(failed)?.is_file() {
+        let why = "it is not a plain file".to_owned();
+        return Err(StoreError::Foreign { path: path.to_owned(), why });
+    }
     let mut file = File::open(path).map_err(failed)?;
     let mut start = Vec::new();
     Read::by_ref(&mut file).take(SIGNATURE.len() as u64).read_to_end(&mut start).map_err(failed)?;

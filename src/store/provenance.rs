@@ -39,13 +39,24 @@ pub fn maker(provenance: &BTreeMap<String, String>) -> String {
 /// The time as ISO 8601 in UTC, to the second; where files are to be the same byte for byte, as the
 /// environment variable SOURCE_DATE_EPOCH has it [s since 1970], which reproducible-builds.org defines.
 fn now() -> String {
-    let given = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.parse().ok());
     let elapsed = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs());
-    let since: u64 = given.unwrap_or_else(elapsed);
+    let since: u64 = given_time().ok().flatten().unwrap_or_else(elapsed);
     let (days, seconds) = (since / 86_400, since % 86_400);
     let (year, month, day) = civil(days);
     let (hour, minute, second) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
+}
+
+/// The time that the environment gives for files [s since 1970], if it gives one; a text that is none is returned as an
+/// error.
+pub fn given_time() -> Result<Option<u64>, String> {
+    match std::env::var_os("SOURCE_DATE_EPOCH") {
+        None => Ok(None),
+        Some(text) => {
+            let text = text.to_string_lossy();
+            text.parse().map(Some).map_err(|_| text.into_owned())
+        }
+    }
 }
 
 /// The Gregorian date of a day counted from 1970-01-01.

@@ -109,7 +109,9 @@ fn read_values(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<
     }
     let values = spacing.values(from, to, points as usize);
     if values.windows(2).any(|pair| pair[0] == pair[1]) {
-        table.entry("points")?.fault("are more than there are numbers between `from` and `to`");
+        table
+            .entry("points")?
+            .fault(format!("{points} are more than there are numbers from {from} to {to}"));
         return None;
     }
     Some(values)
@@ -168,7 +170,9 @@ fn distinct<'r, 'a>(
     for entry in list {
         match quantity(entry) {
             // Adding zero makes -0 and 0 the same.
-            Some(value) if !seen.insert((value + 0.0).to_bits()) => entry.fault("is given twice"),
+            Some(value) if !seen.insert((value + 0.0).to_bits()) => {
+                entry.fault(format!("{value}, in SI units, is given twice"))
+            }
             Some(value) => values.push(value),
             None => {}
         }

@@ -384,3 +384,25 @@ fn a_branch_of_tiny_steps_neither_closes_nor_goes_on_for_ever() {
         assert!(rises, "{longest_step:e}: {:?}", points.iter().map(|it| it.parameter));
     }
 }
+
+#[test]
+fn a_branch_does_not_turn_back_onto_itself_at_a_corner() {
+    let mut p = Parameters::with(&[
+        (Parameter::K2, 18.96e3),
+        (Parameter::Delta, 1.5e-3),
+        (Parameter::Pd, 4.0),
+        (Parameter::Omega, 20.73),
+    ]);
+    p[Parameter::MuS] = 0.72;
+    let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
+    assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+    let mut request = request(&p, orbit.section[0], 1, Parameter::MuS, [0.73, 0.74]);
+    request.parameters[Parameter::MuS] = 0.735;
+    let found = follow(&request).expect("the orbit goes on");
+    let Branch { points, special, ends, .. } = &found.branches[0];
+    assert!(points.is_sorted_by(|a, b| a.parameter < b.parameter), "it turns back");
+    assert_eq!(special.len(), 1, "one period doubling, before the corner");
+    assert!(relative(special[0].point.parameter, 0.7373639061) < 1e-8);
+    assert_eq!(*ends, [End::Bound, End::Corner]);
+    assert!(relative(points[points.len() - 1].parameter, 0.7373639075) < 1e-8);
+}

@@ -158,6 +158,62 @@ fn a_figure_replaces_no_file_but_its_own() {
 }
 
 #[test]
+fn links_and_folders_in_the_place_of_a_figure_are_seen_at_the_start() {
+    let dir = place();
+    symlink("nothing.svg", dir.path("speed.svg")).expect("a link");
+    sweep(&dir, "s.h5", &[]).refused(&["speed.svg: is there"]);
+    fs::remove_file(dir.path("speed.svg")).expect("it is removed");
+    fs::create_dir(dir.path("speed.svg")).expect("a folder");
+    sweep(&dir, "s.h5", &[]).refused(&["speed.svg: is there"]);
+    assert_eq!(dir.files(), ["s.toml", "speed.svg"]);
+}
+
+#[test]
+fn what_is_not_begun_leaves_nothing() {
+    let dir = place();
+    sweep(&dir, "deep/er/s.h5", &["--dry-run"]).done();
+    assert_eq!(dir.files(), ["s.toml"]);
+    fs::create_dir(dir.path("s.blocks")).expect("a folder");
+    dir.put("s.blocks/notes.txt", "years of work");
+    sweep(&dir, "s.h5", &[]).refused(&["s.blocks: is where the blocks", "holds other things"]);
+    assert_eq!(dir.files(), ["s.blocks", "s.blocks/notes.txt", "s.toml"]);
+}
+
+#[test]
+fn a_pipe_is_not_waited_for() {
+    let dir = place();
+    dir.shell("mkfifo f.h5").done();
+    for command in ["inspect", "verify", "figure"] {
+        dir.run(&[command, "f.h5"]).refused(&["f.h5: ", "it is not a plain file"]);
+    }
+    sweep(&dir, "s.h5", &["--task", "2/2"]).done();
+    dir.shell("rm -f s.blocks/block-0000000 && mkfifo s.blocks/block-0000000").done();
+    let status = dir.run(&["status", "s.toml", "--output", "s.h5"]).done().out;
+    assert!(status.contains("it is not a plain file"), "{status}");
+}
+
+#[test]
+fn a_block_that_was_cut_is_not_counted() {
+    let dir = place();
+    sweep(&dir, "s.h5", &["--task", "1/2"]).done();
+    let block = dir.path("s.blocks/block-0000000");
+    let whole = fs::read(&block).expect("a block");
+    fs::write(&block, &whole[..whole.len() - 40]).expect("it is cut");
+    let status = dir.run(&["status", "s.toml", "--output", "s.h5"]).done().out;
+    assert!(status.contains("0 of 1 blocks") && status.contains("it is torn"), "{status}");
+}
+
+#[test]
+fn a_time_that_is_none_is_refused() {
+    let dir = place();
+    for time in ["abc", "-5", "", "1e3", "99999999999999999999"] {
+        let mut command = dir.command(&["sweep", "s.toml", "--output", "s.h5", "--no-figures"]);
+        let ran = Ran::from(command.env("SOURCE_DATE_EPOCH", time).output().expect("it starts"));
+        ran.refused(&[&format!("SOURCE_DATE_EPOCH = \"{time}\""), "seconds since 1970"]);
+    }
+}
+
+#[test]
 fn control_characters_from_files_are_shown_and_not_obeyed() {
     let dir = WorkDir::new();
     let key = format!("\"\\u001b[2J{}\" = 1\n", '\u{9b}');

@@ -99,7 +99,7 @@ fn many_faults_are_reported_at_once_each_with_line_and_key() {
             "line 16: axes[1].spacing: needs both ends above zero",
             "line 19: axes[2].values: expected at least one value",
             "line 24: axes[3].points: expected a whole number, 1 to 10000000, found 0",
-            "line 27: axes[4].values[3]: is given twice",
+            "line 27: axes[4].values[3]: 0.001, in SI units, is given twice",
             "line 29: axes[5].name: a second axis \"delta\"",
             "line 30: axes[5].values[2]: \"2\" has no unit; expected a length in m, mm",
             "line 31: axes[6].name: missing; expected a parameter, start_r",

@@ -357,7 +357,7 @@ fn all_faults_of_a_study_built_in_code_are_reported_at_once() {
         "title: must be one line",
         "parameters.m1: -1 kg must be a finite number above zero",
         "axes[1].values[2]: NaN rad/s must be",
-        "axes[1].values[3]: is given twice",
+        "axes[1].values[3]: 60, in SI units, is given twice",
         "start.inherit: unknown axis of this study \"3\"",
         "start.y1: inf m/s must be a finite number",
         "protocol.tolerance: 1 must lie between",
