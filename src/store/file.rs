@@ -89,8 +89,10 @@ pub fn read(path: &Path) -> Result<Dataset, StoreError> {
 pub fn open(path: &Path) -> Result<Archive, StoreError> {
     let failed = |said| StoreError::system(path, "opening the file", said);
     // A pipe would be waited for.
-    if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        let why = "it is not a plain file".to_owned();
+    let metadata = std::fs::metadata(path).map_err(failed)?;
+    if !metadata.is_file() {
+        let what = if metadata.is_dir() { "a folder" } else { "not a plain file" };
+        let why = format!("it is {what}");
         return Err(StoreError::Foreign { path: path.to_owned(), why });
     }
     let mut file = File::open(path).map_err(failed)?;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::branch::{End, NotFollowed, SpecialKind};
+use capsulemap::branch::{NotFollowed, SpecialKind};
 use capsulemap::capsule::branch::{Branch, Found, Request, Special, follow};
 use capsulemap::capsule::{
     Orbit, Output, Parameter, Parameters, Section, State, Switching, settle, simulate,
@@ -56,7 +56,7 @@ fn oscillator(p: &Parameters) -> [f64; 4] {
 }
 
 /// The section point of the stuck capsule that does not touch.
-fn quiet(p: &Parameters) -> Section {
+pub fn quiet(p: &Parameters) -> Section {
     let [spring, damper, z, _] = oscillator(p);
     let (amplitude, phi) = (p[Parameter::Pd] / z, damper.atan2(spring));
     [amplitude * phi.cos(), p[Parameter::Omega] * amplitude * phi.sin(), 0.0]
@@ -367,42 +367,4 @@ fn the_equation_as_printed_is_followed_too() {
         let speeds = [&orbit.outputs, &point.measured].map(|it| it[Output::ProgressionSpeed]);
         assert!((speeds[0] - speeds[1]).abs() < 1e-9, "{}: {speeds:?}", point.parameter);
     }
-}
-
-#[test]
-fn a_branch_of_tiny_steps_neither_closes_nor_goes_on_for_ever() {
-    let p = Parameters::with(&[(Parameter::Omega, 20.0), (Parameter::Pd, 0.5)]);
-    for longest_step in [1e-3, 1e-6, 1e-9, 1e-13, 1e-16, 0.0] {
-        let mut request = request(&p, quiet(&p), 1, Parameter::Omega, [15.0, 25.0]);
-        (request.longest_step, request.most_points) = (longest_step, 12);
-        let found = follow(&request).expect("the stuck capsule oscillates");
-        let Branch { points, ends, .. } = &found.branches[0];
-        let expected = if longest_step > 1e-12 { End::MostPoints } else { End::Stopped };
-        assert!(ends.iter().all(|&end| end == expected), "{longest_step:e}: {ends:?}");
-        assert!(points.len() <= 12, "{longest_step:e}");
-        let rises = points.is_sorted_by(|a, b| a.parameter < b.parameter);
-        assert!(rises, "{longest_step:e}: {:?}", points.iter().map(|it| it.parameter));
-    }
-}
-
-#[test]
-fn a_branch_does_not_turn_back_onto_itself_at_a_corner() {
-    let mut p = Parameters::with(&[
-        (Parameter::K2, 18.96e3),
-        (Parameter::Delta, 1.5e-3),
-        (Parameter::Pd, 4.0),
-        (Parameter::Omega, 20.73),
-    ]);
-    p[Parameter::MuS] = 0.72;
-    let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
-    assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
-    let mut request = request(&p, orbit.section[0], 1, Parameter::MuS, [0.73, 0.74]);
-    request.parameters[Parameter::MuS] = 0.735;
-    let found = follow(&request).expect("the orbit goes on");
-    let Branch { points, special, ends, .. } = &found.branches[0];
-    assert!(points.is_sorted_by(|a, b| a.parameter < b.parameter), "it turns back");
-    assert_eq!(special.len(), 1, "one period doubling, before the corner");
-    assert!(relative(special[0].point.parameter, 0.7373639061) < 1e-8);
-    assert_eq!(*ends, [End::Bound, End::Corner]);
-    assert!(relative(points[points.len() - 1].parameter, 0.7373639075) < 1e-8);
 }

@@ -217,19 +217,12 @@ fn one_figure_that_fails_does_not_keep_the_others() {
     let dir = WorkDir::new();
     dir.put("rich.toml", RICH.to_owned() + &rich_figures());
     fs::create_dir_all(dir.path("results/rich/p.svg/in-the-way")).expect("a folder in the way");
-    let sweep = ["sweep", "rich.toml", "--formats", "svg"];
-    dir.run(&sweep).refused(&["figure `p`: results/rich/p.svg: is there"]);
-    dir.run(&[&sweep[..], &["--no-figures"]].concat()).done();
+    dir.run(&["sweep", "rich.toml"]).refused(&["figure `p`: results/rich/p.svg: is there"]);
+    dir.run(&["sweep", "rich.toml", "--no-figures"]).done();
     let ran = dir.run(&["figure", "results/rich/rich.h5", "--formats", "svg"]);
-    assert_eq!(ran.code, 2, "{}", ran.err);
-    assert!(
-        ran.err.contains("capsulemap: figure `p`: results/rich/p.svg: is there"),
-        "{}",
-        ran.err
-    );
+    ran.refused(&["figure `p`: results/rich/p.svg: is there"]);
     let drawn = dir.files().iter().filter(|name| name.ends_with(".svg")).count();
     assert_eq!(drawn, 9);
-    assert!(dir.files().iter().all(|name| !name.ends_with(".part")), "{:?}", dir.files());
 }
 
 #[test]
