@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::error::CampaignError;
 use crate::store;
+
+use super::error::CampaignError;
 
 /// File systems allow 255 bytes, and a file has a longer name until it is finished.
 const LONGEST_NAME: usize = 243;

@@ -22,7 +22,6 @@ use super::{attractors, event_marks, track};
 use crate::capsule::Output;
 use crate::store::catalogue::{DIRECTION, Entry, Place, SECTION_R};
 use crate::study::Drawing;
-use track::elsewhere;
 
 /// Panels of a bifurcation diagram, unless others are asked for.
 const PANELS: [Entry; 2] = [SECTION_R, Entry::of_output(Output::ProgressionSpeed)];
@@ -102,7 +101,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         .collect::<Result<Vec<_>, _>>()?;
     let reached: Vec<f64> = lines.iter().flat_map(BranchLines::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
-    let left_out = elsewhere(view, &[x_name]);
+    let left_out = track::elsewhere(view, &[x_name]);
     let note = view.note(&free, &left_out);
     let page = request(view, &outputs, (&clouds, &lines), abscissa, note);
     // Without cases there are only the lines of branches to explain.
