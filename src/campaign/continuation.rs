@@ -59,37 +59,34 @@ impl Campaign<'_> {
         store::discard_unfinished(self.output)?;
         let older = self.kept()?;
         check_branches(older.as_ref(), self.output, self.overwrite)?;
-        match older.filter(|older| older.archive.has_cases()) {
-            None => {
-                let mut dataset = store::frame(self.study);
-                add_branches(&mut dataset, self.study, continued);
-                store::write(&dataset, self.output)?;
-            }
+        let older = older.filter(|older| older.archive.has_cases());
+        let of_case = store::numbers_of_case(self.study);
+        let mut frame =
+            self.without_branches(older.as_ref(), |name| !of_case.contains_key(name))?;
+        add_branches(&mut frame, self.study, continued);
+        match older {
             Some(older) => {
-                let is_of_case = |name: &str| store::is_of_case(self.study, name);
-                let frame = older.archive.dataset(|name, _| !is_of_case(name))?;
-                let mut frame = self.renewed(frame);
-                add_branches(&mut frame, self.study, continued);
                 store::write_beside_cases(&older.archive, self.study, &frame, self.output)?;
             }
+            None => store::write(&frame, self.output)?,
         }
         Ok(())
     }
 
-    /// What the file holds beside branches, with the text of this study.
+    /// What the file holds beside branches, of which variables those that are `wanted`, with the text of this study.
     ///
     /// Fails if the file cannot be read.
-    pub fn without_branches(&self, older: Option<&Kept>) -> Result<Dataset, CampaignError> {
-        let Some(older) = older else { return Ok(store::frame(self.study)) };
-        Ok(self.renewed(older.archive.dataset(|_, _| true)?))
-    }
-
-    /// What a file held, without branches and with the text of this study.
-    fn renewed(&self, mut dataset: Dataset) -> Dataset {
+    pub fn without_branches(
+        &self,
+        older: Option<&Kept>,
+        wanted: impl Fn(&str) -> bool,
+    ) -> Result<Dataset, CampaignError> {
         let frame = store::frame(self.study);
+        let Some(older) = older else { return Ok(frame) };
+        let mut dataset = older.archive.dataset(|name, _| wanted(name))?;
         dataset.texts.extend(frame.texts);
         dataset.attributes.extend(frame.attributes);
         drop_branches(&mut dataset);
-        dataset
+        Ok(dataset)
     }
 }

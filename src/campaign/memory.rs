@@ -26,7 +26,9 @@ pub struct Memory {
 /// that is written are counted.
 pub fn memory(study: &Study, threads: usize) -> Memory {
     let cases = study.cases() as f64;
-    let [all, widest] = numbers_of_case(study).map(|numbers| numbers as f64);
+    let numbers = numbers_of_case(study);
+    let all = numbers.values().sum::<usize>() as f64;
+    let widest = numbers.values().copied().max().unwrap_or(0) as f64;
     let blocks = 0..study.blocks();
     let block = blocks.map(|block| study.cases_of_block(block)).max().unwrap_or(0) as f64;
     let blocks_held = threads as f64 * block * all * NUMBER * COPIES;

@@ -105,7 +105,7 @@ impl Continue {
             return Ok(());
         }
         let study = campaign.study;
-        let mut dataset = campaign.without_branches(older)?;
+        let mut dataset = campaign.without_branches(older, |_| true)?;
         let nothing = vec![Err(NotContinued::NoOrbit); study.branches.len()];
         add_branches(&mut dataset, study, &nothing);
         let drawn = rehearse(&dataset, &study.drawings, place);

@@ -53,7 +53,8 @@ fn count_threads(machine: Machine) -> usize {
 /// The most memory that a figure of the study takes, which holds the variables that it shows [bytes]; none if that is
 /// nothing beside the program.
 fn figures(study: &Study) -> Option<f64> {
-    let numbers = |name: &str| store::numbers_of(study, name) as f64;
+    let of_case = store::numbers_of_case(study);
+    let numbers = |name: &str| of_case.get(name).copied().unwrap_or(0) as f64;
     let bytes = study.drawings.iter().map(|drawing| {
         let shown = variables(drawing);
         shown.iter().map(|name| numbers(name)).sum::<f64>() * study.cases() as f64 * 8.0

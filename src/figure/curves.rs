@@ -8,7 +8,6 @@ use super::header::{self, Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
-use super::scale::Scale;
 use super::style::{CURVE_WIDTH, ONE_COLUMN};
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
@@ -53,11 +52,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let places = curves.iter().flat_map(|curve| curve.points.iter().chain(&curve.specials));
         places.map(of).collect::<Vec<f64>>()
     };
-    let axis = |name: &str, values: Vec<f64>| {
-        let empty = values.is_empty();
-        let scale = Scale::around(values, 0.03);
-        AxisRequest { empty, numbered: !empty, ..AxisRequest::new(view.quantity(name), scale) }
-    };
+    let axis =
+        |name: &str, values: Vec<f64>| AxisRequest::around(view.quantity(name), &values, 0.03);
     // Branches have no direction in which they were swept.
     let drawn = [axes[0].as_str(), axes[1].as_str()];
     let left_out = elsewhere(view, &drawn);

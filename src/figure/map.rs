@@ -132,14 +132,13 @@ fn legend(paint: &Paint, x: &Cells, y: &Cells) -> Vec<(Mark, Text)> {
 
 /// Marks the values of uneven axes at the upper and the right side of the frame.
 fn mark_values(canvas: &mut Canvas, panel: &Panel, x: &[f64], y: &[f64]) {
-    let frame = panel.frame;
     let up = |&value: &f64| {
-        let place = frame.left + panel.x.scale.share(value) * frame.width();
-        ((place, frame.top), (place, frame.top - VALUE_MARK))
+        let (place, top) = panel.place(value, panel.y.scale.high);
+        ((place, top), (place, top - VALUE_MARK))
     };
     let right = |&value: &f64| {
-        let place = frame.bottom - panel.y.scale.share(value) * frame.height();
-        ((frame.right, place), (frame.right + VALUE_MARK, place))
+        let (right, place) = panel.place(panel.x.scale.high, value);
+        ((right, place), (right + VALUE_MARK, place))
     };
     let marks: Vec<_> = x.iter().map(up).chain(y.iter().map(right)).collect();
     canvas.segments(&marks, Stroke::solid(INK, FRAME_WIDTH));

@@ -8,7 +8,6 @@ use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
-use super::scale::Scale;
 use super::style::{
     BLUE, CONTACT, CURVE_WIDTH, FAINT_INK, INK, ONE_COLUMN, REFERENCE_WIDTH, VERMILION,
 };
@@ -50,11 +49,11 @@ fn reads(_: &Drawing) -> Names {
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let portrait = portrait(view)?;
     let all = || portrait.orbit.iter().chain(&portrait.sections).chain(&portrait.impacts);
-    let x = Scale::around(all().map(|point| point.0).chain(portrait.gap), 0.06);
-    let y = Scale::around(all().map(|point| point.1), 0.06);
+    let x: Vec<f64> = all().map(|point| point.0).chain(portrait.gap).collect();
+    let y: Vec<f64> = all().map(|point| point.1).collect();
     let panel = PanelRequest {
-        x: AxisRequest::new(view.quantity(HISTORY_R.name), x),
-        y: AxisRequest::new(view.quantity(RELATIVE_VELOCITY.name), y),
+        x: AxisRequest::around(view.quantity(HISTORY_R.name), &x, 0.06),
+        y: AxisRequest::around(view.quantity(RELATIVE_VELOCITY.name), &y, 0.06),
         header: Header { letter: None, note: view.held_note(&[]), legend: legend(&portrait) },
     };
     let page = PageRequest {

@@ -5,7 +5,7 @@
 //! program; the lock prevents other runs from removing unfinished files.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
@@ -19,7 +19,8 @@ use crate::study::Study;
 
 use super::block_file::{self, BlockFile, Column, Head, Numbers, Summary, Unusable};
 use super::catalogue::{END_R, END_Y1, END_Y2, RESIDUAL, starts};
-use super::file::{self, discard_unfinished_in, has_no_locks, put};
+use super::file::{self, discard_unfinished_in, put};
+use super::lock::{Lock, Tried, try_lock};
 use super::{StoreError, Values, provenance, schema};
 
 /// The fingerprint of the study and the program of the first run.
@@ -73,16 +74,14 @@ impl BlockFolder {
         replace: bool,
     ) -> Result<BlockFolder, StoreError> {
         let failed = |doing| move |said| StoreError::system(path, doing, said);
-        let lock = match company {
-            Company::Anybody => None,
-            // In a folder of others not even a lock is left.
-            _ if !Self::is_begun(path)
-                && holds_others(path).map_err(failed("looking for blocks"))? =>
-            {
-                return Err(StoreError::Occupied { folder: path.to_owned() });
-            }
-            _ => lock(path, company)?,
-        };
+        let only_reads = company == Company::Anybody;
+        let holds_others =
+            !only_reads && holds_others(path).map_err(failed("looking for blocks"))?;
+        // In a folder of others not even a lock is left.
+        if holds_others && !Self::is_begun(path) {
+            return Err(StoreError::Occupied { folder: path.to_owned() });
+        }
+        let lock = if only_reads { None } else { lock(path, company)? };
         let now = Begun { fingerprint: study.fingerprint(), provenance: provenance::attributes() };
         let folder =
             BlockFolder { path: path.to_owned(), fingerprint: now.fingerprint.clone(), lock };
@@ -91,13 +90,13 @@ impl BlockFolder {
             Some(changes) if !replace => {
                 return Err(StoreError::Changed { folder: path.to_owned(), changes });
             }
-            None if company == Company::Anybody => {
+            None if only_reads => {
                 // What says that the folder is begun may be lost.
                 if !(0..study.blocks()).any(|number| folder.head(number).is_ok()) {
                     return Err(StoreError::NoBlocks { folder: path.to_owned() });
                 }
             }
-            None if holds_others(path).map_err(failed("looking for blocks"))? => {
+            None if holds_others => {
                 return Err(StoreError::Occupied { folder: path.to_owned() });
             }
             _ => folder.begin(&now, study)?,
@@ -122,7 +121,7 @@ impl BlockFolder {
     /// Whether a run uses the folder at `path`.
     pub fn is_busy(path: &Path) -> bool {
         let lock = File::options().read(true).write(true).open(path.join(LOCK));
-        lock.is_ok_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)))
+        lock.is_ok_and(|lock| matches!(try_lock(&lock, Lock::Exclusive), Ok(Tried::Busy)))
     }
 
     /// What has changed since the folder was begun, as text; none if it was not.
@@ -284,18 +283,17 @@ fn lock(path: &Path, company: Company) -> Result<Option<File>, StoreError> {
             Err(said) if said.kind() == io::ErrorKind::NotFound && tried < TRIES => continue,
             opened => opened.map_err(failed)?,
         };
-        let taken = match company {
-            Company::Alone => lock.try_lock(),
-            _ => lock.try_lock_shared(),
+        let kind = match company {
+            Company::Alone => Lock::Exclusive,
+            _ => Lock::Shared,
         };
-        match taken {
+        match try_lock(&lock, kind).map_err(failed)? {
             // The run that held it before may have removed the folder with the file that is locked now.
-            Ok(()) if file.exists() => return Ok(Some(lock)),
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) if tried == TRIES => break,
-            Err(TryLockError::WouldBlock) => sleep(PAUSE),
-            Err(TryLockError::Error(said)) if has_no_locks(&said) => return Ok(None),
-            Err(TryLockError::Error(said)) => return Err(failed(said)),
+            Tried::Taken if file.exists() => return Ok(Some(lock)),
+            Tried::Taken => {}
+            Tried::Busy if tried == TRIES => break,
+            Tried::Busy => sleep(PAUSE),
+            Tried::Without => return Ok(None),
         }
     }
     Err(StoreError::Busy { folder: path.to_owned() })

@@ -81,6 +81,13 @@ impl Archive {
         self.labels.get(name)
     }
 
+    /// How many numbers a variable has along each dimension; none if there is none of this name.
+    pub(super) fn shape(&self, name: &str) -> Result<Option<Vec<usize>>, StoreError> {
+        let failed = |said| StoreError::decoding(&self.path, format!("reading {name}"), said);
+        let array = self.labels.get(name).map(|_| self.file.dataset(name));
+        Ok(array.transpose().map_err(failed)?.map(|array| array.shape()))
+    }
+
     /// A variable with its numbers; none if there is none of this name.
     pub fn variable(&self, name: &str) -> Result<Option<Variable>, StoreError> {
         let read = |array: Array| values(&array);

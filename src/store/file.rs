@@ -1,6 +1,6 @@
 //! Puts a dataset on disk whole or not at all, and reads it back.
 
-use std::fs::{File, TryLockError};
+use std::fs::File;
 use std::io::{self, Read, Seek, Write};
 use std::path::Path;
 use std::thread::sleep;
@@ -11,6 +11,7 @@ use tempfile::NamedTempFile;
 use super::checksum::{self, Checksum};
 use super::decode::Archive;
 use super::faults::faults;
+use super::lock::{Lock, Tried, try_lock};
 use super::{Dataset, StoreError, difference, encode};
 
 /// How often a folder is tried that another run holds, and the time between two tries: ten minutes in all.
@@ -55,7 +56,7 @@ pub fn create_folder(folder: &Path) -> Result<(), StoreError> {
 pub fn put(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     let file = begun(path)?;
     // As long as it is locked it is not abandoned; where there are no locks its age tells.
-    let _ = file.as_file().try_lock();
+    let _ = try_lock(file.as_file(), Lock::Exclusive);
     name(filled(file, path, bytes)?, path)
 }
 
@@ -142,28 +143,15 @@ pub fn hold(path: &Path, waits: impl FnOnce(&Path)) -> Result<File, StoreError> 
     let folder = File::open(place).map_err(failed)?;
     let mut waits = Some(waits);
     for _ in 0..HOLD_TRIES {
-        match folder.try_lock() {
-            Ok(()) => return Ok(folder),
-            Err(TryLockError::WouldBlock) => {
+        match try_lock(&folder, Lock::Exclusive).map_err(failed)? {
+            Tried::Taken | Tried::Without => return Ok(folder),
+            Tried::Busy => {
                 waits.take().into_iter().for_each(|waits| waits(place));
                 sleep(HOLD_PAUSE);
             }
-            // A network disk may lend no lock on a folder.
-            Err(TryLockError::Error(said))
-                if has_no_locks(&said) || said.raw_os_error() == Some(9) =>
-            {
-                return Ok(folder);
-            }
-            Err(TryLockError::Error(said)) => return Err(failed(said)),
         }
     }
     Err(StoreError::Held { folder: place.to_owned() })
-}
-
-/// Whether a disk has said that it has no locks.
-pub(super) fn has_no_locks(said: &io::Error) -> bool {
-    // Linux says ENOLCK where a network disk has no server for them.
-    said.kind() == io::ErrorKind::Unsupported || said.raw_os_error() == Some(37)
 }
 
 /// Removes what runs that were killed have left of a file at `path` that is [put](put) there, for whom does not hold it.
@@ -174,10 +162,10 @@ pub fn discard_abandoned(path: &Path) -> Result<(), StoreError> {
         written.is_ok_and(|at| at.elapsed().is_ok_and(|age| age >= ABANDONED))
     };
     let is_abandoned = |file: &Path| {
-        File::open(file).is_ok_and(|file| match file.try_lock() {
-            Ok(()) => true,
-            Err(TryLockError::WouldBlock) => false,
-            Err(TryLockError::Error(_)) => is_old(&file),
+        File::open(file).is_ok_and(|file| match try_lock(&file, Lock::Exclusive) {
+            Ok(Tried::Taken) => true,
+            Ok(Tried::Busy) => false,
+            Ok(Tried::Without) | Err(_) => is_old(&file),
         })
     };
     discard_unfinished_in(folder(path), |of, file| of == name && is_abandoned(file))

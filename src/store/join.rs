@@ -170,11 +170,6 @@ impl<'a> Blocks<'a> {
     }
 }
 
-/// Whether a variable of the results of `study` has numbers of each case, which its blocks hold.
-pub fn is_of_case(study: &Study, name: &str) -> bool {
-    schema::columns(study, &[]).variables.contains_key(name)
-}
-
 /// Keeps the cases of an older file of the results of `study` in the file at `path`, beside what `frame` holds, which is
 /// all else: the same bytes as if the blocks of the cases were joined beside it.
 pub fn write_beside_cases(
@@ -183,18 +178,22 @@ pub fn write_beside_cases(
     frame: &Dataset,
     path: &Path,
 ) -> Result<(), StoreError> {
-    let mut columns = Vec::new();
-    for name in schema::columns(study, &[]).variables.into_keys() {
-        let (label, whole) = (older.label(&name).cloned(), older.variable(&name)?);
-        let Some((label, whole)) = label.zip(whole) else { continue };
-        let (shape, range) = (whole.values.shape().to_vec(), whole.values.range());
-        columns.push(Column { name, label, shape, range });
-    }
+    let axes = study.shape().len();
     let numbers = |column: &Column, slab: &Slab| match older.slab(&column.name, slab)? {
         Some(variable) => Ok(variable.values),
         None => Err(StoreError::Damaged { path: older.path().to_owned() }),
     };
-    let axes = study.shape().len();
+    let mut columns = Vec::new();
+    for name in schema::numbers_of_case(study).into_keys() {
+        let (label, shape) = (older.label(&name).cloned(), older.shape(&name)?);
+        let Some((label, shape)) = label.zip(shape) else { continue };
+        let mut column = Column { name, label, shape, range: None };
+        for slab in column.slabs_of_integers(axes) {
+            let ends = column.range.into_iter().chain(numbers(&column, &slab)?.range()).flatten();
+            column.range = ends.clone().min().zip(ends.max()).map(|(low, high)| [low, high]);
+        }
+        columns.push(column);
+    }
     let proceed = || ControlFlow::Continue(());
     joined::write(frame, (&columns, axes), path, numbers, proceed).map(drop)
 }

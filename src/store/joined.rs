@@ -83,6 +83,14 @@ impl Column {
         Element::of(&self.label, self.range)
     }
 
+    /// The slabs of which its range is that of all numbers; none if they are reals.
+    pub fn slabs_of_integers(&self, axes: usize) -> Vec<Slab> {
+        match self.label.values {
+            Values::Integer(_) => self.slabs(axes),
+            Values::Real(_) => Vec::new(),
+        }
+    }
+
     /// The slabs in which it is written, none of which shares a chunk with another.
     fn slabs(&self, axes: usize) -> Vec<Slab> {
         let width = self.shape[axes..].iter().product::<usize>().max(1);

@@ -16,6 +16,7 @@ mod file;
 mod flat;
 mod join;
 mod joined;
+mod lock;
 mod names;
 mod own_layout;
 mod slab;
@@ -37,6 +38,6 @@ pub use file::{
     create_folder, discard_abandoned, discard_unfinished, folder, hold, open, put, read,
     try_to_begin, write,
 };
-pub use join::{Blocks, FailedCase, is_of_case, write_beside_cases};
-pub use schema::{dataset, frame, numbers_of, numbers_of_case};
+pub use join::{Blocks, FailedCase, write_beside_cases};
+pub use schema::{dataset, frame, numbers_of_case};
 pub use slab::MOST_NUMBERS;

@@ -1,5 +1,7 @@
 //! Which variables a file of results has: a study and its records as a labelled dataset.
 
+use std::collections::BTreeMap;
+
 use ndarray::{ArrayD, IxDyn};
 
 use crate::capsule::{History, Impact, Orbit, State};
@@ -95,17 +97,10 @@ pub fn frame(study: &Study) -> Dataset {
     dataset
 }
 
-/// Numbers that a file has of each case of a study of a variable; zero where it has none of this name.
-pub fn numbers_of(study: &Study, name: &str) -> usize {
-    let columns = columns(study, &[]).variables;
-    columns.get(name).map_or(0, |it| it.values.shape()[1..].iter().product())
-}
-
-/// Numbers that a file has of each case of a study: of all variables together, and of the one that has most.
-pub fn numbers_of_case(study: &Study) -> [usize; 2] {
-    let variables = columns(study, &[]).variables.into_values();
-    let numbers = variables.map(|it| it.values.shape()[1..].iter().product());
-    numbers.fold([0, 0], |[all, most], numbers: usize| [all + numbers, most.max(numbers)])
+/// Numbers that a file has of each case of a study, by the name of the variable.
+pub fn numbers_of_case(study: &Study) -> BTreeMap<String, usize> {
+    let variables = columns(study, &[]).variables.into_iter();
+    variables.map(|(name, it)| (name, it.values.shape()[1..].iter().product())).collect()
 }
 
 /// How the cases were integrated, which the file says even where the study left it to the program.

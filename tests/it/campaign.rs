@@ -18,29 +18,8 @@ use capsulemap::run::{self, Machine, Record};
 use capsulemap::store::{self, Values, has_branches, has_cases};
 
 use super::interrupted_runs::{LINES, LONG_STUDY};
+use super::program::CASES_AND_BRANCH;
 use place::{after, long_study, names, parse, place, timeless, uninterrupted};
-
-/// A branch beside cases that are quickly computed.
-const BRANCH: &str = r#"
-[parameters]
-k2 = "18.96 kN/m"
-delta = "1.5 mm"
-p_d = "4 N"
-[[axes]]
-name = "omega"
-from = "18 rad/s"
-to = "30 rad/s"
-points = 20
-[protocol]
-points = 1
-impact_points = 0
-[[branches]]
-name = "b"
-along = "omega"
-at = { omega = "20.73 rad/s" }
-from = "20 rad/s"
-to = "22 rad/s"
-"#;
 
 #[test]
 fn what_is_stopped_resumed_shared_and_joined_has_the_bytes_of_one_run() {
@@ -295,7 +274,7 @@ fn a_case_is_replayed_from_where_it_started_to_the_same_bits() {
 
 #[test]
 fn branches_join_the_cases_in_the_file() {
-    let study = parse(BRANCH);
+    let study = parse(CASES_AND_BRANCH);
     let (_folder, output) = place();
     let campaign = Campaign::new(&study, &output);
     let Ok(BranchesDone::Now { continued, .. }) = campaign.continue_branches(&silent) else {
@@ -311,7 +290,7 @@ fn branches_join_the_cases_in_the_file() {
     let campaign = Campaign { study: &other, ..campaign };
     let error = campaign.continue_branches(&silent).expect_err("other branches");
     assert!(matches!(error, CampaignError::OtherBranches { .. }), "{error}");
-    let alone = parse(BRANCH.split("[[branches]]").next().expect("a study"));
+    let alone = parse(CASES_AND_BRANCH.split("[[branches]]").next().expect("a study"));
     let error = Campaign::new(&alone, &output).continue_branches(&silent).expect_err("no branches");
     assert!(matches!(error, CampaignError::NoBranches), "{error}");
 }

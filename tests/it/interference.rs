@@ -7,34 +7,12 @@ use std::time::{Duration, Instant};
 use capsulemap::store;
 
 use super::interrupted_runs::{LINES, LONG_STUDY};
-use super::program::{Ran, WorkDir};
-
-/// A study that is quickly swept and continued.
-const BOTH: &str = r#"
-[parameters]
-k2 = "18.96 kN/m"
-delta = "1.5 mm"
-p_d = "4 N"
-[[axes]]
-name = "omega"
-from = "18 rad/s"
-to = "30 rad/s"
-points = 40
-[protocol]
-points = 1
-impact_points = 0
-[[branches]]
-name = "b"
-along = "omega"
-at = { omega = "20.73 rad/s" }
-from = "19 rad/s"
-to = "28 rad/s"
-"#;
+use super::program::{CASES_AND_BRANCH, Ran, WorkDir};
 
 #[test]
 fn a_folder_of_somebody_else_is_left_alone() {
     let dir = WorkDir::new();
-    dir.put("a.toml", BOTH);
+    dir.put("a.toml", CASES_AND_BRANCH);
     fs::create_dir(dir.path("a.blocks")).expect("a folder");
     dir.put("a.blocks/thesis.txt", "years of work");
     let sweep = |more: &[&str]| {
@@ -58,7 +36,7 @@ fn cases_and_branches_written_at_once_lose_nothing() {
     let dir = WorkDir::new();
     for (name, first, second) in [("s", "sweep", "continue"), ("f", "continue", "sweep")] {
         let study = format!("{name}.toml");
-        dir.put(&study, BOTH);
+        dir.put(&study, CASES_AND_BRANCH);
         let start = |command: &str| {
             let mut command = dir.command(&[command, &study, "--no-figures"]);
             command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts")
@@ -105,7 +83,7 @@ fn an_interrupt_that_was_to_be_ignored_is() {
 #[test]
 fn what_is_missing_in_a_file_is_not_verified() {
     let dir = WorkDir::new();
-    dir.put("a.toml", BOTH);
+    dir.put("a.toml", CASES_AND_BRANCH);
     dir.run(&["sweep", "a.toml", "--no-figures", "--output", "a.h5"]).done();
     let mut dataset = store::read(&dir.path("a.h5")).expect("a result");
     dataset.variables.remove("progression_speed").expect("a speed");
@@ -118,7 +96,7 @@ fn what_is_missing_in_a_file_is_not_verified() {
 #[test]
 fn a_block_with_a_valid_checksum_and_the_wrong_contents_is_refused() {
     let dir = WorkDir::new();
-    dir.put("a.toml", BOTH);
+    dir.put("a.toml", CASES_AND_BRANCH);
     dir.run(&["sweep", "a.toml", "--no-figures", "--task", "1/2"]).done();
     let block = dir.path("results/a/a.blocks/block-0000000");
     let bytes = fs::read(&block).expect("a block");
@@ -137,7 +115,7 @@ fn a_block_with_a_valid_checksum_and_the_wrong_contents_is_refused() {
 #[test]
 fn a_link_to_a_file_of_results_is_followed() {
     let dir = WorkDir::new();
-    dir.put("a.toml", BOTH);
+    dir.put("a.toml", CASES_AND_BRANCH);
     dir.run(&["sweep", "a.toml", "--no-figures", "--output", "data/a.h5"]).done();
     std::os::unix::fs::symlink("data/a.h5", dir.path("link.h5")).expect("a link");
     let ran: Ran =

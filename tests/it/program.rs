@@ -16,6 +16,28 @@ k2 = \"2.42 kN/m\"
 delta = \"3.5 mm\"
 ";
 
+/// A study that is quickly swept and continued.
+pub const CASES_AND_BRANCH: &str = r#"
+[parameters]
+k2 = "18.96 kN/m"
+delta = "1.5 mm"
+p_d = "4 N"
+[[axes]]
+name = "omega"
+from = "18 rad/s"
+to = "30 rad/s"
+points = 40
+[protocol]
+points = 1
+impact_points = 0
+[[branches]]
+name = "b"
+along = "omega"
+at = { omega = "20.73 rad/s" }
+from = "19 rad/s"
+to = "28 rad/s"
+"#;
+
 /// An empty folder to run the program in.
 pub struct WorkDir {
     folder: TempDir,
