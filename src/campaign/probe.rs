@@ -36,8 +36,10 @@ struct Found {
     forecast: Forecast,
     /// Blocks that have been begun.
     blocks: BTreeSet<usize>,
-    /// Some of the records.
+    /// Those of the cases met that are weighed, one in so `every` many.
     records: Vec<Record>,
+    every: usize,
+    met: usize,
 }
 
 /// Computes blocks of `study`, spread over it, for about `span`, and writes nothing.
@@ -51,7 +53,8 @@ pub fn probe(
 ) -> Result<Probe, CampaignError> {
     let reports = Reports::new(report);
     let forecast = Forecast::new(study.cases());
-    let found = Mutex::new(Found { forecast, blocks: BTreeSet::new(), records: Vec::new() });
+    let (blocks, records) = (BTreeSet::new(), Vec::new());
+    let found = Mutex::new(Found { forecast, blocks, records, every: 1, met: 0 });
     let begun = Instant::now();
     let each = |block: usize, record: &Record| {
         let cases = study.cases_of_block(block);
@@ -74,8 +77,15 @@ impl Found {
     fn add(&mut self, block: usize, cases: usize, record: &Record) {
         self.forecast.add(block, cases, (1, record.orbit.cycles));
         self.blocks.insert(block);
-        if self.records.len() < WEIGHED {
+        if self.met.is_multiple_of(self.every) {
             self.records.push(record.clone());
+        }
+        self.met += 1;
+        // The first cases of all chains are not like the others.
+        if self.records.len() > 2 * WEIGHED {
+            let mut kept = 0..;
+            self.records.retain(|_| kept.next().is_some_and(|it: usize| it.is_multiple_of(2)));
+            self.every *= 2;
         }
     }
 

@@ -1,0 +1,191 @@
+//! Whether a branch leads from one known orbit to another in a single step: told from the derivatives of the two.
+
+use crate::flow::{Switched, System};
+use crate::lane::Dual;
+use crate::orbit::matrix::{Matrix, determinant, solve};
+use crate::orbit::return_map::{jacobian, values};
+
+use super::arclength::ROUNDING;
+use super::family::{Family, cyclic};
+use super::orbits::{STEEPEST, shifted, torus};
+use super::periodic::HALVES;
+use super::scales::units;
+use super::segment::{Along, LEAST_MOVE};
+
+/// The orbit foretold by one from its derivatives may be so far from the other, relative to the way between the two.
+const CORRECTION: f64 = 0.05;
+/// The cosine of the angle between the directions of the branch at the two orbits is at least this.
+const LEAST_COSINE: f64 = 0.98;
+
+/// A periodic orbit with the derivatives of its return map, in the units of the system.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Linearised<E, const D: usize> {
+    /// The value of the parameter.
+    value: f64,
+    /// Its section points.
+    points: Vec<[f64; D]>,
+    /// How fast each of them moves with the parameter.
+    slopes: Vec<[f64; D]>,
+    /// How far the return of each is from the next.
+    residuals: Vec<[f64; D]>,
+    /// The derivative of the return map over the period at the first point.
+    jacobian: Matrix<D>,
+    /// Its cyclic sequence of events.
+    events: Vec<E>,
+}
+
+/// A periodic orbit with its derivatives, given by the value of the parameter and its section points; none where the
+/// motion cannot be followed, where a multiplier is one, and of an autonomous system, whose orbits may vanish.
+pub fn linearised<M: System<D>, const D: usize>(
+    along: &Along<M, D>,
+    (value, points): (f64, &[[f64; D]]),
+) -> Option<Linearised<M::Event, D>> {
+    match const { D } {
+        1 => linearised_with::<M, D, 2>(along, value, points),
+        2 => linearised_with::<M, D, 3>(along, value, points),
+        3 => linearised_with::<M, D, 4>(along, value, points),
+        4 => linearised_with::<M, D, 5>(along, value, points),
+        5 => linearised_with::<M, D, 6>(along, value, points),
+        6 => linearised_with::<M, D, 7>(along, value, points),
+        _ => panic!("a section has one to six coordinates, not {D}"),
+    }
+}
+
+fn linearised_with<M: System<D>, const D: usize, const U: usize>(
+    along: &Along<M, D>,
+    value: f64,
+    points: &[[f64; D]],
+) -> Option<Linearised<M::Event, D>> {
+    if M::Single::AUTONOMOUS {
+        return None;
+    }
+    let family = Family { system: along.system.clone(), period: 1, tolerance: along.tolerance };
+    let free = [(along.parameter, Dual::<f64, U>::variable(value, D))];
+    let mut product: Matrix<D> = shifted(&[[0.0; D]; D], 1.0);
+    let (mut events, mut residuals, mut cycles) = (Vec::new(), Vec::new(), Vec::new());
+    // How fast the end of the cycles so far moves with the parameter if their beginning does not.
+    let mut of_end = [0.0; D];
+    for (i, point) in points.iter().enumerate() {
+        let seeded = std::array::from_fn(|j| Dual::variable(point[j], j));
+        let passage = family.passage(seeded, &free).ok()?;
+        let (end, next) = (values(&passage.end), points[(i + 1) % points.len()]);
+        residuals.push(std::array::from_fn(|j| end[j] - next[j]));
+        let of_cycle = (jacobian(&passage.end), passage.end.map(|it| it.gradient[D]));
+        (product, of_end) = (times(&of_cycle.0, &product), carried(&of_cycle, &of_end));
+        cycles.push(of_cycle);
+        events.extend(passage.events);
+    }
+    let first = solve(shifted(&product, -1.0), of_end.map(|part| -part))?;
+    let later = cycles.iter().scan(first, |slope, cycle| {
+        let here = *slope;
+        *slope = carried(cycle, &here);
+        Some(here)
+    });
+    let (slopes, points, events) = (later.collect(), points.to_vec(), cyclic(&events));
+    Some(Linearised { value, points, slopes, residuals, jacobian: product, events })
+}
+
+/// The product of two matrices.
+fn times<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..D).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+/// How fast the end of a cycle moves with the parameter where its beginning moves so.
+fn carried<const D: usize>(
+    (jacobian, by_parameter): &(Matrix<D>, [f64; D]),
+    slope: &[f64; D],
+) -> [f64; D] {
+    std::array::from_fn(|i| {
+        by_parameter[i] + (0..D).map(|j| jacobian[i][j] * slope[j]).sum::<f64>()
+    })
+}
+
+/// Whether the branch through an orbit leads to another one of the same period, and no special point lies between.
+///
+/// Method: the first step of [`segment`](super::segment()) with its end known. What a step asks of the orbit that it
+/// meets is asked of the other one, more strictly: that it lies where the derivatives foretell, that the branch keeps
+/// its direction, and that no test function changes its sign. A step that leads there by itself asks no more, so that
+/// the answer is that of the segment; where it is no, nothing is said.
+/// Breaks: where a segment does, which does not see what happens twice within a step.
+pub fn leads_to<M: System<D>, const D: usize>(
+    along: &Along<M, D>,
+    from: &Linearised<M::Event, D>,
+    to: &Linearised<M::Event, D>,
+) -> bool {
+    let range = [from.value.min(to.value), from.value.max(to.value)];
+    let units = units(&along.system, (along.parameter, range), &from.points);
+    let way = Way { from, to, units };
+    from.points.len() == to.points.len()
+        && from.events == to.events
+        && way.keeps_its_signs()
+        && [from, to].iter().all(|orbit| way.is_exact(orbit) && way.is_followed(orbit))
+        && (0..to.points.len()).any(|shift| way.is_foretold(shift) && way.is_whole(shift))
+}
+
+/// The step from one orbit to another, in units of the section.
+struct Way<'a, E, const D: usize> {
+    from: &'a Linearised<E, D>,
+    to: &'a Linearised<E, D>,
+    units: [f64; D],
+}
+
+impl<E, const D: usize> Way<'_, E, D> {
+    /// The length of a vector of the section.
+    fn length(&self, vector: &[f64; D]) -> f64 {
+        self.inner(vector, vector).sqrt()
+    }
+
+    /// The inner product of two vectors of the section.
+    fn inner(&self, a: &[f64; D], b: &[f64; D]) -> f64 {
+        (0..D).map(|i| a[i] * b[i] / (self.units[i] * self.units[i])).sum()
+    }
+
+    /// Whether an orbit closes to rounding.
+    fn is_exact(&self, orbit: &Linearised<E, D>) -> bool {
+        orbit.residuals.iter().all(|residual| self.length(residual) <= ROUNDING)
+    }
+
+    /// Whether the return map of an orbit is not too steep to be followed.
+    fn is_followed(&self, orbit: &Linearised<E, D>) -> bool {
+        let slope = |i: usize, j: usize| orbit.jacobian[i][j] * self.units[j] / self.units[i];
+        (0..D).all(|i| (0..D).all(|j| slope(i, j).abs() <= STEEPEST))
+    }
+
+    /// Whether no test function of a special point changes its sign.
+    fn keeps_its_signs(&self) -> bool {
+        let [a, b] = [self.from, self.to].map(|orbit| &orbit.jacobian);
+        let tests: [fn(&Matrix<D>) -> f64; 3] =
+            [|it| determinant(shifted(it, -1.0)), |it| determinant(shifted(it, 1.0)), torus];
+        tests.iter().all(|test| test(a) * test(b) > 0.0)
+    }
+
+    /// Whether the other orbit, begun at another of its points, lies where this one foretells, in a direction that
+    /// stays.
+    fn is_foretold(&self, shift: usize) -> bool {
+        let (from, to) = (self.from, self.to);
+        let change = to.value - from.value;
+        let [here, there] = [from.slopes[0], to.slopes[shift]].map(|it| it.map(|x| x * change));
+        let apart = std::array::from_fn(|i| to.points[shift][i] - from.points[0][i] - here[i]);
+        let section = self.length(&here);
+        // The units of a segment: the parameter changes as the section does, within limits.
+        let parameter = section.max(LEAST_MOVE);
+        let lengths = [&here, &there].map(|it| libm::hypot(self.length(it), parameter));
+        let inner = self.inner(&here, &there) + parameter * parameter;
+        section <= 1.0
+            && inner >= LEAST_COSINE * lengths[0] * lengths[1]
+            && self.length(&apart) <= CORRECTION * lengths[0]
+    }
+
+    /// Whether the orbits repeat after no part of their period, and the step leads to no point half a period later.
+    fn is_whole(&self, shift: usize) -> bool {
+        let count = self.to.points.len();
+        let after = |orbit: &Linearised<E, D>, first: usize, cycles: usize| {
+            let [a, b] = [first, (first + cycles) % count].map(|at| orbit.points[at]);
+            std::array::from_fn(|i| b[i] - a[i])
+        };
+        (1..count).all(|cycles| {
+            let [before, behind] = [after(self.from, 0, cycles), after(self.to, shift, cycles)];
+            self.length(&behind) > HALVES && self.inner(&before, &behind) > 0.0
+        })
+    }
+}
