@@ -1,6 +1,9 @@
 //! Which attractors of two neighbouring cells are one, and their special points in between.
 
-use crate::branch::{Along, PeriodicOrbit, SegmentEnd, SpecialKind, SpecialValue, segment};
+use crate::branch::{
+    Along, Linearised, PeriodicOrbit, SegmentEnd, SpecialKind, SpecialValue, leads_to, linearised,
+    segment,
+};
 use crate::flow::{Metric, System};
 use crate::orbit::matrix::least_from_one;
 use crate::orbit::{Outcome, Protocol};
@@ -102,17 +105,39 @@ impl<M: System<D>, const D: usize> Neighbours<'_, M, D> {
     /// Periodic orbits by continuation, the shortest first, to the other cell; where an orbit has lost
     /// its stability at a period doubling in between, it continues in the orbit of twice the period that lies
     /// on both sides of it. What is left by the cases that inherit their start, see `Neighbours::inherit`.
-    pub fn link(&self) -> Links<D> {
+    ///
+    /// `linear` are the attractors of both cells by place, as [`linear_orbits`] has them.
+    pub fn link(&self, linear: [&LinearOrbits<M, D>; 2]) -> Links<D> {
         let mut links = Links::default();
         let mut apart = Apart::default();
         for (side, place) in self.periodic() {
-            if !links.has(side, place) {
-                self.continued(side, place, &mut links, &mut apart);
+            if links.has(side, place) {
+                continue;
+            }
+            match self.direct(side, place, &links, linear) {
+                Some(other) => links.pairs.push(pair(side, place, other)),
+                None => self.continued(side, place, &mut links, &mut apart),
             }
         }
         self.inherit(&mut links, &apart);
         links.pairs.sort_unstable();
         links
+    }
+
+    /// The attractor of the other cell to which the branch of an orbit leads in a single step, if it does.
+    fn direct(
+        &self,
+        side: usize,
+        place: usize,
+        links: &Links<D>,
+        linear: [&LinearOrbits<M, D>; 2],
+    ) -> Option<usize> {
+        let from = linear[side].get(place)?.as_ref()?;
+        let is_next = |(place, other): &(usize, &Option<Linearised<M::Event, D>>)| {
+            let leads = |to: &Linearised<M::Event, D>| leads_to(&self.along, from, to);
+            !links.has(1 - side, *place) && other.as_ref().is_some_and(leads)
+        };
+        linear[1 - side].iter().enumerate().find(is_next).map(|(place, _)| place)
     }
 
     /// Continues an orbit to the other cell and notes its special points.
@@ -126,8 +151,7 @@ impl<M: System<D>, const D: usize> Neighbours<'_, M, D> {
             SegmentEnd::Reached(orbit) => {
                 let here = Unseen { orbit, doubled };
                 match self.successor(side, links, &here) {
-                    Some(other) if side == 0 => links.pairs.push([place, other]),
-                    Some(other) => links.pairs.push([other, place]),
+                    Some(other) => links.pairs.push(pair(side, place, other)),
                     None => {
                         apart.unseen[side].extend(here.orbit.is_stable().then_some(place));
                         if side == 0 && here.is_continued() {
@@ -204,6 +228,25 @@ impl<M: System<D>, const D: usize> Neighbours<'_, M, D> {
             _ => Vec::new(),
         }
     }
+}
+
+/// The pair of an attractor of one side and one of the other.
+fn pair(side: usize, place: usize, other: usize) -> [usize; 2] {
+    if side == 0 { [place, other] } else { [other, place] }
+}
+
+/// The attractors of a cell by place with their derivatives; none where they do not repeat.
+pub type LinearOrbits<M, const D: usize> = [Option<Linearised<<M as System<D>>::Event, D>>];
+
+/// The attractors of a cell at a value of a parameter, with their derivatives.
+pub fn linear_orbits<M: System<D>, const D: usize>(
+    along: &Along<M, D>,
+    value: f64,
+    cell: &Table<D>,
+) -> Vec<Option<Linearised<M::Event, D>>> {
+    let periodic = |it: &Attractor<D>| it.outcome == Outcome::Periodic;
+    let linear = |it: &Attractor<D>| linearised(along, (value, &it.points));
+    cell.attractors.iter().map(|it| periodic(it).then(|| linear(it))?).collect()
 }
 
 /// Whether a period doubling is among special points.

@@ -9,5 +9,5 @@ mod table;
 pub use bridge::{Bridge, bridges};
 pub use final_motion::FinalMotion;
 pub use identity::{Attractor, coincide};
-pub use link::{Links, Neighbours, Unseen};
+pub use link::{LinearOrbits, Links, Neighbours, Unseen, linear_orbits};
 pub use table::{Executor, Serial, Table, attractors_of};

@@ -12,7 +12,7 @@ use super::periodic::HALVES;
 use super::scales::units;
 use super::segment::{Along, LEAST_MOVE};
 
-/// The orbit foretold by one from its derivatives may be so far from the other, relative to the way between the two.
+/// The orbit foretold by one from its derivatives may be so far from the other, relative to the distance of the two.
 const CORRECTION: f64 = 0.05;
 /// The cosine of the angle between the directions of the branch at the two orbits is at least this.
 const LEAST_COSINE: f64 = 0.98;
@@ -114,22 +114,22 @@ pub fn leads_to<M: System<D>, const D: usize>(
 ) -> bool {
     let range = [from.value.min(to.value), from.value.max(to.value)];
     let units = units(&along.system, (along.parameter, range), &from.points);
-    let way = Way { from, to, units };
+    let step = Step { from, to, units };
     from.points.len() == to.points.len()
         && from.events == to.events
-        && way.keeps_its_signs()
-        && [from, to].iter().all(|orbit| way.is_exact(orbit) && way.is_followed(orbit))
-        && (0..to.points.len()).any(|shift| way.is_foretold(shift) && way.is_whole(shift))
+        && step.keeps_its_signs()
+        && [from, to].iter().all(|orbit| step.is_exact(orbit) && step.is_followed(orbit))
+        && (0..to.points.len()).any(|shift| step.is_foretold(shift) && step.is_whole(shift))
 }
 
 /// The step from one orbit to another, in units of the section.
-struct Way<'a, E, const D: usize> {
+struct Step<'a, E, const D: usize> {
     from: &'a Linearised<E, D>,
     to: &'a Linearised<E, D>,
     units: [f64; D],
 }
 
-impl<E, const D: usize> Way<'_, E, D> {
+impl<E, const D: usize> Step<'_, E, D> {
     /// The length of a vector of the section.
     fn length(&self, vector: &[f64; D]) -> f64 {
         self.inner(vector, vector).sqrt()

@@ -4,7 +4,8 @@ use crate::flow::{Event, Reason, Stroboscopic, Switched, System};
 use crate::lane::Lane;
 use crate::orbit::return_map::{Cycles, returned};
 
-use super::extrema::{Extremum, Turns};
+use crate::orbit::extrema::Extremum;
+use crate::orbit::passage::Passing;
 
 /// Motions of a system, some of whose parameters are free.
 #[derive(Debug, Clone)]
@@ -53,26 +54,18 @@ impl<M: System<D>, const D: usize> Family<M, D> {
         let period = system.period().lane(0);
         let (metric, begins) = (self.system.metric(), point.map(|coordinate| coordinate.lane(0)));
         let mut excursion: f64 = if M::In::<L>::AUTONOMOUS { 0.0 } else { f64::INFINITY };
-        let (mut events, mut extrema, mut elapsed) = (Vec::new(), Vec::new(), 0.0);
-        let mut turns = Turns::default();
+        let mut passing = Passing::<L, M::Event>::new(period);
         let cycles = Cycles { count: self.period, tolerance: self.tolerance };
         let end = returned(&system, point, &cycles, |step| {
-            events.extend(M::Event::from_code(step.event.lane(0)));
-            let length = step.length.lane(0);
             if M::In::<L>::AUTONOMOUS {
                 let here = M::In::<L>::point(&system.at(&step.jet, L::splat(0.0)));
                 let here = here.map(|coordinate| coordinate.lane(0));
                 excursion = excursion.max(metric.distance(&here, &begins));
             }
-            if let Some((coordinate, surface)) = system.touching(&step.jet) {
-                let event = M::Event::from_code(step.event.lane(0));
-                turns.during(coordinate, (length, event), |time, value| {
-                    let time = (elapsed + time) / period;
-                    extrema.push(Extremum { margin: surface - value, time });
-                });
-            }
-            elapsed += length;
+            let event = M::Event::from_code(step.event.lane(0));
+            passing.see((step.length.lane(0), event), system.touching(&step.jet));
         })?;
+        let Passing { events, extrema, .. } = passing;
         Ok(Passage { end, events, extrema, excursion })
     }
 }

@@ -6,10 +6,10 @@ use crate::orbit::matrix::expanded_determinant;
 
 use super::SpecialKind;
 use super::arclength::{CurvePoint, Equations, Linear};
-use super::extrema::{Extremum, nearest};
 use super::family::{Family, Passage, apart};
 use super::periodic::Periodic;
 use super::scales::seeded;
+use crate::orbit::extrema::{Extremum, nearest};
 
 /// The extremum that touches the surface moves in a step by no more than this share of a cycle.
 const SAME_EXTREMUM: f64 = 0.02;

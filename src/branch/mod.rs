@@ -5,8 +5,8 @@ mod arc;
 mod arclength;
 mod corner;
 mod curve;
+mod direct;
 mod doubling;
-mod extrema;
 mod family;
 mod follow;
 mod grazing;
@@ -20,6 +20,7 @@ mod special;
 mod step_control;
 
 pub use curve::is_followed;
+pub use direct::{Linearised, leads_to, linearised};
 pub use follow::follow;
 pub use segment::{Along, ONE_VALUE, PeriodicOrbit, Segment, SegmentEnd, SpecialValue, segment};
 

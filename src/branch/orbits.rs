@@ -6,10 +6,10 @@ use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 
 use super::SpecialKind;
 use super::arclength::{CurvePoint, EXACT, Equations, Linear};
-use super::extrema::nearest;
 use super::family::{Family, cyclic};
 use super::periodic::Periodic;
 use super::scales::seeded;
+use crate::orbit::extrema::nearest;
 
 /// Periodic orbits in one parameter: a zero of P^k(s) - s, with s the section point and P the return map.
 ///
@@ -31,7 +31,7 @@ pub struct Orbits<M: System<D>, const D: usize, const U: usize> {
 }
 
 /// Where the return map is steeper than this, rounding makes too much of an orbit to follow it.
-const STEEPEST: f64 = 1e3;
+pub const STEEPEST: f64 = 1e3;
 /// An autonomous orbit smaller than this, relative to the units, cannot be told from an equilibrium that attracts
 /// weakly: its residual would be rounding.
 const SMALLEST: f64 = 1e-4;
@@ -168,24 +168,9 @@ impl<E: Event, const D: usize, const U: usize> Seen<E, D, U> {
         determinant(shifted(&self.jacobian, 1.0))
     }
 
-    /// The product of one less each product of two multipliers, which vanishes where a complex pair
-    /// passes the unit circle: det(C - I), C the second compound of J.
+    /// The test function of a Neimark-Sacker bifurcation.
     pub fn torus(&self) -> f64 {
-        let j = &self.jacobian;
-        let pairs: Vec<(usize, usize)> =
-            (0..D).flat_map(|a| (a + 1..D).map(move |b| (a, b))).collect();
-        // Places beyond the pairs hold ones on the diagonal, which do not change the determinant.
-        let mut compound = [[0.0; MOST_PAIRS]; MOST_PAIRS];
-        for (row, of_row) in compound.iter_mut().enumerate() {
-            of_row[row] = 1.0;
-        }
-        for (row, &(a, b)) in pairs.iter().enumerate() {
-            for (column, &(c, d)) in pairs.iter().enumerate() {
-                compound[row][column] = j[a][c] * j[b][d] - j[a][d] * j[b][c];
-            }
-            compound[row][row] -= 1.0;
-        }
-        determinant(compound)
+        torus(&self.jacobian)
     }
 
     /// The Floquet multipliers, the largest magnitude first.
@@ -212,6 +197,25 @@ impl<E: Event, const D: usize, const U: usize> Seen<E, D, U> {
     pub fn impacts(&self) -> usize {
         self.events.iter().filter(|event| event.is_impact()).count()
     }
+}
+
+/// The product of one less each product of two multipliers of a return map, which vanishes where a complex pair
+/// passes the unit circle: det(C - I), C the second compound of its derivative.
+pub fn torus<const D: usize>(jacobian: &Matrix<D>) -> f64 {
+    let j = jacobian;
+    let pairs: Vec<(usize, usize)> = (0..D).flat_map(|a| (a + 1..D).map(move |b| (a, b))).collect();
+    // Places beyond the pairs hold ones on the diagonal, which do not change the determinant.
+    let mut compound = [[0.0; MOST_PAIRS]; MOST_PAIRS];
+    for (row, of_row) in compound.iter_mut().enumerate() {
+        of_row[row] = 1.0;
+    }
+    for (row, &(a, b)) in pairs.iter().enumerate() {
+        for (column, &(c, d)) in pairs.iter().enumerate() {
+            compound[row][column] = j[a][c] * j[b][d] - j[a][d] * j[b][c];
+        }
+        compound[row][row] -= 1.0;
+    }
+    determinant(compound)
 }
 
 /// A matrix with `by` added to its diagonal.

@@ -6,7 +6,7 @@ use super::arclength::{
 };
 
 /// Half a period leads this far from where it began, or the orbit has half the period.
-const HALVES: f64 = 1e-8;
+pub const HALVES: f64 = 1e-8;
 /// A curve passes a solution that it comes by this near, or by a smaller share of a short step.
 const SAME: f64 = 1e-6;
 const SHARE: f64 = 1e-2;

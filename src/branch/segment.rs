@@ -27,7 +27,7 @@ const LENGTHEN: f64 = 4.0;
 /// Orbits of a segment at most, and at most where the orbit is long.
 const MOST_AND_FEW: [u64; 2] = [200, 16];
 /// A section that moves less over the way, relative to the motion, counts as if it moved so far.
-const LEAST_MOVE: f64 = 1e-4;
+pub(super) const LEAST_MOVE: f64 = 1e-4;
 /// A fold and a period doubling nearer than this share of the way are one.
 const SAME: f64 = 1e-6;
 /// An unstable orbit is not worth steps shorter than this share of the distance.

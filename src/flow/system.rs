@@ -12,7 +12,7 @@ use super::switched::{Event, Field, Stroboscopic};
 ///
 /// The engine makes of it the system in numbers of any kind: one `f64`, several cases side by side, or numbers
 /// with derivatives along the section point and along parameters.
-pub trait System<const D: usize>: Clone + PartialEq + Debug + Send + Sync {
+pub trait System<const D: usize>: Clone + PartialEq + Debug + Send + Sync + 'static {
     /// Names a parameter.
     type Parameter: Copy + PartialEq + Debug + Send + Sync;
     /// What happens where a mode ends.

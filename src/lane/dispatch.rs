@@ -73,6 +73,32 @@ impl Instructions {
         }
     }
 
+    /// Cases that one vector holds.
+    pub fn lanes_of_a_vector(self) -> usize {
+        match self {
+            Instructions::Scalar | Instructions::Baseline => 1,
+            Instructions::Avx2 => 4,
+            Instructions::Avx512 => 8,
+        }
+    }
+
+    /// Does `work` by these instructions, on one vector at a time, for numbers with derivatives: their parts fill each
+    /// other's waits, and one vector of them fills the caches. Where a vector is short, one case at a time.
+    ///
+    /// # Panics
+    /// Where the processor does not have them.
+    pub fn run_on_a_vector<W: Work>(self, work: W) -> W::Output {
+        match self {
+            Instructions::Scalar | Instructions::Baseline => work.run::<f64>(),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => x86::with_one_avx2(work).expect("the processor has AVX2"),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => x86::with_one_avx512(work).expect("the processor has AVX-512"),
+            #[cfg(not(target_arch = "x86_64"))]
+            Instructions::Avx2 | Instructions::Avx512 => panic!("the processor has no {self:?}"),
+        }
+    }
+
     /// Does `work` by these instructions.
     ///
     /// # Panics

@@ -22,6 +22,26 @@ pub(super) fn with_avx512<W: Work>(work: W) -> Option<W::Output> {
     has_avx512().then(|| unsafe { run(work) })
 }
 
+/// Runs `work` on one vector of AVX-512, none where the processor lacks it.
+pub(super) fn with_one_avx512<W: Work>(work: W) -> Option<W::Output> {
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
+    fn run<W: Work>(work: W) -> W::Output {
+        work.run::<Avx512>()
+    }
+    // SAFETY: the processor has what `run` is compiled for.
+    has_avx512().then(|| unsafe { run(work) })
+}
+
+/// Runs `work` on one vector of AVX2, none where the processor lacks it.
+pub(super) fn with_one_avx2<W: Work>(work: W) -> Option<W::Output> {
+    #[target_feature(enable = "avx2")]
+    fn run<W: Work>(work: W) -> W::Output {
+        work.run::<Avx2>()
+    }
+    // SAFETY: the processor has what `run` is compiled for.
+    has_avx2().then(|| unsafe { run(work) })
+}
+
 /// Runs `work` on vectors of AVX2, none where the processor lacks it.
 pub(super) fn with_avx2<W: Work>(work: W) -> Option<W::Output> {
     #[target_feature(enable = "avx2")]

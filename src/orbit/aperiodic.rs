@@ -161,7 +161,7 @@ pub fn follow_aperiodic_side_by_side<M: System<D>, const D: usize>(
     starts: &[(&M, [f64; D], u64)],
     protocol: &Protocol,
 ) -> Vec<Result<Aperiodic<D>, Reason>> {
-    instructions.run(Crowd { starts, protocol })
+    instructions.run_on_a_vector(Crowd { starts, protocol })
 }
 
 struct Crowd<'a, M, const D: usize> {

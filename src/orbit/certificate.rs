@@ -2,15 +2,15 @@
 //! is the least.
 
 use crate::flow::System;
-use crate::lane::Dual;
 
 use super::Protocol;
 use super::matrix::{Complex, eigenvalues};
 use super::neutral::{Neutral, close_neutral, may_be_neutral};
 use super::newton::{Closed, close};
+use super::passage::{Integrator, ReturnRequest};
 use super::precision::{OBLIQUE, closes, same};
 use super::recurrence::Settled;
-use super::return_map::Cycles;
+use super::return_map::{Cycles, Image};
 
 /// How a period was proven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -102,15 +102,26 @@ pub fn certify<M: System<D>, const D: usize>(
     section: &[f64; D],
     settled: &Settled,
     protocol: &Protocol,
+    integrator: &dyn Integrator<M, D>,
 ) -> Option<Certified<D>> {
     let metric = system.metric();
-    let system = system.constant::<Dual<f64, D>>();
     let repeats_after = settled.repeats_after as u64;
     let mut followed = 0;
     for period in (1..=repeats_after).filter(|&j| repeats_after.is_multiple_of(j)) {
         let cycles = Cycles { count: period, tolerance: protocol.tolerance };
         // What cannot be followed cannot be closed either.
-        let Ok(closed) = close(&system, &metric, section, &cycles, settled.size) else { continue };
+        let image_of = |point: &[f64; D]| {
+            let passage = integrator.passage(ReturnRequest {
+                system: system.clone(),
+                along: None,
+                point: *point,
+                units: [1.0; D],
+                cycles,
+                watched: false,
+            })?;
+            Ok(Image { end: passage.end, jacobian: passage.jacobian })
+        };
+        let Ok(closed) = close(image_of, period, &metric, section, settled.size) else { continue };
         let multipliers = closed.map(|it| eigenvalues(&it.jacobian));
         followed += closed.map_or(0, |it| it.cycles);
         let found = match (closed, multipliers) {
@@ -120,7 +131,7 @@ pub fn certify<M: System<D>, const D: usize>(
             // A singular matrix has left Newton's method without a step.
             _ => {
                 let accuracy = (settled.size, closes(protocol.recurrence));
-                let Ok(Some(it)) = close_neutral(&system, &metric, section, &cycles, accuracy)
+                let Ok(Some(it)) = close_neutral(image_of, period, &metric, section, accuracy)
                 else {
                     continue;
                 };

@@ -26,6 +26,7 @@ pub fn nearest<L: Lane>(extrema: &[Extremum<L>]) -> Option<&Extremum<L>> {
 }
 
 /// The local extrema of a coordinate, step by step.
+#[derive(Debug, Clone)]
 pub struct Turns<L> {
     /// Whether the coordinate rose at the end of the last step; none where an event may have changed its rate.
     rose: Option<bool>,

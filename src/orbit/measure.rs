@@ -8,6 +8,7 @@ use crate::lane::Dual;
 use super::aperiodic::{Aperiodic, Departure, follow_aperiodic};
 use super::certificate::certify;
 use super::matrix::Complex;
+use super::passage::Integrator;
 use super::precision::{GRAZES, STANDS_STILL, same, sound};
 use super::recurrence::Settled;
 use super::{
@@ -88,9 +89,10 @@ pub(super) fn conclude<M: System<D>, const D: usize>(
     case: &Case<M, D>,
     found: Result<Found<D>, Fails<M, D>>,
     protocol: &Protocol,
+    integrator: &dyn Integrator<M, D>,
 ) -> OrbitOf<M, D> {
     let measured = found.and_then(|found| {
-        let verdict = judge(trajectory, case, found, protocol)?;
+        let verdict = judge(trajectory, case, found, protocol, integrator)?;
         measure(trajectory, &case.system, &verdict, protocol)
     });
     measured.unwrap_or_else(|failure| {
@@ -106,13 +108,14 @@ fn judge<M: System<D>, const D: usize>(
     case: &Case<M, D>,
     found: Found<D>,
     protocol: &Protocol,
+    integrator: &dyn Integrator<M, D>,
 ) -> Result<Verdict<D>, Fails<M, D>> {
     match found {
         Found::Repeats(settled) => {
             let section = trajectory.section();
-            match certified(trajectory, case, (&section, settled), protocol) {
+            match certified(trajectory, case, (&section, settled), protocol, integrator) {
                 Some(verdict) => Ok(verdict),
-                None => judge(trajectory, case, Found::Aperiodic, protocol),
+                None => judge(trajectory, case, Found::Aperiodic, protocol, integrator),
             }
         }
         Found::Followed(aperiodic) => {
@@ -122,7 +125,7 @@ fn judge<M: System<D>, const D: usize>(
             // A period too long for the recurrence of sections, or one that is approached slowly.
             let recurs = aperiodic.recurs.filter(|_| outcome != Outcome::Chaotic);
             let periodic = recurs.and_then(|settled| {
-                certified(trajectory, case, (&aperiodic.last, settled), protocol)
+                certified(trajectory, case, (&aperiodic.last, settled), protocol, integrator)
             });
             Ok(periodic.unwrap_or_else(|| Verdict {
                 outcome,
@@ -147,7 +150,9 @@ fn judge<M: System<D>, const D: usize>(
                 protocol.tolerance,
             );
             match followed[0] {
-                Ok(aperiodic) => judge(trajectory, case, Found::Followed(aperiodic), protocol),
+                Ok(aperiodic) => {
+                    judge(trajectory, case, Found::Followed(aperiodic), protocol, integrator)
+                }
                 Err(reason) => Err(trajectory.failure(reason)),
             }
         }
@@ -161,13 +166,14 @@ fn certified<M: System<D>, const D: usize>(
     case: &Case<M, D>,
     (section, settled): (&[f64; D], Settled),
     protocol: &Protocol,
+    integrator: &dyn Integrator<M, D>,
 ) -> Option<Verdict<D>> {
     let progress = &mut trajectory.progress;
     let steps = |cycles: u64| progress.mean_steps().saturating_mul(cycles);
     if steps(settled.repeats_after as u64) > progress.steps_left(protocol.max_steps) {
         return None;
     }
-    let orbit = certify(&case.system, section, &settled, protocol)?;
+    let orbit = certify(&case.system, section, &settled, protocol, integrator)?;
     progress.steps_before = progress.steps_before.saturating_add(steps(orbit.cycles));
     progress.cycles += orbit.cycles;
     trajectory.leap(orbit.section);

@@ -2,7 +2,9 @@
 
 mod case;
 pub mod certificate;
+mod batch;
 pub mod exponent;
+pub mod extrema;
 mod extrapolation;
 mod francis;
 mod machine;
@@ -10,6 +12,7 @@ pub mod matrix;
 mod measure;
 pub mod neutral;
 pub mod newton;
+pub mod passage;
 pub mod precision;
 mod protocol;
 pub mod recurrence;
@@ -22,6 +25,7 @@ pub mod side_by_side;
 pub mod trajectory;
 pub mod aperiodic;
 
+pub use batch::Batch;
 pub use case::{Case, Orbit, OrbitOf};
 pub use certificate::{Certificate, Proof};
 pub use exponent::Exponent;

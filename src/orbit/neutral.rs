@@ -1,12 +1,11 @@
 //! Families of periodic orbits: a multiplier of one belongs to a direction along which the neighbours are
 //! periodic too.
 
-use crate::flow::{Metric, Reason, Stroboscopic};
-use crate::lane::Dual;
+use crate::flow::{Metric, Reason};
 
 use super::matrix::{Complex, Matrix, least_from_one, solve};
 use super::precision::{NEARBY, ONE, ROUNDING};
-use super::return_map::{Cycles, jacobian, returned, seeded, values};
+use super::return_map::Image;
 
 /// Neighbours this far away, relative to the motion, must be periodic too.
 const BESIDE: f64 = 1e-4;
@@ -48,17 +47,14 @@ pub fn may_be_neutral<const D: usize>(multipliers: &[Complex; D]) -> bool {
 /// way: at a fold, where a multiplier is one without a family, they are left with a residual that grows
 /// with the square of the distance.
 /// Assumes: the multiplier one is simple; where two coincide, none is returned.
-pub fn close_neutral<S, const D: usize>(
-    system: &S,
+pub fn close_neutral<const D: usize>(
+    image_of: impl Fn(&[f64; D]) -> Result<Image<D>, Reason>,
+    cycles: u64,
     metric: &Metric<D>,
     start: &[f64; D],
-    cycles: &Cycles,
     (size, tolerance): (f64, f64),
-) -> Result<Option<Neutral<D>>, Reason>
-where
-    S: Stroboscopic<Dual<f64, D>, D>,
-{
-    let mut search = Search { system, metric, cycles, size, followed: 0 };
+) -> Result<Option<Neutral<D>>, Reason> {
+    let mut search = Search { image_of, metric, cycles, size, followed: 0 };
     let repeats = |it: &Neutral<D>| it.residual <= tolerance;
     let Some(member) = search.closed(start)?.filter(repeats) else { return Ok(None) };
     for side in [BESIDE, -BESIDE] {
@@ -73,17 +69,17 @@ where
 }
 
 /// A search for members of a family.
-struct Search<'a, S, const D: usize> {
-    system: &'a S,
+struct Search<'a, F, const D: usize> {
+    image_of: F,
     metric: &'a Metric<D>,
-    cycles: &'a Cycles,
+    cycles: u64,
     size: f64,
     followed: u64,
 }
 
-impl<S, const D: usize> Search<'_, S, D>
+impl<F, const D: usize> Search<'_, F, D>
 where
-    S: Stroboscopic<Dual<f64, D>, D>,
+    F: Fn(&[f64; D]) -> Result<Image<D>, Reason>,
 {
     /// The point nearest to a periodic orbit that was met, with the direction in which it is neutral.
     fn closed(&mut self, start: &[f64; D]) -> Result<Option<Neutral<D>>, Reason> {
@@ -92,11 +88,9 @@ where
         let mut best: Option<Neutral<D>> = None;
         let mut first_residual = f64::INFINITY;
         for correction in 0..CORRECTIONS {
-            let image = returned(self.system, seeded(&point), self.cycles, |_| ())?;
-            self.followed += self.cycles.count;
-            let jacobian = jacobian(&image);
-            let image = values(&image);
-            let gap: [f64; D] = std::array::from_fn(|i| image[i] - point[i]);
+            let Image { end, jacobian } = (self.image_of)(&point)?;
+            self.followed += self.cycles;
+            let gap: [f64; D] = std::array::from_fn(|i| end[i] - point[i]);
             let residual = self.metric.relative(&gap, self.size);
             if correction == 0 {
                 first_residual = residual;

@@ -1,11 +1,10 @@
 //! Newton's method on the return map: from a section point near a periodic orbit onto it.
 
-use crate::flow::{Metric, Reason, Stroboscopic};
-use crate::lane::Dual;
+use crate::flow::{Metric, Reason};
 
 use super::matrix::{Matrix, solve};
 use super::precision::{NEARBY, ROUNDING};
-use super::return_map::{Cycles, jacobian, returned, seeded, values};
+use super::return_map::Image;
 
 /// Corrections at most: from where the section repeats, two are usual.
 const CORRECTIONS: usize = 8;
@@ -29,33 +28,28 @@ pub struct Closed<const D: usize> {
     pub cycles: u64,
 }
 
-/// The periodic orbit nearest to `start` under the map over `cycles`, or the point nearest to one that was
+/// The periodic orbit nearest to `start` under a map over `cycles`, or the point nearest to one that was
 /// met before Newton's method left the neighbourhood; none where the first derivative is singular already.
 ///
 /// `size` is that of the motion, in the units of the metric. Method: s <- s + (I - J)^-1 (P(s) -
 /// s) with the exact Jacobian, until the residual is at rounding or no longer halved; the best point is
 /// kept. Error: see [`Closed::error`]. Where the map has a kink (an event falls on another) the steps need
 /// not converge, and the residual says so.
-pub fn close<S, const D: usize>(
-    system: &S,
+pub fn close<const D: usize>(
+    image_of: impl Fn(&[f64; D]) -> Result<Image<D>, Reason>,
+    cycles: u64,
     metric: &Metric<D>,
     start: &[f64; D],
-    cycles: &Cycles,
     size: f64,
-) -> Result<Option<Closed<D>>, Reason>
-where
-    S: Stroboscopic<Dual<f64, D>, D>,
-{
+) -> Result<Option<Closed<D>>, Reason> {
     let mut point = *start;
     let mut best: Option<Closed<D>> = None;
     let mut followed = 0;
     let mut first_residual = f64::INFINITY;
     for correction in 0..=CORRECTIONS {
-        let image = returned(system, seeded(&point), cycles, |_| ())?;
-        followed += cycles.count;
-        let jacobian = jacobian(&image);
-        let image = values(&image);
-        let gap: [f64; D] = std::array::from_fn(|i| image[i] - point[i]);
+        let Image { end, jacobian } = image_of(&point)?;
+        followed += cycles;
+        let gap: [f64; D] = std::array::from_fn(|i| end[i] - point[i]);
         let residual = metric.relative(&gap, size);
         if correction == 0 {
             first_residual = residual;

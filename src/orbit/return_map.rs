@@ -17,6 +17,28 @@ pub struct Cycles {
     pub tolerance: f64,
 }
 
+/// The image of a section point, with the derivative of the map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Image<const D: usize> {
+    /// Where the motion returns to.
+    pub end: [f64; D],
+    /// The Jacobian.
+    pub jacobian: Matrix<D>,
+}
+
+/// The image of a section point under the return map of `system`.
+pub fn image<S, const D: usize>(
+    system: &S,
+    point: &[f64; D],
+    cycles: &Cycles,
+) -> Result<Image<D>, Reason>
+where
+    S: Stroboscopic<Dual<f64, D>, D>,
+{
+    let returned = returned(system, seeded(point), cycles, |_| ())?;
+    Ok(Image { end: values(&returned), jacobian: jacobian(&returned) })
+}
+
 /// Where `system` is after whole cycles from a point of the section, in any numbers, of which the first lane
 /// counts; every step is shown to `see`.
 ///

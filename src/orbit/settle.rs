@@ -3,6 +3,7 @@
 use crate::flow::System;
 
 use super::measure::{Found, conclude};
+use super::passage::OneByOne;
 use super::recurrence::Settled;
 use super::settling::{Settling, Verdict};
 use super::{Case, Failure, OrbitOf, Protocol, Trajectory};
@@ -23,7 +24,7 @@ pub fn settle<M: System<D>, const D: usize>(
         settling.meet(trajectory.section());
     }
     let settled = find_period::<M, D>(&mut trajectory, &mut settling, protocol);
-    conclude(&mut trajectory, case, settled.map(Found::from), protocol)
+    conclude(&mut trajectory, case, settled.map(Found::from), protocol, &OneByOne)
 }
 
 /// Follows until the section repeats; none when the budget of cycles ends first.

@@ -4,7 +4,9 @@ use crate::flow::{Motion, Step, Stroboscopic, Switched, System};
 use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
 use super::aperiodic::follow_aperiodic_side_by_side;
+use super::batch::Batch;
 use super::measure::{Found, conclude};
+use super::passage::{Integrator, OneByOne};
 use super::settle::find_period;
 use super::settling::{Settling, Verdict};
 use super::trajectory::{Progress, leap};
@@ -12,6 +14,9 @@ use super::{Case, Failure, OrbitOf, Protocol, Trajectory};
 
 /// What a case has settled to, if it has, or why it could not be followed.
 type Finding<M, const D: usize> = Result<Found<D>, Failure<<M as System<D>>::State<f64>>>;
+
+/// A case by its number with what it has settled to.
+type Done<M, const D: usize> = (usize, OrbitOf<M, D>);
 
 /// With no more than one lane in so many at work, cases are followed faster one by one.
 const WORTHWHILE: usize = 4;
@@ -46,9 +51,10 @@ impl<M: System<D>, const D: usize> Underway<M, D> {
 
     /// Follows the case by itself until it settles, and measures it.
     pub fn finish(self, protocol: &Protocol) -> (usize, OrbitOf<M, D>) {
-        self.conclude(protocol, |trajectory, settling| {
+        let found = |trajectory: &mut Trajectory<'_, _, D>, settling: &mut Settling<D>| {
             find_period::<M, D>(trajectory, settling, protocol).map(Found::from)
-        })
+        };
+        self.conclude(protocol, found, &OneByOne)
     }
 
     /// Measures the case, going on from where it is with what it is found to have settled to.
@@ -56,12 +62,13 @@ impl<M: System<D>, const D: usize> Underway<M, D> {
         mut self,
         protocol: &Protocol,
         found: impl FnOnce(&mut Trajectory<'_, M::Single, D>, &mut Settling<D>) -> Finding<M, D>,
+        integrator: &dyn Integrator<M, D>,
     ) -> (usize, OrbitOf<M, D>) {
         let mut trajectory =
             Trajectory::resume(&self.system, self.motion, self.progress, protocol.tolerance)
                 .limited(protocol.max_steps);
         let found = found(&mut trajectory, &mut self.settling);
-        (self.number, conclude(&mut trajectory, &self.case, found, protocol))
+        (self.number, conclude(&mut trajectory, &self.case, found, protocol, integrator))
     }
 }
 
@@ -82,7 +89,8 @@ pub fn settle_side_by_side<M: System<D>, const D: usize>(
     queue: &mut dyn Queue<M, D>,
 ) -> Vec<Underway<M, D>> {
     let (aperiodic, ready) = (Vec::new(), Vec::new());
-    instructions.run(Supply { instructions, protocol, queue, aperiodic, ready })
+    let concluding = Batch::new(instructions);
+    instructions.run(Supply { instructions, protocol, queue, aperiodic, concluding, ready })
 }
 
 /// Where the lanes take their cases from.
@@ -94,6 +102,8 @@ struct Supply<'a, M: System<D>, const D: usize> {
     /// Cases that have not settled, gathered until there are enough to follow their linearised flow side by
     /// side.
     aperiodic: Vec<Underway<M, D>>,
+    /// Cases that are being certified and measured.
+    concluding: Batch<M, Done<M, D>, D>,
     /// Cases that could depart, had they a lane.
     ready: Vec<Underway<M, D>>,
 }
@@ -115,10 +125,18 @@ impl<M: System<D>, const D: usize> Work for Supply<'_, M, D> {
         let mut step = Step::default();
         let worthwhile = |cases: usize| cases * WORTHWHILE > L::WIDTH;
         loop {
-            let moving = worthwhile(lanes.occupied.count_ones() as usize);
-            let aperiodic = lanes.cases.aperiodic.len();
+            let occupied = lanes.occupied.count_ones() as usize;
+            let (aperiodic, concluding) =
+                (lanes.cases.aperiodic.len(), lanes.cases.concluding.waiting());
+            let moving = worthwhile(occupied);
+            // Of twice as many as a vector holds some are alike long; lanes that stay empty do not wait for them.
+            let vector = lanes.cases.instructions.lanes_of_a_vector();
+            let enough = if occupied < L::WIDTH { vector } else { 2 * vector };
             if aperiodic >= L::WIDTH || (!moving && worthwhile(aperiodic)) {
                 lanes.cases.follow_aperiodic_cases();
+                lanes.fill();
+            } else if concluding >= enough || (!moving && concluding > 0) {
+                lanes.cases.conclude_some();
                 lanes.fill();
             } else if moving {
                 lanes.advance(&mut step);
@@ -141,7 +159,7 @@ impl<M: System<D>, const D: usize> Supply<'_, M, D> {
         Some(Underway::new(number, case, self.protocol))
     }
 
-    /// Follows the cases that follow_aperiodic with their linearised flow, side by side, and concludes them.
+    /// Follows the cases that have not settled with their linearised flow, side by side, and concludes them.
     fn follow_aperiodic_cases(&mut self) {
         let cases = std::mem::take(&mut self.aperiodic);
         let max_steps = self.protocol.max_steps;
@@ -154,9 +172,35 @@ impl<M: System<D>, const D: usize> Supply<'_, M, D> {
             .collect();
         let followed = follow_aperiodic_side_by_side(self.instructions, &motions, self.protocol);
         for (case, followed) in cases.into_iter().zip(followed) {
-            let done = case.conclude(self.protocol, |trajectory, _| {
+            self.conclude(case, move |trajectory, _| {
                 followed.map(Found::Followed).map_err(|reason| trajectory.failure(reason))
             });
+        }
+    }
+
+    /// Begins to certify and measure a case that is `found` to do something.
+    fn conclude(
+        &mut self,
+        case: Underway<M, D>,
+        found: impl FnOnce(&mut Trajectory<'_, M::Single, D>, &mut Settling<D>) -> Finding<M, D>
+        + 'static,
+    ) {
+        let protocol = *self.protocol;
+        let conclude =
+            move |integrator: &dyn Integrator<M, D>| case.conclude(&protocol, found, integrator);
+        let done = self.concluding.begin(conclude);
+        self.pass_on(done);
+    }
+
+    /// Goes on with cases that are being concluded, side by side.
+    fn conclude_some(&mut self) {
+        let done = self.concluding.advance();
+        self.pass_on(done);
+    }
+
+    /// Hands on cases that are done, and takes those that follow them.
+    fn pass_on(&mut self, done: impl IntoIterator<Item = Done<M, D>>) {
+        for done in done {
             let next = self.next(Some(done));
             self.ready.extend(next);
         }
@@ -235,7 +279,9 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
         self.cycle_began[lane] = self.steps;
         let exhausted = case.progress.cycles >= self.cases.protocol.max_cycles;
         match case.settling.meet(M::Single::point(state)) {
-            Verdict::Settled(settled) => self.replace(lane, |_, _| Ok(Found::Repeats(settled))),
+            Verdict::Settled(settled) => {
+                self.replace(lane, move |_, _| Ok(Found::Repeats(settled)))
+            }
             // At the end of the budget the motion is measured where it is.
             _ if exhausted => {
                 let case = self.take(lane).expect("the lane is occupied");
@@ -274,11 +320,12 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
     fn replace(
         &mut self,
         lane: usize,
-        found: impl FnOnce(&mut Trajectory<'_, M::Single, D>, &mut Settling<D>) -> Finding<M, D>,
+        found: impl FnOnce(&mut Trajectory<'_, M::Single, D>, &mut Settling<D>) -> Finding<M, D>
+        + 'static,
     ) {
         let case = self.take(lane).expect("the lane is occupied");
-        let done = case.conclude(self.cases.protocol, found);
-        let next = self.cases.next(Some(done));
+        self.cases.conclude(case, found);
+        let next = self.cases.next(None);
         self.fill_lane(lane, next);
     }
 

@@ -4,7 +4,7 @@ use std::sync::Mutex;
 
 use rayon::prelude::*;
 
-use crate::attractor::{Bridge, Links, Neighbours, Table, bridges};
+use crate::attractor::{Bridge, Links, Neighbours, Table, bridges, linear_orbits};
 use crate::branch::{Along, ONE_VALUE, SpecialKind, SpecialValue};
 use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Section, Switching};
 use crate::study::layout::{Layout, linked_axis};
@@ -12,6 +12,9 @@ use crate::study::{CaseSet, Coordinate, Direction, Study};
 
 use super::cases::{Rayon, RunError, pool};
 use super::{FinalMotion, Machine};
+
+/// Pairs of neighbouring cells that one thread links in turn.
+const TOGETHER: usize = 16;
 
 /// A change of an attractor along the axis, or its beginning or end.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,13 +150,26 @@ impl<'a> Line<'a> {
         linked: impl Fn() + Sync,
     ) -> (Vec<Links<3>>, Vec<Bridge<3>>) {
         let between = |at: usize| self.neighbours::<R>(cells, at);
-        let link = |at: usize| {
-            let links = between(at).map_or_else(Links::default, |it| it.link());
-            linked();
-            links
-        };
         let last = cells.len().saturating_sub(1);
-        let links: Vec<Links<3>> = (0..last).into_par_iter().map(link).collect();
+        // The derivatives of an orbit serve its links on both sides.
+        let link_some = |first: usize| {
+            let mut after = None;
+            let some = (first..last.min(first + TOGETHER)).map(|at| {
+                let links = between(at).map_or_else(Links::default, |it| {
+                    let here =
+                        |side: usize| linear_orbits(&it.along, it.values[side], it.cells[side]);
+                    let [low, high] = [after.take().unwrap_or_else(|| here(0)), here(1)];
+                    let links = it.link([&low, &high]);
+                    after = Some(high);
+                    links
+                });
+                linked();
+                links
+            });
+            some.collect::<Vec<_>>()
+        };
+        let firsts = (0..last).into_par_iter().step_by(TOGETHER);
+        let links: Vec<Links<3>> = firsts.flat_map_iter(link_some).collect();
         let bridges = bridges(cells, &links, between, &Rayon);
         (links, bridges)
     }

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use flate2::Compression;
@@ -282,7 +282,8 @@ impl Numbers {
 }
 
 fn pack(numbers: &Numbers) -> io::Result<Vec<u8>> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+    // The encoder clears its room for output at every call, so that it is given many numbers at a time.
+    let mut encoder = BufWriter::new(ZlibEncoder::new(Vec::new(), Compression::fast()));
     match numbers {
         Numbers::Real(reals) => {
             reals.iter().try_for_each(|it| encoder.write_all(&it.to_bits().to_le_bytes()))?;
@@ -291,7 +292,7 @@ fn pack(numbers: &Numbers) -> io::Result<Vec<u8>> {
             integers.iter().try_for_each(|it| encoder.write_all(&it.to_le_bytes()))?;
         }
     }
-    encoder.finish()
+    encoder.into_inner()?.finish()
 }
 
 /// So many numbers; none if there is another count.

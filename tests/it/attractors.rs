@@ -10,7 +10,7 @@ use capsulemap::flow::System;
 use capsulemap::lane::Dual;
 use capsulemap::orbit::matrix::eigenvalues;
 use capsulemap::orbit::newton::close;
-use capsulemap::orbit::return_map::Cycles;
+use capsulemap::orbit::return_map::{Cycles, image};
 use capsulemap::orbit::{Outcome, Proof, Protocol};
 use capsulemap::run::{self, AttractorEvent, Attractors, FinalMotion, Machine, Record};
 use capsulemap::store;
@@ -274,8 +274,14 @@ fn a_multiplier_is_minus_one_where_the_period_doubles() {
         let (system, metric) = (capsule.constant::<Dual<f64, 3>>(), capsule.metric());
         let tolerance = Protocol::default().tolerance;
         let cycles = Cycles { count: event.period, tolerance };
-        let orbit = close(&system, &metric, &event.section, &cycles, 0.5)
-            .expect("the integration continues");
+        let orbit = close(
+            |point| image(&system, point, &cycles),
+            cycles.count,
+            &metric,
+            &event.section,
+            0.5,
+        )
+        .expect("the integration continues");
         let orbit = orbit.expect("an orbit");
         assert!(orbit.residual < 1e-11, "{orbit:?}");
         let from = |it: &capsulemap::orbit::matrix::Complex| f64::hypot(it.re + 1.0, it.im);

@@ -60,11 +60,11 @@ fn a_branch_that_is_said_to_lead_straight_on_does() {
                 continue;
             };
             pairs += 1;
-            let ways: [(&Linearised<_, 3>, _, _, _, _); 2] = [
+            let ends_in_turn: [(&Linearised<_, 3>, _, _, _, _); 2] = [
                 (&a, &b, values, &orbit.section, &other.section),
                 (&b, &a, [values[1], values[0]], &other.section, &orbit.section),
             ];
-            for (from, to, [begins, ends], first, last) in ways {
+            for (from, to, [begins, ends], first, last) in ends_in_turn {
                 if !leads_to(&along, from, to) {
                     continue;
                 }
@@ -81,7 +81,7 @@ fn a_branch_that_is_said_to_lead_straight_on_does() {
             }
         }
     }
-    println!("{direct} of {} ways are direct", 2 * pairs);
+    println!("{direct} of {} are direct", 2 * pairs);
     assert!(pairs > 500 && direct > pairs, "{direct} of {}", 2 * pairs);
 }
 

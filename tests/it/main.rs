@@ -20,6 +20,7 @@ mod damage;
 mod den_hartog;
 mod derivatives;
 mod differences;
+mod direct_links;
 mod directions;
 mod divergence;
 mod drawn_studies;

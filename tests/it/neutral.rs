@@ -7,7 +7,7 @@ use capsulemap::capsule::{Case, Filippov, Orbit, Output, Parameter, Parameters, 
 use capsulemap::flow::System;
 use capsulemap::lane::Dual;
 use capsulemap::orbit::neutral::close_neutral;
-use capsulemap::orbit::return_map::Cycles;
+use capsulemap::orbit::return_map::{Cycles, image};
 use capsulemap::orbit::{Outcome, Proof, Protocol};
 
 use super::branch::request;
@@ -96,7 +96,13 @@ fn an_orbit_that_attracts_belongs_to_no_family() {
         let (system, metric) = (capsule.constant::<Dual<f64, 3>>(), capsule.metric());
         let cycles = Cycles { count: orbit.period, tolerance: 1e-12 };
         let size = orbit.section[0].iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-        let family = close_neutral(&system, &metric, &orbit.section[0], &cycles, (size, 1e-10));
+        let family = close_neutral(
+            |point| image(&system, point, &cycles),
+            cycles.count,
+            &metric,
+            &orbit.section[0],
+            (size, 1e-10),
+        );
         assert_eq!(family, Ok(None), "{case:?}");
     }
 }
