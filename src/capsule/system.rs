@@ -135,6 +135,10 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
         self.parameters.resistance == other.parameters.resistance
     }
 
+    fn shares_all_but_parameters(&self, other: &Self) -> bool {
+        self.is_alike(other) && self.phase.to_bits() == other.phase.to_bits()
+    }
+
     /// Amplitude of the velocity of the mass while nothing slips or touches [m/s].
     fn expected_size(&self) -> f64 {
         let of = |parameter| self.parameters[parameter];

@@ -52,6 +52,11 @@ pub trait System<const D: usize>: Clone + PartialEq + Debug + Send + Sync + 'sta
     fn is_alike(&self, _other: &Self) -> bool {
         true
     }
+    /// Whether it differs from another in the values of its parameters alone, so that [`System::system`] of one with
+    /// the values of the other is the other.
+    fn shares_all_but_parameters(&self, other: &Self) -> bool {
+        self == other
+    }
     /// The size of the motion to be expected, in the units of the metric; zero where it is not known.
     fn expected_size(&self) -> f64 {
         0.0

@@ -3,7 +3,7 @@
 use crate::flow::{
     Event, MAX_GUARDS, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System,
 };
-use crate::lane::{Dual, Instructions, Lane, Mask, Series, Work, series};
+use crate::lane::{Dual, Instructions, Lane, Mask, Series, SideBySide, Work, series};
 
 use super::extrema::{Extremum, Turns, nearest};
 use super::matrix::Matrix;
@@ -226,6 +226,10 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
         }
         let mut found = Vec::with_capacity(self.requests.len());
         for group in self.requests.chunks(L::WIDTH) {
+            if !can_share(group) {
+                found.extend(group.iter().map(|it| OneByOne.passage((*it).clone())));
+                continue;
+            }
             match const { D } {
                 1 => together::<L, M, D, 2>(group, &mut found),
                 2 => together::<L, M, D, 3>(group, &mut found),
@@ -238,6 +242,34 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
         }
         found
     }
+}
+
+/// Whether there are lanes for these returns: derivatives along a parameter are known where nothing but parameters
+/// differs.
+fn can_share<M: System<D>, const D: usize>(requests: &[&ReturnRequest<M, D>]) -> bool {
+    let first = &requests[0].system;
+    requests.iter().all(|it| it.along.is_none())
+        || requests.iter().all(|it| it.system.shares_all_but_parameters(first))
+}
+
+/// The systems of the returns, each in its lane.
+#[inline(always)]
+fn in_lanes<L: Lane, M: System<D>, const D: usize, const U: usize>(
+    requests: &[&ReturnRequest<M, D>],
+) -> M::In<Dual<L, U>> {
+    let of = |lane: usize| requests[lane.min(requests.len() - 1)];
+    if requests.iter().any(|it| it.along.is_some()) {
+        return of(0).system.system(|parameter| {
+            let mut dual = Dual::<L, U>::constant(L::from_fn(|lane| of(lane).value(parameter)));
+            dual.gradient[D] = L::from_fn(|lane| of(lane).seed(parameter));
+            dual
+        });
+    }
+    let mut system = M::In::<Dual<L, U>>::splat(&of(0).system.single());
+    for (lane, it) in requests.iter().enumerate() {
+        system.put(lane, &it.system.single());
+    }
+    system
 }
 
 /// A return in a lane.
@@ -257,11 +289,7 @@ fn together<L: Lane, M: System<D>, const D: usize, const U: usize>(
     let of = |lane: usize| requests[lane.min(requests.len() - 1)];
     let alike = |it: &&ReturnRequest<M, D>| it.system.is_alike(&of(0).system);
     assert!(requests.iter().all(alike), "motions side by side are alike");
-    let system = of(0).system.system(|parameter| {
-        let mut dual = Dual::<L, U>::constant(L::from_fn(|lane| of(lane).value(parameter)));
-        dual.gradient[D] = L::from_fn(|lane| of(lane).seed(parameter));
-        dual
-    });
+    let system = in_lanes::<L, M, D, U>(requests);
     let from = std::array::from_fn(|i| {
         let mut dual = Dual::<L, U>::constant(L::from_fn(|lane| of(lane).point[i]));
         dual.gradient[i] = L::from_fn(|lane| of(lane).units[i]);

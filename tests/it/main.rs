@@ -51,6 +51,7 @@ mod neutral;
 mod observers;
 mod oscillators;
 mod paper;
+mod passages;
 mod phases;
 mod program;
 mod readers;
