@@ -71,6 +71,9 @@ in_lanes! {
         fn put(&mut self, index: usize, one: &Slip<f64>) {
             self.0 = self.0.with_lane(index, one.0);
         }
+        fn take_lane(&mut self, index: usize, other: &Self) {
+            self.0 = self.0.with_lane_of(index, other.0);
+        }
     }
 
     impl<L: Lane> Belt<L> {

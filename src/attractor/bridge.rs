@@ -1,7 +1,10 @@
 //! Attractors across cells whose cases do not show them: no start there leads to an orbit that exists.
 
+use std::sync::Arc;
+
 use crate::branch::{SegmentEnd, SpecialValue, segment};
 use crate::flow::System;
+use crate::orbit::passage::OneByOne;
 
 use super::link::{Links, Neighbours, Unseen, doubles};
 use super::table::{Executor, Table};
@@ -23,10 +26,10 @@ pub struct Bridge<const D: usize> {
 /// until one has it, or until it ends or becomes unstable. One that has doubled its period is continued past
 /// cells that show nothing new, as cases settle slowly there. `between` gives what is held between a cell and the
 /// next.
-pub fn bridges<'a, M: System<D>, const D: usize>(
-    cells: &[Table<D>],
+pub fn bridges<M: System<D>, const D: usize>(
+    cells: &[Arc<Table<D>>],
     links: &[Links<D>],
-    between: impl Fn(usize) -> Option<Neighbours<'a, M, D>> + Sync,
+    between: impl Fn(usize) -> Option<Neighbours<M, D>> + Sync,
     executor: &impl Executor,
 ) -> Vec<Bridge<D>> {
     let unseen = links.iter().enumerate().flat_map(|(at, links)| {
@@ -47,18 +50,18 @@ pub fn bridges<'a, M: System<D>, const D: usize>(
 }
 
 /// Continues an orbit, which is at the cell after `from`, to the next cell that shows it.
-fn cross<'a, M: System<D>, const D: usize>(
-    cells: &[Table<D>],
+fn cross<M: System<D>, const D: usize>(
+    cells: &[Arc<Table<D>>],
     links: &[Links<D>],
     from: [usize; 2],
     mut here: Unseen<D>,
-    between: impl Fn(usize) -> Option<Neighbours<'a, M, D>>,
+    between: impl Fn(usize) -> Option<Neighbours<M, D>>,
 ) -> Option<Bridge<D>> {
     let mut special = Vec::new();
     for at in from[0] + 1..links.len() {
         let Neighbours { along, protocol, values, .. } = between(at)?;
         let was_stable = here.orbit.is_stable();
-        let found = segment(&along, (here.orbit.value, &here.orbit.points), values[1])?;
+        let found = segment(&OneByOne, &along, (here.orbit.value, &here.orbit.points), values[1])?;
         let SegmentEnd::Reached(orbit) = found.end else { return None };
         here.orbit = orbit;
         if was_stable {
@@ -68,7 +71,7 @@ fn cross<'a, M: System<D>, const D: usize>(
         let metric = along.metric(here.orbit.value);
         let next = &cells[at + 1].attractors;
         let is_new = |place: usize| links[at].pairs.iter().all(|pair| pair[1] != place);
-        if let Some(place) = next.iter().position(|it| here.belongs_to(it, &metric, protocol)) {
+        if let Some(place) = next.iter().position(|it| here.belongs_to(it, &metric, &protocol)) {
             return is_new(place).then_some(Bridge { from, to: [at + 1, place], special });
         }
         let something_new = || (0..next.len()).any(is_new);

@@ -1,11 +1,14 @@
 //! Which attractors of two neighbouring cells are one, and their special points in between.
 
+use std::sync::Arc;
+
 use crate::branch::{
     Along, Linearised, PeriodicOrbit, SegmentEnd, SpecialKind, SpecialValue, leads_to, linearised,
     segment,
 };
 use crate::flow::{Metric, System};
 use crate::orbit::matrix::least_from_one;
+use crate::orbit::passage::Integrator;
 use crate::orbit::{Outcome, Protocol};
 
 use super::identity::{Attractor, coincide, relative_bound};
@@ -85,21 +88,21 @@ impl Apart {
 }
 
 /// Two neighbouring cells along a parameter.
-pub struct Neighbours<'a, M: System<D>, const D: usize> {
+pub struct Neighbours<M: System<D>, const D: usize> {
     /// What is held, and the parameter.
     pub along: Along<M, D>,
     /// How closely orbits are computed.
-    pub protocol: &'a Protocol,
+    pub protocol: Protocol,
     /// The two values of the parameter.
     pub values: [f64; 2],
     /// The cells.
-    pub cells: [&'a Table<D>; 2],
+    pub cells: [Arc<Table<D>>; 2],
     /// Pairs of places, in the first cell and in the second, between which cases lead that inherit their start from
     /// the first cell, and from the second; none where no case does.
     pub inherited: [Option<Vec<[usize; 2]>>; 2],
 }
 
-impl<M: System<D>, const D: usize> Neighbours<'_, M, D> {
+impl<M: System<D>, const D: usize> Neighbours<M, D> {
     /// Links the attractors of the two cells.
     ///
     /// Periodic orbits by continuation, the shortest first, to the other cell; where an orbit has lost
@@ -107,7 +110,11 @@ impl<M: System<D>, const D: usize> Neighbours<'_, M, D> {
     /// on both sides of it. What is left by the cases that inherit their start, see `Neighbours::inherit`.
     ///
     /// `linear` are the attractors of both cells by place, as [`linear_orbits`] has them.
-    pub fn link(&self, linear: [&LinearOrbits<M, D>; 2]) -> Links<D> {
+    pub fn link(
+        &self,
+        integrator: &dyn Integrator<M, D>,
+        linear: [&LinearOrbits<M, D>; 2],
+    ) -> Links<D> {
         let mut links = Links::default();
         let mut apart = Apart::default();
         for (side, place) in self.periodic() {
@@ -116,7 +123,7 @@ impl<M: System<D>, const D: usize> Neighbours<'_, M, D> {
             }
             match self.direct(side, place, &links, linear) {
                 Some(other) => links.pairs.push(pair(side, place, other)),
-                None => self.continued(side, place, &mut links, &mut apart),
+                None => self.continued(integrator, (side, place), &mut links, &mut apart),
             }
         }
         self.inherit(&mut links, &apart);
@@ -141,10 +148,17 @@ impl<M: System<D>, const D: usize> Neighbours<'_, M, D> {
     }
 
     /// Continues an orbit to the other cell and notes its special points.
-    fn continued(&self, side: usize, place: usize, links: &mut Links<D>, apart: &mut Apart) {
+    fn continued(
+        &self,
+        integrator: &dyn Integrator<M, D>,
+        (side, place): (usize, usize),
+        links: &mut Links<D>,
+        apart: &mut Apart,
+    ) {
         let points = &self.cells[side].attractors[place].points;
         let [from, to] = [self.values[side], self.values[1 - side]];
-        let Some(found) = segment(&self.along, (from, points), to) else { return };
+        let found = segment(integrator, &self.along, (from, points), to);
+        let Some(found) = found else { return };
         let doubled = doubles(&found.special);
         links.special[side].extend(found.special.into_iter().map(|it| (place, it)));
         match found.end {
@@ -182,7 +196,7 @@ impl<M: System<D>, const D: usize> Neighbours<'_, M, D> {
     fn successor(&self, side: usize, links: &Links<D>, here: &Unseen<D>) -> Option<usize> {
         let metric = self.along.metric(here.orbit.value);
         let is_next = |(place, other): &(usize, &Attractor<D>)| {
-            !links.has(1 - side, *place) && here.belongs_to(other, &metric, self.protocol)
+            !links.has(1 - side, *place) && here.belongs_to(other, &metric, &self.protocol)
         };
         let mut others = self.cells[1 - side].attractors.iter().enumerate();
         others.find(is_next).map(|(place, _)| place)
@@ -240,12 +254,13 @@ pub type LinearOrbits<M, const D: usize> = [Option<Linearised<<M as System<D>>::
 
 /// The attractors of a cell at a value of a parameter, with their derivatives.
 pub fn linear_orbits<M: System<D>, const D: usize>(
+    integrator: &dyn Integrator<M, D>,
     along: &Along<M, D>,
     value: f64,
     cell: &Table<D>,
 ) -> Vec<Option<Linearised<M::Event, D>>> {
     let periodic = |it: &Attractor<D>| it.outcome == Outcome::Periodic;
-    let linear = |it: &Attractor<D>| linearised(along, (value, &it.points));
+    let linear = |it: &Attractor<D>| linearised(integrator, along, (value, &it.points));
     cell.attractors.iter().map(|it| periodic(it).then(|| linear(it))?).collect()
 }
 

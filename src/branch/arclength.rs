@@ -12,7 +12,7 @@ pub const ROUNDING: f64 = 1e-11;
 /// A residual has ceased to shrink if it keeps this share.
 const SHRINKS: f64 = 0.3;
 /// No unknown may move farther than this from the guess.
-const FARTHEST: f64 = 0.5;
+pub const FARTHEST: f64 = 0.5;
 
 /// U - 1 equations for `U` unknowns, whose solutions are a curve.
 pub trait Equations<const U: usize> {
@@ -85,9 +85,19 @@ pub fn corrected<const U: usize, E: Equations<U>>(
     guess: &[f64; U],
     ahead: &[f64; U],
 ) -> Option<(CurvePoint<U, E::Seen>, usize)> {
+    corrected_within(equations, plane, (guess, FARTHEST), ahead)
+}
+
+/// The same where no unknown may move farther than so much from the guess on the way.
+pub fn corrected_within<const U: usize, E: Equations<U>>(
+    equations: &E,
+    plane: &Plane<U>,
+    (guess, farthest): (&[f64; U], f64),
+    ahead: &[f64; U],
+) -> Option<(CurvePoint<U, E::Seen>, usize)> {
     let condition =
         |at: &[f64; U], _: &E::Seen| Some((dot(&plane.normal, at) - plane.offset, plane.normal));
-    corrected_by(equations, condition, guess, ahead)
+    newton(equations, condition, (guess, farthest), ahead)
 }
 
 /// The solution near `guess` at which a condition vanishes that is given with its derivatives.
@@ -98,6 +108,15 @@ pub fn corrected_by<const U: usize, E: Equations<U>>(
     equations: &E,
     condition: impl Fn(&[f64; U], &E::Seen) -> Option<(f64, [f64; U])>,
     guess: &[f64; U],
+    ahead: &[f64; U],
+) -> Option<(CurvePoint<U, E::Seen>, usize)> {
+    newton(equations, condition, (guess, FARTHEST), ahead)
+}
+
+fn newton<const U: usize, E: Equations<U>>(
+    equations: &E,
+    condition: impl Fn(&[f64; U], &E::Seen) -> Option<(f64, [f64; U])>,
+    (guess, farthest): (&[f64; U], f64),
     ahead: &[f64; U],
 ) -> Option<(CurvePoint<U, E::Seen>, usize)> {
     let mut at = *guess;
@@ -121,7 +140,7 @@ pub fn corrected_by<const U: usize, E: Equations<U>>(
         rows[U - 1] = normal;
         let step = solve(rows, residual)?;
         at = std::array::from_fn(|i| at[i] - step[i]);
-        if between(guess, &at).iter().any(|part| part.abs() > FARTHEST) {
+        if between(guess, &at).iter().any(|part| part.abs() > farthest) {
             break;
         }
     }

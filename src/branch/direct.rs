@@ -1,12 +1,12 @@
 //! Whether a branch leads from one known orbit to another in a single step: told from the derivatives of the two.
 
 use crate::flow::{Switched, System};
-use crate::lane::Dual;
 use crate::orbit::matrix::{Matrix, determinant, solve};
-use crate::orbit::return_map::{jacobian, values};
+use crate::orbit::passage::{Integrator, ReturnRequest};
+use crate::orbit::return_map::Cycles;
 
 use super::arclength::ROUNDING;
-use super::family::{Family, cyclic};
+use super::family::cyclic;
 use super::orbits::{STEEPEST, shifted, torus};
 use super::periodic::HALVES;
 use super::scales::units;
@@ -37,40 +37,30 @@ pub struct Linearised<E, const D: usize> {
 /// A periodic orbit with its derivatives, given by the value of the parameter and its section points; none where the
 /// motion cannot be followed, where a multiplier is one, and of an autonomous system, whose orbits may vanish.
 pub fn linearised<M: System<D>, const D: usize>(
+    integrator: &dyn Integrator<M, D>,
     along: &Along<M, D>,
     (value, points): (f64, &[[f64; D]]),
-) -> Option<Linearised<M::Event, D>> {
-    match const { D } {
-        1 => linearised_with::<M, D, 2>(along, value, points),
-        2 => linearised_with::<M, D, 3>(along, value, points),
-        3 => linearised_with::<M, D, 4>(along, value, points),
-        4 => linearised_with::<M, D, 5>(along, value, points),
-        5 => linearised_with::<M, D, 6>(along, value, points),
-        6 => linearised_with::<M, D, 7>(along, value, points),
-        _ => panic!("a section has one to six coordinates, not {D}"),
-    }
-}
-
-fn linearised_with<M: System<D>, const D: usize, const U: usize>(
-    along: &Along<M, D>,
-    value: f64,
-    points: &[[f64; D]],
 ) -> Option<Linearised<M::Event, D>> {
     if M::Single::AUTONOMOUS {
         return None;
     }
-    let family = Family { system: along.system.clone(), period: 1, tolerance: along.tolerance };
-    let free = [(along.parameter, Dual::<f64, U>::variable(value, D))];
     let mut product: Matrix<D> = shifted(&[[0.0; D]; D], 1.0);
     let (mut events, mut residuals, mut cycles) = (Vec::new(), Vec::new(), Vec::new());
     // How fast the end of the cycles so far moves with the parameter if their beginning does not.
     let mut of_end = [0.0; D];
     for (i, point) in points.iter().enumerate() {
-        let seeded = std::array::from_fn(|j| Dual::variable(point[j], j));
-        let passage = family.passage(seeded, &free).ok()?;
-        let (end, next) = (values(&passage.end), points[(i + 1) % points.len()]);
+        let passage = integrator.passage(ReturnRequest {
+            system: along.system.clone(),
+            along: Some((along.parameter, value, 1.0)),
+            point: *point,
+            units: [1.0; D],
+            cycles: Cycles { count: 1, tolerance: along.tolerance },
+            watched: true,
+        });
+        let passage = passage.ok()?;
+        let (end, next) = (passage.end, points[(i + 1) % points.len()]);
         residuals.push(std::array::from_fn(|j| end[j] - next[j]));
-        let of_cycle = (jacobian(&passage.end), passage.end.map(|it| it.gradient[D]));
+        let of_cycle = (passage.jacobian, passage.by_parameter);
         (product, of_end) = (times(&of_cycle.0, &product), carried(&of_cycle, &of_end));
         cycles.push(of_cycle);
         events.extend(passage.events);

@@ -8,8 +8,8 @@ use super::orbits::{OrbitPoint, Orbits, shifted};
 use super::periodic::Periodic;
 
 /// The orbits of twice the period, and the first two of them.
-pub type Doubled<M, const D: usize, const U: usize> =
-    (Orbits<M, D, U>, [OrbitPoint<<M as System<D>>::Event, D, U>; 2]);
+pub type Doubled<'a, M, const D: usize, const U: usize> =
+    (Orbits<'a, M, D, U>, [OrbitPoint<<M as System<D>>::Event, D, U>; 2]);
 
 /// First steps off the branch that are tried, as shares of the longest.
 const FIRST_STEPS: [f64; 7] = [0.1, 0.03, 0.3, 0.01, 1e-3, 1e-4, 1e-5];
@@ -21,11 +21,11 @@ const OTHER_SIDE: f64 = 1.0;
 ///
 /// Method: a step along the eigenvector of -1 at constant parameter, corrected at right angles to it, and
 /// accepted if the orbit needs both halves of its period.
-pub fn doubled<M: System<D>, const D: usize, const U: usize>(
-    orbits: &Orbits<M, D, U>,
+pub fn doubled<'a, M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<'a, M, D, U>,
     at: &OrbitPoint<M::Event, D, U>,
     longest: f64,
-) -> Option<Doubled<M, D, U>> {
+) -> Option<Doubled<'a, M, D, U>> {
     let direction = annihilated(&shifted(&at.seen.jacobian, 1.0))?;
     let twice = orbits.with_period(2 * orbits.family.period);
     let tangent: [f64; U] = std::array::from_fn(|i| *direction.get(i).unwrap_or(&0.0));

@@ -1,10 +1,10 @@
 //! A family of motions: where each returns to, and what it passes, as functions of its point and parameters.
 
-use crate::flow::{Event, Reason, Stroboscopic, Switched, System};
+use crate::flow::{Event, Reason, Switched, System};
 use crate::lane::Lane;
 use crate::orbit::return_map::{Cycles, returned};
 
-use crate::orbit::extrema::Extremum;
+use crate::orbit::extrema::{Extremum, SignChanges};
 use crate::orbit::passage::Passing;
 
 /// Motions of a system, some of whose parameters are free.
@@ -18,18 +18,13 @@ pub struct Family<M, const D: usize> {
     pub tolerance: f64,
 }
 
-/// What a motion passes until its return.
+/// Where a motion returns to.
 #[derive(Debug, Clone)]
-pub struct Passage<L, E, const D: usize> {
-    /// The point that it returns to.
+pub struct Passage<L, const D: usize> {
+    /// The point.
     pub end: [L; D],
-    /// Its events in order.
-    pub events: Vec<E>,
-    /// The local extrema of the coordinate that may touch a surface, in order.
+    /// The local extrema until then of the coordinate that may touch a surface, in order.
     pub extrema: Vec<Extremum<L>>,
-    /// How far an autonomous motion gets from where it begins, in the units of the metric; infinite for a driven
-    /// one, which need not move to return.
-    pub excursion: f64,
 }
 
 impl<M: System<D>, const D: usize> Family<M, D> {
@@ -49,24 +44,16 @@ impl<M: System<D>, const D: usize> Family<M, D> {
         &self,
         point: [L; D],
         free: &[(M::Parameter, L)],
-    ) -> Result<Passage<L, M::Event, D>, Reason> {
+    ) -> Result<Passage<L, D>, Reason> {
         let system = self.with_free(free);
         let period = system.period().lane(0);
-        let (metric, begins) = (self.system.metric(), point.map(|coordinate| coordinate.lane(0)));
-        let mut excursion: f64 = if M::In::<L>::AUTONOMOUS { 0.0 } else { f64::INFINITY };
         let mut passing = Passing::<L, M::Event>::new(period);
+        let mut changes = SignChanges::none();
         let cycles = Cycles { count: self.period, tolerance: self.tolerance };
         let end = returned(&system, point, &cycles, |step| {
-            if M::In::<L>::AUTONOMOUS {
-                let here = M::In::<L>::point(&system.at(&step.jet, L::splat(0.0)));
-                let here = here.map(|coordinate| coordinate.lane(0));
-                excursion = excursion.max(metric.distance(&here, &begins));
-            }
-            let event = M::Event::from_code(step.event.lane(0));
-            passing.see((step.length.lane(0), event), system.touching(&step.jet));
+            passing.see_alone(&system, step, &mut changes);
         })?;
-        let Passing { events, extrema, .. } = passing;
-        Ok(Passage { end, events, extrema, excursion })
+        Ok(Passage { end, extrema: passing.extrema })
     }
 }
 

@@ -4,6 +4,7 @@
 use crate::flow::{Event, System};
 use crate::orbit::measured;
 use crate::orbit::neutral::may_be_neutral;
+use crate::orbit::passage::OneByOne;
 
 use super::arclength::{EXACT, Plane, corrected, tangent};
 use super::curve::{Trace, trace};
@@ -28,7 +29,7 @@ const REPEATS: f64 = 1e-8;
 
 /// A branch with what is needed to go on from it.
 struct Followed<M: System<D>, const D: usize, const U: usize> {
-    orbits: Orbits<M, D, U>,
+    orbits: Orbits<'static, M, D, U>,
     level: u32,
     half: HalfBranch<M::Event, D, U>,
     /// Why it begins where it does.
@@ -126,7 +127,7 @@ fn control<M: System<D>, const D: usize, const U: usize>(
 /// The orbit near the point that is given, of the least period that it has.
 fn first_orbit<M: System<D>, const D: usize, const U: usize>(
     request: &Request<M, D>,
-) -> Result<(Orbits<M, D, U>, OrbitPoint<M::Event, D, U>), NotFollowed> {
+) -> Result<(Orbits<'static, M, D, U>, OrbitPoint<M::Event, D, U>), NotFollowed> {
     let Request { system, range: [low, high], along, .. } = request;
     let value = system.value(*along);
     let width = high - low;
@@ -143,7 +144,14 @@ fn first_orbit<M: System<D>, const D: usize, const U: usize>(
         std::array::from_fn(|i| *section.get(i).unwrap_or(&width))
     };
     let units = in_units(&measured_by(&[request.section]));
-    let mut orbits = Orbits { family, along: *along, units, oriented: false, exact: EXACT };
+    let mut orbits = Orbits {
+        family,
+        integrator: &OneByOne,
+        along: *along,
+        units,
+        oriented: false,
+        exact: EXACT,
+    };
     let plane = Plane::fixing(D, value / width);
     let mut section = request.section;
     for _ in 0..APPROACHES {

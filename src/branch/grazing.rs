@@ -30,7 +30,7 @@ type OnArc<E, const D: usize, const U: usize> = Placed<U, Seen<E, D, U>>;
 /// it: then the grazing is approached from the side of fewer impacts, and may be anywhere `within` the arc.
 pub fn touching<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
-    arc: &Arc<'_, U, Orbits<M, D, U>>,
+    arc: &Arc<'_, U, Orbits<'_, M, D, U>>,
     [a, b]: [&OnArc<M::Event, D, U>; 2],
     within: [f64; 2],
 ) -> Option<OnArc<M::Event, D, U>> {

@@ -3,21 +3,23 @@
 use crate::flow::{Event, Reason, System};
 use crate::lane::Dual;
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
+use crate::orbit::passage::{Integrator, ReturnRequest};
+use crate::orbit::return_map::Cycles;
 
 use super::SpecialKind;
 use super::arclength::{CurvePoint, EXACT, Equations, Linear};
 use super::family::{Family, cyclic};
 use super::periodic::Periodic;
-use super::scales::seeded;
-use crate::orbit::extrema::nearest;
 
 /// Periodic orbits in one parameter: a zero of P^k(s) - s, with s the section point and P the return map.
 ///
 /// The `U` unknowns are the `D` coordinates of s and, last, the parameter.
 #[derive(Debug, Clone)]
-pub struct Orbits<M: System<D>, const D: usize, const U: usize> {
+pub struct Orbits<'a, M: System<D>, const D: usize, const U: usize> {
     /// The motions.
     pub family: Family<M, D>,
+    /// What follows them with derivatives.
+    pub integrator: &'a dyn Integrator<M, D>,
     /// The parameter that varies.
     pub along: M::Parameter,
     /// Units of the coordinates and of the parameter.
@@ -70,7 +72,7 @@ pub struct SpecialOrbit<E, const D: usize, const U: usize> {
     pub is_stable_beyond: bool,
 }
 
-impl<M: System<D>, const D: usize, const U: usize> Orbits<M, D, U> {
+impl<M: System<D>, const D: usize, const U: usize> Orbits<'_, M, D, U> {
     /// The same orbits down to rounding.
     pub fn exactly(&self) -> Self {
         Orbits { exact: EXACT, ..self.clone() }
@@ -102,7 +104,7 @@ impl<M: System<D>, const D: usize, const U: usize> Orbits<M, D, U> {
     }
 }
 
-impl<M: System<D>, const D: usize, const U: usize> Periodic<D, U> for Orbits<M, D, U> {
+impl<M: System<D>, const D: usize, const U: usize> Periodic<D, U> for Orbits<'_, M, D, U> {
     fn period(&self) -> u64 {
         self.family.period
     }
@@ -120,7 +122,7 @@ impl<M: System<D>, const D: usize, const U: usize> Periodic<D, U> for Orbits<M, 
     }
 }
 
-impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<M, D, U> {
+impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<'_, M, D, U> {
     type Seen = Seen<M::Event, D, U>;
 
     fn exact(&self) -> f64 {
@@ -131,23 +133,31 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<M, D,
         if !self.family.system.admits(self.along, self.parameter(at)) {
             return Err(Reason::NotFinite);
         }
-        let seeded = seeded(at, &self.units);
-        let point = std::array::from_fn(|i| seeded[i]);
-        let passage = self.family.passage(point, &[(self.along, seeded[D])])?;
+        let Family { system, period, tolerance } = &self.family;
+        let point = self.section(at);
+        let passage = self.integrator.passage(ReturnRequest {
+            system: system.clone(),
+            along: Some((self.along, self.parameter(at), self.units[D])),
+            point,
+            units: std::array::from_fn(|i| self.units[i]),
+            cycles: Cycles { count: *period, tolerance: *tolerance },
+            watched: true,
+        })?;
         let (mut residual, mut rows, mut jacobian) = ([0.0; U], [[0.0; U]; U], [[0.0; D]; D]);
-        for (i, end) in passage.end.iter().enumerate() {
-            residual[i] = (end.value - at[i] * self.units[i]) / self.units[i];
-            rows[i] = end.gradient.map(|part| part / self.units[i]);
-            jacobian[i].copy_from_slice(&rows[i][..D]);
+        for i in 0..D {
+            residual[i] = (passage.end[i] - point[i]) / self.units[i];
+            jacobian[i] = passage.jacobian[i].map(|part| part / self.units[i]);
+            rows[i][..D].copy_from_slice(&jacobian[i]);
+            rows[i][D] = passage.by_parameter[i] / self.units[i];
             rows[i][i] -= 1.0;
         }
         let in_unit = |part: f64| part / self.units[0];
-        let margin = nearest(&passage.extrema).map(|extremum| Dual {
-            value: in_unit(extremum.margin.value),
-            gradient: extremum.margin.gradient.map(in_unit),
+        let margin = passage.margin.map(|margin| {
+            let mut gradient = [in_unit(margin.by_parameter); U];
+            gradient[..D].copy_from_slice(&margin.gradient.map(in_unit));
+            Dual { value: in_unit(margin.value), gradient }
         });
-        let excursion =
-            passage.excursion / self.family.system.metric().size(&self.section(&[1.0; U]));
+        let excursion = passage.excursion / system.metric().size(&self.section(&[1.0; U]));
         let seen = Seen { jacobian, events: cyclic(&passage.events), margin, excursion };
         Ok(Linear { residual, rows, seen })
     }

@@ -2,6 +2,7 @@
 
 use crate::flow::{Metric, System};
 use crate::orbit::matrix::Complex;
+use crate::orbit::passage::Integrator;
 
 use super::arclength::{Plane, ROUNDING, between, corrected, norm, tangent};
 use super::family::Family;
@@ -116,22 +117,24 @@ pub struct Segment<const D: usize> {
 /// stability, as the orbit at the other value may be that of a neighbouring segment. Two special points of one kind
 /// that undo each other between two orbits of the segment are not seen, such as two folds very near each other.
 pub fn segment<M: System<D>, const D: usize>(
+    integrator: &dyn Integrator<M, D>,
     along: &Along<M, D>,
     from: (f64, &[[f64; D]]),
     to: f64,
 ) -> Option<Segment<D>> {
     match const { D } {
-        1 => segment_with::<M, D, 2>(along, from, to),
-        2 => segment_with::<M, D, 3>(along, from, to),
-        3 => segment_with::<M, D, 4>(along, from, to),
-        4 => segment_with::<M, D, 5>(along, from, to),
-        5 => segment_with::<M, D, 6>(along, from, to),
-        6 => segment_with::<M, D, 7>(along, from, to),
+        1 => segment_with::<M, D, 2>(integrator, along, from, to),
+        2 => segment_with::<M, D, 3>(integrator, along, from, to),
+        3 => segment_with::<M, D, 4>(integrator, along, from, to),
+        4 => segment_with::<M, D, 5>(integrator, along, from, to),
+        5 => segment_with::<M, D, 6>(integrator, along, from, to),
+        6 => segment_with::<M, D, 7>(integrator, along, from, to),
         _ => panic!("a section has one to six coordinates, not {D}"),
     }
 }
 
 fn segment_with<M: System<D>, const D: usize, const U: usize>(
+    integrator: &dyn Integrator<M, D>,
     along: &Along<M, D>,
     (from, points): (f64, &[[f64; D]]),
     to: f64,
@@ -143,7 +146,8 @@ fn segment_with<M: System<D>, const D: usize, const U: usize>(
     let width = range[1] - range[0];
     let section = units(system, (*parameter, range), points);
     let units: [f64; U] = std::array::from_fn(|i| *section.get(i).unwrap_or(&width));
-    let orbits = Orbits { family, along: *parameter, units, oriented: true, exact: ROUNDING };
+    let along = *parameter;
+    let orbits = Orbits { family, integrator, along, units, oriented: true, exact: ROUNDING };
     let mut walk = Walk { orbits, from, to };
     let section = points.first()?;
     let start = walk.start(section)?;
@@ -155,13 +159,13 @@ fn segment_with<M: System<D>, const D: usize, const U: usize>(
 }
 
 /// The way from one value of the parameter to another.
-struct Walk<M: System<D>, const D: usize, const U: usize> {
-    orbits: Orbits<M, D, U>,
+struct Walk<'a, M: System<D>, const D: usize, const U: usize> {
+    orbits: Orbits<'a, M, D, U>,
     from: f64,
     to: f64,
 }
 
-impl<M: System<D>, const D: usize, const U: usize> Walk<M, D, U> {
+impl<M: System<D>, const D: usize, const U: usize> Walk<'_, M, D, U> {
     /// The value of the parameter in its unit on the way.
     fn in_units(&self, value: f64) -> f64 {
         value / self.orbits.units[D]

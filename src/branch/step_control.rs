@@ -1,6 +1,8 @@
 //! Steps along a curve of solutions: as long as its bends allow, and no farther than its bounds.
 
-use super::arclength::{CurvePoint, Equations, Plane, between, corrected, dot, moved, norm};
+use super::arclength::{
+    CurvePoint, Equations, FARTHEST, Plane, between, corrected_within, dot, moved, norm,
+};
 
 /// Usually a shorter step, relative to the longest, is none.
 const SHORTEST: f64 = 1e-8;
@@ -10,6 +12,8 @@ const CORNER: f64 = 1e-3;
 const LEAST_COSINE: f64 = 0.95;
 /// The correction may be so large, relative to the step: a long one, and one round a corner.
 const CORRECTIONS: [f64; 2] = [0.35, 3.0];
+/// Newton's method that moves an unknown farther than so many times that does not come back.
+const ASTRAY: f64 = 10.0;
 /// Newton's steps up to which the next step is lengthened, and from which it is shortened.
 const EASY_AND_HARD: [usize; 2] = [4, 7];
 const LENGTHEN: f64 = 1.6;
@@ -125,9 +129,11 @@ impl<const U: usize> StepControl<U> {
         length: f64,
     ) -> Option<(Advance<Met<U, E>>, usize)> {
         let predicted = moved(&from.at, length, &from.tangent);
+        let farthest = FARTHEST.min(ASTRAY * self.correction(length));
         if self.bounds.passed(&from.at, &predicted).is_none() {
             let plane = Plane::through(&predicted, from.tangent);
-            let (met, taken) = corrected(equations, &plane, &predicted, &from.tangent)?;
+            let guess = (&predicted, farthest);
+            let (met, taken) = corrected_within(equations, &plane, guess, &from.tangent)?;
             if !self.is_near(from, &predicted, &met, length) || !equations.belongs(from, &met) {
                 return None;
             }
@@ -138,10 +144,18 @@ impl<const U: usize> StepControl<U> {
         let (unknown, bound, share) = self.bounds.passed(&from.at, &predicted)?;
         let guess = moved(&from.at, share * length, &from.tangent);
         let plane = Plane::fixing(unknown, bound);
-        let (mut met, taken) = corrected(equations, &plane, &guess, &from.tangent)?;
+        let reached = corrected_within(equations, &plane, (&guess, farthest), &from.tangent);
+        let (mut met, taken) = reached?;
         met.at[unknown] = bound;
         let near = self.is_near(from, &guess, &met, length) && equations.belongs(from, &met);
         near.then_some((Advance::AtBound(met), taken))
+    }
+
+    /// The correction may be so large for a step of this length.
+    fn correction(&self, length: f64) -> f64 {
+        let [long, round_a_corner] = CORRECTIONS;
+        let allowed = if length > CORNER * self.longest { long } else { round_a_corner };
+        allowed * length
     }
 
     /// Whether a solution is the one that was predicted rather than another.
@@ -153,11 +167,9 @@ impl<const U: usize> StepControl<U> {
         length: f64,
     ) -> bool {
         let tight = length > CORNER * self.longest;
-        let [long, round_a_corner] = CORRECTIONS;
-        let allowed = if tight { long } else { round_a_corner };
         let correction = norm(&between(predicted, &met.at));
         let straight = dot(&from.tangent, &met.tangent) > if tight { LEAST_COSINE } else { 0.0 };
         let ahead = dot(&from.tangent, &between(&from.at, &met.at)) >= 0.0;
-        straight && ahead && correction <= allowed * length
+        straight && ahead && correction <= self.correction(length)
     }
 }

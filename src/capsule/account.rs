@@ -182,7 +182,7 @@ impl<L: Lane> Account<L> {
         let zero = L::splat(0.0);
         let all = L::Mask::splat(true);
         let end = h.plain();
-        let mut turns = [cos, y1].map(|it| Crossings::new(&plain(it), end, all));
+        let mut turns = [cos, y1].map(|it| Crossings::new(&series::plain(it), end, all));
         let mut next = turns.each_mut().map(|it| it.next(all).time);
         let mut before = zero;
         let mut open = all;
@@ -224,7 +224,7 @@ impl<L: Lane> Account<L> {
         if turns.any() {
             self.meet_extremum(turns, r[0], rate[0].lt(zero));
         }
-        let mut extrema = Crossings::new(&plain(&rate), step.length.plain(), passes);
+        let mut extrema = Crossings::new(&series::plain(&rate), step.length.plain(), passes);
         loop {
             let extremum = extrema.next(all);
             if !extremum.found.any() {
@@ -278,16 +278,6 @@ impl<L: Lane> Account<L> {
         self.forward_slips = add(self.forward_slips, forward);
         self.backward_slips = add(self.backward_slips, backward);
     }
-}
-
-/// A series without its derivatives.
-#[inline(always)]
-fn plain<L: Lane>(series: &Series<L>) -> Series<L::Plain> {
-    let mut plain = series::zero();
-    for (plain, term) in plain.iter_mut().zip(series) {
-        *plain = term.plain();
-    }
-    plain
 }
 
 impl<L: Lane, S: Locomotion<L>> Observer<L, S> for Account<L> {

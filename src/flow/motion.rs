@@ -350,6 +350,18 @@ where
         self.idle = self.idle.with_lane(index, one.idle);
         self.side = self.side.with_lane(index, one.side);
     }
+
+    #[inline(always)]
+    fn take_lane(&mut self, index: usize, other: &Self) {
+        self.time = self.time.with_lane_of(index, other.time);
+        self.state.take_lane(index, &other.state);
+        self.mode.take_lane(index, &other.mode);
+        for (zeros, of_other) in self.zeros.iter_mut().zip(other.zeros) {
+            *zeros = zeros.with_lane_of(index, of_other);
+        }
+        self.idle = self.idle.with_lane_of(index, other.idle);
+        self.side = self.side.with_lane_of(index, other.side);
+    }
 }
 
 /// Where a step ends, and which guard ends it (-1 for none).

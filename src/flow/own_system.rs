@@ -40,6 +40,13 @@ macro_rules! own_system {
                     *lanes = $crate::lane::Lane::with_lane(*lanes, index, one.$parameter);
                 )*
             }
+            #[inline(always)]
+            fn take_lane(&mut self, index: usize, other: &Self) {
+                $(
+                    let lanes = &mut self.$parameter;
+                    *lanes = $crate::lane::Lane::with_lane_of(*lanes, index, other.$parameter);
+                )*
+            }
         }
 
         impl $crate::flow::System<$coordinates> for $name<f64 $(, $constant)?> {

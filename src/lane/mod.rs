@@ -139,6 +139,11 @@ pub trait Lane:
     fn from_plain(value: Self::Plain) -> Self;
     /// A known root of `polynomial`, with the derivatives that those of the polynomial give it.
     fn root(value: Self::Plain, polynomial: &Series<Self>) -> Self;
+    /// The same with what another has in lane `index`, derivatives included.
+    #[inline(always)]
+    fn with_lane_of(self, index: usize, other: Self) -> Self {
+        Self::select(Self::Mask::splat(false).with_lane(index, true), other, self)
+    }
     /// The number without its derivatives.
     #[inline(always)]
     fn plain(self) -> Self::Plain {

@@ -80,6 +80,16 @@ pub fn derivative<L: Lane>(series: &Series<L>) -> Series<L> {
     slope
 }
 
+/// A series without its derivatives.
+#[inline(always)]
+pub fn plain<L: Lane>(series: &Series<L>) -> Series<L::Plain> {
+    let mut plain = zero();
+    for (plain, term) in plain.iter_mut().zip(series) {
+        *plain = term.plain();
+    }
+    plain
+}
+
 /// The sign that a series takes just after its start, that of its first term which is not zero; `of_zero` where
 /// all terms vanish.
 #[inline(always)]

@@ -24,6 +24,8 @@ pub trait SideBySide {
     fn lane(&self, index: usize) -> Self::One;
     /// Puts `one` into lane `index`; the others keep theirs.
     fn put(&mut self, index: usize, one: &Self::One);
+    /// Takes what `other` holds in lane `index`, derivatives included; the other lanes keep theirs.
+    fn take_lane(&mut self, index: usize, other: &Self);
 }
 
 impl<L: Lane, const N: usize> SideBySide for [L; N] {
@@ -51,6 +53,12 @@ impl<L: Lane, const N: usize> SideBySide for [L; N] {
             *lanes = lanes.with_lane(index, *one);
         }
     }
+    #[inline(always)]
+    fn take_lane(&mut self, index: usize, other: &Self) {
+        for (lanes, other) in self.iter_mut().zip(other) {
+            *lanes = lanes.with_lane_of(index, *other);
+        }
+    }
 }
 
 /// Nothing in each lane: the mode of a system that has only one.
@@ -63,6 +71,8 @@ impl SideBySide for () {
     fn lane(&self, _index: usize) -> Self::One {}
     #[inline(always)]
     fn put(&mut self, _index: usize, _one: &()) {}
+    #[inline(always)]
+    fn take_lane(&mut self, _index: usize, _other: &Self) {}
 }
 
 /// Implements [`SideBySide`](crate::lane::SideBySide) for a struct over lanes.
@@ -128,6 +138,19 @@ macro_rules! side_by_side {
                 $($(self.$mask = $crate::lane::Mask::with_lane(self.$mask, index, one.$mask);)*)?
                 $($($crate::lane::SideBySide::put(&mut self.$part, index, &one.$part);)*)?
                 $($(self.$alike = one.$alike;)*)?
+            }
+            #[inline(always)]
+            fn take_lane(&mut self, index: usize, other: &Self) {
+                $(
+                    let lanes = &mut self.$number;
+                    *lanes = $crate::lane::Lane::with_lane_of(*lanes, index, other.$number);
+                )*
+                $($(
+                    let lane = $crate::lane::Mask::lane(other.$mask, index);
+                    self.$mask = $crate::lane::Mask::with_lane(self.$mask, index, lane);
+                )*)?
+                $($($crate::lane::SideBySide::take_lane(&mut self.$part, index, &other.$part);)*)?
+                $($(self.$alike = other.$alike;)*)?
             }
         }
     };

@@ -1,15 +1,23 @@
 //! Computations that ask for returns, many at a time, so that the returns are followed side by side.
 
+use std::fmt::{self, Debug, Formatter};
+
 use corosensei::stack::DefaultStack;
 use corosensei::{Coroutine, CoroutineResult, Yielder};
 
 use crate::flow::{Reason, System};
 use crate::lane::Instructions;
 
-use super::passage::{Integrator, Passage, ReturnRequest, passages};
+use super::passage::{Integrator, Passage, ReturnRequest};
+use super::passages::passages;
 
 /// Room for the stack of a computation [bytes]; only what is used is taken.
 const STACK: usize = 4 << 20;
+
+/// Returns that a lane follows one after the other.
+const EACH_LANE: usize = 8;
+/// Computations that wait at a time at most, as each has a stack.
+const MOST: usize = 256;
 
 type Returned<M, const D: usize> = Result<Passage<<M as System<D>>::Event, D>, Reason>;
 /// A computation that waits for a return; the first time it is resumed for nothing.
@@ -32,6 +40,12 @@ struct Waiting<'a, M: System<D>, const D: usize>(
     &'a Yielder<Option<Returned<M, D>>, ReturnRequest<M, D>>,
 );
 
+impl<M: System<D>, const D: usize> Debug for Waiting<'_, M, D> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Waiting").finish_non_exhaustive()
+    }
+}
+
 impl<M: System<D>, const D: usize> Integrator<M, D> for Waiting<'_, M, D> {
     fn passage(&self, request: ReturnRequest<M, D>) -> Returned<M, D> {
         self.0.suspend(request).expect("it goes on once the return is there")
@@ -39,6 +53,37 @@ impl<M: System<D>, const D: usize> Integrator<M, D> for Waiting<'_, M, D> {
 }
 
 impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
+    /// The results of computations, in their order; calls `done` after each.
+    pub fn all<C>(
+        instructions: Instructions,
+        computations: impl IntoIterator<Item = C>,
+        mut done: impl FnMut(),
+    ) -> Vec<T>
+    where
+        C: FnOnce(&dyn Integrator<M, D>) -> T + 'static,
+    {
+        let mut batch = Batch::<M, (usize, T), D>::new(instructions);
+        let mut results: Vec<(usize, T)> = Vec::new();
+        let mut keep = |found: &mut dyn Iterator<Item = (usize, T)>| {
+            for result in found {
+                done();
+                results.push(result);
+            }
+        };
+        for (place, compute) in computations.into_iter().enumerate() {
+            while batch.waiting() >= MOST {
+                keep(&mut batch.advance().into_iter());
+            }
+            let placed = move |integrator: &dyn Integrator<M, D>| (place, compute(integrator));
+            keep(&mut batch.begin(placed).into_iter());
+        }
+        while batch.waiting() > 0 {
+            keep(&mut batch.advance().into_iter());
+        }
+        results.sort_by_key(|(place, _)| *place);
+        results.into_iter().map(|(_, result)| result).collect()
+    }
+
     /// No computations yet.
     pub fn new(instructions: Instructions) -> Self {
         Batch { instructions, waiting: Vec::new(), stacks: Vec::new() }
@@ -64,32 +109,16 @@ impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
         self.resume(coroutine, None)
     }
 
-    /// Follows as many returns as there are lanes, of those that have waited longest and of others as long; the
-    /// results of the computations that end with them.
+    /// Follows the returns that have waited longest, a few for each lane; the results of the computations that end
+    /// with them.
     pub fn advance(&mut self) -> Vec<T> {
-        let Some((_, oldest)) = self.waiting.first() else { return Vec::new() };
-        let longest = oldest.cycles.count;
-        let mut order: Vec<usize> = (0..self.waiting.len()).collect();
-        order.sort_by_key(|&place| self.waiting[place].1.cycles.count.abs_diff(longest));
-        order.truncate(self.instructions.lanes_of_a_vector());
-        let requests: Vec<_> = order.iter().map(|&place| &self.waiting[place].1).collect();
-        let mut returned: Vec<_> = passages(self.instructions, &requests)
-            .into_iter()
-            .zip(order)
-            .map(|(returned, place)| (place, returned))
-            .collect();
-        returned.sort_by_key(|(place, _)| *place);
-        let mut returned = returned.into_iter().peekable();
-        let mut done = Vec::new();
-        for (place, (coroutine, request)) in
-            std::mem::take(&mut self.waiting).into_iter().enumerate()
-        {
-            match returned.next_if(|(number, _)| *number == place) {
-                Some((_, returned)) => done.extend(self.resume(coroutine, Some(returned))),
-                None => self.waiting.push((coroutine, request)),
-            }
-        }
-        done
+        let most = EACH_LANE * self.instructions.lanes_of_a_vector();
+        let later = self.waiting.split_off(self.waiting.len().min(most));
+        let waiting = std::mem::replace(&mut self.waiting, later);
+        let requests: Vec<_> = waiting.iter().map(|(_, request)| request).collect();
+        let returned = passages(self.instructions, &requests);
+        let resumed = waiting.into_iter().zip(returned);
+        resumed.filter_map(|((it, _), returned)| self.resume(it, Some(returned))).collect()
     }
 
     fn resume(

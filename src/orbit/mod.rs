@@ -13,6 +13,7 @@ mod measure;
 pub mod neutral;
 pub mod newton;
 pub mod passage;
+pub mod passages;
 pub mod precision;
 mod protocol;
 pub mod recurrence;

@@ -1,20 +1,25 @@
 //! Which cases of a study share an attractor, how attractors go on along an axis, and where they change.
 
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
 use crate::attractor::{Bridge, Links, Neighbours, Table, bridges, linear_orbits};
 use crate::branch::{Along, ONE_VALUE, SpecialKind, SpecialValue};
 use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Section, Switching};
+use crate::lane::Instructions;
+use crate::orbit::Batch;
+use crate::orbit::passage::Integrator;
 use crate::study::layout::{Layout, linked_axis};
 use crate::study::{CaseSet, Coordinate, Direction, Study};
 
 use super::cases::{Rayon, RunError, pool};
 use super::{FinalMotion, Machine};
 
-/// Pairs of neighbouring cells that one thread links in turn.
-const TOGETHER: usize = 16;
+/// Lines are searched together that have so many cells: links that take long fill the lanes.
+const LINKS: usize = 8192;
+/// Computations that one thread takes together at least, and at most.
+const TOGETHER: [usize; 2] = [64, LINKS];
 
 /// A change of an attractor along the axis, or its beginning or end.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,31 +95,82 @@ pub fn attractors(
     if !has_attractors(study) {
         return Ok(Attractors { of_case: vec![None; study.cases()], ..Attractors::default() });
     }
+    let instructions = machine.instructions_for(links(study));
     Ok(pool(machine.threads)?.install(|| match study.base.switching {
-        Switching::Filippov => find::<Filippov>(study, final_motions, &linked),
-        Switching::AsPrinted => find::<AsPrinted>(study, final_motions, &linked),
+        Switching::Filippov => find::<Filippov>(study, final_motions, instructions, &linked),
+        Switching::AsPrinted => find::<AsPrinted>(study, final_motions, instructions, &linked),
     }))
 }
 
 fn find<R: Reading>(
     study: &Study,
     final_motions: &[Option<FinalMotion>],
+    instructions: Instructions,
     linked: impl Fn() + Sync,
 ) -> Attractors {
     let layout = Layout::of(study);
     let of_case = Mutex::new(vec![None; study.cases()]);
-    let search = |number: usize| {
-        let line = Line { study, layout: &layout, number };
-        let cells = line.cells::<R>(final_motions);
-        let (links, bridges) = line.links::<R>(&cells, &linked);
-        let numbers = numbers(&cells, &links, &bridges);
-        let events = events(&cells, &links, &bridges, &numbers);
-        line.note(&cells, &numbers, &mut of_case.lock().expect("no thread has panicked"));
-        events
+    let line = |number: usize| Line { study, layout: &layout, number };
+    let some = LINKS.div_ceil(layout.cells());
+    let search = |first: usize| {
+        let lines: Vec<Line> = (first..layout.lines().min(first + some)).map(line).collect();
+        let cells: Vec<_> = lines.iter().map(|it| it.cells::<R>(final_motions)).collect();
+        let links = links_of_lines::<R>(&lines, &cells, instructions, &linked);
+        let of_lines = lines.into_iter().zip(cells).zip(links);
+        let events = of_lines.flat_map(|((line, cells), links)| {
+            let between = |at: usize| line.neighbours::<R>(&cells, at);
+            let bridges = bridges(&cells, &links, between, &Rayon);
+            let numbers = numbers(&cells, &links, &bridges);
+            let events = events(&cells, &links, &bridges, &numbers);
+            line.note(&cells, &numbers, &mut of_case.lock().expect("no thread has panicked"));
+            events
+        });
+        events.collect::<Vec<_>>()
     };
-    let events = (0..layout.lines()).into_par_iter().flat_map_iter(search).collect();
+    let firsts = (0..layout.lines()).into_par_iter().step_by(some);
+    let events = firsts.flat_map_iter(search).collect();
     let of_case = of_case.into_inner().expect("no thread has panicked");
     Attractors { axis: layout.axis, of_case, events }
+}
+
+/// How the attractors of each cell of some lines go on in the next.
+fn links_of_lines<R: Reading>(
+    lines: &[Line<'_>],
+    cells: &[Vec<Arc<Table<3>>>],
+    instructions: Instructions,
+    linked: impl Fn() + Sync,
+) -> Vec<Vec<Links<3>>> {
+    let length = lines[0].layout.cells();
+    let last = length.saturating_sub(1);
+    let between = |line: usize, at: usize| lines[line].neighbours::<R>(&cells[line], at);
+    // The derivatives of an orbit serve its links on both sides.
+    let linear = together(
+        instructions,
+        lines.len() * length,
+        || (),
+        |place| {
+            let (line, at) = (place / length, place % length);
+            let side = usize::from(at > 0);
+            let there = (last > 0).then(|| between(line, at - side)).flatten();
+            move |integrator: &Integration<'_, R>| {
+                let of = |it: Neighbours<_, 3>| {
+                    linear_orbits(integrator, &it.along, it.values[side], &it.cells[side])
+                };
+                Arc::new(there.map(of).unwrap_or_default())
+            }
+        },
+    );
+    let mut links = together(instructions, lines.len() * last, linked, |place| {
+        let (line, at) = (place / last, place % last);
+        let there = between(line, at);
+        let linear = [at, at + 1].map(|at| linear[line * length + at].clone());
+        move |integrator: &Integration<'_, R>| {
+            let link = |it: Neighbours<_, 3>| it.link(integrator, [&linear[0], &linear[1]]);
+            there.map_or_else(Links::default, link)
+        }
+    })
+    .into_iter();
+    lines.iter().map(|_| links.by_ref().take(last).collect()).collect()
 }
 
 /// A line of a study, by its number.
@@ -125,9 +181,9 @@ struct Line<'a> {
     number: usize,
 }
 
-impl<'a> Line<'a> {
+impl Line<'_> {
     /// The cells, their cases sorted by attractor.
-    fn cells<R: Reading>(&self, final_motions: &[Option<FinalMotion>]) -> Vec<Table<3>> {
+    fn cells<R: Reading>(&self, final_motions: &[Option<FinalMotion>]) -> Vec<Arc<Table<3>>> {
         let Line { study, layout, number } = *self;
         let sort = |at: usize| {
             let final_motion = |place: usize| {
@@ -135,71 +191,36 @@ impl<'a> Line<'a> {
                 (case, final_motions[case])
             };
             let first = study.case(layout.case(number, at, 0));
-            {
-                let system = first.read::<R>().system;
-                Table::sort(layout.cases(), final_motion, &system, &study.protocol, &Rayon)
-            }
+            let system = first.read::<R>().system;
+            let cases = layout.cases();
+            Arc::new(Table::sort(cases, final_motion, &system, &study.protocol, &Rayon))
         };
         (0..layout.cells()).into_par_iter().map(sort).collect()
     }
 
-    /// How the attractors of each cell go on in the next, and those that go on beyond it.
-    fn links<R: Reading>(
-        &self,
-        cells: &[Table<3>],
-        linked: impl Fn() + Sync,
-    ) -> (Vec<Links<3>>, Vec<Bridge<3>>) {
-        let between = |at: usize| self.neighbours::<R>(cells, at);
-        let last = cells.len().saturating_sub(1);
-        // The derivatives of an orbit serve its links on both sides.
-        let link_some = |first: usize| {
-            let mut after = None;
-            let some = (first..last.min(first + TOGETHER)).map(|at| {
-                let links = between(at).map_or_else(Links::default, |it| {
-                    let here =
-                        |side: usize| linear_orbits(&it.along, it.values[side], it.cells[side]);
-                    let [low, high] = [after.take().unwrap_or_else(|| here(0)), here(1)];
-                    let links = it.link([&low, &high]);
-                    after = Some(high);
-                    links
-                });
-                linked();
-                links
-            });
-            some.collect::<Vec<_>>()
-        };
-        let firsts = (0..last).into_par_iter().step_by(TOGETHER);
-        let links: Vec<Links<3>> = firsts.flat_map_iter(link_some).collect();
-        let bridges = bridges(cells, &links, between, &Rayon);
-        (links, bridges)
-    }
-
     /// The cells at a place of the axis and at the next; none where the axis is no parameter.
-    fn neighbours<'b, R: Reading>(
+    fn neighbours<R: Reading>(
         &self,
-        cells: &'b [Table<3>],
+        cells: &[Arc<Table<3>>],
         at: usize,
-    ) -> Option<Neighbours<'b, CapsuleSystem<R>, 3>>
-    where
-        'a: 'b,
-    {
+    ) -> Option<Neighbours<CapsuleSystem<R>, 3>> {
         let Line { study, layout, number } = *self;
         let axis = &study.axes()[layout.axis?];
         let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
         let case = study.case(layout.case(number, at, 0));
-        let (system, protocol) = (case.read::<R>().system, &study.protocol);
+        let (system, protocol) = (case.read::<R>().system, study.protocol);
         let along = Along { system, parameter, tolerance: protocol.tolerance };
         let values = [axis.values[at], axis.values[at + 1]];
-        let cells = [&cells[at], &cells[at + 1]];
+        let cells = [at, at + 1].map(|cell| cells[cell].clone());
         let directions = study.inherit().map_or(&[][..], |inherit| &inherit.directions);
         let inherited = [Direction::Upward, Direction::Downward].map(|direction| {
-            directions.contains(&direction).then(|| leads(cells, directions, direction))
+            directions.contains(&direction).then(|| leads(&cells, directions, direction))
         });
         Some(Neighbours { along, protocol, values, cells, inherited })
     }
 
     /// Notes the number of each case's attractor.
-    fn note(&self, cells: &[Table<3>], numbers: &[Vec<u32>], of_case: &mut [Option<u32>]) {
+    fn note(&self, cells: &[Arc<Table<3>>], numbers: &[Vec<u32>], of_case: &mut [Option<u32>]) {
         for (at, (cell, numbers)) in cells.iter().zip(numbers).enumerate() {
             for (place, attractor) in cell.of_case.iter().enumerate() {
                 let case = self.layout.case(self.number, at, place);
@@ -209,10 +230,42 @@ impl<'a> Line<'a> {
     }
 }
 
+/// What follows the orbits of the computations of a thread.
+type Integration<'a, R> = dyn Integrator<CapsuleSystem<R>, 3> + 'a;
+
+/// So many computations on all threads, each of those that one thread computes together far from the next, as the long
+/// ones lie side by side; calls `done` after each.
+fn together<R: Reading, T: Send + 'static, C>(
+    instructions: Instructions,
+    count: usize,
+    done: impl Fn() + Sync,
+    computation: impl Fn(usize) -> C + Sync,
+) -> Vec<T>
+where
+    C: FnOnce(&Integration<'_, R>) -> T + 'static,
+{
+    let [least, most] = TOGETHER;
+    let threads = rayon::current_num_threads();
+    let groups = count.div_ceil(most).max(threads.min(count.div_ceil(least)));
+    let of_group = |group: usize| {
+        let places = (group..count).step_by(groups);
+        let results = Batch::all(instructions, places.clone().map(&computation), &done);
+        places.zip(results).collect::<Vec<_>>()
+    };
+    let mut results: Vec<(usize, T)> =
+        (0..groups).into_par_iter().flat_map_iter(of_group).collect();
+    results.sort_by_key(|(place, _)| *place);
+    results.into_iter().map(|(_, result)| result).collect()
+}
+
 /// The attractors of two cells between which the cases lead that have this one of the `directions` of a cell in
 /// turn, each pair once.
-fn leads(cells: [&Table<3>; 2], directions: &[Direction], direction: Direction) -> Vec<[usize; 2]> {
-    let [low, high] = cells.map(|cell| &cell.of_case);
+fn leads(
+    cells: &[Arc<Table<3>>; 2],
+    directions: &[Direction],
+    direction: Direction,
+) -> Vec<[usize; 2]> {
+    let [low, high] = cells.each_ref().map(|cell| &cell.of_case);
     let both = low.iter().zip(high).zip(directions.iter().cycle());
     let mut pairs = Vec::new();
     for ((a, b), _) in both.filter(|(_, it)| **it == direction) {
@@ -226,7 +279,7 @@ fn leads(cells: [&Table<3>; 2], directions: &[Direction], direction: Direction) 
 }
 
 /// The numbers of the attractors of a line, cell by cell.
-fn numbers(cells: &[Table<3>], links: &[Links<3>], bridges: &[Bridge<3>]) -> Vec<Vec<u32>> {
+fn numbers(cells: &[Arc<Table<3>>], links: &[Links<3>], bridges: &[Bridge<3>]) -> Vec<Vec<u32>> {
     let mut numbers: Vec<Vec<u32>> = Vec::with_capacity(cells.len());
     let mut count = 0;
     for (at, cell) in cells.iter().enumerate() {
@@ -251,7 +304,7 @@ fn numbers(cells: &[Table<3>], links: &[Links<3>], bridges: &[Bridge<3>]) -> Vec
 
 /// The events of a line, in the order of the parameter.
 fn events(
-    cells: &[Table<3>],
+    cells: &[Arc<Table<3>>],
     links: &[Links<3>],
     bridges: &[Bridge<3>],
     numbers: &[Vec<u32>],

@@ -60,6 +60,10 @@ impl<L: Lane> SideBySide for Slip<L> {
     fn put(&mut self, index: usize, one: &Slip<f64>) {
         self.0 = self.0.with_lane(index, one.0);
     }
+    #[inline(always)]
+    fn take_lane(&mut self, index: usize, other: &Self) {
+        self.0 = self.0.with_lane_of(index, other.0);
+    }
 }
 
 impl<L: Lane> Slip<L> {

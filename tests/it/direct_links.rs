@@ -4,6 +4,7 @@ use capsulemap::attractor::coincide;
 use capsulemap::branch::{Along, Linearised, SegmentEnd, leads_to, linearised, segment};
 use capsulemap::capsule::{Case, Filippov, Orbit, Parameter, Resistance, State};
 use capsulemap::lane::Instructions;
+use capsulemap::orbit::passage::OneByOne;
 use capsulemap::orbit::{Outcome, Protocol};
 
 use super::draws::{self, Random};
@@ -55,7 +56,12 @@ fn a_branch_that_is_said_to_lead_straight_on_does() {
             let system = case.read::<Filippov>().system;
             let along = Along { system, parameter, tolerance: protocol.tolerance };
             let values = [case.parameters[parameter], next[i].parameters[parameter]];
-            let linear = |value: f64, orbit: &Orbit| linearised(&along, (value, &orbit.section));
+            // Of zero every share is zero.
+            if values[0] == values[1] {
+                continue;
+            }
+            let linear =
+                |value: f64, orbit: &Orbit| linearised(&OneByOne, &along, (value, &orbit.section));
             let (Some(a), Some(b)) = (linear(values[0], orbit), linear(values[1], other)) else {
                 continue;
             };
@@ -70,7 +76,7 @@ fn a_branch_that_is_said_to_lead_straight_on_does() {
                 }
                 direct += 1;
                 let about = format!("{case:?} along {parameter:?} from {begins:?} to {ends:?}");
-                let found = segment(&along, (begins, first), ends).expect(&about);
+                let found = segment(&OneByOne, &along, (begins, first), ends).expect(&about);
                 assert!(found.special.is_empty(), "{about}: {:?}", found.special);
                 let SegmentEnd::Reached(met) = found.end else {
                     panic!("{about}: {:?}", found.end)

@@ -29,6 +29,7 @@ impl SideBySide for Duffing {
         Duffing
     }
     fn put(&mut self, _index: usize, _one: &Duffing) {}
+    fn take_lane(&mut self, _index: usize, _other: &Self) {}
 }
 
 impl<L: Lane> Switched<L> for Duffing {

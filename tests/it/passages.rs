@@ -2,7 +2,8 @@
 
 use capsulemap::capsule::{CapsuleSystem, Case, Filippov, Parameter, Resistance};
 use capsulemap::lane::Instructions;
-use capsulemap::orbit::passage::{Integrator, OneByOne, ReturnRequest, passages};
+use capsulemap::orbit::passage::{Integrator, OneByOne, ReturnRequest};
+use capsulemap::orbit::passages::passages;
 use capsulemap::orbit::return_map::Cycles;
 
 use super::draws::{self, Random};

@@ -32,6 +32,10 @@ impl<L: Lane> SideBySide for Unbounded<L> {
     fn put(&mut self, index: usize, one: &Unbounded<f64>) {
         self.0.put(index, &one.0);
     }
+
+    fn take_lane(&mut self, index: usize, other: &Self) {
+        self.0.take_lane(index, &other.0);
+    }
 }
 
 impl<L: Lane> Switched<L> for Unbounded<L> {
