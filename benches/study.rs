@@ -1,19 +1,28 @@
-//! A study of 20 000 cases on one thread and on all: what sharing it out gains, ends included.
+//! Whole studies, from the first case to the last attractor: what they take beyond the lanes that move their cases, and
+//! what sharing them out gains, ends included.
 //!
-//! `cargo bench --bench study` prints the seconds from the first case to the last record, the median of three
-//! interleaved repetitions with their spread, and the ratio. No file is written.
+//! `cargo bench --bench study` first computes four studies on one thread, once each: the seconds that cases and
+//! attractors take, the cycles that the cases followed, and the share of the time beyond what the lanes alone need for as
+//! many cycles of the same cases. Then 20 000 cases on one thread and on all: the median of three interleaved repetitions
+//! with their spread. No file is written.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+mod cases;
+
+use std::sync::Mutex;
 use std::thread::available_parallelism;
 use std::time::Instant;
 
-use capsulemap::run::{Machine, run};
-
+use capsulemap::capsule::{Parameters, State};
+use capsulemap::lane::Instructions;
+use capsulemap::run::{Machine, attractors, final_motions, has_attractors, run};
 use capsulemap::study::Study;
+use cases::{CYCLES, integrate_from};
 
 const REPETITIONS: usize = 3;
+/// Cases of a study by which the lanes alone are measured.
+const SAMPLE: usize = 1024;
 
-const STUDY: &str = r#"
+const TWENTY_THOUSAND: &str = r#"
 [parameters]
 c = "0.9 N s/m"
 mu_s = 0.3
@@ -45,24 +54,120 @@ to = "4 mm"
 points = 10
 "#;
 
+/// The capsule of studies/hysteresis.toml at 155 rad/s, from 40 000 starts.
+const BASIN: &str = r#"
+outputs = ["progression_speed", "work_positive"]
+
+[parameters]
+m2 = "0.2 kg"
+c = "1.77 N s/m"
+mu_s = 0.33
+mu_d = 0.165
+p_d = "2.79 N"
+k2 = "65.518 kN/m"
+delta = "4.33 mm"
+omega = "155 rad/s"
+
+[[axes]]
+name = "start_r"
+from = "-6 mm"
+to = "6 mm"
+points = 200
+
+[[axes]]
+name = "start_y1"
+from = "-1.5 m/s"
+to = "1.5 m/s"
+points = 200
+
+[protocol]
+points = 1
+impact_points = 0
+"#;
+
+/// The study of four parameters, studies/million.toml, with so many points an axis.
+const FOUR_PARAMETERS: usize = 13;
+
 fn main() {
-    let study = Study::parse("the bench", STUDY).expect("a study");
+    let overview = include_str!("../studies/overview.toml").to_string();
+    let four: String = include_str!("../studies/million.toml")
+        .lines()
+        .map(|line| match line.strip_prefix("points = ") {
+            Some(points) if points != "1" => format!("points = {FOUR_PARAMETERS}\n"),
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    println!("One thread, {}:", Instructions::widest().name());
+    println!(
+        "| study | cases | cycles | cases, s | attractors, s | cycles/s | lanes alone | beyond |"
+    );
+    println!("|---|---:|---:|---:|---:|---:|---:|---:|");
+    show("overview", &overview);
+    show("basin", BASIN);
+    show("four parameters", &four);
+    show("20 000 cases", TWENTY_THOUSAND);
+    println!();
+    share_out();
+}
+
+fn parsed(text: &str) -> Study {
+    Study::parse("the bench", text).expect("a study")
+}
+
+/// Computes a study on one thread and prints what it took.
+fn show(name: &str, text: &str) {
+    let study = parsed(text);
+    let records = Mutex::new(Vec::new());
+    let begun = Instant::now();
+    run(&study, Machine::single(), |record| {
+        records.lock().expect("no thread has panicked").push(record);
+    })
+    .expect("the thread starts");
+    let of_cases = begun.elapsed().as_secs_f64();
+    let records = records.into_inner().expect("no thread has panicked");
+    let cycles = records.iter().map(|record| record.orbit.cycles).sum::<u64>() as f64;
+    let begun = Instant::now();
+    if has_attractors(&study) {
+        let found = attractors(&study, &final_motions(&study, &records), Machine::single(), || ());
+        found.expect("the thread starts");
+    }
+    let of_attractors = begun.elapsed().as_secs_f64();
+    let (all, lanes) = (of_cases + of_attractors, lanes_alone(&study));
+    println!(
+        "| {name} | {} | {cycles} | {of_cases:.2} | {of_attractors:.2} | {:.0} | {lanes:.0} | {:.0} % |",
+        study.cases(),
+        cycles / all,
+        100.0 * (1.0 - cycles / lanes / all)
+    );
+}
+
+/// Cycles per second of the lanes alone, on cases spread over a study.
+fn lanes_alone(study: &Study) -> f64 {
+    let every = study.cases().div_ceil(SAMPLE);
+    let cases: Vec<(Parameters, State<f64>)> = (0..study.cases())
+        .step_by(every)
+        .map(|index| study.case(index))
+        .map(|case| (case.parameters, case.start))
+        .collect();
+    let begun = Instant::now();
+    integrate_from(Instructions::widest(), &cases, CYCLES, study.protocol.tolerance);
+    (cases.len() as u64 * CYCLES) as f64 / begun.elapsed().as_secs_f64()
+}
+
+/// Computes 20 000 cases on one thread and on all.
+fn share_out() {
+    let study = parsed(TWENTY_THOUSAND);
     let all = available_parallelism().map_or(1, usize::from);
     let mut seconds = [1, all].map(|threads| (threads, Vec::new()));
-    let cycles = AtomicU64::new(0);
     for _ in 0..REPETITIONS {
         for (threads, seconds) in &mut seconds {
             let machine = Machine { threads: Some(*threads), ..Machine::default() };
-            cycles.store(0, Ordering::Relaxed);
             let begun = Instant::now();
-            run(&study, machine, |record| {
-                cycles.fetch_add(record.orbit.cycles, Ordering::Relaxed);
-            })
-            .expect("the threads start");
+            run(&study, machine, |_| ()).expect("the threads start");
             seconds.push(begun.elapsed().as_secs_f64());
         }
     }
-    println!("{} cases, {} cycles", study.cases(), cycles.into_inner());
+    println!("{} cases:", study.cases());
     println!("| threads | seconds | min .. max | times one |");
     println!("|---:|---:|---:|---:|");
     let mut one = f64::NAN;

@@ -1,5 +1,8 @@
 //! The cases that the benches measure: those of Figs 5 to 7 and a grid, computed from rest side by side.
 
+// Each bench uses its part.
+#![allow(dead_code)]
+
 use capsulemap::capsule::{Capsule, Parameter, Parameters, State};
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
@@ -36,7 +39,6 @@ pub fn case_sets() -> [(&'static str, Vec<Parameters>); 4] {
 }
 
 /// Where a case ends, and how it got there.
-#[allow(dead_code)] // each bench reads its part
 #[derive(Debug, Clone, Copy, Default)]
 pub struct End {
     /// The state after the last cycle.
@@ -54,11 +56,22 @@ pub fn integrate(
     cycles: u64,
     tolerance: f64,
 ) -> Vec<End> {
+    let cases: Vec<_> = cases.iter().map(|case| (case.clone(), State::default())).collect();
+    integrate_from(instructions, &cases, cycles, tolerance)
+}
+
+/// Integrates every case from its start over so many cycles, the section at phase zero.
+pub fn integrate_from(
+    instructions: Instructions,
+    cases: &[(Parameters, State<f64>)],
+    cycles: u64,
+    tolerance: f64,
+) -> Vec<End> {
     instructions.run(Integrate { cases, cycles, tolerance })
 }
 
 struct Integrate<'a> {
-    cases: &'a [Parameters],
+    cases: &'a [(Parameters, State<f64>)],
     cycles: u64,
     tolerance: f64,
 }
@@ -68,7 +81,7 @@ impl Work for Integrate<'_> {
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Vec<End> {
-        let Some(first) = self.cases.first() else { return Vec::new() };
+        let Some((first, _)) = self.cases.first() else { return Vec::new() };
         let one = Capsule::single(first, 0.0);
         let mut system = Capsule::<L>::splat(&one);
         let mut motion = Motion::<L, Capsule<L>>::splat(&Motion::new(&one, 0.0, State::default()));
@@ -94,10 +107,10 @@ impl Work for Integrate<'_> {
                     let (steps, events) = (steps.lane(lane) as u64, events.lane(lane) as u64);
                     ends[done] = End { state: motion.state.lane(lane), steps, events };
                 }
-                if let Some(case) = self.cases.get(next) {
+                if let Some((case, start)) = self.cases.get(next) {
                     let one = Capsule::single(case, 0.0);
                     system.put(lane, &one);
-                    motion.put(lane, &Motion::new(&one, 0.0, State::default()));
+                    motion.put(lane, &Motion::new(&one, 0.0, *start));
                     periods = periods.with_lane(lane, case.drive_period());
                     (steps, events) = (steps.with_lane(lane, 0.0), events.with_lane(lane, 0.0));
                     (case_of_lane[lane], cycles_left[lane]) = (Some(next), self.cycles);

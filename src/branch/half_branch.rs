@@ -10,7 +10,7 @@ use super::corner::{is_corner, rounded};
 use super::grazing::{Passed, past_grazing};
 use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 use super::periodic::{Goal, Periodic, passes};
-use super::special::special_orbits;
+use super::special::{Sought, special_orbits};
 use super::step_control::{Advance, StepControl};
 
 /// Corners that are passed on half of a branch at most.
@@ -45,8 +45,8 @@ pub struct HalfBranch<E, const D: usize, const U: usize> {
     last_step: f64,
     /// Corners that may still be passed.
     corners: usize,
-    /// Changes of events are located to this share of a step.
-    narrow: f64,
+    /// Which special orbits are located.
+    pub sought: Sought,
 }
 
 impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
@@ -61,13 +61,13 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
             merged,
             last_step,
             corners: CORNERS,
-            narrow: NARROW,
+            sought: Sought::All(NARROW),
         }
     }
 
     /// The same without a look round corners, with changes of events located to the share `narrow` of a step.
     pub fn coarse(self, narrow: f64) -> Self {
-        HalfBranch { corners: 0, narrow, ..self }
+        HalfBranch { corners: 0, sought: Sought::All(narrow), ..self }
     }
 
     /// Follows the branch on until it ends, closes at `goal` or has `most` orbits.
@@ -200,7 +200,7 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         let closing = goal.met(orbits, [from, &next], before);
         let end = closing.is_some().then_some(End::Closed);
         let next = closing.unwrap_or(next);
-        let found = special_orbits(orbits, from, &next, self.narrow);
+        let found = special_orbits(orbits, from, &next, self.sought);
         self.special_orbits.extend(found.into_iter().map(|special| (before, special)));
         if norm(&between(&from.at, &next.at)) > ONE {
             self.points.push(next);

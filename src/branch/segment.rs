@@ -11,6 +11,7 @@ use super::half_branch::HalfBranch;
 use super::orbits::{OrbitPoint, Orbits, SpecialOrbit};
 use super::periodic::{Goal, Periodic};
 use super::scales::units;
+use super::special::Sought;
 use super::step_control::{Bounds, StepControl};
 use super::{End, SpecialKind};
 
@@ -192,6 +193,8 @@ impl<M: System<D>, const D: usize, const U: usize> Walk<'_, M, D, U> {
         loop {
             if !is_stable {
                 control.shortest = SHORTEST;
+                // Of an unstable orbit only the end of its branch matters.
+                half.sought = Sought::Folds;
             }
             let known = half.special_orbits.len();
             let end = half.advance(&self.orbits, &mut control, &Goal::none());

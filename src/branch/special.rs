@@ -30,13 +30,21 @@ fn test<E: Event, const D: usize, const U: usize>(
 const SMOOTH: [SpecialKind; 3] =
     [SpecialKind::Fold, SpecialKind::PeriodDoubling, SpecialKind::NeimarkSacker];
 
-/// All special orbits between two neighbouring orbits, in order; where events change without a grazing they are
-/// located to the share `narrow` of the arc.
+/// Which special orbits are located.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sought {
+    /// All; where events change without a grazing to this share of the arc.
+    All(f64),
+    /// Folds alone.
+    Folds,
+}
+
+/// The special orbits that are sought between two neighbouring orbits, in order.
 pub fn special_orbits<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
     from: &OrbitPoint<M::Event, D, U>,
     to: &OrbitPoint<M::Event, D, U>,
-    narrow: f64,
+    sought: Sought,
 ) -> Vec<SpecialOrbit<M::Event, D, U>> {
     let exact = orbits.exactly();
     let arc = Arc::from(&exact, from);
@@ -44,6 +52,7 @@ pub fn special_orbits<M: System<D>, const D: usize, const U: usize>(
     let rounding = RESOLVED * (ends[1].0 - ends[0].0);
     let mut found: Vec<SpecialOrbit<M::Event, D, U>> = SMOOTH
         .into_iter()
+        .filter(|kind| sought != Sought::Folds || *kind == SpecialKind::Fold)
         .filter(|kind| test(*kind, from) * test(*kind, to) < 0.0)
         .filter_map(|kind| {
             let ((distance, point), apart) = arc.zero([&ends[0], &ends[1]], |it| test(kind, it))?;
@@ -52,7 +61,9 @@ pub fn special_orbits<M: System<D>, const D: usize, const U: usize>(
             holds.then_some(SpecialOrbit { kind, distance, uncertainty, point, is_stable_beyond })
         })
         .collect();
-    found.extend(changes(orbits, from, ends, narrow));
+    if let Sought::All(narrow) = sought {
+        found.extend(changes(orbits, from, ends, narrow));
+    }
     found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
     found
 }
