@@ -344,9 +344,7 @@ where
         self.time = self.time.with_lane(index, one.time);
         self.state.put(index, &one.state);
         self.mode.put(index, &one.mode);
-        for (zeros, &of_one) in self.zeros.iter_mut().zip(&one.zeros) {
-            *zeros = zeros.with_lane(index, of_one);
-        }
+        self.zeros.put(index, &one.zeros);
         self.idle = self.idle.with_lane(index, one.idle);
         self.side = self.side.with_lane(index, one.side);
     }
@@ -356,9 +354,7 @@ where
         self.time = self.time.with_lane_of(index, other.time);
         self.state.take_lane(index, &other.state);
         self.mode.take_lane(index, &other.mode);
-        for (zeros, of_other) in self.zeros.iter_mut().zip(other.zeros) {
-            *zeros = zeros.with_lane_of(index, of_other);
-        }
+        self.zeros.take_lane(index, &other.zeros);
         self.idle = self.idle.with_lane_of(index, other.idle);
         self.side = self.side.with_lane_of(index, other.side);
     }

@@ -24,6 +24,7 @@ mod settle_all;
 mod settling;
 pub mod side_by_side;
 pub mod trajectory;
+mod underway;
 pub mod aperiodic;
 
 pub use batch::Batch;
@@ -36,5 +37,6 @@ pub use protocol::{HistorySpan, Outcome, Protocol};
 pub use returns::{Returns, returns};
 pub use settle::settle;
 pub use settle_all::settle_all;
-pub use side_by_side::{Queue, Underway, settle_side_by_side};
+pub use side_by_side::{Queue, settle_side_by_side};
 pub use trajectory::{Failure, Trajectory};
+pub use underway::Underway;

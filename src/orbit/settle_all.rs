@@ -8,7 +8,8 @@ use crate::flow::System;
 use super::case::{Case, OrbitOf};
 use super::machine::Machine;
 use super::protocol::Protocol;
-use super::side_by_side::{Queue, Underway, settle_side_by_side};
+use super::side_by_side::{Queue, settle_side_by_side};
+use super::underway::Underway;
 
 /// What each of the cases settles to, in their order.
 ///

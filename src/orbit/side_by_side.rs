@@ -1,76 +1,24 @@
 //! Many cases side by side in the lanes of one thread, each lane refilled the moment its case settles.
 
-use crate::flow::{Motion, Step, Stroboscopic, Switched, System};
+use crate::flow::{Motion, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
 use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
 use super::aperiodic::follow_aperiodic_side_by_side;
 use super::batch::Batch;
-use super::measure::{Found, conclude};
-use super::passage::{Integrator, OneByOne};
-use super::settle::find_period;
+use super::measure::Found;
+use super::passage::Integrator;
 use super::settling::{Settling, Verdict};
 use super::trajectory::{Progress, leap};
-use super::{Case, Failure, OrbitOf, Protocol, Trajectory};
-
-/// What a case has settled to, if it has, or why it could not be followed.
-type Finding<M, const D: usize> = Result<Found<D>, Failure<<M as System<D>>::State<f64>>>;
+use super::underway::{Finding, Underway};
+use super::{Case, OrbitOf, Protocol, Trajectory};
 
 /// A case by its number with what it has settled to.
 type Done<M, const D: usize> = (usize, OrbitOf<M, D>);
 
 /// With no more than one lane in so many at work, cases are followed faster one by one.
 const WORTHWHILE: usize = 4;
-
-/// A case between its departure and its settling, under the number that its owner knows it by.
-pub struct Underway<M: System<D>, const D: usize> {
-    number: usize,
-    case: Case<M, D>,
-    system: M::Single,
-    motion: Motion<f64, M::Single>,
-    settling: Settling<D>,
-    progress: Progress,
-}
-
-impl<M: System<D>, const D: usize> Underway<M, D> {
-    /// A case about to depart.
-    pub fn new(number: usize, case: Case<M, D>, protocol: &Protocol) -> Self {
-        let mut settling = Settling::new(protocol, case.system.metric());
-        let system = case.system.single();
-        let motion = Motion::new(&system, case.begins, case.start);
-        if case.begins == 0.0 {
-            settling.meet(M::Single::point(&motion.state));
-        }
-        let progress = Progress::begun(case.begins);
-        Underway { number, case, system, motion, settling, progress }
-    }
-
-    /// The number that its owner knows it by.
-    pub fn number(&self) -> usize {
-        self.number
-    }
-
-    /// Follows the case by itself until it settles, and measures it.
-    pub fn finish(self, protocol: &Protocol) -> (usize, OrbitOf<M, D>) {
-        let found = |trajectory: &mut Trajectory<'_, _, D>, settling: &mut Settling<D>| {
-            find_period::<M, D>(trajectory, settling, protocol).map(Found::from)
-        };
-        self.conclude(protocol, found, &OneByOne)
-    }
-
-    /// Measures the case, going on from where it is with what it is found to have settled to.
-    fn conclude(
-        mut self,
-        protocol: &Protocol,
-        found: impl FnOnce(&mut Trajectory<'_, M::Single, D>, &mut Settling<D>) -> Finding<M, D>,
-        integrator: &dyn Integrator<M, D>,
-    ) -> (usize, OrbitOf<M, D>) {
-        let mut trajectory =
-            Trajectory::resume(&self.system, self.motion, self.progress, protocol.tolerance)
-                .limited(protocol.max_steps);
-        let found = found(&mut trajectory, &mut self.settling);
-        (self.number, conclude(&mut trajectory, &self.case, found, protocol, integrator))
-    }
-}
+/// With no more than one lane in so many at work, half of the lanes are as fast.
+const HALF: usize = 2;
 
 /// Where cases come from and where they go when they have settled.
 pub trait Queue<M: System<D>, const D: usize> {
@@ -88,9 +36,34 @@ pub fn settle_side_by_side<M: System<D>, const D: usize>(
     protocol: &Protocol,
     queue: &mut dyn Queue<M, D>,
 ) -> Vec<Underway<M, D>> {
-    let (aperiodic, ready) = (Vec::new(), Vec::new());
-    let concluding = Batch::new(instructions);
-    instructions.run(Supply { instructions, protocol, queue, aperiodic, concluding, ready })
+    let halves = instructions.lanes_of_a_vector() > 1;
+    let least = if halves { HALF } else { WORTHWHILE };
+    let supply = Supply {
+        instructions,
+        protocol,
+        queue,
+        aperiodic: Vec::new(),
+        concluding: Batch::new(instructions),
+        ready: Vec::new(),
+        least,
+    };
+    let mut left = instructions.run(supply);
+    if halves {
+        let Left { moving: ready, aperiodic, queue } = left;
+        let (concluding, least) = (Batch::new(instructions), WORTHWHILE);
+        let supply = Supply { instructions, protocol, queue, aperiodic, concluding, ready, least };
+        left = instructions.run_on_a_vector(supply);
+    }
+    left.moving.extend(left.aperiodic);
+    left.moving
+}
+
+/// Cases that have not settled when too few lanes are taken.
+struct Left<'a, M: System<D>, const D: usize> {
+    moving: Vec<Underway<M, D>>,
+    /// Those whose budget of cycles is at its end.
+    aperiodic: Vec<Underway<M, D>>,
+    queue: &'a mut dyn Queue<M, D>,
 }
 
 /// Where the lanes take their cases from.
@@ -104,18 +77,20 @@ struct Supply<'a, M: System<D>, const D: usize> {
     aperiodic: Vec<Underway<M, D>>,
     /// Cases that are being certified and measured.
     concluding: Batch<M, Done<M, D>, D>,
-    /// Cases that could depart, had they a lane.
+    /// Cases that could depart, or go on, had they a lane.
     ready: Vec<Underway<M, D>>,
+    /// With no more than one lane in so many at work, the lanes are left.
+    least: usize,
 }
 
-impl<M: System<D>, const D: usize> Work for Supply<'_, M, D> {
-    type Output = Vec<Underway<M, D>>;
+impl<'a, M: System<D>, const D: usize> Work for Supply<'a, M, D> {
+    type Output = Left<'a, M, D>;
 
     #[inline(always)]
     fn run<L: Lane>(mut self) -> Self::Output {
         let cases: Vec<_> = (0..L::WIDTH).map(|_| self.next(None)).collect();
         let Some(first) = cases.iter().flatten().next() else {
-            return Vec::new();
+            return self.left(Vec::new());
         };
         let spare = Underway::new(0, first.case.clone(), self.protocol);
         let mut lanes = Lanes::<L, M, D>::new(spare, self);
@@ -123,8 +98,9 @@ impl<M: System<D>, const D: usize> Work for Supply<'_, M, D> {
             lanes.fill_lane(lane, case);
         }
         let mut step = Step::default();
-        let worthwhile = |cases: usize| cases * WORTHWHILE > L::WIDTH;
+        let least = lanes.cases.least;
         loop {
+            let worthwhile = |cases: usize| cases * least > L::WIDTH;
             let occupied = lanes.occupied.count_ones() as usize;
             let (aperiodic, concluding) =
                 (lanes.cases.aperiodic.len(), lanes.cases.concluding.waiting());
@@ -142,13 +118,19 @@ impl<M: System<D>, const D: usize> Work for Supply<'_, M, D> {
                 lanes.advance(&mut step);
                 lanes.attend(step.arrives);
             } else {
-                return lanes.unfinished();
+                return lanes.left();
             }
         }
     }
 }
 
-impl<M: System<D>, const D: usize> Supply<'_, M, D> {
+impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
+    /// What is left, with the cases that are `moving`.
+    fn left(mut self, mut moving: Vec<Underway<M, D>>) -> Left<'a, M, D> {
+        moving.append(&mut self.ready);
+        Left { moving, aperiodic: self.aperiodic, queue: self.queue }
+    }
+
     fn next(&mut self, done: Option<(usize, OrbitOf<M, D>)>) -> Option<Underway<M, D>> {
         if done.is_none()
             && let Some(ready) = self.ready.pop()
@@ -218,7 +200,7 @@ struct Lanes<'a, L: Lane, M: System<D>, const D: usize> {
     occupants: Vec<Option<Underway<M, D>>>,
     /// The lanes with a case, as bits.
     occupied: u64,
-    /// Steps taken, and how many had been when the cycle of each lane began.
+    /// Steps taken, and how many had been when the cycle of each lane began, from a number on that no cycle has taken.
     steps: u64,
     cycle_began: Vec<u64>,
     /// No case has taken too many steps before so many are taken.
@@ -236,7 +218,7 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
             spare,
             occupants: (0..L::WIDTH).map(|_| None).collect(),
             occupied: 0,
-            steps: 0,
+            steps: STEPS_PER_CYCLE,
             cycle_began: vec![0; L::WIDTH],
             deadline: 0,
         }
@@ -338,7 +320,10 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
         self.system.put(lane, system);
         self.motion.put(lane, motion);
         self.periods = self.periods.with_lane(lane, system.period());
-        self.cycle_began[lane] = self.steps;
+        // A case that goes on has taken some steps of its cycle.
+        let taken = case.as_ref().map_or(0, |case| case.progress.steps);
+        self.cycle_began[lane] = self.steps - taken;
+        self.deadline = if taken > 0 { 0 } else { self.deadline };
         self.occupied &= !(1 << lane);
         self.occupied |= u64::from(case.is_some()) << lane;
         self.occupants[lane] = case;
@@ -364,11 +349,9 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
     }
 
     /// The cases that have not settled yet.
-    fn unfinished(mut self) -> Vec<Underway<M, D>> {
-        let mut cases: Vec<_> = (0..L::WIDTH).filter_map(|lane| self.take(lane)).collect();
-        cases.append(&mut self.cases.aperiodic);
-        cases.append(&mut self.cases.ready);
-        cases
+    fn left(mut self) -> Left<'a, M, D> {
+        let moving: Vec<_> = (0..L::WIDTH).filter_map(|lane| self.take(lane)).collect();
+        self.cases.left(moving)
     }
 }
 
