@@ -97,23 +97,14 @@ pub fn corrected_within<const U: usize, E: Equations<U>>(
 ) -> Option<(CurvePoint<U, E::Seen>, usize)> {
     let condition =
         |at: &[f64; U], _: &E::Seen| Some((dot(&plane.normal, at) - plane.offset, plane.normal));
-    newton(equations, condition, (guess, farthest), ahead)
+    corrected_by(equations, condition, (guess, farthest), ahead)
 }
 
 /// The solution near `guess` at which a condition vanishes that is given with its derivatives.
 ///
 /// Method: Newton's with exact derivatives, until the residual no longer shrinks. None where it does not get
-/// below rounding, or leaves the neighbourhood of the guess.
+/// below rounding, or where an unknown gets `farthest` from the guess.
 pub fn corrected_by<const U: usize, E: Equations<U>>(
-    equations: &E,
-    condition: impl Fn(&[f64; U], &E::Seen) -> Option<(f64, [f64; U])>,
-    guess: &[f64; U],
-    ahead: &[f64; U],
-) -> Option<(CurvePoint<U, E::Seen>, usize)> {
-    newton(equations, condition, (guess, FARTHEST), ahead)
-}
-
-fn newton<const U: usize, E: Equations<U>>(
     equations: &E,
     condition: impl Fn(&[f64; U], &E::Seen) -> Option<(f64, [f64; U])>,
     (guess, farthest): (&[f64; U], f64),

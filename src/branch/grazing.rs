@@ -4,7 +4,7 @@ use crate::flow::System;
 
 use super::SpecialKind;
 use super::arc::{Arc, Placed};
-use super::arclength::{CurvePoint, between, corrected_by, dot, moved, norm};
+use super::arclength::{CurvePoint, FARTHEST, between, corrected_by, dot, moved, norm};
 use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 
 /// The orbit that just touches the surface lies so near to where contact was seen to begin.
@@ -84,7 +84,7 @@ fn with_margin<M: System<D>, const D: usize, const U: usize>(
         let nearest = seen.margin?;
         Some((nearest.value - value, nearest.gradient))
     };
-    corrected_by(orbits, margin, &near.at, &near.tangent).map(|(point, _)| point)
+    corrected_by(orbits, margin, (&near.at, FARTHEST), &near.tangent).map(|(point, _)| point)
 }
 
 /// A rigid grazing at which no step leads on, and the first orbit beyond it, if one is found.
