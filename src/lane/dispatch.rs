@@ -55,8 +55,8 @@ impl Instructions {
         match self {
             Instructions::Scalar => 1,
             Instructions::Baseline => BASELINE * Pair::WIDTH,
-            Instructions::Avx2 => AVX2 * 4,
-            Instructions::Avx512 => AVX512 * 8,
+            Instructions::Avx2 => AVX2 * self.lanes_of_a_vector(),
+            Instructions::Avx512 => AVX512 * self.lanes_of_a_vector(),
         }
     }
 
@@ -88,15 +88,7 @@ impl Instructions {
     /// # Panics
     /// Where the processor does not have them.
     pub fn run_on_a_vector<W: Work>(self, work: W) -> W::Output {
-        match self {
-            Instructions::Scalar | Instructions::Baseline => work.run::<f64>(),
-            #[cfg(target_arch = "x86_64")]
-            Instructions::Avx2 => x86::with_one_avx2(work).expect("the processor has AVX2"),
-            #[cfg(target_arch = "x86_64")]
-            Instructions::Avx512 => x86::with_one_avx512(work).expect("the processor has AVX-512"),
-            #[cfg(not(target_arch = "x86_64"))]
-            Instructions::Avx2 | Instructions::Avx512 => panic!("the processor has no {self:?}"),
-        }
+        self.run_as::<f64, 1, 1, W>(work)
     }
 
     /// Does `work` by these instructions.
@@ -104,13 +96,25 @@ impl Instructions {
     /// # Panics
     /// Where the processor does not have them.
     pub fn run<W: Work>(self, work: W) -> W::Output {
+        self.run_as::<Wide<Pair, BASELINE>, AVX2, AVX512, W>(work)
+    }
+
+    /// Does `work` on lanes of the baseline's kind, or on so many vectors of AVX2 or AVX-512.
+    fn run_as<B: Lane, const OF_AVX2: usize, const OF_AVX512: usize, W: Work>(
+        self,
+        work: W,
+    ) -> W::Output {
         match self {
             Instructions::Scalar => work.run::<f64>(),
-            Instructions::Baseline => work.run::<Wide<Pair, BASELINE>>(),
+            Instructions::Baseline => work.run::<B>(),
             #[cfg(target_arch = "x86_64")]
-            Instructions::Avx2 => x86::with_avx2(work).expect("the processor has AVX2"),
+            Instructions::Avx2 => {
+                x86::with_avx2::<OF_AVX2, W>(work).expect("the processor has AVX2")
+            }
             #[cfg(target_arch = "x86_64")]
-            Instructions::Avx512 => x86::with_avx512(work).expect("the processor has AVX-512"),
+            Instructions::Avx512 => {
+                x86::with_avx512::<OF_AVX512, W>(work).expect("the processor has AVX-512")
+            }
             #[cfg(not(target_arch = "x86_64"))]
             Instructions::Avx2 | Instructions::Avx512 => panic!("the processor has no {self:?}"),
         }

@@ -9,47 +9,27 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::work::{AVX2, AVX512, Work};
+use super::work::Work;
 use super::{INFINITE, LOG_ONE, LOG_UNIT, Lane, Mask, WHOLE, Wide};
 
-/// Runs `work` on vectors of AVX-512, none where the processor lacks it.
-pub(super) fn with_avx512<W: Work>(work: W) -> Option<W::Output> {
+/// Runs `work` on so many vectors of AVX-512, none where the processor lacks it.
+pub(super) fn with_avx512<const N: usize, W: Work>(work: W) -> Option<W::Output> {
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
-    fn run<W: Work>(work: W) -> W::Output {
-        work.run::<Wide<Avx512, AVX512>>()
+    fn run<const N: usize, W: Work>(work: W) -> W::Output {
+        work.run::<Wide<Avx512, N>>()
     }
     // SAFETY: the processor has what `run` is compiled for.
-    has_avx512().then(|| unsafe { run(work) })
+    has_avx512().then(|| unsafe { run::<N, W>(work) })
 }
 
-/// Runs `work` on one vector of AVX-512, none where the processor lacks it.
-pub(super) fn with_one_avx512<W: Work>(work: W) -> Option<W::Output> {
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
-    fn run<W: Work>(work: W) -> W::Output {
-        work.run::<Avx512>()
-    }
-    // SAFETY: the processor has what `run` is compiled for.
-    has_avx512().then(|| unsafe { run(work) })
-}
-
-/// Runs `work` on one vector of AVX2, none where the processor lacks it.
-pub(super) fn with_one_avx2<W: Work>(work: W) -> Option<W::Output> {
+/// Runs `work` on so many vectors of AVX2, none where the processor lacks it.
+pub(super) fn with_avx2<const N: usize, W: Work>(work: W) -> Option<W::Output> {
     #[target_feature(enable = "avx2")]
-    fn run<W: Work>(work: W) -> W::Output {
-        work.run::<Avx2>()
+    fn run<const N: usize, W: Work>(work: W) -> W::Output {
+        work.run::<Wide<Avx2, N>>()
     }
     // SAFETY: the processor has what `run` is compiled for.
-    has_avx2().then(|| unsafe { run(work) })
-}
-
-/// Runs `work` on vectors of AVX2, none where the processor lacks it.
-pub(super) fn with_avx2<W: Work>(work: W) -> Option<W::Output> {
-    #[target_feature(enable = "avx2")]
-    fn run<W: Work>(work: W) -> W::Output {
-        work.run::<Wide<Avx2, AVX2>>()
-    }
-    // SAFETY: the processor has what `run` is compiled for.
-    has_avx2().then(|| unsafe { run(work) })
+    has_avx2().then(|| unsafe { run::<N, W>(work) })
 }
 
 /// Whether this processor has AVX-512 with its double-precision logic.
