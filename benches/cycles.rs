@@ -5,13 +5,15 @@
 //! how many times that is the scalar form's. Compare figures of one run only: machines are shared.
 
 mod cases;
+mod lanes;
 
 use std::hint::black_box;
 use std::time::Instant;
 
 use capsulemap::capsule::Parameters;
 use capsulemap::lane::Instructions;
-use cases::{CYCLES, TOLERANCE, case_sets, integrate};
+use cases::{TOLERANCE, case_sets, integrate};
+use lanes::CYCLES;
 
 const REPETITIONS: usize = 5;
 

@@ -9,6 +9,7 @@
 //! the end.
 
 mod cases;
+mod lanes;
 
 use std::fs;
 use std::hint::black_box;
@@ -18,7 +19,8 @@ use std::time::{Duration, Instant};
 
 use capsulemap::capsule::Parameters;
 use capsulemap::lane::Instructions;
-use cases::{CYCLES, End, TOLERANCE, case_sets, integrate, parameters};
+use cases::{TOLERANCE, case_sets, integrate, parameters};
+use lanes::{CYCLES, End};
 use serde_json::json;
 
 /// So that one repetition is long beside the clock's ticks.

@@ -6,17 +6,16 @@
 //! many cycles of the same cases. Then 20 000 cases on one thread and on all: the median of three interleaved repetitions
 //! with their spread. No file is written.
 
-mod cases;
+mod lanes;
 
-use std::sync::Mutex;
 use std::thread::available_parallelism;
 use std::time::Instant;
 
 use capsulemap::capsule::{Parameters, State};
 use capsulemap::lane::Instructions;
-use capsulemap::run::{Machine, attractors, final_motions, has_attractors, run};
+use capsulemap::run::{Machine, attractors, final_motions, has_attractors, run, run_sample};
 use capsulemap::study::Study;
-use cases::{CYCLES, integrate_from};
+use lanes::{CYCLES, integrate_from};
 
 const REPETITIONS: usize = 3;
 /// Cases of a study by which the lanes alone are measured.
@@ -54,18 +53,8 @@ to = "4 mm"
 points = 10
 "#;
 
-/// The capsule of studies/hysteresis.toml at 155 rad/s, from 40 000 starts.
-const BASIN: &str = r#"
-outputs = ["progression_speed", "work_positive"]
-
-[parameters]
-m2 = "0.2 kg"
-c = "1.77 N s/m"
-mu_s = 0.33
-mu_d = 0.165
-p_d = "2.79 N"
-k2 = "65.518 kN/m"
-delta = "4.33 mm"
+/// What a basin of 40 000 starts adds to the parameters of studies/hysteresis.toml.
+const STARTS: &str = r#"
 omega = "155 rad/s"
 
 [[axes]]
@@ -97,13 +86,19 @@ fn main() {
             _ => format!("{line}\n"),
         })
         .collect();
+    let hysteresis = include_str!("../studies/hysteresis.toml");
+    let parameters = hysteresis.split("\n\n").find(|it| it.starts_with("[parameters]"));
+    let parameters = parameters.expect("the study has parameters");
+    let outputs = "outputs = [\"progression_speed\", \"work_positive\"]";
+    let basin = format!("{outputs}\n\n{parameters}\n{}", STARTS.trim_start());
     println!("One thread, {}:", Instructions::widest().name());
     println!(
-        "| study | cases | cycles | cases, s | attractors, s | cycles/s | lanes alone | beyond |"
+        "| study | cases | cycles | cases, s | attractors, s | cycles/s | lanes alone | beyond | steps a cycle | \
+         events a cycle |"
     );
-    println!("|---|---:|---:|---:|---:|---:|---:|---:|");
+    println!("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|");
     show("overview", &overview);
-    show("basin", BASIN);
+    show("basin", &basin);
     show("four parameters", &four);
     show("20 000 cases", TWENTY_THOUSAND);
     println!();
@@ -117,14 +112,10 @@ fn parsed(text: &str) -> Study {
 /// Computes a study on one thread and prints what it took.
 fn show(name: &str, text: &str) {
     let study = parsed(text);
-    let records = Mutex::new(Vec::new());
+    let all: Vec<usize> = (0..study.chains()).collect();
     let begun = Instant::now();
-    run(&study, Machine::single(), |record| {
-        records.lock().expect("no thread has panicked").push(record);
-    })
-    .expect("the thread starts");
+    let records = run_sample(&study, Machine::single(), &all, || ()).expect("the thread starts");
     let of_cases = begun.elapsed().as_secs_f64();
-    let records = records.into_inner().expect("no thread has panicked");
     let cycles = records.iter().map(|record| record.orbit.cycles).sum::<u64>() as f64;
     let begun = Instant::now();
     if has_attractors(&study) {
@@ -132,26 +123,47 @@ fn show(name: &str, text: &str) {
         found.expect("the thread starts");
     }
     let of_attractors = begun.elapsed().as_secs_f64();
-    let (all, lanes) = (of_cases + of_attractors, lanes_alone(&study));
+    let (all, alone) = (of_cases + of_attractors, LanesAlone::of(&study));
     println!(
-        "| {name} | {} | {cycles} | {of_cases:.2} | {of_attractors:.2} | {:.0} | {lanes:.0} | {:.0} % |",
+        "| {name} | {} | {cycles} | {of_cases:.2} | {of_attractors:.2} | {:.0} | {:.0} | {:.0} % | {:.1} | {:.1} |",
         study.cases(),
         cycles / all,
-        100.0 * (1.0 - cycles / lanes / all)
+        alone.speed,
+        100.0 * (1.0 - cycles / alone.speed / all),
+        alone.steps,
+        alone.events
     );
 }
 
-/// Cycles per second of the lanes alone, on cases spread over a study.
-fn lanes_alone(study: &Study) -> f64 {
-    let every = study.cases().div_ceil(SAMPLE);
-    let cases: Vec<(Parameters, State<f64>)> = (0..study.cases())
-        .step_by(every)
-        .map(|index| study.case(index))
-        .map(|case| (case.parameters, case.start))
-        .collect();
-    let begun = Instant::now();
-    integrate_from(Instructions::widest(), &cases, CYCLES, study.protocol.tolerance);
-    (cases.len() as u64 * CYCLES) as f64 / begun.elapsed().as_secs_f64()
+/// What the lanes alone do with cases spread over a study.
+struct LanesAlone {
+    /// Cycles per second.
+    speed: f64,
+    /// Steps of a cycle.
+    steps: f64,
+    /// Events of a cycle.
+    events: f64,
+}
+
+impl LanesAlone {
+    fn of(study: &Study) -> Self {
+        let every = study.cases().div_ceil(SAMPLE);
+        let cases: Vec<(Parameters, State<f64>)> = (0..study.cases())
+            .step_by(every)
+            .map(|index| study.case(index))
+            .map(|case| (case.parameters, case.start))
+            .collect();
+        let begun = Instant::now();
+        let ends = integrate_from(Instructions::widest(), &cases, CYCLES, study.protocol.tolerance);
+        let seconds = begun.elapsed().as_secs_f64();
+        let cycles = (cases.len() as u64 * CYCLES) as f64;
+        let of_cycle = |count: u64| count as f64 / cycles;
+        LanesAlone {
+            speed: cycles / seconds,
+            steps: of_cycle(ends.iter().map(|end| end.steps).sum()),
+            events: of_cycle(ends.iter().map(|end| end.events).sum()),
+        }
+    }
 }
 
 /// Computes 20 000 cases on one thread and on all.
