@@ -7,10 +7,10 @@ use super::Protocol;
 use super::matrix::{Complex, eigenvalues};
 use super::neutral::{Neutral, close_neutral, may_be_neutral};
 use super::newton::{Closed, close};
-use super::passage::{Integrator, ReturnRequest};
+use super::passage::{Integrator, image};
 use super::precision::{OBLIQUE, closes, same};
 use super::recurrence::Settled;
-use super::return_map::{Cycles, Image};
+use super::return_map::Cycles;
 
 /// How a period was proven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -110,17 +110,7 @@ pub fn certify<M: System<D>, const D: usize>(
     for period in (1..=repeats_after).filter(|&j| repeats_after.is_multiple_of(j)) {
         let cycles = Cycles { count: period, tolerance: protocol.tolerance };
         // What cannot be followed cannot be closed either.
-        let image_of = |point: &[f64; D]| {
-            let passage = integrator.passage(ReturnRequest {
-                system: system.clone(),
-                along: None,
-                point: *point,
-                units: [1.0; D],
-                cycles,
-                watched: false,
-            })?;
-            Ok(Image { end: passage.end, jacobian: passage.jacobian })
-        };
+        let image_of = |point: &[f64; D]| image(integrator, system, point, &cycles);
         let Ok(closed) = close(image_of, period, &metric, section, settled.size) else { continue };
         let multipliers = closed.map(|it| eigenvalues(&it.jacobian));
         followed += closed.map_or(0, |it| it.cycles);

@@ -7,7 +7,7 @@ use crate::lane::{Dual, Lane, Mask, Series, series};
 
 use super::extrema::{Extremum, SignChanges, Turns, nearest};
 use super::matrix::Matrix;
-use super::return_map::{Cycles, returned};
+use super::return_map::{Cycles, Image, returned};
 
 /// A return that is asked for.
 #[derive(Debug, Clone)]
@@ -59,6 +59,24 @@ pub struct Margin<const D: usize> {
 pub trait Integrator<M: System<D>, const D: usize>: Debug {
     /// The return that is asked for.
     fn passage(&self, request: ReturnRequest<M, D>) -> Result<Passage<M::Event, D>, Reason>;
+}
+
+/// The image of a section point under the return map of `system`.
+pub fn image<M: System<D>, const D: usize>(
+    integrator: &dyn Integrator<M, D>,
+    system: &M,
+    point: &[f64; D],
+    cycles: &Cycles,
+) -> Result<Image<D>, Reason> {
+    let passage = integrator.passage(ReturnRequest {
+        system: system.clone(),
+        along: None,
+        point: *point,
+        units: [1.0; D],
+        cycles: *cycles,
+        watched: false,
+    })?;
+    Ok(Image { end: passage.end, jacobian: passage.jacobian })
 }
 
 /// Computes each return when it is asked for.
@@ -151,12 +169,6 @@ impl<M: System<D>, const D: usize> ReturnRequest<M, D> {
             Some((along, value, _)) if along == parameter => value,
             _ => self.system.value(parameter),
         }
-    }
-
-    /// Duration of its cycles [s].
-    pub(super) fn period(&self) -> f64 {
-        let system: M::In<f64> = self.system.system(|parameter| self.value(parameter));
-        system.period()
     }
 
     /// The derivative of a parameter along the one that varies.

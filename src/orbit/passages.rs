@@ -125,19 +125,18 @@ fn together<L: Lane, M: System<D>, const D: usize, const U: usize>(
         if next.peek().is_none() && free == L::WIDTH {
             return found;
         } else if free > 0 && first_steps == 0 && next.peek().is_some_and(enough) {
-            for (lane, place) in occupants.iter_mut().enumerate() {
-                if place.is_none()
-                    && let Some(number) = next.next()
-                {
-                    in_lane[lane] = requests[number];
-                    enter |= 1 << lane;
-                    let period = in_lane[lane].period();
-                    let passing = Passing::new(period);
-                    *place = Some(Occupant { number, passing, cycles: 0, steps: 0 });
-                }
+            let free = (0..L::WIDTH).filter(|&lane| occupants[lane].is_none());
+            let entrants: Vec<(usize, usize)> = free.zip(next.by_ref()).collect();
+            for &(lane, number) in &entrants {
+                in_lane[lane] = requests[number];
+                enter |= 1 << lane;
             }
             system = in_lanes::<L, M, D, U>(&in_lane);
             until = system.period();
+            for (lane, number) in entrants {
+                let passing = Passing::new(until.value.lane(lane));
+                occupants[lane] = Some(Occupant { number, passing, cycles: 0, steps: 0 });
+            }
             entering = begun(&system, &in_lane);
             first_steps = MAX_GUARDS;
         }
@@ -153,7 +152,9 @@ fn together<L: Lane, M: System<D>, const D: usize, const U: usize>(
             }
             continue;
         }
-        let watched = mask::<L>(|lane| occupants[lane].is_some() && in_lane[lane].watched);
+        let watches = |lane: &usize| occupants[*lane].is_some() && in_lane[*lane].watched;
+        let watched = (0..L::WIDTH).filter(watches).fold(0, |bits, lane| bits | 1 << lane);
+        let watched = L::Mask::from_bits(watched);
         if let Some((coordinate, _)) = system.touching(&step.jet).filter(|_| watched.any()) {
             changes.of(coordinate, step.length.plain(), watched, one);
         }
@@ -229,12 +230,6 @@ impl<E: Event, const U: usize> Occupant<E, U> {
         }
         self.passing.see(seen);
     }
-}
-
-/// The lanes that are chosen.
-fn mask<L: Lane>(chosen: impl Fn(usize) -> bool) -> L::Mask {
-    let zero = L::splat(0.0);
-    zero.lt(L::from_fn(|lane| if chosen(lane) { 1.0 } else { 0.0 }))
 }
 
 /// The number that a lane holds, with its derivatives.

@@ -26,19 +26,6 @@ pub struct Image<const D: usize> {
     pub jacobian: Matrix<D>,
 }
 
-/// The image of a section point under the return map of `system`.
-pub fn image<S, const D: usize>(
-    system: &S,
-    point: &[f64; D],
-    cycles: &Cycles,
-) -> Result<Image<D>, Reason>
-where
-    S: Stroboscopic<Dual<f64, D>, D>,
-{
-    let returned = returned(system, seeded(point), cycles, |_| ())?;
-    Ok(Image { end: values(&returned), jacobian: jacobian(&returned) })
-}
-
 /// Where `system` is after whole cycles from a point of the section, in any numbers, of which the first lane
 /// counts; every step is shown to `see`.
 ///

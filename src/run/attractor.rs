@@ -142,7 +142,6 @@ fn links_of_lines<R: Reading>(
 ) -> Vec<Vec<Links<3>>> {
     let length = lines[0].layout.cells();
     let last = length.saturating_sub(1);
-    let between = |line: usize, at: usize| lines[line].neighbours::<R>(&cells[line], at);
     // The derivatives of an orbit serve its links on both sides.
     let linear = together(
         instructions,
@@ -150,19 +149,17 @@ fn links_of_lines<R: Reading>(
         || (),
         |place| {
             let (line, at) = (place / length, place % length);
-            let side = usize::from(at > 0);
-            let there = (last > 0).then(|| between(line, at - side)).flatten();
+            let there = (last > 0).then(|| lines[line].along::<R>(at)).flatten();
+            let cell = cells[line][at].clone();
             move |integrator: &Integration<'_, R>| {
-                let of = |it: Neighbours<_, 3>| {
-                    linear_orbits(integrator, &it.along, it.values[side], &it.cells[side])
-                };
+                let of = |(along, value)| linear_orbits(integrator, &along, value, &cell);
                 Arc::new(there.map(of).unwrap_or_default())
             }
         },
     );
     let mut links = together(instructions, lines.len() * last, linked, |place| {
         let (line, at) = (place / last, place % last);
-        let there = between(line, at);
+        let there = lines[line].neighbours::<R>(&cells[line], at);
         let linear = [at, at + 1].map(|at| linear[line * length + at].clone());
         move |integrator: &Integration<'_, R>| {
             let link = |it: Neighbours<_, 3>| it.link(integrator, [&linear[0], &linear[1]]);
@@ -198,25 +195,31 @@ impl Line<'_> {
         (0..layout.cells()).into_par_iter().map(sort).collect()
     }
 
+    /// What is held at a place of the axis, and the value there; none where the axis is no parameter.
+    fn along<R: Reading>(&self, at: usize) -> Option<(Along<CapsuleSystem<R>, 3>, f64)> {
+        let Line { study, layout, number } = *self;
+        let axis = &study.axes()[layout.axis?];
+        let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
+        let case = study.case(layout.case(number, at, 0));
+        let (system, tolerance) = (case.read::<R>().system, study.protocol.tolerance);
+        Some((Along { system, parameter, tolerance }, axis.values[at]))
+    }
+
     /// The cells at a place of the axis and at the next; none where the axis is no parameter.
     fn neighbours<R: Reading>(
         &self,
         cells: &[Arc<Table<3>>],
         at: usize,
     ) -> Option<Neighbours<CapsuleSystem<R>, 3>> {
-        let Line { study, layout, number } = *self;
-        let axis = &study.axes()[layout.axis?];
-        let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
-        let case = study.case(layout.case(number, at, 0));
-        let (system, protocol) = (case.read::<R>().system, study.protocol);
-        let along = Along { system, parameter, tolerance: protocol.tolerance };
-        let values = [axis.values[at], axis.values[at + 1]];
+        let Line { study, layout, .. } = *self;
+        let (along, value) = self.along::<R>(at)?;
+        let values = [value, study.axes()[layout.axis?].values[at + 1]];
         let cells = [at, at + 1].map(|cell| cells[cell].clone());
         let directions = study.inherit().map_or(&[][..], |inherit| &inherit.directions);
         let inherited = [Direction::Upward, Direction::Downward].map(|direction| {
             directions.contains(&direction).then(|| leads(&cells, directions, direction))
         });
-        Some(Neighbours { along, protocol, values, cells, inherited })
+        Some(Neighbours { along, protocol: study.protocol, values, cells, inherited })
     }
 
     /// Notes the number of each case's attractor.

@@ -7,27 +7,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use capsulemap::branch::SpecialKind;
 use capsulemap::capsule::{CapsuleSystem, Filippov, Output, Parameter};
 use capsulemap::flow::System;
-use capsulemap::lane::Dual;
 use capsulemap::orbit::matrix::eigenvalues;
 use capsulemap::orbit::newton::close;
-use capsulemap::orbit::return_map::{Cycles, image};
+use capsulemap::orbit::passage::{OneByOne, image};
+use capsulemap::orbit::return_map::Cycles;
 use capsulemap::orbit::{Outcome, Proof, Protocol};
 use capsulemap::run::{self, AttractorEvent, Attractors, FinalMotion, Machine, Record};
 use capsulemap::store;
 use capsulemap::study::Study;
 
-use super::program::WorkDir;
-
-/// The capsule that moves on or shakes in place, see `studies/hysteresis.toml`.
-const TWO_MOTIONS: &str = r#"[parameters]
-m2 = "0.2 kg"
-c = "1.77 N s/m"
-mu_s = 0.33
-mu_d = 0.165
-p_d = "2.79 N"
-k2 = "65.518 kN/m"
-delta = "4.33 mm"
-"#;
+use super::program::{TWO_MOTIONS, WorkDir};
 
 fn study(text: &str) -> Study {
     Study::parse("study.toml", text).unwrap_or_else(|faults| panic!("{faults}"))
@@ -271,11 +260,11 @@ fn a_multiplier_is_minus_one_where_the_period_doubles() {
         let mut parameters = study.base.clone();
         parameters[Parameter::Omega] = event.value;
         let capsule = CapsuleSystem::<Filippov>::new(parameters, 0.0);
-        let (system, metric) = (capsule.constant::<Dual<f64, 3>>(), capsule.metric());
+        let metric = capsule.metric();
         let tolerance = Protocol::default().tolerance;
         let cycles = Cycles { count: event.period, tolerance };
         let orbit = close(
-            |point| image(&system, point, &cycles),
+            |point| image(&OneByOne, &capsule, point, &cycles),
             cycles.count,
             &metric,
             &event.section,

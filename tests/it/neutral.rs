@@ -5,9 +5,9 @@ use capsulemap::branch::NotFollowed;
 use capsulemap::capsule::branch::follow;
 use capsulemap::capsule::{Case, Filippov, Orbit, Output, Parameter, Parameters, State};
 use capsulemap::flow::System;
-use capsulemap::lane::Dual;
 use capsulemap::orbit::neutral::close_neutral;
-use capsulemap::orbit::return_map::{Cycles, image};
+use capsulemap::orbit::passage::{OneByOne, image};
+use capsulemap::orbit::return_map::Cycles;
 use capsulemap::orbit::{Outcome, Proof, Protocol};
 
 use super::branch::request;
@@ -93,11 +93,11 @@ fn an_orbit_that_attracts_belongs_to_no_family() {
             continue;
         }
         let capsule = case.read::<Filippov>().system;
-        let (system, metric) = (capsule.constant::<Dual<f64, 3>>(), capsule.metric());
+        let metric = capsule.metric();
         let cycles = Cycles { count: orbit.period, tolerance: 1e-12 };
         let size = orbit.section[0].iter().fold(0.0_f64, |size, x| size.max(x.abs()));
         let family = close_neutral(
-            |point| image(&system, point, &cycles),
+            |point| image(&OneByOne, &capsule, point, &cycles),
             cycles.count,
             &metric,
             &orbit.section[0],

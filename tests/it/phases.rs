@@ -12,18 +12,7 @@ use capsulemap::run::{self, Machine, Record};
 use capsulemap::study::{Coordinate, Study};
 
 use super::draws;
-use super::program::{FIG5, WorkDir};
-
-/// The capsule of `studies/hysteresis.toml`, without its frequency.
-const TWO_MOTIONS: &str = r#"[parameters]
-m2 = "0.2 kg"
-c = "1.77 N s/m"
-mu_s = 0.33
-mu_d = 0.165
-p_d = "2.79 N"
-k2 = "65.518 kN/m"
-delta = "4.33 mm"
-"#;
+use super::program::{FIG5, TWO_MOTIONS, WorkDir};
 
 fn study(text: &str) -> Study {
     Study::parse("study.toml", text).unwrap_or_else(|faults| panic!("{faults}"))

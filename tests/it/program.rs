@@ -16,6 +16,17 @@ k2 = \"2.42 kN/m\"
 delta = \"3.5 mm\"
 ";
 
+/// The capsule of `studies/hysteresis.toml`, which has two motions, without a frequency.
+pub const TWO_MOTIONS: &str = r#"[parameters]
+m2 = "0.2 kg"
+c = "1.77 N s/m"
+mu_s = 0.33
+mu_d = 0.165
+p_d = "2.79 N"
+k2 = "65.518 kN/m"
+delta = "4.33 mm"
+"#;
+
 /// A study that is quickly swept and continued.
 pub const CASES_AND_BRANCH: &str = r#"
 [parameters]
