@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::flow::guard::Crossings;
 use crate::flow::{Event, Observer, Step};
 use crate::lane::quadrature::{Values, integral_of_product, values};
-use crate::lane::{Lane, Mask, Series, series};
+use crate::lane::{Lane, Mask, Series, SideBySide, series, side_by_side};
 
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
@@ -21,6 +21,42 @@ pub struct Impact<L> {
     pub y1: L,
     /// Velocity of the capsule [m/s].
     pub y2: L,
+}
+
+side_by_side!(Impact { phase, y1, y2 });
+
+/// Impacts in the order in which they were met, each with the lanes that it was in, as bits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Impacts<L>(pub Vec<(u64, Impact<L>)>);
+
+impl<L: Lane> SideBySide for Impacts<L> {
+    type One = Impacts<f64>;
+
+    #[inline(always)]
+    fn splat(one: &Impacts<f64>) -> Self {
+        let all = L::Mask::splat(true).bits();
+        Impacts(one.0.iter().map(|(_, it)| (all, Impact::splat(it))).collect())
+    }
+
+    #[inline(always)]
+    fn lane(&self, index: usize) -> Impacts<f64> {
+        let here = self.0.iter().filter(|(lanes, _)| lanes >> index & 1 != 0);
+        Impacts(here.map(|(_, it)| (1, it.lane(index))).collect())
+    }
+
+    #[inline(always)]
+    fn put(&mut self, index: usize, one: &Impacts<f64>) {
+        self.0.retain_mut(|(lanes, _)| {
+            *lanes &= !(1 << index);
+            *lanes != 0
+        });
+        self.0.extend(one.0.iter().map(|(_, it)| (1 << index, Impact::splat(it))));
+    }
+
+    #[inline(always)]
+    fn take_lane(&mut self, index: usize, other: &Self) {
+        self.put(index, &other.lane(index));
+    }
 }
 
 /// Energies, summed since a start [J].
@@ -40,6 +76,15 @@ pub struct Energies<L> {
     pub damper_loss: L,
 }
 
+side_by_side!(Energies {
+    work_net,
+    work_positive,
+    work_absolute,
+    work_actuator,
+    friction_loss,
+    damper_loss
+});
+
 /// The constants of the capsules that are observed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Constants<L> {
@@ -49,6 +94,8 @@ struct Constants<L> {
     delta: L,
     omega: L,
 }
+
+side_by_side!(Constants { p_d, c, k2, delta, omega });
 
 /// Sums over the steps of a motion, in each lane; in numbers with derivatives, with the derivatives of the
 /// sums.
@@ -82,7 +129,7 @@ pub struct Account<L: Lane> {
     /// How often contact closed.
     pub impacts: L,
     /// The first of these impacts, as many as are kept, and in which lanes they were.
-    pub impact_points: Vec<(L::Mask, Impact<L>)>,
+    pub impact_points: Impacts<L>,
     /// How often the capsule began to slide forward, by onset or by reversal.
     pub forward_slips: L,
     /// How often the capsule began to slide backward.
@@ -91,6 +138,11 @@ pub struct Account<L: Lane> {
     pub reversals: L,
     rate_of_r: L,
 }
+
+side_by_side!(Account {
+    time, advance, rounded_away, friction_impulse, stick_time, peak_contact_force, grazing_margin, touching_margin,
+    impacts, forward_slips, backward_slips, reversals, rate_of_r
+} with { of, energies, impact_points } alike { points });
 
 impl Account<f64> {
     /// Nothing seen yet; of the impacts so many `points` are kept.
@@ -129,7 +181,7 @@ impl<L: Lane> Account<L> {
             grazing_margin: far,
             touching_margin: far,
             impacts: zero,
-            impact_points: Vec::new(),
+            impact_points: Impacts(Vec::new()),
             forward_slips: zero,
             backward_slips: zero,
             reversals: zero,
@@ -142,8 +194,10 @@ impl<L: Lane> Account<L> {
     fn add_advance<S: Locomotion<L>>(&mut self, system: &S, step: &Step<L, S>) {
         let part = series::change(&system.jet(&step.jet).x2, step.length) - self.rounded_away;
         let sum = self.advance + part;
-        self.rounded_away = (sum - self.advance) - part;
-        self.advance = sum;
+        // A lane whose step has no length keeps its bits.
+        let passes = L::splat(0.0).lt(step.length);
+        self.rounded_away = L::select(passes, (sum - self.advance) - part, self.rounded_away);
+        self.advance = L::select(passes, sum, self.advance);
     }
 
     #[inline(always)]
@@ -156,7 +210,10 @@ impl<L: Lane> Account<L> {
         self.add_signed_work(&jet.cos, &jet.y1, work, h);
 
         let y2 = values(&jet.y2, h);
-        let relative: Values<L> = std::array::from_fn(|i| y1[i] - y2[i]);
+        let mut relative: Values<L> = y1;
+        for (relative, y2) in relative.iter_mut().zip(&y2) {
+            *relative = *relative - *y2;
+        }
         let damped = self.of.c * integral_of_product(&relative, &relative, h);
         self.energies.damper_loss = self.energies.damper_loss + damped;
         let friction = system.friction(&step.mode, &step.jet);
@@ -182,8 +239,12 @@ impl<L: Lane> Account<L> {
         let zero = L::splat(0.0);
         let all = L::Mask::splat(true);
         let end = h.plain();
-        let mut turns = [cos, y1].map(|it| Crossings::new(&series::plain(it), end, all));
-        let mut next = turns.each_mut().map(|it| it.next(all).time);
+        let turns_of = |it: &Series<L>| Crossings::new(&series::plain(it), end, all);
+        let mut turns = [turns_of(cos), turns_of(y1)];
+        let mut next = [end; 2];
+        for (turns, next) in turns.iter_mut().zip(&mut next) {
+            *next = turns.next(all).time;
+        }
         let mut before = zero;
         let mut open = all;
         while open.any() {
@@ -268,7 +329,7 @@ impl<L: Lane> Account<L> {
         if kept.any() {
             let State { y1, y2, .. } = system.at(&step.jet, step.length);
             let phase = self.of.omega * (step.start + step.length);
-            self.impact_points.push((kept, Impact { phase, y1, y2 }));
+            self.impact_points.0.push((kept.bits(), Impact { phase, y1, y2 }));
         }
         let reverses = is(EventKind::Reversal);
         let was_forward = zero.lt(system.direction(&step.mode));

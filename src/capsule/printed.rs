@@ -132,6 +132,8 @@ pub struct PrintedJet<L> {
     share: Series<L>,
 }
 
+side_by_side!(PrintedJet {} with { motion, share });
+
 impl<L: Lane> Default for PrintedJet<L> {
     #[inline(always)]
     fn default() -> Self {
@@ -193,8 +195,7 @@ impl<L: Lane> Switched<L> for PrintedCapsule<L> {
         length: L::Plain,
         tolerance: f64,
     ) -> L::Plain {
-        let Jet { decay, y2, .. } = &jet.motion;
-        self.drag.step_bound(mode.slip, decay, y2, length, tolerance)
+        self.drag.step_bound(mode.slip, &jet.motion.decay, &jet.motion.y2, length, tolerance)
     }
 
     #[inline(always)]

@@ -153,7 +153,7 @@ impl Orbit {
             certificate: orbit.certificate,
             cycles: orbit.cycles,
             section: orbit.section,
-            impacts: orbit.observed.impact_points.into_iter().map(|(_, it)| it).collect(),
+            impacts: orbit.observed.impact_points.0.into_iter().map(|(_, it)| it).collect(),
             history,
             end: orbit.end,
             failure: orbit.failure,

@@ -98,6 +98,8 @@ pub struct Jet<L> {
     pub acceleration: Series<L>,
 }
 
+side_by_side!(Jet {} with { r, y1, x2, y2, force, decay, cos, acceleration });
+
 impl<L: Lane> Default for Jet<L> {
     #[inline(always)]
     fn default() -> Self {

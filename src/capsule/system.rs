@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::marker::PhantomData;
 
-use crate::flow::{Field, Metric, Stroboscopic, System};
+use crate::flow::{Field, Metric, Stroboscopic, Switched, System};
 use crate::lane::{Lane, SideBySide};
 
 use super::account::Account;
@@ -23,8 +23,14 @@ pub trait Reading: Copy + Debug + PartialEq + Send + Sync + 'static {
     /// The capsule in `f64`.
     type Single: Locomotion<f64, Mode = Self::Mode<f64>> + Field + Stroboscopic<f64, 3> + Send;
     /// The capsule in numbers of any kind.
-    type In<L: Lane>: Stroboscopic<L, 3, State = State<L>, Mode = Self::Mode<L>, Event = EventKind>
-        + Locomotion<L>
+    type In<L: Lane>: Stroboscopic<
+            L,
+            3,
+            State = State<L>,
+            Mode = Self::Mode<L>,
+            Jet: SideBySide<One = <Self::Single as Switched<f64>>::Jet>,
+            Event = EventKind,
+        > + Locomotion<L>
         + SideBySide<One = Self::Single>;
 
     /// The capsule with these parameters, whose drive is at `phase` at the section [rad].
@@ -98,6 +104,7 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
     type Single = R::Single;
     type In<L: Lane> = R::In<L>;
     type Observer = Account<f64>;
+    type Observers<L: Lane> = Account<L>;
 
     fn single(&self) -> R::Single {
         R::single(&self.parameters, self.phase)

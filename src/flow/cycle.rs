@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use crate::lane::{Lane, Mask};
 
-use super::motion::{Breakdown, Motion, Step};
+use super::motion::{Breakdown, Motion};
+use super::step::Step;
 use super::switched::Switched;
 
 /// A cycle of so many steps is taken for a motion that cannot be followed.

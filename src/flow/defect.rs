@@ -6,7 +6,7 @@ use crate::lane::series::derivative;
 
 use super::guard::crossings;
 use super::metric::greater;
-use super::motion::Step;
+use super::step::Step;
 use super::switched::Field;
 
 /// The largest difference on a step between the rates of its polynomials and those of the equations, times

@@ -7,6 +7,7 @@ pub mod metric;
 pub mod motion;
 pub mod observer;
 mod pace;
+mod step;
 pub mod switched;
 pub mod system;
 mod own_system;
@@ -14,8 +15,9 @@ mod taylor;
 
 pub use cycle::{Reason, STEPS_PER_CYCLE, cycle};
 pub use metric::Metric;
-pub use motion::{Breakdown, Motion, Step};
+pub use motion::{Breakdown, Motion};
 pub use observer::Observer;
+pub use step::Step;
 pub use switched::{Event, Field, MAX_GUARDS, NoEvent, Stroboscopic, Switched, Zeros};
 pub use system::System;
 pub use taylor::Taylor;

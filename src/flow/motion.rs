@@ -2,10 +2,11 @@
 
 use std::fmt;
 
-use crate::lane::{Lane, Mask, ORDER, Series, SideBySide, series};
+use crate::lane::{Lane, Mask, Series, SideBySide, series};
 
 use super::guard::{divide_by_time, first_fall, stays_positive};
 use super::pace::longest_step;
+use super::step::Step;
 use super::switched::{MAX_GUARDS, Switched, Zeros};
 
 /// So many steps in a row may pass without getting anywhere: simultaneous events need a few.
@@ -17,7 +18,7 @@ const STANDSTILL: f64 = 1e-14;
 const ACROSS: f64 = 1e-9;
 
 /// A motion: its time, its state and its mode.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub struct Motion<L: Lane, S: Switched<L>> {
     /// Time since the start of the cycle [s].
     pub time: L,
@@ -31,58 +32,14 @@ pub struct Motion<L: Lane, S: Switched<L>> {
     side: L,
 }
 
-/// One step that was taken; the next is written over it, so that nothing large is moved or cleared.
-#[derive(Debug, Clone)]
-pub struct Step<L: Lane, S: Switched<L>> {
-    /// Time at its start since the start of the cycle [s].
-    pub start: L,
-    /// Duration [s].
-    pub length: L,
-    /// The mode during the step.
-    pub mode: S::Mode,
-    /// The series of the motion during the step.
-    pub jet: S::Jet,
-    /// The event at its end, as `Switched::switch` numbers it; zero for none.
-    pub event: L,
-    /// Whether a cycle ends with it.
-    pub arrives: L::Mask,
-    guards: [Series<L>; MAX_GUARDS],
-    chosen: Series<L>,
-}
-
-impl<L: Lane, S: Switched<L>> Step<L, S> {
-    /// The guards of the system, and the section of an autonomous one.
-    const GUARDS: usize = S::GUARDS + if S::AUTONOMOUS { 1 } else { 0 };
-
-    /// Copies the guard that each lane has `chosen`, by its number.
-    #[inline(always)]
-    fn choose(&mut self, chosen: L::Plain) {
-        for k in 0..ORDER + 1 {
-            let mut term = self.guards[0][k];
-            for which in 1..Self::GUARDS {
-                let taken = L::Plain::splat(which as f64).le(chosen);
-                term = L::select(taken, self.guards[which][k], term);
-            }
-            self.chosen[k] = term;
-        }
+// By hand, as a derived copy would ask for a system that can be copied.
+impl<L: Lane, S: Switched<L>> Clone for Motion<L, S> {
+    fn clone(&self) -> Self {
+        *self
     }
 }
 
-impl<L: Lane, S: Switched<L>> Default for Step<L, S> {
-    fn default() -> Self {
-        let zero = L::splat(0.0);
-        Step {
-            start: zero,
-            length: zero,
-            mode: S::Mode::default(),
-            jet: S::Jet::default(),
-            event: zero,
-            arrives: L::Mask::splat(false),
-            guards: [series::zero(); MAX_GUARDS],
-            chosen: series::zero(),
-        }
-    }
-}
+impl<L: Lane, S: Switched<L>> Copy for Motion<L, S> {}
 
 /// Why a motion cannot go on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

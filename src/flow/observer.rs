@@ -2,7 +2,7 @@
 
 use crate::lane::Lane;
 
-use super::motion::Step;
+use super::step::Step;
 use super::switched::Switched;
 
 /// What is integrated or counted along a motion, step by step.

@@ -57,6 +57,7 @@ macro_rules! own_system {
             type Single = Self;
             type In<L: $crate::lane::Lane> = $name<L $(, $constant)?>;
             type Observer = ();
+            type Observers<L: $crate::lane::Lane> = ();
 
             fn single(&self) -> Self {
                 *self

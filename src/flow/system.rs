@@ -6,7 +6,7 @@ use crate::lane::{Lane, SideBySide};
 
 use super::metric::Metric;
 use super::observer::Observer;
-use super::switched::{Event, Field, Stroboscopic};
+use super::switched::{Event, Field, Stroboscopic, Switched};
 
 /// A system by its parameters: what one case of a study is about, apart from where it starts.
 ///
@@ -26,10 +26,18 @@ pub trait System<const D: usize>: Clone + PartialEq + Debug + Send + Sync + 'sta
         + Stroboscopic<f64, D>
         + Send;
     /// The system in numbers of any kind.
-    type In<L: Lane>: Stroboscopic<L, D, State = Self::State<L>, Mode = Self::Mode<L>, Event = Self::Event>
-        + SideBySide<One = Self::Single>;
-    /// What is integrated or counted along its motion.
+    type In<L: Lane>: Stroboscopic<
+            L,
+            D,
+            State = Self::State<L>,
+            Mode = Self::Mode<L>,
+            Jet: SideBySide<One = <Self::Single as Switched<f64>>::Jet>,
+            Event = Self::Event,
+        > + SideBySide<One = Self::Single>;
+    /// What is integrated or counted along its motion: the same type as `Observers<f64>`.
     type Observer: Observer<f64, Self::Single> + Send;
+    /// The same along motions side by side.
+    type Observers<L: Lane>: Observer<L, Self::In<L>> + SideBySide<One = Self::Observer>;
 
     /// The system with its own parameters.
     fn single(&self) -> Self::Single;

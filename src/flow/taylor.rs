@@ -2,7 +2,7 @@
 
 use std::ops::{Index, IndexMut};
 
-use crate::lane::{Lane, Series, series};
+use crate::lane::{Lane, Series, SideBySide, series};
 
 /// The series of `N` quantities over a step: first the coordinates, then whatever else the recurrences of the
 /// field or its guards need.
@@ -28,6 +28,39 @@ impl<L, const N: usize> IndexMut<usize> for Taylor<L, N> {
     #[inline(always)]
     fn index_mut(&mut self, which: usize) -> &mut Series<L> {
         &mut self.0[which]
+    }
+}
+
+impl<L: Lane, const N: usize> SideBySide for Taylor<L, N> {
+    type One = Taylor<f64, N>;
+
+    #[inline(always)]
+    fn splat(one: &Self::One) -> Self {
+        let mut lanes = Taylor::default();
+        for (lanes, one) in lanes.0.iter_mut().zip(&one.0) {
+            *lanes = SideBySide::splat(one);
+        }
+        lanes
+    }
+    #[inline(always)]
+    fn lane(&self, index: usize) -> Self::One {
+        let mut one = Taylor::default();
+        for (one, lanes) in one.0.iter_mut().zip(&self.0) {
+            *one = lanes.lane(index);
+        }
+        one
+    }
+    #[inline(always)]
+    fn put(&mut self, index: usize, one: &Self::One) {
+        for (lanes, one) in self.0.iter_mut().zip(&one.0) {
+            lanes.put(index, one);
+        }
+    }
+    #[inline(always)]
+    fn take_lane(&mut self, index: usize, other: &Self) {
+        for (lanes, other) in self.0.iter_mut().zip(&other.0) {
+            lanes.take_lane(index, other);
+        }
     }
 }
 

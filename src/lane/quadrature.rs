@@ -33,7 +33,11 @@ pub type Values<L> = [L; NODES];
 /// The values of a series at the nodes on [0, h].
 #[inline(always)]
 pub fn values<L: Lane>(series: &Series<L>, h: L) -> Values<L> {
-    let times = RULE.map(|(node, _)| L::splat(node) * h);
+    // A loop: what the functions of the standard library for arrays call is not compiled for the instructions of a lane.
+    let mut times = [h; NODES];
+    for (time, (node, _)) in times.iter_mut().zip(&RULE) {
+        *time = L::splat(*node) * h;
+    }
     let mut sums = [L::splat(0.0); NODES];
     for &term in series.iter().rev() {
         for (sum, time) in sums.iter_mut().zip(&times) {

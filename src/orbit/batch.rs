@@ -1,4 +1,4 @@
-//! Computations that ask for returns, many at a time, so that the returns are followed side by side.
+//! Computations that ask for returns and measured cycles, many at a time, so that these are followed side by side.
 
 use std::fmt::{self, Debug, Formatter};
 
@@ -8,37 +8,50 @@ use corosensei::{Coroutine, CoroutineResult, Yielder};
 use crate::flow::{Reason, System};
 use crate::lane::Instructions;
 
+use super::measuring::{MeasureRequest, Measured};
+use super::measuring_all::measured_side_by_side;
 use super::passage::{Integrator, Passage, ReturnRequest};
 use super::passages::passages;
 
 /// Room for the stack of a computation [bytes]; only what is used is taken.
 const STACK: usize = 4 << 20;
 
-/// Returns that a lane follows one after the other.
+/// Motions that a lane follows one after the other.
 const EACH_LANE: usize = 8;
 /// Computations that wait at a time at most, as each has a stack.
 const MOST: usize = 256;
 
 type Returned<M, const D: usize> = Result<Passage<<M as System<D>>::Event, D>, Reason>;
-/// A computation that waits for a return; the first time it is resumed for nothing.
+/// What a computation asks for.
+enum Request<M: System<D>, const D: usize> {
+    Return(ReturnRequest<M, D>),
+    Measure(MeasureRequest<M, D>),
+}
+/// What it is given for it.
+enum Answer<M: System<D>, const D: usize> {
+    Returned(Returned<M, D>),
+    Measured(Measured<M, D>),
+}
+/// A computation that waits for an answer; the first time it is resumed for nothing.
 type Computation<M, T, const D: usize> =
-    Coroutine<Option<Returned<M, D>>, ReturnRequest<M, D>, T, DefaultStack>;
+    Coroutine<Option<Answer<M, D>>, Request<M, D>, T, DefaultStack>;
 
-/// Computations that are interrupted where they ask for a return.
+/// Computations that are interrupted where they ask for a return, or for cycles to be measured.
 ///
-/// Method: each has a stack of its own. What it asks for waits until there is enough for the lanes; then all
-/// returns of a group are followed side by side, and each computation goes on with its own.
+/// Method: each has a stack of its own. What it asks for waits until there is enough for the lanes; then a group of
+/// motions is followed side by side, and each computation goes on with its own.
 /// Guarantees: the bits of a computation by itself.
 pub struct Batch<M: System<D>, T, const D: usize> {
     instructions: Instructions,
-    waiting: Vec<(Computation<M, T, D>, ReturnRequest<M, D>)>,
+    /// Computations that wait for a return.
+    returns: Vec<(Computation<M, T, D>, ReturnRequest<M, D>)>,
+    /// Computations that wait for their cycles to be measured.
+    measures: Vec<(Computation<M, T, D>, MeasureRequest<M, D>)>,
     stacks: Vec<DefaultStack>,
 }
 
-/// Interrupts a computation until the return is there that it asks for.
-struct Waiting<'a, M: System<D>, const D: usize>(
-    &'a Yielder<Option<Returned<M, D>>, ReturnRequest<M, D>>,
-);
+/// Interrupts a computation until the answer is there that it asks for.
+struct Waiting<'a, M: System<D>, const D: usize>(&'a Yielder<Option<Answer<M, D>>, Request<M, D>>);
 
 impl<M: System<D>, const D: usize> Debug for Waiting<'_, M, D> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -48,7 +61,17 @@ impl<M: System<D>, const D: usize> Debug for Waiting<'_, M, D> {
 
 impl<M: System<D>, const D: usize> Integrator<M, D> for Waiting<'_, M, D> {
     fn passage(&self, request: ReturnRequest<M, D>) -> Returned<M, D> {
-        self.0.suspend(request).expect("it goes on once the return is there")
+        match self.0.suspend(Request::Return(request)) {
+            Some(Answer::Returned(returned)) => returned,
+            _ => panic!("the computation goes on with the return"),
+        }
+    }
+
+    fn measured(&self, request: MeasureRequest<M, D>) -> Measured<M, D> {
+        match self.0.suspend(Request::Measure(request)) {
+            Some(Answer::Measured(measured)) => measured,
+            _ => panic!("the computation goes on with what is measured"),
+        }
     }
 }
 
@@ -86,12 +109,12 @@ impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
 
     /// No computations yet.
     pub fn new(instructions: Instructions) -> Self {
-        Batch { instructions, waiting: Vec::new(), stacks: Vec::new() }
+        Batch { instructions, returns: Vec::new(), measures: Vec::new(), stacks: Vec::new() }
     }
 
-    /// How many wait for a return.
+    /// How many wait for what most of them wait for.
     pub fn waiting(&self) -> usize {
-        self.waiting.len()
+        self.returns.len().max(self.measures.len())
     }
 
     /// Begins a computation; its result, if it asks for nothing.
@@ -109,26 +132,36 @@ impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
         self.resume(coroutine, None)
     }
 
-    /// Follows the returns that have waited longest, a few for each lane; the results of the computations that end
-    /// with them.
+    /// Answers those that have waited longest for what most wait for, a few for each lane; the results of the
+    /// computations that end with it.
     pub fn advance(&mut self) -> Vec<T> {
         let most = EACH_LANE * self.instructions.lanes_of_a_vector();
-        let later = self.waiting.split_off(self.waiting.len().min(most));
-        let waiting = std::mem::replace(&mut self.waiting, later);
-        let requests: Vec<_> = waiting.iter().map(|(_, request)| request).collect();
-        let returned = passages(self.instructions, &requests);
-        let resumed = waiting.into_iter().zip(returned);
-        resumed.filter_map(|((it, _), returned)| self.resume(it, Some(returned))).collect()
+        let (computations, answers): (Vec<_>, Vec<_>) = if self.returns.len() >= self.measures.len()
+        {
+            let (computations, requests) = first(&mut self.returns, most);
+            let returned = passages(self.instructions, &requests.iter().collect::<Vec<_>>());
+            (computations, returned.into_iter().map(Answer::Returned).collect())
+        } else {
+            let (computations, requests) = first(&mut self.measures, most);
+            let measured = measured_side_by_side(self.instructions, requests);
+            (computations, measured.into_iter().map(Answer::Measured).collect())
+        };
+        let resumed = computations.into_iter().zip(answers);
+        resumed.filter_map(|(it, answer)| self.resume(it, Some(answer))).collect()
     }
 
     fn resume(
         &mut self,
         mut coroutine: Computation<M, T, D>,
-        with: Option<Returned<M, D>>,
+        with: Option<Answer<M, D>>,
     ) -> Option<T> {
         match coroutine.resume(with) {
-            CoroutineResult::Yield(request) => {
-                self.waiting.push((coroutine, request));
+            CoroutineResult::Yield(Request::Return(request)) => {
+                self.returns.push((coroutine, request));
+                None
+            }
+            CoroutineResult::Yield(Request::Measure(request)) => {
+                self.measures.push((coroutine, request));
                 None
             }
             CoroutineResult::Return(result) => {
@@ -137,4 +170,9 @@ impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
             }
         }
     }
+}
+
+/// Takes the first of those that wait, so many at `most`.
+fn first<A, B>(waiting: &mut Vec<(A, B)>, most: usize) -> (Vec<A>, Vec<B>) {
+    waiting.drain(..waiting.len().min(most)).unzip()
 }

@@ -1,14 +1,13 @@
 //! What a settled case is measured to be, over the cycles that are kept.
 
-use crate::flow::defect::defect;
-use crate::flow::metric::greater;
-use crate::flow::{Field, Metric, Observer, Stroboscopic, Switched, System};
+use crate::flow::{Metric, Observer, Stroboscopic, Switched, System};
 use crate::lane::Dual;
 
 use super::aperiodic::{Aperiodic, Departure, follow_aperiodic};
 use super::certificate::certify;
 use super::matrix::Complex;
-use super::passage::Integrator;
+use super::measuring::{Kept, MeasureRequest, Measured};
+use super::passage::{Integrator, OneByOne};
 use super::precision::{GRAZES, STANDS_STILL, same, sound};
 use super::recurrence::Settled;
 use super::{
@@ -93,7 +92,7 @@ pub(super) fn conclude<M: System<D>, const D: usize>(
 ) -> OrbitOf<M, D> {
     let measured = found.and_then(|found| {
         let verdict = judge(trajectory, case, found, protocol, integrator)?;
-        measure(trajectory, &case.system, &verdict, protocol)
+        measure(trajectory, &case.system, &verdict, protocol, integrator)
     });
     measured.unwrap_or_else(|failure| {
         let state = trajectory.state();
@@ -190,9 +189,10 @@ pub fn measured<M: System<D>, const D: usize>(
     let moving = system.single();
     let start = <M::Single as Stroboscopic<f64, D>>::state(section);
     let mut trajectory = Trajectory::new(&moving, start, tolerance);
-    let protocol = Protocol { points: period as usize, ..Protocol::with_tolerance(tolerance) };
+    let (points, max_steps) = (period as usize, u64::MAX);
+    let protocol = Protocol { points, max_steps, ..Protocol::with_tolerance(tolerance) };
     let verdict = Verdict::periodic(period, (multipliers, None), 0.0);
-    measure(&mut trajectory, system, &verdict, &protocol)
+    measure(&mut trajectory, system, &verdict, &protocol, &OneByOne)
 }
 
 fn measure<M: System<D>, const D: usize>(
@@ -200,39 +200,34 @@ fn measure<M: System<D>, const D: usize>(
     system: &M,
     verdict: &Verdict<D>,
     protocol: &Protocol,
+    integrator: &dyn Integrator<M, D>,
 ) -> Result<OrbitOf<M, D>, Fails<M, D>> {
-    let moving = trajectory.system();
     let metric = system.metric();
     let (begins, elapsed) = (trajectory.state(), trajectory.elapsed());
     let first = trajectory.section();
-    let mut observed = system.observer(protocol.impact_points);
-    let mut section = Vec::new();
-    // The largest size at the section, and at any step.
-    let (mut size, mut swing): (f64, f64) = (0.0, 0.0);
-    // How far the motion gets from where a measured cycle begins.
-    let mut excursion: f64 = 0.0;
-    let mut largest_defect = 0.0;
-    for _ in 0..verdict.cycles {
-        size = size.max(metric.size(&trajectory.section()));
-        if section.len() < protocol.points {
-            section.push(trajectory.section());
-        }
-        let here = trajectory.section();
-        trajectory.cycle(|step| {
-            observed.see(moving, step);
-            largest_defect = greater(largest_defect, defect(moving, step));
-            let begins = M::Single::point(&moving.beginning(&step.jet));
-            swing = swing.max(metric.size(&begins));
-            excursion = excursion.max(metric.distance(&begins, &here));
-        })?;
+    let Measured { motion, progress, observed, kept, failure } =
+        integrator.measured(MeasureRequest {
+            system: system.clone(),
+            motion: trajectory.motion(),
+            progress: trajectory.progress,
+            cycles: verdict.cycles,
+            max_steps: protocol.max_steps,
+            tolerance: protocol.tolerance,
+            points: protocol.points,
+            observed_points: protocol.impact_points,
+        });
+    trajectory.go_on(motion, progress);
+    if let Some(failure) = failure {
+        return Err(failure);
     }
+    let Kept { section, size, swing, excursion, defect, .. } = kept;
     let duration = if M::Single::AUTONOMOUS {
         (trajectory.elapsed() - elapsed) / verdict.cycles as f64
     } else {
-        moving.period()
+        trajectory.system().period()
     };
     let motion = swing.max(verdict.size);
-    let defect = if largest_defect == 0.0 { 0.0 } else { largest_defect / motion };
+    let defect = if defect == 0.0 { 0.0 } else { defect / motion };
     let ends = [first, trajectory.section()];
     let certificate = completed(verdict, &metric, ends, (size, observed.touching_margin()));
     // An orbit that Newton's method has closed with derivatives closes without them, too.

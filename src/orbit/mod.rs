@@ -10,6 +10,8 @@ mod francis;
 mod machine;
 pub mod matrix;
 mod measure;
+pub mod measuring;
+pub mod measuring_all;
 pub mod neutral;
 pub mod newton;
 pub mod passage;

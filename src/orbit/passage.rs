@@ -7,6 +7,7 @@ use crate::lane::{Dual, Lane, Mask, Series, series};
 
 use super::extrema::{Extremum, SignChanges, Turns, nearest};
 use super::matrix::Matrix;
+use super::measuring::{MeasureRequest, Measured, measured_alone};
 use super::return_map::{Cycles, Image, returned};
 
 /// A return that is asked for.
@@ -55,10 +56,12 @@ pub struct Margin<const D: usize> {
     pub by_parameter: f64,
 }
 
-/// Computes returns; the bits do not depend on who does.
+/// Computes returns and measures cycles; the bits do not depend on who does.
 pub trait Integrator<M: System<D>, const D: usize>: Debug {
     /// The return that is asked for.
     fn passage(&self, request: ReturnRequest<M, D>) -> Result<Passage<M::Event, D>, Reason>;
+    /// The cycles that are to be measured.
+    fn measured(&self, request: MeasureRequest<M, D>) -> Measured<M, D>;
 }
 
 /// The image of a section point under the return map of `system`.
@@ -79,7 +82,7 @@ pub fn image<M: System<D>, const D: usize>(
     Ok(Image { end: passage.end, jacobian: passage.jacobian })
 }
 
-/// Computes each return when it is asked for.
+/// Computes each when it is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OneByOne;
 
@@ -94,6 +97,10 @@ impl<M: System<D>, const D: usize> Integrator<M, D> for OneByOne {
             6 => alone::<M, D, 7>(&request),
             _ => panic!("a section has one to six coordinates, not {D}"),
         }
+    }
+
+    fn measured(&self, request: MeasureRequest<M, D>) -> Measured<M, D> {
+        measured_alone(request)
     }
 }
 

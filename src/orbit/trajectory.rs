@@ -112,6 +112,16 @@ impl<'a, S: Stroboscopic<f64, D>, const D: usize> Trajectory<'a, S, D> {
         Trajectory { max_steps, ..self }
     }
 
+    /// The same motion further on.
+    pub(super) fn go_on(&mut self, motion: Motion<f64, S>, progress: Progress) {
+        (self.motion, self.progress) = (motion, progress);
+    }
+
+    /// Its motion as it is.
+    pub(super) fn motion(&self) -> Motion<f64, S> {
+        self.motion
+    }
+
     /// The system that moves.
     pub fn system(&self) -> &'a S {
         self.system

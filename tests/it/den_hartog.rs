@@ -223,6 +223,7 @@ impl System<2> for DryFriction<f64> {
     type Single = DryFriction<f64>;
     type In<L: Lane> = DryFriction<L>;
     type Observer = ();
+    type Observers<L: Lane> = ();
 
     fn single(&self) -> DryFriction<f64> {
         *self

@@ -138,6 +138,7 @@ impl System<2> for Duffing {
     type Single = Duffing;
     type In<L: Lane> = Duffing;
     type Observer = ();
+    type Observers<L: Lane> = ();
 
     fn single(&self) -> Duffing {
         Duffing

@@ -33,8 +33,12 @@ fn sums<L: Lane>(account: &Account<L>, index: usize) -> [f64; 17] {
         account.forward_slips,
         account.backward_slips,
         account.reversals,
-        account.impact_points.iter().fold(L::splat(0.0), |sum, (here, impact)| {
-            sum + L::select(*here, impact.phase * impact.y1 - impact.y2, L::splat(0.0))
+        account.impact_points.0.iter().fold(L::splat(0.0), |sum, (here, impact)| {
+            sum + L::select(
+                L::Mask::from_bits(*here),
+                impact.phase * impact.y1 - impact.y2,
+                L::splat(0.0),
+            )
         }),
     ]
     .map(|sum| sum.lane(index))

@@ -179,6 +179,7 @@ impl System<2> for Impact<f64> {
     type Single = Impact<f64>;
     type In<L: Lane> = Impact<L>;
     type Observer = ();
+    type Observers<L: Lane> = ();
 
     fn single(&self) -> Impact<f64> {
         *self

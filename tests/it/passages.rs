@@ -1,10 +1,16 @@
-//! Returns that are followed side by side have the bits of those followed one by one.
+//! Returns that are followed, and cycles that are measured, side by side have the bits of those one by one.
 
-use capsulemap::capsule::{CapsuleSystem, Case, Filippov, Parameter, Resistance};
+use capsulemap::capsule::{
+    AsPrinted, CapsuleSystem, Case, Filippov, Parameter, Reading, Resistance,
+};
+use capsulemap::flow::{Motion, System};
 use capsulemap::lane::Instructions;
+use capsulemap::orbit::measuring::{MeasureRequest, Measured};
+use capsulemap::orbit::measuring_all::measured_side_by_side;
 use capsulemap::orbit::passage::{Integrator, OneByOne, ReturnRequest};
 use capsulemap::orbit::passages::passages;
 use capsulemap::orbit::return_map::Cycles;
+use capsulemap::orbit::trajectory::Progress;
 
 use super::draws::{self, Random};
 
@@ -81,4 +87,62 @@ fn so_do_their_derivatives_along_a_parameter() {
             compare(&cases.iter().map(along).collect::<Vec<_>>());
         }
     }
+}
+
+/// Cycles to be measured from the start of a case; some are more than the steps allow.
+fn measure_request<R: Reading>(number: u64, case: &Case) -> MeasureRequest<CapsuleSystem<R>, 3> {
+    let mut random = Random::new(95 + number);
+    let system = case.read::<R>().system;
+    let motion = Motion::new(&system.single(), 0.0, case.start);
+    let steps = if random.uniform(0.0, 1.0) < 0.2 { 40.0 } else { 1e6 };
+    MeasureRequest {
+        system,
+        motion,
+        progress: Progress::default(),
+        cycles: random.logarithmic(1.0, 16.0) as u64,
+        max_steps: steps as u64,
+        tolerance: 1e-12,
+        points: random.uniform(0.0, 4.0) as usize,
+        observed_points: 3,
+    }
+}
+
+/// All that has been measured, as text.
+fn told<R: Reading>(measured: &Measured<CapsuleSystem<R>, 3>) -> String {
+    let Measured { motion, progress, observed, kept, failure } = measured;
+    let at = (motion.time, motion.state);
+    format!("{at:?} {progress:?} {observed:?} {kept:?} {failure:?}")
+}
+
+fn compare_measured<R: Reading>() {
+    let (mut failed, mut impacts) = (0, 0);
+    for (_, law) in Resistance::NAMES {
+        let cases = draws::wide(CAPSULES / 2, 96, law);
+        let request = |number: usize| measure_request::<R>(number as u64, &cases[number]);
+        let alone: Vec<_> =
+            (0..cases.len()).map(|number| OneByOne.measured(request(number))).collect();
+        failed += alone.iter().filter(|it| it.failure.is_some()).count();
+        impacts += alone.iter().map(|it| it.observed.impact_points.0.len()).sum::<usize>();
+        for instructions in Instructions::available() {
+            for size in GROUPS {
+                for first in (0..cases.len()).step_by(size) {
+                    let group = first..cases.len().min(first + size);
+                    let requests = group.clone().map(request).collect();
+                    let found = measured_side_by_side(instructions, requests);
+                    assert_eq!(found.len(), group.len());
+                    for (found, number) in found.iter().zip(group) {
+                        let (name, case) = (instructions.name(), &cases[number]);
+                        assert_eq!(told(found), told(&alone[number]), "{name}: {case:?}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(failed > 10 && impacts > 100, "{failed} failed, {impacts} impacts");
+}
+
+#[test]
+fn measured_cycles_side_by_side_have_the_bits_of_one_by_one() {
+    compare_measured::<Filippov>();
+    compare_measured::<AsPrinted>();
 }

@@ -1,0 +1,77 @@
+//! What is told of a step that a motion has taken.
+
+use crate::lane::{Lane, Mask, ORDER, Series, SideBySide, series};
+
+use super::switched::{MAX_GUARDS, Switched};
+
+/// One step that was taken; the next is written over it, so that nothing large is moved or cleared.
+#[derive(Debug, Clone)]
+pub struct Step<L: Lane, S: Switched<L>> {
+    /// Time at its start since the start of the cycle [s].
+    pub start: L,
+    /// Duration [s].
+    pub length: L,
+    /// The mode during the step.
+    pub mode: S::Mode,
+    /// The series of the motion during the step.
+    pub jet: S::Jet,
+    /// The event at its end, as `Switched::switch` numbers it; zero for none.
+    pub event: L,
+    /// Whether a cycle ends with it.
+    pub arrives: L::Mask,
+    pub(super) guards: [Series<L>; MAX_GUARDS],
+    pub(super) chosen: Series<L>,
+}
+
+impl<L: Lane, S: Switched<L>> Step<L, S> {
+    /// The guards of the system, and the section of an autonomous one.
+    pub(super) const GUARDS: usize = S::GUARDS + if S::AUTONOMOUS { 1 } else { 0 };
+
+    /// Copies the guard that each lane has `chosen`, by its number.
+    #[inline(always)]
+    pub(super) fn choose(&mut self, chosen: L::Plain) {
+        for k in 0..ORDER + 1 {
+            let mut term = self.guards[0][k];
+            for which in 1..Self::GUARDS {
+                let taken = L::Plain::splat(which as f64).le(chosen);
+                term = L::select(taken, self.guards[which][k], term);
+            }
+            self.chosen[k] = term;
+        }
+    }
+}
+
+impl<L: Lane, S: Switched<L>> Default for Step<L, S> {
+    fn default() -> Self {
+        let zero = L::splat(0.0);
+        Step {
+            start: zero,
+            length: zero,
+            mode: S::Mode::default(),
+            jet: S::Jet::default(),
+            event: zero,
+            arrives: L::Mask::splat(false),
+            guards: [series::zero(); MAX_GUARDS],
+            chosen: series::zero(),
+        }
+    }
+}
+
+impl<S: Switched<f64>> Step<f64, S> {
+    /// Takes over the step that was taken in lane `index`.
+    #[inline(always)]
+    pub fn take_lane<L, T>(&mut self, index: usize, lanes: &Step<L, T>)
+    where
+        L: Lane,
+        T: Switched<L>,
+        T::Mode: SideBySide<One = S::Mode>,
+        T::Jet: SideBySide<One = S::Jet>,
+    {
+        self.start = lanes.start.lane(index);
+        self.length = lanes.length.lane(index);
+        self.mode = lanes.mode.lane(index);
+        self.jet = lanes.jet.lane(index);
+        self.event = lanes.event.lane(index);
+        self.arrives = lanes.arrives.lane(index);
+    }
+}

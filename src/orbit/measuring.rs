@@ -1,0 +1,115 @@
+//! Cycles that are measured: of one motion at a time, or of motions side by side.
+
+use crate::flow::defect::defect;
+use crate::flow::metric::greater;
+use crate::flow::{Field, Metric, Motion, Observer, Step, Stroboscopic, System};
+
+use super::trajectory::Progress;
+use super::{Failure, Trajectory};
+
+/// Cycles that are to be measured.
+pub struct MeasureRequest<M: System<D>, const D: usize> {
+    /// The system.
+    pub system: M,
+    /// Its motion, at the section.
+    pub motion: Motion<f64, M::Single>,
+    /// How far it has come.
+    pub progress: Progress,
+    /// How many cycles.
+    pub cycles: u64,
+    /// Steps that it may take in all, those before included.
+    pub max_steps: u64,
+    /// Relative local error of a step.
+    pub tolerance: f64,
+    /// Section points that are kept at most.
+    pub points: usize,
+    /// Points that the observer keeps at most of whatever it notes.
+    pub observed_points: usize,
+}
+
+/// Cycles that have been measured, as far as the motion could be followed.
+pub struct Measured<M: System<D>, const D: usize> {
+    /// The motion after them.
+    pub motion: Motion<f64, M::Single>,
+    /// How far it has come.
+    pub progress: Progress,
+    /// What was observed.
+    pub observed: M::Observer,
+    /// What the section and the steps say of it.
+    pub kept: Kept<D>,
+    /// Why it could not be followed to the end, if so.
+    pub failure: Option<Failure<M::State<f64>>>,
+}
+
+/// What the section and the steps of a motion say of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kept<const D: usize> {
+    /// The points of the section, as many as are kept.
+    pub section: Vec<[f64; D]>,
+    /// So many at most.
+    points: usize,
+    /// The largest size at the section, in the units of the metric.
+    pub size: f64,
+    /// The largest size at the start of a step.
+    pub swing: f64,
+    /// How far the motion gets from where its cycle began.
+    pub excursion: f64,
+    /// The largest defect of a step.
+    pub defect: f64,
+    /// Where the cycle began.
+    here: [f64; D],
+}
+
+impl<const D: usize> Kept<D> {
+    /// Nothing seen yet; of the section so many `points` are kept.
+    pub fn new(points: usize) -> Self {
+        let (section, here) = (Vec::new(), [f64::NAN; D]);
+        Kept { section, points, size: 0.0, swing: 0.0, excursion: 0.0, defect: 0.0, here }
+    }
+
+    /// Takes note of the section point where a cycle begins.
+    pub fn begin_cycle(&mut self, metric: &Metric<D>, here: [f64; D]) {
+        self.size = self.size.max(metric.size(&here));
+        if self.section.len() < self.points {
+            self.section.push(here);
+        }
+        self.here = here;
+    }
+
+    /// Takes note of a step.
+    pub fn see<S>(&mut self, system: &S, metric: &Metric<D>, step: &Step<f64, S>)
+    where
+        S: Field + Stroboscopic<f64, D>,
+    {
+        self.defect = greater(self.defect, defect(system, step));
+        let begins = S::point(&system.beginning(&step.jet));
+        self.swing = self.swing.max(metric.size(&begins));
+        self.excursion = self.excursion.max(metric.distance(&begins, &self.here));
+    }
+}
+
+/// The cycles of one motion by itself.
+pub fn measured_alone<M: System<D>, const D: usize>(
+    request: MeasureRequest<M, D>,
+) -> Measured<M, D> {
+    let MeasureRequest { system, motion, progress, cycles, max_steps, .. } = request;
+    let (moving, metric) = (system.single(), system.metric());
+    let mut trajectory =
+        Trajectory::resume(&moving, motion, progress, request.tolerance).limited(max_steps);
+    let mut observed = system.observer(request.observed_points);
+    let mut kept = Kept::new(request.points);
+    let mut failure = None;
+    for _ in 0..cycles {
+        kept.begin_cycle(&metric, trajectory.section());
+        let followed = trajectory.cycle(|step| {
+            observed.see(&moving, step);
+            kept.see(&moving, &metric, step);
+        });
+        if let Err(why) = followed {
+            failure = Some(why);
+            break;
+        }
+    }
+    let (motion, progress) = (trajectory.motion(), trajectory.progress);
+    Measured { motion, progress, observed, kept, failure }
+}
