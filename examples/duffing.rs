@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use capsulemap::attractor::attractors_of;
+use capsulemap::attractor::{Label, Share, attractors_of, shares_of_grid};
 use capsulemap::branch::{self, SpecialKind};
 use capsulemap::flow::{Field, NoEvent, Stroboscopic, Switched, Taylor};
 use capsulemap::lane::elementary::{not_finite, sin_cos};
@@ -24,6 +24,8 @@ pub struct Duffing<L> {
 
 own_system!(Duffing { c, p } section 2 state [L; 2], mode (), event NoEvent, scales |_| [1.0, 1.0]);
 
+/// Starts along each coordinate.
+const GRID: usize = 100;
 /// Place of the square of x among the series, after those of x and v.
 const SQUARE: usize = 2;
 
@@ -99,9 +101,11 @@ impl Field for Duffing<f64> {
 
 fn main() {
     let duffing = Duffing { c: 0.08, p: 0.2 };
-    // A grid of starts, settled side by side on all cores, each periodic one with a certificate.
-    let starts =
-        (0..1600).map(|i| [-1.5 + 3.0 * (i % 40) as f64 / 39.0, -1.0 + (i / 40) as f64 / 19.5]);
+    // A grid of starts over [-1, 1] x [-0.5, 1], settled side by side on all cores, each periodic one with a certificate.
+    let starts = (0..GRID * GRID).map(|i| {
+        let [x, v] = [i % GRID, i / GRID].map(|at| (at as f64 + 0.5) / GRID as f64);
+        [-1.0 + 2.0 * x, -0.5 + 1.5 * v]
+    });
     let cases: Vec<_> = starts.map(|start| Case::new(duffing, start)).collect();
     let protocol = Protocol::default();
     let orbits = settle_all(&cases, &protocol, Machine::default());
@@ -110,13 +114,11 @@ fn main() {
     // Ueda: at c = 0.08 and p = 0.2 five attractors coexist, all periodic.
     assert!(orbits.iter().all(|orbit| orbit.outcome == Outcome::Periodic));
     assert!(orbits.iter().all(|orbit| orbit.certificate.proof == Proof::Newton));
-    let mut periods: Vec<usize> = table.attractors.iter().map(|it| it.points.len()).collect();
-    periods.sort_unstable();
-    assert_eq!(periods.len(), 5, "{periods:?}");
-    let share = |place: usize| {
-        let here = table.of_case.iter().filter(|it| **it == Some(place as u32)).count();
-        here as f64 / cases.len() as f64
-    };
+    let period = |place: usize| table.attractors[place].points.len();
+    let periods: Vec<usize> = table.order.iter().map(|&place| period(place)).collect();
+    assert_eq!(periods, [1, 1, 2, 2, 3]);
+    let label = |start: usize| table.of_case[start].map_or(Label::Undecided, Label::Attractor);
+    let shares = shares_of_grid(&[GRID, GRID], label, periods.len());
 
     // The exponents of a periodic orbit are those of its multipliers, and sum up to -c.
     let first = &orbits[table.attractors[0].case];
@@ -148,19 +150,27 @@ fn main() {
     assert!(!folds.is_empty());
 
     if std::env::args().any(|argument| argument == "--json") {
-        let shares: Vec<String> = (0..5).map(|place| share(place).to_string()).collect();
+        let of_shares = |of: fn(&Share) -> f64| {
+            let numbers = table.order.iter().map(|&place| of(&shares[place]));
+            numbers.collect::<Vec<_>>()
+        };
         println!(
-            "{{\"attractors\": {}, \"periods\": {periods:?}, \"shares\": [{}], \"folds_p\": {folds:?}}}",
+            "{{\"attractors\": {}, \"periods\": {periods:?}, \"shares\": {:?}, \"errors\": {:?}, \
+             \"folds_p\": {folds:?}}}",
             table.attractors.len(),
-            shares.join(", ")
+            of_shares(|it| it.value),
+            of_shares(|it| it.error),
         );
         return;
     }
-    println!("five attractors of x'' + 0.08 x' + x^3 = 0.2 cos t, by a grid of 40 x 40 starts:");
-    for (place, attractor) in table.attractors.iter().enumerate() {
-        let [x, v] = attractor.points[0];
-        let period = attractor.points.len();
-        println!("  period {period}, at x = {x:+.6}, v = {v:+.6}; share {:.3}", share(place));
+    println!(
+        "five attractors of x'' + 0.08 x' + x^3 = 0.2 cos t, by a grid of {GRID} x {GRID} starts:"
+    );
+    for &place in &table.order {
+        let [x, v] = table.attractors[place].points[0];
+        let Share { value, error, .. } = shares[place];
+        let period = period(place);
+        println!("  period {period}, at x = {x:+.6}, v = {v:+.6}; share {value:.4} +- {error:.4}");
     }
     println!("the first, followed in the force p, folds at {folds:?}");
 }

@@ -13,6 +13,9 @@ const SAMPLE: usize = 64;
 /// all: in the middle between the two they are told apart.
 const MIXED: f64 = 0.75;
 
+/// To this share of the size of an orbit its points are rounded before they are compared.
+const LEAST: f64 = 1e-6;
+
 /// An attractor as the cases with the same parameters show it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attractor<const D: usize> {
@@ -47,6 +50,23 @@ impl<const D: usize> Attractor<D> {
         let size = metric.largest(&points);
         let bound = relative_bound(motion.residual, motion.from_one, protocol) * size;
         Some(Attractor { case: index, outcome: motion.outcome, points, bound, size })
+    }
+
+    /// What tells it from others of its kind and period: of a periodic orbit its [`Attractor::least_point`], of another
+    /// motion the mean of its sample.
+    pub(super) fn mark(&self, metric: &Metric<D>) -> [f64; D] {
+        if self.outcome == Outcome::Periodic {
+            return self.points[self.least_point(metric)];
+        }
+        let count = self.points.len() as f64;
+        std::array::from_fn(|i| self.points.iter().map(|point| point[i]).sum::<f64>() / count)
+    }
+
+    /// The place of the section point of a periodic orbit whose first coordinate is least, by the second and third where
+    /// points agree to a millionth of the size.
+    pub fn least_point(&self, metric: &Metric<D>) -> usize {
+        let key = |place: &usize| metric.rounded(&self.points[*place], LEAST * self.size);
+        (0..self.points.len()).min_by_key(key).unwrap_or(0)
     }
 
     /// Whether this is the same attractor as another at the same parameters.

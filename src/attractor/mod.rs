@@ -1,13 +1,17 @@
 //! Attractors, told apart by their orbits, and how they continue along a parameter.
 
+mod basin;
 mod bridge;
 mod final_motion;
 mod identity;
 mod link;
+mod share;
 mod table;
 
+pub use basin::{Entropy, Estimate, Uncertainty, entropy, uncertainty};
 pub use bridge::{Bridge, bridges};
 pub use final_motion::FinalMotion;
 pub use identity::{Attractor, coincide};
 pub use link::{LinearOrbits, Links, Neighbours, Unseen, linear_orbits};
+pub use share::{Label, Share, shares_of_draws, shares_of_grid};
 pub use table::{Executor, Serial, Table, attractors_of};

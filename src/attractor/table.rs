@@ -35,7 +35,15 @@ pub struct Table<const D: usize> {
     pub of_case: Vec<Option<u32>>,
     /// The attractors in the order in which the cases show them.
     pub attractors: Vec<Attractor<D>>,
+    /// Their places in the order of their numbers, which does not depend on the order of the cases.
+    ///
+    /// First periodic orbits, then quasi-periodic and chaotic motions; orbits by their periods; then by the first
+    /// coordinate of [`Attractor::mark`] that differs, rounded to a millionth of the largest of these motions.
+    pub order: Vec<usize>,
 }
+
+/// To this share of the largest motion marks of attractors are rounded before they are compared.
+const ROUNDED: f64 = 1e-6;
 
 impl<const D: usize> Table<D> {
     /// Sorts so many cases of a `system` by attractor: `motion` tells the index and the motion of each.
@@ -51,7 +59,7 @@ impl<const D: usize> Table<D> {
         executor: &impl Executor,
     ) -> Self {
         let metric = system.metric();
-        let mut table = Table { of_case: Vec::with_capacity(cases), attractors: Vec::new() };
+        let mut table = Table { of_case: Vec::with_capacity(cases), ..Table::default() };
         for first in (0..cases).step_by(TOGETHER) {
             let meet = |place: usize| {
                 let (index, motion) = motion(place);
@@ -65,12 +73,31 @@ impl<const D: usize> Table<D> {
                 table.of_case.push(place.map(|place| place as u32));
             }
         }
+        table.order = table.ordered(&metric);
         for attractor in &mut table.attractors {
             if attractor.outcome != Outcome::Periodic {
                 attractor.points = Vec::new();
             }
         }
         table
+    }
+
+    /// The places of the attractors in the order of their numbers.
+    fn ordered(&self, metric: &Metric<D>) -> Vec<usize> {
+        let size = self.attractors.iter().map(|it| it.size).fold(0.0, f64::max);
+        let key = |place: &usize| {
+            let it = &self.attractors[*place];
+            let kind = match it.outcome {
+                Outcome::Periodic => 0,
+                Outcome::QuasiPeriodic => 1,
+                _ => 2,
+            };
+            let period = if kind == 0 { it.points.len() } else { 0 };
+            (kind, period, metric.rounded(&it.mark(metric), ROUNDED * size))
+        };
+        let mut order: Vec<usize> = (0..self.attractors.len()).collect();
+        order.sort_by_cached_key(key);
+        order
     }
 
     /// The place of an attractor, if it is known.

@@ -127,8 +127,9 @@ impl Campaign<'_> {
         let states = blocks.final_states()?;
         let linked = || reports.step(Stage::Linking);
         let attractors = run::attractors(self.study, &states, self.machine, linked)?;
+        let table = run::attractor_table(self.study, &attractors, &states, self.machine)?;
         reports.send(Event::Ended(Stage::Linking))?;
-        add_attractors(frame, self.study, &attractors);
+        add_attractors(frame, self.study, (&attractors, &table));
         Ok(())
     }
 

@@ -15,6 +15,7 @@ use super::watch::Watch;
 use crate::campaign::{Campaign, Complete, Done, Event, Task, output_path, read_study};
 use crate::figure::Place;
 use crate::lane::Instructions;
+use crate::run::{AttractorTable, Attractors, has_attractors};
 use crate::store::{self, Dataset, folder};
 use crate::study::Study;
 
@@ -156,5 +157,10 @@ fn without_cases(study: &Study) -> Dataset {
     if let Some(span) = &mut small.protocol.history {
         span.per_cycle = span.per_cycle.min(2);
     }
-    store::dataset(&small, &[])
+    let mut dataset = store::dataset(&small, &[]);
+    if has_attractors(&small) {
+        let unknown = Attractors { of_case: vec![None; small.cases()], ..Attractors::default() };
+        store::add_attractors(&mut dataset, &small, (&unknown, &AttractorTable::default()));
+    }
+    dataset
 }

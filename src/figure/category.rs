@@ -7,6 +7,7 @@ use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Mark, draw_mark};
 use super::outcome::Outcomes;
+use super::raster::Fill;
 use super::style::{
     CHAOTIC, LONG_PERIOD, NOT_YET, PAPER, PERIODS, QUASI_PERIODIC, SMALL_SIZE, UNDECIDED,
 };
@@ -98,7 +99,7 @@ impl Kinds {
         canvas.text(&self.heading, (left, baseline), SMALL_SIZE, Anchor::Start);
         for kind in &self.kinds {
             baseline += LINE;
-            let mark = kind.colour.map_or(Mark::Hatched, Mark::Patch);
+            let mark = kind.colour.map_or(Mark::Filled(Fill::NO_VALUE), Mark::Patch);
             draw_mark(canvas, mark, (left - 1.0, baseline - 0.3 * SMALL_SIZE));
             let at = (left - 1.0 + MARK, baseline);
             canvas.text(&Text::plain(&kind.name), at, SMALL_SIZE, Anchor::Start);

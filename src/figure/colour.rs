@@ -7,7 +7,7 @@ use super::canvas::{Anchor, Canvas, Stroke};
 use super::geometry::Rect;
 use super::panel::draw_upward;
 use super::quantity::Quantity;
-use super::raster::Raster;
+use super::raster::{Fill, Raster};
 use super::scale::{Scale, finite_range};
 use super::style::{
     FRAME_WIDTH, INK, LABEL_GAP, LABEL_SIZE, MAJOR_LENGTH, MINOR_LENGTH, MINOR_WIDTH, SMALL_SIZE,
@@ -76,7 +76,7 @@ impl Colours {
         let steps = 512usize;
         let row = |share: f64| (share * steps as f64) as usize;
         let colour = |_, row: usize| {
-            Some(self.of(self.scale.value(1.0 - (row as f64 + 0.5) / steps as f64)))
+            Fill::Plain(self.of(self.scale.value(1.0 - (row as f64 + 0.5) / steps as f64)))
         };
         canvas.image(bar, &Raster::cells(bar, |_| 0, row, colour));
         canvas.frame(bar, Stroke::solid(INK, FRAME_WIDTH));

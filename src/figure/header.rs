@@ -4,7 +4,7 @@ use plotters::style::RGBColor;
 
 use super::canvas::{Anchor, Canvas, Stroke};
 use super::geometry::{Point, Rect};
-use super::raster::Raster;
+use super::raster::{Fill, Raster};
 use super::style::{CURVE_WIDTH, HEADER, INK, LABEL_SIZE, MINOR_WIDTH, SMALL_SIZE};
 use super::symbol::Symbol;
 use super::text::Text;
@@ -20,12 +20,12 @@ pub enum Mark {
     Ring(RGBColor, f64),
     /// An area.
     Patch(RGBColor),
+    /// An area that is filled so.
+    Filled(Fill),
     /// The symbol of a special point.
     Symbol(Symbol),
     /// Discs of several colours.
     Discs(&'static [RGBColor], f64),
-    /// The area without values.
-    Hatched,
     /// No mark: the text continues that of the entry before.
     Nothing,
 }
@@ -35,7 +35,7 @@ impl Mark {
     fn width(self) -> f64 {
         match self {
             Mark::Disc(..) | Mark::Ring(..) | Mark::Symbol(_) | Mark::Nothing => POINT_WIDTH,
-            Mark::Line(_) | Mark::Patch(_) | Mark::Hatched | Mark::Discs(..) => MARK_WIDTH,
+            Mark::Line(_) | Mark::Patch(_) | Mark::Filled(_) | Mark::Discs(..) => MARK_WIDTH,
         }
     }
 }
@@ -165,9 +165,9 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
         Mark::Symbol(symbol) => symbol.draw(canvas, centre),
         Mark::Nothing => {}
         Mark::Patch(colour) => canvas.fill(patch, colour),
-        Mark::Hatched => canvas.image(patch, &Raster::cells(patch, |_| 0, |_| 0, |_, _| None)),
+        Mark::Filled(fill) => canvas.image(patch, &Raster::cells(patch, |_| 0, |_| 0, |_, _| fill)),
     }
-    if matches!(mark, Mark::Patch(_) | Mark::Hatched) {
+    if matches!(mark, Mark::Patch(_) | Mark::Filled(_)) {
         canvas.frame(patch, Stroke::solid(INK, MINOR_WIDTH));
     }
 }

@@ -3,9 +3,8 @@
 use plotters::style::RGBColor;
 
 use super::axis::AxisRequest;
-use super::canvas::{Canvas, Drawn, Stroke};
+use super::canvas::{Canvas, Drawn};
 use super::category::{self, Kinds};
-use super::cells::Cells;
 use super::colour::Colours;
 use super::error::FigureError;
 use super::header::{Header, Mark};
@@ -13,8 +12,9 @@ use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
-use super::raster::Raster;
-use super::style::{FRAME_WIDTH, INFINITE, INK, ONE_COLUMN};
+use super::plane::Plane;
+use super::raster::Fill;
+use super::style::{INFINITE, ONE_COLUMN};
 use super::text::Text;
 use super::view::View;
 use crate::capsule::Output;
@@ -23,8 +23,6 @@ use crate::study::Drawing;
 
 /// The output shown, unless another is asked for.
 const OUTPUT: Entry = Entry::of_output(Output::ProgressionSpeed);
-/// Length of the mark of a value of an uneven axis [pt].
-const VALUE_MARK: f64 = 3.0;
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
 
@@ -70,7 +68,7 @@ impl Paint {
             legend.push((Mark::Patch(INFINITE), Text::plain("infinite")));
         }
         if values.iter().any(|value| value.is_nan()) {
-            legend.push((Mark::Hatched, Text::plain("no value")));
+            legend.push((Mark::Filled(Fill::NO_VALUE), Text::plain("no value")));
         }
         legend
     }
@@ -90,16 +88,16 @@ fn reads(drawing: &Drawing) -> Names {
 
 /// Draws the map that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let (x_name, y_name) = axes(view)?;
+    let plane = Plane::of(view, "a map")?;
+    let (x_name, y_name) = (plane.x_name, plane.y_name);
     let output = view.drawing.of.first().cloned().unwrap_or_else(|| OUTPUT.name.to_owned());
-    let (x, y) = (cells(view, x_name)?, cells(view, y_name)?);
-    let paint = paint(view, &output, &[y_name, x_name], x.count() * y.count())?;
+    let paint = paint(view, &output, &plane.free(), plane.count())?;
     let panel = PanelRequest {
-        x: AxisRequest::new(view.quantity(x_name), x.scale),
-        y: AxisRequest::new(view.quantity(y_name), y.scale),
+        x: AxisRequest::new(view.quantity(x_name), plane.x.scale),
+        y: AxisRequest::new(view.quantity(y_name), plane.y.scale),
         header: Header {
             note: view.held_note(&[x_name, y_name]),
-            legend: legend(&paint, &x, &y),
+            legend: paint.legend().into_iter().chain(plane.legend()).collect(),
             ..Header::default()
         },
     };
@@ -113,64 +111,11 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     };
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
-        canvas.image(panel.frame, &raster(panel, &x, &y, &paint));
-        mark_values(&mut canvas, panel, &x.uneven, &y.uneven);
+        plane.draw(&mut canvas, panel, |case| Fill::of(paint.colour(case)));
         panel.finish(&mut canvas);
         paint.explain(&mut canvas, panel);
     }
     Ok(canvas.finish(&view.about(&[output], &[x_name, y_name])))
-}
-
-/// What the colour bar does not explain, and what marks mean.
-fn legend(paint: &Paint, x: &Cells, y: &Cells) -> Vec<(Mark, Text)> {
-    let mut legend = paint.legend();
-    if !x.uneven.is_empty() || !y.uneven.is_empty() {
-        legend.push((Mark::Nothing, Text::plain("marks outside the frame: computed values")));
-    }
-    legend
-}
-
-/// Marks the values of uneven axes at the upper and the right side of the frame.
-fn mark_values(canvas: &mut Canvas, panel: &Panel, x: &[f64], y: &[f64]) {
-    let up = |&value: &f64| {
-        let (place, top) = panel.place(value, panel.y.scale.high);
-        ((place, top), (place, top - VALUE_MARK))
-    };
-    let right = |&value: &f64| {
-        let (right, place) = panel.place(panel.x.scale.high, value);
-        ((right, place), (right + VALUE_MARK, place))
-    };
-    let marks: Vec<_> = x.iter().map(up).chain(y.iter().map(right)).collect();
-    canvas.segments(&marks, Stroke::solid(INK, FRAME_WIDTH));
-}
-
-/// The cells along the axis called `name`.
-fn cells(view: &View<'_>, name: &str) -> Result<Cells, FigureError> {
-    let factor = view.quantity(name).factor;
-    let values: Vec<f64> = view.axis_values(name)?.iter().map(|value| value * factor).collect();
-    match values.is_empty() {
-        true => Err(view.unfit(format!("axis `{name}` has no values"))),
-        false => Ok(Cells::around(&values)),
-    }
-}
-
-/// The axes along the abscissa and the ordinate.
-fn axes<'a>(view: &View<'a>) -> Result<(&'a str, &'a str), FigureError> {
-    let free = view.drawable_axes();
-    let named = |name: &Option<String>| {
-        name.as_ref().and_then(|name| view.axes().into_iter().find(|axis| axis == name))
-    };
-    let (x, y) = (named(&view.drawing.x), named(&view.drawing.y));
-    let x = x.or_else(|| free.iter().copied().find(|name| Some(*name) != y));
-    let y = y.or_else(|| free.iter().copied().find(|name| Some(*name) != x));
-    match (x, y) {
-        (Some(x), Some(y)) if x != y => Ok((x, y)),
-        (Some(x), Some(_)) => Err(view.unfit(format!("`{x}` cannot be both axes of a map"))),
-        _ => Err(view.unfit(format!(
-            "a map needs two axes that `at` does not hold, and there is {}",
-            if free.is_empty() { "none".to_string() } else { format!("only {}", free.join(", ")) }
-        ))),
-    }
 }
 
 fn paint(view: &View<'_>, output: &str, free: &[&str], cases: usize) -> Result<Paint, FigureError> {
@@ -189,15 +134,4 @@ fn paint(view: &View<'_>, output: &str, free: &[&str], cases: usize) -> Result<P
         }
     }
     Ok(Paint::Numbers(Colours::for_values(&values, view.quantity(output)), values))
-}
-
-/// The cells of the map as pixels over the panel.
-fn raster(panel: &Panel, x: &Cells, y: &Cells, paint: &Paint) -> Raster {
-    let columns = x.count();
-    Raster::cells(
-        panel.frame,
-        |share| x.at(share),
-        |share| y.at(1.0 - share),
-        |column, row| paint.colour(row * columns + column),
-    )
 }

@@ -3,6 +3,7 @@
 mod attractor_diagram;
 mod attractors;
 mod axis;
+mod basin;
 mod bifurcation;
 mod canvas;
 mod category;
@@ -27,6 +28,7 @@ mod output;
 mod page;
 mod panel;
 mod phase_portrait;
+mod plane;
 mod quantity;
 mod raster;
 mod registry;

@@ -5,6 +5,34 @@ use plotters::style::RGBColor;
 use super::geometry::{Point, Rect};
 use super::style::{DPI, HATCH, MISSING};
 
+/// How an area is filled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fill {
+    /// One colour.
+    Plain(RGBColor),
+    /// Diagonal lines of the second colour over the first.
+    Hatched(RGBColor, RGBColor),
+}
+
+impl Fill {
+    /// An area without values.
+    pub const NO_VALUE: Fill = Fill::Hatched(MISSING, HATCH);
+
+    /// The colour, or the hatching of an area without values.
+    pub fn of(colour: Option<RGBColor>) -> Fill {
+        colour.map_or(Fill::NO_VALUE, Fill::Plain)
+    }
+
+    /// The colour of pixel (`x`, `y`).
+    fn at(self, x: usize, y: usize) -> RGBColor {
+        match self {
+            Fill::Plain(colour) => colour,
+            Fill::Hatched(_, lines) if (x + y) % 20 < 3 => lines,
+            Fill::Hatched(ground, _) => ground,
+        }
+    }
+}
+
 /// Pixels with opacity, over a rectangle of the page.
 pub struct Raster {
     /// Whether a renderer may blend neighbouring pixels.
@@ -22,13 +50,13 @@ impl Raster {
         Raster { smooth: true, width, height, pixels: vec![[255, 255, 255, 0]; width * height] }
     }
 
-    /// An opaque raster over `rect` whose colours `of` gives from the position in each direction,
-    /// counted from the upper left corner in shares of the rectangle; `None` is hatched.
+    /// An opaque raster over `rect` that is filled as `of` says for the column and the row of a position, which
+    /// count from the upper left corner in shares of the rectangle.
     pub fn cells<C, R, K>(rect: Rect, column: C, row: R, of: K) -> Raster
     where
         C: Fn(f64) -> usize,
         R: Fn(f64) -> usize,
-        K: Fn(usize, usize) -> Option<RGBColor>,
+        K: Fn(usize, usize) -> Fill,
     {
         let mut raster = Raster { smooth: false, ..Raster::over(rect) };
         let share = |at: usize, count: usize| (at as f64 + 0.5) / count as f64;
@@ -36,8 +64,7 @@ impl Raster {
         for y in 0..raster.height {
             let cell_row = row(share(y, raster.height));
             for (x, cell_column) in columns.iter().enumerate() {
-                let colour = of(*cell_column, cell_row).unwrap_or(hatching(x, y));
-                let RGBColor(red, green, blue) = colour;
+                let RGBColor(red, green, blue) = of(*cell_column, cell_row).at(x, y);
                 raster.pixels[y * raster.width + x] = [red, green, blue, 255];
             }
         }
@@ -80,11 +107,6 @@ impl Raster {
         writer.finish().map_err(|error| error.to_string())?;
         Ok(bytes)
     }
-}
-
-/// The colour of pixel (`x`, `y`) of an area without values: grey with diagonal lines.
-fn hatching(x: usize, y: usize) -> RGBColor {
-    if (x + y) % 20 < 3 { HATCH } else { MISSING }
 }
 
 /// `colour` with opacity `cover` over `pixel` (the Porter-Duff operator "over").

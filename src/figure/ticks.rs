@@ -124,6 +124,15 @@ pub fn short(value: f64) -> String {
     trimmed(&number(value, (4 - magnitude).max(0) as usize))
 }
 
+/// `value` with so many digits that count, as markup; zero as "0".
+pub fn significant(value: f64, digits: i32) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let magnitude = value.abs().log10().floor() as i32;
+    number(value, (digits - 1 - magnitude).max(0) as usize)
+}
+
 /// A decimal number without the zeros at its end.
 fn trimmed(number: &str) -> String {
     match number.contains('.') {

@@ -26,6 +26,12 @@ impl<const D: usize> Metric<D> {
         self.size(&std::array::from_fn(|i| a[i] - b[i]))
     }
 
+    /// The coordinates as whole numbers of this `step` in the units of the metric; zeros where the step is zero.
+    pub fn rounded(&self, point: &[f64; D], step: f64) -> [i64; D] {
+        let whole = |i: usize| (self.scales[i] * point[i] / step).round() as i64;
+        if step > 0.0 { std::array::from_fn(whole) } else { [0; D] }
+    }
+
     /// The size of a difference in units of `size`; zero for no difference, also of a motion at rest.
     #[inline]
     pub fn relative(&self, difference: &[f64; D], size: f64) -> f64 {

@@ -35,7 +35,7 @@ pub trait System<const D: usize>: Clone + PartialEq + Debug + Send + Sync + 'sta
             Event = Self::Event,
         > + SideBySide<One = Self::Single>;
     /// What is integrated or counted along its motion: the same type as `Observers<f64>`.
-    type Observer: Observer<f64, Self::Single> + Send;
+    type Observer: Observer<f64, Self::Single> + Clone + Send + Sync;
     /// The same along motions side by side.
     type Observers<L: Lane>: Observer<L, Self::In<L>> + SideBySide<One = Self::Observer>;
 

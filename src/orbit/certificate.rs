@@ -26,15 +26,19 @@ pub enum Proof {
     /// member. A damping so small that it slows the motion by less than that in a period is not told from
     /// none.
     Neutral,
+    /// The motion entered a neighbourhood that the return map leads into itself, of an orbit that was proven by
+    /// Newton's method from another start; what is measured is measured on that orbit.
+    Neighbourhood,
 }
 
 impl Proof {
     /// Every proof by its name in files, in the order of declaration.
-    pub const NAMES: [(&str, Proof); 4] = [
+    pub const NAMES: [(&str, Proof); 5] = [
         ("none", Proof::None),
         ("newton", Proof::Newton),
         ("grazing", Proof::Grazing),
         ("neutral", Proof::Neutral),
+        ("neighbourhood", Proof::Neighbourhood),
     ];
 }
 

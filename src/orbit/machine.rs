@@ -4,6 +4,9 @@ use std::thread;
 
 use crate::lane::Instructions;
 
+/// Room for the stack of a thread [bytes]: a build without optimisation keeps all that lanes compute with there.
+pub const STACK: usize = 32 << 20;
+
 /// What cases are computed on; the results do not depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Machine {
@@ -33,7 +36,9 @@ impl Machine {
         let instructions = self.instructions_for(share);
         thread::scope(|scope| {
             for _ in 1..threads {
-                scope.spawn(|| work(share, instructions));
+                let thread = thread::Builder::new().stack_size(STACK);
+                let worker = thread.spawn_scoped(scope, || work(share, instructions));
+                worker.expect("a thread can be started");
             }
             work(share, instructions);
         });

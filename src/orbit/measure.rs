@@ -25,12 +25,6 @@ pub(super) enum Found<const D: usize> {
     Followed(Aperiodic<D>),
 }
 
-impl<const D: usize> From<Option<Settled>> for Found<D> {
-    fn from(settled: Option<Settled>) -> Self {
-        settled.map_or(Found::Aperiodic, Found::Repeats)
-    }
-}
-
 /// The motion of a case of a system.
 type Moving<'a, M, const D: usize> = Trajectory<'a, <M as System<D>>::Single, D>;
 /// Where and why a case of a system failed.

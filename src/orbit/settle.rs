@@ -4,7 +4,6 @@ use crate::flow::System;
 
 use super::measure::{Found, conclude};
 use super::passage::OneByOne;
-use super::recurrence::Settled;
 use super::settling::{Settling, Verdict};
 use super::{Case, Failure, OrbitOf, Protocol, Trajectory};
 
@@ -24,19 +23,39 @@ pub fn settle<M: System<D>, const D: usize>(
         settling.meet(trajectory.section());
     }
     let settled = find_period::<M, D>(&mut trajectory, &mut settling, protocol);
-    conclude(&mut trajectory, case, settled.map(Found::from), protocol, &OneByOne)
+    let found = settled.map(|end| match end {
+        End::Found(found) => found,
+        End::Inside(_) => unreachable!("no orbit is known"),
+    });
+    conclude(&mut trajectory, case, found, protocol, &OneByOne)
 }
 
-/// Follows until the section repeats; none when the budget of cycles ends first.
+/// How a case has come to its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum End<const D: usize> {
+    /// It is found to do this.
+    Found(Found<D>),
+    /// It is in the neighbourhood of the known orbit of this number.
+    Inside(usize),
+}
+
+impl<const D: usize> From<Found<D>> for End<D> {
+    fn from(found: Found<D>) -> Self {
+        End::Found(found)
+    }
+}
+
+/// Follows until the section repeats, a known orbit is near, or the budget of cycles ends.
 pub(super) fn find_period<M: System<D>, const D: usize>(
     trajectory: &mut Trajectory<'_, M::Single, D>,
     settling: &mut Settling<D>,
     protocol: &Protocol,
-) -> Result<Option<Settled>, Failure<M::State<f64>>> {
+) -> Result<End<D>, Failure<M::State<f64>>> {
     while trajectory.progress.cycles < protocol.max_cycles {
         trajectory.cycle(|_| ())?;
         match settling.meet(trajectory.section()) {
-            Verdict::Settled(settled) => return Ok(Some(settled)),
+            Verdict::Settled(settled) => return Ok(Found::Repeats(settled).into()),
+            Verdict::Inside(number) => return Ok(End::Inside(number)),
             // At the end of the budget the motion is measured where it is.
             Verdict::Leap(section) if trajectory.progress.cycles < protocol.max_cycles => {
                 trajectory.leap(section);
@@ -44,5 +63,5 @@ pub(super) fn find_period<M: System<D>, const D: usize>(
             Verdict::Leap(_) | Verdict::Unsettled => {}
         }
     }
-    Ok(None)
+    Ok(Found::Aperiodic.into())
 }

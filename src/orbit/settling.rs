@@ -1,9 +1,12 @@
 //! When a case has settled, and how it gets there sooner.
 
+use std::sync::Arc;
+
 use crate::flow::Metric;
 
 use super::Protocol;
 use super::extrapolation::{WINDOW, limit};
+use super::neighbourhood::Neighbourhood;
 use super::recurrence::{Recurrence, Settled};
 
 /// Section points this close, relative to the motion, may be near enough to their limit to leap there.
@@ -24,6 +27,8 @@ pub enum Verdict<const D: usize> {
     Leap([f64; D]),
     /// It has settled.
     Settled(Settled),
+    /// It has come into the neighbourhood of this number.
+    Inside(usize),
 }
 
 /// A case that has not settled yet.
@@ -33,6 +38,8 @@ pub struct Settling<const D: usize> {
     metric: Metric<D>,
     tolerance: f64,
     leaps_left: u32,
+    /// Where the case need not be followed any further.
+    neighbourhoods: Option<Arc<Vec<Neighbourhood<D>>>>,
 }
 
 impl<const D: usize> Settling<D> {
@@ -43,7 +50,13 @@ impl<const D: usize> Settling<D> {
             metric,
             tolerance: protocol.recurrence,
             leaps_left: if protocol.accelerate { LEAPS } else { 0 },
+            neighbourhoods: None,
         }
+    }
+
+    /// The same for a case that need not be followed further than into one of these neighbourhoods.
+    pub fn until(self, neighbourhoods: Arc<Vec<Neighbourhood<D>>>) -> Self {
+        Settling { neighbourhoods: Some(neighbourhoods), ..self }
     }
 
     /// Takes the next section point.
@@ -51,6 +64,10 @@ impl<const D: usize> Settling<D> {
     /// A leap does not decide anything: the motion goes on from where it leads, and whether it has settled is
     /// judged by the points after it alone.
     pub fn meet(&mut self, point: [f64; D]) -> Verdict<D> {
+        let mut near = self.neighbourhoods.iter().flat_map(|all| all.iter());
+        if let Some(number) = near.position(|it| it.contains(&point)) {
+            return Verdict::Inside(number);
+        }
         if let Some(settled) = self.recurrence.meet(point) {
             return Verdict::Settled(settled);
         }

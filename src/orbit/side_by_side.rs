@@ -1,12 +1,16 @@
 //! Many cases side by side in the lanes of one thread, each lane refilled the moment its case settles.
 
+use std::sync::Arc;
+
 use crate::flow::{Motion, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
 use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
 use super::aperiodic::follow_aperiodic_side_by_side;
 use super::batch::Batch;
+use super::known_orbits::KnownOrbits;
 use super::measure::Found;
 use super::passage::Integrator;
+use super::settle::End;
 use super::settling::{Settling, Verdict};
 use super::trajectory::{Progress, leap};
 use super::underway::{Finding, Underway};
@@ -24,6 +28,10 @@ const HALF: usize = 2;
 pub trait Queue<M: System<D>, const D: usize> {
     /// Takes the case of a number that has been `done`, if one has, and yields one to follow in its place.
     fn next(&mut self, done: Option<(usize, OrbitOf<M, D>)>) -> Option<(usize, Case<M, D>)>;
+    /// The orbits of the system of all cases that are known before, if there are any.
+    fn known(&self) -> Option<Arc<KnownOrbits<M, D>>> {
+        None
+    }
 }
 
 /// Settles the cases of `queue`, which are alike ([`System::is_alike`]), as many at a time as there are lanes,
@@ -92,7 +100,7 @@ impl<'a, M: System<D>, const D: usize> Work for Supply<'a, M, D> {
         let Some(first) = cases.iter().flatten().next() else {
             return self.left(Vec::new());
         };
-        let spare = Underway::new(0, first.case.clone(), self.protocol);
+        let spare = Underway::new(0, first.case.clone(), self.protocol, None);
         let mut lanes = Lanes::<L, M, D>::new(spare, self);
         for (lane, case) in cases.into_iter().enumerate() {
             lanes.fill_lane(lane, case);
@@ -138,7 +146,7 @@ impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
             return Some(ready);
         }
         let (number, case) = self.queue.next(done)?;
-        Some(Underway::new(number, case, self.protocol))
+        Some(Underway::new(number, case, self.protocol, self.queue.known()))
     }
 
     /// Follows the cases that have not settled with their linearised flow, side by side, and concludes them.
@@ -155,7 +163,8 @@ impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
         let followed = follow_aperiodic_side_by_side(self.instructions, &motions, self.protocol);
         for (case, followed) in cases.into_iter().zip(followed) {
             self.conclude(case, move |trajectory, _| {
-                followed.map(Found::Followed).map_err(|reason| trajectory.failure(reason))
+                let followed = followed.map(|it| End::from(Found::Followed(it)));
+                followed.map_err(|reason| trajectory.failure(reason))
             });
         }
     }
@@ -262,8 +271,9 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
         let exhausted = case.progress.cycles >= self.cases.protocol.max_cycles;
         match case.settling.meet(M::Single::point(state)) {
             Verdict::Settled(settled) => {
-                self.replace(lane, move |_, _| Ok(Found::Repeats(settled)))
+                self.replace(lane, move |_, _| Ok(Found::Repeats(settled).into()))
             }
+            Verdict::Inside(number) => self.replace(lane, move |_, _| Ok(End::Inside(number))),
             // At the end of the budget the motion is measured where it is.
             _ if exhausted => {
                 let case = self.take(lane).expect("the lane is occupied");

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
-use crate::attractor::{Bridge, Links, Neighbours, Table, bridges, linear_orbits};
+use crate::attractor::{Attractor, Bridge, Links, Neighbours, Table, bridges, linear_orbits};
 use crate::branch::{Along, ONE_VALUE, SpecialKind, SpecialValue};
 use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Section, Switching};
 use crate::lane::Instructions;
@@ -56,10 +56,13 @@ pub struct Attractors {
     pub axis: Option<usize>,
     /// The attractor of each case, by its number; none where the case has none.
     ///
-    /// They are numbered along each line of the axis anew, in the order in which they appear.
+    /// They are numbered along each line of the axis anew, in the order in which they appear; those that appear
+    /// together in the order of [`Table::order`].
     pub of_case: Vec<Option<u32>>,
     /// The events, line by line in the order of the parameter.
     pub events: Vec<AttractorEvent>,
+    /// The attractors by their numbers, where all cases have the same parameters.
+    pub of_starts: Vec<Attractor<3>>,
 }
 
 /// Whether there are attractors to be told apart or followed: an axis is followed, or the only parameter that
@@ -110,6 +113,7 @@ fn find<R: Reading>(
 ) -> Attractors {
     let layout = Layout::of(study);
     let of_case = Mutex::new(vec![None; study.cases()]);
+    let of_starts = Mutex::new(Vec::new());
     let line = |number: usize| Line { study, layout: &layout, number };
     let some = LINKS.div_ceil(layout.cells());
     let search = |first: usize| {
@@ -123,6 +127,10 @@ fn find<R: Reading>(
             let numbers = numbers(&cells, &links, &bridges);
             let events = events(&cells, &links, &bridges, &numbers);
             line.note(&cells, &numbers, &mut of_case.lock().expect("no thread has panicked"));
+            if let ([cell], true) = (&cells[..], layout.lines() == 1) {
+                let numbered = cell.order.iter().map(|&place| cell.attractors[place].clone());
+                *of_starts.lock().expect("no thread has panicked") = numbered.collect();
+            }
             events
         });
         events.collect::<Vec<_>>()
@@ -130,7 +138,8 @@ fn find<R: Reading>(
     let firsts = (0..layout.lines()).into_par_iter().step_by(some);
     let events = firsts.flat_map_iter(search).collect();
     let of_case = of_case.into_inner().expect("no thread has panicked");
-    Attractors { axis: layout.axis, of_case, events }
+    let of_starts = of_starts.into_inner().expect("no thread has panicked");
+    Attractors { axis: layout.axis, of_case, events, of_starts }
 }
 
 /// How the attractors of each cell of some lines go on in the next.
@@ -293,13 +302,13 @@ fn numbers(cells: &[Arc<Table<3>>], links: &[Links<3>], bridges: &[Bridge<3>]) -
             let from = pair.map(|pair| [at - 1, pair[0]]).or_else(|| Some(bridge()?.from));
             from.map(|[at, place]| numbers[at][place])
         };
-        let number = |place: usize| {
-            before(place).unwrap_or_else(|| {
+        let mut here = vec![0; cell.attractors.len()];
+        for &place in &cell.order {
+            here[place] = before(place).unwrap_or_else(|| {
                 count += 1;
                 count - 1
-            })
-        };
-        let here = (0..cell.attractors.len()).map(number).collect();
+            });
+        }
         numbers.push(here);
     }
     numbers

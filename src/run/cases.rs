@@ -2,17 +2,25 @@
 
 use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
 use crate::attractor::Executor;
 use crate::capsule::{AsPrinted, CapsuleSystem, Case, Filippov, Orbit, Reading, State, Switching};
 use crate::lane::Instructions;
-use crate::orbit::{self, Machine, OrbitOf, Outcome, Queue, Underway, settle_side_by_side};
+use crate::orbit::{
+    self, KnownOrbits, Machine, OrbitOf, Outcome, Queue, STACK, Underway, settle_all,
+    settle_side_by_side,
+};
 use crate::study::Study;
 use crate::study::grid::Chain;
+
+/// Starts that are followed to the end before others, as they tell the attractors.
+const SAMPLE: usize = 256;
+/// A study must have so many times as many cases to profit.
+const WORTHWHILE: usize = 4;
 
 /// What came of one case.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,27 +80,57 @@ pub(super) fn run_chains(
     if let Some(missing) = machine.instructions.filter(|it| !it.is_available()) {
         return Err(RunError(format!("the processor has no {}", missing.name())));
     }
+    let queue = (count, chains);
+    match study.base.switching {
+        Switching::Filippov => run_as::<Filippov>(study, machine, queue, &keep),
+        Switching::AsPrinted => run_as::<AsPrinted>(study, machine, queue, &keep),
+    }
+}
+
+fn run_as<R: Reading>(
+    study: &Study,
+    machine: Machine,
+    queue: (usize, Chains<'_>),
+    keep: &(impl Fn(usize, Record) -> ControlFlow<()> + Sync),
+) -> Result<(), RunError> {
+    let known = known_orbits::<R>(study, machine);
     let pool = pool(machine.threads)?;
     let (taken, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let share = count.div_ceil(pool.current_num_threads());
+    let share = queue.0.div_ceil(pool.current_num_threads());
     let instructions = machine.instructions_for(share);
-    let last_cases = (Mutex::default(), Mutex::default());
+    let last_cases = Mutex::default();
     pool.broadcast(|_| {
-        let links = BTreeMap::new();
-        let queue = (count, chains);
-        let worker =
-            Worker { study, queue, taken: &taken, stopped: &stopped, share, keep: &keep, links };
-        match study.base.switching {
-            Switching::Filippov => worker.work::<Filippov>(instructions, &last_cases.0),
-            Switching::AsPrinted => worker.work::<AsPrinted>(instructions, &last_cases.1),
-        }
+        let (links, known) = (BTreeMap::new(), known.clone());
+        let (taken, stopped) = (&taken, &stopped);
+        let worker = Worker { study, queue, taken, stopped, share, keep, links, known };
+        worker.work(instructions, &last_cases);
     });
     Ok(())
 }
 
+/// The orbits that a sample of the starts leads to, with their neighbourhoods, where all cases have the same parameters
+/// and enough of them profit; the sample depends on the study alone.
+fn known_orbits<R: Reading>(
+    study: &Study,
+    machine: Machine,
+) -> Option<Arc<KnownOrbits<CapsuleSystem<R>, 3>>> {
+    let cases = study.cases();
+    let wanted = study.early_decision && study.case_set.varies_starts_alone();
+    if !wanted || cases < WORTHWHILE * SAMPLE {
+        return None;
+    }
+    let sample: Vec<_> =
+        (0..SAMPLE).map(|place| study.case(place * cases / SAMPLE).read::<R>()).collect();
+    let system = sample[0].system.clone();
+    let orbits = settle_all(&sample, &study.protocol, machine);
+    let instructions = machine.instructions_for(SAMPLE);
+    let tolerance = study.protocol.tolerance;
+    Some(Arc::new(KnownOrbits::among(&system, orbits, instructions, tolerance)))
+}
+
 /// So many worker threads; one per core for none.
 pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, RunError> {
-    let mut builder = rayon::ThreadPoolBuilder::new();
+    let mut builder = rayon::ThreadPoolBuilder::new().stack_size(STACK);
     if let Some(threads) = threads {
         builder = builder.num_threads(threads);
     }
@@ -127,7 +165,7 @@ struct Link {
 type Unfinished<R> = (Link, Underway<CapsuleSystem<R>, 3>);
 
 /// A thread with its part of the queue.
-struct Worker<'a, K> {
+struct Worker<'a, R: Reading, K> {
     study: &'a Study,
     /// The length of the queue and what is in it.
     queue: (usize, Chains<'a>),
@@ -140,10 +178,11 @@ struct Worker<'a, K> {
     keep: &'a K,
     /// The cases in its lanes, by their index.
     links: BTreeMap<usize, Link>,
+    known: Option<Arc<KnownOrbits<CapsuleSystem<R>, 3>>>,
 }
 
 impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Queue<CapsuleSystem<R>, 3>
-    for Worker<'_, K>
+    for Worker<'_, R, K>
 {
     fn next(
         &mut self,
@@ -152,7 +191,7 @@ impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Queue<CapsuleSystem<R>
         let next = match done {
             Some((index, orbit)) => {
                 let link = self.links.remove(&index).expect("the case was in a lane");
-                self.follow::<R>(link, orbit).or_else(|| self.take())
+                self.follow(link, orbit).or_else(|| self.take())
             }
             None => {
                 self.share = self.share.checked_sub(1)?;
@@ -164,9 +203,13 @@ impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Queue<CapsuleSystem<R>
         self.links.insert(index, link);
         Some((index, case))
     }
+
+    fn known(&self) -> Option<Arc<KnownOrbits<CapsuleSystem<R>, 3>>> {
+        self.known.clone()
+    }
 }
 
-impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
+impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, R, K> {
     /// The first case of the next chain.
     fn take(&self) -> Option<Link> {
         let place = self.taken.fetch_add(1, Ordering::Relaxed);
@@ -179,7 +222,7 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     }
 
     /// Keeps the record of a case and yields the next of its chain.
-    fn follow<R: Reading>(
+    fn follow(
         &self,
         Link { block, index, case, rest }: Link,
         orbit: OrbitOf<CapsuleSystem<R>, 3>,
@@ -209,7 +252,7 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     }
 
     /// Settles cases in lanes, and then the last ones of all threads by themselves.
-    fn work<R: Reading>(mut self, instructions: Instructions, last: &Mutex<Vec<Unfinished<R>>>) {
+    fn work(mut self, instructions: Instructions, last: &Mutex<Vec<Unfinished<R>>>) {
         let protocol = &self.study.protocol;
         let left = settle_side_by_side::<CapsuleSystem<R>, 3>(instructions, protocol, &mut self);
         let lock = || last.lock().expect("no thread has panicked");
@@ -226,19 +269,20 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     }
 
     /// A case that leaves the lanes unfinished, with what follows it.
-    fn part_with<R: Reading>(&mut self, case: Underway<CapsuleSystem<R>, 3>) -> Unfinished<R> {
+    fn part_with(&mut self, case: Underway<CapsuleSystem<R>, 3>) -> Unfinished<R> {
         let link = self.links.remove(&case.number()).expect("the case was in a lane");
         (link, case)
     }
 
     /// Settles a case by itself, and all that follow it.
-    fn finish_chain<R: Reading>(&self, mut link: Link, case: Underway<CapsuleSystem<R>, 3>) {
+    fn finish_chain(&self, mut link: Link, case: Underway<CapsuleSystem<R>, 3>) {
         let protocol = &self.study.protocol;
         let (_, mut orbit) = case.finish(protocol);
-        while let Some(next) = self.follow::<R>(link, orbit) {
+        while let Some(next) = self.follow(link, orbit) {
             link = next;
-            (_, orbit) =
-                Underway::new(link.index, link.case.read::<R>(), protocol).finish(protocol);
+            let case = link.case.read::<R>();
+            let next = Underway::new(link.index, case, protocol, self.known.clone());
+            (_, orbit) = next.finish(protocol);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Turns the cases of a study into records, in parallel, in any order.
 
 pub mod attractor;
+pub mod attractor_table;
 pub mod block;
 pub mod cases;
 pub mod final_motion;
@@ -9,6 +10,7 @@ pub mod forecast;
 
 pub use crate::orbit::Machine;
 pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors, links};
+pub use attractor_table::{AttractorRow, AttractorTable, attractor_table};
 pub use block::run_blocks;
 pub use cases::{Record, RunError, run, run_sample};
 pub use continuation::{Continued, NotContinued, continue_branches};

@@ -1,21 +1,34 @@
-//! The variables that number the attractors and list their events.
+//! The variables that number the attractors, tell of those of starts, and list their events.
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::run::{AttractorEvent, Attractors};
+use crate::attractor::{Entropy, Uncertainty};
+use crate::capsule::Output;
+use crate::orbit::Outcome;
+use crate::run::{AttractorEvent, AttractorRow, AttractorTable, Attractors};
 use crate::study::{Coordinate, Study};
 
 use super::catalogue::{
-    ATTRACTOR, ATTRACTOR_AXIS, EVENT, EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, EVENT_UNCERTAINTY,
-    Entry, Place, SECTION,
+    ATTRACTOR, ATTRACTOR_AXIS, ATTRACTOR_CASE, ATTRACTOR_CASES, ATTRACTOR_CERTIFICATE,
+    ATTRACTOR_CYCLE, ATTRACTOR_INDEX, ATTRACTOR_KIND, ATTRACTOR_MULTIPLIER_IMAG,
+    ATTRACTOR_MULTIPLIER_REAL, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR,
+    ATTRACTOR_SHARE_HIGH, ATTRACTOR_SHARE_LOW, BASIN_ENTROPY, BASIN_ENTROPY_BOX,
+    BASIN_ENTROPY_ERROR, BOUNDARY_BASIN_ENTROPY, BOUNDARY_BASIN_ENTROPY_ERROR, BOUNDARY_DIMENSION,
+    EVENT, EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, Place, SECTION,
+    UNCERTAINTY_EXPONENT, UNCERTAINTY_EXPONENT_ERROR,
 };
 use super::{Dataset, Values};
 
-/// Adds to the dataset of a study which attractor each case has ended on, and the table of events.
+/// Adds to the dataset of a study which attractor each case has ended on, the table of the attractors of starts, and
+/// that of events.
 ///
 /// A column for each parameter on an axis says where the event is; that of the axis along which attractors
 /// are continued was located to the uncertainty given. Without events there is no table.
-pub fn add_attractors(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
+pub fn add_attractors(
+    dataset: &mut Dataset,
+    study: &Study,
+    (attractors, table): (&Attractors, &AttractorTable),
+) {
     let dimensions = study.dimensions();
     let number = |of: &Option<u32>| of.map_or(-1, i64::from);
     let numbers = attractors.of_case.iter().map(number).collect();
@@ -25,8 +38,86 @@ pub fn add_attractors(dataset: &mut Dataset, study: &Study, attractors: &Attract
         dataset.attributes.insert(ATTRACTOR_AXIS.to_owned(), name);
     }
     dataset.put(ATTRACTOR, &dimensions, Values::Integer(array));
+    if !table.rows.is_empty() {
+        add_rows(dataset, &table.rows);
+    }
+    add_measures(dataset, table);
     if !attractors.events.is_empty() {
         add_events(dataset, study, attractors);
+    }
+}
+
+/// The table of the attractors of starts; a periodic orbit has a section point for each cycle of its period, and what
+/// is not periodic none.
+fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
+    let points = |row: &AttractorRow| match row.attractor.outcome {
+        Outcome::Periodic => row.attractor.points.clone(),
+        _ => Vec::new(),
+    };
+    let longest = rows.iter().map(|row| points(row).len()).max().unwrap_or(0);
+    dataset.put_coordinate(ATTRACTOR_INDEX, Values::count(rows.len()));
+    let mut whole = |entry: Entry, of: fn(&AttractorRow) -> i64| {
+        dataset.put_column(entry, Values::integers(rows.iter().map(of).collect()));
+    };
+    whole(ATTRACTOR_KIND, |row| row.attractor.outcome as i64);
+    whole(ATTRACTOR_PERIOD, |row| row.record.orbit.period as i64);
+    whole(ATTRACTOR_CERTIFICATE, |row| row.record.orbit.certificate.proof as i64);
+    whole(ATTRACTOR_CASE, |row| row.attractor.case as i64);
+    whole(ATTRACTOR_CASES, |row| row.share.starts as i64);
+    let mut real = |entry: Entry, of: &dyn Fn(&AttractorRow) -> f64| {
+        dataset.put_column(entry, Values::reals(rows.iter().map(of).collect()));
+    };
+    real(ATTRACTOR_SHARE, &|row| row.share.value);
+    real(ATTRACTOR_SHARE_ERROR, &|row| row.share.error);
+    if rows.iter().all(|row| row.share.interval.is_some()) {
+        let end =
+            |row: &AttractorRow, which: usize| row.share.interval.map_or(f64::NAN, |it| it[which]);
+        real(ATTRACTOR_SHARE_LOW, &|row| end(row, 0));
+        real(ATTRACTOR_SHARE_HIGH, &|row| end(row, 1));
+    }
+    for &output in Output::ALL {
+        let entry = Place::Attractor.of(Entry::of_output(output));
+        real(entry, &|row| row.record.orbit.outputs[output]);
+    }
+    let several = |width: usize, of: &dyn Fn(&AttractorRow, usize) -> f64| {
+        let numbers = rows.iter().flat_map(|row| (0..width).map(move |at| of(row, at))).collect();
+        Values::Real(ArrayD::from_shape_vec(IxDyn(&[rows.len(), width]), numbers).expect("a table"))
+    };
+    let multipliers = |row: &AttractorRow| row.record.orbit.certificate.multipliers;
+    let real_parts = several(multipliers(&rows[0]).len(), &|row, at| multipliers(row)[at].re);
+    let imaginary = several(multipliers(&rows[0]).len(), &|row, at| multipliers(row)[at].im);
+    dataset.put_column(ATTRACTOR_MULTIPLIER_REAL, real_parts);
+    dataset.put_column(ATTRACTOR_MULTIPLIER_IMAG, imaginary);
+    if longest > 0 {
+        dataset.put_coordinate(ATTRACTOR_CYCLE, Values::count(longest));
+        for (i, entry) in SECTION.into_iter().enumerate() {
+            let of = |row: &AttractorRow, cycle: usize| {
+                points(row).get(cycle).map_or(f64::NAN, |it| it[i])
+            };
+            dataset.put_column(Place::Attractor.of(entry), several(longest, &of));
+        }
+    }
+}
+
+/// What is known of the basins as a whole.
+fn add_measures(dataset: &mut Dataset, table: &AttractorTable) {
+    let mut real = |entry: Entry, value: f64| {
+        dataset.put(entry, &[], Values::Real(ArrayD::from_elem(IxDyn(&[]), value)));
+    };
+    if let Some(Entropy { basin, boundary, .. }) = table.entropy {
+        real(BASIN_ENTROPY, basin.value);
+        real(BASIN_ENTROPY_ERROR, basin.error);
+        real(BOUNDARY_BASIN_ENTROPY, boundary.value);
+        real(BOUNDARY_BASIN_ENTROPY_ERROR, boundary.error);
+    }
+    if let Some(Uncertainty { exponent, dimension, .. }) = &table.uncertainty {
+        real(UNCERTAINTY_EXPONENT, exponent.value);
+        real(UNCERTAINTY_EXPONENT_ERROR, exponent.error);
+        real(BOUNDARY_DIMENSION, dimension.value);
+    }
+    if let Some(Entropy { side, .. }) = table.entropy {
+        let side = ArrayD::from_elem(IxDyn(&[]), side as i64);
+        dataset.put(BASIN_ENTROPY_BOX, &[], Values::Integer(side));
     }
 }
 

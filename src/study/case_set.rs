@@ -50,6 +50,12 @@ impl CaseSet {
         }
     }
 
+    /// Whether all cases have the same parameters and section, and several start elsewhere.
+    pub fn varies_starts_alone(&self) -> bool {
+        let varied = self.varied();
+        !varied.is_empty() && varied.iter().all(|coordinate| coordinate.is_start())
+    }
+
     /// The axes of a grid; none of draws.
     pub fn axes(&self) -> &[Axis] {
         match self {

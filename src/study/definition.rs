@@ -29,6 +29,9 @@ pub struct Study {
     pub case_set: CaseSet,
     /// How each case is integrated and judged.
     pub protocol: Protocol,
+    /// Whether a case that enters a neighbourhood of an orbit which another start has led to is followed no further; of
+    /// studies whose cases differ in their starts alone.
+    pub early_decision: bool,
     /// The outputs to keep.
     pub outputs: Vec<Output>,
     /// The branches of periodic orbits to continue.
@@ -49,6 +52,7 @@ impl Default for Study {
             section_phase: 0.0,
             case_set: CaseSet::default(),
             protocol: Protocol::default(),
+            early_decision: true,
             outputs: Output::ALL.to_vec(),
             branches: Vec::new(),
             drawings: Vec::new(),

@@ -61,6 +61,8 @@ kinds! {
         Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true };
     /// One output over two axes.
     Map "map" Keys { outputs: true, others: &[&VERDICTS], most: 1, ..AXES };
+    /// Which attractor each start leads to, over two coordinates of the start.
+    Basin "basin" AXES;
     /// Progression speed against an energy per cycle.
     TradeOff "trade-off" Keys { outputs: true, most: 1, ..AXES };
     /// Special points of branches as curves in two parameters.

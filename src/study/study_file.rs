@@ -6,13 +6,13 @@ use crate::capsule::{Dimension, Output, Parameter, Parameters, Resistance, Switc
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
 
-use super::Coordinate;
 use super::axis_file::read_case_set;
 use super::branch_file::{Surroundings, read_branches};
 use super::definition::Study;
 use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
 use super::start_file::read_start;
+use super::{CaseSet, Coordinate};
 
 /// More numbers in the results than this (32 GB) are too, rather than found out after a night.
 const MOST_NUMBERS: usize = 4_000_000_000;
@@ -42,6 +42,7 @@ impl Study {
         let base = read_parameters(&top, &case_set.varied());
         let start = read_start(&top, &mut case_set);
         let protocol = read_protocol(&top);
+        let early_decision = read_early_decision(&top, &case_set);
         let outputs = read_outputs(&top);
         let surroundings = Surroundings { case_set: &case_set, base: &base, start };
         let branches = read_branches(&top, &surroundings);
@@ -53,6 +54,7 @@ impl Study {
             start_phase: start.start_phase,
             section_phase: start.section_phase,
             protocol,
+            early_decision,
             drawings: read_drawings(&top, &case_set, &branches, &outputs),
             outputs,
             branches,
@@ -172,6 +174,18 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
         HistorySpan { cycles, per_cycle, from_start: from.unwrap_or(false) }
     });
     protocol
+}
+
+/// Reads `[basin]`, which only a study has whose cases differ in their starts alone.
+fn read_early_decision(top: &Table<'_, '_>, case_set: &CaseSet) -> bool {
+    let Some(table) = top.table("basin") else { return true };
+    let entry = table.entry("early_decision");
+    if let Some(entry) = entry.as_ref().filter(|_| !case_set.varies_starts_alone()) {
+        entry.fault("is for studies whose cases differ in their starts alone");
+    }
+    let given = entry.and_then(|entry| entry.truth());
+    table.finish();
+    given.unwrap_or(true)
 }
 
 fn read_outputs(top: &Table<'_, '_>) -> Vec<Output> {

@@ -36,6 +36,7 @@ impl Study {
         }
         self.write_start(&mut document);
         write_protocol(&mut document, &self.protocol);
+        write_early_decision(&mut document, self);
         for branch in &self.branches {
             self.write_branch(&mut document, branch);
         }
@@ -248,6 +249,13 @@ fn write_protocol(document: &mut Document, protocol: &Protocol) {
         document.put("from", text(if from_start { "start" } else { "attractor" }));
         document.put("cycles", cycles);
         document.put("samples_per_cycle", per_cycle);
+    }
+}
+
+fn write_early_decision(document: &mut Document, study: &Study) {
+    if study.case_set.varies_starts_alone() {
+        document.table("basin");
+        document.put("early_decision", study.early_decision);
     }
 }
 

@@ -126,8 +126,8 @@ fn what_a_study_may_draw_is_in_the_catalogue() {
     }
 }
 
-/// Two studies that together have all that a file of results can hold.
-const STUDIES: [&str; 3] = [
+/// Studies that together have all that a file of results can hold.
+const STUDIES: [&str; 4] = [
     r#"
 [parameters]
 m2 = "0.2 kg"
@@ -184,6 +184,27 @@ seed = 3
 name = "start_y1"
 from = "-0.4 m/s"
 to = "0.4 m/s"
+"#,
+    r#"
+[parameters]
+m2 = "0.2 kg"
+c = "1.77 N s/m"
+mu_s = 0.33
+mu_d = 0.165
+p_d = "2.79 N"
+k2 = "65.518 kN/m"
+delta = "4.33 mm"
+omega = "155 rad/s"
+[[axes]]
+name = "start_r"
+from = "-6 mm"
+to = "6 mm"
+points = 64
+[[axes]]
+name = "start_y1"
+from = "-1.5 m/s"
+to = "1.5 m/s"
+points = 64
 "#,
 ];
 

@@ -23,9 +23,28 @@ fn object(name: &str, arguments: &[&str]) -> Value {
 fn duffings_oscillator_has_five_attractors() {
     let duffing = object("duffing", &[]);
     assert_eq!(duffing["attractors"], 5);
-    let sum: f64 =
-        duffing["shares"].as_array().expect("a list").iter().filter_map(Value::as_f64).sum();
+    let numbers = |name: &str| -> Vec<f64> {
+        duffing[name].as_array().expect("a list").iter().filter_map(Value::as_f64).collect()
+    };
+    let (shares, errors) = (numbers("shares"), numbers("errors"));
+    let sum: f64 = shares.iter().sum();
     assert!((sum - 1.0).abs() < 1e-12, "every start leads to one of them: {sum}");
+    // Stender and Hoffmann (2021), 4000 starts drawn from the same window; which of two orbits of one period is which is
+    // not published.
+    let published = [[0.1955, 0.4945], [0.026, 0.0275]];
+    let of_period = [[shares[0], shares[1]], [shares[2], shares[3]]];
+    let mut compared = vec![(shares[4], errors[4], 0.256)];
+    for (place, (mut ours, theirs)) in of_period.into_iter().zip(published).enumerate() {
+        ours.sort_by(f64::total_cmp);
+        let error = errors[2 * place].max(errors[2 * place + 1]);
+        compared.extend(ours.into_iter().zip(theirs).map(|(ours, theirs)| (ours, error, theirs)));
+    }
+    for (ours, error, theirs) in compared {
+        let drawn = (theirs * (1.0 - theirs) / 4000.0_f64).sqrt();
+        let apart = (ours - theirs) / drawn.hypot(error);
+        println!("{ours:.4} +- {error:.4}, published {theirs}: {apart:+.1} standard errors");
+        assert!(apart.abs() < 3.0, "{ours} instead of {theirs}");
+    }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod acceleration;
 mod attractors;
+mod basins;
 mod belt;
 mod blocks;
 mod branch;

@@ -27,6 +27,8 @@ pub enum Extent {
     Study,
     /// A dimension of its own, which is no axis of the study.
     Dimension,
+    /// The study as a whole, once.
+    Once,
     /// Each case.
     Case,
     /// Each case, several along this dimension.
@@ -74,7 +76,9 @@ impl Entry {
             Extent::Dimension => vec![self.name],
             Extent::CaseRow(row) | Extent::Table(row) => vec![row],
             Extent::TableRow(table, row) => vec![table, row],
-            Extent::Study | Extent::Case | Extent::Block | Extent::Derived => Vec::new(),
+            Extent::Study | Extent::Once | Extent::Case | Extent::Block | Extent::Derived => {
+                Vec::new()
+            }
         }
     }
 

@@ -8,12 +8,14 @@ use crate::study::Coordinate;
 use super::branches::{BRANCH_CYCLE, BRANCH_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT};
 use super::cases::SECTION;
 use super::entry::{Entry, Extent};
-use super::tables::EVENT;
+use super::tables::{ATTRACTOR_CYCLE, ATTRACTOR_INDEX, EVENT};
 use super::{branches, cases, tables};
 
 /// A table with columns called after parameters, outputs and section points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
+    /// The attractors of starts.
+    Attractor,
     /// The events of attractors.
     Event,
     /// The branches that the study asks for.
@@ -27,12 +29,19 @@ pub enum Place {
 }
 
 impl Place {
-    const ALL: [Place; 5] =
-        [Place::Event, Place::Request, Place::Branch, Place::Special, Place::Curve];
+    const ALL: [Place; 6] = [
+        Place::Attractor,
+        Place::Event,
+        Place::Request,
+        Place::Branch,
+        Place::Special,
+        Place::Curve,
+    ];
 
     /// What the names of its columns begin with.
     fn prefix(self) -> &'static str {
         match self {
+            Place::Attractor => "attractor_",
             Place::Event => "event_",
             Place::Request => "request_",
             Place::Branch => "branch_",
@@ -69,6 +78,10 @@ impl Place {
     fn column(self, entry: Entry, meaning: &'static str) -> Entry {
         let name = self.name(entry.name).leak();
         let extent = match (self, entry.extent) {
+            (Place::Attractor, Extent::CaseRow(_)) => {
+                Extent::TableRow(ATTRACTOR_INDEX.name, ATTRACTOR_CYCLE.name)
+            }
+            (Place::Attractor, _) => Extent::Table(ATTRACTOR_INDEX.name),
             (Place::Event, _) => Extent::Table(EVENT.name),
             (Place::Request, _) => Extent::Table(REQUEST.name),
             (Place::Curve, _) => Extent::Table(CURVE_POINT.name),
@@ -87,7 +100,7 @@ impl Place {
     /// The column called after a parameter.
     fn parameter(self, parameter: Parameter) -> Entry {
         let where_to = match self {
-            Place::Event => "",
+            Place::Attractor | Place::Event => "",
             Place::Request => " at the first orbit",
             Place::Branch => " on the branch",
             Place::Special => " at the special point",
@@ -99,17 +112,19 @@ impl Place {
 
     /// All columns called after other variables.
     fn columns(self) -> Vec<Entry> {
+        // All attractors of starts have the same parameters.
+        let parameters = if self == Place::Attractor { &[][..] } else { Parameter::ALL };
         let mut columns: Vec<Entry> =
-            Parameter::ALL.iter().map(|&parameter| self.parameter(parameter)).collect();
-        let on_branch = matches!(self, Place::Branch | Place::Special);
-        let section = |entry: Entry| match on_branch {
+            parameters.iter().map(|&parameter| self.parameter(parameter)).collect();
+        let of_orbits = matches!(self, Place::Attractor | Place::Branch | Place::Special);
+        let section = |entry: Entry| match of_orbits {
             true => self.column(entry, entry.meaning),
             false => self.column(entry, "section point of the orbit at the event"),
         };
-        if on_branch || self == Place::Event {
+        if of_orbits || self == Place::Event {
             columns.extend(SECTION.map(section));
         }
-        if on_branch {
+        if of_orbits {
             let outputs = Output::ALL.iter().map(|&output| Entry::of_output(output));
             columns.extend(outputs.map(|entry| self.column(entry, entry.meaning)));
         }

@@ -1,9 +1,56 @@
-//! The entries of the tables beside the cases: events of attractors, and blocks.
+//! The entries of the tables beside the cases: attractors of starts, events of attractors, and blocks.
 
+use super::cases::MULTIPLIER;
 use super::entry::{Entry, Extent::*, Type::*, entries};
-use super::flags::specials;
+use super::flags::{outcomes, proofs, specials};
 
 entries! {
+    ATTRACTOR_INDEX "attractor_index" "1" Dimension, Whole, None,
+        "attractor of the starts of the study";
+    ATTRACTOR_CYCLE "attractor_cycle" "1" Dimension, Whole, None,
+        "drive cycle of the period of an attractor";
+    ATTRACTOR_KIND "attractor_kind" "1" Table(ATTRACTOR_INDEX.name), Category(outcomes), None,
+        "what the attractor is";
+    ATTRACTOR_PERIOD "attractor_period" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
+        "period of the attractor in drive cycles, 0 unless periodic";
+    ATTRACTOR_CERTIFICATE "attractor_certificate" "1" Table(ATTRACTOR_INDEX.name), Category(proofs), None,
+        "how the period of the attractor was proven";
+    ATTRACTOR_CASE "attractor_case" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
+        "first case of the attractor, counted from 0 with the last axis fastest, which the table tells of";
+    ATTRACTOR_CASES "attractor_cases" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
+        "cases that lead to the attractor";
+    ATTRACTOR_SHARE "attractor_share" "1" Table(ATTRACTOR_INDEX.name), Real, None,
+        "share of the cases that lead to the attractor, among all that have been computed";
+    ATTRACTOR_SHARE_ERROR "attractor_share_error" "1" Table(ATTRACTOR_INDEX.name), Real, None,
+        "standard error of the share: of a grid by the cells beside the boundary, of draws that of a binomial";
+    ATTRACTOR_SHARE_LOW "attractor_share_low" "1" Table(ATTRACTOR_INDEX.name), Real, None,
+        "lower end of Wilson's interval of the share at 95 percent";
+    ATTRACTOR_SHARE_HIGH "attractor_share_high" "1" Table(ATTRACTOR_INDEX.name), Real, None,
+        "upper end of Wilson's interval of the share at 95 percent";
+    ATTRACTOR_MULTIPLIER_REAL "attractor_multiplier_real" "1"
+        TableRow(ATTRACTOR_INDEX.name, MULTIPLIER.name), Real, None,
+        "real part of a Floquet multiplier of the attractor";
+    ATTRACTOR_MULTIPLIER_IMAG "attractor_multiplier_imag" "1"
+        TableRow(ATTRACTOR_INDEX.name, MULTIPLIER.name), Real, None,
+        "imaginary part of a Floquet multiplier of the attractor";
+
+    BASIN_ENTROPY "basin_entropy" "1" Once, Real, None,
+        "basin entropy: mean entropy of the attractors of the starts in a box, in nat";
+    BASIN_ENTROPY_ERROR "basin_entropy_error" "1" Once, Real, None,
+        "standard error of the basin entropy";
+    BOUNDARY_BASIN_ENTROPY "boundary_basin_entropy" "1" Once, Real, None,
+        "the same over the boxes that a boundary crosses";
+    BOUNDARY_BASIN_ENTROPY_ERROR "boundary_basin_entropy_error" "1" Once, Real, None,
+        "standard error of the boundary basin entropy";
+    BASIN_ENTROPY_BOX "basin_entropy_box" "1" Once, Whole, None,
+        "starts along each side of a box of the basin entropy";
+    UNCERTAINTY_EXPONENT "uncertainty_exponent" "1" Once, Real, None,
+        "exponent by which the share of boxes that a boundary crosses falls with their size";
+    UNCERTAINTY_EXPONENT_ERROR "uncertainty_exponent_error" "1" Once, Real, None,
+        "standard error of the uncertainty exponent, by the scatter about the line";
+    BOUNDARY_DIMENSION "boundary_dimension" "1" Once, Real, None,
+        "dimension of the boundary of the basins: the axes less the uncertainty exponent";
+
     EVENT "event" "1" Dimension, Whole, None,
         "event of an attractor";
     EVENT_KIND "event_kind" "1" Table(EVENT.name), Category(specials), None,

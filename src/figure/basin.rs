@@ -1,0 +1,280 @@
+//! Basins of attraction: which attractor each start leads to, over two coordinates of the start.
+
+use std::collections::BTreeSet;
+
+use plotters::style::RGBColor;
+
+use super::axis::AxisRequest;
+use super::canvas::{Canvas, Drawn, Stroke};
+use super::error::FigureError;
+use super::header::{Header, Mark};
+use super::kind::{Kind, Names, Needs};
+use super::outcome::{self, Outcomes};
+use super::page::{PageRequest, PanelRequest};
+use super::panel::{Panel, Pointing};
+use super::plane::Plane;
+use super::raster::Fill;
+use super::style::{
+    ATTRACTORS, INK, ONE_COLUMN, OTHER_ATTRACTOR, PAPER, REFERENCE_WIDTH, UNDECIDED,
+};
+use super::text::Text;
+use super::ticks::significant;
+use super::view::View;
+use crate::capsule::{Output, Parameter};
+use crate::store::catalogue::{
+    ATTRACTOR, ATTRACTOR_INDEX, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
+    ATTRACTOR_SHARE_ERROR, Entry, Place, SECTION, starts,
+};
+use crate::study::{Coordinate, Drawing};
+use crate::tradeoff::NOISE;
+
+/// Height of the frame [pt].
+const HEIGHT: f64 = 170.0;
+/// Radius of section points [pt].
+const RADIUS: f64 = 2.4;
+/// Width of the rim of a section point [pt].
+const RIM: f64 = 0.7;
+/// How much paper the colour of a basin has, so that the points of its attractor stand out.
+const TINT: f64 = 0.45;
+/// Attractors with an entry of their own in the legend.
+const NAMED: usize = 10;
+
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
+
+/// The speed on the attractor.
+const SPEED: Entry = Entry::of_output(Output::ProgressionSpeed);
+
+/// What basins read: the attractor of each case, and the table of the attractors.
+fn reads(_: &Drawing) -> Names {
+    let sections = SECTION.map(|entry| Place::Attractor.of(entry));
+    let phases = [Coordinate::StartPhase, Coordinate::SectionPhase].map(Entry::of_coordinate);
+    Names::of(outcome::READS)
+        .and([ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR])
+        .and(sections)
+        .and(phases)
+        .and([Place::Attractor.of(SPEED), Entry::of_parameter(Parameter::Delta)])
+}
+
+/// Draws the basins that `view` asks for.
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    if view.dataset.variable(ATTRACTOR.name).is_none() {
+        return Err(view.unfit("the results tell no attractors, as no axis is a start"));
+    }
+    let plane = Plane::of(view, "a figure of basins")?;
+    let of_starts = starts().map(|entry| entry.name);
+    for name in [plane.x_name, plane.y_name] {
+        if !of_starts.contains(&name) {
+            let allowed = of_starts.join(", ");
+            let why = format!("basins lie over two of {allowed}, and `{name}` is none of these");
+            return Err(view.unfit(why));
+        }
+    }
+    let basins = Basins::of(view, &plane)?;
+    let points = basins.points(view, &plane);
+    let surface = surface(view, &plane);
+    let mut legend = basins.legend(view);
+    if !points.is_empty() {
+        legend.push((Mark::Disc(INK, RADIUS), Text::plain("section points of the orbits")));
+    }
+    if surface.is_some() {
+        let dashed = Stroke::dashed(INK, REFERENCE_WIDTH);
+        legend.push((Mark::Line(dashed), Text::plain("impact surface")));
+    }
+    let panel = PanelRequest {
+        x: AxisRequest::new(view.quantity(plane.x_name), plane.x.scale),
+        y: AxisRequest::new(view.quantity(plane.y_name), plane.y.scale),
+        header: Header {
+            note: view.held_note(&plane.free()),
+            legend: legend.into_iter().chain(plane.legend()).collect(),
+            ..Header::default()
+        },
+    };
+    let page = PageRequest {
+        title: view.drawing.title.clone(),
+        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
+        heights: vec![HEIGHT],
+        rows: vec![vec![panel]],
+        right_room: 0.0,
+        pointing: Pointing::Outward,
+    };
+    let (mut canvas, panels) = page.lay_out();
+    for panel in panels.iter().flatten() {
+        plane.draw(&mut canvas, panel, |case| basins.fill(case));
+        if let Some(ends) = surface {
+            panel.curve(&mut canvas, &ends, Stroke::dashed(INK, REFERENCE_WIDTH));
+        }
+        mark_points(&mut canvas, panel, &points);
+        panel.finish(&mut canvas);
+    }
+    let about = view.about(&[ATTRACTOR.name.to_owned()], &[plane.x_name, plane.y_name]);
+    let told: Vec<String> = basins.present().into_iter().map(|number| told(view, number)).collect();
+    Ok(canvas.finish(&format!("{about}: {}", told.join("; "))))
+}
+
+/// The basin of each case.
+struct Basins {
+    /// The number of the attractor of each case over the axes of the plane; negative for none.
+    numbers: Vec<i64>,
+    /// Whether a case has no result.
+    without: Vec<bool>,
+    /// Whether each attractor of the table is chaotic or quasi-periodic.
+    irregular: Vec<bool>,
+}
+
+impl Basins {
+    fn of(view: &View<'_>, plane: &Plane<'_>) -> Result<Basins, FigureError> {
+        let free = plane.free();
+        let numbers = view.take(ATTRACTOR.name, &free)?.iter().map(|it| *it as i64).collect();
+        let outcomes = Outcomes::over(view, &free)?;
+        let no_result = |case| matches!(outcomes.name(case), Some("failed" | "missing"));
+        let without = (0..plane.count()).map(no_result).collect();
+        let kinds = view.flags(ATTRACTOR_KIND.name);
+        let is_irregular = |code: f64| {
+            let name = kinds.iter().find(|(value, _)| *value as f64 == code);
+            name.is_some_and(|(_, name)| name != "periodic")
+        };
+        let irregular = column(view, ATTRACTOR_KIND).into_iter().map(is_irregular).collect();
+        Ok(Basins { numbers, without, irregular })
+    }
+
+    /// How a cell is filled.
+    fn fill(&self, case: usize) -> Fill {
+        match self.numbers[case] {
+            _ if self.without[case] => Fill::NO_VALUE,
+            number if number < 0 => Fill::Plain(UNDECIDED),
+            number => self.of_attractor(number as usize),
+        }
+    }
+
+    /// How the basin of an attractor is filled: hatched where the motion does not repeat.
+    fn of_attractor(&self, number: usize) -> Fill {
+        let own = colour(number);
+        match self.irregular.get(number) {
+            Some(true) => Fill::Hatched(tinted(own), own),
+            _ => Fill::Plain(tinted(own)),
+        }
+    }
+
+    /// The section points of the periodic orbits, by attractor, where the section is at the phase of the starts.
+    fn points(&self, view: &View<'_>, plane: &Plane<'_>) -> Vec<((f64, f64), RGBColor)> {
+        let phases = [Coordinate::StartPhase, Coordinate::SectionPhase]
+            .map(|it| view.parameter(it.name(), &[]).ok().and_then(|it| it.first().copied()));
+        if phases[0].is_none() || phases[0] != phases[1] {
+            return Vec::new();
+        }
+        let of_axis = |name: &str| -> Vec<f64> {
+            let place = starts().iter().position(|entry| entry.name == name);
+            let entry = place.map(|place| Place::Attractor.of(SECTION[place]));
+            let factor = view.quantity(name).factor;
+            let values = entry.map_or(Vec::new(), |entry| column(view, entry));
+            values.into_iter().map(|value| value * factor).collect()
+        };
+        let (x, y) = (of_axis(plane.x_name), of_axis(plane.y_name));
+        let cycles = x.len() / view.coordinate_values(ATTRACTOR_INDEX.name).len().max(1);
+        let points = x.into_iter().zip(y).enumerate();
+        let coloured = |(place, at): (usize, (f64, f64))| (at, colour(place / cycles.max(1)));
+        points.map(coloured).filter(|((x, y), _)| x.is_finite() && y.is_finite()).collect()
+    }
+
+    /// The numbers of the attractors that occur.
+    fn present(&self) -> Vec<usize> {
+        let known = self.numbers.iter().filter(|number| **number >= 0);
+        known.map(|number| *number as usize).collect::<BTreeSet<_>>().into_iter().collect()
+    }
+
+    /// The attractors that occur, with what the table tells of them, and what else fills cells.
+    fn legend(&self, view: &View<'_>) -> Vec<(Mark, Text)> {
+        let present = self.present();
+        let entry = |&number: &usize| {
+            (Mark::Filled(self.of_attractor(number)), Text::plain(&told(view, number)))
+        };
+        let mut legend: Vec<_> = present.iter().take(NAMED).map(entry).collect();
+        if present.len() > NAMED {
+            let others = format!("{} other attractors", present.len() - NAMED);
+            legend.push((Mark::Filled(Fill::Plain(tinted(OTHER_ATTRACTOR))), Text::plain(&others)));
+        }
+        let cases = || self.numbers.iter().zip(&self.without);
+        if cases().any(|(number, without)| *number < 0 && !without) {
+            legend.push((Mark::Patch(UNDECIDED), Text::plain("attractor unknown")));
+        }
+        if self.without.contains(&true) {
+            legend.push((Mark::Filled(Fill::NO_VALUE), Text::plain("no result")));
+        }
+        legend
+    }
+}
+
+/// The colour of an attractor in every figure: by its number.
+fn colour(number: usize) -> RGBColor {
+    ATTRACTORS.get(number).copied().unwrap_or(OTHER_ATTRACTOR)
+}
+
+/// A colour with paper in it.
+fn tinted(RGBColor(red, green, blue): RGBColor) -> RGBColor {
+    let RGBColor(white, ..) = PAPER;
+    let mix =
+        |channel: u8| (f64::from(channel) * (1.0 - TINT) + f64::from(white) * TINT).round() as u8;
+    RGBColor(mix(red), mix(green), mix(blue))
+}
+
+/// The numbers of a table of attractors; none where there is none.
+fn column(view: &View<'_>, entry: Entry) -> Vec<f64> {
+    let stored = view.dataset.variable(entry.name);
+    stored.map_or(Vec::new(), |variable| variable.values.to_real().into_iter().collect())
+}
+
+/// An attractor in a phrase: its kind or period, its speed, and its share with the error.
+fn told(view: &View<'_>, number: usize) -> String {
+    let of = |entry: Entry| column(view, entry).get(number).copied();
+    let kinds = view.flags(ATTRACTOR_KIND.name);
+    let Some(code) = of(ATTRACTOR_KIND) else { return format!("attractor {number}") };
+    let kind = kinds.iter().find(|(value, _)| *value as f64 == code).map(|(_, name)| name.as_str());
+    let mut parts = vec![match (kind, of(ATTRACTOR_PERIOD)) {
+        (Some("periodic"), Some(period)) => format!("period {period}"),
+        (kind, _) => kind.unwrap_or("unknown").to_owned(),
+    }];
+    if let Some(speed) = of(Place::Attractor.of(SPEED)) {
+        let speed = if speed.abs() < NOISE { 0.0 } else { speed };
+        parts.push(format!("{} mm/s", significant(1e3 * speed, 3)));
+    }
+    if let (Some(share), Some(error)) = (of(ATTRACTOR_SHARE), of(ATTRACTOR_SHARE_ERROR)) {
+        let (share, error) = (100.0 * share, 100.0 * error);
+        // Two digits of the error say how many of the share are known.
+        let decimals =
+            if error > 0.0 { (1.0 - error.log10().floor()).clamp(0.0, 4.0) } else { 1.0 };
+        let decimals = decimals as usize;
+        parts.push(match error > 0.0 {
+            true => format!("{share:.decimals$} ± {error:.decimals$} %"),
+            false => format!("{share:.decimals$} %"),
+        });
+    }
+    parts.join(", ")
+}
+
+/// The ends of the line where the mass reaches the stop, if an axis is its displacement and the line lies on it.
+fn surface(view: &View<'_>, plane: &Plane<'_>) -> Option<[(f64, f64); 2]> {
+    let delta = Parameter::Delta.symbol();
+    let factor = view.quantity(delta).factor;
+    let gap = view.parameter(delta, &[]).ok()?.first().copied()? * factor;
+    let displacement = Coordinate::StartR.name();
+    let (x, y) = (&plane.x.scale, &plane.y.scale);
+    let inside = |low: f64, high: f64| (low..=high).contains(&gap);
+    if plane.x_name == displacement && inside(x.low, x.high) {
+        return Some([(gap, y.low), (gap, y.high)]);
+    }
+    let along_y = plane.y_name == displacement && inside(y.low, y.high);
+    along_y.then_some([(x.low, gap), (x.high, gap)])
+}
+
+/// Draws section points, those of each attractor in its colour.
+fn mark_points(canvas: &mut Canvas, panel: &Panel, points: &[((f64, f64), RGBColor)]) {
+    canvas.clipped(panel.frame, |canvas| {
+        for ((x, y), colour) in points {
+            let at = panel.place(*x, *y);
+            canvas.discs(&[(at, PAPER)], RADIUS + RIM);
+            canvas.discs(&[(at, INK)], RADIUS);
+            canvas.discs(&[(at, *colour)], RADIUS - RIM);
+        }
+    });
+}

@@ -1,0 +1,243 @@
+//! Neighbourhoods of stable orbits that no motion leaves again: what enters one tends to its orbit.
+
+use crate::flow::{Metric, System};
+use crate::lane::Instructions;
+
+use super::matrix::{Matrix, eigenvalues};
+use super::passage::{Passage, ReturnRequest};
+use super::passages::passages;
+use super::return_map::Cycles;
+
+/// The first radius that is tried, as a share of the size of the orbit.
+const WIDEST: f64 = 0.25;
+/// A radius is halved at most this often.
+const HALVINGS: u32 = 24;
+/// The neighbourhood has this share of the radius to which the map has been tested.
+const SAFETY: f64 = 0.5;
+/// Doublings of a sum, which after so many has more terms than an orbit of multiplier 1 - 1e-9 needs.
+const DOUBLINGS: u32 = 40;
+/// The longest period of an orbit that is given a neighbourhood, as its map must be followed a thousand times [cycles].
+pub(super) const LONGEST: u64 = 16;
+
+/// An ellipsoid around a section point of a periodic orbit, which its return map leads into itself.
+///
+/// Method: with the Jacobian J of the return map over the period, the norm |u|^2 = sum |J^n u|^2 (the solution of Stein's
+/// equation P - J' P J = I) falls by J by a factor theta < 1 at least, wherever the eigenvectors lie. The map is tried at
+/// all points of a lattice on the ellipsoid and on one half as wide, and the radius halved until each of them passes the
+/// events of the orbit in their order, comes nearer by (1 + theta)/2 at least, and has a Jacobian that shrinks every
+/// difference by as much. Half of that radius is kept. A coordinate that the return map keeps at exactly zero, as the velocity
+/// of a body at rest, must be zero in what is inside.
+/// Guarantees: as far as the map behaves between the points that were tried as it does at them. There it is analytic, as
+/// the order of events is one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Neighbourhood<const D: usize> {
+    /// The section point of the orbit.
+    pub centre: [f64; D],
+    /// The quadratic form that is one on the surface.
+    form: Matrix<D>,
+    /// The coordinates that are exactly zero inside.
+    at_rest: [bool; D],
+}
+
+impl<const D: usize> Neighbourhood<D> {
+    /// Whether a point is inside.
+    pub fn contains(&self, point: &[f64; D]) -> bool {
+        let away: [f64; D] = std::array::from_fn(|i| point[i] - self.centre[i]);
+        if (0..D).any(|i| self.at_rest[i] && away[i] != 0.0) {
+            return false;
+        }
+        let product = |row: &[f64; D]| row.iter().zip(&away).map(|(a, x)| a * x).sum::<f64>();
+        away.iter().zip(&self.form).map(|(x, row)| x * product(row)).sum::<f64>() <= 1.0
+    }
+
+    /// That of the point at which an orbit of a system begins; none where the orbit is not stable, its period is longer than
+    /// 16 cycles, or no ellipsoid passes.
+    pub fn of<M: System<D>>(
+        system: &M,
+        (centre, period): ([f64; D], u64),
+        instructions: Instructions,
+        tolerance: f64,
+    ) -> Option<Self> {
+        let metric = system.metric();
+        let cycles = Cycles { count: period, tolerance };
+        let request = |point: [f64; D]| ReturnRequest {
+            system: system.clone(),
+            along: None,
+            point,
+            units: [1.0; D],
+            cycles,
+            watched: true,
+        };
+        let followed = |points: Vec<[f64; D]>| {
+            let requests: Vec<_> = points.into_iter().map(request).collect();
+            let requests: Vec<_> = requests.iter().collect();
+            passages(instructions, &requests)
+        };
+        let own = followed(vec![centre]).pop()?.ok()?;
+        let at_rest: [bool; D] =
+            std::array::from_fn(|i| centre[i] == 0.0 && own.jacobian[i] == [0.0; D]);
+        let own_map = scaled(&own.jacobian, &metric, &at_rest);
+        let norm = Norm::of(&own_map)?;
+        let lattice = lattice(&at_rest);
+        let allowed = 0.5 * (1.0 + norm.theta);
+        let point = |direction: &[f64; D], radius: f64| -> [f64; D] {
+            let along = norm.unit(direction);
+            std::array::from_fn(|i| centre[i] + radius * along[i] / metric.scales[i])
+        };
+        let is_drawn_in = |passage: &Passage<M::Event, D>, radius: f64| {
+            let away = std::array::from_fn(|i| metric.scales[i] * (passage.end[i] - centre[i]));
+            let rests = (0..D).all(|i| !at_rest[i] || passage.end[i] == 0.0);
+            rests
+                && passage.events == own.events
+                && norm.size(&away) <= allowed * radius
+                && norm.growth(&scaled(&passage.jacobian, &metric, &at_rest)) <= allowed
+        };
+        let mut radius = WIDEST * metric.size(&centre);
+        for _ in 0..HALVINGS {
+            let radii = [radius, 0.5 * radius];
+            let points = radii.iter().flat_map(|&it| lattice.iter().map(move |d| (d, it)));
+            let passed = followed(points.map(|(direction, it)| point(direction, it)).collect());
+            let of_radius = |number: usize| radii[number / lattice.len()];
+            let is_passed = |(number, passage): (usize, &Result<Passage<M::Event, D>, _>)| {
+                passage.as_ref().is_ok_and(|it| is_drawn_in(it, of_radius(number)))
+            };
+            if passed.iter().enumerate().all(is_passed) {
+                let kept = SAFETY * radius;
+                let scales = &metric.scales;
+                let form = std::array::from_fn(|i| {
+                    std::array::from_fn(|j| norm.form[i][j] * scales[i] * scales[j] / (kept * kept))
+                });
+                return Some(Neighbourhood { centre, form, at_rest });
+            }
+            radius *= 0.5;
+        }
+        None
+    }
+}
+
+/// A norm in which a linear map shrinks every vector.
+struct Norm<const D: usize> {
+    form: Matrix<D>,
+    /// The lower factor of the form by Cholesky.
+    factor: Matrix<D>,
+    /// The map shrinks by this factor at least.
+    theta: f64,
+}
+
+impl<const D: usize> Norm<D> {
+    /// That of a map; none where its powers do not die out.
+    fn of(map: &Matrix<D>) -> Option<Self> {
+        let mut form: Matrix<D> =
+            std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
+        let mut power = *map;
+        // Each turn adds as many terms as there are.
+        for _ in 0..DOUBLINGS {
+            let more = product(&transposed(&power), &product(&form, &power));
+            let before = form;
+            for (row, more) in form.iter_mut().zip(&more) {
+                row.iter_mut().zip(more).for_each(|(x, more)| *x += more);
+            }
+            if form == before {
+                break;
+            }
+            power = product(&power, &power);
+        }
+        let trace: f64 = (0..D).map(|i| form[i][i]).sum();
+        // The largest eigenvalue of the form is below its trace.
+        let theta = (1.0 - 1.0 / trace).sqrt();
+        let factor = cholesky(&form)?;
+        (theta < 1.0).then_some(Norm { form, factor, theta })
+    }
+
+    /// The size of a vector.
+    fn size(&self, vector: &[f64; D]) -> f64 {
+        let upper = transposed(&self.factor);
+        let sum = |row: &[f64; D]| row.iter().zip(vector).map(|(a, x)| a * x).sum::<f64>();
+        upper.iter().map(sum).map(|it| it * it).sum::<f64>().sqrt()
+    }
+
+    /// The vector of size one that a unit vector of the plain norm is led to.
+    fn unit(&self, direction: &[f64; D]) -> [f64; D] {
+        // The transposed factor is upper triangular.
+        let mut vector = *direction;
+        for i in (0..D).rev() {
+            let known: f64 = (i + 1..D).map(|j| self.factor[j][i] * vector[j]).sum();
+            vector[i] = (vector[i] - known) / self.factor[i][i];
+        }
+        vector
+    }
+
+    /// By how much a map makes vectors longer at most.
+    fn growth(&self, map: &Matrix<D>) -> f64 {
+        // L' A (L')^-1, column by column.
+        let mut columns = [[0.0; D]; D];
+        for (j, column) in columns.iter_mut().enumerate() {
+            let unit = self.unit(&std::array::from_fn(|i| f64::from(i == j)));
+            let image: [f64; D] =
+                std::array::from_fn(|i| (0..D).map(|k| map[i][k] * unit[k]).sum::<f64>());
+            *column = std::array::from_fn(|i| (i..D).map(|k| self.factor[k][i] * image[k]).sum());
+        }
+        // The columns as rows are the transpose, whose product with its own transpose has the same eigenvalues.
+        let square = product(&columns, &transposed(&columns));
+        eigenvalues(&square)[0].abs().sqrt()
+    }
+}
+
+/// The directions whose coordinates are -1, 0 and 1 up to a factor, but for those at rest.
+fn lattice<const D: usize>(at_rest: &[bool; D]) -> Vec<[f64; D]> {
+    let mut directions = vec![[0.0; D]];
+    for i in (0..D).filter(|i| !at_rest[*i]) {
+        let longer = |value: f64| {
+            move |mut direction: [f64; D]| {
+                direction[i] = value;
+                direction
+            }
+        };
+        directions = [-1.0, 0.0, 1.0]
+            .into_iter()
+            .flat_map(|value| directions.iter().copied().map(longer(value)).collect::<Vec<_>>())
+            .collect();
+    }
+    let length = |it: &[f64; D]| it.iter().map(|x| x * x).sum::<f64>().sqrt();
+    directions.retain(|it| length(it) > 0.0);
+    directions.iter().map(|it| it.map(|x| x / length(it))).collect()
+}
+
+/// A Jacobian in the units of a metric, without what is at rest.
+fn scaled<const D: usize>(
+    jacobian: &Matrix<D>,
+    metric: &Metric<D>,
+    at_rest: &[bool; D],
+) -> Matrix<D> {
+    let scales = &metric.scales;
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| match at_rest[i] || at_rest[j] {
+            true => 0.0,
+            false => jacobian[i][j] * scales[i] / scales[j],
+        })
+    })
+}
+
+fn transposed<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
+}
+
+fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..D).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+/// The lower factor L of a positive definite matrix L L'; none where it is not.
+fn cholesky<const D: usize>(a: &Matrix<D>) -> Option<Matrix<D>> {
+    let mut lower = [[0.0; D]; D];
+    for i in 0..D {
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
+            let rest = a[i][j] - known;
+            lower[i][j] = if i == j { rest.sqrt() } else { rest / lower[j][j] };
+            if !lower[i][j].is_finite() || (i == j && lower[i][j] <= 0.0) {
+                return None;
+            }
+        }
+    }
+    Some(lower)
+}

@@ -1,0 +1,94 @@
+//! The table of the attractors of a study whose cases differ in their starts alone.
+
+use crate::attractor::{
+    Attractor, Entropy, Label, Share, Uncertainty, entropy, shares_of_draws, shares_of_grid,
+    uncertainty,
+};
+use crate::capsule::{AsPrinted, Case, Filippov, Switching};
+use crate::flow::System;
+use crate::orbit::Outcome;
+use crate::study::{CaseSet, Study};
+
+use super::cases::run_sample;
+use super::{Attractors, FinalMotion, Machine, Record, RunError};
+
+/// An attractor that starts lead to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AttractorRow {
+    /// What tells it from others; the section points of a periodic orbit begin with [`Attractor::least_point`].
+    pub attractor: Attractor<3>,
+    /// The first of its cases, computed once more with all outputs.
+    pub record: Record,
+    /// The part of the starts that lead to it.
+    pub share: Share,
+}
+
+/// What a study tells of attractors and their basins whose cases differ in their starts alone.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct AttractorTable {
+    /// The attractors by their numbers.
+    pub rows: Vec<AttractorRow>,
+    /// The entropy of the basins of a grid of two axes or more that no case is missing of, if several labels occur.
+    pub entropy: Option<Entropy>,
+    /// The uncertainty exponent of the same, where the grid is fine enough.
+    pub uncertainty: Option<Uncertainty>,
+}
+
+/// Starts along each side of a box of the basin entropy.
+const BOX: usize = 6;
+
+/// The table of a study, if its cases differ in their starts alone; else an empty one.
+///
+/// `final_motions` are those of its cases by index, none for a case that is missing.
+pub fn attractor_table(
+    study: &Study,
+    attractors: &Attractors,
+    final_motions: &[Option<FinalMotion>],
+    machine: Machine,
+) -> Result<AttractorTable, RunError> {
+    let found = &attractors.of_starts;
+    if found.is_empty() {
+        return Ok(AttractorTable::default());
+    }
+    let label = |case: usize| match (&final_motions[case], attractors.of_case[case]) {
+        (None, _) => Label::Missing,
+        (Some(_), None) => Label::Undecided,
+        (Some(_), Some(number)) => Label::Attractor(number),
+    };
+    let shares = match &study.case_set {
+        CaseSet::Draws(draws) => shares_of_draws(draws.count, label, found.len()),
+        CaseSet::Grid(_) => shares_of_grid(&study.shape(), label, found.len()),
+    };
+    // A chain of such a study is one case, as no start is inherited from the same parameters.
+    let mut cases: Vec<usize> = found.iter().map(|it| it.case).collect();
+    cases.sort_unstable();
+    // Each with a certificate of its own.
+    let followed = Study { early_decision: false, ..study.clone() };
+    let records = run_sample(&followed, machine, &cases, || ())?;
+    let row = |(attractor, share): (&Attractor<3>, Share)| {
+        let place = cases.binary_search(&attractor.case).expect("it is among them");
+        let attractor = begun_at_least(attractor.clone(), &study.case(attractor.case));
+        AttractorRow { attractor, record: records[place].clone(), share }
+    };
+    let rows = found.iter().zip(shares).map(row).collect();
+    let shape = study.shape();
+    let is_grid = matches!(study.case_set, CaseSet::Grid(_)) && shape.len() > 1;
+    let several = (0..study.cases()).any(|case| label(case) != label(0));
+    let measured = is_grid && several;
+    let entropy = measured.then(|| entropy(&shape, label, BOX)).flatten();
+    let uncertainty = measured.then(|| uncertainty(&shape, label)).flatten();
+    Ok(AttractorTable { rows, entropy, uncertainty })
+}
+
+/// The same, a periodic orbit from its least section point on.
+fn begun_at_least(mut attractor: Attractor<3>, case: &Case) -> Attractor<3> {
+    if attractor.outcome == Outcome::Periodic {
+        let metric = match case.parameters.switching {
+            Switching::Filippov => case.read::<Filippov>().system.metric(),
+            Switching::AsPrinted => case.read::<AsPrinted>().system.metric(),
+        };
+        let least = attractor.least_point(&metric);
+        attractor.points.rotate_left(least);
+    }
+    attractor
+}

@@ -1,0 +1,356 @@
+//! Basins: the table of the attractors that starts lead to, its numbers and its shares.
+
+use std::fs;
+
+use capsulemap::attractor::{Estimate, Label, entropy, shares_of_draws, uncertainty};
+use capsulemap::capsule::{Filippov, Output};
+use capsulemap::flow::System;
+use capsulemap::lane::Instructions;
+use capsulemap::orbit::neighbourhood::Neighbourhood;
+use capsulemap::orbit::return_map::{Cycles, returned};
+use capsulemap::orbit::{Outcome, Proof};
+use capsulemap::run::{self, AttractorRow, AttractorTable, Attractors, Machine, Record};
+use capsulemap::store;
+use capsulemap::study::{CaseSet, Study};
+
+use super::draws::Random;
+use super::program::{TWO_MOTIONS, WorkDir};
+
+/// A study over starts of the capsule with two motions, by the values of two axes.
+fn starts(r: &[f64], y1: &[f64]) -> Study {
+    let axis = |name: &str, values: &[f64], unit: &str| {
+        let values: Vec<String> = values.iter().map(|it| format!("\"{it} {unit}\"")).collect();
+        format!("[[axes]]\nname = \"{name}\"\nvalues = [{}]\n", values.join(", "))
+    };
+    let axes = axis("start_r", r, "mm") + &axis("start_y1", y1, "m/s");
+    let text = format!("{TWO_MOTIONS}omega = \"155 rad/s\"\n{axes}");
+    Study::parse("study.toml", &text).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+struct Found {
+    records: Vec<Record>,
+    attractors: Attractors,
+    rows: Vec<AttractorRow>,
+    table: AttractorTable,
+}
+
+fn found(study: &Study) -> Found {
+    let machine = Machine::default();
+    let chains: Vec<usize> = (0..study.chains()).collect();
+    let records = run::run_sample(study, machine, &chains, || ()).expect("the study runs");
+    let motions = run::final_motions(study, &records);
+    let attractors = run::attractors(study, &motions, machine, || ()).expect("threads");
+    let table = run::attractor_table(study, &attractors, &motions, machine).expect("threads");
+    Found { records, attractors, rows: table.rows.clone(), table }
+}
+
+const R: [f64; 5] = [-6.0, -3.0, 0.0, 3.0, 6.0];
+const Y1: [f64; 7] = [-1.5, -1.0, -0.4, 0.0, 0.3, 0.8, 1.5];
+
+#[test]
+fn every_case_does_what_the_table_says_of_its_attractor() {
+    let Found { records, attractors, rows, .. } = found(&starts(&R, &Y1));
+    assert_eq!(rows.len(), 2);
+    for (number, row) in rows.iter().enumerate() {
+        let here: Vec<&Record> = records
+            .iter()
+            .filter(|record| attractors.of_case[record.index] == Some(number as u32))
+            .collect();
+        assert_eq!((row.share.starts, row.attractor.case), (here.len(), here[0].index));
+        assert!((row.share.value - here.len() as f64 / records.len() as f64).abs() < 1e-15);
+        let orbit = &row.record.orbit;
+        assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+        let speed = |record: &Record| record.orbit.outputs[Output::ProgressionSpeed];
+        assert!(here.iter().all(|it| (speed(it) - speed(&row.record)).abs() < 1e-10));
+        // The section points of all its cases, each measured from where it settled.
+        for record in here {
+            for (a, b) in record.orbit.section[0].iter().zip(row.attractor.points[0]) {
+                assert!((a - b).abs() < 1e-10, "{record:?}");
+            }
+        }
+    }
+    // The one that shakes in place has the lesser r; see `studies/hysteresis.toml`.
+    let speeds: Vec<f64> =
+        rows.iter().map(|row| row.record.orbit.outputs[Output::ProgressionSpeed]).collect();
+    assert!(speeds[0].abs() < 1e-10 && (speeds[1] - 0.067).abs() < 1e-3, "{speeds:?}");
+}
+
+#[test]
+fn numbers_do_not_depend_on_the_order_of_the_starts() {
+    let ordered = found(&starts(&R, &Y1)).attractors.of_case;
+    let reversed = |values: &[f64]| values.iter().rev().copied().collect::<Vec<_>>();
+    let backward = found(&starts(&reversed(&R), &reversed(&Y1))).attractors.of_case;
+    assert!(backward.iter().rev().eq(&ordered));
+    // The first starts of the two lead to different motions, so that the order of appearance is another.
+    assert_ne!(ordered.first(), backward.first());
+}
+
+#[test]
+fn the_file_has_the_table_along_its_own_dimension() {
+    let folder = WorkDir::new();
+    let axes = "[[axes]]\nname = \"start_r\"\nfrom = \"-6 mm\"\nto = \"6 mm\"\npoints = 6\n\
+                [[axes]]\nname = \"start_y1\"\nfrom = \"-1.5 m/s\"\nto = \"1.5 m/s\"\npoints = 5\n\
+                [[figures]]\nname = \"basin\"\nkind = \"basin\"\n";
+    let text = format!("{TWO_MOTIONS}omega = \"155 rad/s\"\n{axes}");
+    folder.put("study.toml", &text);
+    folder.run(&["sweep", "study.toml"]).done();
+    let file = folder.path("results/study/study.h5");
+    let dataset = store::read(&file).expect("a file of results");
+    let real = |name: &str| -> Vec<f64> {
+        let variable = dataset.variable(name).unwrap_or_else(|| panic!("no {name}"));
+        variable.values.to_real().into_iter().collect()
+    };
+    let labels = real("attractor");
+    let count = |number: f64| labels.iter().filter(|it| **it == number).count() as f64;
+    assert_eq!(real("attractor_period"), [1.0, 1.0]);
+    assert_eq!(real("attractor_cases"), [count(0.0), count(1.0)]);
+    assert_eq!(real("attractor_share"), [count(0.0) / 30.0, count(1.0) / 30.0]);
+    for name in ["attractor_section_r", "attractor_section_y1", "attractor_section_y2"] {
+        let variable = dataset.variable(name).expect("section points");
+        assert_eq!(variable.dimensions, ["attractor_index", "attractor_cycle"]);
+        assert!(real(name).iter().all(|it| it.is_finite()));
+    }
+    for name in ["attractor_progression_speed", "attractor_work_positive", "attractor_share_error"]
+    {
+        let variable = dataset.variable(name).expect("a column");
+        assert_eq!(variable.dimensions, ["attractor_index"]);
+    }
+    for format in ["png", "svg", "pdf"] {
+        assert!(folder.path(&format!("results/study/basin.{format}")).exists(), "{format}");
+    }
+    let svg = fs::read_to_string(folder.path("results/study/basin.svg")).expect("a figure");
+    // What the legend says stands in the description, too; a disc for the point of each orbit, a dashed impact surface.
+    let told = ["attractor over start_r, start_y1: period 1, 0 mm/s, ", "; period 1, 67.0 mm/s, "];
+    for words in told.into_iter().chain(["#0072b2", "#d55e00", "stroke-dasharray"]) {
+        assert!(svg.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn basins_are_drawn_over_starts_alone() {
+    let folder = WorkDir::new();
+    let axes = "[[axes]]\nname = \"start_r\"\nvalues = [\"0 mm\", \"1 mm\"]\n\
+                [[axes]]\nname = \"omega\"\nvalues = [\"150 rad/s\", \"155 rad/s\"]\n\
+                [[figures]]\nname = \"basin\"\nkind = \"basin\"\n";
+    folder.put("study.toml", format!("{TWO_MOTIONS}{axes}"));
+    let ran = folder.run(&["sweep", "study.toml"]);
+    ran.refused(&[
+        "figure `basin`",
+        "basins lie over two of start_r, start_y1, start_y2",
+        "`omega`",
+    ]);
+}
+
+#[test]
+fn shares_of_two_seeds_agree_as_their_errors_say() {
+    // A start leads to the attractor of the nearest root of z^3 - 1 by Newton's method, after one step: no closed form
+    // for the shares, and boundaries that are not straight.
+    let label = |[x, y]: [f64; 2]| {
+        let (square, cross) = (x * x - y * y, 2.0 * x * y);
+        let norm = 3.0 * (square * square + cross * cross);
+        let next = [2.0 * x / 3.0 + square / norm, 2.0 * y / 3.0 - cross / norm];
+        let root = |k: u32| {
+            let angle = f64::from(k) * std::f64::consts::TAU / 3.0;
+            (next[0] - angle.cos()).hypot(next[1] - angle.sin())
+        };
+        (0..3).min_by(|a, b| root(*a).total_cmp(&root(*b))).expect("three roots")
+    };
+    let shares = |seed: u64| {
+        let text = format!(
+            "{TWO_MOTIONS}omega = \"155 rad/s\"\n[draws]\ncount = 400\nseed = {seed}\n[[axes]]\nname = \"start_r\"\nfrom = \"-1 m\"\nto = \"1 m\"\n\
+             [[axes]]\nname = \"start_y1\"\nfrom = \"-1 m/s\"\nto = \"1 m/s\"\n"
+        );
+        let study = Study::parse("draws.toml", &text).unwrap_or_else(|faults| panic!("{faults}"));
+        assert!(matches!(study.case_set, CaseSet::Draws(_)));
+        let label = |case: usize| {
+            let start = study.case(case).start;
+            Label::Attractor(label([start.r, start.y1]))
+        };
+        shares_of_draws(study.cases(), label, 3)
+    };
+    let mut agree = [0; 3];
+    const REPETITIONS: u64 = 400;
+    for repetition in 0..REPETITIONS {
+        let [ours, theirs] = [2 * repetition, 2 * repetition + 1].map(shares);
+        for (agree, (a, b)) in agree.iter_mut().zip(ours.iter().zip(&theirs)) {
+            let error = a.error.hypot(b.error);
+            *agree += u64::from((a.value - b.value).abs() <= 1.96 * error);
+        }
+    }
+    for agree in agree {
+        let percent = 100.0 * agree as f64 / REPETITIONS as f64;
+        println!("within 1.96 standard errors: {percent:.1} of 100 repetitions");
+        assert!((percent - 95.0).abs() <= 3.0, "{percent}");
+    }
+}
+
+#[test]
+fn what_enters_a_neighbourhood_tends_to_its_orbit() {
+    let study = starts(&R, &Y1);
+    let system = study.case(0).read::<Filippov>().system;
+    let metric = system.metric();
+    let mut random = Random::new(15);
+    for row in found(&study).rows {
+        let (centre, period) = (row.attractor.points[0], row.record.orbit.period);
+        let of = |instructions| {
+            Neighbourhood::of(&system, (centre, period), instructions, 1e-12).expect("it is stable")
+        };
+        let neighbourhood = of(Instructions::Scalar);
+        assert!(Instructions::available().all(|it| of(it) == neighbourhood));
+        // Points all over the ellipsoid, whose extent along each coordinate is found by doubling.
+        let along = |i: usize, by: f64| {
+            let mut point = centre;
+            point[i] += by;
+            point
+        };
+        let reach: [f64; 3] = std::array::from_fn(|i| {
+            let mut by = 1e-9;
+            while neighbourhood.contains(&along(i, by)) {
+                by *= 2.0;
+            }
+            by
+        });
+        println!("period {period}: the neighbourhood reaches {reach:?}");
+        assert!(reach.iter().zip(metric.scales).all(|(by, scale)| by * scale > 1e-3), "{reach:?}");
+        let mut inside = 0;
+        while inside < 200 {
+            let point = std::array::from_fn(|i| centre[i] + reach[i] * random.uniform(-2.0, 2.0));
+            if !neighbourhood.contains(&point) {
+                continue;
+            }
+            inside += 1;
+            let cycles = Cycles { count: 200 * period, tolerance: 1e-12 };
+            let end = returned(&system.single(), point, &cycles, |_| ()).expect("it goes on");
+            assert!(metric.distance(&end, &centre) < 1e-9, "{point:?} leads to {end:?}");
+        }
+    }
+}
+
+/// With `STARTS=1000000` so many starts, else some thousands.
+#[test]
+fn early_decisions_are_those_of_following_to_the_end() {
+    let wanted = std::env::var("STARTS").map_or(3600, |it| it.parse().expect("a number"));
+    let side = (f64::from(wanted)).sqrt() as usize;
+    let text = |early: bool| {
+        format!(
+            "{TWO_MOTIONS}omega = \"155 rad/s\"\n\
+             [[axes]]\nname = \"start_r\"\nfrom = \"-6 mm\"\nto = \"6 mm\"\npoints = {side}\n\
+             [[axes]]\nname = \"start_y1\"\nfrom = \"-1.5 m/s\"\nto = \"1.5 m/s\"\npoints = {side}\n\
+             [protocol]\npoints = 1\nimpact_points = 0\n[basin]\nearly_decision = {early}\n"
+        )
+    };
+    let [early, late] = [true, false].map(|early| {
+        let study = Study::parse("study.toml", &text(early)).expect("a study");
+        found(&study)
+    });
+    assert_eq!(early.attractors.of_case, late.attractors.of_case);
+    assert!(early.attractors.of_case.iter().all(Option::is_some));
+    let by_neighbourhood = |found: &Found| {
+        let proof = |record: &&Record| record.orbit.certificate.proof == Proof::Neighbourhood;
+        found.records.iter().filter(proof).count()
+    };
+    let (decided, all) = (by_neighbourhood(&early), side * side);
+    let cycles = |found: &Found| found.records.iter().map(|it| it.orbit.cycles).sum::<u64>();
+    println!("{decided} of {all} decided early; {} cycles, not {}", cycles(&early), cycles(&late));
+    assert!(decided > all / 2 && by_neighbourhood(&late) == 0);
+    // What is measured is that of the attractor, to its rounding.
+    for (a, b) in early.records.iter().zip(&late.records) {
+        let [a, b] = [a, b].map(|it| it.orbit.outputs[Output::ProgressionSpeed]);
+        assert!((a - b).abs() < 1e-10, "{a} {b}");
+    }
+    // The boundary of the two basins is smooth.
+    let exponent = early.table.uncertainty.as_ref().map(|it| it.exponent);
+    println!("uncertainty exponent {exponent:?}, entropy {:?}", early.table.entropy);
+    if let Some(Estimate { value, error }) = exponent {
+        assert!((value - 1.0).abs() < 3.0 * error + 0.05, "{value} +- {error}");
+    }
+    assert_eq!(
+        (&early.table.entropy, &early.table.uncertainty),
+        (&late.table.entropy, &late.table.uncertainty)
+    );
+    // The table is that of cases that are followed to the end, in both.
+    for (a, b) in early.rows.iter().zip(&late.rows) {
+        assert_eq!((&a.record, a.share), (&b.record, b.share));
+    }
+}
+
+/// The labels of a map on a grid of cells over two ranges.
+fn map_labels(
+    side: usize,
+    [x, y]: [[f64; 2]; 2],
+    label: impl Fn([f64; 2]) -> Option<u32>,
+) -> Vec<Label> {
+    let at =
+        |index: usize, [low, high]: [f64; 2]| low + (high - low) * index as f64 / (side - 1) as f64;
+    let cells = (0..side * side).map(|cell| [at(cell / side, x), at(cell % side, y)]);
+    cells.map(|point| label(point).map_or(Label::Undecided, Label::Attractor)).collect()
+}
+
+/// Newton's method for z^3 = 1: the root that it leads to.
+fn newton([mut x, mut y]: [f64; 2]) -> Option<u32> {
+    for _ in 0..200 {
+        let (square, cross) = (x * x - y * y, 2.0 * x * y);
+        let norm = 3.0 * (square * square + cross * cross);
+        [x, y] = [2.0 * x / 3.0 + square / norm, 2.0 * y / 3.0 - cross / norm];
+    }
+    let from = |k: u32| {
+        let angle = f64::from(k) * std::f64::consts::TAU / 3.0;
+        (x - angle.cos()).hypot(y - angle.sin())
+    };
+    (0..3).find(|k| from(*k) < 1e-6)
+}
+
+/// The map of Grebogi, Ott and Yorke (1983) with two fixed points that attract, (0, -0.3) and (pi, 0.3).
+fn grebogi([mut theta, mut x]: [f64; 2]) -> Option<u32> {
+    for _ in 0..1000 {
+        let turned =
+            theta + 1.32 * (2.0 * theta).sin() - 0.9 * (4.0 * theta).sin() - x * theta.sin();
+        (theta, x) = (turned, -0.3 * theta.cos());
+    }
+    let off = [(theta / 2.0).sin().abs(), (theta / 2.0).cos().abs()];
+    off.iter().position(|it| *it < 1e-6).map(|it| it as u32)
+}
+
+#[test]
+fn measures_of_basins_of_maps_are_the_published_ones() {
+    let shape = [300, 300];
+    let newton = map_labels(300, [[-1.0, 1.0]; 2], newton);
+    let found = uncertainty(&shape, |cell| newton[cell]).expect("a boundary");
+    let of_newton = entropy(&shape, |cell| newton[cell], 6).expect("boxes");
+    println!("Newton: {found:?} {of_newton:?}");
+    assert!((0.55..0.65).contains(&found.exponent.value), "{found:?}");
+    assert!(found.exponent.error < 0.05, "{found:?}");
+    // Three basins meet at every point of the boundary: more than two can make.
+    assert!(of_newton.boundary.value > f64::ln(2.0), "{of_newton:?}");
+
+    let tau = std::f64::consts::TAU;
+    let grebogi = map_labels(300, [[0.0, tau], [-0.5, 0.5]], grebogi);
+    let found = uncertainty(&shape, |cell| grebogi[cell]).expect("a boundary");
+    let of_grebogi = entropy(&shape, |cell| grebogi[cell], 6).expect("boxes");
+    println!("Grebogi: {found:?} {of_grebogi:?}");
+    assert!((0.2..0.3).contains(&found.exponent.value), "{found:?}");
+    assert!((0.40..0.42).contains(&of_grebogi.basin.value), "{of_grebogi:?}");
+    assert!((0.60..0.61).contains(&of_grebogi.boundary.value), "{of_grebogi:?}");
+}
+
+#[test]
+fn a_straight_boundary_has_the_exponent_one() {
+    let side = 256;
+    let label = |cell: usize| {
+        let (row, column) = ((cell / side) as f64, (cell % side) as f64);
+        Label::Attractor(u32::from(0.7391 * row + column > 211.3))
+    };
+    let found = uncertainty(&[side, side], label).expect("a boundary");
+    println!("straight: {found:?}");
+    let Estimate { value, error } = found.exponent;
+    assert!((value - 1.0).abs() < 2.0 * error && error < 0.1, "{found:?}");
+    assert!((found.dimension.value + value - 2.0).abs() < 1e-12, "{found:?}");
+    // Finer by two, half of the boxes are on the boundary.
+    let coarse = entropy(&[side, side], label, 8).expect("boxes").basin.value;
+    let fine = |cell: usize| {
+        let (row, column) = (cell / (2 * side) / 2, cell % (2 * side) / 2);
+        label(row * side + column)
+    };
+    let finer = entropy(&[2 * side, 2 * side], fine, 8).expect("boxes").basin.value;
+    assert!((finer / coarse - 0.5).abs() < 0.1, "{finer} {coarse}");
+}
