@@ -18,6 +18,7 @@ use crate::lane::Instructions;
 use crate::run::{AttractorTable, Attractors, has_attractors};
 use crate::store::{self, Dataset, folder};
 use crate::study::Study;
+use crate::study::layout::linked_axis;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -159,7 +160,8 @@ fn without_cases(study: &Study) -> Dataset {
     }
     let mut dataset = store::dataset(&small, &[]);
     if has_attractors(&small) {
-        let unknown = Attractors { of_case: vec![None; small.cases()], ..Attractors::default() };
+        let (axis, of_case) = (linked_axis(&small), vec![None; small.cases()]);
+        let unknown = Attractors { axis, of_case, ..Attractors::default() };
         store::add_attractors(&mut dataset, &small, (&unknown, &AttractorTable::default()));
     }
     dataset

@@ -210,6 +210,16 @@ fn colour(number: usize) -> RGBColor {
     ATTRACTORS.get(number).copied().unwrap_or(OTHER_ATTRACTOR)
 }
 
+/// The colour of an area that belongs to an attractor.
+pub(super) fn band(number: usize) -> RGBColor {
+    tinted(colour(number))
+}
+
+/// The colour of an area that belongs to no known attractor.
+pub(super) fn undecided() -> RGBColor {
+    UNDECIDED
+}
+
 /// A colour with paper in it.
 fn tinted(RGBColor(red, green, blue): RGBColor) -> RGBColor {
     let RGBColor(white, ..) = PAPER;
@@ -245,8 +255,8 @@ fn told(view: &View<'_>, number: usize) -> String {
             if error > 0.0 { (1.0 - error.log10().floor()).clamp(0.0, 4.0) } else { 1.0 };
         let decimals = decimals as usize;
         parts.push(match error > 0.0 {
-            true => format!("{share:.decimals$} ± {error:.decimals$} %"),
-            false => format!("{share:.decimals$} %"),
+            true => format!("{share:.decimals$} ± {error:.decimals$} % of the starts"),
+            false => format!("{share:.decimals$} % of the starts"),
         });
     }
     parts.join(", ")

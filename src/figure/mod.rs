@@ -33,6 +33,7 @@ mod quantity;
 mod raster;
 mod registry;
 mod scale;
+mod shares;
 mod style;
 mod symbol;
 mod text;

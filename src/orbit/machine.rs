@@ -35,12 +35,11 @@ impl Machine {
         let share = cases.div_ceil(threads);
         let instructions = self.instructions_for(share);
         thread::scope(|scope| {
-            for _ in 1..threads {
+            for _ in 0..threads {
                 let thread = thread::Builder::new().stack_size(STACK);
                 let worker = thread.spawn_scoped(scope, || work(share, instructions));
                 worker.expect("a thread can be started");
             }
-            work(share, instructions);
         });
     }
 }

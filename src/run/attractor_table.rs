@@ -10,7 +10,7 @@ use crate::orbit::Outcome;
 use crate::study::{CaseSet, Study};
 
 use super::cases::run_sample;
-use super::{Attractors, FinalMotion, Machine, Record, RunError};
+use super::{Attractors, FinalMotion, Machine, Record, RunError, SharesAt, shares_along};
 
 /// An attractor that starts lead to.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,11 +23,13 @@ pub struct AttractorRow {
     pub share: Share,
 }
 
-/// What a study tells of attractors and their basins whose cases differ in their starts alone.
+/// What a study tells of attractors and their basins whose cases differ in their starts alone, or in one parameter, too.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct AttractorTable {
     /// The attractors by their numbers.
     pub rows: Vec<AttractorRow>,
+    /// The shares along the parameter of a study of one parameter and of starts, for each of its values.
+    pub along: Option<Vec<SharesAt>>,
     /// The entropy of the basins of a grid of two axes or more that no case is missing of, if several labels occur.
     pub entropy: Option<Entropy>,
     /// The uncertainty exponent of the same, where the grid is fine enough.
@@ -37,7 +39,7 @@ pub struct AttractorTable {
 /// Starts along each side of a box of the basin entropy.
 const BOX: usize = 6;
 
-/// The table of a study, if its cases differ in their starts alone; else an empty one.
+/// The table of a study whose cases differ in their starts alone, or the shares of one along a parameter; empty of any other.
 ///
 /// `final_motions` are those of its cases by index, none for a case that is missing.
 pub fn attractor_table(
@@ -48,7 +50,8 @@ pub fn attractor_table(
 ) -> Result<AttractorTable, RunError> {
     let found = &attractors.of_starts;
     if found.is_empty() {
-        return Ok(AttractorTable::default());
+        let along = shares_along(study, attractors, final_motions);
+        return Ok(AttractorTable { along, ..AttractorTable::default() });
     }
     let label = |case: usize| match (&final_motions[case], attractors.of_case[case]) {
         (None, _) => Label::Missing,
@@ -77,7 +80,7 @@ pub fn attractor_table(
     let measured = is_grid && several;
     let entropy = measured.then(|| entropy(&shape, label, BOX)).flatten();
     let uncertainty = measured.then(|| uncertainty(&shape, label)).flatten();
-    Ok(AttractorTable { rows, entropy, uncertainty })
+    Ok(AttractorTable { rows, along: None, entropy, uncertainty })
 }
 
 /// The same, a periodic orbit from its least section point on.

@@ -7,6 +7,7 @@ pub mod cases;
 pub mod final_motion;
 pub mod continuation;
 pub mod forecast;
+pub mod shares_along;
 
 pub use crate::orbit::Machine;
 pub use attractor::{AttractorEvent, Attractors, attractors, has_attractors, links};
@@ -16,3 +17,4 @@ pub use cases::{Record, RunError, run, run_sample};
 pub use continuation::{Continued, NotContinued, continue_branches};
 pub use final_motion::{FinalMotion, final_motion, final_motions};
 pub use forecast::{Estimate, Forecast};
+pub use shares_along::{SharesAt, shares_along};

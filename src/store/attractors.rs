@@ -2,10 +2,10 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::attractor::{Entropy, Uncertainty};
+use crate::attractor::{Entropy, Share, Uncertainty};
 use crate::capsule::Output;
 use crate::orbit::Outcome;
-use crate::run::{AttractorEvent, AttractorRow, AttractorTable, Attractors};
+use crate::run::{AttractorEvent, AttractorRow, AttractorTable, Attractors, SharesAt};
 use crate::study::{Coordinate, Study};
 
 use super::catalogue::{
@@ -42,6 +42,9 @@ pub fn add_attractors(
         add_rows(dataset, &table.rows);
     }
     add_measures(dataset, table);
+    if let (Some(along), Some(axis)) = (&table.along, attractors.axis) {
+        add_shares(dataset, study.axes()[axis].coordinate.name(), along);
+    }
     if !attractors.events.is_empty() {
         add_events(dataset, study, attractors);
     }
@@ -97,6 +100,30 @@ fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
             dataset.put_column(Place::Attractor.of(entry), several(longest, &of));
         }
     }
+}
+
+/// The shares along an axis, and what each attractor is there: period 0 and undecided where no start leads to it.
+fn add_shares(dataset: &mut Dataset, axis: &str, along: &[SharesAt]) {
+    let count = along.first().map_or(0, |at| at.shares.len());
+    if count == 0 {
+        return;
+    }
+    let (shape, dimensions) = (IxDyn(&[along.len(), count]), [axis, ATTRACTOR_INDEX.name]);
+    dataset.put_coordinate(ATTRACTOR_INDEX, Values::count(count));
+    let mut real = |entry: Entry, of: fn(&Share) -> f64| {
+        let numbers = along.iter().flat_map(|at| at.shares.iter().map(of)).collect();
+        let numbers = ArrayD::from_shape_vec(shape.clone(), numbers).expect("one per attractor");
+        dataset.put(entry, &dimensions, Values::Real(numbers));
+    };
+    real(ATTRACTOR_SHARE, |share| share.value);
+    real(ATTRACTOR_SHARE_ERROR, |share| share.error);
+    let mut whole = |entry: Entry, of: fn(&Option<(Outcome, u32)>) -> i64| {
+        let numbers = along.iter().flat_map(|at| at.motions.iter().map(of)).collect();
+        let numbers = ArrayD::from_shape_vec(shape.clone(), numbers).expect("one per attractor");
+        dataset.put(entry, &dimensions, Values::Integer(numbers));
+    };
+    whole(ATTRACTOR_KIND, |it| it.map_or(Outcome::Undecided, |it| it.0) as i64);
+    whole(ATTRACTOR_PERIOD, |it| it.map_or(0, |it| i64::from(it.1)));
 }
 
 /// What is known of the basins as a whole.

@@ -63,6 +63,8 @@ kinds! {
     Map "map" Keys { outputs: true, others: &[&VERDICTS], most: 1, ..AXES };
     /// Which attractor each start leads to, over two coordinates of the start.
     Basin "basin" AXES;
+    /// Shares of the starts that lead to each attractor, along a parameter.
+    Shares "shares" AXES;
     /// Progression speed against an energy per cycle.
     TradeOff "trade-off" Keys { outputs: true, most: 1, ..AXES };
     /// Special points of branches as curves in two parameters.

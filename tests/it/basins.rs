@@ -354,3 +354,71 @@ fn a_straight_boundary_has_the_exponent_one() {
     let finer = entropy(&[2 * side, 2 * side], fine, 8).expect("boxes").basin.value;
     assert!((finer / coarse - 0.5).abs() < 0.1, "{finer} {coarse}");
 }
+
+#[test]
+fn shares_along_a_parameter_end_where_the_motion_does() {
+    let folder = WorkDir::new();
+    // Only moving on exists below 151 rad/s, and only shaking in place above 164; see `studies/hysteresis.toml`.
+    let axes = "[[axes]]\nname = \"start_y1\"\nfrom = \"-1.5 m/s\"\nto = \"1.5 m/s\"\npoints = 9\n\
+                [[axes]]\nname = \"omega\"\nvalues = [\"149 rad/s\", \"157 rad/s\", \"166 rad/s\"]\n\
+                [[axes]]\nname = \"start_r\"\nfrom = \"-6 mm\"\nto = \"6 mm\"\npoints = 5\n\
+                [[figures]]\nname = \"shares\"\nkind = \"shares\"\n";
+    folder.put("study.toml", format!("{TWO_MOTIONS}{axes}"));
+    folder.run(&["sweep", "study.toml", "--formats", "svg"]).done();
+    let dataset = store::read(&folder.path("results/study/study.h5")).expect("a file of results");
+    let variable = dataset.variable("attractor_share").expect("shares");
+    assert_eq!(variable.dimensions, ["omega", "attractor_index"]);
+    let shares: Vec<f64> = variable.values.to_real().into_iter().collect();
+    assert_eq!(shares.len(), 6);
+    // The one keeps its number to where it has folded, and the other appears in between.
+    assert_eq!((shares[0], shares[1]), (1.0, 0.0));
+    assert!(shares[2] > 0.1 && shares[3] > 0.1 && (shares[2] + shares[3] - 1.0).abs() < 1e-12);
+    assert_eq!((shares[4], shares[5]), (0.0, 1.0));
+    // Counted anew from the labels and the speeds of the cases: those of the one move.
+    let of = |name: &str| -> Vec<f64> {
+        dataset.variable(name).expect("there").values.to_real().into_iter().collect()
+    };
+    for (label, speed) in of("attractor").iter().zip(of("progression_speed")) {
+        assert_eq!(*label == 0.0, speed > 0.01, "attractor {label}: {speed} m/s");
+    }
+    let here = of("attractor").chunks(15).flat_map(|row| row[5..10].to_vec()).collect::<Vec<_>>();
+    let moving = here.iter().filter(|label| **label == 0.0).count();
+    assert!((shares[2] - moving as f64 / here.len() as f64).abs() < 1e-12);
+    let periods = dataset.variable("attractor_period").expect("periods").values.to_real();
+    assert_eq!(periods.into_iter().collect::<Vec<_>>(), [1.0, 0.0, 1.0, 1.0, 0.0, 1.0]);
+    assert!(folder.path("results/study/shares.svg").exists());
+    let others = "[[axes]]\nname = \"omega\"\nvalues = [\"149 rad/s\", \"157 rad/s\"]\n\
+                  [[axes]]\nname = \"m1\"\nvalues = [\"1 kg\", \"1.1 kg\"]\n\
+                  [[figures]]\nname = \"shares\"\nkind = \"shares\"\n";
+    folder.put("other.toml", format!("{TWO_MOTIONS}{others}"));
+    let ran = folder.run(&["sweep", "other.toml"]);
+    ran.refused(&["shares lie along the one parameter of a study whose other axes are starts"]);
+}
+
+#[test]
+fn early_decisions_have_the_same_bits_on_any_machine() {
+    let axis = |name: &str, most: &str| {
+        format!("[[axes]]\nname = \"{name}\"\nfrom = \"-{most}\"\nto = \"{most}\"\npoints = 32\n")
+    };
+    let axes = axis("start_r", "6 mm") + &axis("start_y1", "1.5 m/s");
+    let text = format!("{TWO_MOTIONS}omega = \"155 rad/s\"\n{axes}");
+    let study = Study::parse("study.toml", &text).expect("a study");
+    let on = |threads, instructions, chains: &[usize]| {
+        let machine = Machine { threads: Some(threads), instructions: Some(instructions) };
+        run::run_sample(&study, machine, chains, || ()).expect("the study runs")
+    };
+    let all: Vec<usize> = (0..study.chains()).collect();
+    // Text, because a number that is not known does not equal itself.
+    let told = |records: &[Record]| records.iter().map(|it| format!("{it:?}")).collect::<Vec<_>>();
+    let expected = told(&on(1, Instructions::Scalar, &all));
+    assert!(expected.iter().filter(|it| it.contains("Neighbourhood")).count() > 512);
+    for instructions in Instructions::available() {
+        for threads in [1, 2, 3] {
+            assert!(told(&on(threads, instructions, &all)) == expected, "{instructions:?}");
+        }
+    }
+    // Some of the cases by themselves, as a run that goes on after a kill computes them.
+    let some: Vec<usize> = (0..all.len()).step_by(37).collect();
+    let alone = told(&on(2, Instructions::widest(), &some));
+    assert!(some.iter().zip(alone).all(|(case, record)| record == expected[*case]));
+}

@@ -1,7 +1,7 @@
 //! The entries of the tables beside the cases: attractors of starts, events of attractors, and blocks.
 
 use super::cases::MULTIPLIER;
-use super::entry::{Entry, Extent::*, Type::*, entries};
+use super::entry::{Entry, Extent::*, Type::*, entries, shown};
 use super::flags::{outcomes, proofs, specials};
 
 entries! {
@@ -19,7 +19,8 @@ entries! {
         "first case of the attractor, counted from 0 with the last axis fastest, which the table tells of";
     ATTRACTOR_CASES "attractor_cases" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
         "cases that lead to the attractor";
-    ATTRACTOR_SHARE "attractor_share" "1" Table(ATTRACTOR_INDEX.name), Real, None,
+    ATTRACTOR_SHARE "attractor_share" "1" Table(ATTRACTOR_INDEX.name), Real,
+        shown("Share of the starts", "", "%", 100.0),
         "share of the cases that lead to the attractor, among all that have been computed";
     ATTRACTOR_SHARE_ERROR "attractor_share_error" "1" Table(ATTRACTOR_INDEX.name), Real, None,
         "standard error of the share: of a grid by the cells beside the boundary, of draws that of a binomial";
