@@ -12,16 +12,18 @@ use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::raster::{Fill, Raster};
-use super::scale::Scale;
+use super::scale::{Scale, finite_range};
 use super::style::ONE_COLUMN;
 use super::text::Text;
 use super::ticks::significant;
 use super::view::View;
+use crate::capsule::Output;
 use crate::store::catalogue::{
-    ATTRACTOR_AXIS, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR,
-    Entry, starts,
+    ATTRACTOR, ATTRACTOR_AXIS, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
+    ATTRACTOR_SHARE_ERROR, Entry, starts,
 };
 use crate::study::{Coordinate, Drawing};
+use crate::tradeoff::NOISE;
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 130.0;
@@ -30,12 +32,16 @@ const ROWS: usize = 1 << 14;
 /// A share below this is rounding.
 const NOTHING: f64 = 1e-9;
 
+/// The speed of each case.
+const SPEED: Entry = Entry::of_output(Output::ProgressionSpeed);
+
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What bands read: the shares, and what the attractors are.
 fn reads(_: &Drawing) -> Names {
     Names::of([ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, ATTRACTOR_KIND, ATTRACTOR_PERIOD])
+        .and([ATTRACTOR, SPEED])
 }
 
 /// Draws the bands that `view` asks for.
@@ -74,6 +80,18 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         panel.finish(&mut canvas);
     }
     Ok(canvas.finish(&view.about(&[ATTRACTOR_SHARE.name.to_owned()], &[along])))
+}
+
+/// The range of the speeds of all cases that lead to an attractor, where the results have them.
+fn speeds(view: &View<'_>, number: usize) -> Option<String> {
+    let [labels, speeds] = [ATTRACTOR, SPEED]
+        .map(|entry| view.dataset.variable(entry.name).map(|variable| variable.values.to_real()));
+    let (labels, speeds) = (labels?, speeds?);
+    let ours = labels.iter().zip(&speeds).filter(|(label, _)| **label == number as f64);
+    let (low, high) = finite_range(ours.map(|(_, speed)| *speed))?;
+    let shown = |speed: f64| significant(if speed.abs() < NOISE { 0.0 } else { 1e3 * speed }, 3);
+    let (low, high) = (shown(low), shown(high));
+    Some(if low == high { format!("{low} mm/s") } else { format!("{low} to {high} mm/s") })
 }
 
 /// The shares at each value of the parameter.
@@ -132,7 +150,8 @@ impl Bands {
                     (None, _) => String::from("unknown"),
                 }
             });
-            let told: Vec<String> = told.collect::<BTreeSet<_>>().into_iter().collect();
+            let told = told.collect::<BTreeSet<_>>().into_iter().chain(speeds(view, number));
+            let told: Vec<String> = told.collect();
             let text = format!("attractor {}: {}", number + 1, told.join(", "));
             (Mark::Patch(band(number)), Text::plain(&text))
         };

@@ -7,7 +7,7 @@ use crate::lane::Instructions;
 
 use super::OrbitOf;
 use super::certificate::Proof;
-use super::neighbourhood::{LONGEST, Neighbourhood};
+use super::neighbourhood::Neighbourhood;
 use super::passage::ReturnRequest;
 use super::passages::passages;
 use super::return_map::Cycles;
@@ -30,7 +30,7 @@ impl<M: System<D>, const D: usize> KnownOrbits<M, D> {
         for orbit in settled {
             let is_proven =
                 orbit.certificate.proof == Proof::Newton && orbit.certificate.is_stable();
-            if !is_proven || orbit.period > LONGEST {
+            if !is_proven {
                 continue;
             }
             let begins = M::Single::point(&orbit.begins);

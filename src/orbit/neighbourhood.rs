@@ -17,7 +17,7 @@ const SAFETY: f64 = 0.5;
 /// Doublings of a sum, which after so many has more terms than an orbit of multiplier 1 - 1e-9 needs.
 const DOUBLINGS: u32 = 40;
 /// The longest period of an orbit that is given a neighbourhood, as its map must be followed a thousand times [cycles].
-pub(super) const LONGEST: u64 = 16;
+const LONGEST: u64 = 16;
 
 /// An ellipsoid around a section point of a periodic orbit, which its return map leads into itself.
 ///
@@ -58,6 +58,9 @@ impl<const D: usize> Neighbourhood<D> {
         instructions: Instructions,
         tolerance: f64,
     ) -> Option<Self> {
+        if period > LONGEST {
+            return None;
+        }
         let metric = system.metric();
         let cycles = Cycles { count: period, tolerance };
         let request = |point: [f64; D]| ReturnRequest {
