@@ -2,6 +2,7 @@
 
 mod acceleration;
 mod attractors;
+mod basin_measures;
 mod basins;
 mod belt;
 mod blocks;
