@@ -37,8 +37,9 @@ pub struct Table<const D: usize> {
     pub attractors: Vec<Attractor<D>>,
     /// Their places in the order of their numbers, which does not depend on the order of the cases.
     ///
-    /// First periodic orbits, then quasi-periodic and chaotic motions; orbits by their periods; then by the first
-    /// coordinate of [`Attractor::mark`] that differs, rounded to a millionth of the largest of these motions.
+    /// First periodic orbits, then quasi-periodic and chaotic motions; orbits by their periods; then by the coordinates of a
+    /// point, of an orbit its [`Attractor::least_point`], of another motion the mean of its sample, rounded to a millionth of
+    /// the largest of these motions.
     pub order: Vec<usize>,
 }
 
