@@ -14,9 +14,7 @@ use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::plane::Plane;
 use super::raster::Fill;
-use super::style::{
-    ATTRACTORS, INK, ONE_COLUMN, OTHER_ATTRACTOR, PAPER, REFERENCE_WIDTH, UNDECIDED,
-};
+use super::style::{ATTRACTORS, INK, OTHER_ATTRACTOR, PAPER, REFERENCE_WIDTH, UNDECIDED};
 use super::text::Text;
 use super::ticks::significant;
 use super::view::View;
@@ -90,14 +88,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             ..Header::default()
         },
     };
-    let page = PageRequest {
-        title: view.drawing.title.clone(),
-        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
-        heights: vec![HEIGHT],
-        rows: vec![vec![panel]],
-        right_room: 0.0,
-        pointing: Pointing::Outward,
-    };
+    let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Outward);
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         plane.draw(&mut canvas, panel, |case| basins.fill(case));
@@ -228,8 +219,8 @@ fn tinted(RGBColor(red, green, blue): RGBColor) -> RGBColor {
     RGBColor(mix(red), mix(green), mix(blue))
 }
 
-/// The numbers of a table of attractors; none where there is none.
-fn column(view: &View<'_>, entry: Entry) -> Vec<f64> {
+/// The numbers of a variable as they are stored; none where there is none.
+pub(super) fn column(view: &View<'_>, entry: Entry) -> Vec<f64> {
     let stored = view.dataset.variable(entry.name);
     stored.map_or(Vec::new(), |variable| variable.values.to_real().into_iter().collect())
 }
@@ -237,17 +228,11 @@ fn column(view: &View<'_>, entry: Entry) -> Vec<f64> {
 /// An attractor in a phrase: its kind or period, its speed, and its share with the error.
 fn told(view: &View<'_>, number: usize) -> String {
     let of = |entry: Entry| column(view, entry).get(number).copied();
-    let kinds = view.flags(ATTRACTOR_KIND.name);
-    let Some(code) = of(ATTRACTOR_KIND) else { return format!("attractor {number}") };
-    let kind = kinds.iter().find(|(value, _)| *value as f64 == code).map(|(_, name)| name.as_str());
-    let mut parts = vec![match (kind, of(ATTRACTOR_PERIOD)) {
-        (Some("periodic"), Some(period)) => format!("period {period}"),
-        (kind, _) => kind.unwrap_or("unknown").to_owned(),
-    }];
-    if let Some(speed) = of(Place::Attractor.of(SPEED)) {
-        let speed = if speed.abs() < NOISE { 0.0 } else { speed };
-        parts.push(format!("{} mm/s", significant(1e3 * speed, 3)));
+    if of(ATTRACTOR_KIND).is_none() {
+        return format!("attractor {number}");
     }
+    let mut parts = vec![motion(view, of(ATTRACTOR_KIND), of(ATTRACTOR_PERIOD))];
+    parts.extend(of(Place::Attractor.of(SPEED)).map(|it| format!("{} mm/s", millimetres(it))));
     if let (Some(share), Some(error)) = (of(ATTRACTOR_SHARE), of(ATTRACTOR_SHARE_ERROR)) {
         let (share, error) = (100.0 * share, 100.0 * error);
         // Two digits of the error say how many of the share are known.
@@ -260,6 +245,21 @@ fn told(view: &View<'_>, number: usize) -> String {
         });
     }
     parts.join(", ")
+}
+
+/// What a motion is, by its kind as files have it: its period, or the name of its kind.
+pub(super) fn motion(view: &View<'_>, code: Option<f64>, period: Option<f64>) -> String {
+    let kinds = view.flags(ATTRACTOR_KIND.name);
+    let kind = kinds.iter().find(|(value, _)| Some(*value as f64) == code);
+    match (kind.map(|(_, name)| name.as_str()), period) {
+        (Some("periodic"), Some(period)) => format!("period {period}"),
+        (kind, _) => kind.unwrap_or("unknown").to_owned(),
+    }
+}
+
+/// A speed [m/s] in mm/s, with three digits; what rounding leaves is zero.
+pub(super) fn millimetres(speed: f64) -> String {
+    significant(if speed.abs() < NOISE { 0.0 } else { 1e3 * speed }, 3)
 }
 
 /// The ends of the line where the mass reaches the stop, if an axis is its displacement and the line lies on it.

@@ -8,7 +8,7 @@ use super::header::{self, Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
-use super::style::{CURVE_WIDTH, ONE_COLUMN};
+use super::style::CURVE_WIDTH;
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
 use super::track::{Rows, elsewhere, in_view};
@@ -63,14 +63,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         y: axis(&axes[1], range(|place| place.1)),
         header: Header { letter: None, note, legend: legend(&curves) },
     };
-    let page = PageRequest {
-        title: view.drawing.title.clone(),
-        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
-        heights: vec![HEIGHT],
-        rows: vec![vec![panel]],
-        right_room: 0.0,
-        pointing: Pointing::Inward,
-    };
+    let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Inward);
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         draw_curves(&mut canvas, panel, &curves);

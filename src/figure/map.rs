@@ -14,7 +14,7 @@ use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::plane::Plane;
 use super::raster::Fill;
-use super::style::{INFINITE, ONE_COLUMN};
+use super::style::INFINITE;
 use super::text::Text;
 use super::view::View;
 use crate::capsule::Output;
@@ -101,14 +101,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             ..Header::default()
         },
     };
-    let page = PageRequest {
-        title: view.drawing.title.clone(),
-        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
-        heights: vec![HEIGHT],
-        rows: vec![vec![panel]],
-        right_room: paint.room(),
-        pointing: Pointing::Outward,
-    };
+    let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Outward);
+    let page = PageRequest { right_room: paint.room(), ..page };
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         plane.draw(&mut canvas, panel, |case| Fill::of(paint.colour(case)));

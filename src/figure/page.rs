@@ -6,9 +6,11 @@ use super::geometry::Rect;
 use super::header::Header;
 use super::panel::{Panel, Pointing, tick_room};
 use super::style::{
-    BORDER, LABEL_GAP, LABEL_SIZE, PANEL_GAP, POINTS_PER_MM, SMALL_SIZE, TITLE_SIZE, WIDTHS,
+    BORDER, LABEL_GAP, LABEL_SIZE, ONE_COLUMN, PANEL_GAP, POINTS_PER_MM, SMALL_SIZE, TITLE_SIZE,
+    WIDTHS,
 };
 use super::text::Text;
+use crate::study::Drawing;
 
 /// What a panel is to show.
 pub struct PanelRequest {
@@ -51,6 +53,18 @@ const TITLE_LINE: f64 = 1.25 * TITLE_SIZE;
 const DESCENT: f64 = 0.28 * LABEL_SIZE;
 
 impl PageRequest {
+    /// A page of one panel whose frame has this height [pt], of the width of a column unless the request says another.
+    pub fn of_one(drawing: &Drawing, panel: PanelRequest, height: f64, pointing: Pointing) -> Self {
+        PageRequest {
+            title: drawing.title.clone(),
+            width_mm: drawing.width_mm.unwrap_or(ONE_COLUMN),
+            heights: vec![height],
+            rows: vec![vec![panel]],
+            right_room: 0.0,
+            pointing,
+        }
+    }
+
     /// Lays the page out: an empty canvas and the panels in their places.
     pub fn lay_out(mut self) -> (Canvas, Vec<Vec<Panel>>) {
         let width = self.width_mm.clamp(WIDTHS.0, WIDTHS.1) * POINTS_PER_MM;

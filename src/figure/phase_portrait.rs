@@ -8,9 +8,7 @@ use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
-use super::style::{
-    BLUE, CONTACT, CURVE_WIDTH, FAINT_INK, INK, ONE_COLUMN, REFERENCE_WIDTH, VERMILION,
-};
+use super::style::{BLUE, CONTACT, CURVE_WIDTH, FAINT_INK, INK, REFERENCE_WIDTH, VERMILION};
 use super::text::Text;
 use super::view::View;
 use crate::capsule::Parameter;
@@ -56,14 +54,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         y: AxisRequest::around(view.quantity(RELATIVE_VELOCITY.name), &y, 0.06),
         header: Header { letter: None, note: view.held_note(&[]), legend: legend(&portrait) },
     };
-    let page = PageRequest {
-        title: view.drawing.title.clone(),
-        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
-        heights: vec![HEIGHT],
-        rows: vec![vec![panel]],
-        right_room: 0.0,
-        pointing: Pointing::Inward,
-    };
+    let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Inward);
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         draw_portrait(&mut canvas, panel, &portrait);

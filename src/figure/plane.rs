@@ -74,7 +74,7 @@ impl<'a> Plane<'a> {
 }
 
 /// The cells along the axis called `name`.
-fn cells(view: &View<'_>, name: &str) -> Result<Cells, FigureError> {
+pub(super) fn cells(view: &View<'_>, name: &str) -> Result<Cells, FigureError> {
     let factor = view.quantity(name).factor;
     let values: Vec<f64> = view.axis_values(name)?.iter().map(|value| value * factor).collect();
     match values.is_empty() {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::axis::AxisRequest;
-use super::basin::{band, undecided};
+use super::basin::{band, column, millimetres, motion, undecided};
 use super::canvas::{Canvas, Drawn};
 use super::cells::Cells;
 use super::error::FigureError;
@@ -11,11 +11,12 @@ use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
+use super::plane::cells;
 use super::raster::{Fill, Raster};
 use super::scale::{Scale, finite_range};
-use super::style::ONE_COLUMN;
 use super::text::Text;
 use super::ticks::significant;
+
 use super::view::View;
 use crate::capsule::Output;
 use crate::store::catalogue::{
@@ -23,7 +24,6 @@ use crate::store::catalogue::{
     ATTRACTOR_SHARE_ERROR, Entry, starts,
 };
 use crate::study::{Coordinate, Drawing};
-use crate::tradeoff::NOISE;
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 130.0;
@@ -58,22 +58,13 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         return Err(view.unfit(why));
     };
     let bands = Bands::of(view, along)?;
-    let factor = view.quantity(along).factor;
-    let values: Vec<f64> = view.axis_values(along)?.iter().map(|value| value * factor).collect();
-    let cells = Cells::around(&values);
+    let cells = cells(view, along)?;
     let panel = PanelRequest {
         x: AxisRequest::new(view.quantity(along), cells.scale),
         y: AxisRequest::new(view.quantity(ATTRACTOR_SHARE.name), Scale::of_axis(&[0.0, 100.0])),
         header: Header { note: Some(bands.note()), legend: bands.legend(view), letter: None },
     };
-    let page = PageRequest {
-        title: view.drawing.title.clone(),
-        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
-        heights: vec![HEIGHT],
-        rows: vec![vec![panel]],
-        right_room: 0.0,
-        pointing: Pointing::Outward,
-    };
+    let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Outward);
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         bands.draw(&mut canvas, panel, &cells);
@@ -84,13 +75,10 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 
 /// The range of the speeds of all cases that lead to an attractor, where the results have them.
 fn speeds(view: &View<'_>, number: usize) -> Option<String> {
-    let [labels, speeds] = [ATTRACTOR, SPEED]
-        .map(|entry| view.dataset.variable(entry.name).map(|variable| variable.values.to_real()));
-    let (labels, speeds) = (labels?, speeds?);
+    let (labels, speeds) = (column(view, ATTRACTOR), column(view, SPEED));
     let ours = labels.iter().zip(&speeds).filter(|(label, _)| **label == number as f64);
     let (low, high) = finite_range(ours.map(|(_, speed)| *speed))?;
-    let shown = |speed: f64| significant(if speed.abs() < NOISE { 0.0 } else { 1e3 * speed }, 3);
-    let (low, high) = (shown(low), shown(high));
+    let (low, high) = (millimetres(low), millimetres(high));
     Some(if low == high { format!("{low} mm/s") } else { format!("{low} to {high} mm/s") })
 }
 
@@ -127,29 +115,15 @@ impl Bands {
     /// The attractors with what they are, and starts that lead to none.
     fn legend(&self, view: &View<'_>) -> Vec<(Mark, Text)> {
         let count = self.shares.first().map_or(0, Vec::len);
-        let column = |name: &str| -> Vec<f64> {
-            let stored = view.dataset.variable(name);
-            stored.map_or(Vec::new(), |variable| variable.values.to_real().into_iter().collect())
-        };
-        let (kinds, periods) = (column(ATTRACTOR_KIND.name), column(ATTRACTOR_PERIOD.name));
-        let flags = view.flags(ATTRACTOR_KIND.name);
+        let (kinds, periods) = (column(view, ATTRACTOR_KIND), column(view, ATTRACTOR_PERIOD));
         let entry = |number: usize| {
             // What it is where starts lead to it.
             let there = |(at, shares): (usize, &Vec<f64>)| {
                 (shares[number] > 0.0).then_some(at * count + number)
             };
             let places = self.shares.iter().enumerate().filter_map(there);
-            let told = places.map(|place| {
-                let kind =
-                    flags.iter().find(|(value, _)| kinds.get(place) == Some(&(*value as f64)));
-                match (kind, periods.get(place)) {
-                    (Some((_, name)), Some(period)) if name == "periodic" => {
-                        format!("period {period}")
-                    }
-                    (Some((_, name)), _) => name.clone(),
-                    (None, _) => String::from("unknown"),
-                }
-            });
+            let of = |column: &[f64], place: usize| column.get(place).copied();
+            let told = places.map(|place| motion(view, of(&kinds, place), of(&periods, place)));
             let told = told.collect::<BTreeSet<_>>().into_iter().chain(speeds(view, number));
             let told: Vec<String> = told.collect();
             let text = format!("attractor {}: {}", number + 1, told.join(", "));

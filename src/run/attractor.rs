@@ -4,7 +4,9 @@ use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
-use crate::attractor::{Attractor, Bridge, Links, Neighbours, Table, bridges, linear_orbits};
+use crate::attractor::{
+    Attractor, Bridge, Label, Links, Neighbours, Table, bridges, linear_orbits,
+};
 use crate::branch::{Along, ONE_VALUE, SpecialKind, SpecialValue};
 use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Section, Switching};
 use crate::lane::Instructions;
@@ -63,6 +65,17 @@ pub struct Attractors {
     pub events: Vec<AttractorEvent>,
     /// The attractors by their numbers, where all cases have the same parameters.
     pub of_starts: Vec<Attractor<3>>,
+}
+
+impl Attractors {
+    /// What a case leads to, by the final motions of all cases.
+    pub fn label(&self, case: usize, final_motions: &[Option<FinalMotion>]) -> Label {
+        match (&final_motions[case], self.of_case[case]) {
+            (None, _) => Label::Missing,
+            (Some(_), None) => Label::Undecided,
+            (Some(_), Some(number)) => Label::Attractor(number),
+        }
+    }
 }
 
 /// Whether there are attractors to be told apart or followed: an axis is followed, or the only parameter that

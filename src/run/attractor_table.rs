@@ -1,8 +1,7 @@
 //! The table of the attractors of a study whose cases differ in their starts alone.
 
 use crate::attractor::{
-    Attractor, Entropy, Label, Share, Uncertainty, entropy, shares_of_draws, shares_of_grid,
-    uncertainty,
+    Attractor, Entropy, Share, Uncertainty, entropy, shares_of_draws, shares_of_grid, uncertainty,
 };
 use crate::capsule::{AsPrinted, Case, Filippov, Switching};
 use crate::flow::System;
@@ -53,11 +52,7 @@ pub fn attractor_table(
         let along = shares_along(study, attractors, final_motions);
         return Ok(AttractorTable { along, ..AttractorTable::default() });
     }
-    let label = |case: usize| match (&final_motions[case], attractors.of_case[case]) {
-        (None, _) => Label::Missing,
-        (Some(_), None) => Label::Undecided,
-        (Some(_), Some(number)) => Label::Attractor(number),
-    };
+    let label = |case: usize| attractors.label(case, final_motions);
     let shares = match &study.case_set {
         CaseSet::Draws(draws) => shares_of_draws(draws.count, label, found.len()),
         CaseSet::Grid(_) => shares_of_grid(&study.shape(), label, found.len()),

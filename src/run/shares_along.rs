@@ -36,12 +36,7 @@ pub fn shares_along(
     let count = attractors.of_case.iter().flatten().max().map_or(0, |most| *most as usize + 1);
     let at_value = |at: usize| {
         let case = |place: usize| layout.case(0, at, place);
-        let label =
-            |place: usize| match (&final_motions[case(place)], attractors.of_case[case(place)]) {
-                (None, _) => Label::Missing,
-                (Some(_), None) => Label::Undecided,
-                (Some(_), Some(number)) => Label::Attractor(number),
-            };
+        let label = |place: usize| attractors.label(case(place), final_motions);
         let motion = |number: usize| {
             let own = Label::Attractor(number as u32);
             let first = (0..layout.cases()).find(|place| label(*place) == own)?;
