@@ -59,28 +59,40 @@ impl<const D: usize> Table<D> {
         protocol: &Protocol,
         executor: &impl Executor,
     ) -> Self {
-        let metric = system.metric();
         let mut table = Table { of_case: Vec::with_capacity(cases), ..Table::default() };
-        for first in (0..cases).step_by(TOGETHER) {
-            let meet = |place: usize| {
-                let (index, motion) = motion(place);
-                let found = Attractor::of(index, system, &motion?, protocol)?;
-                Some(table.place(&found, &metric).ok_or(found))
-            };
-            let met: Vec<Option<Result<usize, Attractor<D>>>> =
-                executor.map(first..cases.min(first + TOGETHER), meet);
-            for met in met {
-                let place = met.map(|met| met.unwrap_or_else(|new| table.add(new, &metric)));
-                table.of_case.push(place.map(|place| place as u32));
-            }
-        }
-        table.order = table.ordered(&metric);
+        table.extend(cases, motion, system, protocol, executor);
+        table.order = table.ordered(&system.metric());
         for attractor in &mut table.attractors {
             if attractor.outcome != Outcome::Periodic {
                 attractor.points = Vec::new();
             }
         }
         table
+    }
+
+    /// Sorts so many more cases, which follow those that are sorted already; the order of the attractors is not told.
+    pub fn extend<M: System<D>>(
+        &mut self,
+        cases: usize,
+        motion: impl Fn(usize) -> (usize, Option<FinalMotion<D>>) + Sync,
+        system: &M,
+        protocol: &Protocol,
+        executor: &impl Executor,
+    ) {
+        let metric = system.metric();
+        for first in (0..cases).step_by(TOGETHER) {
+            let meet = |place: usize| {
+                let (index, motion) = motion(place);
+                let found = Attractor::of(index, system, &motion?, protocol)?;
+                Some(self.place(&found, &metric).ok_or(found))
+            };
+            let met: Vec<Option<Result<usize, Attractor<D>>>> =
+                executor.map(first..cases.min(first + TOGETHER), meet);
+            for met in met {
+                let place = met.map(|met| met.unwrap_or_else(|new| self.add(new, &metric)));
+                self.of_case.push(place.map(|place| place as u32));
+            }
+        }
     }
 
     /// The places of the attractors in the order of their numbers.

@@ -60,6 +60,10 @@ impl Campaign<'_> {
         let (done, trouble) = (AtomicUsize::new(0), Mutex::new(None));
         let study = self.study;
         let each = |block: usize, record: &_| {
+            // How many cases a tile needs is known only at its end.
+            if study.refine {
+                return reports.proceed();
+            }
             reports.note(Event::Case { block, cases: study.cases_of_block(block), record })
         };
         let whole = |block: usize, records: Vec<_>| match folder.keep(study, block, &records) {

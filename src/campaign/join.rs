@@ -88,7 +88,7 @@ impl Campaign<'_> {
         let is_partial = file != self.output;
         prepare(file)?;
         let blocks = Blocks::open(&folder, self.study, 0..self.study.blocks());
-        let blocks = if is_partial {
+        let mut blocks = if is_partial {
             // A run that has ended since has removed some of them.
             if self.kept()?.is_some_and(|whole| whole.archive.has_cases()) {
                 return Err(StoreError::NoBlocks { folder: folder.path().to_owned() }.into());
@@ -99,6 +99,10 @@ impl Campaign<'_> {
             all_of(&folder, blocks)?
         };
         reports.send(Event::Joining { folder: folder.path() })?;
+        if self.study.refine && !is_partial {
+            let known = blocks.final_motions()?;
+            blocks.add(run::complete_refinement(self.study, &known, self.machine)?);
+        }
         let mut frame = blocks.frame();
         self.add_attractors(&mut frame, &blocks, reports)?;
         // Branches that were continued meanwhile are in the file, and none can come before it is replaced.
@@ -124,7 +128,7 @@ impl Campaign<'_> {
             return Ok(());
         }
         reports.send(Event::Begun(Stage::Linking, run::links(self.study)))?;
-        let states = blocks.final_states()?;
+        let states = blocks.final_motions()?;
         let linked = || reports.step(Stage::Linking);
         let attractors = run::attractors(self.study, &states, self.machine, linked)?;
         let table = run::attractor_table(self.study, &attractors, &states, self.machine)?;

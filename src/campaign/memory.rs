@@ -34,6 +34,8 @@ pub fn memory(study: &Study, threads: usize) -> Memory {
     let blocks_held = threads as f64 * block * all * NUMBER * COPIES;
     let labels = if has_attractors(study) { cases * NUMBER * COPIES } else { 0.0 };
     let linking = match has_attractors(study) {
+        // Labels of the cases in turn by tile, by attractor and as they are written.
+        true if study.refine => 3.0 * cases * size_of::<Option<u32>>() as f64,
         true => cases * (size_of::<Option<FinalMotion>>() + size_of::<Option<u32>>()) as f64,
         false => 0.0,
     };

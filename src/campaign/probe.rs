@@ -56,17 +56,24 @@ pub fn probe(
     let (blocks, records) = (BTreeSet::new(), Vec::new());
     let found = Mutex::new(Found { forecast, blocks, records, every: 1, met: 0 });
     let begun = Instant::now();
+    let lock = || found.lock().unwrap_or_else(|it| it.into_inner());
     let each = |block: usize, record: &Record| {
         let cases = study.cases_of_block(block);
         reports.note(Event::Case { block, cases, record })?;
-        found.lock().unwrap_or_else(|it| it.into_inner()).add(block, cases, record);
+        lock().add(block, (!study.refine).then_some(cases), record);
         match begun.elapsed() < span {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),
         }
     };
-    let proceed = |_, _| ControlFlow::Continue(());
-    run_blocks(study, machine, &spread(study.blocks()), each, proceed)?;
+    let whole = |block: usize, records: Vec<Record>| {
+        if study.refine {
+            let cycles = records.iter().map(|record| record.orbit.cycles).sum();
+            lock().forecast.complete(block, study.cases_of_block(block), cycles);
+        }
+        ControlFlow::Continue(())
+    };
+    run_blocks(study, machine, &spread(study.blocks()), each, whole)?;
     reports.check()?;
     let time = begun.elapsed();
     let found = found.into_inner().unwrap_or_else(|it| it.into_inner());
@@ -74,8 +81,11 @@ pub fn probe(
 }
 
 impl Found {
-    fn add(&mut self, block: usize, cases: usize, record: &Record) {
-        self.forecast.add(block, cases, (1, record.orbit.cycles));
+    /// Notes a record of a block of so many cases; without their number it does not count as one of them.
+    fn add(&mut self, block: usize, cases: Option<usize>, record: &Record) {
+        if let Some(cases) = cases {
+            self.forecast.add(block, cases, (1, record.orbit.cycles));
+        }
         self.blocks.insert(block);
         if self.met.is_multiple_of(self.every) {
             self.records.push(record.clone());
@@ -96,7 +106,9 @@ impl Found {
         let scaled = |it: Estimate| Estimate { value: it.value * pace, error: it.error * pace };
         let seconds = self.forecast.cycles().map(scaled);
         let weighed = packed_bytes(study, &self.records)? as f64 / self.records.len() as f64;
-        let bytes = weighed * study.cases() as f64;
+        // Of a refined study fewer are kept than there are.
+        let kept = if study.refine { self.met as f64 / cases as f64 } else { 1.0 };
+        let bytes = weighed * kept * study.cases() as f64;
         Ok(Probe { cases, blocks: self.blocks.len(), time, seconds, bytes })
     }
 }

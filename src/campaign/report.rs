@@ -50,7 +50,7 @@ pub enum Event<'a> {
     },
     /// The blocks have been checked; those that are missing are computed now.
     Surveyed(Survey<'a>),
-    /// A case is done.
+    /// A case is done; of a refined study only its tiles are reported.
     Case {
         /// Its block.
         block: usize,
@@ -142,6 +142,11 @@ impl<'a> Reports<'a> {
         if (self.listener)(event).is_break() {
             self.stopped.store(true, Ordering::Relaxed);
         }
+        self.proceed()
+    }
+
+    /// Whether the listener has not asked to stop.
+    pub(super) fn proceed(&self) -> ControlFlow<()> {
         match self.stopped.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),

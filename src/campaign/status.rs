@@ -117,7 +117,7 @@ impl BlockStatus {
             return Some(Pace { since_last, cases_per_second: None, left: None });
         }
         let mut forecast = Forecast::new(study.cases());
-        self.done.iter().for_each(|it| forecast.add(it.number, it.cases, (it.cases, it.cycles)));
+        self.done.iter().for_each(|it| forecast.complete(it.number, it.cases, it.cycles));
         let left = forecast.seconds_left(span / cycles as f64);
         Some(Pace { since_last, cases_per_second: Some(cases as f64 / span), left })
     }

@@ -44,7 +44,7 @@ impl BlockProgress {
     /// Begins to watch a run of so many blocks and cases, of which those `kept` were there before.
     pub fn new(total: [usize; 2], kept: &[Summary]) -> Self {
         let mut forecast = Forecast::new(total[1]);
-        kept.iter().for_each(|it| forecast.add(it.number, it.cases, (it.cases, it.cycles)));
+        kept.iter().for_each(|it| forecast.complete(it.number, it.cases, it.cycles));
         let (begun, before) = (Instant::now(), forecast.done());
         let recent = VecDeque::from([(begun, before.0)]);
         let state = State { blocks: kept.len(), forecast, before, recent };
@@ -87,6 +87,7 @@ impl BlockProgress {
     pub fn block(&self, block: &Summary) {
         let mut state = self.state();
         state.blocks += 1;
+        state.forecast.complete(block.number, block.cases, block.cycles);
         let line = self.line(&state);
         drop(state);
         if self.bar.is_none() {

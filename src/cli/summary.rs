@@ -25,6 +25,12 @@ pub fn summary(
     let (cases_shown, cycles) = (counted(cases, "case"), counted(cycles, "cycle"));
     let mut text = format!("{shown}: {cases_shown}, {cycles}\n");
     let missing = study.cases() - cases;
+    if study.refine {
+        let computed = blocks.computed()?;
+        let share = 100.0 * computed as f64 / cases as f64;
+        let _ =
+            writeln!(text, "  {} computed ({share:.2} %), the others inferred", count(computed));
+    }
     text.push_str(&outcomes(&summaries));
     if missing > 0 {
         // Writing to a String cannot fail.

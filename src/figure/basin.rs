@@ -83,7 +83,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         x: AxisRequest::new(view.quantity(plane.x_name), plane.x.scale),
         y: AxisRequest::new(view.quantity(plane.y_name), plane.y.scale),
         header: Header {
-            note: view.held_note(&plane.free()),
+            note: view.note(&plane.free(), &basins.inferred_note()),
             legend: legend.into_iter().chain(plane.legend()).collect(),
             ..Header::default()
         },
@@ -109,6 +109,8 @@ struct Basins {
     numbers: Vec<i64>,
     /// Whether a case has no result.
     without: Vec<bool>,
+    /// Cases that are inferred.
+    inferred: usize,
     /// Whether each attractor of the table is chaotic or quasi-periodic.
     irregular: Vec<bool>,
 }
@@ -120,13 +122,22 @@ impl Basins {
         let outcomes = Outcomes::over(view, &free)?;
         let no_result = |case| matches!(outcomes.name(case), Some("failed" | "missing"));
         let without = (0..plane.count()).map(no_result).collect();
+        let is_inferred = |case: &usize| outcomes.name(*case) == Some("inferred");
+        let inferred = (0..plane.count()).filter(is_inferred).count();
         let kinds = view.flags(ATTRACTOR_KIND.name);
         let is_irregular = |code: f64| {
             let name = kinds.iter().find(|(value, _)| *value as f64 == code);
             name.is_some_and(|(_, name)| name != "periodic")
         };
         let irregular = column(view, ATTRACTOR_KIND).into_iter().map(is_irregular).collect();
-        Ok(Basins { numbers, without, irregular })
+        Ok(Basins { numbers, without, inferred, irregular })
+    }
+
+    /// Which part of the starts is inferred, if any is.
+    fn inferred_note(&self) -> Option<String> {
+        let share = 100.0 * (1.0 - self.inferred as f64 / self.numbers.len() as f64);
+        let note = || format!("{} % of the starts computed, the others inferred", significant(share, 2));
+        (self.inferred > 0).then(note)
     }
 
     /// How a cell is filled.

@@ -9,7 +9,7 @@ use super::header::{Mark, draw_mark};
 use super::outcome::Outcomes;
 use super::raster::Fill;
 use super::style::{
-    CHAOTIC, LONG_PERIOD, NOT_YET, PAPER, PERIODS, QUASI_PERIODIC, SMALL_SIZE, UNDECIDED,
+    CHAOTIC, INFERRED, LONG_PERIOD, NOT_YET, PAPER, PERIODS, QUASI_PERIODIC, SMALL_SIZE, UNDECIDED,
 };
 use super::text::Text;
 use super::view::View;
@@ -116,6 +116,7 @@ fn by_name(name: &str) -> Option<(usize, Kind)> {
         "undecided" => (22, Some(UNDECIDED)),
         "failed" => (23, None),
         "missing" => (24, Some(NOT_YET)),
+        "inferred" => (25, Some(INFERRED)),
         _ => return None,
     };
     Some((rank, Kind { name: name.to_string(), colour }))

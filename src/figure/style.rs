@@ -112,5 +112,7 @@ pub const CHAOTIC: RGBColor = RGBColor(20, 20, 20);
 pub const QUASI_PERIODIC: RGBColor = RGBColor(238, 119, 51);
 /// Cases that have not been computed yet.
 pub const NOT_YET: RGBColor = RGBColor(228, 228, 228);
+/// A case that is inferred from those around it.
+pub const INFERRED: RGBColor = RGBColor(205, 222, 238);
 /// Motion that is undecided within the budget of cycles.
 pub const UNDECIDED: RGBColor = RGBColor(136, 136, 136);

@@ -16,7 +16,8 @@ use crate::study::layout::{Layout, linked_axis};
 use crate::study::{CaseSet, Coordinate, Direction, Study};
 
 use super::cases::{Rayon, RunError, pool};
-use super::{FinalMotion, Machine};
+use super::refined::infer;
+use super::{FinalMotions, Machine};
 
 /// Lines are searched together that have so many cells: links that take long fill the lanes.
 const LINKS: usize = 8192;
@@ -56,7 +57,8 @@ impl AttractorEvent {
 pub struct Attractors {
     /// The axis along which they are linked, by its place in the study; none where there is no single one.
     pub axis: Option<usize>,
-    /// The attractor of each case, by its number; none where the case has none.
+    /// The attractor of each case, by its number; none where the case has none. Of a refined study, that of a case that has not been computed is
+    /// inferred.
     ///
     /// They are numbered along each line of the axis anew, in the order in which they appear; those that appear
     /// together in the order of [`Table::order`].
@@ -69,11 +71,11 @@ pub struct Attractors {
 
 impl Attractors {
     /// What a case leads to, by the final motions of all cases.
-    pub fn label(&self, case: usize, final_motions: &[Option<FinalMotion>]) -> Label {
-        match (&final_motions[case], self.of_case[case]) {
-            (None, _) => Label::Missing,
-            (Some(_), None) => Label::Undecided,
-            (Some(_), Some(number)) => Label::Attractor(number),
+    pub fn label(&self, case: usize, final_motions: &FinalMotions) -> Label {
+        match self.of_case[case] {
+            Some(number) => Label::Attractor(number),
+            None if final_motions.get(case).is_some() => Label::Undecided,
+            None => Label::Missing,
         }
     }
 }
@@ -96,15 +98,14 @@ pub fn links(study: &Study) -> usize {
     layout.lines() * layout.cells().saturating_sub(1)
 }
 
-/// Finds the attractors of a study from the `final_motions` of its cases by index, none for a case that is
-/// missing; calls `linked` after each link.
+/// Finds the attractors of a study from the `final_motions` of its cases; calls `linked` after each link.
 ///
 /// A periodic attractor is known by its certified orbit, see [`Table::sort`] and `Neighbours::link`. Every line
 /// is a task of its own, of which only numbers and events are kept; so are its cells and every two
 /// neighbours, as there may be a single line. The threads do not matter.
 pub fn attractors(
     study: &Study,
-    final_motions: &[Option<FinalMotion>],
+    final_motions: &FinalMotions,
     machine: Machine,
     linked: impl Fn() + Sync,
 ) -> Result<Attractors, RunError> {
@@ -112,15 +113,17 @@ pub fn attractors(
         return Ok(Attractors { of_case: vec![None; study.cases()], ..Attractors::default() });
     }
     let instructions = machine.instructions_for(links(study));
-    Ok(pool(machine.threads)?.install(|| match study.base.switching {
+    let mut found = pool(machine.threads)?.install(|| match study.base.switching {
         Switching::Filippov => find::<Filippov>(study, final_motions, instructions, &linked),
         Switching::AsPrinted => find::<AsPrinted>(study, final_motions, instructions, &linked),
-    }))
+    });
+    infer(study, final_motions, &mut found.of_case);
+    Ok(found)
 }
 
 fn find<R: Reading>(
     study: &Study,
-    final_motions: &[Option<FinalMotion>],
+    final_motions: &FinalMotions,
     instructions: Instructions,
     linked: impl Fn() + Sync,
 ) -> Attractors {
@@ -202,12 +205,12 @@ struct Line<'a> {
 
 impl Line<'_> {
     /// The cells, their cases sorted by attractor.
-    fn cells<R: Reading>(&self, final_motions: &[Option<FinalMotion>]) -> Vec<Arc<Table<3>>> {
+    fn cells<R: Reading>(&self, final_motions: &FinalMotions) -> Vec<Arc<Table<3>>> {
         let Line { study, layout, number } = *self;
         let sort = |at: usize| {
             let final_motion = |place: usize| {
                 let case = layout.case(number, at, place);
-                (case, final_motions[case])
+                (case, final_motions.get(case))
             };
             let first = study.case(layout.case(number, at, 0));
             let system = first.read::<R>().system;

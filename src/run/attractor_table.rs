@@ -9,7 +9,7 @@ use crate::orbit::Outcome;
 use crate::study::{CaseSet, Study};
 
 use super::cases::run_sample;
-use super::{Attractors, FinalMotion, Machine, Record, RunError, SharesAt, shares_along};
+use super::{Attractors, FinalMotions, Machine, Record, RunError, SharesAt, shares_along};
 
 /// An attractor that starts lead to.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,11 +40,11 @@ const BOX: usize = 6;
 
 /// The table of a study whose cases differ in their starts alone, or the shares of one along a parameter; empty of any other.
 ///
-/// `final_motions` are those of its cases by index, none for a case that is missing.
+/// `final_motions` are those of its cases.
 pub fn attractor_table(
     study: &Study,
     attractors: &Attractors,
-    final_motions: &[Option<FinalMotion>],
+    final_motions: &FinalMotions,
     machine: Machine,
 ) -> Result<AttractorTable, RunError> {
     let found = &attractors.of_starts;

@@ -77,24 +77,40 @@ pub(super) fn run_chains(
     (count, chains): (usize, Chains<'_>),
     keep: impl Fn(usize, Record) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
-    if let Some(missing) = machine.instructions.filter(|it| !it.is_available()) {
-        return Err(RunError(format!("the processor has no {}", missing.name())));
-    }
-    let queue = (count, chains);
+    check(machine)?;
+    let (queue, pool) = ((count, chains), pool(machine.threads)?);
     match study.base.switching {
-        Switching::Filippov => run_as::<Filippov>(study, machine, queue, &keep),
-        Switching::AsPrinted => run_as::<AsPrinted>(study, machine, queue, &keep),
+        Switching::Filippov => {
+            let known = known_orbits::<Filippov>(study, machine);
+            run_as(study, machine, queue, (&pool, known), &keep);
+        }
+        Switching::AsPrinted => {
+            let known = known_orbits::<AsPrinted>(study, machine);
+            run_as(study, machine, queue, (&pool, known), &keep);
+        }
+    }
+    Ok(())
+}
+
+/// Fails if the processor lacks the instructions that are asked for.
+pub(super) fn check(machine: Machine) -> Result<(), RunError> {
+    match machine.instructions.filter(|it| !it.is_available()) {
+        Some(missing) => Err(RunError(format!("the processor has no {}", missing.name()))),
+        None => Ok(()),
     }
 }
 
-fn run_as<R: Reading>(
+/// Orbits that are known before cases are followed, if there are any.
+pub(super) type Known<R> = Option<Arc<KnownOrbits<CapsuleSystem<R>, 3>>>;
+
+/// Runs the chains of a queue on the threads of a pool, see [`run_chains`].
+pub(super) fn run_as<R: Reading>(
     study: &Study,
     machine: Machine,
     queue: (usize, Chains<'_>),
+    (pool, known): (&rayon::ThreadPool, Known<R>),
     keep: &(impl Fn(usize, Record) -> ControlFlow<()> + Sync),
-) -> Result<(), RunError> {
-    let known = known_orbits::<R>(study, machine);
-    let pool = pool(machine.threads)?;
+) {
     let (taken, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
     let share = queue.0.div_ceil(pool.current_num_threads());
     let instructions = machine.instructions_for(share);
@@ -105,27 +121,30 @@ fn run_as<R: Reading>(
         let worker = Worker { study, queue, taken, stopped, share, keep, links, known };
         worker.work(instructions, &last_cases);
     });
-    Ok(())
 }
 
 /// The orbits that a sample of the starts leads to, with their neighbourhoods, where all cases have the same parameters
 /// and enough of them profit; the sample depends on the study alone.
-fn known_orbits<R: Reading>(
-    study: &Study,
-    machine: Machine,
-) -> Option<Arc<KnownOrbits<CapsuleSystem<R>, 3>>> {
+pub(super) fn known_orbits<R: Reading>(study: &Study, machine: Machine) -> Known<R> {
     let cases = study.cases();
     let wanted = study.early_decision && study.case_set.varies_starts_alone();
     if !wanted || cases < WORTHWHILE * SAMPLE {
         return None;
     }
     let sample: Vec<_> =
-        (0..SAMPLE).map(|place| study.case(place * cases / SAMPLE).read::<R>()).collect();
+        (0..SAMPLE).map(|place| study.case(spread(place, cases)).read::<R>()).collect();
     let system = sample[0].system.clone();
     let orbits = settle_all(&sample, &study.protocol, machine);
     let instructions = machine.instructions_for(SAMPLE);
     let tolerance = study.protocol.tolerance;
     Some(Arc::new(KnownOrbits::among(&system, orbits, instructions, tolerance)))
+}
+
+/// One of so many cases by its place in a sample that is spread evenly over all axes: multiples of the golden section, as equal
+/// steps could be those of an axis.
+fn spread(place: usize, cases: usize) -> usize {
+    let fraction = (place as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    ((u128::from(fraction) * cases as u128) >> 64) as usize
 }
 
 /// So many worker threads; one per core for none.
@@ -178,7 +197,7 @@ struct Worker<'a, R: Reading, K> {
     keep: &'a K,
     /// The cases in its lanes, by their index.
     links: BTreeMap<usize, Link>,
-    known: Option<Arc<KnownOrbits<CapsuleSystem<R>, 3>>>,
+    known: Known<R>,
 }
 
 impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Queue<CapsuleSystem<R>, 3>
@@ -204,7 +223,7 @@ impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Queue<CapsuleSystem<R>
         Some((index, case))
     }
 
-    fn known(&self) -> Option<Arc<KnownOrbits<CapsuleSystem<R>, 3>>> {
+    fn known(&self) -> Known<R> {
         self.known.clone()
     }
 }

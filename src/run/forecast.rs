@@ -54,6 +54,15 @@ impl Forecast {
         self.done = (self.done.0 + done, self.done.1 + cycles);
     }
 
+    /// Takes note that all of the `cases` of block `number` are done, in so many cycles together.
+    pub fn complete(&mut self, number: usize, cases: usize, cycles: u64) {
+        let nothing = Begun { cases, done: 0, cycles: 0 };
+        let block = self.blocks.entry(number).or_insert(nothing);
+        let rest = (cases - block.done, cycles - block.cycles);
+        (block.done, block.cycles) = (cases, cycles);
+        self.done = (self.done.0 + rest.0, self.done.1 + rest.1);
+    }
+
     /// Cases that are done, and their cycles.
     pub fn done(&self) -> (usize, u64) {
         self.done

@@ -7,6 +7,7 @@ pub mod cases;
 pub mod final_motion;
 pub mod continuation;
 pub mod forecast;
+mod refined;
 pub mod shares_along;
 
 pub use crate::orbit::Machine;
@@ -15,6 +16,7 @@ pub use attractor_table::{AttractorRow, AttractorTable, attractor_table};
 pub use block::run_blocks;
 pub use cases::{Record, RunError, run, run_sample};
 pub use continuation::{Continued, NotContinued, continue_branches};
-pub use final_motion::{FinalMotion, final_motion, final_motions};
+pub use final_motion::{FinalMotion, FinalMotions, final_motion, final_motions};
 pub use forecast::{Estimate, Forecast};
+pub use refined::complete_refinement;
 pub use shares_along::{SharesAt, shares_along};

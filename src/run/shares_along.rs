@@ -5,7 +5,7 @@ use crate::orbit::Outcome;
 use crate::study::layout::Layout;
 use crate::study::{CaseSet, Study};
 
-use super::{Attractors, FinalMotion};
+use super::{Attractors, FinalMotions};
 
 /// The attractors at one value of the parameter, by their numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,12 +18,11 @@ pub struct SharesAt {
 
 /// The shares along the axis of a study of one parameter and of starts, one element for each value; none of any other study.
 ///
-/// Attractors keep their numbers along the axis, see [`Attractors`]. `final_motions` are those of the cases by index, none for
-/// a case that is missing.
+/// Attractors keep their numbers along the axis, see [`Attractors`].
 pub fn shares_along(
     study: &Study,
     attractors: &Attractors,
-    final_motions: &[Option<FinalMotion>],
+    final_motions: &FinalMotions,
 ) -> Option<Vec<SharesAt>> {
     let CaseSet::Grid(_) = &study.case_set else { return None };
     let layout = Layout::of(study);
@@ -40,7 +39,7 @@ pub fn shares_along(
         let motion = |number: usize| {
             let own = Label::Attractor(number as u32);
             let first = (0..layout.cases()).find(|place| label(*place) == own)?;
-            final_motions[case(first)].map(|it| (it.outcome, it.period))
+            final_motions.get(case(first)).map(|it| (it.outcome, it.period))
         };
         let motions = (0..count).map(motion).collect();
         SharesAt { shares: shares_of_grid(&shape, label, count), motions }

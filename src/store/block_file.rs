@@ -18,7 +18,7 @@ use super::provenance;
 use super::{StoreError, file};
 
 /// The first line of every block file; the number is increased with every change of the layout.
-const FORMAT: &str = "capsulemap shard 1";
+const FORMAT: &str = "capsulemap shard 2";
 /// No head is longer [bytes].
 const LONGEST_HEAD: u64 = 1 << 20;
 
@@ -60,6 +60,9 @@ pub struct Summary {
     pub number: usize,
     /// Cases in it.
     pub cases: usize,
+    /// Cases that its columns have: those of the block, and of a tile of a refined study those that it has needed, the ones on all of its
+    /// boundary among them.
+    pub computed: usize,
     /// Cases by outcome, those that occur.
     pub outcomes: BTreeMap<String, usize>,
     /// Drive cycles that were computed for them.
@@ -242,7 +245,7 @@ impl BlockFile {
         let begin = before.fold(self.begin, u64::saturating_add);
         file.seek(SeekFrom::Start(begin)).map_err(failed)?;
         let (bytes, real) = (columns[at].bytes, columns[at].range.is_none());
-        let count = self.head.block.cases.saturating_mul(width);
+        let count = self.head.block.computed.saturating_mul(width);
         match unpack(file.take(bytes), (count, real)).map_err(failed)? {
             None => Err(StoreError::Damaged { path: self.path.clone() }),
             numbers => Ok(numbers),
@@ -325,7 +328,7 @@ mod tests {
 
     fn block(number: usize) -> Summary {
         let outcomes = BTreeMap::from([("periodic".to_owned(), 3)]);
-        Summary { number, cases: 3, outcomes, cycles: 90 }
+        Summary { number, cases: 3, computed: 3, outcomes, cycles: 90 }
     }
 
     #[test]

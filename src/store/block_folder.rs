@@ -18,7 +18,7 @@ use crate::run::Record;
 use crate::study::Study;
 
 use super::block_file::{self, BlockFile, Column, Head, Numbers, Summary, Unusable};
-use super::catalogue::{END_R, END_Y1, END_Y2, RESIDUAL, starts};
+use super::catalogue::{CASE, END_R, END_Y1, END_Y2, RESIDUAL, starts};
 use super::file::{self, discard_unfinished_in, put};
 use super::lock::{Lock, Tried, try_lock};
 use super::{StoreError, Values, provenance, schema};
@@ -196,7 +196,7 @@ impl BlockFolder {
         number: usize,
         records: &[Record],
     ) -> Result<Summary, StoreError> {
-        let summary = summary(number, records);
+        let summary = summary(study, number, records);
         let columns = columns(study, records);
         block_file::write(&self.path, &self.fingerprint, summary.clone(), &columns)?;
         Ok(summary)
@@ -263,8 +263,8 @@ fn remove_if_there(path: &Path) -> io::Result<()> {
 
 /// Bytes that a block of these records takes.
 pub fn packed_bytes(study: &Study, records: &[Record]) -> io::Result<usize> {
-    let image =
-        block_file::image(&study.fingerprint(), summary(0, records), &columns(study, records));
+    let summary = summary(study, 0, records);
+    let image = block_file::image(&study.fingerprint(), summary, &columns(study, records));
     image.map(|image| image.len())
 }
 
@@ -300,13 +300,16 @@ fn lock(path: &Path, company: Company) -> Result<Option<File>, StoreError> {
 }
 
 /// A block in a few numbers.
-fn summary(number: usize, records: &[Record]) -> Summary {
+fn summary(study: &Study, number: usize, records: &[Record]) -> Summary {
     let mut outcomes = BTreeMap::new();
-    for record in records {
+    let cases = if study.refine { study.cases_of_block(number) } else { records.len() };
+    let own = if study.refine { study.block_cases(number) } else { Vec::new() };
+    let is_own = |record: &Record| !study.refine || own.binary_search(&record.index).is_ok();
+    for record in records.iter().filter(|record| is_own(record)) {
         *outcomes.entry(record.orbit.outcome.name().to_owned()).or_default() += 1;
     }
     let cycles = records.iter().map(|record| record.orbit.cycles).sum();
-    Summary { number, cases: records.len(), outcomes, cycles }
+    Summary { number, cases, computed: records.len(), outcomes, cycles }
 }
 
 /// The columns of a block: the variables, and what is needed to compute cases again and to find their
@@ -322,6 +325,17 @@ fn columns(study: &Study, records: &[Record]) -> Vec<Column> {
             Column { name, numbers }
         })
         .collect();
+    if study.refine {
+        let cases = records.iter().map(|record| record.index as i64).collect();
+        columns.push(Column { name: CASE.to_owned(), numbers: Numbers::Integer(cases) });
+    }
+    columns.extend(beyond_variables(records));
+    columns
+}
+
+/// The columns of a block that are no variables of the results.
+fn beyond_variables(records: &[Record]) -> Vec<Column> {
+    let mut columns = Vec::new();
     let mut add = |name: &str, of: fn(&Record) -> f64| {
         let numbers = Numbers::Real(records.iter().map(of).collect());
         columns.push(Column { name: name.to_owned(), numbers });

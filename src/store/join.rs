@@ -7,19 +7,19 @@ use std::path::Path;
 use crate::capsule::{REASONS, State};
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
-use crate::run::FinalMotion;
+use crate::run::{FinalMotion, FinalMotions, Record, final_motion};
 use crate::study::Study;
 
 use super::block_file::{BlockFile, Summary, Unusable};
 use super::block_folder::BlockFolder;
 use super::catalogue::{
-    BLOCK, BLOCK_CASES, BLOCK_FIRST_CASE, BLOCK_MAKER, END, Entry, FAILURE_REASON, FAILURE_TIME,
-    MULTIPLIER_IMAG, MULTIPLIER_REAL, OUTCOME, PERIOD, RESIDUAL, starts,
+    BLOCK, BLOCK_CASES, BLOCK_FIRST_CASE, BLOCK_MAKER, CASE, END, Entry, FAILURE_REASON,
+    FAILURE_TIME, MULTIPLIER_IMAG, MULTIPLIER_REAL, OUTCOME, PERIOD, RESIDUAL, starts,
 };
 use super::decode::Archive;
 use super::joined::{self, Column};
 use super::schema;
-use super::slab::{Filling, MISSING, Slab};
+use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, StoreError, Values, Variable, provenance};
 
 /// The name of the outcome of cases that failed.
@@ -31,6 +31,8 @@ pub struct Blocks<'a> {
     files: Vec<BlockFile>,
     /// The numbers of those that are not there, and why.
     pub missing: Vec<(usize, Unusable)>,
+    /// Cases of a refined study that were computed once all tiles were there, in the order of their indices.
+    between: Vec<Record>,
 }
 
 impl<'a> Blocks<'a> {
@@ -51,7 +53,31 @@ impl<'a> Blocks<'a> {
                 Err(why) => missing.push((number, why)),
             }
         }
-        Blocks { study, files, missing }
+        Blocks { study, files, missing, between: Vec::new() }
+    }
+
+    /// Adds cases of a refined study that were computed once all tiles were there, in the order of their indices.
+    pub fn add(&mut self, records: Vec<Record>) {
+        self.between = records;
+    }
+
+    /// The cases of a block file, in rising order, as its columns have them.
+    fn cases_of(&self, file: &BlockFile) -> Result<Vec<usize>, StoreError> {
+        match self.study.refine {
+            false => Ok(self.study.block_cases(file.head.block.number)),
+            true => Ok(file.integers(CASE, 1)?.into_iter().map(|case| case as usize).collect()),
+        }
+    }
+
+    /// Cases of a refined study that have been computed, each once; of any other all that are there.
+    pub fn computed(&self) -> Result<usize, StoreError> {
+        let mut cases: Vec<usize> = self.between.iter().map(|record| record.index).collect();
+        for file in &self.files {
+            cases.extend(self.cases_of(file)?);
+        }
+        cases.sort_unstable();
+        cases.dedup();
+        Ok(cases.len())
     }
 
     /// The summary of each block, in their order.
@@ -64,24 +90,21 @@ impl<'a> Blocks<'a> {
         let mut found = Vec::new();
         for file in &self.files {
             if found.len() < most && file.head.block.outcomes.contains_key(FAILED) {
-                let cases = self.study.block_cases(file.head.block.number);
-                found.extend(failures(file, &cases)?);
+                found.extend(failures(file, &self.cases_of(file)?)?);
             }
         }
         found.truncate(most);
         Ok(found)
     }
 
-    /// The final state of every case of the study, by index; none for those that are missing.
-    pub fn final_states(&self) -> Result<Vec<Option<FinalMotion>>, StoreError> {
-        let mut states = vec![None; self.study.cases()];
+    /// What the cases have settled to, as far as they have been computed.
+    pub fn final_motions(&self) -> Result<FinalMotions, StoreError> {
+        let mut known = Vec::new();
         for file in &self.files {
-            let cases = self.study.block_cases(file.head.block.number);
-            for (case, state) in cases.into_iter().zip(final_states(file)?) {
-                states[case] = Some(state);
-            }
+            known.extend(self.cases_of(file)?.into_iter().zip(final_states(file)?));
         }
-        Ok(states)
+        known.extend(self.between.iter().map(|it| (it.index, final_motion(&it.orbit))));
+        Ok(FinalMotions::of(self.study, known.into_iter()))
     }
 
     /// The study with all that belongs to no case: axes, constants, and the program that wrote each block.
@@ -102,9 +125,10 @@ impl<'a> Blocks<'a> {
         begun: impl FnOnce(usize),
         done: impl Fn() -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, StoreError> {
-        let models = schema::columns(self.study, &[]);
-        let labels: Vec<Column> =
-            models.variables.iter().map(|(name, model)| self.column(name, model)).collect();
+        // Of no case but those between tiles.
+        let models = schema::columns(self.study, &self.between);
+        let column = |(name, model): (&String, &Variable)| self.column(name, model, &models);
+        let labels: Vec<Column> = models.variables.iter().map(column).collect();
         let axes = self.study.shape().len();
         begun(joined::count_slabs(&labels, axes));
         let numbers = |column: &Column, slab: &Slab| {
@@ -114,12 +138,15 @@ impl<'a> Blocks<'a> {
         joined::write(frame, (&labels, axes), path, numbers, done)
     }
 
-    fn column(&self, name: &str, model: &Variable) -> Column {
+    fn column(&self, name: &str, model: &Variable, between: &Dataset) -> Column {
         let label = schema::over_axes(self.study, name, model.clone(), !self.missing.is_empty());
-        let ranges = self.files.iter().filter_map(|file| file.range(name)).flatten();
-        // The number for missing cases occurs too.
-        let missing = if self.missing.is_empty() { None } else { Some([MISSING.0, 0]) };
-        let all: Vec<i64> = ranges.chain(missing.into_iter().flatten()).collect();
+        let between = between.variables.get(name).and_then(|it| it.values.range());
+        let ranges = self.files.iter().filter_map(|file| file.range(name)).chain(between).flatten();
+        // The numbers for missing and inferred cases occur too.
+        let missing = (!self.missing.is_empty()).then_some([MISSING.0, 0]);
+        let inferred = self.study.refine.then_some([INFERRED.0, 0]);
+        let absent = missing.into_iter().chain(inferred).flatten();
+        let all: Vec<i64> = ranges.chain(absent).collect();
         let range = all.iter().min().zip(all.iter().max()).map(|(&low, &high)| [low, high]);
         let inner = &model.values.shape()[1..];
         let shape = self.study.shape().iter().chain(inner).copied().collect();
@@ -133,7 +160,16 @@ impl<'a> Blocks<'a> {
         let width: usize = model.shape()[1..].iter().product();
         let mut filling = Filling::new(slab, name, model);
         for file in &self.files {
-            let cases = self.study.block_cases(file.head.block.number);
+            let own = self.study.block_cases(file.head.block.number);
+            if own[own.len() - 1] < first || own[0] > last {
+                continue;
+            }
+            if self.study.refine && name == OUTCOME.name {
+                filling.put_each(own.iter().map(|&case| slab.place(&shape, case)), INFERRED.0);
+            }
+        }
+        for file in &self.files {
+            let cases = self.cases_of(file)?;
             if cases[cases.len() - 1] < first || cases[0] > last {
                 continue;
             }
@@ -142,6 +178,11 @@ impl<'a> Blocks<'a> {
                 Values::Real(_) => filling.put_reals(places, &file.reals(name, width)?),
                 Values::Integer(_) => filling.put_integers(places, &file.integers(name, width)?),
             }
+        }
+        let places = self.between.iter().map(|it| slab.place(&shape, it.index));
+        match model {
+            Values::Real(own) => filling.put_reals(places, own.as_slice().expect("a table")),
+            Values::Integer(own) => filling.put_integers(places, own.as_slice().expect("a table")),
         }
         Ok(filling.finish())
     }

@@ -11,7 +11,7 @@ use crate::run::Record;
 use crate::study::{CaseSet, Coordinate, Study};
 
 use super::catalogue::*;
-use super::slab::{Filling, MISSING, Slab};
+use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, Values, Variable, drawn, provenance};
 
 /// Attribute: differs between studies whose cases differ, see [`Study::fingerprint`].
@@ -55,6 +55,9 @@ pub(super) fn over_axes(
     let mut flags = variable.flags;
     if is_partial && name == OUTCOME.name {
         flags.insert(0, (MISSING.0, MISSING.1.to_owned()));
+    }
+    if study.refine && name == OUTCOME.name {
+        flags.insert(0, (INFERRED.0, INFERRED.1.to_owned()));
     }
     Variable { dimensions, flags, ..variable }
 }

@@ -11,6 +11,9 @@ pub const MOST_NUMBERS: usize = 1 << 23;
 /// The category of a case that has not been computed.
 pub const MISSING: (i64, &str) = (-1, "missing");
 
+/// The category of a case of a refined study that has not been computed, as it lies among cases that lead to one attractor.
+pub const INFERRED: (i64, &str) = (-2, "inferred");
+
 /// A box of a study's cases: its first position and its length along each axis, slowest first.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Slab {
@@ -132,6 +135,16 @@ impl Filling {
     pub fn put_integers(&mut self, places: impl Iterator<Item = Option<usize>>, own: &[i64]) {
         let Numbers::Integer(all) = &mut self.numbers else { panic!("the variable is of reals") };
         put_rows(all, self.width, places, own);
+    }
+
+    /// Puts one integer in some places, of a variable that has one for each case.
+    ///
+    /// # Panics
+    ///
+    /// If the variable is one of reals.
+    pub fn put_each(&mut self, places: impl Iterator<Item = Option<usize>>, number: i64) {
+        let Numbers::Integer(all) = &mut self.numbers else { panic!("the variable is of reals") };
+        places.flatten().for_each(|place| all[place] = number);
     }
 
     /// The numbers over the axes of the slab.

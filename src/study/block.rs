@@ -1,4 +1,6 @@
 //! Blocks: a study is divided into blocks of cases, each of which is computed, kept and repeated as a whole.
+//!
+//! The blocks of a refined study are the tiles of its grid.
 
 use std::ops::Range;
 
@@ -14,10 +16,13 @@ impl Study {
     /// Number of blocks. How a study is cut depends on the study alone, never on the machine, so that every
     /// machine and every later run means the same by a block's number.
     pub fn blocks(&self) -> usize {
-        self.chains().div_ceil(self.chains_per_block())
+        match self.refinement() {
+            Some(refinement) => refinement.tiles(),
+            None => self.chains().div_ceil(self.chains_per_block()),
+        }
     }
 
-    /// The chains of block `number`.
+    /// The chains of block `number` of a study that is not refined.
     pub fn block(&self, number: usize) -> Range<usize> {
         let size = self.chains_per_block();
         number * size..((number + 1) * size).min(self.chains())
@@ -25,6 +30,9 @@ impl Study {
 
     /// The cases of block `number`, in the order of their indices.
     pub fn block_cases(&self, number: usize) -> Vec<usize> {
+        if let Some(refinement) = self.refinement() {
+            return refinement.cases(number);
+        }
         let mut cases: Vec<usize> =
             self.block(number).flat_map(|chain| self.chain(chain)).collect();
         cases.sort_unstable();
@@ -33,7 +41,10 @@ impl Study {
 
     /// Number of cases of block `number`.
     pub fn cases_of_block(&self, number: usize) -> usize {
-        self.block(number).len() / self.chains_of_group() * self.cases_of_group()
+        match self.refinement() {
+            Some(refinement) => refinement.count(number),
+            None => self.block(number).len() / self.chains_of_group() * self.cases_of_group(),
+        }
     }
 
     /// Chains of every block but the last, which may have fewer.

@@ -42,7 +42,7 @@ impl Study {
         let base = read_parameters(&top, &case_set.varied());
         let start = read_start(&top, &mut case_set);
         let protocol = read_protocol(&top);
-        let early_decision = read_early_decision(&top, &case_set);
+        let basin = read_basin(&top, &case_set);
         let outputs = read_outputs(&top);
         let surroundings = Surroundings { case_set: &case_set, base: &base, start };
         let branches = read_branches(&top, &surroundings);
@@ -54,7 +54,8 @@ impl Study {
             start_phase: start.start_phase,
             section_phase: start.section_phase,
             protocol,
-            early_decision,
+            early_decision: basin.early_decision,
+            refine: basin.refine,
             drawings: read_drawings(&top, &case_set, &branches, &outputs),
             outputs,
             branches,
@@ -176,16 +177,28 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
     protocol
 }
 
-/// Reads `[basin]`, which only a study has whose cases differ in their starts alone.
-fn read_early_decision(top: &Table<'_, '_>, case_set: &CaseSet) -> bool {
-    let Some(table) = top.table("basin") else { return true };
-    let entry = table.entry("early_decision");
-    if let Some(entry) = entry.as_ref().filter(|_| !case_set.varies_starts_alone()) {
-        entry.fault("is for studies whose cases differ in their starts alone");
-    }
-    let given = entry.and_then(|entry| entry.truth());
+/// What `[basin]` says, which only a study has whose cases differ in their starts alone.
+struct Basin {
+    early_decision: bool,
+    refine: bool,
+}
+
+fn read_basin(top: &Table<'_, '_>, case_set: &CaseSet) -> Basin {
+    let mut basin = Basin { early_decision: true, refine: false };
+    let Some(table) = top.table("basin") else { return basin };
+    let is_for = |key: &str, value: &mut bool, applies: bool, which: &str| {
+        let Some(entry) = table.entry(key) else { return };
+        if !applies {
+            entry.fault(format!("is for {which} whose cases differ in their starts alone"));
+        }
+        *value = entry.truth().unwrap_or(*value);
+    };
+    let of_starts = case_set.varies_starts_alone();
+    is_for("early_decision", &mut basin.early_decision, of_starts, "studies");
+    let is_grid = matches!(case_set, CaseSet::Grid(_));
+    is_for("refine", &mut basin.refine, of_starts && is_grid, "grids");
     table.finish();
-    given.unwrap_or(true)
+    basin
 }
 
 fn read_outputs(top: &Table<'_, '_>) -> Vec<Output> {

@@ -36,7 +36,7 @@ impl Study {
         }
         self.write_start(&mut document);
         write_protocol(&mut document, &self.protocol);
-        write_early_decision(&mut document, self);
+        write_basin(&mut document, self);
         for branch in &self.branches {
             self.write_branch(&mut document, branch);
         }
@@ -252,10 +252,13 @@ fn write_protocol(document: &mut Document, protocol: &Protocol) {
     }
 }
 
-fn write_early_decision(document: &mut Document, study: &Study) {
+fn write_basin(document: &mut Document, study: &Study) {
     if study.case_set.varies_starts_alone() {
         document.table("basin");
         document.put("early_decision", study.early_decision);
+        if let CaseSet::Grid(_) = study.case_set {
+            document.put("refine", study.refine);
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use capsulemap::orbit::newton::close;
 use capsulemap::orbit::passage::{OneByOne, image};
 use capsulemap::orbit::return_map::Cycles;
 use capsulemap::orbit::{Outcome, Proof, Protocol};
-use capsulemap::run::{self, AttractorEvent, Attractors, FinalMotion, Machine, Record};
+use capsulemap::run::{self, AttractorEvent, Attractors, FinalMotions, Machine, Record};
 use capsulemap::store;
 use capsulemap::study::Study;
 
@@ -35,7 +35,7 @@ fn found(study: &Study, records: &[Record]) -> Attractors {
     on(study, &run::final_motions(study, records), Machine::default())
 }
 
-fn on(study: &Study, final_motions: &[Option<FinalMotion>], machine: Machine) -> Attractors {
+fn on(study: &Study, final_motions: &FinalMotions, machine: Machine) -> Attractors {
     run::attractors(study, final_motions, machine, || ()).expect("the threads start")
 }
 

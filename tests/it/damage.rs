@@ -198,7 +198,7 @@ fn a_block_with_damage_is_refused_or_has_as_many_numbers() {
         Column { name: "period".into(), numbers: Numbers::Integer((0..100).collect()) },
     ];
     let outcomes = BTreeMap::from([("periodic".to_owned(), 100)]);
-    let block = Summary { number: 0, cases: 100, outcomes, cycles: 9 };
+    let block = Summary { number: 0, cases: 100, computed: 100, outcomes, cycles: 9 };
     block_file::write(place, "a", block, &columns).expect("it is written");
     let path = block_file::path(place, 0);
     let whole = fs::read(&path).expect("a block");

@@ -60,6 +60,7 @@ mod readers;
 mod reading;
 mod readme;
 mod reference;
+mod refinement;
 mod rigid_branches;
 mod run;
 mod second_method;
