@@ -131,7 +131,11 @@ impl Campaign<'_> {
         let states = blocks.final_motions()?;
         let linked = || reports.step(Stage::Linking);
         let attractors = run::attractors(self.study, &states, self.machine, linked)?;
-        let table = run::attractor_table(self.study, &attractors, &states, self.machine)?;
+        let mut table = run::attractor_table(self.study, &attractors, &states, self.machine)?;
+        // Those of a refined study that are followed lie near the boundaries, and take longer than the others would.
+        if !table.rows.is_empty() && !self.study.refine {
+            table.note_cycles(&attractors, blocks.cycles()?.into_iter());
+        }
         reports.send(Event::Ended(Stage::Linking))?;
         add_attractors(frame, self.study, (&attractors, &table));
         Ok(())

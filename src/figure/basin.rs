@@ -21,7 +21,8 @@ use super::view::View;
 use crate::capsule::{Output, Parameter};
 use crate::store::catalogue::{
     ATTRACTOR, ATTRACTOR_INDEX, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
-    ATTRACTOR_SHARE_ERROR, Entry, Place, SECTION, starts,
+    ATTRACTOR_SHARE_ERROR, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, Entry, Place, SECTION,
+    starts,
 };
 use crate::study::{Coordinate, Drawing};
 use crate::tradeoff::NOISE;
@@ -29,7 +30,7 @@ use crate::tradeoff::NOISE;
 /// Height of the frame [pt].
 const HEIGHT: f64 = 170.0;
 /// Radius of section points [pt].
-const RADIUS: f64 = 2.4;
+pub(super) const RADIUS: f64 = 2.4;
 /// Width of the rim of a section point [pt].
 const RIM: f64 = 0.7;
 /// How much paper the colour of a basin has, so that the points of its attractor stand out.
@@ -50,6 +51,7 @@ fn reads(_: &Drawing) -> Names {
     Names::of(outcome::READS)
         .and([ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR])
         .and(sections)
+        .and([EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2])
         .and(phases)
         .and([Place::Attractor.of(SPEED), Entry::of_parameter(Parameter::Delta)])
 }
@@ -69,11 +71,19 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         }
     }
     let basins = Basins::of(view, &plane)?;
-    let points = basins.points(view, &plane);
+    let points = section_points(view, &plane);
+    let saddles = saddles(view, &plane);
     let surface = surface(view, &plane);
     let mut legend = basins.legend(view);
     if !points.is_empty() {
-        legend.push((Mark::Disc(INK, RADIUS), Text::plain("section points of the orbits")));
+        legend.push((
+            Mark::Disc(INK, RADIUS),
+            Text::plain("section points of the orbits, seen along the other coordinates"),
+        ));
+    }
+    if !saddles.is_empty() {
+        let ring = Mark::Ring(INK, RADIUS);
+        legend.push((ring, Text::plain("saddles on the boundary")));
     }
     if surface.is_some() {
         let dashed = Stroke::dashed(INK, REFERENCE_WIDTH);
@@ -95,6 +105,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         if let Some(ends) = surface {
             panel.curve(&mut canvas, &ends, Stroke::dashed(INK, REFERENCE_WIDTH));
         }
+        mark_saddles(&mut canvas, panel, &saddles);
         mark_points(&mut canvas, panel, &points);
         panel.finish(&mut canvas);
     }
@@ -136,7 +147,8 @@ impl Basins {
     /// Which part of the starts is inferred, if any is.
     fn inferred_note(&self) -> Option<String> {
         let share = 100.0 * (1.0 - self.inferred as f64 / self.numbers.len() as f64);
-        let note = || format!("{} % of the starts computed, the others inferred", significant(share, 2));
+        let note =
+            || format!("{} % of the starts computed, the others inferred", significant(share, 2));
         (self.inferred > 0).then(note)
     }
 
@@ -156,27 +168,6 @@ impl Basins {
             Some(true) => Fill::Hatched(tinted(own), own),
             _ => Fill::Plain(tinted(own)),
         }
-    }
-
-    /// The section points of the periodic orbits, by attractor, where the section is at the phase of the starts.
-    fn points(&self, view: &View<'_>, plane: &Plane<'_>) -> Vec<((f64, f64), RGBColor)> {
-        let phases = [Coordinate::StartPhase, Coordinate::SectionPhase]
-            .map(|it| view.parameter(it.name(), &[]).ok().and_then(|it| it.first().copied()));
-        if phases[0].is_none() || phases[0] != phases[1] {
-            return Vec::new();
-        }
-        let of_axis = |name: &str| -> Vec<f64> {
-            let place = starts().iter().position(|entry| entry.name == name);
-            let entry = place.map(|place| Place::Attractor.of(SECTION[place]));
-            let factor = view.quantity(name).factor;
-            let values = entry.map_or(Vec::new(), |entry| column(view, entry));
-            values.into_iter().map(|value| value * factor).collect()
-        };
-        let (x, y) = (of_axis(plane.x_name), of_axis(plane.y_name));
-        let cycles = x.len() / view.coordinate_values(ATTRACTOR_INDEX.name).len().max(1);
-        let points = x.into_iter().zip(y).enumerate();
-        let coloured = |(place, at): (usize, (f64, f64))| (at, colour(place / cycles.max(1)));
-        points.map(coloured).filter(|((x, y), _)| x.is_finite() && y.is_finite()).collect()
     }
 
     /// The numbers of the attractors that occur.
@@ -207,8 +198,40 @@ impl Basins {
     }
 }
 
+/// The section points of the periodic attractors, by attractor, where the section is at the phase of the starts.
+pub(super) fn section_points(view: &View<'_>, plane: &Plane<'_>) -> Vec<((f64, f64), RGBColor)> {
+    let places = in_plane(view, plane, SECTION.map(|entry| Place::Attractor.of(entry)));
+    let cycles = places.len() / view.coordinate_values(ATTRACTOR_INDEX.name).len().max(1);
+    let coloured = |(place, at): (usize, (f64, f64))| (at, colour(place / cycles.max(1)));
+    let points = places.into_iter().enumerate().map(coloured);
+    points.filter(|((x, y), _)| x.is_finite() && y.is_finite()).collect()
+}
+
+/// The section points of the saddles between basins.
+fn saddles(view: &View<'_>, plane: &Plane<'_>) -> Vec<(f64, f64)> {
+    let places = in_plane(view, plane, [EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2]);
+    places.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
+}
+
+/// Section points as they are seen in the plane of the starts, in the units of the figure; none where the section is at another
+/// phase than the starts.
+fn in_plane(view: &View<'_>, plane: &Plane<'_>, sections: [Entry; 3]) -> Vec<(f64, f64)> {
+    let phases = [Coordinate::StartPhase, Coordinate::SectionPhase]
+        .map(|it| view.parameter(it.name(), &[]).ok().and_then(|it| it.first().copied()));
+    if phases[0].is_none() || phases[0] != phases[1] {
+        return Vec::new();
+    }
+    let of_axis = |name: &str| -> Vec<f64> {
+        let place = starts().iter().position(|entry| entry.name == name);
+        let factor = view.quantity(name).factor;
+        let values = place.map_or(Vec::new(), |place| column(view, sections[place]));
+        values.into_iter().map(|value| value * factor).collect()
+    };
+    of_axis(plane.x_name).into_iter().zip(of_axis(plane.y_name)).collect()
+}
+
 /// The colour of an attractor in every figure: by its number.
-fn colour(number: usize) -> RGBColor {
+pub(super) fn colour(number: usize) -> RGBColor {
     ATTRACTORS.get(number).copied().unwrap_or(OTHER_ATTRACTOR)
 }
 
@@ -289,13 +312,24 @@ fn surface(view: &View<'_>, plane: &Plane<'_>) -> Option<[(f64, f64); 2]> {
 }
 
 /// Draws section points, those of each attractor in its colour.
-fn mark_points(canvas: &mut Canvas, panel: &Panel, points: &[((f64, f64), RGBColor)]) {
+pub(super) fn mark_points(canvas: &mut Canvas, panel: &Panel, points: &[((f64, f64), RGBColor)]) {
     canvas.clipped(panel.frame, |canvas| {
         for ((x, y), colour) in points {
             let at = panel.place(*x, *y);
             canvas.discs(&[(at, PAPER)], RADIUS + RIM);
             canvas.discs(&[(at, INK)], RADIUS);
             canvas.discs(&[(at, *colour)], RADIUS - RIM);
+        }
+    });
+}
+
+/// Draws the section points of saddles: rings on paper, as they belong to no basin.
+fn mark_saddles(canvas: &mut Canvas, panel: &Panel, saddles: &[(f64, f64)]) {
+    canvas.clipped(panel.frame, |canvas| {
+        for (x, y) in saddles {
+            let at = panel.place(*x, *y);
+            canvas.discs(&[(at, PAPER)], RADIUS + RIM);
+            canvas.rings(&[at], RADIUS, Stroke::solid(INK, 2.0 * RIM));
         }
     });
 }

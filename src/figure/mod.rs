@@ -33,6 +33,8 @@ mod quantity;
 mod raster;
 mod registry;
 mod scale;
+mod section;
+mod settling;
 mod shares;
 mod style;
 mod symbol;

@@ -1,7 +1,9 @@
 //! The kinds of figure: each is a file of its own, and a line here.
 
 use super::kind::Kind;
-use super::{basin, bifurcation, curves, history, map, phase_portrait, shares, trade_off};
+use super::{
+    basin, bifurcation, curves, history, map, phase_portrait, section, settling, shares, trade_off,
+};
 use crate::study::DrawingKind;
 
 /// The kind of figure of this name.
@@ -12,7 +14,9 @@ pub fn kind(name: DrawingKind) -> &'static Kind {
         DrawingKind::Bifurcation => &bifurcation::KIND,
         DrawingKind::Map => &map::KIND,
         DrawingKind::Basin => &basin::KIND,
+        DrawingKind::Settling => &settling::KIND,
         DrawingKind::Shares => &shares::KIND,
+        DrawingKind::Section => &section::KIND,
         DrawingKind::TradeOff => &trade_off::KIND,
         DrawingKind::Curves => &curves::KIND,
     }

@@ -2,31 +2,38 @@
 
 use std::collections::BTreeSet;
 
+use ndarray::ArrayD;
+use plotters::style::RGBColor;
+
 use super::axis::AxisRequest;
-use super::basin::{band, column, millimetres, motion, undecided};
-use super::canvas::{Canvas, Drawn};
+use super::basin::{band, colour, column, millimetres, motion, undecided};
+use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::error::FigureError;
 use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
-use super::page::{PageRequest, PanelRequest};
+use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
 use super::plane::cells;
 use super::raster::{Fill, Raster};
 use super::scale::{Scale, finite_range};
+use super::style::{CURVE_WIDTH, INK};
 use super::text::Text;
 use super::ticks::significant;
 
 use super::view::View;
 use crate::capsule::Output;
 use crate::store::catalogue::{
-    ATTRACTOR, ATTRACTOR_AXIS, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
+    ATTRACTOR, ATTRACTOR_AXIS, ATTRACTOR_INTEGRITY_ERROR, ATTRACTOR_INTEGRITY_FACTOR,
+    ATTRACTOR_KIND, ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
     ATTRACTOR_SHARE_ERROR, Entry, starts,
 };
 use crate::study::{Coordinate, Drawing};
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 130.0;
+/// Height of the frame of the room of the basins [pt].
+const ROOM_HEIGHT: f64 = 95.0;
 /// Rows in which the bands are drawn: finer than a pixel.
 const ROWS: usize = 1 << 14;
 /// A share below this is rounding.
@@ -41,6 +48,8 @@ pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 /// What bands read: the shares, and what the attractors are.
 fn reads(_: &Drawing) -> Names {
     Names::of([ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, ATTRACTOR_KIND, ATTRACTOR_PERIOD])
+        .and([ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_INTEGRITY_FACTOR])
+        .and([ATTRACTOR_INTEGRITY_ERROR])
         .and([ATTRACTOR, SPEED])
 }
 
@@ -59,18 +68,95 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     };
     let bands = Bands::of(view, along)?;
     let cells = cells(view, along)?;
-    let panel = PanelRequest {
-        x: AxisRequest::new(view.quantity(along), cells.scale),
+    let room = Room::of(view, along)?;
+    let panels = if room.is_some() { 2 } else { 1 };
+    let x = AxisRequest::new(view.quantity(along), cells.scale);
+    let upper = PanelRequest {
+        x: AxisRequest { labelled: panels == 1, numbered: panels == 1, ..x.clone() },
         y: AxisRequest::new(view.quantity(ATTRACTOR_SHARE.name), Scale::of_axis(&[0.0, 100.0])),
-        header: Header { note: Some(bands.note()), legend: bands.legend(view), letter: None },
+        header: Header {
+            note: Some(bands.note()),
+            legend: bands.legend(view),
+            letter: letter(0, panels),
+        },
     };
-    let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Outward);
-    let (mut canvas, panels) = page.lay_out();
-    for panel in panels.iter().flatten() {
-        bands.draw(&mut canvas, panel, &cells);
+    let page = PageRequest::of_one(view.drawing, upper, HEIGHT, Pointing::Outward);
+    let PageRequest { mut rows, mut heights, .. } = page;
+    if let Some(room) = &room {
+        rows.push(vec![room.request(view, x, letter(1, panels))]);
+        heights.push(ROOM_HEIGHT);
+    }
+    let (mut canvas, panels) = PageRequest { rows, heights, ..page }.lay_out();
+    for (row, panel) in panels.iter().flatten().enumerate() {
+        match &room {
+            Some(room) if row == 1 => room.draw(&mut canvas, panel),
+            _ => bands.draw(&mut canvas, panel, &cells),
+        }
         panel.finish(&mut canvas);
     }
     Ok(canvas.finish(&view.about(&[ATTRACTOR_SHARE.name.to_owned()], &[along])))
+}
+
+/// How much room the basins have along the parameter.
+struct Room {
+    /// The values of the parameter, in the units of the figure.
+    values: Vec<f64>,
+    /// For each attractor the minimal critical shock and the integrity factor at each value.
+    numbers: Vec<[Vec<f64>; 2]>,
+    /// The largest diagonal of a cell.
+    error: f64,
+}
+
+impl Room {
+    /// That of results which tell it.
+    fn of(view: &View<'_>, along: &str) -> Result<Option<Room>, FigureError> {
+        let measures = [ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_INTEGRITY_FACTOR];
+        if view.dataset.variable(measures[0].name).is_none() {
+            return Ok(None);
+        }
+        let factor = view.quantity(along).factor;
+        let values = view.axis_values(along)?.iter().map(|value| value * factor).collect();
+        let [shock, ball] =
+            measures.map(|entry| view.take(entry.name, &[along]).map(|it| columns(&it)));
+        let numbers = shock?.into_iter().zip(ball?).map(|(shock, ball)| [shock, ball]).collect();
+        let errors = column(view, ATTRACTOR_INTEGRITY_ERROR);
+        let error = errors.into_iter().filter(|it| it.is_finite()).fold(0.0, f64::max);
+        Ok(Some(Room { values, numbers, error }))
+    }
+
+    fn request(&self, view: &View<'_>, x: AxisRequest, letter: Option<char>) -> PanelRequest {
+        let all = self.numbers.iter().flatten().flatten().copied();
+        let all: Vec<f64> = all.chain([0.0]).collect();
+        let quantity = view.quantity(ATTRACTOR_INTEGRITY_FACTOR.name);
+        let y = AxisRequest::around(quantity, &all, 0.06);
+        let note = format!("a boundary may be nearer by {} m/s", significant(self.error, 2));
+        let legend = [("largest ball inside", false), ("minimal critical shock", true)]
+            .map(|(name, dashed)| (Mark::Line(stroke(INK, dashed)), Text::plain(name)));
+        let header = Header { note: Some(Text::plain(&note)), legend: legend.to_vec(), letter };
+        PanelRequest { x, y, header }
+    }
+
+    /// A line for each measure of each attractor, in the attractor's colour.
+    fn draw(&self, canvas: &mut Canvas, panel: &Panel) {
+        for (number, [shock, ball]) in self.numbers.iter().enumerate() {
+            for (measure, dashed) in [(ball, false), (shock, true)] {
+                let line: Vec<(f64, f64)> =
+                    self.values.iter().copied().zip(measure.iter().copied()).collect();
+                panel.curve(canvas, &line, stroke(colour(number), dashed));
+            }
+        }
+    }
+}
+
+fn stroke(colour: RGBColor, dashed: bool) -> Stroke {
+    if dashed { Stroke::dashed(colour, CURVE_WIDTH) } else { Stroke::solid(colour, CURVE_WIDTH) }
+}
+
+/// The columns of a table.
+fn columns(table: &ArrayD<f64>) -> Vec<Vec<f64>> {
+    let width = table.shape().last().copied().unwrap_or(0);
+    let column = |at: usize| table.iter().copied().skip(at).step_by(width).collect();
+    (0..width).map(column).collect()
 }
 
 /// The range of the speeds of all cases that lead to an attractor, where the results have them.

@@ -1,7 +1,8 @@
 //! The table of the attractors of a study whose cases differ in their starts alone.
 
 use crate::attractor::{
-    Attractor, Entropy, Share, Uncertainty, entropy, shares_of_draws, shares_of_grid, uncertainty,
+    Attractor, Entropy, Integrity, Share, Uncertainty, entropy, shares_of_draws, shares_of_grid,
+    uncertainty,
 };
 use crate::capsule::{AsPrinted, Case, Filippov, Switching};
 use crate::flow::System;
@@ -9,6 +10,8 @@ use crate::orbit::Outcome;
 use crate::study::{CaseSet, Study};
 
 use super::cases::run_sample;
+use super::edge::{Edge, edges};
+use super::room::Room;
 use super::{Attractors, FinalMotions, Machine, Record, RunError, SharesAt, shares_along};
 
 /// An attractor that starts lead to.
@@ -20,6 +23,20 @@ pub struct AttractorRow {
     pub record: Record,
     /// The part of the starts that lead to it.
     pub share: Share,
+    /// The room of its basin, of a grid of starts along coordinates of the section.
+    pub integrity: Option<Integrity>,
+    /// How long its starts are followed, where that has been told.
+    pub settling: Option<Settling>,
+}
+
+/// For how many cycles the starts of an attractor are followed until it is decided, measuring included where they are
+/// followed to the end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settling {
+    /// Their mean.
+    pub mean: f64,
+    /// The most.
+    pub most: u64,
 }
 
 /// What a study tells of attractors and their basins whose cases differ in their starts alone, or in one parameter, too.
@@ -33,6 +50,30 @@ pub struct AttractorTable {
     pub entropy: Option<Entropy>,
     /// The uncertainty exponent of the same, where the grid is fine enough.
     pub uncertainty: Option<Uncertainty>,
+    /// The saddles between the basins of a grid.
+    pub edges: Vec<Edge>,
+}
+
+impl AttractorTable {
+    /// Notes for how many cycles cases have been followed, each by its index.
+    pub fn note_cycles(
+        &mut self,
+        attractors: &Attractors,
+        cycles: impl Iterator<Item = (usize, u64)>,
+    ) {
+        let mut counts = vec![(0_u64, 0_u64, 0_u64); self.rows.len()];
+        for (case, cycles) in cycles {
+            if let Some(number) = attractors.of_case[case]
+                && let Some((cases, all, most)) = counts.get_mut(number as usize)
+            {
+                (*cases, *all, *most) = (*cases + 1, *all + cycles, (*most).max(cycles));
+            }
+        }
+        for (row, (cases, all, most)) in self.rows.iter_mut().zip(counts) {
+            let mean = all as f64 / cases as f64;
+            row.settling = (cases > 0).then_some(Settling { mean, most });
+        }
+    }
 }
 
 /// Starts along each side of a box of the basin entropy.
@@ -66,16 +107,23 @@ pub fn attractor_table(
     let row = |(attractor, share): (&Attractor<3>, Share)| {
         let place = cases.binary_search(&attractor.case).expect("it is among them");
         let attractor = begun_at_least(attractor.clone(), &study.case(attractor.case));
-        AttractorRow { attractor, record: records[place].clone(), share }
+        let record = records[place].clone();
+        AttractorRow { attractor, record, share, integrity: None, settling: None }
     };
-    let rows = found.iter().zip(shares).map(row).collect();
+    let mut rows: Vec<AttractorRow> = found.iter().zip(shares).map(row).collect();
+    if let Some(room) = Room::of(study, 0) {
+        for (number, row) in (0..).zip(&mut rows) {
+            row.integrity = Some(room.around((number, Some(&row.attractor)), label));
+        }
+    }
     let shape = study.shape();
     let is_grid = matches!(study.case_set, CaseSet::Grid(_)) && shape.len() > 1;
     let several = (0..study.cases()).any(|case| label(case) != label(0));
     let measured = is_grid && several;
     let entropy = measured.then(|| entropy(&shape, label, BOX)).flatten();
     let uncertainty = measured.then(|| uncertainty(&shape, label)).flatten();
-    Ok(AttractorTable { rows, along: None, entropy, uncertainty })
+    let edges = edges(study, attractors, machine);
+    Ok(AttractorTable { rows, along: None, entropy, uncertainty, edges })
 }
 
 /// The same, a periodic orbit from its least section point on.

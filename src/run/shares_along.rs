@@ -1,11 +1,13 @@
 //! The shares of the starts that lead to each attractor, along a parameter.
 
-use crate::attractor::{Label, Share, shares_of_grid};
+use crate::attractor::{Attractor, Integrity, Label, Share, shares_of_grid};
+use crate::capsule::{AsPrinted, Filippov, Switching};
 use crate::orbit::Outcome;
 use crate::study::layout::Layout;
 use crate::study::{CaseSet, Study};
 
-use super::{Attractors, FinalMotions};
+use super::room::Room;
+use super::{Attractors, FinalMotion, FinalMotions};
 
 /// The attractors at one value of the parameter, by their numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +16,8 @@ pub struct SharesAt {
     pub shares: Vec<Share>,
     /// Outcome and period of each, as its first case has them; none where no start leads to it.
     pub motions: Vec<Option<(Outcome, u32)>>,
+    /// The room of the basin of each, where the starts lie along coordinates of the section.
+    pub integrity: Vec<Option<Integrity>>,
 }
 
 /// The shares along the axis of a study of one parameter and of starts, one element for each value; none of any other study.
@@ -39,10 +43,31 @@ pub fn shares_along(
         let motion = |number: usize| {
             let own = Label::Attractor(number as u32);
             let first = (0..layout.cases()).find(|place| label(*place) == own)?;
-            final_motions.get(case(first)).map(|it| (it.outcome, it.period))
+            Some((case(first), final_motions.get(case(first))?))
         };
-        let motions = (0..count).map(motion).collect();
-        SharesAt { shares: shares_of_grid(&shape, label, count), motions }
+        let found: Vec<_> = (0..count).map(motion).collect();
+        let room = Room::of(study, case(0));
+        let integrity = |number: usize| {
+            let (case, motion) = found[number]?;
+            let attractor = attractor_of(study, case, &motion);
+            Some(room.as_ref()?.around((number as u32, attractor.as_ref()), label))
+        };
+        SharesAt {
+            shares: shares_of_grid(&shape, label, count),
+            motions: found.iter().map(|it| it.map(|(_, it)| (it.outcome, it.period))).collect(),
+            integrity: (0..count).map(integrity).collect(),
+        }
     };
     Some((0..layout.cells()).map(at_value).collect())
+}
+
+/// The attractor that a case has settled to, followed once more.
+fn attractor_of(study: &Study, case: usize, motion: &FinalMotion) -> Option<Attractor<3>> {
+    let (of, protocol) = (study.case(case), &study.protocol);
+    match of.parameters.switching {
+        Switching::Filippov => Attractor::of(case, &of.read::<Filippov>().system, motion, protocol),
+        Switching::AsPrinted => {
+            Attractor::of(case, &of.read::<AsPrinted>().system, motion, protocol)
+        }
+    }
 }

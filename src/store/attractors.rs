@@ -2,20 +2,24 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::attractor::{Entropy, Share, Uncertainty};
+use crate::attractor::{Entropy, Integrity, Share, Uncertainty};
 use crate::capsule::Output;
 use crate::orbit::Outcome;
-use crate::run::{AttractorEvent, AttractorRow, AttractorTable, Attractors, SharesAt};
+use crate::run::{AttractorEvent, AttractorRow, AttractorTable, Attractors, Edge, SharesAt};
 use crate::study::{Coordinate, Study};
 
 use super::catalogue::{
     ATTRACTOR, ATTRACTOR_AXIS, ATTRACTOR_CASE, ATTRACTOR_CASES, ATTRACTOR_CERTIFICATE,
-    ATTRACTOR_CYCLE, ATTRACTOR_INDEX, ATTRACTOR_KIND, ATTRACTOR_MULTIPLIER_IMAG,
-    ATTRACTOR_MULTIPLIER_REAL, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR,
-    ATTRACTOR_SHARE_HIGH, ATTRACTOR_SHARE_LOW, BASIN_ENTROPY, BASIN_ENTROPY_BOX,
-    BASIN_ENTROPY_ERROR, BOUNDARY_BASIN_ENTROPY, BOUNDARY_BASIN_ENTROPY_ERROR, BOUNDARY_DIMENSION,
-    EVENT, EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, Place, SECTION,
-    UNCERTAINTY_EXPONENT, UNCERTAINTY_EXPONENT_ERROR,
+    ATTRACTOR_CYCLE, ATTRACTOR_CYCLES_MEAN, ATTRACTOR_CYCLES_MOST, ATTRACTOR_INDEX,
+    ATTRACTOR_INTEGRITY_ERROR, ATTRACTOR_INTEGRITY_FACTOR, ATTRACTOR_KIND,
+    ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_MULTIPLIER_IMAG, ATTRACTOR_MULTIPLIER_REAL,
+    ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, ATTRACTOR_SHARE_HIGH,
+    ATTRACTOR_SHARE_LOW, BASIN_ENTROPY, BASIN_ENTROPY_BOX, BASIN_ENTROPY_ERROR,
+    BOUNDARY_BASIN_ENTROPY, BOUNDARY_BASIN_ENTROPY_ERROR, BOUNDARY_DIMENSION, EDGE_CYCLE,
+    EDGE_HIGH, EDGE_INDEX, EDGE_LOW, EDGE_MULTIPLIER_IMAG, EDGE_MULTIPLIER_REAL, EDGE_PERIOD,
+    EDGE_RESIDUAL, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, EVENT, EVENT_ATTRACTOR,
+    EVENT_KIND, EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, Place, SECTION, UNCERTAINTY_EXPONENT,
+    UNCERTAINTY_EXPONENT_ERROR,
 };
 use super::{Dataset, Values};
 
@@ -42,6 +46,9 @@ pub fn add_attractors(
         add_rows(dataset, &table.rows);
     }
     add_measures(dataset, table);
+    if !table.edges.is_empty() {
+        add_edges(dataset, &table.edges);
+    }
     if let (Some(along), Some(axis)) = (&table.along, attractors.axis) {
         add_shares(dataset, study.axes()[axis].coordinate.name(), along);
     }
@@ -67,6 +74,9 @@ fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
     whole(ATTRACTOR_CERTIFICATE, |row| row.record.orbit.certificate.proof as i64);
     whole(ATTRACTOR_CASE, |row| row.attractor.case as i64);
     whole(ATTRACTOR_CASES, |row| row.share.starts as i64);
+    if rows.iter().any(|row| row.settling.is_some()) {
+        whole(ATTRACTOR_CYCLES_MOST, |row| row.settling.map_or(0, |it| it.most as i64));
+    }
     let mut real = |entry: Entry, of: &dyn Fn(&AttractorRow) -> f64| {
         dataset.put_column(entry, Values::reals(rows.iter().map(of).collect()));
     };
@@ -77,6 +87,17 @@ fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
             |row: &AttractorRow, which: usize| row.share.interval.map_or(f64::NAN, |it| it[which]);
         real(ATTRACTOR_SHARE_LOW, &|row| end(row, 0));
         real(ATTRACTOR_SHARE_HIGH, &|row| end(row, 1));
+    }
+    if rows.iter().all(|row| row.integrity.is_some()) {
+        let of = |row: &AttractorRow, which: fn(&Integrity) -> f64| {
+            row.integrity.as_ref().map_or(f64::NAN, which)
+        };
+        real(ATTRACTOR_MINIMAL_CRITICAL_SHOCK, &|row| of(row, |it| it.minimal_critical_shock));
+        real(ATTRACTOR_INTEGRITY_FACTOR, &|row| of(row, |it| it.factor));
+        real(ATTRACTOR_INTEGRITY_ERROR, &|row| of(row, |it| it.error));
+    }
+    if rows.iter().any(|row| row.settling.is_some()) {
+        real(ATTRACTOR_CYCLES_MEAN, &|row| row.settling.map_or(f64::NAN, |it| it.mean));
     }
     for &output in Output::ALL {
         let entry = Place::Attractor.of(Entry::of_output(output));
@@ -102,6 +123,37 @@ fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
     }
 }
 
+/// The saddles between basins.
+fn add_edges(dataset: &mut Dataset, edges: &[Edge]) {
+    dataset.put_coordinate(EDGE_INDEX, Values::count(edges.len()));
+    let mut whole = |entry: Entry, of: fn(&Edge) -> i64| {
+        dataset.put_column(entry, Values::integers(edges.iter().map(of).collect()));
+    };
+    whole(EDGE_LOW, |edge| i64::from(edge.between[0]));
+    whole(EDGE_HIGH, |edge| i64::from(edge.between[1]));
+    whole(EDGE_PERIOD, |edge| edge.saddle.points.len() as i64);
+    let residuals = edges.iter().map(|edge| edge.saddle.residual).collect();
+    dataset.put_column(EDGE_RESIDUAL, Values::reals(residuals));
+    let several = |width: usize, of: &dyn Fn(&Edge, usize) -> f64| {
+        let numbers =
+            edges.iter().flat_map(|edge| (0..width).map(move |at| of(edge, at))).collect();
+        Values::Real(
+            ArrayD::from_shape_vec(IxDyn(&[edges.len(), width]), numbers).expect("a table"),
+        )
+    };
+    let count = edges[0].saddle.multipliers.len();
+    let real_parts = several(count, &|edge, at| edge.saddle.multipliers[at].re);
+    let imaginary = several(count, &|edge, at| edge.saddle.multipliers[at].im);
+    dataset.put_column(EDGE_MULTIPLIER_REAL, real_parts);
+    dataset.put_column(EDGE_MULTIPLIER_IMAG, imaginary);
+    let longest = edges.iter().map(|edge| edge.saddle.points.len()).max().unwrap_or(1);
+    dataset.put_coordinate(EDGE_CYCLE, Values::count(longest));
+    for (i, entry) in [EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2].into_iter().enumerate() {
+        let of = |edge: &Edge, at: usize| edge.saddle.points.get(at).map_or(f64::NAN, |it| it[i]);
+        dataset.put_column(entry, several(longest, &of));
+    }
+}
+
 /// The shares along an axis, and what each attractor is there: period 0 and undecided where no start leads to it.
 fn add_shares(dataset: &mut Dataset, axis: &str, along: &[SharesAt]) {
     let count = along.first().map_or(0, |at| at.shares.len());
@@ -117,6 +169,18 @@ fn add_shares(dataset: &mut Dataset, axis: &str, along: &[SharesAt]) {
     };
     real(ATTRACTOR_SHARE, |share| share.value);
     real(ATTRACTOR_SHARE_ERROR, |share| share.error);
+    if along.iter().any(|at| at.integrity.iter().any(Option::is_some)) {
+        let mut room = |entry: Entry, of: fn(&Integrity) -> f64| {
+            let all = along.iter().flat_map(|at| &at.integrity);
+            let numbers = all.map(|it| it.as_ref().map_or(f64::NAN, of)).collect();
+            let numbers =
+                ArrayD::from_shape_vec(shape.clone(), numbers).expect("one per attractor");
+            dataset.put(entry, &dimensions, Values::Real(numbers));
+        };
+        room(ATTRACTOR_MINIMAL_CRITICAL_SHOCK, |it| it.minimal_critical_shock);
+        room(ATTRACTOR_INTEGRITY_FACTOR, |it| it.factor);
+        room(ATTRACTOR_INTEGRITY_ERROR, |it| it.error);
+    }
     let mut whole = |entry: Entry, of: fn(&Option<(Outcome, u32)>) -> i64| {
         let numbers = along.iter().flat_map(|at| at.motions.iter().map(of)).collect();
         let numbers = ArrayD::from_shape_vec(shape.clone(), numbers).expect("one per attractor");

@@ -13,7 +13,7 @@ use crate::study::Study;
 use super::block_file::{BlockFile, Summary, Unusable};
 use super::block_folder::BlockFolder;
 use super::catalogue::{
-    BLOCK, BLOCK_CASES, BLOCK_FIRST_CASE, BLOCK_MAKER, CASE, END, Entry, FAILURE_REASON,
+    BLOCK, BLOCK_CASES, BLOCK_FIRST_CASE, BLOCK_MAKER, CASE, CYCLES, END, Entry, FAILURE_REASON,
     FAILURE_TIME, MULTIPLIER_IMAG, MULTIPLIER_REAL, OUTCOME, PERIOD, RESIDUAL, starts,
 };
 use super::decode::Archive;
@@ -105,6 +105,16 @@ impl<'a> Blocks<'a> {
         }
         known.extend(self.between.iter().map(|it| (it.index, final_motion(&it.orbit))));
         Ok(FinalMotions::of(self.study, known.into_iter()))
+    }
+
+    /// The cycles for which the cases of the blocks have been followed.
+    pub fn cycles(&self) -> Result<Vec<(usize, u64)>, StoreError> {
+        let mut known = Vec::new();
+        for file in &self.files {
+            let cycles = file.integers(CYCLES.name, 1)?.into_iter().map(|it| it as u64);
+            known.extend(self.cases_of(file)?.into_iter().zip(cycles));
+        }
+        Ok(known)
     }
 
     /// The study with all that belongs to no case: axes, constants, and the program that wrote each block.

@@ -63,8 +63,12 @@ kinds! {
     Map "map" Keys { outputs: true, others: &[&VERDICTS], most: 1, ..AXES };
     /// Which attractor each start leads to, over two coordinates of the start.
     Basin "basin" AXES;
-    /// Shares of the starts that lead to each attractor, along a parameter.
+    /// For how many cycles each start is followed until its attractor is decided, over two coordinates of the start.
+    Settling "settling" AXES;
+    /// Shares of the starts that lead to each attractor, along a parameter, and the room of each basin.
     Shares "shares" AXES;
+    /// The stroboscopic section points of one case, and its impacts.
+    Section "section" AXES;
     /// Progression speed against an energy per cycle.
     TradeOff "trade-off" Keys { outputs: true, most: 1, ..AXES };
     /// Special points of branches as curves in two parameters.

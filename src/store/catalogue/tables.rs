@@ -28,12 +28,49 @@ entries! {
         "lower end of Wilson's interval of the share at 95 percent";
     ATTRACTOR_SHARE_HIGH "attractor_share_high" "1" Table(ATTRACTOR_INDEX.name), Real, None,
         "upper end of Wilson's interval of the share at 95 percent";
+    ATTRACTOR_MINIMAL_CRITICAL_SHOCK "attractor_minimal_critical_shock" "m/s" Table(ATTRACTOR_INDEX.name), Real,
+        shown("Distance to a boundary", "", "m/s", 1.0),
+        "least distance from a section point of the attractor to a start of the grid that leads elsewhere, by omega r, y1 and y2";
+    ATTRACTOR_INTEGRITY_FACTOR "attractor_integrity_factor" "m/s" Table(ATTRACTOR_INDEX.name), Real,
+        shown("Distance to a boundary", "", "m/s", 1.0),
+        "radius of the largest ball of starts of the grid that all lead to the attractor, by omega r, y1 and y2";
+    ATTRACTOR_INTEGRITY_ERROR "attractor_integrity_error" "m/s" Table(ATTRACTOR_INDEX.name), Real, None,
+        "diagonal of a cell of the grid, by which a boundary may be nearer than the shock and the integrity factor say";
+    ATTRACTOR_CYCLES_MEAN "attractor_cycles_mean" "1" Table(ATTRACTOR_INDEX.name), Real, None,
+        "mean number of drive cycles for which the starts of the attractor were followed until it was decided";
+    ATTRACTOR_CYCLES_MOST "attractor_cycles_most" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
+        "largest number of drive cycles for which a start of the attractor was followed until it was decided";
     ATTRACTOR_MULTIPLIER_REAL "attractor_multiplier_real" "1"
         TableRow(ATTRACTOR_INDEX.name, MULTIPLIER.name), Real, None,
         "real part of a Floquet multiplier of the attractor";
     ATTRACTOR_MULTIPLIER_IMAG "attractor_multiplier_imag" "1"
         TableRow(ATTRACTOR_INDEX.name, MULTIPLIER.name), Real, None,
         "imaginary part of a Floquet multiplier of the attractor";
+
+    EDGE_INDEX "edge_index" "1" Dimension, Whole, None,
+        "saddle on the boundary of two basins";
+    EDGE_CYCLE "edge_cycle" "1" Dimension, Whole, None,
+        "drive cycle of the period of a saddle";
+    EDGE_LOW "edge_attractor_low" "1" Table(EDGE_INDEX.name), Whole, None,
+        "one of the two attractors whose basins the saddle lies between, that of the lower number";
+    EDGE_HIGH "edge_attractor_high" "1" Table(EDGE_INDEX.name), Whole, None,
+        "the other";
+    EDGE_PERIOD "edge_period" "1" Table(EDGE_INDEX.name), Whole, None,
+        "period of the saddle in drive cycles";
+    EDGE_RESIDUAL "edge_residual" "1" Table(EDGE_INDEX.name), Real, None,
+        "how far the section is from repeating after the period of the saddle, relative to the motion";
+    EDGE_MULTIPLIER_REAL "edge_multiplier_real" "1"
+        TableRow(EDGE_INDEX.name, MULTIPLIER.name), Real, None,
+        "real part of a Floquet multiplier of the saddle";
+    EDGE_MULTIPLIER_IMAG "edge_multiplier_imag" "1"
+        TableRow(EDGE_INDEX.name, MULTIPLIER.name), Real, None,
+        "imaginary part of a Floquet multiplier of the saddle";
+    EDGE_SECTION_R "edge_section_r" "m" TableRow(EDGE_INDEX.name, EDGE_CYCLE.name), Real, None,
+        "relative displacement x1 - x2 of the saddle at the stroboscopic section";
+    EDGE_SECTION_Y1 "edge_section_y1" "m/s" TableRow(EDGE_INDEX.name, EDGE_CYCLE.name), Real, None,
+        "velocity of the mass on the saddle at the stroboscopic section";
+    EDGE_SECTION_Y2 "edge_section_y2" "m/s" TableRow(EDGE_INDEX.name, EDGE_CYCLE.name), Real, None,
+        "velocity of the capsule on the saddle at the stroboscopic section";
 
     BASIN_ENTROPY "basin_entropy" "1" Once, Real, None,
         "basin entropy: mean entropy of the attractors of the starts in a box, in nat";

@@ -1,0 +1,164 @@
+//! The saddle on the boundary of two basins, from two starts that lead to different attractors.
+
+use crate::flow::System;
+use crate::orbit::Protocol;
+use crate::orbit::matrix::{Complex, eigenvalues};
+use crate::orbit::newton::close;
+use crate::orbit::passage::{Integrator, image};
+use crate::orbit::precision::closes;
+use crate::orbit::return_map::{Cycles, returned};
+
+/// An unstable periodic orbit on the boundary of two basins, with one multiplier beyond 1 in magnitude: its stable manifold is the boundary
+/// beside it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Saddle<const D: usize> {
+    /// Its section points, from the least on as [`super::Attractor::least_point`] has it.
+    pub points: Vec<[f64; D]>,
+    /// Its multipliers, the largest magnitude first [-].
+    pub multipliers: [Complex; D],
+    /// How far its section is from repeating after the period, relative to the motion [-].
+    pub residual: f64,
+}
+
+/// Points at which a segment is divided at a time: they are followed side by side.
+const PARTS: usize = 17;
+/// The two ends of a segment are brought so close together, relative to the motion: closer, rounding would decide on which side of
+/// the boundary each of them is followed.
+const CLOSEST: f64 = 1e-11;
+/// Two motions are followed until they are so far apart, relative to the motion.
+const APART: f64 = 1e-2;
+/// They are brought together again from where they were so far apart.
+const NEAR: f64 = 1e-5;
+/// An orbit is sought where a motion has returned so closely, relative to its size.
+const RETURNS: f64 = 1e-3;
+/// Cycles that two motions are followed before they are brought together again.
+const CYCLES: usize = 256;
+/// Times that they are brought together.
+const ROUNDS: usize = 24;
+/// The longest period that is sought.
+const LONGEST: usize = 16;
+/// To this share of the size of an orbit its points are rounded before the least is sought.
+const LEAST: f64 = 1e-6;
+
+/// What is needed to search for saddles of a system.
+pub struct EdgeSearch<'a, M: System<D>, const D: usize> {
+    /// The system.
+    pub system: &'a M,
+    /// How cases are followed.
+    pub protocol: &'a Protocol,
+    /// What follows orbits with derivatives.
+    pub integrator: &'a dyn Integrator<M, D>,
+    /// What each of some section points leads to; none where that is not known.
+    pub leads: &'a dyn Fn(&[[f64; D]]) -> Vec<Option<u32>>,
+}
+
+impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
+    /// The saddle to which the motions tend that begin on the boundary between two section points, of which only the first leads to attractor
+    /// `first`; none where no orbit of a period of up to 16 cycles is met, as the motion on the boundary does not repeat or is longer.
+    ///
+    /// Method: two points on the two sides of the boundary are brought together by division of the segment between them, and followed until
+    /// they part; from where they were still close they are brought together anew (Skufca, Yorke and Eckhardt 2006). Where both come back to
+    /// where they were, Newton's method on the return map closes the orbit. Guarantees: it closes to rounding and has exactly one multiplier
+    /// beyond 1 in magnitude. Breaks: where the boundary is fractal the saddle depends on the starts, and is one of many.
+    pub fn saddle(&self, ends: [[f64; D]; 2], first: u32) -> Option<Saddle<D>> {
+        let mut ends = ends;
+        for _ in 0..ROUNDS {
+            ends = self.together(ends, first);
+            let trail = self.trail(ends)?;
+            if let Some(saddle) = self.closed(&trail) {
+                return Some(saddle);
+            }
+            let metric = self.system.metric();
+            let is_near = |pair: &&[[f64; D]; 2]| {
+                metric.distance(&pair[0], &pair[1]) <= NEAR * metric.largest(&pair[..])
+            };
+            let near = trail.iter().take_while(is_near).count();
+            if near < 2 {
+                return None;
+            }
+            ends = trail[near - 1];
+        }
+        None
+    }
+
+    /// Two points on the two sides of the boundary, close together.
+    fn together(&self, mut ends: [[f64; D]; 2], first: u32) -> [[f64; D]; 2] {
+        let metric = self.system.metric();
+        while metric.distance(&ends[0], &ends[1]) > CLOSEST * metric.largest(&ends) {
+            let part = |number: usize| -> [f64; D] {
+                let share = number as f64 / PARTS as f64;
+                std::array::from_fn(|i| ends[0][i] + share * (ends[1][i] - ends[0][i]))
+            };
+            let inner: Vec<[f64; D]> = (1..PARTS).map(part).collect();
+            let leads = (self.leads)(&inner);
+            let other = leads.iter().position(|it| *it != Some(first)).unwrap_or(inner.len());
+            let before = if other > 0 { inner[other - 1] } else { ends[0] };
+            let narrower = [before, inner.get(other).copied().unwrap_or(ends[1])];
+            if narrower == ends {
+                break;
+            }
+            ends = narrower;
+        }
+        ends
+    }
+
+    /// Both motions from cycle to cycle until they part; none if they cannot be followed.
+    fn trail(&self, ends: [[f64; D]; 2]) -> Option<Vec<[[f64; D]; 2]>> {
+        let (system, metric) = (self.system.single(), self.system.metric());
+        let cycles = Cycles { count: 1, tolerance: self.protocol.tolerance };
+        let mut trail = vec![ends];
+        while trail.len() < CYCLES {
+            let [a, b] = trail[trail.len() - 1];
+            let next = [
+                returned(&system, a, &cycles, |_| ()).ok()?,
+                returned(&system, b, &cycles, |_| ()).ok()?,
+            ];
+            if metric.distance(&next[0], &next[1]) > APART * metric.largest(&next) {
+                break;
+            }
+            trail.push(next);
+        }
+        Some(trail)
+    }
+
+    /// The saddle near which a trail returns, the closest return first.
+    fn closed(&self, trail: &[[[f64; D]; 2]]) -> Option<Saddle<D>> {
+        let metric = self.system.metric();
+        let size = trail.iter().map(|[point, _]| metric.size(point)).fold(0.0, f64::max);
+        for period in 1..=LONGEST.min(trail.len().saturating_sub(1)) {
+            let pairs = (period..trail.len()).map(|at| (at, trail[at][0], trail[at - period][0]));
+            let apart = pairs.map(|(at, a, b)| (at, metric.distance(&a, &b)));
+            let Some((at, gap)) = apart.min_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
+            if gap > RETURNS * size {
+                continue;
+            }
+            if let Some(saddle) = self.close(trail[at][0], period, size) {
+                return Some(saddle);
+            }
+        }
+        None
+    }
+
+    /// The saddle of this period near a section point.
+    fn close(&self, point: [f64; D], period: usize, size: f64) -> Option<Saddle<D>> {
+        let metric = self.system.metric();
+        let cycles = Cycles { count: period as u64, tolerance: self.protocol.tolerance };
+        let image_of = |at: &[f64; D]| image(self.integrator, self.system, at, &cycles);
+        let closed = close(image_of, period as u64, &metric, &point, size).ok()??;
+        let multipliers = eigenvalues(&closed.jacobian);
+        let beyond = multipliers.iter().filter(|it| it.abs() > 1.0).count();
+        if closed.residual > closes(self.protocol.recurrence) || beyond != 1 {
+            return None;
+        }
+        let once = Cycles { count: 1, ..cycles };
+        let mut points = vec![closed.point];
+        for _ in 1..period {
+            let last = points[points.len() - 1];
+            points.push(returned(&self.system.single(), last, &once, |_| ()).ok()?);
+        }
+        let key = |place: &usize| metric.rounded(&points[*place], LEAST * metric.largest(&points));
+        let least = (0..period).min_by_key(key).unwrap_or(0);
+        points.rotate_left(least);
+        Some(Saddle { points, multipliers, residual: closed.residual })
+    }
+}

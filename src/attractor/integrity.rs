@@ -1,0 +1,195 @@
+//! How much room a basin has: around its attractor, and where it is widest.
+
+use super::share::Label;
+
+/// How much room the basin of an attractor has, by a grid of starts.
+///
+/// Distances are Euclidean, in the units of the positions that are given. Source: the minimal critical shock as Halekotte and Feudel
+/// (2020) have it, the integrity factor as Rega and Lenci (2005), here as a radius that is not divided by one of reference.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Integrity {
+    /// The least distance from a section point of the attractor to a start that leads elsewhere; NaN where no section point is
+    /// known or no start leads elsewhere.
+    pub minimal_critical_shock: f64,
+    /// The radius of the largest ball of starts that all lead to the attractor, anywhere on the grid; zero where it has none.
+    pub factor: f64,
+    /// The starts are so far apart at most, the diagonal of a cell: the boundary may be nearer than the two numbers say by so
+    /// much.
+    pub error: f64,
+}
+
+/// A section point of an attractor, as seen from a grid of starts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeenPoint {
+    /// Where it is along each axis of the grid.
+    pub along: Vec<f64>,
+    /// How far it is from the plane of the grid, in the coordinates that do not vary.
+    pub beside: f64,
+}
+
+/// The room of the basin of attractor `number` on a grid of starts with these positions along its `axes`, the last axis fastest.
+///
+/// Method: the shock by looking at every start; the ball by the exact distance of every start from the nearest that leads
+/// elsewhere, axis by axis (Felzenszwalb and Huttenlocher 2012), and from the ends of the grid, beyond which nothing is known.
+/// Starts that have not been computed lead elsewhere.
+pub fn integrity(
+    axes: &[Vec<f64>],
+    label: impl Fn(usize) -> Label,
+    number: u32,
+    points: &[SeenPoint],
+) -> Integrity {
+    let own = |start: usize| label(start) == Label::Attractor(number);
+    let largest_gap =
+        |axis: &Vec<f64>| axis.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+    let error = axes.iter().map(largest_gap).map(|gap| gap * gap).sum::<f64>().sqrt();
+    Integrity {
+        minimal_critical_shock: nearest_elsewhere(axes, &own, points),
+        factor: largest_ball(axes, &own),
+        error,
+    }
+}
+
+fn nearest_elsewhere(axes: &[Vec<f64>], own: impl Fn(usize) -> bool, points: &[SeenPoint]) -> f64 {
+    let mut nearest = f64::INFINITY;
+    each_start(axes, |start, at| {
+        if own(start) {
+            return;
+        }
+        for point in points {
+            let along = at.iter().zip(&point.along).map(|(a, b)| (a - b) * (a - b));
+            nearest = nearest.min(along.sum::<f64>() + point.beside * point.beside);
+        }
+    });
+    if nearest.is_finite() { nearest.sqrt() } else { f64::NAN }
+}
+
+fn largest_ball(axes: &[Vec<f64>], own: impl Fn(usize) -> bool) -> f64 {
+    let starts = axes.iter().map(Vec::len).product();
+    let mut squares: Vec<f64> =
+        (0..starts).map(|start| if own(start) { f64::INFINITY } else { 0.0 }).collect();
+    let mut spacing = starts;
+    for axis in axes {
+        let block = spacing;
+        spacing /= axis.len();
+        for first in (0..starts).step_by(block) {
+            for line in first..first + spacing {
+                transform(axis, &mut squares, |at| line + at * spacing);
+            }
+        }
+    }
+    let mut largest: f64 = 0.0;
+    each_start(axes, |start, at| {
+        let to_end = |(x, axis): (&f64, &Vec<f64>)| {
+            let ends = [axis[0], axis[axis.len() - 1]];
+            // An axis of one start has no extent.
+            if axis.len() > 1 { ends.map(|end| (x - end).abs()) } else { [f64::INFINITY; 2] }
+        };
+        let ends = at.iter().zip(axes).flat_map(to_end).fold(f64::INFINITY, f64::min);
+        let radius = squares[start].sqrt().min(ends);
+        if radius.is_finite() {
+            largest = largest.max(radius);
+        }
+    });
+    largest
+}
+
+/// Replaces the numbers f at the positions x of a line by the least of f(q) + (x - x(q))^2 over the line, as the lower envelope of
+/// parabolas; `place` tells where they are.
+fn transform(x: &[f64], numbers: &mut [f64], place: impl Fn(usize) -> usize) {
+    // The parabolas of the envelope, and from where on each is the lowest.
+    let mut lowest: Vec<(usize, f64)> = Vec::with_capacity(x.len());
+    let f: Vec<f64> = (0..x.len()).map(|at| numbers[place(at)]).collect();
+    for q in (0..x.len()).filter(|&q| f[q].is_finite()) {
+        let mut from = f64::NEG_INFINITY;
+        while let Some(&(p, begins)) = lowest.last() {
+            from = 0.5 * (x[q] + x[p] + (f[q] - f[p]) / (x[q] - x[p]));
+            if from > begins {
+                break;
+            }
+            lowest.pop();
+            from = f64::NEG_INFINITY;
+        }
+        lowest.push((q, from));
+    }
+    let mut at = 0;
+    for (to, &x_to) in x.iter().enumerate() {
+        while at + 1 < lowest.len() && lowest[at + 1].1 < x_to {
+            at += 1;
+        }
+        if let Some(&(q, _)) = lowest.get(at) {
+            numbers[place(to)] = f[q] + (x_to - x[q]) * (x_to - x[q]);
+        }
+    }
+}
+
+/// Calls a function with each start and its position, the last axis fastest.
+fn each_start(axes: &[Vec<f64>], mut call: impl FnMut(usize, &[f64])) {
+    let starts = axes.iter().map(Vec::len).product();
+    let mut position = vec![0; axes.len()];
+    let mut at: Vec<f64> = axes.iter().map(|axis| axis[0]).collect();
+    for start in 0..starts {
+        call(start, &at);
+        for (place, axis) in axes.iter().enumerate().rev() {
+            position[place] = (position[place] + 1) % axis.len();
+            at[place] = axis[position[place]];
+            if position[place] > 0 {
+                break;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Positions along an axis that are not even, so that indices could not stand for them.
+    fn axis(ends: [f64; 2], count: usize) -> Vec<f64> {
+        let at = |i: usize| i as f64 / (count - 1) as f64;
+        let uneven = |i: usize| at(i) + 0.1 * (at(i) * std::f64::consts::PI).sin();
+        (0..count).map(|i| ends[0] + (ends[1] - ends[0]) * uneven(i)).collect()
+    }
+
+    #[test]
+    fn the_room_of_a_disc_is_its_radius() {
+        let axes = [axis([-1.0, 2.0], 301), axis([1.5, -1.2], 281)];
+        let disc = |start: usize| {
+            let (x, y) = (axes[0][start / 281] - 0.3, axes[1][start % 281] + 0.1);
+            Label::Attractor(u32::from(x.hypot(y) < 0.7))
+        };
+        let point = |x: f64, y: f64, beside: f64| SeenPoint { along: vec![x, y], beside };
+        let all = integrity(&axes, disc, 1, &[point(0.3, -0.1, 0.0), point(0.6, 0.3, 0.0)]);
+        assert!((all.minimal_critical_shock - 0.2).abs() < all.error, "{all:?}");
+        assert!((all.factor - 0.7).abs() < all.error && all.error < 0.03, "{all:?}");
+        let beside = integrity(&axes, disc, 1, &[point(0.3, -0.1, 0.9)]);
+        assert!((beside.minimal_critical_shock - 0.7_f64.hypot(0.9)).abs() < all.error);
+        assert!(integrity(&axes, disc, 1, &[]).minimal_critical_shock.is_nan());
+        assert_eq!(integrity(&axes, disc, 2, &[]).factor, 0.0);
+    }
+
+    #[test]
+    fn distances_are_those_of_looking_at_every_pair() {
+        let mut random = fastrand::Rng::with_seed(5);
+        for _ in 0..20 {
+            let axes = [axis([0.0, 1.0], 9), axis([0.0, 2.0], 7), axis([-1.0, 0.0], 5)];
+            let own: Vec<bool> = (0..9 * 7 * 5).map(|_| random.f64() < 0.8).collect();
+            let mut places = Vec::new();
+            each_start(&axes, |_, at| places.push(at.to_vec()));
+            let apart = |a: &[f64], b: &[f64]| {
+                a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+            };
+            let room = |start: &usize| {
+                let others = (0..own.len()).filter(|other| !own[*other]);
+                let nearest = others.map(|it| apart(&places[*start], &places[it]));
+                let ends = places[*start].iter().zip(&axes);
+                let ends = ends.flat_map(|(x, axis)| {
+                    [axis[0], axis[axis.len() - 1]].map(|end| (x - end).abs())
+                });
+                nearest.chain(ends).fold(f64::INFINITY, f64::min)
+            };
+            let expected =
+                (0..own.len()).filter(|it| own[*it]).map(|it| room(&it)).fold(0.0, f64::max);
+            assert!((largest_ball(&axes, |start| own[start]) - expected).abs() < 1e-12);
+        }
+    }
+}

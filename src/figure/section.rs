@@ -1,0 +1,120 @@
+//! Poincaré sections of one case: the stroboscopic one, and the one at the impacts.
+
+use super::axis::AxisRequest;
+use super::canvas::Drawn;
+use super::cloud::{self, Dot};
+use super::error::FigureError;
+use super::header::Header;
+use super::kind::{Kind, Names, Needs};
+use super::page::{PageRequest, PanelRequest, letter};
+use super::panel::Pointing;
+use super::quantity::Quantity;
+use super::style::{INK, TWO_COLUMNS};
+use super::text::Text;
+use super::view::View;
+use crate::store::catalogue::{
+    Entry, IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2, RELATIVE_VELOCITY, SECTION_R, SECTION_Y1,
+};
+use crate::study::Drawing;
+
+/// Height of the frames [pt].
+const HEIGHT: f64 = 165.0;
+
+/// The kind of figure.
+pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
+
+/// What sections read.
+fn reads(_: &Drawing) -> Names {
+    Names::of([SECTION_R, SECTION_Y1, IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2])
+}
+
+/// A section: its two coordinates, and its points in the units of the figure.
+struct Section {
+    name: &'static str,
+    quantities: [Quantity; 2],
+    points: Vec<[f64; 2]>,
+}
+
+/// Draws the sections that `view` asks for, those of which there are points.
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let sections: Vec<Section> =
+        [stroboscopic(view)?, at_impacts(view)?].into_iter().flatten().collect();
+    if sections.is_empty() {
+        let why = "there are no section points; `points` of [protocol] says how many are kept";
+        return Err(view.unfit(why));
+    }
+    let count = sections.len();
+    let panel = |(index, section): (usize, &Section)| {
+        let values = |i: usize| section.points.iter().map(|it| it[i]).collect::<Vec<f64>>();
+        let [x, y] = section.quantities.clone();
+        // The values at which the axes are held are named once.
+        let held = view.held_note(&[]).filter(|_| index == 0);
+        let told = Text::plain(&format!("{} {}", section.points.len(), section.name));
+        let note = match held {
+            Some(held) => told.then(Text::plain("; ")).then(held),
+            None => told,
+        };
+        PanelRequest {
+            x: AxisRequest::around(x, &values(0), 0.05),
+            y: AxisRequest::around(y, &values(1), 0.05),
+            header: Header { letter: letter(index, count), note: Some(note), legend: Vec::new() },
+        }
+    };
+    let first =
+        PageRequest::of_one(view.drawing, panel((0, &sections[0])), HEIGHT, Pointing::Inward);
+    let page = PageRequest {
+        width_mm: if count > 1 {
+            view.drawing.width_mm.unwrap_or(TWO_COLUMNS)
+        } else {
+            first.width_mm
+        },
+        rows: vec![sections.iter().enumerate().map(panel).collect()],
+        ..first
+    };
+    let (mut canvas, panels) = page.lay_out();
+    for (panel, section) in panels.iter().flatten().zip(&sections) {
+        let crowding = section.points.len() as f64;
+        let dot = |at: &[f64; 2]| Dot { at: (at[0], at[1]), colour: INK, crowding };
+        let dots: Vec<Dot> = section.points.iter().map(dot).collect();
+        cloud::draw(&mut canvas, panel, &dots, cloud::radius(dots.len()));
+        panel.finish(&mut canvas);
+    }
+    let names: Vec<&str> = sections.iter().map(|section| section.name).collect();
+    Ok(canvas.finish(&format!("{}: {}", view.about(&[], &[]), names.join(", "))))
+}
+
+fn stroboscopic(view: &View<'_>) -> Result<Option<Section>, FigureError> {
+    if view.dataset.variable(SECTION_R.name).is_none() {
+        return Ok(None);
+    }
+    let quantities = [SECTION_R, SECTION_Y1].map(|entry| view.quantity(entry.name));
+    let [x, y] = [shown(view, SECTION_R)?, shown(view, SECTION_Y1)?];
+    Ok(section("stroboscopic section points", quantities, x, y))
+}
+
+fn at_impacts(view: &View<'_>) -> Result<Option<Section>, FigureError> {
+    if view.dataset.variable(IMPACT_PHASE.name).is_none() {
+        return Ok(None);
+    }
+    let quantities = [IMPACT_PHASE, RELATIVE_VELOCITY].map(|entry| view.quantity(entry.name));
+    let [y1, y2] = [shown(view, IMPACT_Y1)?, shown(view, IMPACT_Y2)?];
+    let relative = y1.iter().zip(&y2).map(|(y1, y2)| y1 - y2).collect();
+    Ok(section("impacts", quantities, shown(view, IMPACT_PHASE)?, relative))
+}
+
+/// The numbers of a case, in the units of the figure.
+fn shown(view: &View<'_>, entry: Entry) -> Result<Vec<f64>, FigureError> {
+    Ok(view.shown(entry.name, &[])?.into_iter().collect())
+}
+
+/// A section of which there are points.
+fn section(
+    name: &'static str,
+    quantities: [Quantity; 2],
+    x: Vec<f64>,
+    y: Vec<f64>,
+) -> Option<Section> {
+    let both = x.into_iter().zip(y).map(|(x, y)| [x, y]);
+    let points: Vec<[f64; 2]> = both.filter(|at| at.iter().all(|it| it.is_finite())).collect();
+    (!points.is_empty()).then_some(Section { name, quantities, points })
+}

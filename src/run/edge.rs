@@ -1,0 +1,114 @@
+//! The saddles between the basins of a grid of starts.
+
+use std::collections::BTreeMap;
+
+use crate::attractor::{Attractor, EdgeSearch, FinalMotion, Saddle};
+use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Switching};
+use crate::flow::{Stroboscopic, System};
+use crate::orbit::passage::OneByOne;
+use crate::orbit::{self, Machine, Outcome, Protocol, settle_all};
+use crate::study::{CaseSet, Coordinate, Study};
+
+use super::Attractors;
+
+/// So many pairs of basins are looked at.
+const PAIRS: usize = 64;
+
+/// A saddle on the boundary of two basins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Edge {
+    /// The two attractors, by their numbers.
+    pub between: [u32; 2],
+    /// The orbit.
+    pub saddle: Saddle<3>,
+}
+
+/// Whether saddles between basins are looked for: on a grid of starts that lie at the phase of the section.
+pub fn has_edges(study: &Study) -> bool {
+    let is_grid = matches!(study.case_set, CaseSet::Grid(_));
+    let coordinates = [Coordinate::StartR, Coordinate::StartY1, Coordinate::StartY2];
+    let in_section = study.case_set.varied().iter().all(|it| coordinates.contains(it));
+    is_grid && in_section && study.start_phase == study.section_phase
+}
+
+/// The saddles between the basins of a study, one at most for each two that are neighbours on its grid, from the first two neighbouring starts that
+/// lead to them; see [`EdgeSearch::saddle`].
+pub fn edges(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Edge> {
+    if !has_edges(study) || attractors.of_starts.len() < 2 {
+        return Vec::new();
+    }
+    match study.base.switching {
+        Switching::Filippov => edges_as::<Filippov>(study, attractors, machine),
+        Switching::AsPrinted => edges_as::<AsPrinted>(study, attractors, machine),
+    }
+}
+
+fn edges_as<R: Reading>(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Edge> {
+    let system = study.case(0).read::<R>().system;
+    // Nothing but where a start leads is asked for.
+    let protocol =
+        Protocol { points: 0, impact_points: 0, history: None, ..study.protocol.clone() };
+    let leads = |points: &[[f64; 3]]| lead::<R>(&system, points, (&protocol, machine), attractors);
+    let search =
+        EdgeSearch { system: &system, protocol: &protocol, integrator: &OneByOne, leads: &leads };
+    let of_pair = |(between, cases): (&[u32; 2], &[usize; 2])| {
+        let ends = cases.map(|case| {
+            let start = study.case(case).start;
+            [start.r, start.y1, start.y2]
+        });
+        Some(Edge { between: *between, saddle: search.saddle(ends, between[0])? })
+    };
+    neighbours(study, attractors).iter().take(PAIRS).filter_map(of_pair).collect()
+}
+
+/// The first two neighbouring starts that lead to each two attractors, the start of the lower number first.
+fn neighbours(study: &Study, attractors: &Attractors) -> BTreeMap<[u32; 2], [usize; 2]> {
+    let (shape, labels) = (study.shape(), &attractors.of_case);
+    let mut found = BTreeMap::new();
+    for start in 0..labels.len() {
+        let mut spacing = labels.len();
+        for &length in &shape {
+            spacing /= length;
+            let Some(&other) =
+                labels.get(start + spacing).filter(|_| start / spacing % length + 1 < length)
+            else {
+                continue;
+            };
+            match (labels[start], other) {
+                (Some(a), Some(b)) if a < b => {
+                    found.entry([a, b]).or_insert([start, start + spacing]);
+                }
+                (Some(a), Some(b)) if b < a => {
+                    found.entry([b, a]).or_insert([start + spacing, start]);
+                }
+                _ => {}
+            }
+        }
+    }
+    found
+}
+
+/// The attractors that some section points lead to; of those that do not repeat one is told only where it is the only one of its kind.
+fn lead<R: Reading>(
+    system: &CapsuleSystem<R>,
+    points: &[[f64; 3]],
+    (protocol, machine): (&Protocol, Machine),
+    attractors: &Attractors,
+) -> Vec<Option<u32>> {
+    type Single<R> = <CapsuleSystem<R> as System<3>>::Single;
+    let case = |point: &[f64; 3]| orbit::Case::new(system.clone(), Single::<R>::state(*point));
+    let cases: Vec<_> = points.iter().map(case).collect();
+    let metric = system.metric();
+    let number = |orbit: &orbit::OrbitOf<CapsuleSystem<R>, 3>| {
+        let motion = FinalMotion::of(orbit, Single::<R>::point(&orbit.end));
+        let found = Attractor::of(0, system, &motion, protocol)?;
+        let is = |known: &Attractor<3>| match found.outcome {
+            Outcome::Periodic => known.is(&found, &metric),
+            kind => known.outcome == kind,
+        };
+        let mut all = (0..).zip(&attractors.of_starts).filter(|(_, known)| is(known));
+        let (number, _) = all.next()?;
+        all.next().is_none().then_some(number)
+    };
+    settle_all(&cases, protocol, machine).iter().map(number).collect()
+}
