@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release --no-default-features --example belt -- --json`
 
-use capsulemap::attractor::attractors_of;
+use capsulemap::attractor::{Label, Share, attractors_of, shares_of_draws};
 use capsulemap::branch::{self, End, SpecialKind};
 use capsulemap::flow::{Event, Field, Stroboscopic, Switched, Taylor, Zeros};
 use capsulemap::lane::elementary::{exp, not_finite};
@@ -215,7 +215,31 @@ impl Field for Belt<f64> {
     }
 }
 
+/// Starts at each belt speed, as published.
+const STARTS: usize = 2000;
+/// Belt speeds, from 0.5 in steps of 0.075.
+const SPEEDS: usize = 21;
+
+/// The share of starts, uniform over [-2, 2] x [0, 2], that lead to the cycle of sticking and slipping at a belt speed; the others come to
+/// slide steadily.
+fn share_of_the_cycle(v: f64) -> Share {
+    let belt = Belt { c: 0.1, a: 0.5, s: 0.5, v };
+    let mut random = fastrand::Rng::with_seed(7);
+    let starts = (0..STARTS).map(|_| [4.0 * random.f64() - 2.0, 2.0 * random.f64()]);
+    let cases: Vec<_> = starts.map(|start| Case::new(belt, start)).collect();
+    // Where steady sliding is nearly neutral, starts approach it slowly.
+    let protocol = Protocol { max_cycles: 5000, ..Protocol::default() };
+    let orbits = orbit::settle_all(&cases, &protocol, Machine::default());
+    let table = attractors_of(&belt, &orbits, &protocol);
+    assert_eq!(table.attractors.len(), usize::from(table.of_case.iter().any(Option::is_some)));
+    let label = |start: usize| table.of_case[start].map_or(Label::Undecided, Label::Attractor);
+    let none = Share { starts: 0, value: 0.0, error: 0.0, interval: None };
+    shares_of_draws(STARTS, label, table.attractors.len()).first().copied().unwrap_or(none)
+}
+
 fn main() {
+    let shares: Vec<(f64, Share)> =
+        (0..SPEEDS).map(|i| 0.5 + 0.075 * i as f64).map(|v| (v, share_of_the_cycle(v))).collect();
     let belt = Belt { c: 0.1, a: 0.5, s: 0.5, v: 1.5 };
     let protocol = Protocol::default();
     // The cycle that sticks and slips: what came before is forgotten while the mass sticks, so that its
@@ -259,10 +283,17 @@ fn main() {
     if std::env::args().any(|argument| argument == "--json") {
         println!(
             "{{\"cycle_disappears_v\": {cycle_disappears}, \"sliding_unstable_v\": {sliding_unstable}, \
-             \"attractors\": {}}}",
-            table.attractors.len()
+             \"attractors\": {}, \"shares\": {:?}}}",
+            table.attractors.len(),
+            shares.iter().map(|(_, share)| share.value).collect::<Vec<f64>>()
         );
         return;
+    }
+    println!(
+        "speed of the belt, share of {STARTS} starts that lead to the cycle of sticking and slipping:"
+    );
+    for (v, share) in shares {
+        println!("  {v:.3}  {:.4} +- {:.4}", share.value, share.error);
     }
     println!("the cycle of sticking and slipping disappears at v = {cycle_disappears:.9}");
     println!("steady sliding is stable above v = {sliding_unstable:.9} (exactly {exact:.9})");

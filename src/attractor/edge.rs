@@ -40,6 +40,9 @@ const LONGEST: usize = 16;
 /// To this share of the size of an orbit its points are rounded before the least is sought.
 const LEAST: f64 = 1e-6;
 
+/// What each of some section points leads to, by the number of the attractor; none where that is not known.
+pub type LeadTo<'a, const D: usize> = dyn Fn(&[[f64; D]]) -> Vec<Option<u32>> + 'a;
+
 /// What is needed to search for saddles of a system.
 pub struct EdgeSearch<'a, M: System<D>, const D: usize> {
     /// The system.
@@ -48,8 +51,8 @@ pub struct EdgeSearch<'a, M: System<D>, const D: usize> {
     pub protocol: &'a Protocol,
     /// What follows orbits with derivatives.
     pub integrator: &'a dyn Integrator<M, D>,
-    /// What each of some section points leads to; none where that is not known.
-    pub leads: &'a dyn Fn(&[[f64; D]]) -> Vec<Option<u32>>,
+    /// What section points lead to.
+    pub leads: &'a LeadTo<'a, D>,
 }
 
 impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {

@@ -1,66 +1,30 @@
-//! How much room a basin has: around its attractor, and where it is widest.
+//! How much room a basin has where it is widest.
 
 use super::share::Label;
 
 /// How much room the basin of an attractor has, by a grid of starts.
 ///
-/// Distances are Euclidean, in the units of the positions that are given. Source: the minimal critical shock as Halekotte and Feudel
-/// (2020) have it, the integrity factor as Rega and Lenci (2005), here as a radius that is not divided by one of reference.
+/// Distances are Euclidean, in the units of the positions that are given. Source: Rega and Lenci (2005), here as a radius that is not
+/// divided by one of reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Integrity {
-    /// The least distance from a section point of the attractor to a start that leads elsewhere; NaN where no section point is
-    /// known or no start leads elsewhere.
-    pub minimal_critical_shock: f64,
     /// The radius of the largest ball of starts that all lead to the attractor, anywhere on the grid; zero where it has none.
     pub factor: f64,
-    /// The starts are so far apart at most, the diagonal of a cell: the boundary may be nearer than the two numbers say by so
-    /// much.
+    /// The starts are so far apart at most, the diagonal of a cell: the boundary may be nearer by so much.
     pub error: f64,
-}
-
-/// A section point of an attractor, as seen from a grid of starts.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SeenPoint {
-    /// Where it is along each axis of the grid.
-    pub along: Vec<f64>,
-    /// How far it is from the plane of the grid, in the coordinates that do not vary.
-    pub beside: f64,
 }
 
 /// The room of the basin of attractor `number` on a grid of starts with these positions along its `axes`, the last axis fastest.
 ///
-/// Method: the shock by looking at every start; the ball by the exact distance of every start from the nearest that leads
-/// elsewhere, axis by axis (Felzenszwalb and Huttenlocher 2012), and from the ends of the grid, beyond which nothing is known.
+/// Method: the exact distance of every start from the nearest that leads elsewhere, axis by axis (Felzenszwalb and
+/// Huttenlocher 2012), and from the ends of the grid, beyond which nothing is known.
 /// Starts that have not been computed lead elsewhere.
-pub fn integrity(
-    axes: &[Vec<f64>],
-    label: impl Fn(usize) -> Label,
-    number: u32,
-    points: &[SeenPoint],
-) -> Integrity {
+pub fn integrity(axes: &[Vec<f64>], label: impl Fn(usize) -> Label, number: u32) -> Integrity {
     let own = |start: usize| label(start) == Label::Attractor(number);
     let largest_gap =
         |axis: &Vec<f64>| axis.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
     let error = axes.iter().map(largest_gap).map(|gap| gap * gap).sum::<f64>().sqrt();
-    Integrity {
-        minimal_critical_shock: nearest_elsewhere(axes, &own, points),
-        factor: largest_ball(axes, &own),
-        error,
-    }
-}
-
-fn nearest_elsewhere(axes: &[Vec<f64>], own: impl Fn(usize) -> bool, points: &[SeenPoint]) -> f64 {
-    let mut nearest = f64::INFINITY;
-    each_start(axes, |start, at| {
-        if own(start) {
-            return;
-        }
-        for point in points {
-            let along = at.iter().zip(&point.along).map(|(a, b)| (a - b) * (a - b));
-            nearest = nearest.min(along.sum::<f64>() + point.beside * point.beside);
-        }
-    });
-    if nearest.is_finite() { nearest.sqrt() } else { f64::NAN }
+    Integrity { factor: largest_ball(axes, own), error }
 }
 
 fn largest_ball(axes: &[Vec<f64>], own: impl Fn(usize) -> bool) -> f64 {
@@ -157,14 +121,9 @@ mod tests {
             let (x, y) = (axes[0][start / 281] - 0.3, axes[1][start % 281] + 0.1);
             Label::Attractor(u32::from(x.hypot(y) < 0.7))
         };
-        let point = |x: f64, y: f64, beside: f64| SeenPoint { along: vec![x, y], beside };
-        let all = integrity(&axes, disc, 1, &[point(0.3, -0.1, 0.0), point(0.6, 0.3, 0.0)]);
-        assert!((all.minimal_critical_shock - 0.2).abs() < all.error, "{all:?}");
-        assert!((all.factor - 0.7).abs() < all.error && all.error < 0.03, "{all:?}");
-        let beside = integrity(&axes, disc, 1, &[point(0.3, -0.1, 0.9)]);
-        assert!((beside.minimal_critical_shock - 0.7_f64.hypot(0.9)).abs() < all.error);
-        assert!(integrity(&axes, disc, 1, &[]).minimal_critical_shock.is_nan());
-        assert_eq!(integrity(&axes, disc, 2, &[]).factor, 0.0);
+        let room = integrity(&axes, disc, 1);
+        assert!((room.factor - 0.7).abs() < room.error && room.error < 0.03, "{room:?}");
+        assert_eq!(integrity(&axes, disc, 2).factor, 0.0);
     }
 
     #[test]

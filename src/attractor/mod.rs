@@ -8,14 +8,16 @@ mod identity;
 mod integrity;
 mod link;
 mod share;
+mod shock;
 mod table;
 
 pub use basin::{Entropy, Estimate, Uncertainty, entropy, uncertainty};
 pub use bridge::{Bridge, bridges};
-pub use edge::{EdgeSearch, Saddle};
+pub use edge::{EdgeSearch, LeadTo, Saddle};
 pub use final_motion::FinalMotion;
 pub use identity::{Attractor, coincide};
-pub use integrity::{Integrity, SeenPoint, integrity};
+pub use integrity::{Integrity, integrity};
 pub use link::{LinearOrbits, Links, Neighbours, Unseen, linear_orbits};
 pub use share::{Label, Share, shares_of_draws, shares_of_grid};
+pub use shock::{Shock, minimal_critical_shock};
 pub use table::{Executor, Serial, Table, attractors_of};

@@ -35,7 +35,7 @@ struct Section {
     points: Vec<[f64; 2]>,
 }
 
-/// Draws the sections that `view` asks for, those of which there are points.
+/// Draws the sections that `view` asks for, those of which the study keeps points.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let sections: Vec<Section> =
         [stroboscopic(view)?, at_impacts(view)?].into_iter().flatten().collect();
@@ -89,7 +89,7 @@ fn stroboscopic(view: &View<'_>) -> Result<Option<Section>, FigureError> {
     }
     let quantities = [SECTION_R, SECTION_Y1].map(|entry| view.quantity(entry.name));
     let [x, y] = [shown(view, SECTION_R)?, shown(view, SECTION_Y1)?];
-    Ok(section("stroboscopic section points", quantities, x, y))
+    Ok(Some(section("stroboscopic section points", quantities, x, y)))
 }
 
 fn at_impacts(view: &View<'_>) -> Result<Option<Section>, FigureError> {
@@ -99,7 +99,7 @@ fn at_impacts(view: &View<'_>) -> Result<Option<Section>, FigureError> {
     let quantities = [IMPACT_PHASE, RELATIVE_VELOCITY].map(|entry| view.quantity(entry.name));
     let [y1, y2] = [shown(view, IMPACT_Y1)?, shown(view, IMPACT_Y2)?];
     let relative = y1.iter().zip(&y2).map(|(y1, y2)| y1 - y2).collect();
-    Ok(section("impacts", quantities, shown(view, IMPACT_PHASE)?, relative))
+    Ok(Some(section("impacts", quantities, shown(view, IMPACT_PHASE)?, relative)))
 }
 
 /// The numbers of a case, in the units of the figure.
@@ -107,14 +107,9 @@ fn shown(view: &View<'_>, entry: Entry) -> Result<Vec<f64>, FigureError> {
     Ok(view.shown(entry.name, &[])?.into_iter().collect())
 }
 
-/// A section of which there are points.
-fn section(
-    name: &'static str,
-    quantities: [Quantity; 2],
-    x: Vec<f64>,
-    y: Vec<f64>,
-) -> Option<Section> {
+/// A section with the points that a case has.
+fn section(name: &'static str, quantities: [Quantity; 2], x: Vec<f64>, y: Vec<f64>) -> Section {
     let both = x.into_iter().zip(y).map(|(x, y)| [x, y]);
     let points: Vec<[f64; 2]> = both.filter(|at| at.iter().all(|it| it.is_finite())).collect();
-    (!points.is_empty()).then_some(Section { name, quantities, points })
+    Section { name, quantities, points }
 }

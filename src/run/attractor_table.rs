@@ -12,6 +12,7 @@ use crate::study::{CaseSet, Study};
 use super::cases::run_sample;
 use super::edge::{Edge, edges};
 use super::room::Room;
+use super::shock::shocks;
 use super::{Attractors, FinalMotions, Machine, Record, RunError, SharesAt, shares_along};
 
 /// An attractor that starts lead to.
@@ -25,6 +26,8 @@ pub struct AttractorRow {
     pub share: Share,
     /// The room of its basin, of a grid of starts along coordinates of the section.
     pub integrity: Option<Integrity>,
+    /// Its minimal critical shock, of a grid of starts along coordinates of the section [m/s]; NaN where none is known.
+    pub shock: f64,
     /// How long its starts are followed, where that has been told.
     pub settling: Option<Settling>,
 }
@@ -90,7 +93,7 @@ pub fn attractor_table(
 ) -> Result<AttractorTable, RunError> {
     let found = &attractors.of_starts;
     if found.is_empty() {
-        let along = shares_along(study, attractors, final_motions);
+        let along = shares_along(study, attractors, final_motions, machine);
         return Ok(AttractorTable { along, ..AttractorTable::default() });
     }
     let label = |case: usize| attractors.label(case, final_motions);
@@ -108,13 +111,16 @@ pub fn attractor_table(
         let place = cases.binary_search(&attractor.case).expect("it is among them");
         let attractor = begun_at_least(attractor.clone(), &study.case(attractor.case));
         let record = records[place].clone();
-        AttractorRow { attractor, record, share, integrity: None, settling: None }
+        AttractorRow { attractor, record, share, integrity: None, shock: f64::NAN, settling: None }
     };
     let mut rows: Vec<AttractorRow> = found.iter().zip(shares).map(row).collect();
     if let Some(room) = Room::of(study, 0) {
         for (number, row) in (0..).zip(&mut rows) {
-            row.integrity = Some(room.around((number, Some(&row.attractor)), label));
+            row.integrity = Some(room.around(number, label));
         }
+        let known: Vec<_> = (0..).zip(rows.iter().map(|row| &row.attractor)).collect();
+        let shocks = shocks(study, 0, &known, machine);
+        rows.iter_mut().zip(shocks).for_each(|(row, shock)| row.shock = shock);
     }
     let shape = study.shape();
     let is_grid = matches!(study.case_set, CaseSet::Grid(_)) && shape.len() > 1;

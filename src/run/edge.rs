@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::attractor::{Attractor, EdgeSearch, FinalMotion, Saddle};
-use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Switching};
-use crate::flow::{Stroboscopic, System};
+use crate::attractor::{EdgeSearch, Saddle};
+use crate::capsule::{AsPrinted, Filippov, Reading, Switching};
+use crate::orbit::Machine;
 use crate::orbit::passage::OneByOne;
-use crate::orbit::{self, Machine, Outcome, Protocol, settle_all};
 use crate::study::{CaseSet, Coordinate, Study};
 
 use super::Attractors;
+use super::leads::Leads;
 
 /// So many pairs of basins are looked at.
 const PAIRS: usize = 64;
@@ -45,12 +45,14 @@ pub fn edges(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Ed
 
 fn edges_as<R: Reading>(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Edge> {
     let system = study.case(0).read::<R>().system;
-    // Nothing but where a start leads is asked for.
-    let protocol =
-        Protocol { points: 0, impact_points: 0, history: None, ..study.protocol.clone() };
-    let leads = |points: &[[f64; 3]]| lead::<R>(&system, points, (&protocol, machine), attractors);
-    let search =
-        EdgeSearch { system: &system, protocol: &protocol, integrator: &OneByOne, leads: &leads };
+    let known = (0..).zip(&attractors.of_starts).collect();
+    let known = Leads::new(system, (&study.protocol, machine), known);
+    let search = EdgeSearch {
+        system: &known.system,
+        protocol: known.protocol(),
+        integrator: &OneByOne,
+        leads: &|points| known.of(points),
+    };
     let of_pair = |(between, cases): (&[u32; 2], &[usize; 2])| {
         let ends = cases.map(|case| {
             let start = study.case(case).start;
@@ -86,29 +88,4 @@ fn neighbours(study: &Study, attractors: &Attractors) -> BTreeMap<[u32; 2], [usi
         }
     }
     found
-}
-
-/// The attractors that some section points lead to; of those that do not repeat one is told only where it is the only one of its kind.
-fn lead<R: Reading>(
-    system: &CapsuleSystem<R>,
-    points: &[[f64; 3]],
-    (protocol, machine): (&Protocol, Machine),
-    attractors: &Attractors,
-) -> Vec<Option<u32>> {
-    type Single<R> = <CapsuleSystem<R> as System<3>>::Single;
-    let case = |point: &[f64; 3]| orbit::Case::new(system.clone(), Single::<R>::state(*point));
-    let cases: Vec<_> = points.iter().map(case).collect();
-    let metric = system.metric();
-    let number = |orbit: &orbit::OrbitOf<CapsuleSystem<R>, 3>| {
-        let motion = FinalMotion::of(orbit, Single::<R>::point(&orbit.end));
-        let found = Attractor::of(0, system, &motion, protocol)?;
-        let is = |known: &Attractor<3>| match found.outcome {
-            Outcome::Periodic => known.is(&found, &metric),
-            kind => known.outcome == kind,
-        };
-        let mut all = (0..).zip(&attractors.of_starts).filter(|(_, known)| is(known));
-        let (number, _) = all.next()?;
-        all.next().is_none().then_some(number)
-    };
-    settle_all(&cases, protocol, machine).iter().map(number).collect()
 }

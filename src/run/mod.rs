@@ -8,8 +8,10 @@ pub mod final_motion;
 pub mod continuation;
 pub mod edge;
 pub mod forecast;
+mod leads;
 mod refined;
 mod room;
+mod shock;
 pub mod shares_along;
 
 pub use crate::orbit::Machine;

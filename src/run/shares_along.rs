@@ -7,7 +7,8 @@ use crate::study::layout::Layout;
 use crate::study::{CaseSet, Study};
 
 use super::room::Room;
-use super::{Attractors, FinalMotion, FinalMotions};
+use super::shock::shocks;
+use super::{Attractors, FinalMotion, FinalMotions, Machine};
 
 /// The attractors at one value of the parameter, by their numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +19,8 @@ pub struct SharesAt {
     pub motions: Vec<Option<(Outcome, u32)>>,
     /// The room of the basin of each, where the starts lie along coordinates of the section.
     pub integrity: Vec<Option<Integrity>>,
+    /// The minimal critical shock of each there [m/s]; NaN where none is known.
+    pub shock: Vec<f64>,
 }
 
 /// The shares along the axis of a study of one parameter and of starts, one element for each value; none of any other study.
@@ -27,6 +30,7 @@ pub fn shares_along(
     study: &Study,
     attractors: &Attractors,
     final_motions: &FinalMotions,
+    machine: Machine,
 ) -> Option<Vec<SharesAt>> {
     let CaseSet::Grid(_) = &study.case_set else { return None };
     let layout = Layout::of(study);
@@ -48,14 +52,25 @@ pub fn shares_along(
         let found: Vec<_> = (0..count).map(motion).collect();
         let room = Room::of(study, case(0));
         let integrity = |number: usize| {
-            let (case, motion) = found[number]?;
-            let attractor = attractor_of(study, case, &motion);
-            Some(room.as_ref()?.around((number as u32, attractor.as_ref()), label))
+            found[number]?;
+            Some(room.as_ref()?.around(number as u32, label))
         };
+        let orbit = |(number, found): (usize, &Option<(usize, FinalMotion)>)| {
+            let (case, motion) = (*found)?;
+            Some((number as u32, attractor_of(study, case, &motion)?))
+        };
+        let orbits: Vec<_> = found.iter().enumerate().filter_map(orbit).collect();
+        let known: Vec<_> = orbits.iter().map(|(number, it)| (*number, it)).collect();
+        let mut shock = vec![f64::NAN; count];
+        if room.is_some() {
+            let found = shocks(study, case(0), &known, machine);
+            orbits.iter().zip(found).for_each(|((number, _), it)| shock[*number as usize] = it);
+        }
         SharesAt {
             shares: shares_of_grid(&shape, label, count),
             motions: found.iter().map(|it| it.map(|(_, it)| (it.outcome, it.period))).collect(),
             integrity: (0..count).map(integrity).collect(),
+            shock,
         }
     };
     Some((0..layout.cells()).map(at_value).collect())

@@ -92,7 +92,7 @@ fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
         let of = |row: &AttractorRow, which: fn(&Integrity) -> f64| {
             row.integrity.as_ref().map_or(f64::NAN, which)
         };
-        real(ATTRACTOR_MINIMAL_CRITICAL_SHOCK, &|row| of(row, |it| it.minimal_critical_shock));
+        real(ATTRACTOR_MINIMAL_CRITICAL_SHOCK, &|row| row.shock);
         real(ATTRACTOR_INTEGRITY_FACTOR, &|row| of(row, |it| it.factor));
         real(ATTRACTOR_INTEGRITY_ERROR, &|row| of(row, |it| it.error));
     }
@@ -177,9 +177,11 @@ fn add_shares(dataset: &mut Dataset, axis: &str, along: &[SharesAt]) {
                 ArrayD::from_shape_vec(shape.clone(), numbers).expect("one per attractor");
             dataset.put(entry, &dimensions, Values::Real(numbers));
         };
-        room(ATTRACTOR_MINIMAL_CRITICAL_SHOCK, |it| it.minimal_critical_shock);
         room(ATTRACTOR_INTEGRITY_FACTOR, |it| it.factor);
         room(ATTRACTOR_INTEGRITY_ERROR, |it| it.error);
+        let shocks = along.iter().flat_map(|at| at.shock.iter().copied()).collect();
+        let shocks = ArrayD::from_shape_vec(shape.clone(), shocks).expect("one per attractor");
+        dataset.put(ATTRACTOR_MINIMAL_CRITICAL_SHOCK, &dimensions, Values::Real(shocks));
     }
     let mut whole = |entry: Entry, of: fn(&Option<(Outcome, u32)>) -> i64| {
         let numbers = along.iter().flat_map(|at| at.motions.iter().map(of)).collect();

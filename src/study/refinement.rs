@@ -143,11 +143,11 @@ impl Region {
     /// The place of a position among those of the region; none if it is outside.
     fn place(&self, at: &Position) -> Option<usize> {
         let mut place = 0;
-        for axis in 0..AXES {
-            if !(self.low[axis]..=self.high[axis]).contains(&at[axis]) {
+        for ((low, high), at) in self.low.iter().zip(self.high).zip(at) {
+            if !(*low..=high).contains(at) {
                 return None;
             }
-            place = place * (self.high[axis] + 1 - self.low[axis]) + at[axis] - self.low[axis];
+            place = place * (high + 1 - low) + at - low;
         }
         Some(place)
     }

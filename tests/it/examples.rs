@@ -76,4 +76,17 @@ fn the_belts_cycle_disappears_where_published() {
     assert!((number("cycle_disappears_v") - 1.8366).abs() < 5e-5);
     // Steady sliding loses its stability where the slope of friction beats the damper, at s ln(a/(c s)).
     assert!((number("sliding_unstable_v") - 0.5 * 10.0_f64.ln()).abs() < 1e-8);
+    // Stender and Hoffmann (2021): 2000 starts at each speed of the belt from 0.5 in steps of 0.075, there and here.
+    let mut published = vec![1.0; 9];
+    published.extend([0.982, 0.920, 0.8465, 0.774, 0.702, 0.618, 0.550, 0.4915, 0.432]);
+    published.extend([0.0; 3]);
+    let shares: Vec<f64> =
+        belt["shares"].as_array().expect("a list").iter().filter_map(Value::as_f64).collect();
+    assert_eq!(shares.len(), published.len());
+    for (place, (ours, theirs)) in shares.into_iter().zip(published).enumerate() {
+        // Where all starts lead to one motion there is no error.
+        let error = (2.0 * theirs * (1.0 - theirs) / 2000.0_f64).sqrt();
+        println!("v {:.3}: {ours:.4}, published {theirs}", 0.5 + 0.075 * place as f64);
+        assert!((ours - theirs).abs() <= 3.0 * error, "{place}: {ours} instead of {theirs}");
+    }
 }

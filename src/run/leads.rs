@@ -1,0 +1,57 @@
+//! Which of some known attractors a motion leads to that begins at a point of the section.
+
+use crate::attractor::{Attractor, FinalMotion};
+use crate::capsule::{CapsuleSystem, Reading};
+use crate::flow::{Stroboscopic, System};
+use crate::orbit::{self, Machine, Outcome, Protocol, settle_all};
+
+/// A system with the attractors that are known of it.
+pub(super) struct Leads<'a, R: Reading> {
+    pub(super) system: CapsuleSystem<R>,
+    protocol: Protocol,
+    machine: Machine,
+    /// The attractors by their numbers.
+    known: Vec<(u32, &'a Attractor<3>)>,
+}
+
+type Single<R> = <CapsuleSystem<R> as System<3>>::Single;
+
+impl<'a, R: Reading> Leads<'a, R> {
+    /// Those of a system whose cases are followed as a study says.
+    pub(super) fn new(
+        system: CapsuleSystem<R>,
+        (protocol, machine): (&Protocol, Machine),
+        known: Vec<(u32, &'a Attractor<3>)>,
+    ) -> Self {
+        // Nothing but where a start leads is asked for.
+        let protocol = Protocol { points: 0, impact_points: 0, history: None, ..*protocol };
+        Leads { system, protocol, machine, known }
+    }
+
+    pub(super) fn protocol(&self) -> &Protocol {
+        &self.protocol
+    }
+
+    /// The attractors that some section points lead to, none where it is no known one; of those that do not repeat one is told only where it is
+    /// the only one of its kind.
+    pub(super) fn of(&self, points: &[[f64; 3]]) -> Vec<Option<u32>> {
+        let case =
+            |point: &[f64; 3]| orbit::Case::new(self.system.clone(), Single::<R>::state(*point));
+        let cases: Vec<_> = points.iter().map(case).collect();
+        let settled = settle_all(&cases, &self.protocol, self.machine);
+        settled.iter().map(|orbit| self.number(orbit)).collect()
+    }
+
+    fn number(&self, orbit: &orbit::OrbitOf<CapsuleSystem<R>, 3>) -> Option<u32> {
+        let motion = FinalMotion::of(orbit, Single::<R>::point(&orbit.end));
+        let found = Attractor::of(0, &self.system, &motion, &self.protocol)?;
+        let metric = self.system.metric();
+        let is = |known: &Attractor<3>| match found.outcome {
+            Outcome::Periodic => known.is(&found, &metric),
+            kind => known.outcome == kind,
+        };
+        let mut all = self.known.iter().filter(|(_, known)| is(known));
+        let (number, _) = all.next()?;
+        all.next().is_none().then_some(*number)
+    }
+}

@@ -1,0 +1,55 @@
+//! The minimal critical shocks of the attractors of a grid of starts.
+
+use crate::attractor::{Attractor, minimal_critical_shock};
+use crate::capsule::{AsPrinted, Filippov, Reading, Switching};
+use crate::flow::System;
+use crate::orbit::{Machine, Outcome};
+use crate::study::Study;
+
+use super::leads::Leads;
+
+/// Section points that are disturbed; of an orbit of a longer period no shock is told.
+const MOST_POINTS: usize = 16;
+
+/// The minimal critical shock of each of some attractors of the system of `case`, by their numbers [m/s]; NaN of what does not repeat or has a
+/// period of more than 16 cycles, and where only one attractor is known.
+///
+/// A disturbance is one of omega r, y1 and y2 together at the section, where the motion may be disturbed at any of its section points.
+pub(super) fn shocks(
+    study: &Study,
+    case: usize,
+    known: &[(u32, &Attractor<3>)],
+    machine: Machine,
+) -> Vec<f64> {
+    match study.base.switching {
+        Switching::Filippov => shocks_as::<Filippov>(study, case, known, machine),
+        Switching::AsPrinted => shocks_as::<AsPrinted>(study, case, known, machine),
+    }
+}
+
+fn shocks_as<R: Reading>(
+    study: &Study,
+    case: usize,
+    known: &[(u32, &Attractor<3>)],
+    machine: Machine,
+) -> Vec<f64> {
+    let system = study.case(case).read::<R>().system;
+    let metric = system.metric();
+    let leads = Leads::new(system, (&study.protocol, machine), known.to_vec());
+    let is_disturbed = |it: &Attractor<3>| {
+        it.outcome == Outcome::Periodic && (1..=MOST_POINTS).contains(&it.points.len())
+    };
+    let shock = |(number, attractor): &(u32, &Attractor<3>)| {
+        // To a section point of any other attractor is a shock.
+        let others = known.iter().filter(|(other, _)| other != number);
+        let first = others.flat_map(|(_, other)| &other.points).next();
+        let (Some(first), true) = (first, is_disturbed(attractor)) else { return f64::NAN };
+        let elsewhere = |points: &[[f64; 3]]| {
+            let leads = leads.of(points).into_iter();
+            leads.map(|it| it.is_some_and(|other| other != *number)).collect()
+        };
+        let found = minimal_critical_shock(&attractor.points, *first, &metric, &elsewhere);
+        found.map_or(f64::NAN, |shock| shock.size)
+    };
+    known.iter().map(shock).collect()
+}
