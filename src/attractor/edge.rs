@@ -8,8 +8,8 @@ use crate::orbit::passage::{Integrator, image};
 use crate::orbit::precision::closes;
 use crate::orbit::return_map::{Cycles, returned};
 
-/// An unstable periodic orbit on the boundary of two basins, with one multiplier beyond 1 in magnitude: its stable manifold is the boundary
-/// beside it.
+/// An unstable periodic orbit on the boundary of two basins, with one multiplier beyond 1 in magnitude: its stable manifold is
+/// the boundary beside it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Saddle<const D: usize> {
     /// Its section points, from the least on as [`super::Attractor::least_point`] has it.
@@ -56,13 +56,15 @@ pub struct EdgeSearch<'a, M: System<D>, const D: usize> {
 }
 
 impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
-    /// The saddle to which the motions tend that begin on the boundary between two section points, of which only the first leads to attractor
-    /// `first`; none where no orbit of a period of up to 16 cycles is met, as the motion on the boundary does not repeat or is longer.
+    /// The saddle to which the motions tend that begin on the boundary between two section points, of which only the first
+    /// leads to attractor `first`; none where no orbit of a period of up to 16 cycles is met, as the motion on the boundary
+    /// does not repeat or is longer.
     ///
-    /// Method: two points on the two sides of the boundary are brought together by division of the segment between them, and followed until
-    /// they part; from where they were still close they are brought together anew (Skufca, Yorke and Eckhardt 2006). Where both come back to
-    /// where they were, Newton's method on the return map closes the orbit. Guarantees: it closes to rounding and has exactly one multiplier
-    /// beyond 1 in magnitude. Breaks: where the boundary is fractal the saddle depends on the starts, and is one of many.
+    /// Method: two points on the two sides of the boundary are brought together by division of the segment between them, and
+    /// followed until they part; from where they were still close they are brought together anew (Skufca, Yorke and Eckhardt
+    /// 2006). Where both come back to where they were, Newton's method on the return map closes the orbit. Guarantees: it
+    /// closes to rounding and has exactly one multiplier beyond 1 in magnitude. Breaks: where the boundary is fractal the
+    /// saddle depends on the starts, and is one of many.
     pub fn saddle(&self, ends: [[f64; D]; 2], first: u32) -> Option<Saddle<D>> {
         let mut ends = ends;
         for _ in 0..ROUNDS {

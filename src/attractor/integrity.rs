@@ -4,8 +4,8 @@ use super::share::Label;
 
 /// How much room the basin of an attractor has, by a grid of starts.
 ///
-/// Distances are Euclidean, in the units of the positions that are given. Source: Rega and Lenci (2005), here as a radius that is not
-/// divided by one of reference.
+/// Distances are Euclidean, in the units of the positions that are given. Source: Rega and Lenci (2005), here as a radius that
+/// is not divided by one of reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Integrity {
     /// The radius of the largest ball of starts that all lead to the attractor, anywhere on the grid; zero where it has none.
@@ -35,20 +35,26 @@ fn largest_ball(axes: &[Vec<f64>], own: impl Fn(usize) -> bool) -> f64 {
     for axis in axes {
         let block = spacing;
         spacing /= axis.len();
+        // An axis may fall.
+        let mut order: Vec<usize> = (0..axis.len()).collect();
+        order.sort_by(|a, b| axis[*a].total_cmp(&axis[*b]));
+        let rising: Vec<f64> = order.iter().map(|at| axis[*at]).collect();
         for first in (0..starts).step_by(block) {
             for line in first..first + spacing {
-                transform(axis, &mut squares, |at| line + at * spacing);
+                transform(&rising, &mut squares, |at| line + order[at] * spacing);
             }
         }
     }
+    let ends_of = |axis: &Vec<f64>| match axis.len() {
+        // An axis of one start has no extent.
+        1 => [f64::NEG_INFINITY, f64::INFINITY],
+        _ => [f64::min, f64::max].map(|it| axis.iter().copied().fold(axis[0], it)),
+    };
+    let ends: Vec<[f64; 2]> = axes.iter().map(ends_of).collect();
     let mut largest: f64 = 0.0;
     each_start(axes, |start, at| {
-        let to_end = |(x, axis): (&f64, &Vec<f64>)| {
-            let ends = [axis[0], axis[axis.len() - 1]];
-            // An axis of one start has no extent.
-            if axis.len() > 1 { ends.map(|end| (x - end).abs()) } else { [f64::INFINITY; 2] }
-        };
-        let ends = at.iter().zip(axes).flat_map(to_end).fold(f64::INFINITY, f64::min);
+        let to_end = |(x, ends): (&f64, &[f64; 2])| ends.map(|end| (x - end).abs());
+        let ends = at.iter().zip(&ends).flat_map(to_end).fold(f64::INFINITY, f64::min);
         let radius = squares[start].sqrt().min(ends);
         if radius.is_finite() {
             largest = largest.max(radius);
@@ -57,7 +63,7 @@ fn largest_ball(axes: &[Vec<f64>], own: impl Fn(usize) -> bool) -> f64 {
     largest
 }
 
-/// Replaces the numbers f at the positions x of a line by the least of f(q) + (x - x(q))^2 over the line, as the lower envelope of
+/// Replaces the numbers f at the rising positions x of a line by the least of f(q) + (x - x(q))^2 over the line, as the lower envelope of
 /// parabolas; `place` tells where they are.
 fn transform(x: &[f64], numbers: &mut [f64], place: impl Fn(usize) -> usize) {
     // The parabolas of the envelope, and from where on each is the lowest.

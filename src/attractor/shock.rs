@@ -29,14 +29,14 @@ const SMALLER: f64 = 1e-3;
 /// What the random numbers begin with.
 const SEED: u64 = 20_181;
 
-/// The minimal critical shock of an attractor with these section `points`: the smallest disturbance that is found of one of them after which the
-/// motion leads to another attractor; none where `first`, a point that leads to another one, is not given.
+/// The minimal critical shock of an attractor with these section `points`: the smallest disturbance that is found of one of
+/// them after which the motion leads to another attractor; none where `first`, a point that leads to another one, is not given.
 ///
-/// `elsewhere` tells of each of some points whether it leads to another attractor. Method: random points of a ball
-/// whose radius is the smallest shock so far, until no point of a round leads elsewhere; along the ray to each that does, the nearest
-/// crossing that division finds; then narrower and narrower cones around the direction (after the search of Halekotte and Feudel 2020, without derivatives).
-/// Error: it is an upper bound, to a thousandth if the boundary is smooth where it is nearest; a narrow tongue of another
-/// basin may come nearer. The random numbers are the same in every run.
+/// `elsewhere` tells of each of some points whether it leads to another attractor. Method: random points of a ball whose radius
+/// is the smallest shock so far, until no point of a round leads elsewhere; along the ray to each that does, the nearest
+/// crossing that division finds; then narrower and narrower cones around the direction (after the search of Halekotte and
+/// Feudel 2020, without derivatives). Error: it is an upper bound, to a thousandth if the boundary is smooth where it is
+/// nearest; a narrow tongue of another basin may come nearer. The random numbers are the same in every run.
 pub fn minimal_critical_shock<const D: usize>(
     points: &[[f64; D]],
     first: [f64; D],

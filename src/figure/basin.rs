@@ -110,7 +110,9 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         panel.finish(&mut canvas);
     }
     let about = view.about(&[ATTRACTOR.name.to_owned()], &[plane.x_name, plane.y_name]);
-    let told: Vec<String> = basins.present().into_iter().map(|number| told(view, number)).collect();
+    let told = basins.present().into_iter().map(|number| told(view, number));
+    let saddles = (!saddles.is_empty()).then(|| "saddles on the boundary".to_owned());
+    let told: Vec<String> = told.chain(basins.inferred_note()).chain(saddles).collect();
     Ok(canvas.finish(&format!("{about}: {}", told.join("; "))))
 }
 

@@ -35,6 +35,13 @@ struct Section {
     points: Vec<[f64; 2]>,
 }
 
+impl Section {
+    /// How many points it has.
+    fn told(&self) -> String {
+        format!("{} {}", self.points.len(), self.name)
+    }
+}
+
 /// Draws the sections that `view` asks for, those of which the study keeps points.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let sections: Vec<Section> =
@@ -49,7 +56,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let [x, y] = section.quantities.clone();
         // The values at which the axes are held are named once.
         let held = view.held_note(&[]).filter(|_| index == 0);
-        let told = Text::plain(&format!("{} {}", section.points.len(), section.name));
+        let told = Text::plain(&section.told());
         let note = match held {
             Some(held) => told.then(Text::plain("; ")).then(held),
             None => told,
@@ -79,8 +86,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         cloud::draw(&mut canvas, panel, &dots, cloud::radius(dots.len()));
         panel.finish(&mut canvas);
     }
-    let names: Vec<&str> = sections.iter().map(|section| section.name).collect();
-    Ok(canvas.finish(&format!("{}: {}", view.about(&[], &[]), names.join(", "))))
+    let told: Vec<String> = sections.iter().map(Section::told).collect();
+    Ok(canvas.finish(&format!("{}: {}", view.about(&[], &[]), told.join(", "))))
 }
 
 fn stroboscopic(view: &View<'_>) -> Result<Option<Section>, FigureError> {
@@ -99,7 +106,7 @@ fn at_impacts(view: &View<'_>) -> Result<Option<Section>, FigureError> {
     let quantities = [IMPACT_PHASE, RELATIVE_VELOCITY].map(|entry| view.quantity(entry.name));
     let [y1, y2] = [shown(view, IMPACT_Y1)?, shown(view, IMPACT_Y2)?];
     let relative = y1.iter().zip(&y2).map(|(y1, y2)| y1 - y2).collect();
-    Ok(Some(section("impacts", quantities, shown(view, IMPACT_PHASE)?, relative)))
+    Ok(Some(section("impacts that are kept", quantities, shown(view, IMPACT_PHASE)?, relative)))
 }
 
 /// The numbers of a case, in the units of the figure.

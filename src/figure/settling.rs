@@ -90,5 +90,9 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             colours.draw_bar(&mut canvas, panel.frame);
         }
     }
-    Ok(canvas.finish(&view.about(&[CYCLES.name.to_owned()], &[plane.x_name, plane.y_name])))
+    let about = view.about(&[CYCLES.name.to_owned()], &[plane.x_name, plane.y_name]);
+    let skipped = inferred.iter().filter(|it| **it).count();
+    let skipped =
+        if skipped > 0 { format!("; {skipped} inferred, not followed") } else { String::new() };
+    Ok(canvas.finish(&format!("{about}{skipped}")))
 }

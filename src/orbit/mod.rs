@@ -41,7 +41,7 @@ pub use measure::measured;
 pub use protocol::{HistorySpan, Outcome, Protocol};
 pub use returns::{Returns, returns};
 pub use settle::settle;
-pub use settle_all::settle_all;
+pub use settle_all::{settle_all, settle_all_near};
 pub use side_by_side::{Queue, settle_side_by_side};
 pub use trajectory::{Failure, Trajectory};
 pub use underway::Underway;

@@ -1,11 +1,12 @@
 //! Many cases settled by one call, on all cores.
 
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 
 use crate::flow::System;
 
 use super::case::{Case, OrbitOf};
+use super::known_orbits::KnownOrbits;
 use super::machine::Machine;
 use super::protocol::Protocol;
 use super::side_by_side::{Queue, settle_side_by_side};
@@ -35,8 +36,26 @@ pub fn settle_all<M: System<D>, const D: usize>(
     }
     let orbits = Mutex::new((0..cases.len()).map(|_| None).collect());
     for group in &groups {
-        settle_group(cases, group, protocol, machine, &orbits);
+        settle_group((cases, None), group, protocol, machine, &orbits);
     }
+    all_of::<M, D>(orbits)
+}
+
+/// The same of cases of the one system whose orbits are known: each is followed no further than into a neighbourhood of one of
+/// these.
+pub fn settle_all_near<M: System<D>, const D: usize>(
+    cases: &[Case<M, D>],
+    known: &Arc<KnownOrbits<M, D>>,
+    protocol: &Protocol,
+    machine: Machine,
+) -> Vec<OrbitOf<M, D>> {
+    let group: Vec<usize> = (0..cases.len()).collect();
+    let orbits = Mutex::new((0..cases.len()).map(|_| None).collect());
+    settle_group((cases, Some(known)), &group, protocol, machine, &orbits);
+    all_of::<M, D>(orbits)
+}
+
+fn all_of<M: System<D>, const D: usize>(orbits: Orbits<M, D>) -> Vec<OrbitOf<M, D>> {
     let orbits = orbits.into_inner().expect("no thread has panicked");
     orbits.into_iter().map(|orbit| orbit.expect("every case is settled")).collect()
 }
@@ -45,7 +64,7 @@ pub fn settle_all<M: System<D>, const D: usize>(
 type Orbits<M, const D: usize> = Mutex<Vec<Option<OrbitOf<M, D>>>>;
 
 fn settle_group<M: System<D>, const D: usize>(
-    cases: &[Case<M, D>],
+    (cases, known): (&[Case<M, D>], Option<&Arc<KnownOrbits<M, D>>>),
     group: &[usize],
     protocol: &Protocol,
     machine: Machine,
@@ -53,7 +72,8 @@ fn settle_group<M: System<D>, const D: usize>(
 ) {
     let (taken, last) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     machine.share_out(group.len(), |share, instructions| {
-        let mut list = List { cases, group, taken: &taken, left: share, orbits };
+        let known = known.cloned();
+        let mut list = List { cases, group, known, taken: &taken, left: share, orbits };
         let unfinished = settle_side_by_side(instructions, protocol, &mut list);
         let lock = || last.lock().expect("no thread has panicked");
         lock().extend(unfinished);
@@ -70,6 +90,7 @@ fn settle_group<M: System<D>, const D: usize>(
 struct List<'a, M: System<D>, const D: usize> {
     cases: &'a [Case<M, D>],
     group: &'a [usize],
+    known: Option<Arc<KnownOrbits<M, D>>>,
     /// Cases that have been taken by any thread.
     taken: &'a AtomicUsize,
     /// Lanes that this thread may still fill at the beginning, so that a few cases are not all with one.
@@ -91,5 +112,9 @@ impl<M: System<D>, const D: usize> Queue<M, D> for List<'_, M, D> {
         }
         let index = *self.group.get(self.taken.fetch_add(1, Ordering::Relaxed))?;
         Some((index, self.cases[index].clone()))
+    }
+
+    fn known(&self) -> Option<Arc<KnownOrbits<M, D>>> {
+        self.known.clone()
     }
 }

@@ -57,8 +57,8 @@ impl AttractorEvent {
 pub struct Attractors {
     /// The axis along which they are linked, by its place in the study; none where there is no single one.
     pub axis: Option<usize>,
-    /// The attractor of each case, by its number; none where the case has none. Of a refined study, that of a case that has not been computed is
-    /// inferred.
+    /// The attractor of each case, by its number; none where the case has none. Of a refined study, that of a case that has not
+    /// been computed is inferred.
     ///
     /// They are numbered along each line of the axis anew, in the order in which they appear; those that appear
     /// together in the order of [`Table::order`].

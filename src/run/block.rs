@@ -9,10 +9,10 @@ use super::refined::run_refined;
 use crate::orbit::Machine;
 use crate::study::Study;
 
-/// Runs the `blocks` of a study, each named once, on `machine`. Tells `done` of each record with the number of
-/// its block, and hands the records of a block, in the order of their indices, to `finished` when the last of
-/// them is done; from any thread, in any order, and until one of the two says to stop. Of a refined study a block is a tile, and has the
-/// records of the cases that had to be computed.
+/// Runs the `blocks` of a study, each named once, on `machine`. Tells `done` of each record with the number of its block, and
+/// hands the records of a block, in the order of their indices, to `finished` when the last of them is done; from any thread,
+/// in any order, and until one of the two says to stop. Of a refined study a block is a tile, and has the records of the cases
+/// that had to be computed.
 ///
 /// Threads go on to the next block before the last cases of one are done, so that their lanes stay full: as
 /// many blocks are unfinished at a time as hold slow cases, and a few more.

@@ -31,8 +31,8 @@ pub fn has_edges(study: &Study) -> bool {
     is_grid && in_section && study.start_phase == study.section_phase
 }
 
-/// The saddles between the basins of a study, one at most for each two that are neighbours on its grid, from the first two neighbouring starts that
-/// lead to them; see [`EdgeSearch::saddle`].
+/// The saddles between the basins of a study, one at most for each two that are neighbours on its grid, from the first two
+/// neighbouring starts that lead to them; see [`EdgeSearch::saddle`].
 pub fn edges(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Edge> {
     if !has_edges(study) || attractors.of_starts.len() < 2 {
         return Vec::new();

@@ -1,9 +1,11 @@
 //! Which of some known attractors a motion leads to that begins at a point of the section.
 
+use std::sync::Arc;
+
 use crate::attractor::{Attractor, FinalMotion};
 use crate::capsule::{CapsuleSystem, Reading};
 use crate::flow::{Stroboscopic, System};
-use crate::orbit::{self, Machine, Outcome, Protocol, settle_all};
+use crate::orbit::{self, KnownOrbits, Machine, Outcome, Protocol, settle_all, settle_all_near};
 
 /// A system with the attractors that are known of it.
 pub(super) struct Leads<'a, R: Reading> {
@@ -12,6 +14,8 @@ pub(super) struct Leads<'a, R: Reading> {
     machine: Machine,
     /// The attractors by their numbers.
     known: Vec<(u32, &'a Attractor<3>)>,
+    /// Neighbourhoods of the periodic ones.
+    near: Arc<KnownOrbits<CapsuleSystem<R>, 3>>,
 }
 
 type Single<R> = <CapsuleSystem<R> as System<3>>::Single;
@@ -25,20 +29,28 @@ impl<'a, R: Reading> Leads<'a, R> {
     ) -> Self {
         // Nothing but where a start leads is asked for.
         let protocol = Protocol { points: 0, impact_points: 0, history: None, ..*protocol };
-        Leads { system, protocol, machine, known }
+        let case = |(_, attractor): &(u32, &Attractor<3>)| {
+            let point = attractor.points.first().filter(|_| attractor.outcome == Outcome::Periodic);
+            Some(orbit::Case::new(system.clone(), Single::<R>::state(*point?)))
+        };
+        let cases: Vec<_> = known.iter().filter_map(case).collect();
+        let orbits = settle_all(&cases, &protocol, machine);
+        let instructions = machine.instructions_for(cases.len());
+        let near = KnownOrbits::among(&system, orbits, instructions, protocol.tolerance);
+        Leads { system, protocol, machine, known, near: Arc::new(near) }
     }
 
     pub(super) fn protocol(&self) -> &Protocol {
         &self.protocol
     }
 
-    /// The attractors that some section points lead to, none where it is no known one; of those that do not repeat one is told only where it is
-    /// the only one of its kind.
+    /// The attractors that some section points lead to, none where it is no known one; of those that do not repeat one is told
+    /// only where it is the only one of its kind.
     pub(super) fn of(&self, points: &[[f64; 3]]) -> Vec<Option<u32>> {
         let case =
             |point: &[f64; 3]| orbit::Case::new(self.system.clone(), Single::<R>::state(*point));
         let cases: Vec<_> = points.iter().map(case).collect();
-        let settled = settle_all(&cases, &self.protocol, self.machine);
+        let settled = settle_all_near(&cases, &self.near, &self.protocol, self.machine);
         settled.iter().map(|orbit| self.number(orbit)).collect()
     }
 

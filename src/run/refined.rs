@@ -15,8 +15,9 @@ const TOGETHER: usize = 16;
 
 /// Runs the `blocks` of a refined study, which are tiles, each named once, on `machine`.
 ///
-/// Tells `done` of each record with the number of its block, and hands the records that a tile has needed, those on the whole of its
-/// boundary among them, to `finished`; until one of the two says to stop. Which cases a tile needs depends on the study alone.
+/// Tells `done` of each record with the number of its block, and hands the records that a tile has needed, those on the whole
+/// of its boundary among them, to `finished`; until one of the two says to stop. Which cases a tile needs depends on the study
+/// alone.
 pub(super) fn run_refined(
     study: &Study,
     machine: Machine,
@@ -34,8 +35,8 @@ pub(super) fn run_refined(
     Ok(())
 }
 
-/// Computes what the tiles of a refined study lack, as what crosses their boundaries shows, from the `final_motions` of the cases that have
-/// been computed.
+/// Computes what the tiles of a refined study lack, as what crosses their boundaries shows, from the `final_motions` of the
+/// cases that have been computed.
 pub fn complete_refinement(
     study: &Study,
     final_motions: &FinalMotions,
@@ -139,8 +140,8 @@ impl<'a, R: Reading> Runner<'a, R> {
         records
     }
 
-    /// Computes what some sets of cases need, round by round, until none needs any more, or `done`, which is told of each record with the place
-    /// of the first set that wants it, says to stop.
+    /// Computes what some sets of cases need, round by round, until none needs any more, or `done`, which is told of each
+    /// record with the place of the first set that wants it, says to stop.
     fn refine(
         &self,
         sets: &mut [Set],

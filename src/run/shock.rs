@@ -11,10 +11,11 @@ use super::leads::Leads;
 /// Section points that are disturbed; of an orbit of a longer period no shock is told.
 const MOST_POINTS: usize = 16;
 
-/// The minimal critical shock of each of some attractors of the system of `case`, by their numbers [m/s]; NaN of what does not repeat or has a
-/// period of more than 16 cycles, and where only one attractor is known.
+/// The minimal critical shock of each of some attractors of the system of `case`, by their numbers [m/s]; NaN of what does not
+/// repeat or has a period of more than 16 cycles, and where only one attractor is known.
 ///
-/// A disturbance is one of omega r, y1 and y2 together at the section, where the motion may be disturbed at any of its section points.
+/// A disturbance is one of omega r, y1 and y2 together at the section, where the motion may be disturbed at any of its section
+/// points.
 pub(super) fn shocks(
     study: &Study,
     case: usize,

@@ -60,8 +60,8 @@ pub struct Summary {
     pub number: usize,
     /// Cases in it.
     pub cases: usize,
-    /// Cases that its columns have: those of the block, and of a tile of a refined study those that it has needed, the ones on all of its
-    /// boundary among them.
+    /// Cases that its columns have: those of the block, and of a tile of a refined study those that it has needed, the ones on
+    /// all of its boundary among them.
     pub computed: usize,
     /// Cases by outcome, those that occur.
     pub outcomes: BTreeMap<String, usize>,

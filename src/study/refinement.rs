@@ -15,10 +15,10 @@ type Position = [usize; AXES];
 /// How a grid is refined.
 ///
 /// Method: coarse cells with a case at each corner are halved along every axis, again and again, where two of the cases that
-/// are known in a cell or on its boundary differ, until the cases are neighbours. A case that is never computed lies in a cell all of whose known cases are alike,
-/// and is inferred to be like them; what lies between them and touches none of them is missed. A tile is a box of coarse cells; it has the
-/// cases on all of its boundary, so that it can be refined without the others, and what enters it from a neighbour is
-/// refined once all tiles are there.
+/// are known in a cell or on its boundary differ, until the cases are neighbours. A case that is never computed lies in a cell
+/// all of whose known cases are alike, and is inferred to be like them; what lies between them and touches none of them is
+/// missed. A tile is a box of coarse cells; it has the cases on all of its boundary, so that it can be refined without the
+/// others, and what enters it from a neighbour is refined once all tiles are there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refinement {
     /// The last value of each axis.

@@ -55,6 +55,7 @@ mod oscillators;
 mod paper;
 mod passages;
 mod phases;
+mod poincare;
 mod program;
 mod readers;
 mod reading;

@@ -1,5 +1,5 @@
-//! A refined study of starts: the labels of the full one, the same bytes on any machine and after any interruption, and what is inferred is
-//! said.
+//! A refined study of starts: the labels of the full one, the same bytes on any machine and after any interruption, and what is
+//! inferred is said.
 
 use capsulemap::store::{self, Dataset, Values};
 
@@ -14,6 +14,7 @@ fn study(basin: &str) -> String {
          [[axes]]\nname = \"start_y1\"\nfrom = \"-1.5 m/s\"\nto = \"1.5 m/s\"\npoints = 130\n\
          [protocol]\npoints = 1\nimpact_points = 0\n\
          [[figures]]\nname = \"basin\"\nkind = \"basin\"\n\
+         [[figures]]\nname = \"settling\"\nkind = \"settling\"\n\
          [basin]\n{basin}"
     )
 }
@@ -77,7 +78,9 @@ fn a_refined_basin_is_the_full_one_for_less() {
     assert_eq!(column(&late, "outcome"), codes);
     let picture =
         std::fs::read_to_string(folder.path("results/refined/basin.svg")).expect("a picture");
-    assert!(picture.contains("the others inferred"));
+    assert!(picture.contains("the others inferred") && picture.contains("saddles on the boundary"));
+    let picture = std::fs::read_to_string(folder.path("results/refined/settling.svg"));
+    assert!(picture.expect("a picture").contains("inferred, not followed"));
     folder.run(&["verify", "results/refined/refined.h5", "--cases", "300"]).done();
 }
 
