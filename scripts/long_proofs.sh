@@ -31,6 +31,9 @@ DAMAGES=1000 cargo test --release --test it -- no_command_takes_a_damaged_file -
 echo "== 3000 mutants of studies and 3000 sets of extreme parameters"
 MUTANTS=3000 EXTREMES=3000 cargo test --release --test it -- what_is_a_study extreme_parameters --nocapture
 
+echo "== the labels of a refined grid of a million starts against those of the full one"
+SIDE=1000 cargo test --release --test it -- a_refined_basin_is_the_full_one --nocapture
+
 echo "== ten minutes of random study texts, joined files and blocks"
 FUZZ_SECONDS=600 cargo test --release --test it -- any_text_is a_joined_file_with a_block_with_damage --nocapture
 

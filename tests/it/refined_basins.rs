@@ -5,13 +5,19 @@ use capsulemap::store::{self, Dataset, Values};
 
 use super::program::WorkDir;
 
-/// The capsule of `studies/basin.toml`: two motions, one of which moves on; four tiles.
+/// Starts along the two axes: as many as SIDE says along both, else so many that there are four tiles.
+fn points() -> [usize; 2] {
+    std::env::var("SIDE").map_or([160, 130], |it| [it.parse().expect("a number"); 2])
+}
+
+/// The capsule of `studies/basin.toml`: two motions, one of which moves on.
 fn study(basin: &str) -> String {
+    let [r, y1] = points();
     format!(
         "[parameters]\nm2 = \"0.2 kg\"\nc = \"1.77 N s/m\"\nmu_s = 0.33\nmu_d = 0.165\np_d = \"2.79 N\"\n\
          k2 = \"65.518 kN/m\"\ndelta = \"4.33 mm\"\nomega = \"155 rad/s\"\n\
-         [[axes]]\nname = \"start_r\"\nfrom = \"-6 mm\"\nto = \"6 mm\"\npoints = 160\n\
-         [[axes]]\nname = \"start_y1\"\nfrom = \"-1.5 m/s\"\nto = \"1.5 m/s\"\npoints = 130\n\
+         [[axes]]\nname = \"start_r\"\nfrom = \"-6 mm\"\nto = \"6 mm\"\npoints = {r}\n\
+         [[axes]]\nname = \"start_y1\"\nfrom = \"-1.5 m/s\"\nto = \"1.5 m/s\"\npoints = {y1}\n\
          [protocol]\npoints = 1\nimpact_points = 0\n\
          [[figures]]\nname = \"basin\"\nkind = \"basin\"\n\
          [[figures]]\nname = \"settling\"\nkind = \"settling\"\n\
@@ -58,7 +64,10 @@ fn a_refined_basin_is_the_full_one_for_less() {
     let codes = column(&refined, "outcome");
     let computed: Vec<bool> = codes.iter().map(|code| *code >= 0.0).collect();
     let share = computed.iter().filter(|it| **it).count() as f64 / computed.len() as f64;
-    assert!((0.25..0.5).contains(&share), "{share}");
+    println!("{:.2} % computed", 100.0 * share);
+    // The finer the grid, the smaller the part of it beside the boundary.
+    let most = if points()[1] >= 1000 { 0.03 } else { 0.5 };
+    assert!(share > 0.0 && share < most, "{share}");
     assert!(ran.out.contains(" computed ("), "{}", ran.out);
     // Labels and measures are those of the full grid, and so is every number that is there.
     for (name, bits) in numbers(&refined) {
