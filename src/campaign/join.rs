@@ -134,7 +134,8 @@ impl Campaign<'_> {
         let mut table = run::attractor_table(self.study, &attractors, &states, self.machine)?;
         // Those of a refined study that are followed lie near the boundaries, and take longer than the others would.
         if !table.rows.is_empty() && !self.study.refine {
-            table.note_cycles(&attractors, blocks.cycles()?.into_iter());
+            let cycles = blocks.verdicts()?.into_iter().map(|(case, _, cycles)| (case, cycles));
+            table.note_cycles(&attractors, cycles);
         }
         reports.send(Event::Ended(Stage::Linking))?;
         add_attractors(frame, self.study, (&attractors, &table));

@@ -1,6 +1,6 @@
 //! How much memory a campaign takes, estimated from what it holds.
 
-use crate::run::{FinalMotion, has_attractors};
+use crate::run::{FinalMotion, TILES_TOGETHER, has_attractors};
 use crate::store::{MOST_NUMBERS, numbers_of_case};
 use crate::study::Study;
 
@@ -31,7 +31,8 @@ pub fn memory(study: &Study, threads: usize) -> Memory {
     let widest = numbers.values().copied().max().unwrap_or(0) as f64;
     let blocks = 0..study.blocks();
     let block = blocks.map(|block| study.cases_of_block(block)).max().unwrap_or(0) as f64;
-    let blocks_held = threads as f64 * block * all * NUMBER * COPIES;
+    let together = if study.refine { TILES_TOGETHER } else { threads };
+    let blocks_held = together as f64 * block * all * NUMBER * COPIES;
     let labels = if has_attractors(study) { cases * NUMBER * COPIES } else { 0.0 };
     let linking = match has_attractors(study) {
         // Labels of the cases in turn by tile, by attractor and as they are written.

@@ -21,12 +21,13 @@ pub fn summary(
     let summaries = blocks.summaries();
     let shown = output.display();
     let cases = summaries.iter().map(|block| block.cases).sum();
+    let summaries = if study.refine { vec![of_computed(blocks)?] } else { summaries };
     let cycles = summaries.iter().map(|block| block.cycles).sum::<u64>() as usize;
     let (cases_shown, cycles) = (counted(cases, "case"), counted(cycles, "cycle"));
     let mut text = format!("{shown}: {cases_shown}, {cycles}\n");
     let missing = study.cases() - cases;
     if study.refine {
-        let computed = blocks.computed()?;
+        let computed = summaries[0].computed;
         let share = 100.0 * computed as f64 / cases as f64;
         let _ =
             writeln!(text, "  {} computed ({share:.2} %), the others inferred", count(computed));
@@ -53,6 +54,18 @@ pub fn summary(
         let _ = writeln!(text, "  and {more} more, where the file has the outcome `failed`");
     }
     Ok(text)
+}
+
+/// The cases of a refined study that have been computed, as one block.
+fn of_computed(blocks: &Blocks<'_>) -> Result<Summary, StoreError> {
+    let verdicts = blocks.verdicts()?;
+    let mut all = Summary { computed: verdicts.len(), ..Summary::default() };
+    for (_, outcome, cycles) in verdicts {
+        let name = Outcome::ALL.iter().find(|it| **it as i64 == outcome).map(|it| it.name());
+        *all.outcomes.entry(name.unwrap_or_default().to_owned()).or_default() += 1;
+        all.cycles += cycles;
+    }
+    Ok(all)
 }
 
 /// Cases by outcome, a line each.

@@ -78,12 +78,12 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     if !points.is_empty() {
         legend.push((
             Mark::Disc(INK, RADIUS),
-            Text::plain("section points of the orbits, seen along the other coordinates"),
+            Text::plain("section points of the orbits, projected onto the plane"),
         ));
     }
     if !saddles.is_empty() {
         let ring = Mark::Ring(INK, RADIUS);
-        legend.push((ring, Text::plain("saddles on the boundary")));
+        legend.push((ring, Text::plain("saddles on the boundary, projected alike")));
     }
     if surface.is_some() {
         let dashed = Stroke::dashed(INK, REFERENCE_WIDTH);

@@ -38,7 +38,8 @@ struct Section {
 impl Section {
     /// How many points it has.
     fn told(&self) -> String {
-        format!("{} {}", self.points.len(), self.name)
+        let count = self.points.len();
+        format!("{count} {}{}", self.name, if count == 1 { "" } else { "s" })
     }
 }
 
@@ -58,7 +59,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let held = view.held_note(&[]).filter(|_| index == 0);
         let told = Text::plain(&section.told());
         let note = match held {
-            Some(held) => told.then(Text::plain("; ")).then(held),
+            Some(held) => told.then(Text::plain(" of the case at ")).then(held),
             None => told,
         };
         PanelRequest {
@@ -96,7 +97,7 @@ fn stroboscopic(view: &View<'_>) -> Result<Option<Section>, FigureError> {
     }
     let quantities = [SECTION_R, SECTION_Y1].map(|entry| view.quantity(entry.name));
     let [x, y] = [shown(view, SECTION_R)?, shown(view, SECTION_Y1)?];
-    Ok(Some(section("stroboscopic section points", quantities, x, y)))
+    Ok(Some(section("stroboscopic section point", quantities, x, y)))
 }
 
 fn at_impacts(view: &View<'_>) -> Result<Option<Section>, FigureError> {
@@ -106,7 +107,7 @@ fn at_impacts(view: &View<'_>) -> Result<Option<Section>, FigureError> {
     let quantities = [IMPACT_PHASE, RELATIVE_VELOCITY].map(|entry| view.quantity(entry.name));
     let [y1, y2] = [shown(view, IMPACT_Y1)?, shown(view, IMPACT_Y2)?];
     let relative = y1.iter().zip(&y2).map(|(y1, y2)| y1 - y2).collect();
-    Ok(Some(section("impacts that are kept", quantities, shown(view, IMPACT_PHASE)?, relative)))
+    Ok(Some(section("kept impact", quantities, shown(view, IMPACT_PHASE)?, relative)))
 }
 
 /// The numbers of a case, in the units of the figure.

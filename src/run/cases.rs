@@ -35,7 +35,7 @@ pub struct Record {
     pub orbit: Orbit,
 }
 
-/// Runs every case of `study` on `machine` and hands each record to `keep`, which is called from any
+/// Runs every case of `study` on `machine`, also of one that is to be refined, and hands each record to `keep`, which is called from any
 /// thread and in any order.
 pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Result<(), RunError> {
     let keep = |_, record| {

@@ -10,8 +10,8 @@ use crate::study::{Refinement, Refining, Study};
 use super::cases::{Known, Rayon, Record, RunError, check, known_orbits, pool, run_as};
 use super::{FinalMotion, FinalMotions, Machine, final_motion};
 
-/// Tiles that are refined together: enough that their cases fill the lanes.
-const TOGETHER: usize = 16;
+/// Tiles that are refined together: enough that their cases fill the lanes, and all that is lost by a kill.
+pub const TILES_TOGETHER: usize = 16;
 
 /// Runs the `blocks` of a refined study, which are tiles, each named once, on `machine`.
 ///
@@ -113,7 +113,7 @@ impl<'a, R: Reading> Runner<'a, R> {
         finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()>,
     ) {
         let Some(refinement) = self.study.refinement() else { return };
-        for numbers in blocks.chunks(TOGETHER) {
+        for numbers in blocks.chunks(TILES_TOGETHER) {
             let tile = |&number| Set::new(Refining::tile(&refinement, number, are_alike));
             let mut tiles: Vec<Set> = numbers.iter().map(tile).collect();
             if self.refine(&mut tiles, |place, record| done(numbers[place], record)).is_break() {

@@ -69,17 +69,6 @@ impl<'a> Blocks<'a> {
         }
     }
 
-    /// Cases of a refined study that have been computed, each once; of any other all that are there.
-    pub fn computed(&self) -> Result<usize, StoreError> {
-        let mut cases: Vec<usize> = self.between.iter().map(|record| record.index).collect();
-        for file in &self.files {
-            cases.extend(self.cases_of(file)?);
-        }
-        cases.sort_unstable();
-        cases.dedup();
-        Ok(cases.len())
-    }
-
     /// The summary of each block, in their order.
     pub fn summaries(&self) -> Vec<Summary> {
         self.files.iter().map(|file| file.head.block.clone()).collect()
@@ -107,12 +96,22 @@ impl<'a> Blocks<'a> {
         Ok(FinalMotions::of(self.study, known.into_iter()))
     }
 
-    /// The cycles for which the cases of the blocks have been followed.
-    pub fn cycles(&self) -> Result<Vec<(usize, u64)>, StoreError> {
+    /// The cases that have been computed, each once, with their outcomes, by their numbers in files, and the cycles for which they
+    /// have been followed.
+    pub fn verdicts(&self) -> Result<Vec<(usize, i64, u64)>, StoreError> {
         let mut known = Vec::new();
         for file in &self.files {
-            let cycles = file.integers(CYCLES.name, 1)?.into_iter().map(|it| it as u64);
-            known.extend(self.cases_of(file)?.into_iter().zip(cycles));
+            let outcomes = file.integers(OUTCOME.name, 1)?.into_iter();
+            let both = outcomes.zip(file.integers(CYCLES.name, 1)?);
+            let cases = self.cases_of(file)?.into_iter().zip(both);
+            known.extend(cases.map(|(case, (outcome, cycles))| (case, outcome, cycles as u64)));
+        }
+        let between = self.between.iter();
+        known.extend(between.map(|it| (it.index, it.orbit.outcome as i64, it.orbit.cycles)));
+        if self.study.refine {
+            // Neighbouring tiles both have the cases between them.
+            known.sort_unstable();
+            known.dedup_by_key(|(case, ..)| *case);
         }
         Ok(known)
     }

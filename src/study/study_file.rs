@@ -196,7 +196,7 @@ fn read_basin(top: &Table<'_, '_>, case_set: &CaseSet) -> Basin {
     let of_starts = case_set.varies_starts_alone();
     is_for("early_decision", &mut basin.early_decision, of_starts, "studies");
     let is_grid = matches!(case_set, CaseSet::Grid(_));
-    is_for("refine", &mut basin.refine, of_starts && is_grid, "grids");
+    is_for("refine", &mut basin.refine, of_starts && is_grid, "grids, not for [draws],");
     table.finish();
     basin
 }

@@ -29,7 +29,7 @@ fn every_kept_point_of_the_held_case_is_drawn() {
     let picture =
         std::fs::read_to_string(folder.path("results/study/section.svg")).expect("a picture");
     assert!(picture.contains(&format!("{section} stroboscopic section points")), "{section}");
-    assert!(picture.contains(&format!("{impacts} impacts that are kept")), "{impacts}");
+    assert!(picture.contains(&format!("{impacts} kept impacts")), "{impacts}");
 }
 
 #[test]

@@ -69,6 +69,12 @@ fn a_refined_basin_is_the_full_one_for_less() {
     let most = if points()[1] >= 1000 { 0.03 } else { 0.5 };
     assert!(share > 0.0 && share < most, "{share}");
     assert!(ran.out.contains(" computed ("), "{}", ran.out);
+    // The terminal counts what the file has.
+    let count = |spaced: &str| spaced.replace(' ', "").parse::<usize>().ok();
+    let periodic = ran.out.lines().find_map(|line| count(line.trim().strip_prefix("periodic")?));
+    assert_eq!(periodic, Some(codes.iter().filter(|code| **code == 0.0).count()), "{}", ran.out);
+    let cycles: f64 = column(&refined, "cycles").iter().sum();
+    assert!(ran.out.replace(' ', "").contains(&format!(",{cycles}cycles")), "{}", ran.out);
     // Labels and measures are those of the full grid, and so is every number that is there.
     for (name, bits) in numbers(&refined) {
         let (_, of_full) =
@@ -119,5 +125,8 @@ fn only_a_grid_of_starts_is_refined() {
         .replace("-6 kg", "1 kg");
     folder.put("other.toml", other.replace("4.33 kg", "4.33 mm"));
     let ran = folder.run(&["sweep", "other.toml"]);
-    ran.refused(&["basin.refine", "is for grids whose cases differ in their starts alone"]);
+    ran.refused(&[
+        "basin.refine",
+        "is for grids, not for [draws], whose cases differ in their starts alone",
+    ]);
 }
