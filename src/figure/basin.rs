@@ -21,8 +21,8 @@ use super::view::View;
 use crate::capsule::{Output, Parameter};
 use crate::store::catalogue::{
     ATTRACTOR, ATTRACTOR_INDEX, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
-    ATTRACTOR_SHARE_ERROR, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, Entry, Place, SECTION,
-    starts,
+    ATTRACTOR_SHARE_ERROR, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, Entry,
+    INFERRED_ELSEWHERE, INFERRED_SAMPLE, Place, SECTION, starts,
 };
 use crate::study::{Coordinate, Drawing};
 use crate::tradeoff::NOISE;
@@ -52,6 +52,7 @@ fn reads(_: &Drawing) -> Names {
         .and([ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR])
         .and(sections)
         .and([EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2])
+        .and([INFERRED_SAMPLE, INFERRED_ELSEWHERE])
         .and(phases)
         .and([Place::Attractor.of(SPEED), Entry::of_parameter(Parameter::Delta)])
 }
@@ -93,7 +94,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         x: AxisRequest::new(view.quantity(plane.x_name), plane.x.scale),
         y: AxisRequest::new(view.quantity(plane.y_name), plane.y.scale),
         header: Header {
-            note: view.note(&plane.free(), &basins.inferred_note()),
+            note: view.note(&plane.free(), &basins.inferred_note(view)),
             legend: legend.into_iter().chain(plane.legend()).collect(),
             ..Header::default()
         },
@@ -112,7 +113,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let about = view.about(&[ATTRACTOR.name.to_owned()], &[plane.x_name, plane.y_name]);
     let told = basins.present().into_iter().map(|number| told(view, number));
     let saddles = (!saddles.is_empty()).then(|| "saddles on the boundary".to_owned());
-    let told: Vec<String> = told.chain(basins.inferred_note()).chain(saddles).collect();
+    let told: Vec<String> = told.chain(basins.inferred_note(view)).chain(saddles).collect();
     Ok(canvas.finish(&format!("{about}: {}", told.join("; "))))
 }
 
@@ -146,11 +147,18 @@ impl Basins {
         Ok(Basins { numbers, without, inferred, irregular })
     }
 
-    /// Which part of the starts is inferred, if any is.
-    fn inferred_note(&self) -> Option<String> {
+    /// Which part of the starts is inferred, if any is, and how well.
+    fn inferred_note(&self, view: &View<'_>) -> Option<String> {
         let share = 100.0 * (1.0 - self.inferred as f64 / self.numbers.len() as f64);
-        let note =
-            || format!("{} % of the starts computed, the others inferred", significant(share, 2));
+        let checked = [INFERRED_SAMPLE, INFERRED_ELSEWHERE].map(|it| column(view, it));
+        let checked = match (checked[0].first(), checked[1].first()) {
+            (Some(all), Some(elsewhere)) => {
+                format!("; of {all} of these, {elsewhere} lead elsewhere")
+            }
+            _ => String::new(),
+        };
+        let share = significant(share, 2);
+        let note = || format!("{share} % of the starts computed, the others inferred{checked}");
         (self.inferred > 0).then(note)
     }
 

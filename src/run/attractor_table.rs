@@ -11,6 +11,7 @@ use crate::study::{CaseSet, Study};
 
 use super::cases::run_sample;
 use super::edge::{Edge, edges};
+use super::refined::{InferredSample, check_inferred};
 use super::room::Room;
 use super::shock::shocks;
 use super::{Attractors, FinalMotions, Machine, Record, RunError, SharesAt, shares_along};
@@ -55,6 +56,8 @@ pub struct AttractorTable {
     pub uncertainty: Option<Uncertainty>,
     /// The saddles between the basins of a grid.
     pub edges: Vec<Edge>,
+    /// How well the starts of a refined grid are inferred that have not been computed.
+    pub inferred: Option<InferredSample>,
 }
 
 impl AttractorTable {
@@ -129,7 +132,8 @@ pub fn attractor_table(
     let entropy = measured.then(|| entropy(&shape, label, BOX)).flatten();
     let uncertainty = measured.then(|| uncertainty(&shape, label)).flatten();
     let edges = edges(study, attractors, machine);
-    Ok(AttractorTable { rows, along: None, entropy, uncertainty, edges })
+    let inferred = check_inferred(study, attractors, final_motions, machine)?;
+    Ok(AttractorTable { rows, along: None, entropy, uncertainty, edges, inferred })
 }
 
 /// The same, a periodic orbit from its least section point on.

@@ -142,7 +142,7 @@ pub(super) fn known_orbits<R: Reading>(study: &Study, machine: Machine) -> Known
 
 /// One of so many cases by its place in a sample that is spread evenly over all axes: multiples of the golden section, as equal
 /// steps could be those of an axis.
-fn spread(place: usize, cases: usize) -> usize {
+pub(super) fn spread(place: usize, cases: usize) -> usize {
     let fraction = (place as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     ((u128::from(fraction) * cases as u128) >> 64) as usize
 }

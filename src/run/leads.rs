@@ -51,12 +51,15 @@ impl<'a, R: Reading> Leads<'a, R> {
             |point: &[f64; 3]| orbit::Case::new(self.system.clone(), Single::<R>::state(*point));
         let cases: Vec<_> = points.iter().map(case).collect();
         let settled = settle_all_near(&cases, &self.near, &self.protocol, self.machine);
-        settled.iter().map(|orbit| self.number(orbit)).collect()
+        let motion = |orbit: &orbit::OrbitOf<CapsuleSystem<R>, 3>| {
+            FinalMotion::of(orbit, Single::<R>::point(&orbit.end))
+        };
+        settled.iter().map(|orbit| self.number(&motion(orbit))).collect()
     }
 
-    fn number(&self, orbit: &orbit::OrbitOf<CapsuleSystem<R>, 3>) -> Option<u32> {
-        let motion = FinalMotion::of(orbit, Single::<R>::point(&orbit.end));
-        let found = Attractor::of(0, &self.system, &motion, &self.protocol)?;
+    /// The attractor of a motion, as [`Leads::of`] tells it.
+    pub(super) fn number(&self, motion: &FinalMotion<3>) -> Option<u32> {
+        let found = Attractor::of(0, &self.system, motion, &self.protocol)?;
         let metric = self.system.metric();
         let is = |known: &Attractor<3>| match found.outcome {
             Outcome::Periodic => known.is(&found, &metric),

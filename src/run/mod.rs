@@ -23,5 +23,5 @@ pub use continuation::{Continued, NotContinued, continue_branches};
 pub use edge::{Edge, edges, has_edges};
 pub use final_motion::{FinalMotion, FinalMotions, final_motion, final_motions};
 pub use forecast::{Estimate, Forecast};
-pub use refined::{TILES_TOGETHER, complete_refinement};
+pub use refined::{InferredSample, TILES_TOGETHER, check_inferred, complete_refinement};
 pub use shares_along::{SharesAt, shares_along};

@@ -7,8 +7,9 @@ use crate::attractor::{Label, Table};
 use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Switching};
 use crate::study::{Refinement, Refining, Study};
 
-use super::cases::{Known, Rayon, Record, RunError, check, known_orbits, pool, run_as};
-use super::{FinalMotion, FinalMotions, Machine, final_motion};
+use super::cases::{Known, Rayon, Record, RunError, check, known_orbits, pool, run_as, spread};
+use super::leads::Leads;
+use super::{Attractors, FinalMotion, FinalMotions, Machine, final_motion};
 
 /// Tiles that are refined together: enough that their cases fill the lanes, and all that is lost by a kill.
 pub const TILES_TOGETHER: usize = 16;
@@ -52,6 +53,46 @@ pub fn complete_refinement(
             Runner::<AsPrinted>::new(study, machine)?.complete(&refinement, final_motions)
         }
     })
+}
+
+/// How many starts of a sample of those that are inferred lead to another attractor, or to none that is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct InferredSample {
+    /// Starts of the sample.
+    pub starts: usize,
+    /// Those that do not lead where it was inferred.
+    pub elsewhere: usize,
+}
+
+/// Starts of the sample.
+const SAMPLE: usize = 1000;
+
+/// Computes a sample of the starts whose attractors are inferred, spread evenly over the grid; none where none is.
+pub fn check_inferred(
+    study: &Study,
+    attractors: &Attractors,
+    final_motions: &FinalMotions,
+    machine: Machine,
+) -> Result<Option<InferredSample>, RunError> {
+    let cases = study.cases();
+    let is_inferred =
+        |case: &usize| attractors.of_case[*case].is_some() && final_motions.get(*case).is_none();
+    let places = (0..cases.min(64 * SAMPLE)).map(|place| spread(place, cases));
+    let mut sample: Vec<usize> = places.filter(is_inferred).take(SAMPLE).collect();
+    sample.sort_unstable();
+    sample.dedup();
+    if sample.is_empty() {
+        return Ok(None);
+    }
+    let elsewhere = match study.base.switching {
+        Switching::Filippov => {
+            Runner::<Filippov>::new(study, machine)?.elsewhere(&sample, attractors)
+        }
+        Switching::AsPrinted => {
+            Runner::<AsPrinted>::new(study, machine)?.elsewhere(&sample, attractors)
+        }
+    };
+    Ok(Some(InferredSample { starts: sample.len(), elsewhere }))
 }
 
 /// Notes in `of_case` the attractors of the cases of a refined study that have not been computed, as far as they can be inferred.
@@ -138,6 +179,19 @@ impl<'a, R: Reading> Runner<'a, R> {
         let [Set { mut records, .. }] = all;
         records.sort_by_key(|record| record.index);
         records
+    }
+
+    /// How many of some cases do not lead to the attractor that they have.
+    fn elsewhere(&self, cases: &[usize], attractors: &Attractors) -> usize {
+        let known = (0..).zip(&attractors.of_starts).collect();
+        let leads = Leads::new(self.system.clone(), (&self.study.protocol, self.machine), known);
+        let cases: Vec<(usize, usize)> = cases.iter().map(|&case| (case, 0)).collect();
+        let records = self.compute(&cases, |_, _| ControlFlow::Continue(()));
+        let goes_elsewhere = |record: &&Record| {
+            let number = leads.number(&final_motion(&record.orbit));
+            number != attractors.of_case[record.index]
+        };
+        records.iter().filter(goes_elsewhere).count()
     }
 
     /// Computes what some sets of cases need, round by round, until none needs any more, or `done`, which is told of each

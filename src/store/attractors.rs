@@ -5,7 +5,9 @@ use ndarray::{ArrayD, IxDyn};
 use crate::attractor::{Entropy, Integrity, Share, Uncertainty};
 use crate::capsule::Output;
 use crate::orbit::Outcome;
-use crate::run::{AttractorEvent, AttractorRow, AttractorTable, Attractors, Edge, SharesAt};
+use crate::run::{
+    AttractorEvent, AttractorRow, AttractorTable, Attractors, Edge, InferredSample, SharesAt,
+};
 use crate::study::{Coordinate, Study};
 
 use super::catalogue::{
@@ -18,8 +20,8 @@ use super::catalogue::{
     BOUNDARY_BASIN_ENTROPY, BOUNDARY_BASIN_ENTROPY_ERROR, BOUNDARY_DIMENSION, EDGE_CYCLE,
     EDGE_HIGH, EDGE_INDEX, EDGE_LOW, EDGE_MULTIPLIER_IMAG, EDGE_MULTIPLIER_REAL, EDGE_PERIOD,
     EDGE_RESIDUAL, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, EVENT, EVENT_ATTRACTOR,
-    EVENT_KIND, EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, Place, SECTION, UNCERTAINTY_EXPONENT,
-    UNCERTAINTY_EXPONENT_ERROR,
+    EVENT_KIND, EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, INFERRED_ELSEWHERE, INFERRED_SAMPLE, Place,
+    SECTION, UNCERTAINTY_EXPONENT, UNCERTAINTY_EXPONENT_ERROR,
 };
 use super::{Dataset, Values};
 
@@ -208,9 +210,16 @@ fn add_measures(dataset: &mut Dataset, table: &AttractorTable) {
         real(UNCERTAINTY_EXPONENT_ERROR, exponent.error);
         real(BOUNDARY_DIMENSION, dimension.value);
     }
+    let mut whole = |entry: Entry, number: usize| {
+        let number = ArrayD::from_elem(IxDyn(&[]), number as i64);
+        dataset.put(entry, &[], Values::Integer(number));
+    };
     if let Some(Entropy { side, .. }) = table.entropy {
-        let side = ArrayD::from_elem(IxDyn(&[]), side as i64);
-        dataset.put(BASIN_ENTROPY_BOX, &[], Values::Integer(side));
+        whole(BASIN_ENTROPY_BOX, side);
+    }
+    if let Some(InferredSample { starts, elsewhere }) = table.inferred {
+        whole(INFERRED_SAMPLE, starts);
+        whole(INFERRED_ELSEWHERE, elsewhere);
     }
 }
 

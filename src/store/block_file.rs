@@ -268,6 +268,18 @@ impl BlockFile {
         }
     }
 
+    /// The numbers of a column of rising indices, of which there are so many.
+    ///
+    /// Fails if the file cannot be read, or holds others.
+    pub fn cases(&self, name: &str, count: usize) -> Result<Vec<usize>, StoreError> {
+        let numbers = self.integers(name, 1)?;
+        let rises = numbers.is_sorted_by(|a, b| a < b);
+        match numbers.iter().all(|it| (0..count as i64).contains(it)) && rises {
+            true => Ok(numbers.into_iter().map(|it| it as usize).collect()),
+            false => Err(StoreError::Damaged { path: self.path.clone() }),
+        }
+    }
+
     /// The least and the greatest number of a column of integers, if it is one and has any.
     pub fn range(&self, name: &str) -> Option<[i64; 2]> {
         let column = self.head.columns.iter().find(|column| column.name == name)?;

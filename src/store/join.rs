@@ -46,7 +46,7 @@ impl<'a> Blocks<'a> {
         for number in numbers {
             match folder.open(number) {
                 // The checksum is valid, but the number of cases is wrong.
-                Ok(file) if file.head.block.cases != study.cases_of_block(number) => {
+                Ok(file) if !has_cases_of(&file, study, number) => {
                     missing.push((number, Unusable::Torn));
                 }
                 Ok(file) => files.push(file),
@@ -65,7 +65,7 @@ impl<'a> Blocks<'a> {
     fn cases_of(&self, file: &BlockFile) -> Result<Vec<usize>, StoreError> {
         match self.study.refine {
             false => Ok(self.study.block_cases(file.head.block.number)),
-            true => Ok(file.integers(CASE, 1)?.into_iter().map(|case| case as usize).collect()),
+            true => file.cases(CASE, self.study.cases()),
         }
     }
 
@@ -218,6 +218,12 @@ impl<'a> Blocks<'a> {
         let cases = (0..length).map(|block| self.study.cases_of_block(block) as i64).collect();
         frame.put_column(BLOCK_CASES, Values::integers(cases));
     }
+}
+
+/// Whether a block file has as many cases as its study says; a tile has those that it has needed.
+fn has_cases_of(file: &BlockFile, study: &Study, number: usize) -> bool {
+    let block = &file.head.block;
+    block.cases == study.cases_of_block(number) && (study.refine || block.computed == block.cases)
 }
 
 /// Keeps the cases of an older file of the results of `study` in the file at `path`, beside what `frame` holds, which is

@@ -220,7 +220,7 @@ fn a_block_with_damage_is_refused_or_has_as_many_numbers() {
             (file.reals("speed", 3), file.integers("period", 1), file.range("period"))
         }));
         let Ok((reals, integers, _)) = read else { return Err(TestCaseError::fail("a panic")) };
-        let cases = file.head.block.cases;
+        let cases = file.head.block.computed;
         prop_assert!(reals.is_err() || reals.is_ok_and(|it| it.len() == 3 * cases));
         prop_assert!(integers.is_err() || integers.is_ok_and(|it| it.len() == cases));
         Ok(())

@@ -47,6 +47,11 @@ entries! {
         TableRow(ATTRACTOR_INDEX.name, MULTIPLIER.name), Real, None,
         "imaginary part of a Floquet multiplier of the attractor";
 
+    INFERRED_SAMPLE "inferred_sample" "1" Once, Whole, None,
+        "inferred starts that were computed as a check";
+    INFERRED_ELSEWHERE "inferred_elsewhere" "1" Once, Whole, None,
+        "those of the sample that do not lead to the attractor that was inferred";
+
     EDGE_INDEX "edge_index" "1" Dimension, Whole, None,
         "saddle on the boundary of two basins";
     EDGE_CYCLE "edge_cycle" "1" Dimension, Whole, None,
