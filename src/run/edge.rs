@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::attractor::{EdgeSearch, Saddle};
 use crate::capsule::{AsPrinted, Filippov, Reading, Switching};
-use crate::orbit::Machine;
 use crate::orbit::passage::OneByOne;
+use crate::orbit::{Machine, Outcome};
 use crate::study::{CaseSet, Coordinate, Study};
 
 use super::Attractors;
@@ -32,9 +32,11 @@ pub fn has_edges(study: &Study) -> bool {
 }
 
 /// The saddles between the basins of a study, one at most for each two that are neighbours on its grid, from the first two
-/// neighbouring starts that lead to them; see [`EdgeSearch::saddle`].
+/// neighbouring starts that lead to them; see [`EdgeSearch::saddle`]. None is looked for where an attractor does not repeat.
 pub fn edges(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Edge> {
-    if !has_edges(study) || attractors.of_starts.len() < 2 {
+    // What does not repeat is told apart less surely, and takes long to follow.
+    let all_repeat = attractors.of_starts.iter().all(|it| it.outcome == Outcome::Periodic);
+    if !has_edges(study) || attractors.of_starts.len() < 2 || !all_repeat {
         return Vec::new();
     }
     match study.base.switching {

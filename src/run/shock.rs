@@ -11,8 +11,8 @@ use super::leads::Leads;
 /// Section points that are disturbed; of an orbit of a longer period no shock is told.
 const MOST_POINTS: usize = 16;
 
-/// The minimal critical shock of each of some attractors of the system of `case`, by their numbers [m/s]; NaN of what does not
-/// repeat or has a period of more than 16 cycles, and where only one attractor is known.
+/// The minimal critical shock of each of some attractors of the system of `case`, by their numbers [m/s]; NaN of a
+/// period of more than 16 cycles, where only one attractor is known, and of all where one of them does not repeat.
 ///
 /// A disturbance is one of omega r, y1 and y2 together at the section, where the motion may be disturbed at any of its section
 /// points.
@@ -34,12 +34,14 @@ fn shocks_as<R: Reading>(
     known: &[(u32, &Attractor<3>)],
     machine: Machine,
 ) -> Vec<f64> {
+    // What does not repeat is told apart less surely, and takes long to follow.
+    if known.iter().any(|(_, it)| it.outcome != Outcome::Periodic) {
+        return vec![f64::NAN; known.len()];
+    }
     let system = study.case(case).read::<R>().system;
     let metric = system.metric();
     let leads = Leads::new(system, (&study.protocol, machine), known.to_vec());
-    let is_disturbed = |it: &Attractor<3>| {
-        it.outcome == Outcome::Periodic && (1..=MOST_POINTS).contains(&it.points.len())
-    };
+    let is_disturbed = |it: &Attractor<3>| (1..=MOST_POINTS).contains(&it.points.len());
     let shock = |(number, attractor): &(u32, &Attractor<3>)| {
         // To a section point of any other attractor is a shock.
         let others = known.iter().filter(|(other, _)| other != number);
