@@ -90,11 +90,13 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let dashed = Stroke::dashed(INK, REFERENCE_WIDTH);
         legend.push((Mark::Line(dashed), Text::plain("impact surface")));
     }
+    let inferred = basins.inferred(view);
+    legend.extend(inferred.iter().map(|it| (Mark::Nothing, Text::plain(it))));
     let panel = PanelRequest {
         x: AxisRequest::new(view.quantity(plane.x_name), plane.x.scale),
         y: AxisRequest::new(view.quantity(plane.y_name), plane.y.scale),
         header: Header {
-            note: view.note(&plane.free(), &basins.inferred_note(view)),
+            note: view.held_note(&plane.free()),
             legend: legend.into_iter().chain(plane.legend()).collect(),
             ..Header::default()
         },
@@ -113,7 +115,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let about = view.about(&[ATTRACTOR.name.to_owned()], &[plane.x_name, plane.y_name]);
     let told = basins.present().into_iter().map(|number| told(view, number));
     let saddles = (!saddles.is_empty()).then(|| "saddles on the boundary".to_owned());
-    let told: Vec<String> = told.chain(basins.inferred_note(view)).chain(saddles).collect();
+    let told: Vec<String> = told.chain(basins.inferred(view)).chain(saddles).collect();
     Ok(canvas.finish(&format!("{about}: {}", told.join("; "))))
 }
 
@@ -148,18 +150,18 @@ impl Basins {
     }
 
     /// Which part of the starts is inferred, if any is, and how well.
-    fn inferred_note(&self, view: &View<'_>) -> Option<String> {
+    fn inferred(&self, view: &View<'_>) -> Vec<String> {
+        if self.inferred == 0 {
+            return Vec::new();
+        }
         let share = 100.0 * (1.0 - self.inferred as f64 / self.numbers.len() as f64);
-        let checked = [INFERRED_SAMPLE, INFERRED_ELSEWHERE].map(|it| column(view, it));
-        let checked = match (checked[0].first(), checked[1].first()) {
-            (Some(all), Some(elsewhere)) => {
-                format!("; of {all} of these, {elsewhere} lead elsewhere")
-            }
-            _ => String::new(),
-        };
         let share = significant(share, 2);
-        let note = || format!("{share} % of the starts computed, the others inferred{checked}");
-        (self.inferred > 0).then(note)
+        let mut told = vec![format!("{share} % of the starts computed, the others inferred")];
+        let [all, elsewhere] = [INFERRED_SAMPLE, INFERRED_ELSEWHERE].map(|it| column(view, it));
+        if let (Some(all), Some(elsewhere)) = (all.first(), elsewhere.first()) {
+            told.push(format!("of {all} inferred starts as a check, {elsewhere} lead elsewhere"));
+        }
+        told
     }
 
     /// How a cell is filled.
