@@ -16,7 +16,7 @@ use crate::study::layout::{Layout, linked_axis};
 use crate::study::{CaseSet, Coordinate, Direction, Study};
 
 use super::cases::{Rayon, RunError, pool};
-use super::refined::infer;
+use super::infer::infer;
 use super::{FinalMotions, Machine};
 
 /// Lines are searched together that have so many cells: links that take long fill the lanes.

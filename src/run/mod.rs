@@ -8,6 +8,7 @@ pub mod final_motion;
 pub mod continuation;
 pub mod edge;
 pub mod forecast;
+mod infer;
 mod leads;
 mod refined;
 mod room;

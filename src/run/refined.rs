@@ -8,6 +8,7 @@ use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Switching};
 use crate::study::{Refinement, Refining, Study};
 
 use super::cases::{Known, Rayon, Record, RunError, check, known_orbits, pool, run_as, spread};
+use super::infer::{are_alike, label};
 use super::leads::Leads;
 use super::{Attractors, FinalMotion, FinalMotions, Machine, final_motion};
 
@@ -93,29 +94,6 @@ pub fn check_inferred(
         }
     };
     Ok(Some(InferredSample { starts: sample.len(), elsewhere }))
-}
-
-/// Notes in `of_case` the attractors of the cases of a refined study that have not been computed, as far as they can be inferred.
-pub(super) fn infer(study: &Study, final_motions: &FinalMotions, of_case: &mut [Option<u32>]) {
-    let Some(refinement) = study.refinement() else { return };
-    let mut refining = Refining::whole(&refinement, are_alike);
-    for (case, _) in final_motions.known() {
-        refining.note(case, label(of_case[case]));
-    }
-    refining.inferred(|case, label| {
-        if let Label::Attractor(number) = label {
-            of_case[case] = Some(*number);
-        }
-    });
-}
-
-fn label(attractor: Option<u32>) -> Label {
-    attractor.map_or(Label::Undecided, Label::Attractor)
-}
-
-/// Whether two starts lead to the same attractor; of one that is not known this cannot be said.
-fn are_alike(a: &Label, b: &Label) -> bool {
-    a == b && *a != Label::Undecided
 }
 
 /// What computes the cases of a study on demand.

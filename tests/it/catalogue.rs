@@ -127,7 +127,7 @@ fn what_a_study_may_draw_is_in_the_catalogue() {
 }
 
 /// Studies that together have all that a file of results can hold.
-const STUDIES: [&str; 4] = [
+const STUDIES: [&str; 5] = [
     r#"
 [parameters]
 m2 = "0.2 kg"
@@ -206,6 +206,24 @@ from = "-1.5 m/s"
 to = "1.5 m/s"
 points = 64
 "#,
+    r#"
+[parameters]
+m2 = "0.2 kg"
+c = "1.77 N s/m"
+mu_s = 0.33
+mu_d = 0.165
+p_d = "2.79 N"
+k2 = "65.518 kN/m"
+delta = "4.33 mm"
+omega = "155 rad/s"
+[[axes]]
+name = "start_y1"
+from = "-1.5 m/s"
+to = "1.5 m/s"
+points = 130
+[basin]
+refine = true
+"#,
 ];
 
 /// What is wrong with a variable, or with a coordinate; nothing if it is as the catalogue says.
@@ -224,8 +242,9 @@ fn fault(dataset: &Dataset, name: &str, variable: &Variable) -> Option<String> {
         Type::Category(_) | Type::CategoryOfFile => (true, true),
     };
     let known = entry.flags();
-    let flags_fit = name == catalogue::BLOCK_MAKER.name
-        || variable.flags.iter().all(|flag| known.contains(flag));
+    // What has not been computed has no outcome.
+    let is_known = |flag: &(i64, String)| known.contains(flag) || flag.1 == "inferred";
+    let flags_fit = name == catalogue::BLOCK_MAKER.name || variable.flags.iter().all(is_known);
     let dimensions = variable.dimensions.iter().map(String::as_str);
     let inner: Vec<&str> = dimensions.filter(|dimension| !is_axis(dimension)).collect();
     let right = (variable.unit.as_str(), variable.long_name.as_str()) == (unit, entry.meaning)
