@@ -7,11 +7,13 @@ use crate::orbit::{Outcome, Protocol};
 
 use super::final_motion::FinalMotion;
 
-/// Points by which two motions that do not repeat are compared.
-const SAMPLE: usize = 64;
-/// Two samples of one motion have half of all nearest neighbours in the same sample, those of two motions
-/// all: in the middle between the two they are told apart.
-const MIXED: f64 = 0.75;
+/// How many points of two motions that do not repeat are compared, one pair of numbers after the other, and the share of
+/// nearest neighbours in the same sample up to which they are one attractor.
+///
+/// Two samples of one motion have half of all nearest neighbours in the same sample once they have mixed, those of two
+/// attractors all. Intermittent motions and those that wander slowly between bands need many points to mix; at the last
+/// comparison two samples are those of one attractor where any notable part has mixed.
+const COMPARED: [(usize, f64); 3] = [(64, 0.75), (512, 0.75), (4096, 0.95)];
 
 /// To this share of the size of an orbit its points are rounded before they are compared.
 const LEAST: f64 = 1e-6;
@@ -42,10 +44,11 @@ impl<const D: usize> Attractor<D> {
     ) -> Option<Self> {
         let wanted = match motion.outcome {
             Outcome::Periodic if motion.is_stable => motion.period as usize,
-            Outcome::Chaotic | Outcome::QuasiPeriodic => SAMPLE,
+            Outcome::Chaotic | Outcome::QuasiPeriodic => COMPARED[0].0,
             Outcome::Periodic | Outcome::Undecided | Outcome::Failed => return None,
         };
-        let points = section_points(system, motion.section, wanted, protocol)?;
+        let mut points = vec![motion.section];
+        append_points(system, &mut points, wanted, protocol)?;
         let metric = system.metric();
         let size = metric.largest(&points);
         let bound = relative_bound(motion.residual, motion.from_one, protocol) * size;
@@ -69,22 +72,53 @@ impl<const D: usize> Attractor<D> {
         (0..self.points.len()).min_by_key(key).unwrap_or(0)
     }
 
+    /// How often it is compared with another, each time by more points; once where it repeats.
+    pub(super) fn comparisons(&self) -> usize {
+        if self.outcome == Outcome::Periodic { 1 } else { COMPARED.len() }
+    }
+
+    /// Whether it has the points of this comparison.
+    pub(super) fn has_points_for(&self, comparison: usize) -> bool {
+        self.outcome == Outcome::Periodic || self.points.len() >= COMPARED[comparison].0
+    }
+
+    /// Follows it until it has the points of this comparison, or those that can be computed.
+    pub(super) fn follow_for<M: System<D>>(
+        &mut self,
+        comparison: usize,
+        system: &M,
+        protocol: &Protocol,
+    ) {
+        if !self.has_points_for(comparison) {
+            let _ = append_points(system, &mut self.points, COMPARED[comparison].0, protocol);
+        }
+    }
+
+    /// Forgets the points of all comparisons but the first.
+    pub(super) fn shorten(&mut self) {
+        if self.outcome != Outcome::Periodic {
+            self.points.truncate(COMPARED[0].0);
+            self.points.shrink_to_fit();
+        }
+    }
+
     /// Whether this is the same attractor as another at the same parameters.
     ///
     /// Periodic orbits: the periods are equal, and the points up to a cyclic shift, within the two bounds.
-    /// Others: by the nearest neighbours of the two samples (Schilling 1986). It breaks where two
-    /// attractors interleave more closely than their samples lie, and where a motion drifts so slowly that
+    /// Others: by the nearest neighbours of the two samples (Schilling 1986), of as many points as both have. It breaks
+    /// where two attractors interleave more closely than their samples lie, and where a motion drifts so slowly that
     /// its two samples do not meet.
     pub fn is(&self, other: &Self, metric: &Metric<D>) -> bool {
         if self.outcome != other.outcome {
             return false;
         }
-        match self.outcome {
-            Outcome::Periodic => {
-                coincide(&self.points, &other.points, self.bound + other.bound, metric)
-            }
-            _ => same_neighbours(&self.points, &other.points, metric) <= MIXED,
+        if self.outcome == Outcome::Periodic {
+            return coincide(&self.points, &other.points, self.bound + other.bound, metric);
         }
+        let count = self.points.len().min(other.points.len());
+        let own = own_neighbours(&self.points[..count], &other.points[..count], metric);
+        let at = COMPARED.iter().rposition(|(points, _)| *points <= count).unwrap_or(0);
+        own <= COMPARED[at].1
     }
 }
 
@@ -109,33 +143,83 @@ pub fn coincide<const D: usize>(
 }
 
 /// The share of points, of both samples, whose nearest neighbour is of their own sample.
-fn same_neighbours<const D: usize>(a: &[[f64; D]], b: &[[f64; D]], metric: &Metric<D>) -> f64 {
-    let nearest = |i: usize, own: &[[f64; D]], point: &[f64; D]| {
-        let others = own.iter().enumerate().filter(|(j, _)| *j != i);
-        others.map(|(_, other)| metric.distance(point, other)).fold(f64::INFINITY, f64::min)
-    };
-    let own = |own: &[[f64; D]], other: &[[f64; D]]| {
-        let is_own = |(i, point): &(usize, &[f64; D])| {
-            nearest(*i, own, point) < nearest(usize::MAX, other, point)
+///
+/// The points are sorted by their first coordinate, and neighbours are looked for from each on to both sides until that
+/// coordinate alone is farther away than the nearest one.
+fn own_neighbours<const D: usize>(a: &[[f64; D]], b: &[[f64; D]], metric: &Metric<D>) -> f64 {
+    let mut sorted: Vec<(bool, &[f64; D])> =
+        a.iter().map(|it| (true, it)).chain(b.iter().map(|it| (false, it))).collect();
+    sorted.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
+    let has_own = |place: &usize| {
+        let (own, point) = sorted[*place];
+        let (mut nearest, mut is_own) = (f64::INFINITY, false);
+        let mut meet = |(sample, other): &(bool, &[f64; D])| {
+            let distance = metric.distance(point, other);
+            if distance < nearest || (distance == nearest && *sample != own) {
+                (nearest, is_own) = (distance, *sample == own);
+            }
+            metric.scales[0] * (point[0] - other[0]).abs() <= nearest
         };
-        own.iter().enumerate().filter(is_own).count()
+        sorted[place + 1..].iter().all(&mut meet);
+        sorted[..*place].iter().rev().all(&mut meet);
+        is_own
     };
-    (own(a, b) + own(b, a)) as f64 / (a.len() + b.len()) as f64
+    (0..sorted.len()).filter(has_own).count() as f64 / sorted.len() as f64
 }
 
-/// So many section points of the motion from one of them on.
-fn section_points<M: System<D>, const D: usize>(
+/// Follows a motion from the last of its section points until there are so many; none where it cannot be followed so far.
+fn append_points<M: System<D>, const D: usize>(
     system: &M,
-    from: [f64; D],
+    points: &mut Vec<[f64; D]>,
     wanted: usize,
     protocol: &Protocol,
-) -> Option<Vec<[f64; D]>> {
+) -> Option<()> {
     let system = system.single();
     let cycles = Cycles { count: 1, tolerance: protocol.tolerance };
-    let mut points = Vec::with_capacity(wanted);
-    points.push(from);
     while points.len() < wanted {
         points.push(returned(&system, points[points.len() - 1], &cycles, |_| ()).ok()?);
     }
-    Some(points)
+    Some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The share by comparing each point with all others.
+    fn by_all_pairs(a: &[[f64; 2]], b: &[[f64; 2]], metric: &Metric<2>) -> f64 {
+        let nearest = |point: &[f64; 2], among: &[[f64; 2]], but: usize| {
+            let others = among.iter().enumerate().filter(|(place, _)| *place != but);
+            others.map(|(_, it)| metric.distance(point, it)).fold(f64::INFINITY, f64::min)
+        };
+        let own = |own: &[[f64; 2]], other: &[[f64; 2]]| {
+            let places = 0..own.len();
+            let is_own =
+                |i: &usize| nearest(&own[*i], own, *i) < nearest(&own[*i], other, usize::MAX);
+            places.filter(is_own).count()
+        };
+        (own(a, b) + own(b, a)) as f64 / (a.len() + b.len()) as f64
+    }
+
+    /// Points of the Hénon map.
+    fn henon(start: [f64; 2], count: usize) -> Vec<[f64; 2]> {
+        let next = |[x, y]: &[f64; 2]| Some([1.0 - 1.4 * x * x + y, 0.3 * x]);
+        std::iter::successors(Some(start), next).skip(100).take(count).collect()
+    }
+
+    #[test]
+    fn neighbours_are_found_as_among_all_pairs() {
+        let metric = Metric { scales: [20.0, 0.5] };
+        let a = henon([0.1, 0.1], 300);
+        for b in [henon([0.3, -0.1], 300), henon([0.3, -0.1], 150), a.clone()] {
+            let shifted: Vec<[f64; 2]> = b.iter().map(|[x, y]| [x + 0.003, *y]).collect();
+            for b in [b, shifted] {
+                assert_eq!(own_neighbours(&a, &b, &metric), by_all_pairs(&a, &b, &metric));
+            }
+        }
+        let apart: Vec<[f64; 2]> = a.iter().map(|[x, y]| [x + 5.0, *y]).collect();
+        assert_eq!(own_neighbours(&a, &apart, &metric), 1.0);
+        let mixed = own_neighbours(&a, &henon([0.3, -0.1], 300), &metric);
+        assert!((mixed - 0.5).abs() < 0.1, "{mixed}");
+    }
 }

@@ -8,8 +8,10 @@ use crate::orbit::{OrbitOf, Outcome, Protocol};
 use super::final_motion::FinalMotion;
 use super::identity::Attractor;
 
-/// So many cases are followed before they are sorted in turn, as there may be millions.
+/// So many cases at most are followed before they are sorted in turn, as there may be millions.
 const TOGETHER: usize = 4096;
+/// So many are at first, when no attractor is known, and each time as many times more.
+const AT_FIRST: usize = 16;
 
 /// Calls a function for each number of a range, perhaps on several threads, and returns the results in their
 /// order.
@@ -50,8 +52,8 @@ impl<const D: usize> Table<D> {
     /// Sorts so many cases of a `system` by attractor: `motion` tells the index and the motion of each.
     ///
     /// The executor follows many cases at a time and compares each with the attractors that are known by
-    /// then; what is new is sorted in turn. A case belongs to the first attractor that it matches, and
-    /// attractors are only added at the end, so that it does not matter how many were known.
+    /// then; what is new is sorted in turn. A case belongs to the first attractor that it matches by the fewest points.
+    /// How many cases are followed at a time does not depend on the executor.
     pub fn sort<M: System<D>>(
         cases: usize,
         motion: impl Fn(usize) -> (usize, Option<FinalMotion<D>>) + Sync,
@@ -79,19 +81,23 @@ impl<const D: usize> Table<D> {
         protocol: &Protocol,
         executor: &impl Executor,
     ) {
-        let metric = system.metric();
-        for first in (0..cases).step_by(TOGETHER) {
+        let (mut first, mut together) = (0, AT_FIRST);
+        while first < cases {
             let meet = |place: usize| {
                 let (index, motion) = motion(place);
-                let found = Attractor::of(index, system, &motion?, protocol)?;
-                Some(self.place(&found, &metric).ok_or(found))
+                let mut found = Attractor::of(index, system, &motion?, protocol)?;
+                let known = self.place(&mut found, system, protocol);
+                found.shorten();
+                Some(known.ok_or(found))
             };
-            let met: Vec<Option<Result<usize, Attractor<D>>>> =
-                executor.map(first..cases.min(first + TOGETHER), meet);
+            let last = cases.min(first + together);
+            let met: Vec<Option<Result<usize, Attractor<D>>>> = executor.map(first..last, meet);
             for met in met {
-                let place = met.map(|met| met.unwrap_or_else(|new| self.add(new, &metric)));
+                let add = |new| self.add(new, system, protocol);
+                let place = met.map(|met| met.unwrap_or_else(add));
                 self.of_case.push(place.map(|place| place as u32));
             }
+            (first, together) = (last, TOGETHER.min(AT_FIRST * together));
         }
     }
 
@@ -113,17 +119,43 @@ impl<const D: usize> Table<D> {
         order
     }
 
-    /// The place of an attractor, if it is known.
-    fn place(&self, found: &Attractor<D>, metric: &Metric<D>) -> Option<usize> {
-        self.attractors.iter().position(|known| known.is(found, metric))
+    /// The place of an attractor, if it is known by the points that the known ones have.
+    fn place<M: System<D>>(
+        &self,
+        found: &mut Attractor<D>,
+        system: &M,
+        protocol: &Protocol,
+    ) -> Option<usize> {
+        let (metric, outcome) = (system.metric(), found.outcome);
+        (0..found.comparisons()).find_map(|comparison| {
+            let has_points =
+                |known: &Attractor<D>| known.outcome == outcome && known.has_points_for(comparison);
+            if !self.attractors.iter().any(has_points) {
+                return None;
+            }
+            found.follow_for(comparison, system, protocol);
+            self.attractors.iter().position(|known| has_points(known) && known.is(found, &metric))
+        })
     }
 
-    /// The place of an attractor, which is added if it is not known.
-    fn add(&mut self, found: Attractor<D>, metric: &Metric<D>) -> usize {
-        self.place(&found, metric).unwrap_or_else(|| {
-            self.attractors.push(found);
-            self.attractors.len() - 1
-        })
+    /// The place of an attractor, which is added if it is not known; the known ones are followed as far as it takes.
+    fn add<M: System<D>>(
+        &mut self,
+        mut found: Attractor<D>,
+        system: &M,
+        protocol: &Protocol,
+    ) -> usize {
+        for comparison in 0..found.comparisons() {
+            for known in self.attractors.iter_mut().filter(|it| it.outcome == found.outcome) {
+                known.follow_for(comparison, system, protocol);
+            }
+            if let Some(place) = self.place(&mut found, system, protocol) {
+                return place;
+            }
+        }
+        found.shorten();
+        self.attractors.push(found);
+        self.attractors.len() - 1
     }
 }
 

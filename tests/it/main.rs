@@ -13,6 +13,7 @@ mod branch_figure;
 mod campaign;
 mod catalogue;
 mod certificates;
+mod chaotic_basins;
 mod circles;
 mod cli;
 mod closed_forms;
