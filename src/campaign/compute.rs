@@ -61,7 +61,7 @@ impl Campaign<'_> {
         let study = self.study;
         let each = |block: usize, record: &_| {
             // How many cases a tile needs is known only at its end.
-            if study.refine {
+            if study.refine.is_some() {
                 return reports.proceed();
             }
             reports.note(Event::Case { block, cases: study.cases_of_block(block), record })

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use crate::run::{self, has_attractors};
 use crate::store::{
-    self, BlockFolder, Blocks, Company, Dataset, StoreError, Unusable, add_attractors,
+    self, BlockFolder, Blocks, Company, Dataset, StoreError, Unusable, add_attractors, add_sample,
     keep_branches,
 };
+use crate::study::Refine;
 
 use super::clear::clear_away;
 use super::error::CampaignError;
@@ -99,11 +100,15 @@ impl Campaign<'_> {
             all_of(&folder, blocks)?
         };
         reports.send(Event::Joining { folder: folder.path() })?;
-        if self.study.refine && !is_partial {
-            let known = blocks.final_motions()?;
-            blocks.add(run::complete_refinement(self.study, &known, self.machine)?);
-        }
         let mut frame = blocks.frame();
+        match self.study.refine {
+            Some(Refine::Attractors) if !is_partial => {
+                let known = blocks.final_motions()?;
+                blocks.add(run::complete_basin(self.study, &known, self.machine)?);
+            }
+            Some(Refine::Outputs(_)) => self.infer(&mut frame, &mut blocks, is_partial)?,
+            _ => {}
+        }
         self.add_attractors(&mut frame, &blocks, reports)?;
         // Branches that were continued meanwhile are in the file, and none can come before it is replaced.
         let _held = store::hold(file, |folder| reports.wait(folder))?;
@@ -115,6 +120,27 @@ impl Campaign<'_> {
             folder.remove()?;
         }
         Ok(Complete { path: file.to_owned(), archive })
+    }
+
+    /// Infers the cases of a refined map that have not been computed, after those that the tiles lack have been, unless it is
+    /// partial; then a sample of them is computed as a check, too.
+    fn infer(
+        &self,
+        frame: &mut Dataset,
+        blocks: &mut Blocks<'_>,
+        is_partial: bool,
+    ) -> Result<(), CampaignError> {
+        if !is_partial {
+            let known = blocks.map_points()?;
+            blocks.add(run::complete_map(self.study, &known, self.machine)?);
+        }
+        let inferred = run::infer_cases(self.study, &blocks.map_points()?);
+        if !is_partial && let Some(sample) = run::check_cases(self.study, &inferred, self.machine)?
+        {
+            add_sample(frame, sample);
+        }
+        blocks.infer(inferred);
+        Ok(())
     }
 
     /// Searches for the attractors that the cases of `blocks` have ended on, if there are any.
@@ -133,7 +159,7 @@ impl Campaign<'_> {
         let attractors = run::attractors(self.study, &states, self.machine, linked)?;
         let mut table = run::attractor_table(self.study, &attractors, &states, self.machine)?;
         // Those of a refined study that are followed lie near the boundaries, and take longer than the others would.
-        if !table.rows.is_empty() && !self.study.refine {
+        if !table.rows.is_empty() && self.study.refine.is_none() {
             let cycles = blocks.verdicts()?.into_iter().map(|(case, _, cycles)| (case, cycles));
             table.note_cycles(&attractors, cycles);
         }

@@ -1,8 +1,8 @@
 //! How much memory a campaign takes, estimated from what it holds.
 
-use crate::run::{FinalMotion, TILES_TOGETHER, has_attractors};
+use crate::run::{FinalMotion, MapPoint, TILES_TOGETHER, has_attractors};
 use crate::store::{MOST_NUMBERS, numbers_of_case};
-use crate::study::Study;
+use crate::study::{Refine, Study};
 
 /// What the program itself takes, with its libraries and tables [bytes]; measured by `scripts/memory.sh`.
 const PROGRAM: f64 = 3e7;
@@ -31,15 +31,26 @@ pub fn memory(study: &Study, threads: usize) -> Memory {
     let widest = numbers.values().copied().max().unwrap_or(0) as f64;
     let blocks = 0..study.blocks();
     let block = blocks.map(|block| study.cases_of_block(block)).max().unwrap_or(0) as f64;
-    let together = if study.refine { TILES_TOGETHER } else { threads };
+    let together = if study.refine.is_some() { TILES_TOGETHER } else { threads };
     let blocks_held = together as f64 * block * all * NUMBER * COPIES;
     let labels = if has_attractors(study) { cases * NUMBER * COPIES } else { 0.0 };
+    let inferring = match &study.refine {
+        // Labels, and what is inferred, of nearly all cases.
+        Some(Refine::Outputs(within)) => {
+            let one = size_of::<Option<MapPoint>>() + (2 * within.len() + 4) * size_of::<f64>();
+            cases * one as f64
+        }
+        _ => 0.0,
+    };
     let linking = match has_attractors(study) {
         // Labels of the cases in turn by tile, by attractor and as they are written.
-        true if study.refine => 3.0 * cases * size_of::<Option<u32>>() as f64,
+        true if study.refine.is_some() => 3.0 * cases * size_of::<Option<u32>>() as f64,
         true => cases * (size_of::<Option<FinalMotion>>() + size_of::<Option<u32>>()) as f64,
         false => 0.0,
     };
     let slab = (cases * widest).min(MOST_NUMBERS as f64) * NUMBER * COPIES;
-    Memory { computing: PROGRAM + blocks_held, joining: PROGRAM + linking.max(slab + labels) }
+    Memory {
+        computing: PROGRAM + blocks_held,
+        joining: PROGRAM + inferring + linking.max(slab + labels),
+    }
 }

@@ -60,14 +60,14 @@ pub fn probe(
     let each = |block: usize, record: &Record| {
         let cases = study.cases_of_block(block);
         reports.note(Event::Case { block, cases, record })?;
-        lock().add(block, (!study.refine).then_some(cases), record);
+        lock().add(block, (study.refine.is_none()).then_some(cases), record);
         match begun.elapsed() < span {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),
         }
     };
     let whole = |block: usize, records: Vec<Record>| {
-        if study.refine {
+        if study.refine.is_some() {
             let cycles = records.iter().map(|record| record.orbit.cycles).sum();
             lock().forecast.complete(block, study.cases_of_block(block), cycles);
         }
@@ -107,7 +107,7 @@ impl Found {
         let seconds = self.forecast.cycles().map(scaled);
         let weighed = packed_bytes(study, &self.records)? as f64 / self.records.len() as f64;
         // Of a refined study fewer are kept than there are.
-        let kept = if study.refine { self.met as f64 / cases as f64 } else { 1.0 };
+        let kept = if study.refine.is_some() { self.met as f64 / cases as f64 } else { 1.0 };
         let bytes = weighed * kept * study.cases() as f64;
         Ok(Probe { cases, blocks: self.blocks.len(), time, seconds, bytes })
     }

@@ -2,6 +2,8 @@
 
 use std::ops::{Index, IndexMut};
 
+use super::Dimension;
+
 macro_rules! outputs {
     ($($variant:ident $name:literal $unit:literal $meaning:literal;)*) => {
         /// A number that sums up a case.
@@ -55,6 +57,14 @@ outputs! {
     IntegrationDefect "integration_defect" "1" "largest defect of a step of the measured cycles, times its length and relative to the motion";
     ExcludedPeriod "excluded_period" "1" "longest period in drive cycles that is excluded, with all shorter ones";
     SectionResidual "section_residual" "1" "how far the section is from repeating after the period, relative to the motion";
+}
+
+impl Output {
+    /// Its dimension.
+    pub fn dimension(self) -> Dimension {
+        let has_unit = |dimension: &Dimension| dimension.unit() == self.unit();
+        Dimension::ALL.into_iter().find(has_unit).unwrap_or(Dimension::Number)
+    }
 }
 
 /// A value for every output (SI).

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A physical dimension that a parameter or coordinate can have.
+/// A physical dimension that a parameter, a coordinate or an output can have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
     /// Mass [kg].
@@ -25,11 +25,32 @@ pub enum Dimension {
     Acceleration,
     /// Angle [rad].
     Angle,
+    /// Energy [J].
+    Energy,
+    /// Rate of growth [1/s].
+    Rate,
     /// A plain number.
     Number,
 }
 
 impl Dimension {
+    /// All of them.
+    pub const ALL: [Dimension; 13] = [
+        Dimension::Mass,
+        Dimension::Stiffness,
+        Dimension::Damping,
+        Dimension::QuadraticDamping,
+        Dimension::Length,
+        Dimension::Force,
+        Dimension::AngularFrequency,
+        Dimension::Velocity,
+        Dimension::Acceleration,
+        Dimension::Angle,
+        Dimension::Energy,
+        Dimension::Rate,
+        Dimension::Number,
+    ];
+
     /// The SI unit as written in tables and files.
     pub fn unit(self) -> &'static str {
         match self {
@@ -43,6 +64,8 @@ impl Dimension {
             Dimension::Velocity => "m/s",
             Dimension::Acceleration => "m/s2",
             Dimension::Angle => "rad",
+            Dimension::Energy => "J",
+            Dimension::Rate => "1/s",
             Dimension::Number => "1",
         }
     }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Map, Value, json};
 
+use super::attractor_list;
 use super::failure::Failure;
 use super::terminal::{print, print_as_it_is};
 use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
@@ -77,6 +78,8 @@ fn describe(dataset: &Dataset) -> Value {
         "attributes": dataset.attributes,
         "coordinates": coordinates,
         "variables": variables,
+        "attractors": attractor_list::attractors(dataset),
+        "saddles": attractor_list::saddles(dataset),
         "outcomes": outcomes(dataset).into_iter().collect::<Map<_, _>>(),
     })
 }
@@ -107,6 +110,7 @@ fn notify(dataset: &Dataset) -> String {
     if !counts.is_empty() {
         let _ = writeln!(text, "outcomes: {}", counts.join(", "));
     }
+    text.push_str(&attractor_list::tables(dataset));
     let constant = |variable: &Variable| variable.dimensions.is_empty();
     text.push_str("\ncoordinates\n");
     for (name, variable) in &dataset.coordinates {

@@ -1,6 +1,7 @@
 //! The command line: one file per command, messages and progress.
 
 mod arguments;
+mod attractor_list;
 mod block_progress;
 mod branch_summary;
 mod continuation;

@@ -21,12 +21,12 @@ pub fn summary(
     let summaries = blocks.summaries();
     let shown = output.display();
     let cases = summaries.iter().map(|block| block.cases).sum();
-    let summaries = if study.refine { vec![of_computed(blocks)?] } else { summaries };
+    let summaries = if study.refine.is_some() { vec![of_computed(blocks)?] } else { summaries };
     let cycles = summaries.iter().map(|block| block.cycles).sum::<u64>() as usize;
     let (cases_shown, cycles) = (counted(cases, "case"), counted(cycles, "cycle"));
     let mut text = format!("{shown}: {cases_shown}, {cycles}\n");
     let missing = study.cases() - cases;
-    if study.refine {
+    if study.refine.is_some() {
         let computed = summaries[0].computed;
         let share = 100.0 * computed as f64 / cases as f64;
         let _ =

@@ -8,6 +8,7 @@ use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::error::FigureError;
 use super::header::{Header, Mark};
+use super::inferred;
 use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
@@ -21,8 +22,8 @@ use super::view::View;
 use crate::capsule::{Output, Parameter};
 use crate::store::catalogue::{
     ATTRACTOR, ATTRACTOR_INDEX, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
-    ATTRACTOR_SHARE_ERROR, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, Entry,
-    INFERRED_ELSEWHERE, INFERRED_SAMPLE, Place, SECTION, starts,
+    ATTRACTOR_SHARE_ERROR, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, Entry, Place, SECTION,
+    starts,
 };
 use crate::study::{Coordinate, Drawing};
 use crate::tradeoff::NOISE;
@@ -52,7 +53,7 @@ fn reads(_: &Drawing) -> Names {
         .and([ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR])
         .and(sections)
         .and([EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2])
-        .and([INFERRED_SAMPLE, INFERRED_ELSEWHERE])
+        .and(inferred::READS)
         .and(phases)
         .and([Place::Attractor.of(SPEED), Entry::of_parameter(Parameter::Delta)])
 }
@@ -125,8 +126,8 @@ struct Basins {
     numbers: Vec<i64>,
     /// Whether a case has no result.
     without: Vec<bool>,
-    /// Cases that are inferred.
-    inferred: usize,
+    /// Whether a case is inferred.
+    inferred: Vec<bool>,
     /// Whether each attractor of the table is chaotic or quasi-periodic.
     irregular: Vec<bool>,
 }
@@ -138,30 +139,19 @@ impl Basins {
         let outcomes = Outcomes::over(view, &free)?;
         let no_result = |case| matches!(outcomes.name(case), Some("failed" | "missing"));
         let without = (0..plane.count()).map(no_result).collect();
-        let is_inferred = |case: &usize| outcomes.name(*case) == Some("inferred");
-        let inferred = (0..plane.count()).filter(is_inferred).count();
+        let inferred = inferred::inferred(&outcomes, plane.count());
         let kinds = view.flags(ATTRACTOR_KIND.name);
         let is_irregular = |code: f64| {
             let name = kinds.iter().find(|(value, _)| *value as f64 == code);
             name.is_some_and(|(_, name)| name != "periodic")
         };
-        let irregular = column(view, ATTRACTOR_KIND).into_iter().map(is_irregular).collect();
+        let irregular = view.column(ATTRACTOR_KIND).into_iter().map(is_irregular).collect();
         Ok(Basins { numbers, without, inferred, irregular })
     }
 
     /// Which part of the starts is inferred, if any is, and how well.
     fn inferred(&self, view: &View<'_>) -> Vec<String> {
-        if self.inferred == 0 {
-            return Vec::new();
-        }
-        let share = 100.0 * (1.0 - self.inferred as f64 / self.numbers.len() as f64);
-        let share = significant(share, 2);
-        let mut told = vec![format!("{share} % of the starts computed, the others inferred")];
-        let [all, elsewhere] = [INFERRED_SAMPLE, INFERRED_ELSEWHERE].map(|it| column(view, it));
-        if let (Some(all), Some(elsewhere)) = (all.first(), elsewhere.first()) {
-            told.push(format!("of {all} inferred starts as a check, {elsewhere} lead elsewhere"));
-        }
-        told
+        inferred::told(view, &self.inferred, "starts", "lead elsewhere")
     }
 
     /// How a cell is filled.
@@ -236,7 +226,7 @@ fn in_plane(view: &View<'_>, plane: &Plane<'_>, sections: [Entry; 3]) -> Vec<(f6
     let of_axis = |name: &str| -> Vec<f64> {
         let place = starts().iter().position(|entry| entry.name == name);
         let factor = view.quantity(name).factor;
-        let values = place.map_or(Vec::new(), |place| column(view, sections[place]));
+        let values = place.map_or(Vec::new(), |place| view.column(sections[place]));
         values.into_iter().map(|value| value * factor).collect()
     };
     of_axis(plane.x_name).into_iter().zip(of_axis(plane.y_name)).collect()
@@ -265,15 +255,9 @@ fn tinted(RGBColor(red, green, blue): RGBColor) -> RGBColor {
     RGBColor(mix(red), mix(green), mix(blue))
 }
 
-/// The numbers of a variable as they are stored; none where there is none.
-pub(super) fn column(view: &View<'_>, entry: Entry) -> Vec<f64> {
-    let stored = view.dataset.variable(entry.name);
-    stored.map_or(Vec::new(), |variable| variable.values.to_real().into_iter().collect())
-}
-
 /// An attractor in a phrase: its kind or period, its speed, and its share with the error.
 fn told(view: &View<'_>, number: usize) -> String {
-    let of = |entry: Entry| column(view, entry).get(number).copied();
+    let of = |entry: Entry| view.column(entry).get(number).copied();
     if of(ATTRACTOR_KIND).is_none() {
         return format!("attractor {number}");
     }

@@ -6,6 +6,7 @@ use super::canvas::{Anchor, Canvas};
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Mark, draw_mark};
+use super::inferred;
 use super::outcome::Outcomes;
 use super::raster::Fill;
 use super::style::{
@@ -129,7 +130,9 @@ fn resting(view: &View<'_>, free: &[&str]) -> Result<Vec<bool>, FigureError> {
     }
     let outcomes = Outcomes::over(view, free)?;
     let shares = view.take(STICK_SHARE.name, free)?;
-    let rests = |(case, share): (usize, &f64)| *share >= 1.0 && outcomes.periodic(case);
+    let repeats =
+        |case: usize| outcomes.periodic(case) || outcomes.name(case) == Some(inferred::NAME);
+    let rests = |(case, share): (usize, &f64)| *share >= 1.0 && repeats(case);
     Ok(shares.iter().enumerate().map(rests).collect())
 }
 
@@ -143,7 +146,9 @@ fn no_value() -> (usize, Kind) {
 }
 
 fn by_period(period: f64, outcome: Option<&str>) -> (usize, Kind) {
-    if let Some(found) = outcome.filter(|name| *name != "periodic").and_then(by_name) {
+    // Only what repeats is inferred in a map, with its period.
+    let repeats = |name: &str| name == "periodic" || (name == inferred::NAME && period >= 1.0);
+    if let Some(found) = outcome.filter(|name| !repeats(name)).and_then(by_name) {
         return found;
     }
     match period {

@@ -8,13 +8,14 @@ use super::category::{self, Kinds};
 use super::colour::Colours;
 use super::error::FigureError;
 use super::header::{Header, Mark};
+use super::inferred;
 use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::plane::Plane;
 use super::raster::Fill;
-use super::style::INFINITE;
+use super::style::{INFERRED, INFINITE};
 use super::text::Text;
 use super::view::View;
 use crate::capsule::Output;
@@ -28,7 +29,8 @@ const HEIGHT: f64 = 158.0;
 
 /// How the cells are coloured.
 enum Paint {
-    Numbers(Option<Colours>, Vec<f64>),
+    /// By their values; those that are inferred and have none are marked.
+    Numbers(Option<Colours>, Vec<f64>, Vec<bool>),
     Kinds(Kinds),
 }
 
@@ -36,9 +38,11 @@ impl Paint {
     /// The colour of a case; none where it has no value.
     fn colour(&self, case: usize) -> Option<RGBColor> {
         match self {
-            Paint::Numbers(_, values) if values[case].is_infinite() => Some(INFINITE),
-            Paint::Numbers(_, values) if values[case].is_nan() => None,
-            Paint::Numbers(colours, values) => colours.as_ref().map(|it| it.of(values[case])),
+            Paint::Numbers(_, values, _) if values[case].is_infinite() => Some(INFINITE),
+            Paint::Numbers(_, values, inferred) if values[case].is_nan() => {
+                inferred[case].then_some(INFERRED)
+            }
+            Paint::Numbers(colours, values, _) => colours.as_ref().map(|it| it.of(values[case])),
             Paint::Kinds(kinds) => kinds.colour(case),
         }
     }
@@ -46,7 +50,7 @@ impl Paint {
     /// Room beside the frame for the bar or the list of kinds [pt].
     fn room(&self) -> f64 {
         match self {
-            Paint::Numbers(colours, _) => colours.as_ref().map_or(0.0, |it| it.room(HEIGHT)),
+            Paint::Numbers(colours, ..) => colours.as_ref().map_or(0.0, |it| it.room(HEIGHT)),
             Paint::Kinds(kinds) => kinds.room(),
         }
     }
@@ -54,20 +58,24 @@ impl Paint {
     /// Draws the bar or the list of kinds beside `panel`.
     fn explain(&self, canvas: &mut Canvas, panel: &Panel) {
         match self {
-            Paint::Numbers(Some(colours), _) => colours.draw_bar(canvas, panel.frame),
-            Paint::Numbers(None, _) => {}
+            Paint::Numbers(Some(colours), ..) => colours.draw_bar(canvas, panel.frame),
+            Paint::Numbers(None, ..) => {}
             Paint::Kinds(kinds) => kinds.draw_legend(canvas, panel.frame),
         }
     }
 
     /// The entries that the colour bar does not explain.
     fn legend(&self) -> Vec<(Mark, Text)> {
-        let Paint::Numbers(_, values) = self else { return Vec::new() };
+        let Paint::Numbers(_, values, inferred) = self else { return Vec::new() };
         let mut legend = Vec::new();
         if values.iter().any(|value| value.is_infinite()) {
             legend.push((Mark::Patch(INFINITE), Text::plain("infinite")));
         }
-        if values.iter().any(|value| value.is_nan()) {
+        let mut without = values.iter().zip(inferred).filter(|(value, _)| value.is_nan());
+        if without.clone().any(|(_, inferred)| *inferred) {
+            legend.push((Mark::Patch(INFERRED), Text::plain("not computed")));
+        }
+        if without.any(|(_, inferred)| !inferred) {
             legend.push((Mark::Filled(Fill::NO_VALUE), Text::plain("no value")));
         }
         legend
@@ -83,7 +91,7 @@ fn reads(drawing: &Drawing) -> Names {
     let entry = catalogue::named(output);
     let sorted = entry.is_none_or(|entry| !matches!(entry.numbers, Type::Real));
     let sorting = category::READS.into_iter().filter(|_| sorted);
-    Names::of(outcome::READS).and(sorting).and_named([output.to_owned()])
+    Names::of(outcome::READS).and(inferred::READS).and(sorting).and_named([output.to_owned()])
 }
 
 /// Draws the map that `view` asks for.
@@ -92,12 +100,15 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (x_name, y_name) = (plane.x_name, plane.y_name);
     let output = view.drawing.of.first().cloned().unwrap_or_else(|| OUTPUT.name.to_owned());
     let paint = paint(view, &output, &plane.free(), plane.count())?;
+    let inferred = inferred::inferred(&Outcomes::over(view, &plane.free())?, plane.count());
+    let told = inferred::told(view, &inferred, "cases", "differ");
+    let legend = told.iter().map(|it| (Mark::Nothing, Text::plain(it)));
     let panel = PanelRequest {
         x: AxisRequest::new(view.quantity(x_name), plane.x.scale),
         y: AxisRequest::new(view.quantity(y_name), plane.y.scale),
         header: Header {
             note: view.held_note(&[x_name, y_name]),
-            legend: paint.legend().into_iter().chain(plane.legend()).collect(),
+            legend: paint.legend().into_iter().chain(legend).chain(plane.legend()).collect(),
             ..Header::default()
         },
     };
@@ -122,10 +133,12 @@ fn paint(view: &View<'_>, output: &str, free: &[&str], cases: usize) -> Result<P
         return Ok(Paint::Kinds(Kinds::of(view, output, free)?));
     }
     let outcomes = Outcomes::over(view, free)?;
+    let inferred = inferred::inferred(&outcomes, cases);
     for (case, value) in values.iter_mut().enumerate() {
         if outcomes.failed(case) {
             *value = f64::NAN;
         }
     }
-    Ok(Paint::Numbers(Colours::for_values(&values, view.quantity(output)), values))
+    let colours = Colours::for_values(&values, view.quantity(output));
+    Ok(Paint::Numbers(colours, values, inferred))
 }

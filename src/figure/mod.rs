@@ -20,6 +20,7 @@ mod format;
 mod geometry;
 mod header;
 mod history;
+mod inferred;
 mod kind;
 mod map;
 mod mark;
@@ -110,6 +111,11 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
     if of.len() > most && most > 0 {
         let (kind, of) = (kind.name(), of.join(", "));
         return Err(view.unfit(format!("a {kind} shows one output, and `of` names {of}")));
+    }
+    let shows_all = matches!(kind, DrawingKind::Bifurcation | DrawingKind::TradeOff);
+    if shows_all && inferred::has_inferred(view) {
+        let why = "shows computed cases, and most of a refined grid are inferred; draw a map";
+        return Err(view.unfit(format!("a {} {why}, or compute all", kind.name())));
     }
     match view.drawing.width_mm {
         Some(width) if !(style::WIDTHS.0..=style::WIDTHS.1).contains(&width) => {

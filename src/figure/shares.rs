@@ -6,7 +6,7 @@ use ndarray::ArrayD;
 use plotters::style::RGBColor;
 
 use super::axis::AxisRequest;
-use super::basin::{band, colour, column, millimetres, motion, undecided};
+use super::basin::{band, colour, millimetres, motion, undecided};
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::error::FigureError;
@@ -119,7 +119,7 @@ impl Room {
         let [shock, ball] =
             measures.map(|entry| view.take(entry.name, &[along]).map(|it| columns(&it)));
         let numbers = shock?.into_iter().zip(ball?).map(|(shock, ball)| [shock, ball]).collect();
-        let errors = column(view, ATTRACTOR_INTEGRITY_ERROR);
+        let errors = view.column(ATTRACTOR_INTEGRITY_ERROR);
         let error = errors.into_iter().filter(|it| it.is_finite()).fold(0.0, f64::max);
         Ok(Some(Room { values, numbers, error }))
     }
@@ -161,7 +161,7 @@ fn columns(table: &ArrayD<f64>) -> Vec<Vec<f64>> {
 
 /// The range of the speeds of all cases that lead to an attractor, where the results have them.
 fn speeds(view: &View<'_>, number: usize) -> Option<String> {
-    let (labels, speeds) = (column(view, ATTRACTOR), column(view, SPEED));
+    let (labels, speeds) = (view.column(ATTRACTOR), view.column(SPEED));
     let ours = labels.iter().zip(&speeds).filter(|(label, _)| **label == number as f64);
     let (low, high) = finite_range(ours.map(|(_, speed)| *speed))?;
     let (low, high) = (millimetres(low), millimetres(high));
@@ -201,7 +201,7 @@ impl Bands {
     /// The attractors with what they are, and starts that lead to none.
     fn legend(&self, view: &View<'_>) -> Vec<(Mark, Text)> {
         let count = self.shares.first().map_or(0, Vec::len);
-        let (kinds, periods) = (column(view, ATTRACTOR_KIND), column(view, ATTRACTOR_PERIOD));
+        let (kinds, periods) = (view.column(ATTRACTOR_KIND), view.column(ATTRACTOR_PERIOD));
         let entry = |number: usize| {
             // What it is where starts lead to it.
             let there = |(at, shares): (usize, &Vec<f64>)| {

@@ -6,7 +6,7 @@ use super::error::FigureError;
 use super::quantity::Quantity;
 use super::text::Text;
 use super::varied::varied;
-use crate::store::catalogue::{self, DIRECTION, DRAW, Extent, HISTORY_TIME};
+use crate::store::catalogue::{self, DIRECTION, DRAW, Entry, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::store::schema::INHERITED_ALONG;
 use crate::study::Drawing;
@@ -147,6 +147,12 @@ impl<'a> View<'a> {
     pub fn axis_values(&self, name: &str) -> Result<Vec<f64>, FigureError> {
         self.check_axis(name)?;
         Ok(self.coordinate_values(name))
+    }
+
+    /// The numbers of a variable as they are stored; none where there is none.
+    pub fn column(&self, entry: Entry) -> Vec<f64> {
+        let stored = self.dataset.variable(entry.name);
+        stored.map_or(Vec::new(), |variable| variable.values.to_real().into_iter().collect())
     }
 
     /// The values of any coordinate; none if there is no such coordinate.

@@ -11,7 +11,7 @@ use crate::study::{CaseSet, Study};
 
 use super::cases::run_sample;
 use super::edge::{Edge, edges};
-use super::refined::{InferredSample, check_inferred};
+use super::inferred_sample::{InferredSample, check_starts};
 use super::room::Room;
 use super::shock::shocks;
 use super::{Attractors, FinalMotions, Machine, Record, RunError, SharesAt, shares_along};
@@ -132,7 +132,7 @@ pub fn attractor_table(
     let entropy = measured.then(|| entropy(&shape, label, BOX)).flatten();
     let uncertainty = measured.then(|| uncertainty(&shape, label)).flatten();
     let edges = edges(study, attractors, machine);
-    let inferred = check_inferred(study, attractors, final_motions, machine)?;
+    let inferred = check_starts(study, attractors, final_motions, machine)?;
     Ok(AttractorTable { rows, along: None, entropy, uncertainty, edges, inferred })
 }
 

@@ -23,7 +23,7 @@ pub fn run_blocks(
     done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
     finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
-    if study.refine {
+    if study.refine.is_some() {
         return run_refined(study, machine, blocks, done, finished);
     }
     let mut ends = Vec::with_capacity(blocks.len());

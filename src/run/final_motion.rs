@@ -28,7 +28,7 @@ pub struct FinalMotions {
 impl FinalMotions {
     /// Those of a study, of which some cases are known, in any order; of a refined study only these are held.
     pub fn of(study: &Study, known: impl Iterator<Item = (usize, FinalMotion)>) -> FinalMotions {
-        if study.refine {
+        if study.refine.is_some() {
             let mut known: Vec<(usize, FinalMotion)> = known.collect();
             known.sort_by_key(|(case, _)| *case);
             // Neighbouring tiles both have the cases between them.

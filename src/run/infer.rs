@@ -1,20 +1,22 @@
 //! The attractors of the starts of a refined study that have not been computed.
 
 use crate::attractor::Label;
-use crate::study::{Refining, Study};
+use crate::study::{Refine, Refining, Study};
 
 use super::FinalMotions;
 
 /// Notes in `of_case` the attractors of the cases of a refined study that have not been computed, as far as they can be
 /// inferred.
 pub(super) fn infer(study: &Study, final_motions: &FinalMotions, of_case: &mut [Option<u32>]) {
-    let Some(refinement) = study.refinement() else { return };
+    let (Some(refinement), Some(Refine::Attractors)) = (study.refinement(), &study.refine) else {
+        return;
+    };
     let mut refining = Refining::whole(&refinement, are_alike);
     for (case, _) in final_motions.known() {
         refining.note(case, label(of_case[case]));
     }
-    refining.inferred(|case, label| {
-        if let Label::Attractor(number) = label {
+    refining.inferred(|case, corners| {
+        if let Some((_, Label::Attractor(number))) = corners.first() {
             of_case[case] = Some(*number);
         }
     });

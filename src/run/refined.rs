@@ -5,12 +5,12 @@ use std::sync::Mutex;
 
 use crate::attractor::{Label, Table};
 use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Switching};
-use crate::study::{Refinement, Refining, Study};
+use crate::study::{Refine, Refining, Study};
 
-use super::cases::{Known, Rayon, Record, RunError, check, known_orbits, pool, run_as, spread};
+use super::cases::{Known, Rayon, Record, RunError, check, known_orbits, pool, run_as};
 use super::infer::{are_alike, label};
-use super::leads::Leads;
-use super::{Attractors, FinalMotion, FinalMotions, Machine, final_motion};
+use super::map_point::MapPoint;
+use super::{FinalMotion, FinalMotions, Machine, final_motion};
 
 /// Tiles that are refined together: enough that their cases fill the lanes, and all that is lost by a kill.
 pub const TILES_TOGETHER: usize = 16;
@@ -37,63 +37,48 @@ pub(super) fn run_refined(
     Ok(())
 }
 
-/// Computes what the tiles of a refined study lack, as what crosses their boundaries shows, from the `final_motions` of the
+/// Computes what the tiles of a refined basin lack, as what crosses their boundaries shows, from the `final_motions` of the
 /// cases that have been computed.
-pub fn complete_refinement(
+pub fn complete_basin(
     study: &Study,
     final_motions: &FinalMotions,
     machine: Machine,
 ) -> Result<Vec<Record>, RunError> {
-    let Some(refinement) = study.refinement() else { return Ok(Vec::new()) };
     check(machine)?;
-    Ok(match study.base.switching {
-        Switching::Filippov => {
-            Runner::<Filippov>::new(study, machine)?.complete(&refinement, final_motions)
-        }
-        Switching::AsPrinted => {
-            Runner::<AsPrinted>::new(study, machine)?.complete(&refinement, final_motions)
-        }
-    })
-}
-
-/// How many starts of a sample of those that are inferred lead to another attractor, or to none that is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct InferredSample {
-    /// Starts of the sample.
-    pub starts: usize,
-    /// Those that do not lead where it was inferred.
-    pub elsewhere: usize,
-}
-
-/// Starts of the sample.
-const SAMPLE: usize = 1000;
-
-/// Computes a sample of the starts whose attractors are inferred, spread evenly over the grid; none where none is.
-pub fn check_inferred(
-    study: &Study,
-    attractors: &Attractors,
-    final_motions: &FinalMotions,
-    machine: Machine,
-) -> Result<Option<InferredSample>, RunError> {
-    let cases = study.cases();
-    let is_inferred =
-        |case: &usize| attractors.of_case[*case].is_some() && final_motions.get(*case).is_none();
-    let places = (0..cases.min(64 * SAMPLE)).map(|place| spread(place, cases));
-    let mut sample: Vec<usize> = places.filter(is_inferred).take(SAMPLE).collect();
-    sample.sort_unstable();
-    sample.dedup();
-    if sample.is_empty() {
-        return Ok(None);
+    let motions: Vec<(usize, FinalMotion)> = final_motions.known().collect();
+    match study.base.switching {
+        Switching::Filippov => Runner::<Filippov>::new(study, machine)?.complete_basin(&motions),
+        Switching::AsPrinted => Runner::<AsPrinted>::new(study, machine)?.complete_basin(&motions),
     }
-    let elsewhere = match study.base.switching {
-        Switching::Filippov => {
-            Runner::<Filippov>::new(study, machine)?.elsewhere(&sample, attractors)
-        }
-        Switching::AsPrinted => {
-            Runner::<AsPrinted>::new(study, machine)?.elsewhere(&sample, attractors)
-        }
-    };
-    Ok(Some(InferredSample { starts: sample.len(), elsewhere }))
+}
+
+/// Computes what the tiles of a refined map lack, as what crosses their boundaries shows, from what is `known` of the cases that
+/// have been computed.
+pub fn complete_map(
+    study: &Study,
+    known: &[(usize, MapPoint)],
+    machine: Machine,
+) -> Result<Vec<Record>, RunError> {
+    check(machine)?;
+    match study.base.switching {
+        Switching::Filippov => Runner::<Filippov>::new(study, machine)?.complete_map(known),
+        Switching::AsPrinted => Runner::<AsPrinted>::new(study, machine)?.complete_map(known),
+    }
+}
+
+/// The records of some cases of a refined study, in the order of their indices.
+pub(super) fn computed(
+    study: &Study,
+    cases: &[usize],
+    machine: Machine,
+) -> Result<Vec<Record>, RunError> {
+    check(machine)?;
+    let cases: Vec<(usize, usize)> = cases.iter().map(|&case| (case, 0)).collect();
+    let proceed = |_, _: &Record| ControlFlow::Continue(());
+    Ok(match study.base.switching {
+        Switching::Filippov => Runner::<Filippov>::new(study, machine)?.compute(&cases, proceed),
+        Switching::AsPrinted => Runner::<AsPrinted>::new(study, machine)?.compute(&cases, proceed),
+    })
 }
 
 /// What computes the cases of a study on demand.
@@ -105,17 +90,65 @@ struct Runner<'a, R: Reading> {
     known: Known<R>,
 }
 
-/// Some cases that are refined together, as far as they have been computed.
-struct Set {
-    refining: Refining<Label>,
-    table: Table<3>,
-    records: Vec<Record>,
+/// How the cases that have been computed are told apart.
+trait Sorting<R: Reading>: Sync {
+    /// What is told of a case.
+    type Label: Send + Sync;
+
+    /// Whether two cases are alike.
+    const ALIKE: fn(&Self::Label, &Self::Label) -> bool;
+
+    /// The labels of some records.
+    fn labels(&mut self, runner: &Runner<'_, R>, records: &[Record]) -> Vec<Self::Label>;
 }
 
-impl Set {
-    fn new(refining: Refining<Label>) -> Set {
-        Set { refining, table: Table::default(), records: Vec::new() }
+/// By the attractors of those that have been met.
+#[derive(Default)]
+struct ByAttractor(Table<3>);
+
+impl ByAttractor {
+    fn of<R: Reading>(
+        &mut self,
+        runner: &Runner<'_, R>,
+        motions: &[(usize, FinalMotion)],
+    ) -> Vec<Label> {
+        let before = self.0.of_case.len();
+        let motion = |place: usize| (motions[place].0, Some(motions[place].1));
+        let (system, protocol) = (&runner.system, &runner.study.protocol);
+        runner.pool.install(|| self.0.extend(motions.len(), motion, system, protocol, &Rayon));
+        self.0.of_case[before..].iter().map(|attractor| label(*attractor)).collect()
     }
+}
+
+impl<R: Reading> Sorting<R> for ByAttractor {
+    type Label = Label;
+    const ALIKE: fn(&Label, &Label) -> bool = are_alike;
+
+    fn labels(&mut self, runner: &Runner<'_, R>, records: &[Record]) -> Vec<Label> {
+        let motions: Vec<(usize, FinalMotion)> =
+            records.iter().map(|it| (it.index, final_motion(&it.orbit))).collect();
+        self.of(runner, &motions)
+    }
+}
+
+/// By their periods and outputs.
+#[derive(Default)]
+struct ByOutputs;
+
+impl<R: Reading> Sorting<R> for ByOutputs {
+    type Label = MapPoint;
+    const ALIKE: fn(&MapPoint, &MapPoint) -> bool = MapPoint::is_like;
+
+    fn labels(&mut self, runner: &Runner<'_, R>, records: &[Record]) -> Vec<MapPoint> {
+        records.iter().map(|record| MapPoint::of_record(runner.study, record)).collect()
+    }
+}
+
+/// Some cases that are refined together, as far as they have been computed.
+struct Set<S: Sorting<R>, R: Reading> {
+    refining: Refining<S::Label>,
+    sorting: S,
+    records: Vec<Record>,
 }
 
 impl<'a, R: Reading> Runner<'a, R> {
@@ -131,10 +164,27 @@ impl<'a, R: Reading> Runner<'a, R> {
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
         finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()>,
     ) {
+        match self.study.refine {
+            Some(Refine::Attractors) => self.run_by::<ByAttractor>(blocks, done, finished),
+            Some(Refine::Outputs(_)) => self.run_by::<ByOutputs>(blocks, done, finished),
+            None => {}
+        }
+    }
+
+    fn run_by<S: Sorting<R> + Default>(
+        &self,
+        blocks: &[usize],
+        done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
+        finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()>,
+    ) {
         let Some(refinement) = self.study.refinement() else { return };
         for numbers in blocks.chunks(TILES_TOGETHER) {
-            let tile = |&number| Set::new(Refining::tile(&refinement, number, are_alike));
-            let mut tiles: Vec<Set> = numbers.iter().map(tile).collect();
+            let tile = |&number| Set::<S, R> {
+                refining: Refining::tile(&refinement, number, S::ALIKE),
+                sorting: S::default(),
+                records: Vec::new(),
+            };
+            let mut tiles: Vec<_> = numbers.iter().map(tile).collect();
             if self.refine(&mut tiles, |place, record| done(numbers[place], record)).is_break() {
                 return;
             }
@@ -147,11 +197,27 @@ impl<'a, R: Reading> Runner<'a, R> {
         }
     }
 
-    fn complete(&self, refinement: &Refinement, final_motions: &FinalMotions) -> Vec<Record> {
-        let mut whole = Set::new(Refining::whole(refinement, are_alike));
-        let motions: Vec<(usize, FinalMotion)> = final_motions.known().collect();
-        self.sort(&mut whole, &motions);
-        let mut all = [whole];
+    fn complete_basin(&self, motions: &[(usize, FinalMotion)]) -> Result<Vec<Record>, RunError> {
+        let mut sorting = ByAttractor::default();
+        let labels = sorting.of(self, motions);
+        let cases = motions.iter().map(|(case, _)| *case);
+        Ok(self.complete(sorting, cases.zip(labels)))
+    }
+
+    fn complete_map(&self, known: &[(usize, MapPoint)]) -> Result<Vec<Record>, RunError> {
+        Ok(self.complete(ByOutputs, known.iter().cloned()))
+    }
+
+    /// What the whole grid lacks, of which some cases are known.
+    fn complete<S: Sorting<R>>(
+        &self,
+        sorting: S,
+        known: impl Iterator<Item = (usize, S::Label)>,
+    ) -> Vec<Record> {
+        let Some(refinement) = self.study.refinement() else { return Vec::new() };
+        let mut refining = Refining::whole(&refinement, S::ALIKE);
+        known.for_each(|(case, label)| refining.note(case, label));
+        let mut all = [Set::<S, R> { refining, sorting, records: Vec::new() }];
         // Nobody asks to stop.
         let _ = self.refine(&mut all, |_, _| ControlFlow::Continue(()));
         let [Set { mut records, .. }] = all;
@@ -159,24 +225,11 @@ impl<'a, R: Reading> Runner<'a, R> {
         records
     }
 
-    /// How many of some cases do not lead to the attractor that they have.
-    fn elsewhere(&self, cases: &[usize], attractors: &Attractors) -> usize {
-        let known = (0..).zip(&attractors.of_starts).collect();
-        let leads = Leads::new(self.system.clone(), (&self.study.protocol, self.machine), known);
-        let cases: Vec<(usize, usize)> = cases.iter().map(|&case| (case, 0)).collect();
-        let records = self.compute(&cases, |_, _| ControlFlow::Continue(()));
-        let goes_elsewhere = |record: &&Record| {
-            let number = leads.number(&final_motion(&record.orbit));
-            number != attractors.of_case[record.index]
-        };
-        records.iter().filter(goes_elsewhere).count()
-    }
-
     /// Computes what some sets of cases need, round by round, until none needs any more, or `done`, which is told of each
     /// record with the place of the first set that wants it, says to stop.
-    fn refine(
+    fn refine<S: Sorting<R>>(
         &self,
-        sets: &mut [Set],
+        sets: &mut [Set<S, R>],
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
     ) -> ControlFlow<()> {
         loop {
@@ -199,9 +252,9 @@ impl<'a, R: Reading> Runner<'a, R> {
                 let place = |case| all.partition_point(|(other, _)| *other < case);
                 let own = wanted.iter().map(|&case| records[place(case)].clone());
                 let own: Vec<Record> = own.collect();
-                let motions: Vec<(usize, FinalMotion)> =
-                    own.iter().map(|it| (it.index, final_motion(&it.orbit))).collect();
-                self.sort(set, &motions);
+                for (record, label) in own.iter().zip(set.sorting.labels(self, &own)) {
+                    set.refining.note(record.index, label);
+                }
                 set.records.extend(own);
             }
         }
@@ -225,16 +278,5 @@ impl<'a, R: Reading> Runner<'a, R> {
         let mut records = records.into_inner().expect("no thread has panicked");
         records.sort_by_key(|record: &Record| record.index);
         records
-    }
-
-    /// Notes which attractors some cases of a set lead to.
-    fn sort(&self, set: &mut Set, motions: &[(usize, FinalMotion)]) {
-        let before = set.table.of_case.len();
-        let motion = |place: usize| (motions[place].0, Some(motions[place].1));
-        let (system, protocol) = (&self.system, &self.study.protocol);
-        self.pool.install(|| set.table.extend(motions.len(), motion, system, protocol, &Rayon));
-        for ((case, _), attractor) in motions.iter().zip(&set.table.of_case[before..]) {
-            set.refining.note(*case, label(*attractor));
-        }
     }
 }

@@ -217,9 +217,17 @@ fn add_measures(dataset: &mut Dataset, table: &AttractorTable) {
     if let Some(Entropy { side, .. }) = table.entropy {
         whole(BASIN_ENTROPY_BOX, side);
     }
-    if let Some(InferredSample { starts, elsewhere }) = table.inferred {
-        whole(INFERRED_SAMPLE, starts);
-        whole(INFERRED_ELSEWHERE, elsewhere);
+    if let Some(sample) = table.inferred {
+        add_sample(dataset, sample);
+    }
+}
+
+/// Adds how many of a sample of inferred cases are not as was inferred.
+pub fn add_sample(dataset: &mut Dataset, sample: InferredSample) {
+    let InferredSample { cases, elsewhere } = sample;
+    for (entry, number) in [(INFERRED_SAMPLE, cases), (INFERRED_ELSEWHERE, elsewhere)] {
+        let number = ArrayD::from_elem(IxDyn(&[]), number as i64);
+        dataset.put(entry, &[], Values::Integer(number));
     }
 }
 

@@ -302,9 +302,10 @@ fn lock(path: &Path, company: Company) -> Result<Option<File>, StoreError> {
 /// A block in a few numbers.
 fn summary(study: &Study, number: usize, records: &[Record]) -> Summary {
     let mut outcomes = BTreeMap::new();
-    let cases = if study.refine { study.cases_of_block(number) } else { records.len() };
-    let own = if study.refine { study.block_cases(number) } else { Vec::new() };
-    let is_own = |record: &Record| !study.refine || own.binary_search(&record.index).is_ok();
+    let cases = if study.refine.is_some() { study.cases_of_block(number) } else { records.len() };
+    let own = if study.refine.is_some() { study.block_cases(number) } else { Vec::new() };
+    let is_own =
+        |record: &Record| study.refine.is_none() || own.binary_search(&record.index).is_ok();
     for record in records.iter().filter(|record| is_own(record)) {
         *outcomes.entry(record.orbit.outcome.name().to_owned()).or_default() += 1;
     }
@@ -325,7 +326,7 @@ fn columns(study: &Study, records: &[Record]) -> Vec<Column> {
             Column { name, numbers }
         })
         .collect();
-    if study.refine {
+    if study.refine.is_some() {
         let cases = records.iter().map(|record| record.index as i64).collect();
         columns.push(Column { name: CASE.to_owned(), numbers: Numbers::Integer(cases) });
     }

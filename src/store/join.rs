@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use crate::capsule::{REASONS, State};
+use crate::capsule::{Output, REASONS, State};
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
-use crate::run::{FinalMotion, FinalMotions, Record, final_motion};
+use crate::run::{
+    FinalMotion, FinalMotions, InferredCases, MapPoint, Record, final_motion, within,
+};
 use crate::study::Study;
 
 use super::block_file::{BlockFile, Summary, Unusable};
@@ -33,6 +35,8 @@ pub struct Blocks<'a> {
     pub missing: Vec<(usize, Unusable)>,
     /// Cases of a refined study that were computed once all tiles were there, in the order of their indices.
     between: Vec<Record>,
+    /// Cases of a refined map that are inferred.
+    inferred: InferredCases,
 }
 
 impl<'a> Blocks<'a> {
@@ -53,7 +57,7 @@ impl<'a> Blocks<'a> {
                 Err(why) => missing.push((number, why)),
             }
         }
-        Blocks { study, files, missing, between: Vec::new() }
+        Blocks { study, files, missing, between: Vec::new(), inferred: InferredCases::default() }
     }
 
     /// Adds cases of a refined study that were computed once all tiles were there, in the order of their indices.
@@ -61,9 +65,14 @@ impl<'a> Blocks<'a> {
         self.between = records;
     }
 
+    /// Adds what is inferred of the cases of a refined map.
+    pub fn infer(&mut self, inferred: InferredCases) {
+        self.inferred = inferred;
+    }
+
     /// The cases of a block file, in rising order, as its columns have them.
     fn cases_of(&self, file: &BlockFile) -> Result<Vec<usize>, StoreError> {
-        match self.study.refine {
+        match self.study.refine.is_some() {
             false => Ok(self.study.block_cases(file.head.block.number)),
             true => file.cases(CASE, self.study.cases()),
         }
@@ -108,11 +117,40 @@ impl<'a> Blocks<'a> {
         }
         let between = self.between.iter();
         known.extend(between.map(|it| (it.index, it.orbit.outcome as i64, it.orbit.cycles)));
-        if self.study.refine {
+        if self.study.refine.is_some() {
             // Neighbouring tiles both have the cases between them.
             known.sort_unstable();
             known.dedup_by_key(|(case, ..)| *case);
         }
+        Ok(known)
+    }
+
+    /// What tells the cases of a refined map apart that have been computed, each once, in the order of their indices.
+    pub fn map_points(&self) -> Result<Vec<(usize, MapPoint)>, StoreError> {
+        let of: Vec<Output> = within(self.study).iter().map(|(output, _)| *output).collect();
+        let kept = |output: &Output| self.study.outputs.contains(output);
+        let shares = kept(&Output::StickShare).then_some(Output::StickShare);
+        let of: Vec<Output> = of.into_iter().chain(shares).collect();
+        let mut known = Vec::new();
+        for file in &self.files {
+            let columns: Result<Vec<Vec<f64>>, StoreError> =
+                of.iter().map(|output| file.reals(output.name(), 1)).collect();
+            let (columns, motions) = (columns?, final_states(file)?);
+            for (place, (case, motion)) in self.cases_of(file)?.into_iter().zip(motions).enumerate()
+            {
+                let output = |output: Output| {
+                    let column = of.iter().position(|other| *other == output);
+                    column.map_or(f64::NAN, |column| columns[column][place])
+                };
+                let verdict = (motion.outcome, motion.period);
+                known.push((case, MapPoint::of(self.study, verdict, output)));
+            }
+        }
+        let between = self.between.iter();
+        known.extend(between.map(|it| (it.index, MapPoint::of_record(self.study, it))));
+        known.sort_by_key(|(case, _)| *case);
+        // Neighbouring tiles both have the cases between them.
+        known.dedup_by_key(|(case, _)| *case);
         Ok(known)
     }
 
@@ -153,7 +191,7 @@ impl<'a> Blocks<'a> {
         let ranges = self.files.iter().filter_map(|file| file.range(name)).chain(between).flatten();
         // The numbers for missing and inferred cases occur too.
         let missing = (!self.missing.is_empty()).then_some([MISSING.0, 0]);
-        let inferred = self.study.refine.then_some([INFERRED.0, 0]);
+        let inferred = self.study.refine.is_some().then_some([INFERRED.0, 0]);
         let absent = missing.into_iter().chain(inferred).flatten();
         let all: Vec<i64> = ranges.chain(absent).collect();
         let range = all.iter().min().zip(all.iter().max()).map(|(&low, &high)| [low, high]);
@@ -173,7 +211,7 @@ impl<'a> Blocks<'a> {
             if own[own.len() - 1] < first || own[0] > last {
                 continue;
             }
-            if self.study.refine && name == OUTCOME.name {
+            if self.study.refine.is_some() && name == OUTCOME.name {
                 filling.put_each(own.iter().map(|&case| slab.place(&shape, case)), INFERRED.0);
             }
         }
@@ -193,7 +231,26 @@ impl<'a> Blocks<'a> {
             Values::Real(own) => filling.put_reals(places, own.as_slice().expect("a table")),
             Values::Integer(own) => filling.put_integers(places, own.as_slice().expect("a table")),
         }
+        self.fill_inferred(name, slab, &mut filling);
         Ok(filling.finish())
+    }
+
+    /// Puts the numbers of a variable that are inferred in their places.
+    fn fill_inferred(&self, name: &str, slab: &Slab, filling: &mut Filling) {
+        let InferredCases { cases, periods, rests, values } = &self.inferred;
+        let shape = self.study.shape();
+        let places = cases.iter().map(|&case| slab.place(&shape, case));
+        let refined = within(self.study).iter().position(|(output, _)| output.name() == name);
+        if name == PERIOD.name {
+            let periods: Vec<i64> = periods.iter().map(|period| i64::from(*period)).collect();
+            filling.put_integers(places, &periods);
+        } else if let Some(values) = refined.and_then(|of| values.get(of)) {
+            filling.put_reals(places, values);
+        } else if name == Output::StickShare.name() {
+            let shares: Vec<f64> =
+                rests.iter().map(|rests| if *rests { 1.0 } else { f64::NAN }).collect();
+            filling.put_reals(places, &shares);
+        }
     }
 
     /// Adds the program that wrote each block, and its number of cases.
@@ -223,7 +280,8 @@ impl<'a> Blocks<'a> {
 /// Whether a block file has as many cases as its study says; a tile has those that it has needed.
 fn has_cases_of(file: &BlockFile, study: &Study, number: usize) -> bool {
     let block = &file.head.block;
-    block.cases == study.cases_of_block(number) && (study.refine || block.computed == block.cases)
+    block.cases == study.cases_of_block(number)
+        && (study.refine.is_some() || block.computed == block.cases)
 }
 
 /// Keeps the cases of an older file of the results of `study` in the file at `path`, beside what `frame` holds, which is

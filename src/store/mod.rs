@@ -26,7 +26,7 @@ pub mod schema;
 mod checksum;
 pub mod block_file;
 
-pub use attractors::add_attractors;
+pub use attractors::{add_attractors, add_sample};
 pub use block_file::{Summary, Unusable};
 pub use block_folder::{BlockFolder, Company, by_outcome, packed_bytes};
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};

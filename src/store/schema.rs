@@ -56,7 +56,7 @@ pub(super) fn over_axes(
     if is_partial && name == OUTCOME.name {
         flags.insert(0, (MISSING.0, MISSING.1.to_owned()));
     }
-    if study.refine && name == OUTCOME.name {
+    if study.refine.is_some() && name == OUTCOME.name {
         flags.insert(0, (INFERRED.0, INFERRED.1.to_owned()));
     }
     Variable { dimensions, flags, ..variable }

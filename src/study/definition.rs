@@ -8,7 +8,7 @@ use crate::capsule::{Case, Output, Parameters, State};
 use crate::orbit::Protocol;
 
 use super::grid::Chain;
-use super::{Axis, CaseSet, Continuation, Direction, Drawing, Grid, Inherit, Refinement};
+use super::{Axis, CaseSet, Continuation, Direction, Drawing, Grid, Inherit, Refine, Refinement};
 
 /// What to compute.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,9 +32,9 @@ pub struct Study {
     /// Whether a case that enters a neighbourhood of an orbit which another start has led to is followed no further; of
     /// studies whose cases differ in their starts alone.
     pub early_decision: bool,
-    /// Whether a grid of starts is computed only where neighbouring starts lead to different attractors, see
-    /// [`Refinement`]; the others are inferred.
-    pub refine: bool,
+    /// What tells neighbouring cases apart where a grid is computed only between cases that differ, see [`Refinement`]; the
+    /// others are inferred.
+    pub refine: Option<Refine>,
     /// The outputs to keep.
     pub outputs: Vec<Output>,
     /// The branches of periodic orbits to continue.
@@ -56,7 +56,7 @@ impl Default for Study {
             case_set: CaseSet::default(),
             protocol: Protocol::default(),
             early_decision: true,
-            refine: false,
+            refine: None,
             outputs: Output::ALL.to_vec(),
             branches: Vec::new(),
             drawings: Vec::new(),
@@ -92,7 +92,7 @@ impl Study {
 
     /// How the grid is refined, if it is.
     pub fn refinement(&self) -> Option<Refinement> {
-        self.refine.then(|| Refinement::of(&self.shape()))
+        self.refine.as_ref().map(|_| Refinement::of(&self.shape()))
     }
 
     fn grid(&self) -> Option<&Grid> {

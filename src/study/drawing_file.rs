@@ -6,7 +6,7 @@ use crate::capsule::{Dimension, Output, Parameter};
 
 use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
-use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind};
+use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine};
 
 /// The unit of widths [m].
 const MILLIMETRE: f64 = 1e-3;
@@ -19,7 +19,7 @@ pub(super) fn read_drawings(
     top: &Table<'_, '_>,
     case_set: &CaseSet,
     branches: &[Continuation],
-    outputs: &[Output],
+    (outputs, refine): (&[Output], Option<&Refine>),
 ) -> Vec<Drawing> {
     let entries = top.entry("figures").map(|entry| entry.list()).unwrap_or_default();
     let mut drawings: Vec<Drawing> = Vec::new();
@@ -27,6 +27,11 @@ pub(super) fn read_drawings(
         let drawing = read_drawing(&table, case_set.axes(), branches, outputs);
         if let (CaseSet::Draws(_), Some(kind)) = (case_set, table.entry("kind")) {
             refuse_without_grid(&kind, drawing.kind);
+        }
+        if let (Some(Refine::Outputs(_)), Some(kind)) = (refine, table.entry("kind"))
+            && !matches!(drawing.kind, DrawingKind::Map | DrawingKind::Curves)
+        {
+            kind.fault("most cases of a refined map are inferred, and only a map shows those");
         }
         let alike = |other: &Drawing| other.name.eq_ignore_ascii_case(&drawing.name);
         if let Some(name) = table.entry("name").filter(|_| drawings.iter().any(alike)) {

@@ -25,6 +25,8 @@ fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {
         Dimension::Velocity => &[("m/s", 1.0), ("mm/s", 1e-3), ("cm/s", 1e-2), ("um/s", 1e-6)],
         Dimension::Acceleration => &[("m/s2", 1.0), ("mm/s2", 1e-3)],
         Dimension::Angle => &[("rad", 1.0), ("deg", PI / 180.0)],
+        Dimension::Energy => &[("J", 1.0), ("mJ", 1e-3), ("uJ", 1e-6)],
+        Dimension::Rate => &[("1/s", 1.0)],
         Dimension::Number => &[("", 1.0), ("%", 1e-2)],
     }
 }
@@ -42,23 +44,11 @@ fn name(dimension: Dimension) -> &'static str {
         Dimension::Velocity => "a velocity",
         Dimension::Acceleration => "an acceleration",
         Dimension::Angle => "an angle",
+        Dimension::Energy => "an energy",
+        Dimension::Rate => "a rate",
         Dimension::Number => "a plain number",
     }
 }
-
-const DIMENSIONS: [Dimension; 11] = [
-    Dimension::Mass,
-    Dimension::Stiffness,
-    Dimension::Damping,
-    Dimension::QuadraticDamping,
-    Dimension::Length,
-    Dimension::Force,
-    Dimension::AngularFrequency,
-    Dimension::Velocity,
-    Dimension::Acceleration,
-    Dimension::Angle,
-    Dimension::Number,
-];
 
 /// What is expected where a quantity of `dimension` stands, with its units.
 pub fn expectation(dimension: Dimension) -> String {
@@ -91,7 +81,7 @@ pub fn parse_in(text: &str, dimension: Dimension, unit_size: f64) -> Result<f64,
     if let Some(size) = size_in(dimension) {
         return Ok(value * (size / unit_size));
     }
-    let found = match DIMENSIONS.into_iter().find(|&other| size_in(other).is_some()) {
+    let found = match Dimension::ALL.into_iter().find(|&other| size_in(other).is_some()) {
         Some(Dimension::Number) if unit.is_empty() => "has no unit".to_owned(),
         Some(other) => format!("is {}", name(other)),
         None => format!("has the unknown unit \"{unit}\""),

@@ -1,7 +1,9 @@
 //! Which cases of a grid are computed where it is refined between cases that differ, and which are inferred.
 
-/// The most axes of a refined grid: the coordinates of a start.
-const AXES: usize = 5;
+use crate::capsule::Output;
+
+/// The most axes of a refined grid.
+pub const AXES: usize = 5;
 
 /// The first cells of a grid: so many at least along the shortest axis, by the number of its axes.
 const COARSE: [usize; AXES] = [64, 64, 16, 8, 4];
@@ -11,6 +13,15 @@ const TILE: [usize; AXES] = [16384, 128, 32, 8, 8];
 
 /// The position of a case along each axis; axes that a grid lacks come first and have one value.
 type Position = [usize; AXES];
+
+/// What tells the cases of a refined grid apart.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Refine {
+    /// The attractors that starts lead to.
+    Attractors,
+    /// The periods, and some outputs, each with the most by which two known cases of a cell may differ [SI].
+    Outputs(Vec<(Output, f64)>),
+}
 
 /// How a grid is refined.
 ///
@@ -152,6 +163,15 @@ impl Region {
         Some(place)
     }
 
+    /// The weight of one of its corners in linear interpolation at a position inside.
+    fn weight(&self, corner: &Position, at: &Position) -> f64 {
+        let along = |axis: usize| match self.high[axis] - self.low[axis] {
+            0 => 1.0,
+            length => 1.0 - corner[axis].abs_diff(at[axis]) as f64 / length as f64,
+        };
+        (0..AXES).map(along).product()
+    }
+
     /// Calls a function with each position, the last axis fastest.
     fn each(&self, mut call: impl FnMut(Position)) {
         let mut at = self.low;
@@ -210,8 +230,9 @@ impl<T> Refining<T> {
         wanted
     }
 
-    /// Calls a function with each case that has not been computed, and the label of the cell in which it lies.
-    pub fn inferred(&self, mut call: impl FnMut(usize, &T)) {
+    /// Calls a function with each case that has not been computed, and the labels of the corners of the cell in which it lies,
+    /// each with its weight in linear interpolation over the places along the axes; the least corner first.
+    pub fn inferred(&self, mut call: impl FnMut(usize, &[(f64, &T)])) {
         self.each_coarse(|cell| self.infer(cell, &mut call));
     }
 
@@ -235,17 +256,26 @@ impl<T> Refining<T> {
         }
     }
 
-    fn infer(&self, cell: Cell, call: &mut impl FnMut(usize, &T)) {
+    fn infer(&self, cell: Cell, call: &mut impl FnMut(usize, &[(f64, &T)])) {
         if cell.size == 1 {
             return;
         }
         if self.is_split(cell) {
             return self.each_child(cell, |child| self.infer(child, call));
         }
-        let Some(label) = self.label(&cell.low) else { return };
-        self.box_of(cell).each(|at| {
+        let inside = self.box_of(cell);
+        let mut corners = Vec::new();
+        each_of(&self.corners(cell), |at| corners.push((at, self.label(&at))));
+        let known: Option<Vec<(Position, &T)>> =
+            corners.into_iter().map(|(at, label)| Some((at, label?))).collect();
+        let Some(corners) = known else { return };
+        let mut weighted: Vec<(f64, &T)> = corners.iter().map(|(_, label)| (0.0, *label)).collect();
+        inside.each(|at| {
             if self.label(&at).is_none() {
-                call(self.refinement.index(&at), label);
+                for ((weight, _), (corner, _)) in weighted.iter_mut().zip(&corners) {
+                    *weight = inside.weight(corner, &at);
+                }
+                call(self.refinement.index(&at), &weighted);
             }
         });
     }

@@ -11,8 +11,9 @@ use super::branch_file::{Surroundings, read_branches};
 use super::definition::Study;
 use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
+use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
-use super::{CaseSet, Coordinate};
+use super::{Coordinate, Refine};
 
 /// More numbers in the results than this (32 GB) are too, rather than found out after a night.
 const MOST_NUMBERS: usize = 4_000_000_000;
@@ -44,6 +45,8 @@ impl Study {
         let protocol = read_protocol(&top);
         let basin = read_basin(&top, &case_set);
         let outputs = read_outputs(&top);
+        let refine =
+            read_map(&top, &case_set, &outputs).or(basin.refine.then_some(Refine::Attractors));
         let surroundings = Surroundings { case_set: &case_set, base: &base, start };
         let branches = read_branches(&top, &surroundings);
         let study = Study {
@@ -55,8 +58,8 @@ impl Study {
             section_phase: start.section_phase,
             protocol,
             early_decision: basin.early_decision,
-            refine: basin.refine,
-            drawings: read_drawings(&top, &case_set, &branches, &outputs),
+            drawings: read_drawings(&top, &case_set, &branches, (&outputs, refine.as_ref())),
+            refine,
             outputs,
             branches,
             case_set,
@@ -175,30 +178,6 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
         HistorySpan { cycles, per_cycle, from_start: from.unwrap_or(false) }
     });
     protocol
-}
-
-/// What `[basin]` says, which only a study has whose cases differ in their starts alone.
-struct Basin {
-    early_decision: bool,
-    refine: bool,
-}
-
-fn read_basin(top: &Table<'_, '_>, case_set: &CaseSet) -> Basin {
-    let mut basin = Basin { early_decision: true, refine: false };
-    let Some(table) = top.table("basin") else { return basin };
-    let is_for = |key: &str, value: &mut bool, applies: bool, which: &str| {
-        let Some(entry) = table.entry(key) else { return };
-        if !applies {
-            entry.fault(format!("is for {which} whose cases differ in their starts alone"));
-        }
-        *value = entry.truth().unwrap_or(*value);
-    };
-    let of_starts = case_set.varies_starts_alone();
-    is_for("early_decision", &mut basin.early_decision, of_starts, "studies");
-    let is_grid = matches!(case_set, CaseSet::Grid(_));
-    is_for("refine", &mut basin.refine, of_starts && is_grid, "grids, not for [draws],");
-    table.finish();
-    basin
 }
 
 fn read_outputs(top: &Table<'_, '_>) -> Vec<Output> {

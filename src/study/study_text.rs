@@ -9,8 +9,8 @@ use super::continuation::FirstOrbit;
 use super::draws::Range;
 use super::toml_text::{Document, inline, list, number, quantity, text};
 use super::{
-    Axis, CaseSet, Continuation, Coordinate, Drawing, Draws, Fault, Faults, Grid, Inherit, Spacing,
-    Study,
+    Axis, CaseSet, Continuation, Coordinate, Drawing, Draws, Fault, Faults, Grid, Inherit, Refine,
+    Spacing, Study,
 };
 
 impl Study {
@@ -257,8 +257,15 @@ fn write_basin(document: &mut Document, study: &Study) {
         document.table("basin");
         document.put("early_decision", study.early_decision);
         if let CaseSet::Grid(_) = study.case_set {
-            document.put("refine", study.refine);
+            document.put("refine", study.refine.is_some());
         }
+    }
+    if let Some(Refine::Outputs(within)) = &study.refine {
+        document.table("map");
+        let one = |(output, most): &(Output, f64)| {
+            (output.name().to_owned(), quantity(*most, output.dimension()))
+        };
+        document.put("refine", inline(within.iter().map(one)));
     }
 }
 

@@ -127,7 +127,7 @@ fn what_a_study_may_draw_is_in_the_catalogue() {
 }
 
 /// Studies that together have all that a file of results can hold.
-const STUDIES: [&str; 5] = [
+const STUDIES: [&str; 6] = [
     r#"
 [parameters]
 m2 = "0.2 kg"
@@ -223,6 +223,23 @@ to = "1.5 m/s"
 points = 130
 [basin]
 refine = true
+"#,
+    r#"
+[parameters]
+k2 = "18.96 kN/m"
+delta = "1.5 mm"
+[[axes]]
+name = "p_d"
+from = "1 N"
+to = "3 N"
+points = 129
+[[axes]]
+name = "omega"
+from = "20 rad/s"
+to = "22 rad/s"
+points = 2
+[map]
+refine = { progression_speed = "1 mm/s", work_positive = "1 mJ" }
 "#,
 ];
 

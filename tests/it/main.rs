@@ -63,6 +63,7 @@ mod reading;
 mod readme;
 mod reference;
 mod refined_basins;
+mod refined_maps;
 mod refinement;
 mod rigid_branches;
 mod saddles;

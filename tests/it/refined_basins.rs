@@ -101,6 +101,16 @@ fn a_refined_basin_is_the_full_one_for_less() {
     let picture = std::fs::read_to_string(folder.path("results/refined/settling.svg"));
     assert!(picture.expect("a picture").contains("inferred, not followed"));
     folder.run(&["verify", "results/refined/refined.h5", "--cases", "300"]).done();
+    let shown = folder.run(&["inspect", "results/refined/refined.h5"]).done().out;
+    assert!(
+        shown.contains("saddles on the boundaries") && shown.contains(" 1  period "),
+        "{shown}"
+    );
+    let listed = folder.run(&["inspect", "results/refined/refined.h5", "--json"]).json();
+    let shares = column(&refined, "attractor_share");
+    assert_eq!(listed["attractors"].as_array().map(Vec::len), Some(shares.len()));
+    let second = listed["attractors"][1]["share"].as_f64().expect("a share");
+    assert!((second - shares[1]).abs() < 1e-12, "{second}");
 }
 
 #[test]

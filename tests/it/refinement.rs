@@ -20,8 +20,9 @@ fn refined(shape: &[usize], label: impl Fn(usize) -> u32) -> (Vec<u32>, Vec<bool
     for case in (0..cases).filter(|case| computed[*case]) {
         labels[case] = Some(label(case));
     }
-    whole.inferred(|case, inferred| {
-        assert!(!computed[case]);
+    whole.inferred(|case, corners| {
+        let (_, inferred) = corners[0];
+        assert!(!computed[case] && corners.iter().all(|(_, label)| *label == inferred));
         assert!(
             labels[case].is_none_or(|other| other == *inferred),
             "{case} is inferred in two ways"
@@ -142,5 +143,40 @@ fn every_case_belongs_to_one_tile() {
             cases.into_iter().for_each(|case| seen[case] += 1);
         }
         assert!(seen.iter().all(|count| *count == 1), "{shape:?}");
+    }
+}
+
+/// A field that is linear along each axis is interpolated without error, and one that is not within its spread in a cell.
+#[test]
+fn inferred_values_are_interpolated_between_the_corners() {
+    for shape in [vec![300, 260], vec![70, 70, 40]] {
+        let (refinement, cases) = (Refinement::of(&shape), shape.iter().product());
+        let linear = |at: &[f64]| at.iter().map(|x| 3.0 + 2.0 * x).product::<f64>();
+        let bent = |at: &[f64]| 20.0 * (4.0 * at[0]).sin() * at[1].exp() + at.iter().sum::<f64>();
+        let labels = |case: usize| {
+            let at = place(case, &shape);
+            [linear(&at), bent(&at)]
+        };
+        let alike: fn(&[f64; 2], &[f64; 2]) -> bool = |a, b| (a[1] - b[1]).abs() <= 0.5;
+        let mut refining = Refining::whole(&refinement, alike);
+        let (mut computed, mut inferred) = (0, 0);
+        loop {
+            let wanted = refining.wanted();
+            if wanted.is_empty() {
+                break;
+            }
+            computed += wanted.len();
+            wanted.into_iter().for_each(|case| refining.note(case, labels(case)));
+        }
+        refining.inferred(|case, corners| {
+            let weights: f64 = corners.iter().map(|(weight, _)| weight).sum();
+            let value = |of: usize| corners.iter().map(|(weight, it)| weight * it[of]).sum::<f64>();
+            let truth = labels(case);
+            assert!((weights - 1.0).abs() < 1e-12);
+            assert!((value(0) - truth[0]).abs() < 1e-10, "{} {}", value(0), truth[0]);
+            assert!((value(1) - truth[1]).abs() <= 1.0, "{} {}", value(1), truth[1]);
+            inferred += 1;
+        });
+        assert!(inferred > cases / 10 && inferred + computed >= cases, "{inferred} {computed}");
     }
 }

@@ -48,9 +48,9 @@ entries! {
         "imaginary part of a Floquet multiplier of the attractor";
 
     INFERRED_SAMPLE "inferred_sample" "1" Once, Whole, None,
-        "inferred starts that were computed as a check";
+        "inferred cases that were computed as a check";
     INFERRED_ELSEWHERE "inferred_elsewhere" "1" Once, Whole, None,
-        "those of the sample that do not lead to the attractor that was inferred";
+        "those of the sample that lead to another attractor than was inferred, or whose period or outputs differ more than the study allows";
 
     EDGE_INDEX "edge_index" "1" Dimension, Whole, None,
         "saddle on the boundary of two basins";

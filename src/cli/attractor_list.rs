@@ -1,0 +1,96 @@
+//! The attractors of the starts of a study, and the saddles between their basins, as tables on the terminal.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::capsule::Output;
+use crate::store::catalogue::{
+    ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, EDGE_HIGH, EDGE_LOW,
+    EDGE_MULTIPLIER_REAL, EDGE_PERIOD, Place,
+};
+use crate::store::{Dataset, Variable};
+
+/// The attractors in the order of their numbers, each as an object; empty where the file has no table of them.
+pub fn attractors(dataset: &Dataset) -> Vec<Value> {
+    let column = |name: &str| numbers(dataset, name);
+    let output = |output: Output| column(&Place::Attractor.name(output.name()));
+    let kinds = column(ATTRACTOR_KIND.name);
+    let flags = dataset.variable(ATTRACTOR_KIND.name).map_or(&[][..], |it| &it.flags);
+    let kind = |code: f64| flags.iter().find(|(it, _)| *it as f64 == code).map(|(_, name)| name);
+    let periods = column(ATTRACTOR_PERIOD.name);
+    let [shares, errors] = [ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR].map(|it| column(it.name));
+    let (speeds, energies) = (output(Output::ProgressionSpeed), output(Output::WorkPositive));
+    let at = |column: &[f64], number: usize| column.get(number).copied();
+    let one = |number: usize| {
+        json!({
+            "attractor": number,
+            "kind": kind(kinds[number]),
+            "period": at(&periods, number).filter(|period| *period > 0.0).map(|it| it as u64),
+            "progression_speed": at(&speeds, number),
+            "work_positive": at(&energies, number),
+            "share": at(&shares, number),
+            "share_error": at(&errors, number),
+        })
+    };
+    (0..kinds.len()).map(one).collect()
+}
+
+/// The saddles, each as an object; empty where the file has none.
+pub fn saddles(dataset: &Dataset) -> Vec<Value> {
+    let column = |name: &str| numbers(dataset, name);
+    let [low, high, period] = [EDGE_LOW, EDGE_HIGH, EDGE_PERIOD].map(|it| column(it.name));
+    let multipliers = column(EDGE_MULTIPLIER_REAL.name);
+    let width = multipliers.len().checked_div(low.len()).unwrap_or(0);
+    let one = |place: usize| {
+        json!({
+            "between": [low[place] as u64, high[place] as u64],
+            "period": period[place] as u64,
+            "multipliers_real": multipliers[place * width..(place + 1) * width],
+        })
+    };
+    (0..low.len()).map(one).collect()
+}
+
+/// Both as tables; empty where there is neither.
+pub fn tables(dataset: &Dataset) -> String {
+    let mut text = String::new();
+    let (attractors, saddles) = (attractors(dataset), saddles(dataset));
+    let number = |value: &Value| value.as_f64().map_or("-".to_owned(), |it| format!("{it:.6}"));
+    if !attractors.is_empty() {
+        text.push_str("\nattractors, by their numbers in the file; figures count from 1\n");
+        let _ = writeln!(
+            text,
+            "  {:>3}  {:<14} {:>12}  {:>12}  share of the starts",
+            "", "motion", "speed [m/s]", "work_positive [J]"
+        );
+        for it in &attractors {
+            let kind = it["kind"].as_str().unwrap_or("-");
+            let motion = it["period"].as_u64().map_or(kind.to_owned(), |it| format!("period {it}"));
+            let [speed, work] = ["progression_speed", "work_positive"].map(|key| number(&it[key]));
+            let [share, error] = ["share", "share_error"].map(|key| number(&it[key]));
+            let _ = writeln!(
+                text,
+                "  {:>3}  {motion:<14} {speed:>12}  {work:>17}  {share} ± {error}",
+                it["attractor"]
+            );
+        }
+    }
+    if !saddles.is_empty() {
+        text.push_str("\nsaddles on the boundaries of their basins\n");
+        for it in &saddles {
+            let [low, high] = [0, 1].map(|end| &it["between"][end]);
+            let largest = number(&it["multipliers_real"][0]);
+            let period = &it["period"];
+            let _ =
+                writeln!(text, "  between {low} and {high}: period {period}, multiplier {largest}");
+        }
+    }
+    text
+}
+
+/// The numbers of a variable as they are stored; none where there is none.
+fn numbers(dataset: &Dataset, name: &str) -> Vec<f64> {
+    let all = |variable: &Variable| variable.values.to_real().into_iter().collect();
+    dataset.variable(name).map_or(Vec::new(), all)
+}

@@ -1,0 +1,90 @@
+//! A sample of the cases that are inferred is computed as a check.
+
+use crate::capsule::{AsPrinted, Filippov, Reading, Switching};
+use crate::study::Study;
+
+use super::cases::spread;
+use super::leads::Leads;
+use super::map_point::{InferredCases, MapPoint};
+use super::refined::computed;
+use super::{Attractors, FinalMotions, Machine, Record, RunError, final_motion};
+
+/// How many cases of a sample of those that are inferred are not as was inferred: lead to another attractor, or to none that is
+/// known; of a map, differ by more than the study allows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct InferredSample {
+    /// Cases of the sample.
+    pub cases: usize,
+    /// Those that are not as was inferred.
+    pub elsewhere: usize,
+}
+
+/// Cases of the sample.
+const SAMPLE: usize = 1000;
+
+/// Computes a sample of the starts whose attractors are inferred, spread evenly over the grid; none where none is.
+pub fn check_starts(
+    study: &Study,
+    attractors: &Attractors,
+    final_motions: &FinalMotions,
+    machine: Machine,
+) -> Result<Option<InferredSample>, RunError> {
+    let is_inferred =
+        |case: usize| attractors.of_case[case].is_some() && final_motions.get(case).is_none();
+    let sample = sample(study.cases(), is_inferred);
+    if sample.is_empty() {
+        return Ok(None);
+    }
+    let records = computed(study, &sample, machine)?;
+    let elsewhere = match study.base.switching {
+        Switching::Filippov => elsewhere::<Filippov>(study, &records, attractors, machine),
+        Switching::AsPrinted => elsewhere::<AsPrinted>(study, &records, attractors, machine),
+    };
+    Ok(Some(InferredSample { cases: sample.len(), elsewhere }))
+}
+
+/// How many of some starts do not lead to the attractor that they have.
+fn elsewhere<R: Reading>(
+    study: &Study,
+    records: &[Record],
+    attractors: &Attractors,
+    machine: Machine,
+) -> usize {
+    let known = (0..).zip(&attractors.of_starts).collect();
+    let system = study.case(0).read::<R>().system;
+    let leads = Leads::new(system, (&study.protocol, machine), known);
+    let goes_elsewhere = |record: &&Record| {
+        let number = leads.number(&final_motion(&record.orbit));
+        number != attractors.of_case[record.index]
+    };
+    records.iter().filter(goes_elsewhere).count()
+}
+
+/// Computes a sample of the cases of a refined map that are inferred, spread evenly over the grid; none where none is.
+pub fn check_cases(
+    study: &Study,
+    inferred: &InferredCases,
+    machine: Machine,
+) -> Result<Option<InferredSample>, RunError> {
+    let place = |case: usize| inferred.cases.binary_search(&case).ok();
+    let sample = sample(study.cases(), |case| place(case).is_some());
+    if sample.is_empty() {
+        return Ok(None);
+    }
+    let is_elsewhere = |record: &&Record| {
+        let inferred = place(record.index).map(|place| inferred.at(study, place));
+        inferred.is_none_or(|it| !MapPoint::of_record(study, record).confirms(&it))
+    };
+    let records = computed(study, &sample, machine)?;
+    let elsewhere = records.iter().filter(is_elsewhere).count();
+    Ok(Some(InferredSample { cases: sample.len(), elsewhere }))
+}
+
+/// A sample of those of so many cases that are inferred, spread evenly over the grid.
+fn sample(cases: usize, is_inferred: impl Fn(usize) -> bool) -> Vec<usize> {
+    let places = (0..cases.min(64 * SAMPLE)).map(|place| spread(place, cases));
+    let mut sample: Vec<usize> = places.filter(|case| is_inferred(*case)).take(SAMPLE).collect();
+    sample.sort_unstable();
+    sample.dedup();
+    sample
+}
