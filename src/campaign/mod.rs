@@ -34,5 +34,5 @@ pub use request::{BranchesDone, Campaign, Complete, Done};
 pub use result_file::{block_path, output_path};
 pub use share::Task;
 pub use status::{BlockStatus, Pace, Status};
-pub use study_source::{read_study, study_of};
+pub use study_source::{read_study, read_study_or_results, study_of};
 pub use verify::{Difference, Differs, Sample, Verified, verify};

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::store::Archive;
 use crate::store::catalogue::STUDY_TEXT;
+use crate::store::{self, Archive};
 use crate::study::Study;
 
 use super::error::CampaignError;
@@ -16,6 +16,20 @@ const HDF5: &[u8] = b"\x89HDF";
 /// Fails if the file cannot be read or is no text, and with all faults of the study at once.
 pub fn read_study(path: &Path) -> Result<Study, CampaignError> {
     Ok(Study::parse(&path.display().to_string(), &text(path)?)?)
+}
+
+/// The study in the file at `path`, which may be a file of results, too.
+///
+/// Fails as [`read_study`] does, or if the results cannot be read.
+pub fn read_study_or_results(path: &Path) -> Result<Study, CampaignError> {
+    let begins = std::fs::File::open(path).and_then(|mut file| {
+        let mut first = [0; HDF5.len()];
+        std::io::Read::read_exact(&mut file, &mut first).map(|()| first == HDF5)
+    });
+    match begins {
+        Ok(true) => study_of(&store::open(path)?, path),
+        _ => read_study(path),
+    }
 }
 
 /// The text of a study file.

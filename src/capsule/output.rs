@@ -44,6 +44,8 @@ outputs! {
     EnergyResidual "energy_residual" "1" "work_net less both losses, relative to work_absolute";
     MomentumResidual "momentum_residual" "1" "mean friction force, relative to the drive and break-away forces";
     CostOfTransport "cost_of_transport" "1" "work_positive over weight times progression";
+    Power "power" "W" "work_positive over time";
+    EnergyPerMetre "energy_per_metre" "J/m" "work_positive over the distance of the progression";
     ImpactsPerCycle "impacts_per_cycle" "1" "impacts per cycle";
     ForwardSlips "forward_slips_per_cycle" "1" "episodes of forward sliding per cycle";
     BackwardSlips "backward_slips_per_cycle" "1" "episodes of backward sliding per cycle";

@@ -27,6 +27,10 @@ pub enum Dimension {
     Angle,
     /// Energy [J].
     Energy,
+    /// Power [W].
+    Power,
+    /// Energy over a distance [J/m].
+    EnergyPerLength,
     /// Rate of growth [1/s].
     Rate,
     /// A plain number.
@@ -35,7 +39,7 @@ pub enum Dimension {
 
 impl Dimension {
     /// All of them.
-    pub const ALL: [Dimension; 13] = [
+    pub const ALL: [Dimension; 15] = [
         Dimension::Mass,
         Dimension::Stiffness,
         Dimension::Damping,
@@ -47,6 +51,8 @@ impl Dimension {
         Dimension::Acceleration,
         Dimension::Angle,
         Dimension::Energy,
+        Dimension::Power,
+        Dimension::EnergyPerLength,
         Dimension::Rate,
         Dimension::Number,
     ];
@@ -65,6 +71,8 @@ impl Dimension {
             Dimension::Acceleration => "m/s2",
             Dimension::Angle => "rad",
             Dimension::Energy => "J",
+            Dimension::Power => "W",
+            Dimension::EnergyPerLength => "J/m",
             Dimension::Rate => "1/s",
             Dimension::Number => "1",
         }

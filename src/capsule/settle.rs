@@ -227,16 +227,18 @@ fn summed(
     let losses = energies.friction_loss + energies.damper_loss;
     // Without a drive only losses are left to measure against.
     let exchanged = energies.work_absolute.max(losses);
+    let work_positive = energies.work_positive / cycles;
     let cost_of_transport = if moves {
-        energies.work_positive / cycles / (parameters.normal_load() * progression.abs())
+        work_positive / (parameters.normal_load() * progression.abs())
     } else {
         f64::INFINITY
     };
+    let energy_per_metre = if moves { work_positive / progression.abs() } else { f64::INFINITY };
     for (output, value) in [
         (Output::ProgressionSpeed, progression / parameters.drive_period()),
         (Output::ProgressionPerCycle, progression),
         (Output::WorkNet, energies.work_net / cycles),
-        (Output::WorkPositive, energies.work_positive / cycles),
+        (Output::WorkPositive, work_positive),
         (Output::WorkAbsolute, energies.work_absolute / cycles),
         (Output::WorkActuator, energies.work_actuator / cycles),
         (Output::FrictionLoss, energies.friction_loss / cycles),
@@ -244,6 +246,8 @@ fn summed(
         (Output::EnergyResidual, ratio(energies.work_net - losses, exchanged)),
         (Output::MomentumResidual, momentum_residual(account, parameters)),
         (Output::CostOfTransport, cost_of_transport),
+        (Output::Power, work_positive / parameters.drive_period()),
+        (Output::EnergyPerMetre, energy_per_metre),
         (Output::ImpactsPerCycle, account.impacts / cycles),
         (Output::ForwardSlips, account.forward_slips / cycles),
         (Output::BackwardSlips, account.backward_slips / cycles),

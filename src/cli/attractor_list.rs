@@ -6,10 +6,14 @@ use serde_json::{Value, json};
 
 use crate::capsule::Output;
 use crate::store::catalogue::{
-    ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, EDGE_HIGH, EDGE_LOW,
-    EDGE_MULTIPLIER_REAL, EDGE_PERIOD, Place,
+    ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, EDGE_HIGH,
+    EDGE_LOW, EDGE_MULTIPLIER_REAL, EDGE_PERIOD, PERIOD, Place,
 };
 use crate::store::{Dataset, Variable};
+
+/// The outputs that the list shows.
+const SPEED: Output = Output::ProgressionSpeed;
+const WORK: Output = Output::WorkPositive;
 
 /// The attractors in the order of their numbers, each as an object; empty where the file has no table of them.
 pub fn attractors(dataset: &Dataset) -> Vec<Value> {
@@ -20,15 +24,15 @@ pub fn attractors(dataset: &Dataset) -> Vec<Value> {
     let kind = |code: f64| flags.iter().find(|(it, _)| *it as f64 == code).map(|(_, name)| name);
     let periods = column(ATTRACTOR_PERIOD.name);
     let [shares, errors] = [ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR].map(|it| column(it.name));
-    let (speeds, energies) = (output(Output::ProgressionSpeed), output(Output::WorkPositive));
+    let (speeds, energies) = (output(SPEED), output(WORK));
     let at = |column: &[f64], number: usize| column.get(number).copied();
     let one = |number: usize| {
         json!({
-            "attractor": number,
+            ATTRACTOR.name: number,
             "kind": kind(kinds[number]),
-            "period": at(&periods, number).filter(|period| *period > 0.0).map(|it| it as u64),
-            "progression_speed": at(&speeds, number),
-            "work_positive": at(&energies, number),
+            PERIOD.name: at(&periods, number).filter(|period| *period > 0.0).map(|it| it as u64),
+            SPEED.name(): at(&speeds, number),
+            WORK.name(): at(&energies, number),
             "share": at(&shares, number),
             "share_error": at(&errors, number),
         })
@@ -45,7 +49,7 @@ pub fn saddles(dataset: &Dataset) -> Vec<Value> {
     let one = |place: usize| {
         json!({
             "between": [low[place] as u64, high[place] as u64],
-            "period": period[place] as u64,
+            PERIOD.name: period[place] as u64,
             "multipliers_real": multipliers[place * width..(place + 1) * width],
         })
     };
@@ -62,17 +66,21 @@ pub fn tables(dataset: &Dataset) -> String {
         let _ = writeln!(
             text,
             "  {:>3}  {:<14} {:>12}  {:>12}  share of the starts",
-            "", "motion", "speed [m/s]", "work_positive [J]"
+            "",
+            "motion",
+            "speed [m/s]",
+            format!("{} [{}]", WORK.name(), WORK.unit())
         );
         for it in &attractors {
             let kind = it["kind"].as_str().unwrap_or("-");
-            let motion = it["period"].as_u64().map_or(kind.to_owned(), |it| format!("period {it}"));
-            let [speed, work] = ["progression_speed", "work_positive"].map(|key| number(&it[key]));
+            let motion =
+                it[PERIOD.name].as_u64().map_or(kind.to_owned(), |it| format!("period {it}"));
+            let [speed, work] = [SPEED.name(), WORK.name()].map(|key| number(&it[key]));
             let [share, error] = ["share", "share_error"].map(|key| number(&it[key]));
             let _ = writeln!(
                 text,
                 "  {:>3}  {motion:<14} {speed:>12}  {work:>17}  {share} ± {error}",
-                it["attractor"]
+                it[ATTRACTOR.name]
             );
         }
     }
@@ -81,7 +89,7 @@ pub fn tables(dataset: &Dataset) -> String {
         for it in &saddles {
             let [low, high] = [0, 1].map(|end| &it["between"][end]);
             let largest = number(&it["multipliers_real"][0]);
-            let period = &it["period"];
+            let period = &it[PERIOD.name];
             let _ =
                 writeln!(text, "  between {low} and {high}: period {period}, multiplier {largest}");
         }

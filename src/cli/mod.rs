@@ -11,6 +11,7 @@ mod failure;
 mod figure;
 mod inspect;
 mod join;
+mod optima_text;
 mod phases;
 mod progress;
 mod readable;
@@ -21,6 +22,8 @@ mod stop;
 mod summary;
 mod sweep;
 mod terminal;
+mod trade_off_rows;
+mod tradeoff;
 mod verify;
 mod watch;
 
@@ -77,6 +80,8 @@ enum Command {
     Continue(continuation::Continue),
     /// Draw figures from a file of results.
     Figure(figure::Figure),
+    /// Find the fastest motions for the least energy in a file of results.
+    Tradeoff(tradeoff::Tradeoff),
     /// Say what is in a file of results.
     Inspect(inspect::Inspect),
     /// Print the completions of a shell.
@@ -102,6 +107,7 @@ pub fn main() -> ExitCode {
         Command::Verify(verify) => verify.run(),
         Command::Continue(continuation) => continuation.run(),
         Command::Figure(figure) => figure.run(),
+        Command::Tradeoff(tradeoff) => tradeoff.run(),
         Command::Inspect(inspect) => inspect.run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -10,7 +10,7 @@ use super::arguments::{named, plain_or_quantity};
 use super::failure::Failure;
 use super::phases::Phases;
 use super::terminal::{notify, print};
-use crate::campaign::{CampaignError, Replay, read_study, silent};
+use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
 use crate::capsule::{
     Case, Dimension, Orbit, Output, Parameter, Parameters, Resistance, Simulation, State,
     Switching, settle_case, simulate_case,
@@ -33,7 +33,7 @@ A number without a unit is in SI. What is not given is as in the paper's Table 1
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Simulate {
-    /// Take a case of this study, with its parameters, its start and the study's protocol.
+    /// Take a case of this study, or of the study in this file of results, with its parameters, its start and the study's protocol.
     #[arg(long, value_name = "STUDY", requires = "case", conflicts_with_all = ["omega", "p_d", "k2",
         "delta", "set", "phase", "start_phase", "section_phase", "tolerance", "max_cycles", "max_steps",
         "friction_switching", "resistance"])]
@@ -123,7 +123,7 @@ impl Simulate {
 
     /// A case of a study, from another start if one is given.
     fn studied(&self, path: &Path) -> Result<Request, Failure> {
-        let study = read_study(path)?;
+        let study = read_study_or_results(path)?;
         let index = self.case.unwrap_or(0);
         let replay = Replay::new(&study, index).map_err(|error| match error {
             CampaignError::NoCase { index, cases } => {

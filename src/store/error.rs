@@ -89,6 +89,15 @@ pub enum StoreError {
     },
 }
 
+/// Why something that was asked of a file was not found out.
+#[derive(Debug)]
+pub enum Unread {
+    /// The file could not be read.
+    Store(StoreError),
+    /// What was asked has faults, a sentence each.
+    Faults(Vec<String>),
+}
+
 impl StoreError {
     /// A refusal of the system, with the file and the step.
     pub(super) fn system(path: &Path, doing: &'static str, said: io::Error) -> Self {

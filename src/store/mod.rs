@@ -23,17 +23,23 @@ mod slab;
 pub mod provenance;
 mod scale;
 pub mod schema;
+mod candidates;
+mod case_table;
 mod checksum;
+mod constraint;
 pub mod block_file;
 
 pub use attractors::{add_attractors, add_sample};
 pub use block_file::{Summary, Unusable};
 pub use block_folder::{BlockFolder, Company, by_outcome, packed_bytes};
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
+pub use candidates::{Candidates, candidates};
+pub use case_table::{CaseTable, Column};
+pub use constraint::{fulfilled, quantity};
 pub use dataset::{Dataset, Values, Variable};
 pub use decode::Archive;
 pub use difference::difference;
-pub use error::StoreError;
+pub use error::{StoreError, Unread};
 pub use file::{
     create_folder, discard_abandoned, discard_unfinished, folder, hold, open, put, read,
     try_to_begin, write,

@@ -26,6 +26,8 @@ fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {
         Dimension::Acceleration => &[("m/s2", 1.0), ("mm/s2", 1e-3)],
         Dimension::Angle => &[("rad", 1.0), ("deg", PI / 180.0)],
         Dimension::Energy => &[("J", 1.0), ("mJ", 1e-3), ("uJ", 1e-6)],
+        Dimension::Power => &[("W", 1.0), ("mW", 1e-3), ("uW", 1e-6)],
+        Dimension::EnergyPerLength => &[("J/m", 1.0), ("mJ/m", 1e-3), ("mJ/mm", 1.0)],
         Dimension::Rate => &[("1/s", 1.0)],
         Dimension::Number => &[("", 1.0), ("%", 1e-2)],
     }
@@ -45,6 +47,8 @@ fn name(dimension: Dimension) -> &'static str {
         Dimension::Acceleration => "an acceleration",
         Dimension::Angle => "an angle",
         Dimension::Energy => "an energy",
+        Dimension::Power => "a power",
+        Dimension::EnergyPerLength => "an energy per length",
         Dimension::Rate => "a rate",
         Dimension::Number => "a plain number",
     }

@@ -52,6 +52,9 @@ fn stuck_capsule_is_a_forced_linear_oscillator() {
         let exact = signed_parts(phi);
         assert!(relative(orbit.outputs[Output::WorkPositive], power / omega * exact.0) < 1e-10);
         assert!(relative(orbit.outputs[Output::WorkAbsolute], power / omega * exact.1) < 1e-10);
+        let mean = power * exact.0 / (2.0 * PI);
+        assert!(relative(orbit.outputs[Output::Power], mean) < 1e-10);
+        assert!(orbit.outputs[Output::EnergyPerMetre].is_infinite());
         let margin = 1.0 - amplitude;
         assert!(relative(orbit.outputs[Output::GrazingMargin], margin) < 1e-12);
     }

@@ -372,7 +372,7 @@ fn the_font_can_draw_the_label_of_every_quantity() {
                       phase start_phase section_phase";
     let outputs = "progression_speed progression_per_cycle work_net work_positive work_absolute \
                    work_actuator friction_loss damper_loss energy_residual momentum_residual \
-                   cost_of_transport impacts_per_cycle forward_slips_per_cycle \
+                   cost_of_transport power energy_per_metre impacts_per_cycle forward_slips_per_cycle \
                    backward_slips_per_cycle reversals_per_cycle stick_share peak_contact_force \
                    grazing_margin section_r section_y1 section_y2 impact_phase impact_y1 impact_y2";
     for parameter in parameters.split_whitespace() {

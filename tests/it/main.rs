@@ -52,6 +52,7 @@ mod lanes;
 mod mutants;
 mod neutral;
 mod observers;
+mod optima;
 mod oscillators;
 mod paper;
 mod passages;

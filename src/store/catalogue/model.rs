@@ -90,6 +90,8 @@ const fn output_shown(output: Output) -> Option<Shown> {
         Output::EnergyResidual => words("Energy residual", ""),
         Output::MomentumResidual => words("Momentum residual", ""),
         Output::CostOfTransport => words("Cost of transport", ""),
+        Output::Power => shown("Power", "", "mW", 1e3),
+        Output::EnergyPerMetre => words("Energy per metre", "J/m"),
         Output::ImpactsPerCycle => words("Impacts per cycle", ""),
         Output::ForwardSlips => words("Forward slips per cycle", ""),
         Output::BackwardSlips => words("Backward slips per cycle", ""),

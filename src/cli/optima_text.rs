@@ -1,0 +1,199 @@
+//! The answer of a trade-off as a table for people, as JSON and as comma-separated values.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use serde_json::{Map, Value, json};
+
+use super::readable::{count, counted};
+use super::trade_off_rows::Row;
+use crate::capsule::Output;
+use crate::store::catalogue::{ATTRACTOR, OUTCOME, PERIOD};
+use crate::study::Coordinate;
+use crate::tradeoff::Direction;
+
+/// What is best among the motions of a file.
+pub struct Answer {
+    /// The file of results.
+    pub file: String,
+    /// The output that should be small.
+    pub of: Output,
+    /// The motions that are compared.
+    pub direction: Direction,
+    /// Cases of the file.
+    pub cases: usize,
+    /// How many take no part, by the reason.
+    pub left_out: BTreeMap<String, usize>,
+    /// The speed up to which a motion counts as at rest [m/s], and how many do or move the other way.
+    pub at_rest: (f64, usize),
+    /// The optima.
+    pub named: Vec<Named>,
+    /// The Pareto front, by rising price.
+    pub front: Vec<Row>,
+    /// The fastest motions, if they are asked for.
+    pub top: Vec<Row>,
+}
+
+/// An optimum.
+pub struct Named {
+    /// Its name in JSON.
+    pub name: &'static str,
+    /// The motion; none where there is none.
+    pub row: Option<Row>,
+}
+
+impl Answer {
+    fn direction(&self) -> &'static str {
+        let named = Direction::NAMES.iter().find(|(_, it)| *it == self.direction);
+        named.map_or("", |(name, _)| name)
+    }
+}
+
+/// One JSON object.
+pub fn json(answer: &Answer) -> Value {
+    let point = |row: &Row| json_of_row(row, answer.of);
+    let mut object = Map::new();
+    object.insert("of".to_owned(), json!(answer.of.name()));
+    object.insert("direction".to_owned(), json!(answer.direction()));
+    object.insert("cases".to_owned(), json!(answer.cases));
+    object.insert("left_out".to_owned(), json!(answer.left_out));
+    object.insert("speed_at_rest".to_owned(), json!(answer.at_rest.0));
+    object.insert("front".to_owned(), Value::Array(answer.front.iter().map(point).collect()));
+    for Named { name, row } in &answer.named {
+        object.insert((*name).to_owned(), row.as_ref().map_or(Value::Null, point));
+    }
+    if !answer.top.is_empty() {
+        object.insert("top".to_owned(), Value::Array(answer.top.iter().map(point).collect()));
+    }
+    Value::Object(object)
+}
+
+fn json_of_row(row: &Row, of: Output) -> Value {
+    let (parameters, start): (Vec<_>, Vec<_>) =
+        row.coordinates.iter().partition(|(it, ..)| matches!(it, Coordinate::Parameter(_)));
+    let values = |all: Vec<&(Coordinate, f64, bool)>| -> Map<String, Value> {
+        all.into_iter().map(|(it, value, _)| (it.name().to_owned(), json!(value))).collect()
+    };
+    let mut point = Map::new();
+    point.insert("case".to_owned(), json!(row.case));
+    point.insert("parameters".to_owned(), Value::Object(values(parameters)));
+    point.insert("start".to_owned(), Value::Object(values(start)));
+    point.insert(Output::ProgressionSpeed.name().to_owned(), json!(row.speed));
+    point.insert(Output::EnergyPerMetre.name().to_owned(), json!(row.energy_per_metre));
+    point.insert(of.name().to_owned(), json!(row.price));
+    point.insert(PERIOD.name.to_owned(), json!(row.period));
+    point.insert(OUTCOME.name.to_owned(), json!(row.outcome));
+    point.insert(ATTRACTOR.name.to_owned(), json!(row.attractor));
+    point.insert("share".to_owned(), json!(row.share));
+    point.insert("replay".to_owned(), json!(row.replay));
+    Value::Object(point)
+}
+
+/// Comma-separated values: a header, then the optima, the front and the fastest, each with what it is.
+pub fn csv(answer: &Answer) -> String {
+    let optima = answer.named.iter().filter_map(|it| Some((it.name, it.row.as_ref()?)));
+    let front = answer.front.iter().map(|row| ("front", row));
+    let top = answer.top.iter().map(|row| ("top", row));
+    let all: Vec<(&str, &Row)> = optima.chain(front).chain(top).collect();
+    let Some((_, first)) = all.first() else { return String::new() };
+    let names = first.coordinates.iter().map(|(it, ..)| it.name());
+    let fixed = ["what", "case", Output::ProgressionSpeed.name(), answer.of.name()];
+    let rest = [OUTCOME.name, PERIOD.name, ATTRACTOR.name, "share"];
+    let header: Vec<&str> = fixed.into_iter().chain(rest).chain(names).collect();
+    let mut text = format!("{}\n", header.join(","));
+    let optional = |it: Option<f64>| it.map_or(String::new(), |it| it.to_string());
+    for (what, row) in all {
+        let [period, attractor] =
+            [row.period, row.attractor].map(|it| optional(it.map(|n| n as f64)));
+        let coordinates = row.coordinates.iter().map(|(_, value, _)| format!("{value:?}"));
+        let fixed = [
+            what.to_owned(),
+            row.case.to_string(),
+            format!("{:?}", row.speed),
+            format!("{:?}", row.price),
+            row.outcome.clone(),
+            period,
+            attractor,
+            optional(row.share),
+        ];
+        let cells: Vec<String> = fixed.into_iter().chain(coordinates).collect();
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{}", cells.join(","));
+    }
+    text
+}
+
+/// A table for people.
+pub fn table(answer: &Answer) -> String {
+    let mut text = format!("{}: {}", answer.file, counted(answer.cases, "case"));
+    let left_out: Vec<String> =
+        answer.left_out.iter().map(|(why, cases)| format!("{} {why}", count(*cases))).collect();
+    if !left_out.is_empty() {
+        let _ = write!(text, "; left out: {}", left_out.join(", "));
+    }
+    let (speed, slow) = answer.at_rest;
+    let against = match answer.direction {
+        Direction::Either => "",
+        _ => ", or in the other direction",
+    };
+    let _ = writeln!(text, "\n{} move no faster than {speed:.1e} m/s{against}", count(slow));
+    let _ = writeln!(
+        text,
+        "Pareto front of {} ({}) and {}: {}\n",
+        Output::ProgressionSpeed.name(),
+        answer.direction(),
+        answer.of.name(),
+        counted(answer.front.len(), "motion")
+    );
+    if answer.front.is_empty() {
+        return text;
+    }
+    let _ = writeln!(
+        text,
+        "{:<26} {:>14} {:>16}  motion",
+        "",
+        "speed [mm/s]",
+        format!("{} [{}]", answer.of.name(), answer.of.unit())
+    );
+    for Named { name, row } in &answer.named {
+        match row {
+            Some(row) => write_row(&mut text, &name.replace('_', " "), row),
+            None => _ = writeln!(text, "{:<26} none", name.replace('_', " ")),
+        }
+    }
+    for (heading, rows) in [("front", &answer.front), ("the fastest", &answer.top)] {
+        for (place, row) in rows.iter().enumerate() {
+            write_row(&mut text, if place == 0 { heading } else { "" }, row);
+        }
+    }
+    if let Some(Some(fastest)) = answer.named.first().map(|it| &it.row) {
+        let _ = writeln!(text, "\nreplay of the fastest: {}", fastest.replay);
+    }
+    text
+}
+
+fn write_row(text: &mut String, what: &str, row: &Row) {
+    let motion = match row.period {
+        Some(period) => format!("period {period}"),
+        None => row.outcome.clone(),
+    };
+    let basin =
+        row.share.map_or(String::new(), |share| format!(", {:.1} % of the starts", 100.0 * share));
+    let varied = row.coordinates.iter().filter(|(.., varies)| *varies);
+    let place: Vec<String> = varied
+        .map(|(it, value, _)| {
+            let unit = Some(it.dimension().unit()).filter(|unit| *unit != "1");
+            let value = format!("{value:.7}");
+            let value = value.trim_end_matches('0').trim_end_matches('.');
+            format!("{} = {value}{}", it.name(), unit.map_or(String::new(), |it| format!(" {it}")))
+        })
+        .collect();
+    let _ = writeln!(
+        text,
+        "{what:<26} {:>14.6} {:>16.6e}  {motion}{basin}; {}; case {}",
+        1e3 * row.speed,
+        row.price,
+        place.join(", "),
+        row.case
+    );
+}

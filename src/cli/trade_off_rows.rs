@@ -1,0 +1,104 @@
+//! What is told of each motion of a trade-off: its case, its numbers, and how to compute it again.
+
+use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
+use crate::store::{Archive, CaseTable, Column, StoreError};
+use crate::study::Coordinate;
+use crate::tradeoff::Candidate;
+
+/// The columns from which the rows are read.
+pub struct Rows {
+    /// The parameters and coordinates of the start, by name, and whether they vary.
+    coordinates: Vec<(Coordinate, Vec<f64>, bool)>,
+    outcomes: Option<Column>,
+    periods: Option<Column>,
+    attractors: Option<Column>,
+    /// The share of each attractor of the starts.
+    shares: Vec<f64>,
+    file: String,
+}
+
+/// A motion of a trade-off.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Its case.
+    pub case: usize,
+    /// Its parameters and start [SI], and whether each varies in the file.
+    pub coordinates: Vec<(Coordinate, f64, bool)>,
+    /// Progression speed [m/s].
+    pub speed: f64,
+    /// What it costs, by the output that was asked for [SI].
+    pub price: f64,
+    /// Energy per metre of progression [J/m].
+    pub energy_per_metre: f64,
+    /// The name of its outcome.
+    pub outcome: String,
+    /// Its period [cycles]; none where it does not repeat.
+    pub period: Option<u64>,
+    /// The number of its attractor, where attractors are told apart.
+    pub attractor: Option<u64>,
+    /// The share of the starts that lead to it, where they are all that varies.
+    pub share: Option<f64>,
+    /// The command that computes it again.
+    pub replay: String,
+}
+
+impl Rows {
+    /// The columns of the cases in `archive`, called `file`.
+    pub fn of(table: &CaseTable<'_>, archive: &Archive, file: &str) -> Result<Rows, StoreError> {
+        let mut coordinates = Vec::new();
+        for coordinate in Coordinate::all() {
+            let Some(Column { values, .. }) = table.column(coordinate.name())? else { continue };
+            let varies = values.iter().any(|value| *value != values[0]);
+            coordinates.push((coordinate, values, varies));
+        }
+        let shares = archive.variable(ATTRACTOR_SHARE.name)?;
+        let has_starts_alone = shares.as_ref().is_some_and(|it| it.dimensions.len() == 1);
+        let shares = shares.filter(|_| has_starts_alone);
+        Ok(Rows {
+            coordinates,
+            outcomes: table.column(OUTCOME.name)?,
+            periods: table.column(PERIOD.name)?,
+            attractors: table.column(ATTRACTOR.name)?,
+            shares: shares.map_or(Vec::new(), |it| it.values.to_real().into_iter().collect()),
+            file: file.to_owned(),
+        })
+    }
+
+    /// What is told of a motion.
+    pub fn row(&self, motion: &Candidate) -> Row {
+        let case = motion.case;
+        let whole = |column: &Option<Column>| {
+            let value = column.as_ref().map(|it| it.values[case]);
+            value.filter(|value| *value >= 0.0).map(|value| value as u64)
+        };
+        let outcome = self.outcomes.as_ref().and_then(|it| {
+            let code = it.values[case];
+            it.flags.iter().find(|(known, _)| *known as f64 == code).map(|(_, name)| name.clone())
+        });
+        let attractor = whole(&self.attractors);
+        let one = |(coordinate, values, varies): &(Coordinate, Vec<f64>, bool)| {
+            (*coordinate, values[case], *varies)
+        };
+        Row {
+            case,
+            coordinates: self.coordinates.iter().map(one).collect(),
+            speed: motion.speed,
+            price: motion.price,
+            energy_per_metre: motion.energy_per_metre,
+            outcome: outcome.unwrap_or_default(),
+            period: whole(&self.periods).filter(|period| *period > 0),
+            attractor,
+            share: attractor.and_then(|it| self.shares.get(it as usize).copied()),
+            replay: format!("capsulemap simulate --study {} --case {case}", quoted(&self.file)),
+        }
+    }
+}
+
+/// A file as a shell takes it for one word.
+fn quoted(file: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=:,".contains(c);
+    match file.chars().all(is_plain) && !file.is_empty() {
+        true => file.to_owned(),
+        false => format!("'{}'", file.replace('\'', "'\\''")),
+    }
+}

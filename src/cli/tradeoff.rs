@@ -1,0 +1,160 @@
+//! `capsulemap tradeoff`: what moves fastest for how little, from a file of results.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::arguments::named;
+use super::failure::Failure;
+use super::optima_text::{Answer, Named, csv, json, table};
+use super::terminal::print;
+use super::trade_off_rows::Rows;
+use crate::capsule::Output;
+use crate::store::{self, CaseTable, Unread, candidates, quantity};
+use crate::study::document::unknown;
+use crate::tradeoff::{Direction, optima};
+
+const EXAMPLES: &str = "\
+Examples:
+  capsulemap tradeoff results/overview/overview.h5
+  capsulemap tradeoff FILE.h5 --of work_positive --direction forward --json
+  capsulemap tradeoff FILE.h5 --where \"peak_contact_force < 30 N and grazing_margin > 0.1 mm\" --top 20
+  capsulemap tradeoff FILE.h5 --budget \"20 mW\" --speed \"5 mm/s\" --csv
+
+The front is of all cases of the file, each with the attractor that it has ended on. Motions that are chaotic or
+quasi-periodic take part by their means.";
+
+/// Find the fastest motions for the least energy.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Tradeoff {
+    /// The file of results.
+    file: PathBuf,
+    /// The output that should be small: an energy per cycle, `power`, `energy_per_metre` or another.
+    #[arg(long, value_name = "OUTPUT", default_value = Output::Power.name())]
+    of: String,
+    /// Motions to compare; `either` compares magnitudes of speeds.
+    #[arg(long, value_parser = named(&Direction::NAMES), default_value = "either")]
+    direction: Direction,
+    /// Conditions on what there is one number of for each case, joined by `and`; signs < <= > >= = !=.
+    #[arg(long = "where", value_name = "CONDITIONS")]
+    conditions: Option<String>,
+    /// Speed up to which a motion counts as at rest; a millionth of the fastest by default.
+    #[arg(long, value_name = "QUANTITY")]
+    at_rest: Option<String>,
+    /// Most of the output that may be spent: the fastest motion within it is told.
+    #[arg(long, value_name = "QUANTITY")]
+    budget: Option<String>,
+    /// Least speed that is wanted: the motion that reaches it for the least is told.
+    #[arg(long, value_name = "QUANTITY")]
+    speed: Option<String>,
+    /// List the fastest motions too, so many at most.
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    top: usize,
+    /// Print one JSON object.
+    #[arg(long, conflicts_with = "csv")]
+    json: bool,
+    /// Print a table of comma-separated values.
+    #[arg(long)]
+    csv: bool,
+}
+
+/// What is asked, read.
+struct Request {
+    of: Output,
+    at_rest: Option<f64>,
+    budget: Option<f64>,
+    speed: Option<f64>,
+}
+
+impl Tradeoff {
+    /// Carries the command out.
+    pub fn run(&self) -> Result<(), Failure> {
+        let request = self.request()?;
+        let archive = store::open(&self.file).map_err(Failure::request)?;
+        let shown = self.file.display().to_string();
+        let cases = CaseTable::of(&archive).map_err(Failure::request)?;
+        let cases = cases.ok_or_else(|| {
+            Failure::request(format!(
+                "{shown}: there are no cases; `capsulemap sweep` computes them"
+            ))
+        })?;
+        let found = candidates(&cases, request.of, self.conditions.as_deref())
+            .map_err(|error| failure(error, &self.file))?;
+        let best = optima(&found.all, self.direction, request.at_rest);
+        let speed = |at: usize| self.direction.of(found.all[at].speed);
+        // Along the front price and speed both rise.
+        let within = |most: f64| {
+            let last = best.front.partition_point(|&at| found.all[at].price <= most);
+            last.checked_sub(1).map(|place| best.front[place])
+        };
+        let reaching = |least: f64| best.front.iter().copied().find(|&at| speed(at) >= least);
+        let named = [
+            ("fastest", Some(best.fastest)),
+            ("knee", Some(best.knee)),
+            ("lowest_cost_of_transport", Some(best.lowest_cost_of_transport)),
+            ("fastest_within_budget", request.budget.map(within)),
+            ("least_for_speed", request.speed.map(reaching)),
+        ];
+        let mut order: Vec<usize> = (0..found.all.len()).collect();
+        let moves = |at: &usize| speed(*at) > best.at_rest;
+        order.retain(moves);
+        let at_rest = found.all.len() - order.len();
+        order.sort_by(|&a, &b| speed(b).total_cmp(&speed(a)));
+        order.truncate(self.top);
+        let rows = Rows::of(&cases, &archive, &shown)
+            .map_err(|error| failure(Unread::Store(error), &self.file))?;
+        let row = |at: usize| rows.row(&found.all[at]);
+        let answer = Answer {
+            file: shown.clone(),
+            of: request.of,
+            direction: self.direction,
+            cases: cases.cases(),
+            left_out: found.left_out.clone(),
+            at_rest: (best.at_rest, at_rest),
+            named: named
+                .into_iter()
+                .filter_map(|(name, at)| Some(Named { name, row: at?.map(row) }))
+                .collect(),
+            front: best.front.iter().map(|&at| row(at)).collect(),
+            top: order.into_iter().map(row).collect(),
+        };
+        print(&match (self.json, self.csv) {
+            (true, _) => format!("{:#}\n", json(&answer)),
+            (_, true) => csv(&answer),
+            _ => table(&answer),
+        })
+    }
+
+    fn request(&self) -> Result<Request, Failure> {
+        let mut faults = Vec::new();
+        let names = || Output::ALL.iter().map(|output| output.name());
+        let of = Output::ALL.iter().copied().find(|output| output.name() == self.of);
+        if of.is_none() {
+            faults.push(format!("--of: {}", unknown("output", &self.of, names())));
+        }
+        let of = of.unwrap_or(Output::Power);
+        let mut read = |option: &str, text: &Option<String>, unit: &str| {
+            let value = quantity(text.as_deref()?, unit);
+            value.map_err(|fault| faults.push(format!("--{option}: {fault}"))).ok()
+        };
+        let speed_unit = Output::ProgressionSpeed.unit();
+        let request = Request {
+            of,
+            at_rest: read("at-rest", &self.at_rest, speed_unit),
+            budget: read("budget", &self.budget, of.unit()),
+            speed: read("speed", &self.speed, speed_unit),
+        };
+        if faults.is_empty() { Ok(request) } else { Err(Failure::requests(&faults)) }
+    }
+}
+
+fn failure(error: Unread, file: &Path) -> Failure {
+    match error {
+        Unread::Store(error) => Failure::request(error),
+        Unread::Faults(faults) => {
+            let within = |fault: &String| format!("{}: {fault}", file.display());
+            Failure::requests(&faults.iter().map(within).collect::<Vec<_>>())
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! The cases of a file of results as the motions that a trade-off is between.
+
+use std::collections::BTreeMap;
+
+use crate::capsule::{Output, Parameter};
+use crate::orbit::Outcome;
+use crate::tradeoff::Candidate;
+
+use super::case_table::{CaseTable, Column};
+use super::catalogue::OUTCOME;
+use super::constraint::fulfilled;
+use super::{StoreError, Unread};
+
+/// The motions of a file that take part in a trade-off.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidates {
+    /// Those that take part, in the order of their cases.
+    pub all: Vec<Candidate>,
+    /// How many cases do not, by the reason in a few words.
+    pub left_out: BTreeMap<String, usize>,
+}
+
+/// The cases that fulfil `conditions`, with their speeds and what these cost by the output `of`. Chaotic and quasi-periodic
+/// motions take part by their means; cases that failed, are undecided, inferred or missing, or lack a number, do not.
+///
+/// Fails if the file cannot be read, lacks the numbers, or the conditions have faults.
+pub fn candidates(
+    table: &CaseTable<'_>,
+    of: Output,
+    conditions: Option<&str>,
+) -> Result<Candidates, Unread> {
+    let speeds = column(table, Output::ProgressionSpeed)?;
+    let prices = column(table, of)?;
+    let metres = column(table, Output::EnergyPerMetre).unwrap_or_else(|_| unknown(table));
+    let outcomes = table.column(OUTCOME.name)?.unwrap_or_else(|| unknown(table));
+    let allowed = conditions.map(|text| fulfilled(table, text)).transpose()?;
+    let mut found = Candidates { all: Vec::new(), left_out: BTreeMap::new() };
+    for case in 0..table.cases() {
+        let (speed, price) = (speeds.values[case], prices.values[case]);
+        let reason = match name(&outcomes, case) {
+            name if !takes_part(name) => Some(name),
+            _ if !(speed.is_finite() && price.is_finite()) => Some("without values"),
+            _ if allowed.as_ref().is_some_and(|it| !it[case]) => Some("excluded by conditions"),
+            _ => None,
+        };
+        match reason {
+            Some(reason) => *found.left_out.entry(reason.to_owned()).or_default() += 1,
+            None => {
+                let energy_per_metre = metres.values[case];
+                found.all.push(Candidate { case, speed, price, energy_per_metre });
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// Whether motions of this outcome take part.
+fn takes_part(outcome: &str) -> bool {
+    [Outcome::Periodic, Outcome::Chaotic, Outcome::QuasiPeriodic]
+        .iter()
+        .any(|it| it.name() == outcome)
+}
+
+/// The name of the category of a case.
+fn name(column: &Column, case: usize) -> &str {
+    let code = column.values[case];
+    let named = column.flags.iter().find(|(known, _)| *known as f64 == code);
+    named.map_or("without outcome", |(_, name)| name)
+}
+
+/// An output of each case; what files of older versions and of fewer outputs lack is computed from others.
+fn column(table: &CaseTable<'_>, output: Output) -> Result<Column, Unread> {
+    if let Some(column) = table.column(output.name())? {
+        return Ok(column);
+    }
+    let both = |a: &str, b: &str, of: fn(f64, f64) -> f64| -> Result<Option<Column>, StoreError> {
+        let (Some(a), Some(b)) = (table.column(a)?, table.column(b)?) else { return Ok(None) };
+        let values = a.values.iter().zip(&b.values).map(|(a, b)| of(*a, *b)).collect();
+        Ok(Some(Column { values, ..a }))
+    };
+    let (work, omega) = (Output::WorkPositive.name(), Parameter::Omega.symbol());
+    let speed = Output::ProgressionSpeed.name();
+    let found = match output {
+        Output::Power => both(work, omega, |work, omega| work * omega / std::f64::consts::TAU)?,
+        Output::EnergyPerMetre => match column(table, Output::Power) {
+            Ok(power) => table.column(speed)?.map(|speeds| {
+                let both = power.values.iter().zip(&speeds.values);
+                let values = both.map(|(power, speed)| power / speed.abs()).collect();
+                Column { values, ..power }
+            }),
+            Err(_) => None,
+        },
+        _ => None,
+    };
+    found.ok_or_else(|| Unread::Faults(vec![format!("the file has no `{}`", output.name())]))
+}
+
+/// A column of which nothing is known.
+fn unknown(table: &CaseTable<'_>) -> Column {
+    Column { values: vec![f64::NAN; table.cases()], unit: "1".to_owned(), flags: Vec::new() }
+}

@@ -1,0 +1,78 @@
+//! The numbers that a file of results has of its cases, one for each: what varies, what is held, and what they have settled to.
+
+use super::catalogue::{Flags, OUTCOME};
+use super::{Archive, StoreError, Variable};
+
+/// The cases of a file of results.
+#[derive(Debug)]
+pub struct CaseTable<'a> {
+    archive: &'a Archive,
+    /// The dimensions over which the cases lie, slowest first, with their lengths.
+    dimensions: Vec<(String, usize)>,
+}
+
+/// One number for each case, in the order of the cases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// The numbers; categories by their codes.
+    pub values: Vec<f64>,
+    /// Their unit; "1" where there is none.
+    pub unit: String,
+    /// The categories by their codes; empty where there are none.
+    pub flags: Flags,
+}
+
+impl<'a> CaseTable<'a> {
+    /// The cases of `archive`; none where it has no cases. Fails if the file cannot be read.
+    pub fn of(archive: &'a Archive) -> Result<Option<CaseTable<'a>>, StoreError> {
+        let Some(outcomes) = archive.variable(OUTCOME.name)? else { return Ok(None) };
+        let lengths = outcomes.values.shape().iter().copied();
+        let dimensions = outcomes.dimensions.iter().cloned().zip(lengths).collect();
+        Ok(Some(CaseTable { archive, dimensions }))
+    }
+
+    /// Number of cases.
+    pub fn cases(&self) -> usize {
+        self.dimensions.iter().map(|(_, length)| length).product()
+    }
+
+    /// The names of the dimensions over which the cases lie, slowest first.
+    pub fn dimensions(&self) -> impl Iterator<Item = &str> {
+        self.dimensions.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// What there is one number of for each case, by name.
+    pub fn names(&self) -> Vec<String> {
+        let fits = |(_, over): &(&str, &[String])| over.is_empty() || self.is_over_cases(over);
+        let variables = self.archive.variables().filter(fits).map(|(name, _)| name.to_owned());
+        let axes = self.dimensions.iter().map(|(name, _)| name.clone());
+        axes.chain(variables).collect()
+    }
+
+    fn is_over_cases(&self, dimensions: &[String]) -> bool {
+        dimensions.iter().eq(self.dimensions.iter().map(|(name, _)| name))
+    }
+
+    /// The numbers called `name`, of an axis or a constant repeated for each case; none where there is not one for each.
+    /// Fails if the file cannot be read.
+    pub fn column(&self, name: &str) -> Result<Option<Column>, StoreError> {
+        if let Some(axis) = self.dimensions.iter().position(|(axis, _)| axis == name) {
+            let Some(variable) = self.archive.frame().coordinate(name) else { return Ok(None) };
+            let values: Vec<f64> = variable.values.to_real().into_iter().collect();
+            let inner: usize = self.dimensions[axis + 1..].iter().map(|(_, it)| it).product();
+            let at = |case: usize| values[case / inner % values.len()];
+            return Ok(Some(column(variable, (0..self.cases()).map(at).collect())));
+        }
+        let Some(variable) = self.archive.variable(name)? else { return Ok(None) };
+        let values: Vec<f64> = variable.values.to_real().into_iter().collect();
+        if self.is_over_cases(&variable.dimensions) {
+            return Ok(Some(column(&variable, values)));
+        }
+        let is_constant = variable.dimensions.is_empty() && values.len() == 1;
+        Ok(is_constant.then(|| column(&variable, vec![values[0]; self.cases()])))
+    }
+}
+
+fn column(variable: &Variable, values: Vec<f64>) -> Column {
+    Column { values, unit: variable.unit.clone(), flags: variable.flags.clone() }
+}

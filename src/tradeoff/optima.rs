@@ -1,0 +1,116 @@
+//! The best of some motions, where speed has its price: the Pareto front, its knee, and the best within limits.
+
+use super::front::{front, speed_at_rest};
+
+/// A motion that takes part in a trade-off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// Its case.
+    pub case: usize,
+    /// Progression speed, negative backward [m/s].
+    pub speed: f64,
+    /// What the speed costs: an energy, a power or another output that should be small [SI].
+    pub price: f64,
+    /// Energy per metre of progression [J/m]; infinite where there is none, NaN where it is not known.
+    pub energy_per_metre: f64,
+}
+
+/// Which motions a trade-off is between.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// Those with positive speed.
+    Forward,
+    /// Those with negative speed.
+    Backward,
+    /// All, by the magnitude of their speed.
+    Either,
+}
+
+impl Direction {
+    /// Each by its name.
+    pub const NAMES: [(&'static str, Direction); 3] = [
+        ("forward", Direction::Forward),
+        ("backward", Direction::Backward),
+        ("either", Direction::Either),
+    ];
+
+    /// The speed in this direction [m/s]; negative against it.
+    pub fn of(self, speed: f64) -> f64 {
+        match self {
+            Direction::Forward => speed,
+            Direction::Backward => -speed,
+            Direction::Either => speed.abs(),
+        }
+    }
+}
+
+/// The best motions in a direction, each by its place among the candidates.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Optima {
+    /// Speed up to which a motion counts as at rest [m/s].
+    pub at_rest: f64,
+    /// The Pareto front, by rising price.
+    pub front: Vec<usize>,
+    /// The knee of the front; none of fewer than three motions.
+    pub knee: Option<usize>,
+    /// The fastest.
+    pub fastest: Option<usize>,
+    /// That with the least energy per metre.
+    pub lowest_cost_of_transport: Option<usize>,
+}
+
+/// The best of some motions in a direction; those slower than `at_rest` [m/s] are not among them, or than
+/// [`speed_at_rest`] if none is given.
+///
+/// # Method
+///
+/// The front is that of [`front`]. Its knee is the motion farthest from the straight line between the ends of the front, on the
+/// side of more speed, with price and speed as shares of their ranges on the front (Das 1999); of several the cheapest.
+///
+/// # Breaks
+///
+/// The knee depends on the ends of the front, and so on what the study covers.
+pub fn optima(candidates: &[Candidate], direction: Direction, at_rest: Option<f64>) -> Optima {
+    let at_rest = at_rest.unwrap_or_else(|| speed_at_rest(candidates.iter().map(|it| it.speed)));
+    let known = |it: &Candidate| it.speed.is_finite() && it.price.is_finite();
+    let moves = |it: &Candidate| known(it) && direction.of(it.speed) > at_rest;
+    let moving: Vec<usize> = (0..candidates.len()).filter(|&at| moves(&candidates[at])).collect();
+    let (prices, speeds): (Vec<f64>, Vec<f64>) =
+        moving.iter().map(|&at| (candidates[at].price, direction.of(candidates[at].speed))).unzip();
+    let front = front(&prices, &speeds);
+    let points: Vec<(f64, f64)> = front.iter().map(|&at| (prices[at], speeds[at])).collect();
+    let least = |of: &dyn Fn(&Candidate) -> f64| {
+        let finite = moving.iter().copied().filter(|&at| of(&candidates[at]).is_finite());
+        finite.min_by(|&a, &b| of(&candidates[a]).total_cmp(&of(&candidates[b])))
+    };
+    Optima {
+        at_rest,
+        knee: knee(&points).map(|at| moving[front[at]]),
+        fastest: front.last().map(|&at| moving[at]),
+        lowest_cost_of_transport: least(&|it| it.energy_per_metre),
+        front: front.into_iter().map(|at| moving[at]).collect(),
+    }
+}
+
+/// The place of the knee of a front of prices and speeds, both rising.
+fn knee(front: &[(f64, f64)]) -> Option<usize> {
+    let [(cheapest, slowest), .., (dearest, fastest)] = front else { return None };
+    let above = |(price, speed): &(f64, f64)| {
+        (speed - slowest) / (fastest - slowest) - (price - cheapest) / (dearest - cheapest)
+    };
+    let inner = 1..front.len() - 1;
+    // Of those equally far the cheapest, which the last of equal ones is in reverse.
+    inner.rev().max_by(|&a, &b| above(&front[a]).total_cmp(&above(&front[b])))
+}
+
+/// The area of prices and speeds that a front dominates up to a dearest price, above a least speed.
+///
+/// # Method
+///
+/// The sum of the rectangles below the stairs of the front; motions dearer than `dearest` or slower than `slowest` have none.
+pub fn hypervolume(front: &[(f64, f64)], (dearest, slowest): (f64, f64)) -> f64 {
+    let inside: Vec<(f64, f64)> =
+        front.iter().copied().filter(|it| it.0 < dearest && it.1 > slowest).collect();
+    let ends = inside.iter().skip(1).map(|it| it.0).chain([dearest]);
+    inside.iter().zip(ends).map(|((price, speed), end)| (end - price) * (speed - slowest)).sum()
+}
