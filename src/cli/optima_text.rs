@@ -54,7 +54,7 @@ pub fn json(answer: &Answer) -> Value {
     let point = |row: &Row| json_of_row(row, answer.of);
     let mut object = Map::new();
     object.insert("of".to_owned(), json!(answer.of.name()));
-    object.insert("direction".to_owned(), json!(answer.direction()));
+    object.insert("moving".to_owned(), json!(answer.direction()));
     object.insert("cases".to_owned(), json!(answer.cases));
     object.insert("left_out".to_owned(), json!(answer.left_out));
     object.insert("speed_at_rest".to_owned(), json!(answer.at_rest.0));
