@@ -3,8 +3,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# Readers of the result files, as tried; the tests that need them say so when they are skipped.
-readers=(h5py==3.16.0 netCDF4==1.7.5.1.post1 h5netcdf==1.8.2 xarray==2026.9.0 numpy==2.4.6)
+# Readers of the result files, and a second computation of hypervolumes, as tried; the tests that need them say so when they are skipped.
+readers=(h5py==3.16.0 netCDF4==1.7.5.1.post1 h5netcdf==1.8.2 xarray==2026.9.0 numpy==2.4.6 moocore==0.3.2)
 
 step() {
     local name=$1 start=$SECONDS
@@ -20,7 +20,7 @@ python_readers() {
     local python=$place/bin/python
     if ! command -v python3 >/dev/null; then
         echo "no python3 here: the tests with Python readers will be skipped"
-    elif "$python" -c 'import h5py, netCDF4, h5netcdf, xarray' 2>/dev/null ||
+    elif "$python" -c 'import h5py, netCDF4, h5netcdf, xarray, moocore' 2>/dev/null ||
         { python3 -m venv "$place" && "$python" -m pip install -q --only-binary :all: "${readers[@]}"; } >"$log" 2>&1; then
         CAPSULEMAP_PYTHON=$PWD/$python
         export CAPSULEMAP_PYTHON
