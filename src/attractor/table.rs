@@ -72,6 +72,12 @@ impl<const D: usize> Table<D> {
         table
     }
 
+    /// The periods of the attractors that repeat, together [cycles].
+    pub fn cycles(&self) -> usize {
+        let periodic = self.attractors.iter().filter(|it| it.outcome == Outcome::Periodic);
+        periodic.map(|it| it.points.len()).sum()
+    }
+
     /// Sorts so many more cases, which follow those that are sorted already; the order of the attractors is not told.
     pub fn extend<M: System<D>>(
         &mut self,

@@ -1,5 +1,8 @@
 //! Which cases of a study share an attractor, how attractors go on along an axis, and where they change.
 
+use std::cmp::Reverse;
+use std::iter;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
@@ -20,9 +23,9 @@ use super::infer::infer;
 use super::{FinalMotions, Machine};
 
 /// Lines are searched together that have so many cells: links that take long fill the lanes.
-const LINKS: usize = 8192;
-/// Computations that one thread takes together at least, and at most.
-const TOGETHER: [usize; 2] = [64, LINKS];
+const LINKS: usize = 32768;
+/// A thread more is worth so many computations, as fewer leave its lanes empty.
+const LEAST: usize = 64;
 
 /// A change of an attractor along the axis, or its beginning or end.
 #[derive(Debug, Clone, PartialEq)]
@@ -151,8 +154,7 @@ fn find<R: Reading>(
         });
         events.collect::<Vec<_>>()
     };
-    let firsts = (0..layout.lines()).into_par_iter().step_by(some);
-    let events = firsts.flat_map_iter(search).collect();
+    let events = (0..layout.lines()).step_by(some).flat_map(search).collect();
     let of_case = of_case.into_inner().expect("no thread has panicked");
     let of_starts = of_starts.into_inner().expect("no thread has panicked");
     Attractors { axis: layout.axis, of_case, events, of_starts }
@@ -170,7 +172,7 @@ fn links_of_lines<R: Reading>(
     // The derivatives of an orbit serve its links on both sides.
     let linear = together(
         instructions,
-        lines.len() * length,
+        (0..lines.len() * length).collect(),
         || (),
         |place| {
             let (line, at) = (place / length, place % length);
@@ -182,7 +184,13 @@ fn links_of_lines<R: Reading>(
             }
         },
     );
-    let mut links = together(instructions, lines.len() * last, linked, |place| {
+    let mut order: Vec<usize> = (0..lines.len() * last).collect();
+    // Those begun last end last: let them be short ones, so that no thread goes on alone.
+    order.sort_by_key(|place| {
+        let (line, at) = (place / last, place % last);
+        Reverse(cells[line][at].cycles() + cells[line][at + 1].cycles())
+    });
+    let mut links = together(instructions, order, linked, |place| {
         let (line, at) = (place / last, place % last);
         let there = lines[line].neighbours::<R>(&cells[line], at);
         let linear = [at, at + 1].map(|at| linear[line * length + at].clone());
@@ -261,27 +269,29 @@ impl Line<'_> {
 /// What follows the orbits of the computations of a thread.
 type Integration<'a, R> = dyn Integrator<CapsuleSystem<R>, 3> + 'a;
 
-/// So many computations on all threads, each of those that one thread computes together far from the next, as the long
-/// ones lie side by side; calls `done` after each.
+/// Computations on all threads, begun in the order of these places, each by the thread that has room for it; calls `done`
+/// after each. Their results by rising places.
 fn together<R: Reading, T: Send + 'static, C>(
     instructions: Instructions,
-    count: usize,
+    places: Vec<usize>,
     done: impl Fn() + Sync,
     computation: impl Fn(usize) -> C + Sync,
 ) -> Vec<T>
 where
     C: FnOnce(&Integration<'_, R>) -> T + 'static,
 {
-    let [least, most] = TOGETHER;
-    let threads = rayon::current_num_threads();
-    let groups = count.div_ceil(most).max(threads.min(count.div_ceil(least)));
-    let of_group = |group: usize| {
-        let places = (group..count).step_by(groups);
-        let results = Batch::all(instructions, places.clone().map(&computation), &done);
-        places.zip(results).collect::<Vec<_>>()
+    let taken = AtomicUsize::new(0);
+    let next = || places.get(taken.fetch_add(1, Ordering::Relaxed)).copied();
+    let of_thread = |_| {
+        let placed = |place: usize| {
+            let compute = computation(place);
+            move |integrator: &Integration<'_, R>| (place, compute(integrator))
+        };
+        Batch::all(instructions, iter::from_fn(next).map(placed), &done)
     };
+    let threads = rayon::current_num_threads().min(places.len().div_ceil(LEAST));
     let mut results: Vec<(usize, T)> =
-        (0..groups).into_par_iter().flat_map_iter(of_group).collect();
+        (0..threads).into_par_iter().flat_map_iter(of_thread).collect();
     results.sort_by_key(|(place, _)| *place);
     results.into_iter().map(|(_, result)| result).collect()
 }
