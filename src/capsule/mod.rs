@@ -32,7 +32,7 @@ pub use parameter::{Allowed, Dimension, Parameter};
 pub use parameters::{Fault, Parameters};
 pub use printed::PrintedCapsule;
 pub use resistance::{Resistance, Switching};
-pub use settle::{Orbit, outputs, settle, settle_all, settle_as, settle_case};
+pub use settle::{Orbit, outputs, per_cycle, settle, settle_all, settle_as, settle_case};
 pub use simulate::{Event, Sample, Simulation, simulate, simulate_case};
 pub use state::{EventKind, Jet, State};
 pub use system::{AsPrinted, CapsuleSystem, Filippov, Reading};

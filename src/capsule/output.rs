@@ -3,6 +3,7 @@
 use std::ops::{Index, IndexMut};
 
 use super::Dimension;
+use crate::lane::Lane;
 
 macro_rules! outputs {
     ($($variant:ident $name:literal $unit:literal $meaning:literal;)*) => {
@@ -69,26 +70,31 @@ impl Output {
     }
 }
 
-/// A value for every output (SI).
+/// A value for every output (SI), in numbers of any kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Outputs([f64; Output::ALL.len()]);
+pub struct Outputs<L = f64>([L; Output::ALL.len()]);
 
-impl Outputs {
+impl<L: Lane> Outputs<L> {
     /// Nothing known: NaN everywhere.
     pub fn unknown() -> Self {
-        Outputs([f64::NAN; Output::ALL.len()])
+        Outputs([L::splat(f64::NAN); Output::ALL.len()])
+    }
+
+    /// The same outputs in other numbers.
+    pub fn map<T>(&self, each: impl Fn(L) -> T) -> Outputs<T> {
+        Outputs(self.0.map(each))
     }
 }
 
-impl Index<Output> for Outputs {
-    type Output = f64;
-    fn index(&self, output: Output) -> &f64 {
+impl<L> Index<Output> for Outputs<L> {
+    type Output = L;
+    fn index(&self, output: Output) -> &L {
         &self.0[output as usize]
     }
 }
 
-impl IndexMut<Output> for Outputs {
-    fn index_mut(&mut self, output: Output) -> &mut f64 {
+impl<L> IndexMut<Output> for Outputs<L> {
+    fn index_mut(&mut self, output: Output) -> &mut L {
         &mut self.0[output as usize]
     }
 }

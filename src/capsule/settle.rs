@@ -1,10 +1,13 @@
 //! What a capsule settles to, with its speed, energies and counts.
 
+use std::f64::consts::PI;
+
+use crate::lane::Lane;
 use crate::orbit::{
     self, Certificate, Exponent, HistorySpan, Machine, OrbitOf, Outcome, Protocol, precision,
 };
 
-use super::account::{Account, Impact};
+use super::account::{Account, Energies, Impact};
 use super::case::Case;
 use super::history::History;
 use super::output::{Output, Outputs};
@@ -203,7 +206,7 @@ pub fn outputs(
     let progression = orbit.observed.advance / cycles;
     let resolved = precision::resolution(recurrence) * orbit.size * parameters.drive_period();
     let moves = progression.abs() > resolved;
-    let mut outputs = summed(&orbit.observed, parameters, (progression, moves), cycles);
+    let mut outputs = summed(&orbit.observed, parameters, moves, cycles);
     let Exponent { value, uncertainty } = orbit.exponent;
     outputs[Output::LyapunovExponent] = value;
     outputs[Output::LyapunovUncertainty] = uncertainty;
@@ -214,28 +217,47 @@ pub fn outputs(
     outputs
 }
 
-/// The outputs per cycle, from the sums over `cycles` and the `progression` per cycle [m], which is
-/// rounding unless the capsule `moves`.
-fn summed(
-    account: &Account<f64>,
-    parameters: &Parameters,
-    (progression, moves): (f64, bool),
-    cycles: f64,
-) -> Outputs {
-    let mut outputs = Outputs::unknown();
-    let energies = account.energies;
-    let losses = energies.friction_loss + energies.damper_loss;
+/// The outputs per cycle, from the sums over `cycles`; costs of progression are infinite unless the capsule `moves` by more
+/// than rounding.
+fn summed(account: &Account<f64>, parameters: &Parameters, moves: bool, cycles: f64) -> Outputs {
+    let mut outputs = per_cycle(account, |it| parameters[it], cycles);
+    let Energies { work_net, work_absolute, friction_loss, damper_loss, .. } = account.energies;
+    let losses = friction_loss + damper_loss;
     // Without a drive only losses are left to measure against.
-    let exchanged = energies.work_absolute.max(losses);
-    let work_positive = energies.work_positive / cycles;
-    let cost_of_transport = if moves {
-        work_positive / (parameters.normal_load() * progression.abs())
-    } else {
-        f64::INFINITY
-    };
-    let energy_per_metre = if moves { work_positive / progression.abs() } else { f64::INFINITY };
+    let exchanged = work_absolute.max(losses);
     for (output, value) in [
-        (Output::ProgressionSpeed, progression / parameters.drive_period()),
+        (Output::EnergyResidual, ratio(work_net - losses, exchanged)),
+        (Output::MomentumResidual, momentum_residual(account, parameters)),
+        (Output::ImpactsPerCycle, account.impacts / cycles),
+        (Output::ForwardSlips, account.forward_slips / cycles),
+        (Output::BackwardSlips, account.backward_slips / cycles),
+        (Output::Reversals, account.reversals / cycles),
+    ] {
+        outputs[output] = value;
+    }
+    if !moves {
+        outputs[Output::CostOfTransport] = f64::INFINITY;
+        outputs[Output::EnergyPerMetre] = f64::INFINITY;
+    }
+    outputs
+}
+
+/// The outputs that change with the parameters, from the sums over `cycles`, in numbers of any kind; NaN for others, and for
+/// the costs where there is no progression.
+pub fn per_cycle<L: Lane>(
+    account: &Account<L>,
+    of: impl Fn(Parameter) -> L,
+    cycles: f64,
+) -> Outputs<L> {
+    let mut outputs = Outputs::unknown();
+    let (energies, cycles) = (&account.energies, L::splat(cycles));
+    let drive_period = L::splat(2.0 * PI) / of(Parameter::Omega);
+    let normal_load = (of(Parameter::M1) + of(Parameter::M2)) * of(Parameter::G);
+    let progression = account.advance / cycles;
+    let distance = progression.abs();
+    let work_positive = energies.work_positive / cycles;
+    for (output, value) in [
+        (Output::ProgressionSpeed, progression / drive_period),
         (Output::ProgressionPerCycle, progression),
         (Output::WorkNet, energies.work_net / cycles),
         (Output::WorkPositive, work_positive),
@@ -243,15 +265,9 @@ fn summed(
         (Output::WorkActuator, energies.work_actuator / cycles),
         (Output::FrictionLoss, energies.friction_loss / cycles),
         (Output::DamperLoss, energies.damper_loss / cycles),
-        (Output::EnergyResidual, ratio(energies.work_net - losses, exchanged)),
-        (Output::MomentumResidual, momentum_residual(account, parameters)),
-        (Output::CostOfTransport, cost_of_transport),
-        (Output::Power, work_positive / parameters.drive_period()),
-        (Output::EnergyPerMetre, energy_per_metre),
-        (Output::ImpactsPerCycle, account.impacts / cycles),
-        (Output::ForwardSlips, account.forward_slips / cycles),
-        (Output::BackwardSlips, account.backward_slips / cycles),
-        (Output::Reversals, account.reversals / cycles),
+        (Output::CostOfTransport, work_positive / (normal_load * distance)),
+        (Output::Power, work_positive / drive_period),
+        (Output::EnergyPerMetre, work_positive / distance),
         (Output::StickShare, account.stick_time / account.time),
         (Output::PeakContactForce, account.peak_contact_force),
         (Output::GrazingMargin, account.grazing_margin),

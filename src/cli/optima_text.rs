@@ -7,7 +7,8 @@ use serde_json::{Map, Value, json};
 
 use super::readable::{count, counted};
 use super::trade_off_rows::Row;
-use crate::capsule::Output;
+use crate::campaign::Slopes;
+use crate::capsule::{Output, Parameter};
 use crate::store::catalogue::{ATTRACTOR, OUTCOME, PERIOD};
 use crate::study::Coordinate;
 use crate::tradeoff::Direction;
@@ -26,12 +27,28 @@ pub struct Answer {
     pub left_out: BTreeMap<String, usize>,
     /// The speed up to which a motion counts as at rest [m/s], and how many do or move the other way.
     pub at_rest: (f64, usize),
+    /// What a search between the cases has brought, if it was asked for.
+    pub refined: Option<Gain>,
     /// The optima.
     pub named: Vec<Named>,
     /// The Pareto front, by rising price.
     pub front: Vec<Row>,
     /// The fastest motions, if they are asked for.
     pub top: Vec<Row>,
+}
+
+/// What a search for motions between the cases has brought.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gain {
+    /// Searches.
+    pub searches: usize,
+    /// Motions that they have led to.
+    pub found: usize,
+    /// The number by which starts were drawn.
+    pub seed: u64,
+    /// The area that the front of the cases dominates up to the dearest price of both fronts, and that of the whole front, in
+    /// units of speed and price.
+    pub hypervolumes: [f64; 2],
 }
 
 /// An optimum.
@@ -58,6 +75,16 @@ pub fn json(answer: &Answer) -> Value {
     object.insert("cases".to_owned(), json!(answer.cases));
     object.insert("left_out".to_owned(), json!(answer.left_out));
     object.insert("speed_at_rest".to_owned(), json!(answer.at_rest.0));
+    if let Some(Gain { searches, found, seed, hypervolumes: [of_cases, whole] }) = answer.refined {
+        let gain = json!({
+            "searches": searches,
+            "found": found,
+            "seed": seed,
+            "hypervolume_of_cases": of_cases,
+            "hypervolume": whole,
+        });
+        object.insert("refined".to_owned(), gain);
+    }
     object.insert("front".to_owned(), Value::Array(answer.front.iter().map(point).collect()));
     for Named { name, row } in &answer.named {
         object.insert((*name).to_owned(), row.as_ref().map_or(Value::Null, point));
@@ -85,6 +112,17 @@ fn json_of_row(row: &Row, of: Output) -> Value {
     point.insert(OUTCOME.name.to_owned(), json!(row.outcome));
     point.insert(ATTRACTOR.name.to_owned(), json!(row.attractor));
     point.insert("share".to_owned(), json!(row.share));
+    let of_speed =
+        |(it, [speed, _]): &(Parameter, [f64; 2])| (it.symbol().to_owned(), json!(speed));
+    let of_price =
+        |(it, [_, price]): &(Parameter, [f64; 2])| (it.symbol().to_owned(), json!(price));
+    let Slopes { sensitivity, stationarity, held_by } = &row.slopes;
+    let each: Map<String, Value> = sensitivity.iter().map(of_speed).collect();
+    let price: Map<String, Value> = sensitivity.iter().map(of_price).collect();
+    point.insert("held_by".to_owned(), json!(held_by));
+    point.insert("stationarity".to_owned(), json!(stationarity));
+    point.insert("sensitivity".to_owned(), Value::Object(each));
+    point.insert(format!("sensitivity_of_{}", of.name()), Value::Object(price));
     point.insert("replay".to_owned(), json!(row.replay));
     Value::Object(point)
 }
@@ -108,7 +146,7 @@ pub fn csv(answer: &Answer) -> String {
         let coordinates = row.coordinates.iter().map(|(_, value, _)| format!("{value:?}"));
         let fixed = [
             what.to_owned(),
-            row.case.to_string(),
+            row.case.map_or(String::new(), |case| case.to_string()),
             format!("{:?}", row.speed),
             format!("{:?}", row.price),
             row.outcome.clone(),
@@ -137,6 +175,19 @@ pub fn table(answer: &Answer) -> String {
         _ => ", or in the other direction",
     };
     let _ = writeln!(text, "\n{} move no faster than {speed:.1e} m/s{against}", count(slow));
+    if let Some(Gain { searches, found, hypervolumes: [of_cases, whole], .. }) = answer.refined {
+        let gain = 100.0 * (whole / of_cases - 1.0);
+        let found = counted(found, "motion");
+        let searches = if searches == 1 {
+            "1 search".to_owned()
+        } else {
+            format!("{} searches", count(searches))
+        };
+        let _ = writeln!(
+            text,
+            "{searches} between the cases led to {found}; the front dominates {gain:.3} % more"
+        );
+    }
     let _ = writeln!(
         text,
         "Pareto front of {} ({}) and {}: {}\n",
@@ -190,10 +241,13 @@ fn write_row(text: &mut String, what: &str, row: &Row) {
         .collect();
     let _ = writeln!(
         text,
-        "{what:<26} {:>14.6} {:>16.6e}  {motion}{basin}; {}; case {}",
+        "{what:<26} {:>14.6} {:>16.6e}  {motion}{basin}; {}; {}",
         1e3 * row.speed,
         row.price,
         place.join(", "),
-        row.case
+        match row.case {
+            Some(case) => format!("case {case}"),
+            None => format!("between cases, held by: {}", row.slopes.held_by.join(", ")),
+        }
     );
 }

@@ -1,5 +1,8 @@
 //! What is told of each motion of a trade-off: its case, its numbers, and how to compute it again.
 
+use crate::campaign::{RefinedMotion, Slopes};
+use crate::capsule::{Output, Parameter, Resistance, Switching};
+use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
 use crate::study::Coordinate;
@@ -20,8 +23,8 @@ pub struct Rows {
 /// A motion of a trade-off.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Its case.
-    pub case: usize,
+    /// Its case; none where it lies between the cases.
+    pub case: Option<usize>,
     /// Its parameters and start [SI], and whether each varies in the file.
     pub coordinates: Vec<(Coordinate, f64, bool)>,
     /// Progression speed [m/s].
@@ -38,6 +41,8 @@ pub struct Row {
     pub attractor: Option<u64>,
     /// The share of the starts that lead to it, where they are all that varies.
     pub share: Option<f64>,
+    /// How it changes with the parameters, and what holds it.
+    pub slopes: Slopes,
     /// The command that computes it again.
     pub replay: String,
 }
@@ -80,7 +85,7 @@ impl Rows {
             (*coordinate, values[case], *varies)
         };
         Row {
-            case,
+            case: Some(case),
             coordinates: self.coordinates.iter().map(one).collect(),
             speed: motion.speed,
             price: motion.price,
@@ -89,9 +94,64 @@ impl Rows {
             period: whole(&self.periods).filter(|period| *period > 0),
             attractor,
             share: attractor.and_then(|it| self.shares.get(it as usize).copied()),
+            slopes: Slopes::default(),
             replay: format!("capsulemap simulate --study {} --case {case}", quoted(&self.file)),
         }
     }
+
+    /// The period of each case; zero where it does not repeat or is not known.
+    pub fn periods(&self, cases: usize) -> Vec<f64> {
+        self.periods.as_ref().map_or_else(|| vec![0.0; cases], |it| it.values.clone())
+    }
+
+    /// What is told of a motion between the cases, whose price is this output.
+    pub fn refined(&self, motion: &RefinedMotion, of: Output, protocol: &Protocol) -> Row {
+        let [r, y1, y2] = motion.section;
+        let value = |coordinate: Coordinate| match coordinate {
+            Coordinate::Parameter(parameter) => motion.parameters[parameter],
+            Coordinate::StartR => r,
+            Coordinate::StartY1 => y1,
+            Coordinate::StartY2 => y2,
+            Coordinate::StartPhase | Coordinate::SectionPhase => motion.phase,
+        };
+        let all = self.coordinates.iter();
+        Row {
+            case: None,
+            coordinates: all.map(|(it, _, varies)| (*it, value(*it), *varies)).collect(),
+            speed: motion.outputs[Output::ProgressionSpeed],
+            price: motion.outputs[of],
+            energy_per_metre: motion.outputs[Output::EnergyPerMetre],
+            outcome: Outcome::Periodic.name().to_owned(),
+            period: Some(motion.period),
+            attractor: None,
+            share: None,
+            slopes: motion.slopes.clone(),
+            replay: replay(motion, protocol),
+        }
+    }
+}
+
+/// The command that computes a motion between the cases.
+fn replay(motion: &RefinedMotion, protocol: &Protocol) -> String {
+    let RefinedMotion { parameters, section: [r, y1, y2], phase, .. } = motion;
+    let mut text = "capsulemap simulate".to_owned();
+    let differs = |it: &&Parameter| parameters[**it] != it.default_value();
+    for parameter in Parameter::ALL.iter().filter(differs) {
+        text += &format!(" --set {}={:?}", parameter.symbol(), parameters[*parameter]);
+    }
+    text += &format!(" --start r={r:?},y1={y1:?},y2={y2:?}");
+    if *phase != 0.0 {
+        text += &format!(" --phase {phase:?}");
+    }
+    let Protocol { tolerance, max_cycles, .. } = protocol;
+    text += &format!(" --tolerance {tolerance:?} --max-cycles {max_cycles}");
+    if parameters.switching != Switching::default() {
+        text += &format!(" --friction-switching {}", parameters.switching.name());
+    }
+    if parameters.resistance != Resistance::default() {
+        text += &format!(" --resistance {}", parameters.resistance.name());
+    }
+    text
 }
 
 /// A file as a shell takes it for one word.

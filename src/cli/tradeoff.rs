@@ -6,23 +6,28 @@ use clap::Args;
 
 use super::arguments::named;
 use super::failure::Failure;
-use super::optima_text::{Answer, Named, csv, json, table};
+use super::optima_text::{Answer, Gain, Named, csv, json, table};
+use super::progress::Progress;
 use super::terminal::print;
-use super::trade_off_rows::Rows;
+use super::trade_off_rows::{Row, Rows};
+use crate::campaign::{RefinedMotion, Refinement, Slopes, study_of};
 use crate::capsule::Output;
+use crate::run::Machine;
 use crate::store::{self, CaseTable, Unread, candidates, quantity};
 use crate::study::document::unknown;
-use crate::tradeoff::{Direction, optima};
+use crate::tradeoff::{Candidate, Direction, MOST_FREE, Optima, hypervolume, optima};
 
 const EXAMPLES: &str = "\
 Examples:
   capsulemap tradeoff results/overview/overview.h5
   capsulemap tradeoff FILE.h5 --of work_positive --direction forward --json
   capsulemap tradeoff FILE.h5 --where \"peak_contact_force < 30 N and grazing_margin > 0.1 mm\" --top 20
+  capsulemap tradeoff FILE.h5 --refine --json
   capsulemap tradeoff FILE.h5 --budget \"20 mW\" --speed \"5 mm/s\" --csv
 
 The front is of all cases of the file, each with the attractor that it has ended on. Motions that are chaotic or
-quasi-periodic take part by their means.";
+quasi-periodic take part by their means. With --refine, periodic motions are followed from the cases to where speed is
+stationary for its price; each says what holds it.";
 
 /// Find the fastest motions for the least energy.
 #[derive(Debug, Args)]
@@ -48,6 +53,15 @@ pub struct Tradeoff {
     /// Least speed that is wanted: the motion that reaches it for the least is told.
     #[arg(long, value_name = "QUANTITY")]
     speed: Option<String>,
+    /// Search for better motions between the cases, over the parameters that vary, within their ranges (at most 6).
+    #[arg(long, conflicts_with = "conditions")]
+    refine: bool,
+    /// Number by which cases are drawn that the search begins with beside the best ones.
+    #[arg(long, value_name = "NUMBER", default_value_t = 1, requires = "refine")]
+    seed: u64,
+    /// Worker threads; one per core by default.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
+    threads: Option<u64>,
     /// List the fastest motions too, so many at most.
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
     top: usize,
@@ -81,11 +95,34 @@ impl Tradeoff {
         })?;
         let found = candidates(&cases, request.of, self.conditions.as_deref())
             .map_err(|error| failure(error, &self.file))?;
-        let best = optima(&found.all, self.direction, request.at_rest);
-        let speed = |at: usize| self.direction.of(found.all[at].speed);
+        let of_cases = optima(&found.all, self.direction, request.at_rest);
+        let rows = Rows::of(&cases, &archive, &shown)
+            .map_err(|error| failure(Unread::Store(error), &self.file))?;
+        let study = study_of(&archive, &self.file)?;
+        let periods = rows.periods(cases.cases());
+        let refinement = Refinement {
+            study: &study,
+            archive: &archive,
+            candidates: &found.all,
+            periods: &periods,
+            of: request.of,
+            direction: self.direction,
+            seed: self.seed,
+        };
+        let refined = if self.refine { self.refined(&refinement, &of_cases)? } else { None };
+        let mut all = found.all.clone();
+        let motions = refined.as_ref().map_or(&[][..], |(_, motions)| motions);
+        all.extend(motions.iter().enumerate().map(|(place, motion)| Candidate {
+            case: cases.cases() + place,
+            speed: motion.outputs[Output::ProgressionSpeed],
+            price: motion.outputs[request.of],
+            energy_per_metre: motion.outputs[Output::EnergyPerMetre],
+        }));
+        let best = optima(&all, self.direction, Some(of_cases.at_rest));
+        let speed = |at: usize| self.direction.of(all[at].speed);
         // Along the front price and speed both rise.
         let within = |most: f64| {
-            let last = best.front.partition_point(|&at| found.all[at].price <= most);
+            let last = best.front.partition_point(|&at| all[at].price <= most);
             last.checked_sub(1).map(|place| best.front[place])
         };
         let reaching = |least: f64| best.front.iter().copied().find(|&at| speed(at) >= least);
@@ -96,15 +133,33 @@ impl Tradeoff {
             ("fastest_within_budget", request.budget.map(within)),
             ("least_for_speed", request.speed.map(reaching)),
         ];
-        let mut order: Vec<usize> = (0..found.all.len()).collect();
+        let mut order: Vec<usize> = (0..all.len()).collect();
         let moves = |at: &usize| speed(*at) > best.at_rest;
         order.retain(moves);
-        let at_rest = found.all.len() - order.len();
+        let at_rest = all.len() - order.len();
         order.sort_by(|&a, &b| speed(b).total_cmp(&speed(a)));
         order.truncate(self.top);
-        let rows = Rows::of(&cases, &archive, &shown)
-            .map_err(|error| failure(Unread::Store(error), &self.file))?;
-        let row = |at: usize| rows.row(&found.all[at]);
+        let row = |at: usize| -> Result<Row, Failure> {
+            let motion = &all[at];
+            if let Some(place) = motion.case.checked_sub(cases.cases()) {
+                return Ok(rows.refined(&motions[place], request.of, &refinement.protocol()));
+            }
+            let slopes = if self.json { refinement.slopes(motion)? } else { Slopes::default() };
+            Ok(Row { slopes, ..rows.row(motion) })
+        };
+        let points = |front: &[usize]| -> Vec<(f64, f64)> {
+            front.iter().map(|&at| (all[at].price, speed(at))).collect()
+        };
+        let fronts = [points(&of_cases.front), points(&best.front)];
+        let dearest = fronts.iter().flatten().fold(0.0, |most: f64, it| most.max(it.0));
+        let gain = refined.as_ref().map(|(searches, motions)| Gain {
+            searches: *searches,
+            found: motions.len(),
+            seed: self.seed,
+            hypervolumes: fronts.map(|front| hypervolume(&front, (dearest, best.at_rest))),
+        });
+        let named = named.into_iter().filter_map(|(name, at)| Some((name, at?)));
+        let named = named.map(|(name, at)| Ok(Named { name, row: at.map(row).transpose()? }));
         let answer = Answer {
             file: shown.clone(),
             of: request.of,
@@ -112,18 +167,38 @@ impl Tradeoff {
             cases: cases.cases(),
             left_out: found.left_out.clone(),
             at_rest: (best.at_rest, at_rest),
-            named: named
-                .into_iter()
-                .filter_map(|(name, at)| Some(Named { name, row: at?.map(row) }))
-                .collect(),
-            front: best.front.iter().map(|&at| row(at)).collect(),
-            top: order.into_iter().map(row).collect(),
+            refined: gain,
+            named: named.collect::<Result<_, Failure>>()?,
+            front: best.front.iter().map(|&at| row(at)).collect::<Result<_, _>>()?,
+            top: order.into_iter().map(row).collect::<Result<_, _>>()?,
         };
         print(&match (self.json, self.csv) {
             (true, _) => format!("{:#}\n", json(&answer)),
             (_, true) => csv(&answer),
             _ => table(&answer),
         })
+    }
+
+    /// Searches between the cases: how many, and what they led to.
+    fn refined(
+        &self,
+        refinement: &Refinement<'_>,
+        optima: &Optima,
+    ) -> Result<Option<(usize, Vec<RefinedMotion>)>, Failure> {
+        let free = refinement.free().len();
+        if !(1..=MOST_FREE).contains(&free) {
+            return Err(Failure::request(format!(
+                "--refine: {}: {free} parameters vary; 1 to {MOST_FREE} can be refined over",
+                self.file.display()
+            )));
+        }
+        let searches = refinement.searches(optima);
+        let threads = self.threads.map(|threads| threads as usize);
+        let machine = Machine { threads, ..Machine::default() };
+        let progress = Progress::new(searches.len(), "searches between the cases");
+        let found = refinement.run(&searches, machine, || progress.step())?;
+        progress.finish();
+        Ok(Some((searches.len(), found)))
     }
 
     fn request(&self) -> Result<Request, Failure> {

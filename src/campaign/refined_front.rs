@@ -1,0 +1,310 @@
+//! From the best cases of a file to the best motions between and beside them: the refined front of a trade-off.
+
+use crate::capsule::{
+    AsPrinted, CapsuleSystem, Case, Filippov, Output, Outputs, Parameter, Parameters, Reading,
+    Section, State, Switching, settle_case,
+};
+use crate::orbit::{Outcome, Protocol};
+use crate::run::{Machine, on_all_threads};
+use crate::store::Archive;
+use crate::store::catalogue::SECTION;
+use crate::study::{Coordinate, Study};
+use crate::tradeoff::{
+    Candidate, Direction, Family, Goal, Hold, MOST_FREE, OperatingPoint, Optima, Side, best, left,
+    sensitivity,
+};
+
+use super::error::CampaignError;
+use super::replay::Replay;
+use super::report::silent;
+
+/// Cases from which each optimum is sought, the best first.
+const STARTS: usize = 8;
+/// As many more are drawn from all that move.
+const DRAWN: usize = 24;
+
+/// A motion that is better by less than this share is the case from which it was sought.
+const LEAST_GAIN: f64 = 1e-9;
+
+/// A motion of the refined front.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RefinedMotion {
+    /// The case whose orbit was followed to it.
+    pub from: usize,
+    /// Its parameters.
+    pub parameters: Parameters,
+    /// Its section point, and the phase of the drive there [rad].
+    pub section: Section,
+    /// Phase of the drive at the section [rad].
+    pub phase: f64,
+    /// Period [cycles].
+    pub period: u64,
+    /// The outputs of the motion that starts at the section point (SI).
+    pub outputs: Outputs,
+    /// How it changes with the parameters.
+    pub slopes: Slopes,
+}
+
+/// A search for a better motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Search {
+    /// The case that it begins with.
+    from: usize,
+    goal: Goal,
+}
+
+/// How speed and price of a periodic motion change with the parameters.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Slopes {
+    /// Percent of speed and of price per percent of each parameter that is not zero.
+    pub sensitivity: Vec<(Parameter, [f64; 2])>,
+    /// The largest relative slope of speed left at this price, for the whole range of a parameter [-]; none where no parameter is free.
+    pub stationarity: Option<f64>,
+    /// What keeps it from being better, in words.
+    pub held_by: Vec<String>,
+}
+
+/// What a search for better motions needs.
+#[derive(Debug)]
+pub struct Refinement<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// Its file of results.
+    pub archive: &'a Archive,
+    /// The motions of the file.
+    pub candidates: &'a [Candidate],
+    /// The period of each case; zero where it does not repeat.
+    pub periods: &'a [f64],
+    /// The output that is to be small.
+    pub of: Output,
+    /// The direction in which speed counts.
+    pub direction: Direction,
+    /// Number of the drawing of starts.
+    pub seed: u64,
+}
+
+impl Refinement<'_> {
+    /// Parameters that vary, with the ends of their ranges.
+    pub fn free(&self) -> Vec<(Parameter, [f64; 2])> {
+        let varied = self.study.case_set.varied().into_iter();
+        let free = varied.filter_map(|coordinate| match coordinate {
+            Coordinate::Parameter(parameter) => {
+                let [low, high] = self.study.case_set.ends(coordinate)?;
+                (high > low).then_some((parameter, [low, high]))
+            }
+            _ => None,
+        });
+        free.collect()
+    }
+
+    /// The searches: from each periodic motion of the front, the most speed for no more than its price; from the fastest
+    /// ones, from those with the least energy per metre, and from some drawn by the seed, the most speed and the least energy
+    /// per metre.
+    pub fn searches(&self, optima: &Optima) -> Vec<Search> {
+        let (direction, of) = (self.direction, self.of);
+        let is_periodic = |at: &usize| self.periods[self.candidates[*at].case] > 0.0;
+        let speed = |at: usize| direction.of(self.candidates[at].speed);
+        let moving: Vec<usize> = (0..self.candidates.len())
+            .filter(|at| is_periodic(at) && speed(*at) > optima.at_rest)
+            .collect();
+        let first = |key: &dyn Fn(usize) -> f64| -> Vec<usize> {
+            let mut order = moving.clone();
+            order.sort_by(|a, b| key(*a).total_cmp(&key(*b)));
+            order.truncate(STARTS);
+            order
+        };
+        let drawn = self.drawn(&moving);
+        let fastest = Goal::Speed { direction, budget: None };
+        let cheapest = Goal::Least(Output::EnergyPerMetre);
+        let of_front = optima.front.iter().copied().filter(is_periodic).map(|at| {
+            let most = self.candidates[at].price;
+            (at, Goal::Speed { direction, budget: Some((of, most)) })
+        });
+        let faster = first(&|at| -speed(at)).into_iter().chain(drawn.iter().copied());
+        let cheaper = first(&|at| self.candidates[at].energy_per_metre)
+            .into_iter()
+            .chain(drawn.iter().copied());
+        let all =
+            of_front.chain(faster.map(|at| (at, fastest))).chain(cheaper.map(|at| (at, cheapest)));
+        all.map(|(at, goal)| Search { from: self.candidates[at].case, goal }).collect()
+    }
+
+    /// Some of the motions, by the seed.
+    fn drawn(&self, moving: &[usize]) -> Vec<usize> {
+        let mut random = fastrand::Rng::with_seed(self.seed);
+        let count = if moving.is_empty() { 0 } else { DRAWN };
+        (0..count).map(|_| moving[random.usize(..moving.len())]).collect()
+    }
+
+    /// The motions to which searches lead, in their order; calls `done` after each.
+    ///
+    /// # Method
+    ///
+    /// See [`best`]. The motion found is settled anew from its section point, as [`settle_case`] does, and counts if it is
+    /// periodic with the same period, which near the loss of its stability it may be too slow for. Every search is by itself: neither threads nor order matter.
+    ///
+    /// Fails if the file cannot be read or a case cannot be computed again.
+    pub fn run(
+        &self,
+        searches: &[Search],
+        machine: Machine,
+        done: impl Fn() + Sync,
+    ) -> Result<Vec<RefinedMotion>, CampaignError> {
+        let found = on_all_threads(machine, searches.len(), |number| {
+            let found = match self.study.base.switching {
+                Switching::Filippov => self.search::<Filippov>(&searches[number]),
+                Switching::AsPrinted => self.search::<AsPrinted>(&searches[number]),
+            };
+            done();
+            found
+        })?;
+        found.into_iter().filter_map(Result::transpose).collect()
+    }
+
+    fn search<R: Reading>(&self, search: &Search) -> Result<Option<RefinedMotion>, CampaignError> {
+        let case = search.from;
+        let Some((family, first)) = self.family::<R>(case)? else { return Ok(None) };
+        let before = first.outputs;
+        let Some(found) = best(&family, first, search.goal) else { return Ok(None) };
+        if self.gain(search.goal, [&before, &found.at.outputs]) < LEAST_GAIN {
+            return Ok(None);
+        }
+        let parameters = family.at(&found.at.shares).parameters;
+        let [r, y1, y2] = found.at.section;
+        let (start, phase) = (State { r, y1, x2: 0.0, y2 }, family.system.phase);
+        let again = Case::at_section(parameters.clone(), start, phase);
+        let orbit = settle_case(&again, &self.protocol());
+        let is_same = orbit.outcome == Outcome::Periodic && orbit.period == family.period;
+        let slopes = Slopes {
+            sensitivity: self.sensitivity(&family.at(&found.at.shares), &found.at, family.period),
+            stationarity: Some(found.stationarity),
+            held_by: words(&found.held_by, &family.free),
+        };
+        Ok(is_same.then_some(RefinedMotion {
+            from: case,
+            parameters,
+            section: found.at.section,
+            phase,
+            period: family.period,
+            outputs: orbit.outputs,
+            slopes,
+        }))
+    }
+
+    /// The relative gain from one motion to another.
+    fn gain(&self, goal: Goal, [from, to]: [&Outputs; 2]) -> f64 {
+        let ratio = |output: Output| to[output] / from[output];
+        match goal {
+            Goal::Speed { .. } => ratio(Output::ProgressionSpeed) - 1.0,
+            Goal::Least(output) => 1.0 - ratio(output),
+        }
+    }
+
+    /// How a motion that is found is computed again.
+    pub fn protocol(&self) -> Protocol {
+        let Protocol { tolerance, max_cycles, .. } = self.study.protocol;
+        Protocol { max_cycles, ..Protocol::with_tolerance(tolerance) }
+    }
+
+    /// How speed and price of a case change with the parameters; nothing where it does not repeat.
+    ///
+    /// Fails if the file cannot be read or the case cannot be computed again.
+    pub fn slopes(&self, candidate: &Candidate) -> Result<Slopes, CampaignError> {
+        match self.study.base.switching {
+            Switching::Filippov => self.slopes_as::<Filippov>(candidate),
+            Switching::AsPrinted => self.slopes_as::<AsPrinted>(candidate),
+        }
+    }
+
+    fn slopes_as<R: Reading>(&self, candidate: &Candidate) -> Result<Slopes, CampaignError> {
+        let Some((family, at)) = self.family::<R>(candidate.case)? else {
+            return Ok(Slopes::default());
+        };
+        let budget = Some((self.of, candidate.price));
+        let goal = Goal::Speed { direction: self.direction, budget };
+        let known = (!family.free.is_empty()).then(|| left(&family, &at, goal)).flatten();
+        let (stationarity, held_by) = known.unzip();
+        Ok(Slopes {
+            sensitivity: self.sensitivity(&family.system, &at, family.period),
+            stationarity,
+            held_by: words(&held_by.unwrap_or_default(), &family.free),
+        })
+    }
+
+    /// The family of the orbit of a case, with the orbit; none where it does not repeat or is not stable.
+    fn family<R: Reading>(
+        &self,
+        case: usize,
+    ) -> Result<Option<(Family<R>, OperatingPoint)>, CampaignError> {
+        let Some(period) = Some(self.periods[case]).filter(|period| *period > 0.0) else {
+            return Ok(None);
+        };
+        let Case { parameters, section_phase, .. } = self.study.case(case);
+        let Some(section) = self.section(case)? else { return Ok(None) };
+        let mut free = self.free();
+        if free.len() > MOST_FREE {
+            free.clear();
+        }
+        let family = Family {
+            system: CapsuleSystem::<R>::new(parameters, section_phase),
+            free,
+            period: period as u64,
+            tolerance: self.study.protocol.tolerance,
+        };
+        let first = family.orbit(&family.shares(), &section);
+        Ok(first.map(|first| (family, first)))
+    }
+
+    /// Percent of speed and of price per percent of each parameter.
+    fn sensitivity<R: Reading>(
+        &self,
+        system: &CapsuleSystem<R>,
+        at: &OperatingPoint,
+        period: u64,
+    ) -> Vec<(Parameter, [f64; 2])> {
+        let each = Parameter::ALL.iter().filter(|it| system.parameters[**it] != 0.0);
+        let tolerance = self.study.protocol.tolerance;
+        each.filter_map(|parameter| {
+            let found = sensitivity(system, (&at.section, period), tolerance, *parameter)?;
+            let value = system.parameters[*parameter];
+            let relative = |output: Output| value * found.slopes[output] / found.outputs[output];
+            Some((*parameter, [relative(Output::ProgressionSpeed), relative(self.of)]))
+        })
+        .collect()
+    }
+
+    /// A section point of a periodic case: from the file, or computed again where that keeps none.
+    fn section(&self, case: usize) -> Result<Option<Section>, CampaignError> {
+        let at = [self.study.case_set.position(case)];
+        let mut point = [f64::NAN; 3];
+        for (coordinate, entry) in point.iter_mut().zip(SECTION) {
+            let rows = self.archive.rows(entry.name, &at)?;
+            let first = rows.first().and_then(|row| row.to_real().into_iter().next());
+            *coordinate = first.unwrap_or(f64::NAN);
+        }
+        if point.iter().all(|it| it.is_finite()) {
+            return Ok(Some(point));
+        }
+        let replay = Replay::new(self.study, case)?;
+        let orbit = settle_case(&replay.as_run(Machine::single(), &silent)?, replay.protocol());
+        let end = [orbit.end.r, orbit.end.y1, orbit.end.y2];
+        Ok((orbit.outcome == Outcome::Periodic).then_some(end))
+    }
+}
+
+/// What holds a motion, in words.
+fn words(holds: &[Hold], free: &[(Parameter, [f64; 2])]) -> Vec<String> {
+    let in_words = |hold: &Hold| match hold {
+        Hold::Interior => "interior".to_owned(),
+        Hold::Bound(place, side) => {
+            let side = if *side == Side::Lower { "lower" } else { "upper" };
+            format!("{side} bound of {}", free[*place].0.symbol())
+        }
+        Hold::Fold => "fold".to_owned(),
+        Hold::PeriodDoubling => "period doubling".to_owned(),
+        Hold::NeimarkSacker => "Neimark-Sacker".to_owned(),
+        Hold::EventSequence => "event sequence".to_owned(),
+        Hold::Steps => "not converged".to_owned(),
+    };
+    holds.iter().map(in_words).collect()
+}

@@ -1,0 +1,157 @@
+//! The least value of a quadratic function within a box, below one plane.
+
+use crate::orbit::matrix::solve;
+
+/// Free parameters at most.
+pub const MOST: usize = 6;
+/// Unknowns of the equations of a face: the step and the multiplier of the plane.
+const UNKNOWNS: usize = MOST + 1;
+/// A step may leave the box or pass the plane by so much, as rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// A vector over the free parameters; what is beyond them is zero.
+pub type Vector = [f64; MOST];
+
+/// Where a quadratic function g d + d H d / 2 is to be least.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quadratic {
+    /// Free parameters.
+    pub count: usize,
+    /// The gradient g.
+    pub gradient: Vector,
+    /// The symmetric matrix H.
+    pub hessian: [Vector; MOST],
+    /// The box, from its lower to its upper corner; it holds the origin.
+    pub bounds: [Vector; 2],
+    /// The normal a and the height b of the plane that is not passed, a d <= b, if there is one.
+    pub plane: Option<(Vector, f64)>,
+}
+
+/// Where it is least.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Least {
+    /// The step.
+    pub step: Vector,
+    /// The value there, relative to the origin.
+    pub value: f64,
+    /// The multiplier of the plane, zero where that does not hold the step.
+    pub multiplier: f64,
+}
+
+/// The scalar product.
+pub fn dot(a: &Vector, b: &Vector) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl Quadratic {
+    /// The least value; none where the box does not reach below the plane.
+    ///
+    /// # Method
+    ///
+    /// On every face of the box, with the plane and without it, the one point at which the function is stationary is found by
+    /// linear equations; the best of those that lie in the box and below the plane is the least. H need not be definite, as
+    /// corners are faces, too. There are 2 * 3^n faces of n parameters.
+    pub fn least(&self) -> Option<Least> {
+        let faces = 3_usize.pow(self.count as u32);
+        let mut best: Option<Least> = None;
+        for face in 0..faces {
+            for held in [false, true] {
+                let found = self.stationary(face, held);
+                let is_better = |it: &Least| best.is_none_or(|best| it.value < best.value);
+                best = found.filter(is_better).or(best);
+            }
+        }
+        best
+    }
+
+    /// The stationary point of a face, whose digits to base three say which parameters are free or at which bound.
+    fn stationary(&self, face: usize, held: bool) -> Option<Least> {
+        let plane = if held { Some(self.plane?) } else { None };
+        let (mut rows, mut right) = ([[0.0; UNKNOWNS]; UNKNOWNS], [0.0; UNKNOWNS]);
+        let mut digits = face;
+        for i in 0..MOST {
+            let side = if i < self.count { digits % 3 } else { 1 };
+            digits /= 3;
+            if side == 0 {
+                rows[i][..MOST].copy_from_slice(&self.hessian[i]);
+                rows[i][MOST] = plane.map_or(0.0, |(normal, _)| normal[i]);
+                right[i] = -self.gradient[i];
+            } else {
+                rows[i][i] = 1.0;
+                right[i] = if i < self.count { self.bounds[side - 1][i] } else { 0.0 };
+            }
+        }
+        match plane {
+            Some((normal, height)) => {
+                rows[MOST][..MOST].copy_from_slice(&normal);
+                right[MOST] = height;
+            }
+            None => rows[MOST][MOST] = 1.0,
+        }
+        let solution = solve(rows, right)?;
+        let step: Vector = std::array::from_fn(|i| solution[i]);
+        let multiplier = solution[MOST];
+        let inside = (0..self.count).all(|i| {
+            step[i] >= self.bounds[0][i] - ROUNDING && step[i] <= self.bounds[1][i] + ROUNDING
+        });
+        let below = |(normal, height): (Vector, f64)| dot(&normal, &step) <= height + ROUNDING;
+        if !inside || !self.plane.is_none_or(below) || multiplier < 0.0 {
+            return None;
+        }
+        let step: Vector = std::array::from_fn(|i| match i < self.count {
+            true => step[i].clamp(self.bounds[0][i], self.bounds[1][i]),
+            false => 0.0,
+        });
+        let bent: Vector = std::array::from_fn(|i| dot(&self.hessian[i], &step));
+        let value = dot(&self.gradient, &step) + 0.5 * dot(&bent, &step);
+        Some(Least { step, value, multiplier })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A repeatable number between -1 and 1.
+    fn draw(state: &mut u64) -> f64 {
+        *state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    #[test]
+    fn no_point_of_a_fine_grid_is_below_the_least() {
+        let mut state = 7;
+        for _ in 0..200 {
+            let mut hessian = [[0.0; MOST]; MOST];
+            let mut gradient = [0.0; MOST];
+            let mut normal = [0.0; MOST];
+            for i in 0..2 {
+                (gradient[i], normal[i]) = (draw(&mut state), draw(&mut state));
+                hessian[i][i] = 3.0 * draw(&mut state);
+            }
+            hessian[0][1] = 3.0 * draw(&mut state);
+            hessian[1][0] = hessian[0][1];
+            let bounds = [[-0.7, -0.2, 0.0, 0.0, 0.0, 0.0], [0.4, 0.9, 0.0, 0.0, 0.0, 0.0]];
+            let height = 0.1 * (1.0 + draw(&mut state));
+            let plane = Some((normal, height));
+            let quadratic = Quadratic { count: 2, gradient, hessian, bounds, plane };
+            let least = quadratic.least().expect("the origin is allowed");
+            assert!(dot(&normal, &least.step) <= height + 1e-9);
+            for i in 0..=100 {
+                for j in 0..=100 {
+                    let mut at = [0.0; MOST];
+                    at[0] = -0.7 + 0.011 * f64::from(i);
+                    at[1] = -0.2 + 0.011 * f64::from(j);
+                    let bent: Vector = std::array::from_fn(|i| dot(&hessian[i], &at));
+                    let value = dot(&gradient, &at) + 0.5 * dot(&bent, &at);
+                    let allowed = dot(&normal, &at) <= height;
+                    assert!(
+                        !allowed || value >= least.value - 1e-12,
+                        "{quadratic:?} {least:?} {at:?}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! How the section point and the outputs of a periodic orbit change with a parameter, exactly.
+
+use crate::capsule::{Account, CapsuleSystem, Outputs, Parameter, Reading, Section, per_cycle};
+use crate::flow::System;
+use crate::lane::Dual;
+use crate::orbit::matrix::{Matrix, solve};
+use crate::orbit::return_map::{Cycles, jacobian, observed, seeded, values};
+
+/// Directions of the derivatives: the coordinates of the section, then the parameter.
+const DIRECTIONS: usize = 4;
+/// The place of the parameter among them.
+const FREE: usize = 3;
+
+/// A periodic orbit and its derivatives in a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensitivity {
+    /// Where the motion is after the period; the section point, up to rounding.
+    pub end: Section,
+    /// The Jacobian of the return map over the period.
+    pub jacobian: Matrix<3>,
+    /// The outputs that change with parameters, NaN for others (SI).
+    pub outputs: Outputs,
+    /// The derivative of the section point (SI).
+    pub section_slope: Section,
+    /// The derivatives of the outputs (SI).
+    pub slopes: Outputs,
+}
+
+/// The derivatives of the periodic orbit through `section`, of this `period` [cycles], in a parameter; none where the motion
+/// cannot be followed, or where a multiplier is one, so that no orbit goes on there.
+///
+/// # Method
+///
+/// The motion is followed for a period in numbers with derivatives in the section point s and in the parameter p, events
+/// included, and the sums of the outputs with it. The implicit function theorem on F(s, p) = s gives
+/// ds/dp = (I - dF/ds)^-1 dF/dp, and each output Q(s, p) has dQ/dp + dQ/ds ds/dp.
+///
+/// # Assumes
+///
+/// The orbit is closed to rounding.
+///
+/// # Breaks
+///
+/// Where an event falls on another or a surface is only touched, outputs have a corner, and the slopes are those of the
+/// side that the orbit takes.
+pub fn sensitivity<R: Reading>(
+    system: &CapsuleSystem<R>,
+    (section, period): (&Section, u64),
+    tolerance: f64,
+    parameter: Parameter,
+) -> Option<Sensitivity> {
+    let of = |it: Parameter| -> Dual<f64, DIRECTIONS> {
+        let value = system.value(it);
+        if it == parameter { Dual::variable(value, FREE) } else { Dual::constant(value) }
+    };
+    let mut account = Account::new(of, 0);
+    let cycles = Cycles { count: period, tolerance };
+    let image = observed(&system.system(of), seeded(section), &cycles, &mut account).ok()?;
+    let jacobian = jacobian(&image);
+    let from_identity = std::array::from_fn(|i| {
+        std::array::from_fn(|j| f64::from(u8::from(i == j)) - jacobian[i][j])
+    });
+    let section_slope = solve(from_identity, image.map(|it| it.gradient[FREE]))?;
+    let outputs = per_cycle(&account, of, period as f64);
+    let total = |it: Dual<f64, DIRECTIONS>| {
+        let by_section = section_slope.iter().zip(it.gradient).map(|(slope, by)| slope * by);
+        it.gradient[FREE] + by_section.sum::<f64>()
+    };
+    Some(Sensitivity {
+        end: values(&image),
+        jacobian,
+        outputs: outputs.map(|it| it.value),
+        section_slope,
+        slopes: outputs.map(total),
+    })
+}
