@@ -141,7 +141,8 @@ impl Refinement<'_> {
     /// # Method
     ///
     /// See [`best`]. The motion found is settled anew from its section point, as [`settle_case`] does, and counts if it is
-    /// periodic with the same period, which near the loss of its stability it may be too slow for. Every search is by itself: neither threads nor order matter.
+    /// periodic with the same period, which near the loss of its stability it may be too slow for. Every search is by itself:
+    /// neither threads nor order matter.
     ///
     /// Fails if the file cannot be read or a case cannot be computed again.
     pub fn run(
