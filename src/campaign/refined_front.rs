@@ -71,10 +71,8 @@ pub struct Refinement<'a> {
     pub study: &'a Study,
     /// Its file of results.
     pub archive: &'a Archive,
-    /// The motions of the file.
-    pub candidates: &'a [Candidate],
     /// The period of each case; zero where it does not repeat.
-    pub periods: &'a [f64],
+    pub periods: Vec<f64>,
     /// The output that is to be small.
     pub of: Output,
     /// The direction in which speed counts.
@@ -97,14 +95,14 @@ impl Refinement<'_> {
         free.collect()
     }
 
-    /// The searches: from each periodic motion of the front, the most speed for no more than its price; from the fastest
+    /// The searches among the motions of the file: from each periodic motion of the front, the most speed for no more than its price; from the fastest
     /// ones, from those with the least energy per metre, and from some drawn by the seed, the most speed and the least energy
     /// per metre.
-    pub fn searches(&self, optima: &Optima) -> Vec<Search> {
+    pub fn searches(&self, candidates: &[Candidate], optima: &Optima) -> Vec<Search> {
         let (direction, of) = (self.direction, self.of);
-        let is_periodic = |at: &usize| self.periods[self.candidates[*at].case] > 0.0;
-        let speed = |at: usize| direction.of(self.candidates[at].speed);
-        let moving: Vec<usize> = (0..self.candidates.len())
+        let is_periodic = |at: &usize| self.periods[candidates[*at].case] > 0.0;
+        let speed = |at: usize| direction.of(candidates[at].speed);
+        let moving: Vec<usize> = (0..candidates.len())
             .filter(|at| is_periodic(at) && speed(*at) > optima.at_rest)
             .collect();
         let first = |key: &dyn Fn(usize) -> f64| -> Vec<usize> {
@@ -117,16 +115,15 @@ impl Refinement<'_> {
         let fastest = Goal::Speed { direction, budget: None };
         let cheapest = Goal::Least(Output::EnergyPerMetre);
         let of_front = optima.front.iter().copied().filter(is_periodic).map(|at| {
-            let most = self.candidates[at].price;
+            let most = candidates[at].price;
             (at, Goal::Speed { direction, budget: Some((of, most)) })
         });
         let faster = first(&|at| -speed(at)).into_iter().chain(drawn.iter().copied());
-        let cheaper = first(&|at| self.candidates[at].energy_per_metre)
-            .into_iter()
-            .chain(drawn.iter().copied());
+        let cheaper =
+            first(&|at| candidates[at].energy_per_metre).into_iter().chain(drawn.iter().copied());
         let all =
             of_front.chain(faster.map(|at| (at, fastest))).chain(cheaper.map(|at| (at, cheapest)));
-        all.map(|(at, goal)| Search { from: self.candidates[at].case, goal }).collect()
+        all.map(|(at, goal)| Search { from: candidates[at].case, goal }).collect()
     }
 
     /// Some of the motions, by the seed.
@@ -148,10 +145,10 @@ impl Refinement<'_> {
     pub fn run(
         &self,
         searches: &[Search],
-        machine: Machine,
+        threads: Option<usize>,
         done: impl Fn() + Sync,
     ) -> Result<Vec<RefinedMotion>, CampaignError> {
-        let found = on_all_threads(machine, searches.len(), |number| {
+        let found = on_all_threads(threads, searches.len(), |number| {
             let found = match self.study.base.switching {
                 Switching::Filippov => self.search::<Filippov>(&searches[number]),
                 Switching::AsPrinted => self.search::<AsPrinted>(&searches[number]),
@@ -170,20 +167,20 @@ impl Refinement<'_> {
         if self.gain(search.goal, [&before, &found.at.outputs]) < LEAST_GAIN {
             return Ok(None);
         }
-        let parameters = family.at(&found.at.shares).parameters;
+        let system = family.at(&found.at.shares);
         let [r, y1, y2] = found.at.section;
-        let (start, phase) = (State { r, y1, x2: 0.0, y2 }, family.system.phase);
-        let again = Case::at_section(parameters.clone(), start, phase);
+        let (start, phase) = (State { r, y1, x2: 0.0, y2 }, system.phase);
+        let again = Case::at_section(system.parameters.clone(), start, phase);
         let orbit = settle_case(&again, &self.protocol());
         let is_same = orbit.outcome == Outcome::Periodic && orbit.period == family.period;
         let slopes = Slopes {
-            sensitivity: self.sensitivity(&family.at(&found.at.shares), &found.at, family.period),
+            sensitivity: self.sensitivity(&system, &found.at, family.period),
             stationarity: Some(found.stationarity),
             held_by: words(&found.held_by, &family.free),
         };
         Ok(is_same.then_some(RefinedMotion {
             from: case,
-            parameters,
+            parameters: system.parameters,
             section: found.at.section,
             phase,
             period: family.period,

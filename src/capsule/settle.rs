@@ -242,8 +242,8 @@ fn summed(account: &Account<f64>, parameters: &Parameters, moves: bool, cycles: 
     outputs
 }
 
-/// The outputs that change with the parameters, from the sums over `cycles`, in numbers of any kind; NaN for others, and for
-/// the costs where there is no progression.
+/// The outputs that change with the parameters, from the sums over `cycles`, in numbers of any kind; NaN for others. Costs of
+/// no progression are infinite, of rounding they are what they are.
 pub fn per_cycle<L: Lane>(
     account: &Account<L>,
     of: impl Fn(Parameter) -> L,

@@ -10,9 +10,8 @@ use super::optima_text::{Answer, Gain, Named, csv, json, table};
 use super::progress::Progress;
 use super::terminal::print;
 use super::trade_off_rows::{Row, Rows};
-use crate::campaign::{RefinedMotion, Refinement, Slopes, study_of};
+use crate::campaign::{RefinedMotion, Refinement, study_of};
 use crate::capsule::Output;
-use crate::run::Machine;
 use crate::store::{self, CaseTable, Unread, candidates, quantity};
 use crate::study::document::unknown;
 use crate::tradeoff::{Candidate, Direction, MOST_FREE, Optima, hypervolume, optima};
@@ -98,19 +97,20 @@ impl Tradeoff {
         let of_cases = optima(&found.all, self.direction, request.at_rest);
         let rows = Rows::of(&cases, &archive, &shown)
             .map_err(|error| failure(Unread::Store(error), &self.file))?;
-        let study = study_of(&archive, &self.file)?;
-        let periods = rows.periods(cases.cases());
-        let refinement = Refinement {
-            study: &study,
+        // Only slopes and searches take more than what the file tells of its cases.
+        let asks_for_orbits = self.refine || self.json;
+        let study = asks_for_orbits.then(|| study_of(&archive, &self.file)).transpose()?;
+        let refinement = study.as_ref().map(|study| Refinement {
+            study,
             archive: &archive,
-            candidates: &found.all,
-            periods: &periods,
+            periods: rows.periods(cases.cases()),
             of: request.of,
             direction: self.direction,
             seed: self.seed,
-        };
-        let refined = if self.refine { self.refined(&refinement, &of_cases)? } else { None };
-        let mut all = found.all.clone();
+        });
+        let asked = refinement.as_ref().filter(|_| self.refine);
+        let refined = asked.map(|it| self.refined(it, &found.all, &of_cases)).transpose()?;
+        let mut all = found.all;
         let motions = refined.as_ref().map_or(&[][..], |(_, motions)| motions);
         all.extend(motions.iter().enumerate().map(|(place, motion)| Candidate {
             case: cases.cases() + place,
@@ -141,11 +141,15 @@ impl Tradeoff {
         order.truncate(self.top);
         let row = |at: usize| -> Result<Row, Failure> {
             let motion = &all[at];
-            if let Some(place) = motion.case.checked_sub(cases.cases()) {
-                return Ok(rows.refined(&motions[place], request.of, &refinement.protocol()));
+            match (&refinement, motion.case.checked_sub(cases.cases())) {
+                (Some(refinement), Some(place)) => {
+                    Ok(rows.refined(&motions[place], request.of, &refinement.protocol()))
+                }
+                (Some(refinement), None) if self.json => {
+                    Ok(Row { slopes: refinement.slopes(motion)?, ..rows.row(motion) })
+                }
+                _ => Ok(rows.row(motion)),
             }
-            let slopes = if self.json { refinement.slopes(motion)? } else { Slopes::default() };
-            Ok(Row { slopes, ..rows.row(motion) })
         };
         let points = |front: &[usize]| -> Vec<(f64, f64)> {
             front.iter().map(|&at| (all[at].price, speed(at))).collect()
@@ -165,7 +169,7 @@ impl Tradeoff {
             of: request.of,
             direction: self.direction,
             cases: cases.cases(),
-            left_out: found.left_out.clone(),
+            left_out: found.left_out,
             at_rest: (best.at_rest, at_rest),
             refined: gain,
             named: named.collect::<Result<_, Failure>>()?,
@@ -183,8 +187,9 @@ impl Tradeoff {
     fn refined(
         &self,
         refinement: &Refinement<'_>,
+        candidates: &[Candidate],
         optima: &Optima,
-    ) -> Result<Option<(usize, Vec<RefinedMotion>)>, Failure> {
+    ) -> Result<(usize, Vec<RefinedMotion>), Failure> {
         let free = refinement.free().len();
         if !(1..=MOST_FREE).contains(&free) {
             return Err(Failure::request(format!(
@@ -192,13 +197,12 @@ impl Tradeoff {
                 self.file.display()
             )));
         }
-        let searches = refinement.searches(optima);
+        let searches = refinement.searches(candidates, optima);
         let threads = self.threads.map(|threads| threads as usize);
-        let machine = Machine { threads, ..Machine::default() };
         let progress = Progress::new(searches.len(), "searches between the cases");
-        let found = refinement.run(&searches, machine, || progress.step())?;
+        let found = refinement.run(&searches, threads, || progress.step())?;
         progress.finish();
-        Ok(Some((searches.len(), found)))
+        Ok((searches.len(), found))
     }
 
     fn request(&self) -> Result<Request, Failure> {

@@ -55,6 +55,15 @@ pub fn solve<const D: usize>(mut a: Matrix<D>, mut b: [f64; D]) -> Option<[f64; 
     b.iter().all(|x| x.is_finite()).then_some(b)
 }
 
+/// A matrix less the identity.
+pub fn less_identity<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
+    let mut result = *a;
+    for (i, row) in result.iter_mut().enumerate() {
+        row[i] -= 1.0;
+    }
+    result
+}
+
 /// The determinant, by the same elimination.
 pub fn determinant<const D: usize>(mut a: Matrix<D>) -> f64 {
     let mut product = 1.0;

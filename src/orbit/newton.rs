@@ -2,7 +2,7 @@
 
 use crate::flow::{Metric, Reason};
 
-use super::matrix::{Matrix, solve};
+use super::matrix::{Matrix, less_identity, solve};
 use super::precision::{NEARBY, ROUNDING};
 use super::return_map::Image;
 
@@ -72,13 +72,4 @@ pub fn close<const D: usize>(
         point = std::array::from_fn(|i| point[i] + step[i]);
     }
     Ok(best.map(|best| Closed { cycles: followed, ..best }))
-}
-
-/// A matrix less the identity.
-fn less_identity<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
-    let mut result = *a;
-    for (i, row) in result.iter_mut().enumerate() {
-        row[i] -= 1.0;
-    }
-    result
 }

@@ -186,7 +186,7 @@ fn links_of_lines<R: Reading>(
     );
     let mut order: Vec<usize> = (0..lines.len() * last).collect();
     // Those begun last end last: let them be short ones, so that no thread goes on alone.
-    order.sort_by_key(|place| {
+    order.sort_by_cached_key(|place| {
         let (line, at) = (place / last, place % last);
         Reverse(cells[line][at].cycles() + cells[line][at + 1].cycles())
     });

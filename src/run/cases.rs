@@ -157,16 +157,16 @@ pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, RunError
     builder.build().map_err(failed)
 }
 
-/// The results of `each` for so many numbers, in their order, computed on the threads of `machine`.
+/// The results of `each` for so many numbers, in their order, computed on so many threads, all cores for none.
 ///
 /// Fails if the threads cannot be started.
 pub fn on_all_threads<T: Send>(
-    machine: Machine,
+    threads: Option<usize>,
     count: usize,
     each: impl Fn(usize) -> T + Sync,
 ) -> Result<Vec<T>, RunError> {
     let all = || (0..count).into_par_iter().with_max_len(1).map(&each).collect();
-    Ok(pool(machine.threads)?.install(all))
+    Ok(pool(threads)?.install(all))
 }
 
 /// The threads of the pool in which it is used.

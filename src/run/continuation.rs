@@ -2,15 +2,13 @@
 
 use std::fmt;
 
-use rayon::prelude::*;
-
 use crate::branch::NotFollowed;
 use crate::capsule::branch::{self, Found};
 use crate::capsule::{Case, REASONS, Section, settle_case};
 use crate::flow::Reason;
 use crate::orbit::{Outcome, Protocol};
 
-use super::cases::{RunError, pool};
+use super::cases::{RunError, on_all_threads};
 use crate::study::{Continuation, FirstOrbit, Study};
 
 /// What came of one branch of a study.
@@ -63,12 +61,11 @@ pub fn continue_branches(
     threads: Option<usize>,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Continued>, RunError> {
-    let one = |continuation: &Continuation| {
-        let followed = continue_one(continuation, &study.protocol);
+    on_all_threads(threads, study.branches.len(), |number| {
+        let followed = continue_one(&study.branches[number], &study.protocol);
         done();
         followed
-    };
-    Ok(pool(threads)?.install(|| study.branches.par_iter().map(one).collect()))
+    })
 }
 
 fn continue_one(continuation: &Continuation, protocol: &Protocol) -> Continued {

@@ -108,17 +108,12 @@ struct Ascent<'a, R> {
 ///
 /// The orbit is no worse than the first. Local: another start may lead to a better one.
 pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -> Option<Best> {
-    let mut ascent = Ascent { family, goal, unit: 1.0 };
-    ascent.unit = ascent.value(&first).abs();
-    if !(ascent.unit > 0.0 && ascent.unit.is_finite()) {
-        return None;
-    }
+    let ascent = Ascent::from(family, &first, goal)?;
     let [mut trust, least] = TRUST;
     let mut at = first;
-    let mut multiplier = 0.0_f64;
     for _ in 0..STEPS {
         let here = ascent.measured(&at);
-        multiplier = ascent.multiplier(&at, &here);
+        let multiplier = ascent.multiplier(&at, &here);
         let stationarity = ascent.stationarity(&at, &here, multiplier);
         if stationarity <= STATIONARY || trust < least {
             let held_by = ascent.holds(&at, &here, multiplier, stationarity);
@@ -162,6 +157,7 @@ pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -
         }
     }
     let here = ascent.measured(&at);
+    let multiplier = ascent.multiplier(&at, &here);
     let stationarity = ascent.stationarity(&at, &here, multiplier);
     let mut held_by = ascent.bounds(&at, &here, multiplier);
     held_by.push(Hold::Steps);
@@ -175,11 +171,7 @@ pub fn left<R: Reading>(
     at: &OperatingPoint,
     goal: Goal,
 ) -> Option<(f64, Vec<Hold>)> {
-    let mut ascent = Ascent { family, goal, unit: 1.0 };
-    ascent.unit = ascent.value(at).abs();
-    if !(ascent.unit > 0.0 && ascent.unit.is_finite()) {
-        return None;
-    }
+    let ascent = Ascent::from(family, at, goal)?;
     let here = ascent.measured(at);
     let multiplier = ascent.multiplier(at, &here);
     let stationarity = ascent.stationarity(at, &here, multiplier);
@@ -190,7 +182,14 @@ pub fn left<R: Reading>(
     Some((stationarity, held_by))
 }
 
-impl<R: Reading> Ascent<'_, R> {
+impl<'a, R: Reading> Ascent<'a, R> {
+    /// From an orbit of a family; none where the goal has no value there.
+    fn from(family: &'a Family<R>, first: &OperatingPoint, goal: Goal) -> Option<Self> {
+        let ascent = Ascent { family, goal, unit: 1.0 };
+        let unit = ascent.value(first).abs();
+        (unit > 0.0 && unit.is_finite()).then_some(Ascent { unit, ..ascent })
+    }
+
     fn count(&self) -> usize {
         self.family.free.len()
     }

@@ -3,21 +3,17 @@
 use crate::capsule::{Account, CapsuleSystem, Outputs, Parameter, Reading, Section, per_cycle};
 use crate::flow::System;
 use crate::lane::Dual;
-use crate::orbit::matrix::{Matrix, solve};
-use crate::orbit::return_map::{Cycles, jacobian, observed, seeded, values};
+use crate::orbit::matrix::{less_identity, solve};
+use crate::orbit::return_map::{Cycles, jacobian, observed, seeded};
 
 /// Directions of the derivatives: the coordinates of the section, then the parameter.
 const DIRECTIONS: usize = 4;
 /// The place of the parameter among them.
 const FREE: usize = 3;
 
-/// A periodic orbit and its derivatives in a parameter.
+/// The outputs of a periodic orbit, and its derivatives in a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensitivity {
-    /// Where the motion is after the period; the section point, up to rounding.
-    pub end: Section,
-    /// The Jacobian of the return map over the period.
-    pub jacobian: Matrix<3>,
     /// The outputs that change with parameters, NaN for others (SI).
     pub outputs: Outputs,
     /// The derivative of the section point (SI).
@@ -56,19 +52,14 @@ pub fn sensitivity<R: Reading>(
     let mut account = Account::new(of, 0);
     let cycles = Cycles { count: period, tolerance };
     let image = observed(&system.system(of), seeded(section), &cycles, &mut account).ok()?;
-    let jacobian = jacobian(&image);
-    let from_identity = std::array::from_fn(|i| {
-        std::array::from_fn(|j| f64::from(u8::from(i == j)) - jacobian[i][j])
-    });
-    let section_slope = solve(from_identity, image.map(|it| it.gradient[FREE]))?;
+    let in_parameter = image.map(|it| -it.gradient[FREE]);
+    let section_slope = solve(less_identity(&jacobian(&image)), in_parameter)?;
     let outputs = per_cycle(&account, of, period as f64);
     let total = |it: Dual<f64, DIRECTIONS>| {
         let by_section = section_slope.iter().zip(it.gradient).map(|(slope, by)| slope * by);
         it.gradient[FREE] + by_section.sum::<f64>()
     };
     Some(Sensitivity {
-        end: values(&image),
-        jacobian,
         outputs: outputs.map(|it| it.value),
         section_slope,
         slopes: outputs.map(total),

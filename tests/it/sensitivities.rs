@@ -5,7 +5,7 @@ use capsulemap::capsule::{
     per_cycle,
 };
 use capsulemap::lane::Dual;
-use capsulemap::orbit::matrix::solve;
+use capsulemap::orbit::matrix::{less_identity, solve};
 use capsulemap::orbit::return_map::{Cycles, jacobian, observed, returned, seeded};
 use capsulemap::tradeoff::sensitivity;
 
@@ -37,10 +37,7 @@ fn closed(parameters: &Parameters, phase: f64, guess: Section, period: u64) -> S
     let mut point = guess;
     for _ in 0..5 {
         let image = returned(&system, seeded(&point), &cycles, |_| ()).expect("it goes on");
-        let mut matrix = jacobian(&image);
-        for (i, row) in matrix.iter_mut().enumerate() {
-            row[i] -= 1.0;
-        }
+        let matrix = less_identity(&jacobian(&image));
         let gap = std::array::from_fn(|i| image[i].value - point[i]);
         let step = solve(matrix, gap).expect("no multiplier is one");
         point = std::array::from_fn(|i| point[i] - step[i]);
