@@ -21,6 +21,7 @@ mod step_control;
 
 pub use curve::is_followed;
 pub use direct::{Linearised, leads_to, linearised};
+pub use family::cyclic;
 pub use follow::follow;
 pub use segment::{Along, ONE_VALUE, PeriodicOrbit, Segment, SegmentEnd, SpecialValue, segment};
 

@@ -26,6 +26,9 @@ const DRAWN: usize = 24;
 /// A motion that is better by less than this share is the case from which it was sought.
 const LEAST_GAIN: f64 = 1e-9;
 
+/// Motions whose speeds and prices agree to this share are one.
+const SAME: f64 = 1e-8;
+
 /// A motion of the refined front.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefinedMotion {
@@ -133,7 +136,7 @@ impl Refinement<'_> {
         (0..count).map(|_| moving[random.usize(..moving.len())]).collect()
     }
 
-    /// The motions to which searches lead, in their order; calls `done` after each.
+    /// The motions to which searches lead, in their order, each once; calls `done` after each search.
     ///
     /// # Method
     ///
@@ -156,7 +159,34 @@ impl Refinement<'_> {
             done();
             found
         })?;
-        found.into_iter().filter_map(Result::transpose).collect()
+        let found: Result<Vec<RefinedMotion>, CampaignError> =
+            found.into_iter().filter_map(Result::transpose).collect();
+        found.map(|found| self.distinct(found))
+    }
+
+    /// The motions without those that another search has led to already.
+    fn distinct(&self, found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {
+        let mut distinct: Vec<RefinedMotion> = Vec::new();
+        for motion in found {
+            let is_same = |other: &RefinedMotion| {
+                let agrees = |output: Output| {
+                    let [a, b] = [other.outputs[output], motion.outputs[output]];
+                    (a - b).abs() <= SAME * a.abs()
+                };
+                other.period == motion.period
+                    && agrees(Output::ProgressionSpeed)
+                    && agrees(self.of)
+                    && agrees(Output::EnergyPerMetre)
+            };
+            match distinct.iter_mut().find(|other| is_same(other)) {
+                Some(other) if motion.slopes.stationarity < other.slopes.stationarity => {
+                    *other = motion;
+                }
+                Some(_) => {}
+                None => distinct.push(motion),
+            }
+        }
+        distinct
     }
 
     fn search<R: Reading>(&self, search: &Search) -> Result<Option<RefinedMotion>, CampaignError> {
@@ -301,6 +331,7 @@ fn words(holds: &[Hold], free: &[(Parameter, [f64; 2])]) -> Vec<String> {
         Hold::Fold => "fold".to_owned(),
         Hold::PeriodDoubling => "period doubling".to_owned(),
         Hold::NeimarkSacker => "Neimark-Sacker".to_owned(),
+        Hold::Grazing => "grazing".to_owned(),
         Hold::EventSequence => "event sequence".to_owned(),
         Hold::Steps => "not converged".to_owned(),
     };

@@ -1,167 +1,164 @@
-//! From an orbit to the best one of its family: stationary within the bounds, or at the edge of the family.
+//! From an orbit to the best one of its family: stationary within the bounds, or where the family or its outputs have an edge.
 
-use crate::capsule::{Output, Reading};
-use crate::orbit::matrix::Complex;
+use crate::capsule::Reading;
 
+use super::beyond::Beyond;
+use super::goal::{Goal, Measured, Objective};
+use super::hold::{Hold, Side};
 use super::operating_point::{Family, OperatingPoint};
-use super::optima::Direction;
 use super::quadratic::{MOST, Quadratic, Vector, dot};
+use super::slope;
+use super::surface::Surface;
 
 /// The relative slope at which an orbit counts as stationary.
 pub const STATIONARY: f64 = 1e-8;
 /// The first radius of trust, and the least, as shares of the ranges.
 const TRUST: [f64; 2] = [0.05, 1e-10];
 /// Steps at most.
-const STEPS: usize = 200;
+const STEPS: usize = 500;
 /// The step of the differences of exact gradients that give second derivatives, in units of the radius of trust, and the least
 /// and greatest, as shares of the ranges.
 const DIFFERENCE: f64 = 1e-2;
 const DIFFERENCES: [f64; 2] = [1e-7, 1e-4];
+/// Where it is better beyond a surface, the search goes on from an orbit there that is this near, in shares of the ranges.
+const PASSES: f64 = 4e-9;
 /// A gain that is less than this, relative to the value, may be rounding: then the slope tells.
-const NO_GAIN: f64 = 1e-9;
+const NO_GAIN: f64 = 1e-13;
 /// A trial must gain this share of what was foretold.
 const GAIN: f64 = 1e-4;
 /// Where no step gains any more, a slope above this is that of an edge of the family, and a lesser one rounding.
 const AT_EDGE: f64 = 1e-4;
-/// A multiplier this near to where an orbit ceases to be stable says why a family ends.
-const CRITICAL: f64 = 1e-3;
-
-/// What is sought.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Goal {
-    /// The most speed for no more than a price, if one is given (SI).
-    Speed {
-        /// The direction in which speed counts.
-        direction: Direction,
-        /// The output that is the price, and the most of it.
-        budget: Option<(Output, f64)>,
-    },
-    /// The least of an output.
-    Least(Output),
-}
-
-/// What keeps an orbit from being better.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Hold {
-    /// Nothing: it is stationary.
-    Interior,
-    /// The lower or the upper bound of a free parameter, by its place.
-    Bound(usize, Side),
-    /// A multiplier of one: beyond it there is no such orbit.
-    Fold,
-    /// A multiplier of minus one: beyond it the orbit is not stable.
-    PeriodDoubling,
-    /// A pair of complex multipliers on the unit circle.
-    NeimarkSacker,
-    /// A corner, where the sequence of events changes, or a grazing, as far as no multiplier says otherwise.
-    EventSequence,
-    /// Nothing that is known: steps or rounding ended the search before the slope was small enough.
-    Steps,
-}
-
-/// A side of a range.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// Its lower end.
-    Lower,
-    /// Its upper end.
-    Upper,
-}
+/// A surface this near holds an orbit, in shares of the ranges.
+const TOUCHES: f64 = 1e-9;
+/// Steps end so far before a surface, where rounding does not yet mix the derivatives of its two sides.
+const CLEAR: f64 = 1e-10;
 
 /// The best orbit found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Best {
     /// The orbit.
     pub at: OperatingPoint,
-    /// The largest relative slope of the value that is left, for the whole range of a parameter, along directions that bounds
-    /// and budget leave free [-].
+    /// The largest relative slope of the value that is left, for the whole range of a parameter, along directions that bounds,
+    /// budget and surfaces leave free [-].
     pub stationarity: f64,
     /// What holds it.
     pub held_by: Vec<Hold>,
 }
 
-/// Value, budget and their gradients at an orbit, relative to the first value and to the budget; both are to be small.
-#[derive(Debug, Clone, Copy)]
-struct Measured {
-    value: f64,
-    gradient: Vector,
-    /// By how much the budget is exceeded, and the gradient of that.
-    excess: Option<(f64, Vector)>,
-}
-
 struct Ascent<'a, R> {
     family: &'a Family<R>,
-    goal: Goal,
-    /// The magnitude of the first value.
-    unit: f64,
+    objective: Objective,
+    /// Where events change.
+    beyond: Beyond<'a, R>,
 }
 
-/// The best orbit of a family for a goal, from an orbit of it; none where that is not stable or has no value.
+/// The slope at an orbit.
+struct Slope {
+    /// As in [`Best`].
+    left: f64,
+    /// The multiplier of the budget; zero where it is not reached.
+    budget: f64,
+    /// The bounds and surfaces that hold the orbit.
+    held_by: Vec<Hold>,
+    /// The places of near surfaces beyond which it is better.
+    passes: Vec<usize>,
+}
+
+/// The best orbit of a family for a goal, from an orbit of it; none where the goal has no value there.
 ///
 /// # Method
 ///
 /// Sequential quadratic programming in the shares of the free parameters: exact gradients, second derivatives of the
 /// Lagrange function by central differences of them, the quadratic model solved exactly within the bounds, the budget and
 /// a region of trust; a trial counts where its orbit exists, is stable and gains. The region shrinks where the family ends.
+/// Where the sequence of events changes, outputs have a kink: the [`Surface`] between two orbits with different events
+/// bounds the model, as long as the value would become worse beyond it.
 ///
 /// # Guarantees
 ///
 /// The orbit is no worse than the first. Local: another start may lead to a better one.
 pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -> Option<Best> {
-    let ascent = Ascent::from(family, &first, goal)?;
+    let mut ascent = Ascent::from(family, &first, goal)?;
     let [mut trust, least] = TRUST;
     let mut at = first;
+    let mut known = Vec::new();
+    let mut has_switched = false;
     for _ in 0..STEPS {
-        let here = ascent.measured(&at);
-        let multiplier = ascent.multiplier(&at, &here);
-        let stationarity = ascent.stationarity(&at, &here, multiplier);
-        if stationarity <= STATIONARY || trust < least {
-            let held_by = ascent.holds(&at, &here, multiplier, stationarity);
-            return Some(Best { at, stationarity, held_by });
+        let here = ascent.objective.measured(&at);
+        let surfaces = ascent.beyond.located(&at, &here, trust);
+        let slope = ascent.slope((&at, &here), &surfaces, 0.0);
+        if slope.left <= STATIONARY || trust < least {
+            let held_by = ascent.holds(&at, &slope);
+            return Some(Best { at, stationarity: slope.left, held_by });
         }
-        let Some(found) = ascent.model(&at, &here, multiplier, trust).least() else {
+        // What a step within the region of trust may reach holds it.
+        let near = ascent.slope((&at, &here), &surfaces, trust);
+        let passed = near.passes.iter().map(|i| &surfaces[*i]).find(|it| it.reach <= PASSES);
+        if let Some(surface) = passed.filter(|_| !has_switched) {
+            has_switched = true;
+            at = surface.beyond.clone();
+            continue;
+        }
+        let found = ascent.model((&at, &here), near.budget, &surfaces, trust).least();
+        // Before a budget that is exceeded there may be no room on this side of a surface.
+        let found = found.or_else(|| ascent.model((&at, &here), near.budget, &[], trust).least());
+        let Some(found) = found else {
             trust *= 0.25;
             continue;
         };
-        let weight = 1.0 + 2.0 * found.multiplier.max(multiplier);
+        let multiplier = if here.excess.is_some() { found.multipliers[0] } else { 0.0 };
+        let weight = 1.0 + 2.0 * multiplier.max(near.budget);
         let merit = |it: &Measured| it.value + weight * it.excess.map_or(0.0, |it| it.0.max(0.0));
         let shares = std::array::from_fn(|i| on_bound(at.shares[i] + found.step[i]));
         let length = found.step.iter().fold(0.0, |most: f64, part| most.max(part.abs()));
-        let mut trial = family.moved(&at, &shares).map(|trial| (ascent.measured(&trial), trial));
+        let measured = |it: OperatingPoint| (ascent.objective.measured(&it), it);
+        let mut trial = family.moved(&at, &shares).map(measured);
         if let Some((there, passed)) = &trial
             && let Some(shares) = within_budget(there, &passed.shares)
             && let Some(corrected) = family.moved(passed, &shares)
         {
-            trial = Some((ascent.measured(&corrected), corrected));
+            trial = Some(measured(corrected));
         }
-        let gained = trial.as_ref().map(|(there, _)| merit(&here) - merit(there));
         let relieved = here.excess.map_or(0.0, |(excess, _)| weight * excess.max(0.0));
         let foretold = relieved - found.value;
-        let accepts = |gained: f64, there: &Measured, trial: &OperatingPoint| {
-            if foretold > NO_GAIN {
-                return gained > GAIN * foretold;
-            }
-            let multiplier = ascent.multiplier(trial, there);
-            ascent.stationarity(trial, there, multiplier) < 0.5 * stationarity
+        let Some((there, trial)) = trial else {
+            trust = 0.25 * length.min(trust);
+            continue;
         };
-        match (trial, gained) {
-            (Some((there, trial)), Some(gained)) if accepts(gained, &there, &trial) => {
-                if gained > 0.75 * foretold && length > 0.99 * trust {
-                    trust = (2.0 * trust).min(1.0);
-                } else if gained < 0.25 * foretold {
-                    trust = 0.5 * length;
-                }
-                at = trial;
+        let gained = merit(&here) - merit(&there);
+        let is_new = trial.events != at.events && !known.contains(&trial.events);
+        ascent.beyond.remember(&at, &trial);
+        let accepted = if foretold > NO_GAIN {
+            gained > GAIN * foretold
+        } else {
+            let surfaces = ascent.beyond.near(&trial, &there, trust);
+            ascent.slope((&trial, &there), &surfaces, 0.0).left < 0.5 * slope.left
+        };
+        if accepted {
+            if gained > 0.75 * foretold && length > 0.99 * trust {
+                trust = (2.0 * trust).min(1.0);
+            } else if gained < 0.25 * foretold {
+                trust = 0.5 * length;
             }
-            _ => trust = 0.25 * length.min(trust),
+            at = trial;
+            known.clear();
+            has_switched = false;
+        } else if is_new {
+            // The same step is tried again before the surface that it has passed.
+            known.push(trial.events);
+        } else if foretold <= NO_GAIN && length < least {
+            let held_by = ascent.holds(&at, &slope);
+            return Some(Best { at, stationarity: slope.left, held_by });
+        } else {
+            trust = 0.25 * length.min(trust);
+            known.clear();
         }
     }
-    let here = ascent.measured(&at);
-    let multiplier = ascent.multiplier(&at, &here);
-    let stationarity = ascent.stationarity(&at, &here, multiplier);
-    let mut held_by = ascent.bounds(&at, &here, multiplier);
+    let here = ascent.objective.measured(&at);
+    let surfaces = ascent.beyond.near(&at, &here, trust);
+    let Slope { left, mut held_by, .. } = ascent.slope((&at, &here), &surfaces, 0.0);
     held_by.push(Hold::Steps);
-    Some(Best { at, stationarity, held_by })
+    Some(Best { at, stationarity: left, held_by })
 }
 
 /// The largest relative slope that is left at an orbit of a family, as in [`Best`], and what holds it of bounds alone; none
@@ -172,99 +169,80 @@ pub fn left<R: Reading>(
     goal: Goal,
 ) -> Option<(f64, Vec<Hold>)> {
     let ascent = Ascent::from(family, at, goal)?;
-    let here = ascent.measured(at);
-    let multiplier = ascent.multiplier(at, &here);
-    let stationarity = ascent.stationarity(at, &here, multiplier);
-    let mut held_by = ascent.bounds(at, &here, multiplier);
-    if held_by.is_empty() && stationarity <= STATIONARY {
+    let Slope { left, mut held_by, .. } =
+        ascent.slope((at, &ascent.objective.measured(at)), &[], 0.0);
+    if held_by.is_empty() && left <= STATIONARY {
         held_by.push(Hold::Interior);
     }
-    Some((stationarity, held_by))
+    Some((left, held_by))
 }
 
 impl<'a, R: Reading> Ascent<'a, R> {
     /// From an orbit of a family; none where the goal has no value there.
     fn from(family: &'a Family<R>, first: &OperatingPoint, goal: Goal) -> Option<Self> {
-        let ascent = Ascent { family, goal, unit: 1.0 };
-        let unit = ascent.value(first).abs();
-        (unit > 0.0 && unit.is_finite()).then_some(Ascent { unit, ..ascent })
+        let objective = Objective::from(goal, family.free.len(), first)?;
+        Some(Ascent { family, objective, beyond: Beyond::of(family, objective) })
     }
 
-    fn count(&self) -> usize {
-        self.family.free.len()
-    }
-
-    /// What is to be small, in SI.
-    fn value(&self, at: &OperatingPoint) -> f64 {
-        match self.goal {
-            Goal::Speed { direction, .. } => -direction.of(at.outputs[Output::ProgressionSpeed]),
-            Goal::Least(output) => at.outputs[output],
-        }
-    }
-
-    fn measured(&self, at: &OperatingPoint) -> Measured {
-        let slopes = |output: Output, factor: f64| -> Vector {
-            at.gradient(output, self.count()).map(|slope| slope * factor)
+    /// The slope that bounds, budget and surfaces leave which touch the orbit, or are so near [shares].
+    fn slope(
+        &self,
+        (at, here): (&OperatingPoint, &Measured),
+        surfaces: &[Surface],
+        near: f64,
+    ) -> Slope {
+        let mut constraints: Vec<(Option<Hold>, Vector)> = Vec::new();
+        let is_near = |(excess, normal): &(f64, Vector)| {
+            -excess <= STATIONARY + near * dot(normal, normal).sqrt()
         };
-        let (gradient, budget) = match self.goal {
-            Goal::Speed { direction, budget } => {
-                let speed = at.outputs[Output::ProgressionSpeed];
-                let sign = if direction.of(speed) == speed { 1.0 } else { -1.0 };
-                (slopes(Output::ProgressionSpeed, -sign / self.unit), budget)
+        constraints.extend(here.excess.filter(is_near).map(|(_, normal)| (None, normal)));
+        let has_budget = !constraints.is_empty();
+        for place in 0..self.objective.count {
+            let outward = |sign: f64| std::array::from_fn(|i| if i == place { sign } else { 0.0 });
+            if at.shares[place] <= near {
+                constraints.push((Some(Hold::Bound(place, Side::Lower)), outward(-1.0)));
             }
-            Goal::Least(output) => (slopes(output, 1.0 / self.unit), None),
-        };
-        let excess = budget
-            .map(|(output, most)| (at.outputs[output] / most - 1.0, slopes(output, 1.0 / most)));
-        Measured { value: self.value(at) / self.unit, gradient, excess }
-    }
-
-    /// The slope along a parameter as far as its bounds let the orbit go down it.
-    fn downhill(&self, at: &OperatingPoint, slope: &Vector) -> Vector {
-        std::array::from_fn(|i| {
-            let held =
-                at.shares[i] <= 0.0 && slope[i] > 0.0 || at.shares[i] >= 1.0 && slope[i] < 0.0;
-            if held { 0.0 } else { slope[i] }
-        })
-    }
-
-    /// The multiplier of the budget that leaves the least slope; zero where the budget is not reached.
-    fn multiplier(&self, at: &OperatingPoint, here: &Measured) -> f64 {
-        let Some((excess, normal)) = here.excess else { return 0.0 };
-        if excess < -STATIONARY {
-            return 0.0;
+            if at.shares[place] >= 1.0 - near {
+                constraints.push((Some(Hold::Bound(place, Side::Upper)), outward(1.0)));
+            }
         }
-        // The slope that is left is convex in the multiplier, and its square has this half derivative.
-        let falls = |multiplier: f64| {
-            let slope = self.downhill(at, &lagrange(here, &normal, multiplier));
-            dot(&slope, &normal) < 0.0
-        };
-        let (mut low, mut high) = (0.0, 1.0);
-        while falls(high) && high < 1e12 {
-            high *= 2.0;
+        let fixed = constraints.len();
+        let (mut touching, mut passes) = (Vec::new(), Vec::new());
+        touching.extend(
+            (0..surfaces.len())
+                .filter(|&i| surfaces[i].distance <= TOUCHES + near && surfaces[i].is_located()),
+        );
+        loop {
+            constraints.truncate(fixed);
+            let of_surface = |&i: &usize| (Some(surfaces[i].hold), surfaces[i].normal);
+            constraints.extend(touching.iter().map(of_surface));
+            let normals: Vec<Vector> = constraints.iter().map(|(_, normal)| *normal).collect();
+            let (slope, multipliers) = slope::left(&here.gradient, &normals);
+            let budget = if has_budget { multipliers[0] } else { 0.0 };
+            let count = passes.len();
+            passes.extend(touching.iter().filter(|&&i| surfaces[i].lets_pass(budget)));
+            if passes.len() > count {
+                touching.retain(|place| !passes.contains(place));
+                continue;
+            }
+            let excess = here.excess.map_or(0.0, |(excess, _)| excess.max(0.0));
+            let left = slope.iter().fold(excess, |most, part| most.max(part.abs()));
+            let holding = constraints.iter().zip(&multipliers);
+            let holding = holding.filter(|(_, multiplier)| **multiplier > STATIONARY);
+            let held_by = holding.filter_map(|((hold, _), _)| *hold).collect();
+            return Slope { left, budget, held_by, passes };
         }
-        for _ in 0..200 {
-            let middle = 0.5 * (low + high);
-            if falls(middle) { low = middle } else { high = middle }
-        }
-        0.5 * (low + high)
     }
 
-    fn stationarity(&self, at: &OperatingPoint, here: &Measured, multiplier: f64) -> f64 {
-        let (excess, normal) = here.excess.unwrap_or((0.0, [0.0; MOST]));
-        let slope = self.downhill(at, &lagrange(here, &normal, multiplier));
-        slope.iter().fold(excess.max(0.0), |most, part| most.max(part.abs()))
-    }
-
-    /// The quadratic model within the region of trust.
+    /// The quadratic model within the region of trust; the first plane is the budget, if there is one.
     fn model(
         &self,
-        at: &OperatingPoint,
-        here: &Measured,
+        (at, here): (&OperatingPoint, &Measured),
         multiplier: f64,
+        surfaces: &[Surface],
         trust: f64,
     ) -> Quadratic {
-        let count = self.count();
+        let count = self.objective.count;
         let bound = |side: f64| -> Vector {
             std::array::from_fn(|i| {
                 let room = if side < 0.0 { -at.shares[i] } else { 1.0 - at.shares[i] };
@@ -272,69 +250,83 @@ impl<'a, R: Reading> Ascent<'a, R> {
             })
         };
         let bounds = [bound(-1.0), bound(1.0)];
-        let plane = here.excess.map(|(excess, normal)| {
+        let budget = here.excess.map(|(excess, normal)| {
             let deepest: f64 =
                 (0..count).map(|i| (normal[i] * bounds[0][i]).min(normal[i] * bounds[1][i])).sum();
             // Where the region of trust does not reach the budget, most of the distance to it is gone.
             (normal, (-excess).max(0.8 * deepest))
         });
-        let hessian = self.hessian(at, multiplier, trust);
-        Quadratic { count, gradient: here.gradient, hessian, bounds, plane }
+        let before = surfaces.iter().map(|it| (it.normal, it.distance - CLEAR));
+        let planes = budget.into_iter().chain(before).collect();
+        let hessian = self.curvature((at, here), multiplier, surfaces, trust);
+        Quadratic { count, gradient: here.gradient, hessian, bounds, planes }
     }
 
-    /// The second derivatives of the Lagrange function; zero where the family does not reach far enough to tell.
+    /// The second derivatives of the Lagrange function. Where surfaces touch, those of both sides are combined as the gradients
+    /// are that leave no slope across them: so the curvature of the surfaces counts.
+    fn curvature(
+        &self,
+        (at, here): (&OperatingPoint, &Measured),
+        multiplier: f64,
+        surfaces: &[Surface],
+        trust: f64,
+    ) -> [Vector; MOST] {
+        let near = self.hessian(at, multiplier, trust);
+        let mut curvature = near;
+        for surface in surfaces.iter().filter(|it| it.distance <= trust) {
+            let share = surface.share(here, multiplier);
+            if share > 0.0 {
+                let far = self.hessian(&surface.beyond, multiplier, trust);
+                for i in 0..self.objective.count {
+                    for j in 0..self.objective.count {
+                        curvature[i][j] += share * (far[i][j] - near[i][j]);
+                    }
+                }
+            }
+        }
+        curvature
+    }
+
+    /// The second derivatives of the Lagrange function, from orbits with the same events; zero where the family does not reach
+    /// far enough to tell.
     fn hessian(&self, at: &OperatingPoint, multiplier: f64, trust: f64) -> [Vector; MOST] {
         let [least, most] = DIFFERENCES;
         let by = (DIFFERENCE * trust).clamp(least, most);
         let slope = |shares: &Vector| -> Option<Vector> {
-            let here = self.measured(&self.family.moved(at, shares)?);
-            let normal = here.excess.map_or([0.0; MOST], |(_, normal)| normal);
-            Some(lagrange(&here, &normal, multiplier))
+            let there = self.family.moved(at, shares).filter(|it| it.events == at.events)?;
+            Some(self.objective.measured(&there).lagrange(multiplier))
         };
-        let mut rows = [[0.0; MOST]; MOST];
-        for i in 0..self.count() {
+        let here = self.objective.measured(at).lagrange(multiplier);
+        let mut rows = [Vector::default(); MOST];
+        for i in 0..self.objective.count {
             let shifted = |by: f64| {
                 let mut shares = at.shares;
                 shares[i] += by;
                 slope(&shares)
             };
-            let pair = [by, -by].map(shifted);
-            if let [Some(ahead), Some(behind)] = pair {
-                rows[i] = std::array::from_fn(|j| (ahead[j] - behind[j]) / (2.0 * by));
-            }
+            let (ahead, behind, apart) = match [by, -by].map(shifted) {
+                [Some(ahead), Some(behind)] => (ahead, behind, 2.0 * by),
+                [Some(ahead), None] => (ahead, here, by),
+                [None, Some(behind)] => (here, behind, by),
+                [None, None] => continue,
+            };
+            rows[i] = std::array::from_fn(|j| (ahead[j] - behind[j]) / apart);
         }
         std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (rows[i][j] + rows[j][i])))
     }
 
-    fn holds(
-        &self,
-        at: &OperatingPoint,
-        here: &Measured,
-        multiplier: f64,
-        stationarity: f64,
-    ) -> Vec<Hold> {
-        let mut holds = self.bounds(at, here, multiplier);
-        if stationarity > AT_EDGE {
-            holds.push(edge(&at.multipliers));
-        } else if stationarity > STATIONARY {
+    /// What holds an orbit that has this slope.
+    fn holds(&self, at: &OperatingPoint, slope: &Slope) -> Vec<Hold> {
+        let mut holds = slope.held_by.clone();
+        if slope.left > AT_EDGE {
+            holds.push(Hold::edge(&at.multipliers));
+        } else if slope.left > STATIONARY {
             holds.push(Hold::Steps);
         }
         if holds.is_empty() {
             holds.push(Hold::Interior);
         }
         holds
-    }
-
-    /// The bounds that hold an orbit.
-    fn bounds(&self, at: &OperatingPoint, here: &Measured, multiplier: f64) -> Vec<Hold> {
-        let normal = here.excess.map_or([0.0; MOST], |(_, normal)| normal);
-        let slope = lagrange(here, &normal, multiplier);
-        let held = (0..self.count()).filter_map(|i| match at.shares[i] {
-            share if share <= 0.0 && slope[i] > STATIONARY => Some(Hold::Bound(i, Side::Lower)),
-            share if share >= 1.0 && slope[i] < -STATIONARY => Some(Hold::Bound(i, Side::Upper)),
-            _ => None,
-        });
-        held.collect()
     }
 }
 
@@ -355,21 +347,5 @@ fn on_bound(share: f64) -> f64 {
         1.0
     } else {
         share
-    }
-}
-
-/// The gradient of the Lagrange function.
-fn lagrange(here: &Measured, normal: &Vector, multiplier: f64) -> Vector {
-    std::array::from_fn(|i| here.gradient[i] + multiplier * normal[i])
-}
-
-/// Why a family ends beside an orbit.
-fn edge(multipliers: &[Complex; 3]) -> Hold {
-    let critical = multipliers.iter().find(|it| it.abs() > 1.0 - CRITICAL);
-    match critical {
-        Some(it) if it.im != 0.0 => Hold::NeimarkSacker,
-        Some(it) if it.re > 0.0 => Hold::Fold,
-        Some(_) => Hold::PeriodDoubling,
-        None => Hold::EventSequence,
     }
 }

@@ -1,14 +1,21 @@
 //! What is best among the cases of a study, where speed has its price in energy.
 
 mod ascent;
+mod beyond;
 mod front;
+mod goal;
+mod hold;
 mod operating_point;
 mod optima;
 mod quadratic;
 mod sensitivity;
+mod slope;
+mod surface;
 
-pub use ascent::{Best, Goal, Hold, STATIONARY, Side, best, left};
+pub use ascent::{Best, STATIONARY, best, left};
 pub use front::{NOISE, front, speed_at_rest};
+pub use goal::Goal;
+pub use hold::{Hold, Side};
 pub use operating_point::{Family, OperatingPoint};
 pub use optima::{Candidate, Direction, Optima, hypervolume, optima};
 pub use quadratic::MOST as MOST_FREE;

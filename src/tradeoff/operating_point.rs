@@ -1,15 +1,21 @@
 //! A periodic orbit at some values of free parameters, with the derivatives of what a trade-off is between.
 
-use crate::capsule::{CapsuleSystem, Output, Outputs, Parameter, Reading, Section};
-use crate::flow::System;
+use crate::branch::cyclic;
+use crate::capsule::{CapsuleSystem, EventKind, Output, Outputs, Parameter, Reading, Section};
+use crate::flow::{Event, System};
 use crate::orbit::matrix::{Complex, eigenvalues};
 use crate::orbit::newton::close;
-use crate::orbit::passage::{OneByOne, image};
-use crate::orbit::precision::same;
+use crate::orbit::passage::{Integrator, OneByOne, ReturnRequest, image};
 use crate::orbit::return_map::Cycles;
 
 use super::quadratic::{MOST, Vector};
 use super::sensitivity::sensitivity;
+
+/// An orbit closes to this residual, relative to the motion; a larger one is seen in the outputs, and they in the search.
+const EXACT: f64 = 1e-11;
+/// How often Newton's method is begun again from the image of the point where it has ended, as beside a kink of the return
+/// map it may end early.
+const AGAIN: usize = 4;
 
 /// A family of periodic orbits over free parameters, each between two bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +39,8 @@ pub struct OperatingPoint {
     pub section: Section,
     /// The multipliers, the largest magnitude first.
     pub multipliers: [Complex; 3],
+    /// The cyclic sequence of events.
+    pub events: Vec<EventKind>,
     /// The outputs that change with parameters (SI).
     pub outputs: Outputs,
     /// The derivatives of the section point in the shares.
@@ -42,6 +50,11 @@ pub struct OperatingPoint {
 }
 
 impl OperatingPoint {
+    /// How often the mass meets the stop in a period.
+    pub fn impacts(&self) -> usize {
+        self.events.iter().filter(|event| event.is_impact()).count()
+    }
+
     /// The derivatives of an output in the shares.
     pub fn gradient(&self, output: Output, count: usize) -> Vector {
         std::array::from_fn(|i| if i < count { self.slopes[i][output] } else { 0.0 })
@@ -77,24 +90,41 @@ impl<R: Reading> Family<R> {
     ///
     /// # Method
     ///
-    /// Newton's method on the return map, then [`sensitivity`] in each parameter.
+    /// Newton's method on the return map, down to rounding, then [`sensitivity`] in each parameter.
     pub fn orbit(&self, shares: &Vector, guess: &Section) -> Option<OperatingPoint> {
         let system = self.at(shares);
         let metric = system.metric();
         let cycles = Cycles { count: self.period, tolerance: self.tolerance };
         let size = metric.size(guess).max(system.expected_size());
         let image_of = |point: &Section| image(&OneByOne, &system, point, &cycles);
-        let closed = close(image_of, self.period, &metric, guess, size).ok()??;
+        let closed_near =
+            |guess: &Section| close(image_of, self.period, &metric, guess, size).ok().flatten();
+        let mut closed = closed_near(guess)?;
+        for _ in 0..AGAIN {
+            if closed.residual <= EXACT {
+                break;
+            }
+            closed = closed_near(&image_of(&closed.point).ok()?.end)?;
+        }
         let multipliers = eigenvalues(&closed.jacobian);
         let is_stable = multipliers[0].abs() < 1.0;
-        if closed.residual > same(self.tolerance) || !is_stable {
+        if closed.residual > EXACT || !is_stable {
             return None;
         }
         let section = closed.point;
+        let passed = OneByOne.passage(ReturnRequest {
+            system: system.clone(),
+            along: None,
+            point: section,
+            units: [1.0; 3],
+            cycles,
+            watched: true,
+        });
         let mut point = OperatingPoint {
             shares: *shares,
             section,
             multipliers,
+            events: cyclic(&passed.ok()?.events),
             outputs: Outputs::unknown(),
             section_slopes: [[0.0; 3]; MOST],
             slopes: [Outputs::unknown(); MOST],

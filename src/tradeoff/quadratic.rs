@@ -1,11 +1,13 @@
-//! The least value of a quadratic function within a box, below one plane.
+//! The least value of a quadratic function within a box, below some planes.
 
 use crate::orbit::matrix::solve;
 
 /// Free parameters at most.
 pub const MOST: usize = 6;
-/// Unknowns of the equations of a face: the step and the multiplier of the plane.
-const UNKNOWNS: usize = MOST + 1;
+/// Planes at most.
+pub const PLANES: usize = 3;
+/// Unknowns of the equations of a face: the step and the multipliers of the planes.
+const UNKNOWNS: usize = MOST + PLANES;
 /// A step may leave the box or pass the plane by so much, as rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -13,7 +15,7 @@ const ROUNDING: f64 = 1e-12;
 pub type Vector = [f64; MOST];
 
 /// Where a quadratic function g d + d H d / 2 is to be least.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Quadratic {
     /// Free parameters.
     pub count: usize,
@@ -23,8 +25,8 @@ pub struct Quadratic {
     pub hessian: [Vector; MOST],
     /// The box, from its lower to its upper corner; it holds the origin.
     pub bounds: [Vector; 2],
-    /// The normal a and the height b of the plane that is not passed, a d <= b, if there is one.
-    pub plane: Option<(Vector, f64)>,
+    /// The normal a and the height b of each plane that is not passed, a d <= b; [`PLANES`] at most.
+    pub planes: Vec<(Vector, f64)>,
 }
 
 /// Where it is least.
@@ -34,8 +36,8 @@ pub struct Least {
     pub step: Vector,
     /// The value there, relative to the origin.
     pub value: f64,
-    /// The multiplier of the plane, zero where that does not hold the step.
-    pub multiplier: f64,
+    /// The multipliers of the planes, zero for those that do not hold the step.
+    pub multipliers: [f64; PLANES],
 }
 
 /// The scalar product.
@@ -44,18 +46,18 @@ pub fn dot(a: &Vector, b: &Vector) -> f64 {
 }
 
 impl Quadratic {
-    /// The least value; none where the box does not reach below the plane.
+    /// The least value; none where the box does not reach below every plane.
     ///
     /// # Method
     ///
-    /// On every face of the box, with the plane and without it, the one point at which the function is stationary is found by
-    /// linear equations; the best of those that lie in the box and below the plane is the least. H need not be definite, as
-    /// corners are faces, too. There are 2 * 3^n faces of n parameters.
+    /// On every face of the box, within any of the planes and outside them, the one point at which the function is stationary is
+    /// found by linear equations; the best of those that lie in the box and below the planes is the least. H need not be
+    /// definite, as corners are faces, too. There are 2^m 3^n faces of n parameters and m planes.
     pub fn least(&self) -> Option<Least> {
         let faces = 3_usize.pow(self.count as u32);
         let mut best: Option<Least> = None;
         for face in 0..faces {
-            for held in [false, true] {
+            for held in 0..1_usize << self.planes.len() {
                 let found = self.stationary(face, held);
                 let is_better = |it: &Least| best.is_none_or(|best| it.value < best.value);
                 best = found.filter(is_better).or(best);
@@ -64,9 +66,9 @@ impl Quadratic {
         best
     }
 
-    /// The stationary point of a face, whose digits to base three say which parameters are free or at which bound.
-    fn stationary(&self, face: usize, held: bool) -> Option<Least> {
-        let plane = if held { Some(self.plane?) } else { None };
+    /// The stationary point of a face, whose digits to base three say which parameters are free or at which bound, within the
+    /// planes that the bits of `held` name.
+    fn stationary(&self, face: usize, held: usize) -> Option<Least> {
         let (mut rows, mut right) = ([[0.0; UNKNOWNS]; UNKNOWNS], [0.0; UNKNOWNS]);
         let mut digits = face;
         for i in 0..MOST {
@@ -74,28 +76,34 @@ impl Quadratic {
             digits /= 3;
             if side == 0 {
                 rows[i][..MOST].copy_from_slice(&self.hessian[i]);
-                rows[i][MOST] = plane.map_or(0.0, |(normal, _)| normal[i]);
+                for (place, (normal, _)) in self.planes.iter().enumerate() {
+                    rows[i][MOST + place] = if held >> place & 1 == 1 { normal[i] } else { 0.0 };
+                }
                 right[i] = -self.gradient[i];
             } else {
                 rows[i][i] = 1.0;
                 right[i] = if i < self.count { self.bounds[side - 1][i] } else { 0.0 };
             }
         }
-        match plane {
-            Some((normal, height)) => {
-                rows[MOST][..MOST].copy_from_slice(&normal);
-                right[MOST] = height;
+        for place in 0..PLANES {
+            match self.planes.get(place).filter(|_| held >> place & 1 == 1) {
+                Some((normal, height)) => {
+                    rows[MOST + place][..MOST].copy_from_slice(normal);
+                    right[MOST + place] = *height;
+                }
+                None => rows[MOST + place][MOST + place] = 1.0,
             }
-            None => rows[MOST][MOST] = 1.0,
         }
         let solution = solve(rows, right)?;
         let step: Vector = std::array::from_fn(|i| solution[i]);
-        let multiplier = solution[MOST];
         let inside = (0..self.count).all(|i| {
             step[i] >= self.bounds[0][i] - ROUNDING && step[i] <= self.bounds[1][i] + ROUNDING
         });
-        let below = |(normal, height): (Vector, f64)| dot(&normal, &step) <= height + ROUNDING;
-        if !inside || !self.plane.is_none_or(below) || multiplier < 0.0 {
+        let below = self
+            .planes
+            .iter()
+            .all(|(normal, height)| dot(normal, &step) <= height + ROUNDING * (1.0 + height.abs()));
+        if !inside || !below {
             return None;
         }
         let step: Vector = std::array::from_fn(|i| match i < self.count {
@@ -104,7 +112,8 @@ impl Quadratic {
         });
         let bent: Vector = std::array::from_fn(|i| dot(&self.hessian[i], &step));
         let value = dot(&self.gradient, &step) + 0.5 * dot(&bent, &step);
-        Some(Least { step, value, multiplier })
+        let multipliers = std::array::from_fn(|place| solution[MOST + place]);
+        Some(Least { step, value, multipliers })
     }
 }
 
@@ -130,14 +139,17 @@ mod tests {
                 (gradient[i], normal[i]) = (draw(&mut state), draw(&mut state));
                 hessian[i][i] = 3.0 * draw(&mut state);
             }
+            let across = std::array::from_fn(|i| if i < 2 { draw(&mut state) } else { 0.0 });
             hessian[0][1] = 3.0 * draw(&mut state);
             hessian[1][0] = hessian[0][1];
             let bounds = [[-0.7, -0.2, 0.0, 0.0, 0.0, 0.0], [0.4, 0.9, 0.0, 0.0, 0.0, 0.0]];
             let height = 0.1 * (1.0 + draw(&mut state));
-            let plane = Some((normal, height));
-            let quadratic = Quadratic { count: 2, gradient, hessian, bounds, plane };
+            let planes = vec![(normal, height), (across, 0.05)];
+            let below = |at: &Vector, by: f64| planes.iter().all(|it| dot(&it.0, at) <= it.1 + by);
+            let quadratic =
+                Quadratic { count: 2, gradient, hessian, bounds, planes: planes.clone() };
             let least = quadratic.least().expect("the origin is allowed");
-            assert!(dot(&normal, &least.step) <= height + 1e-9);
+            assert!(below(&least.step, 1e-9));
             for i in 0..=100 {
                 for j in 0..=100 {
                     let mut at = [0.0; MOST];
@@ -145,9 +157,8 @@ mod tests {
                     at[1] = -0.2 + 0.011 * f64::from(j);
                     let bent: Vector = std::array::from_fn(|i| dot(&hessian[i], &at));
                     let value = dot(&gradient, &at) + 0.5 * dot(&bent, &at);
-                    let allowed = dot(&normal, &at) <= height;
                     assert!(
-                        !allowed || value >= least.value - 1e-12,
+                        !below(&at, 0.0) || value >= least.value - 1e-12,
                         "{quadratic:?} {least:?} {at:?}"
                     );
                 }

@@ -12,7 +12,15 @@ const STUDY: &str = "[parameters]\nc = \"0.44 N s/m\"\nmu_s = 0.437\nmu_d = 0.21
      [[axes]]\nname = \"p_d\"\nfrom = \"1 N\"\nto = \"3 N\"\npoints = 9\n\
      [[axes]]\nname = \"omega\"\nfrom = \"70 rad/s\"\nto = \"130 rad/s\"\npoints = 31\n";
 /// The ranges of the free parameters.
-const FREE: [(Parameter, f64); 2] = [(Parameter::Pd, 2.0), (Parameter::Omega, 60.0)];
+const FREE: Free = [(Parameter::Pd, 2.0), (Parameter::Omega, 60.0)];
+/// The paper's capsule, driven so that its best motions lie where their events change.
+const KINKED: &str = "[parameters]\nk2 = \"20 kN/m\"\ndelta = \"3 mm\"\n\
+     [[axes]]\nname = \"p_d\"\nfrom = \"7 N\"\nto = \"8 N\"\npoints = 6\n\
+     [[axes]]\nname = \"omega\"\nfrom = \"50 rad/s\"\nto = \"65 rad/s\"\npoints = 16\n";
+const FREE_OF_KINKED: Free = [(Parameter::Pd, 1.0), (Parameter::Omega, 15.0)];
+
+/// Two free parameters with the widths of their ranges.
+type Free = [(Parameter, f64); 2];
 
 fn number(point: &Value, key: &str) -> f64 {
     point[key].as_f64().unwrap_or_else(|| panic!("{key} in {point}"))
@@ -29,9 +37,9 @@ fn motion(point: &Value) -> (Parameters, State<f64>) {
 }
 
 /// The outputs at parameters moved by these shares of their ranges.
-fn beside(point: &Value, by: [f64; 2]) -> Outputs {
+fn beside(point: &Value, free: Free, by: [f64; 2]) -> Outputs {
     let (mut parameters, start) = motion(point);
-    for ((parameter, range), share) in FREE.into_iter().zip(by) {
+    for ((parameter, range), share) in free.into_iter().zip(by) {
         parameters[parameter] += share * range;
     }
     let orbit = settle(&parameters, 0.0, start, &Protocol::default());
@@ -79,21 +87,21 @@ fn refined_motions_are_the_best_around_them_and_do_not_depend_on_threads_or_seed
             let (found, told) = (again.printed(key), number(point, key));
             assert!((found - told).abs() <= 4e-16 * told.abs(), "{found:?} {told:?}: {replay}");
         }
-        let here = beside(point, [0.0; 2]);
-        no_better_around(point, &here);
+        no_better_around(point, FREE);
         derivatives_are_those_of_differences(point);
     }
 }
 
 /// On small circles no motion is faster for no more power.
-fn no_better_around(point: &Value, here: &Outputs) {
+fn no_better_around(point: &Value, free: Free) {
+    let here = beside(point, free, [0.0; 2]);
     let (speed, power) = (here[Output::ProgressionSpeed], here[Output::Power]);
     for radius in [1e-3, 1e-4] {
         for turn in 0..24 {
             let angle = f64::from(turn) * std::f64::consts::TAU / 24.0;
-            let there = beside(point, [radius * angle.cos(), radius * angle.sin()]);
+            let there = beside(point, free, [radius * angle.cos(), radius * angle.sin()]);
             let is_better = there[Output::Power] <= power
-                && there[Output::ProgressionSpeed] > speed * (1.0 + 1e-9);
+                && there[Output::ProgressionSpeed].abs() > speed.abs() * (1.0 + 1e-9);
             assert!(!is_better, "{radius} {turn}: {there:?} {point}");
         }
     }
@@ -106,9 +114,9 @@ fn derivatives_are_those_of_differences(point: &Value) {
         let moved = |share: f64| {
             let mut by = [0.0; 2];
             by[place] = share;
-            beside(point, by)
+            beside(point, FREE, by)
         };
-        let pairs = [1e-5, 5e-6].map(|h| (h, moved(h), moved(-h)));
+        let pairs = [1e-7, 5e-8].map(|h| (h, moved(h), moved(-h)));
         let each =
             [(Output::ProgressionSpeed, "sensitivity"), (Output::Power, "sensitivity_of_power")];
         for (output, key) in each {
@@ -122,6 +130,47 @@ fn derivatives_are_those_of_differences(point: &Value) {
                 "{key}: {relative} {told}"
             );
         }
+    }
+}
+
+#[test]
+fn a_motion_held_by_a_change_of_events_is_where_continuation_finds_that() {
+    let folder = WorkDir::new();
+    folder.put("study.toml", KINKED);
+    folder.run(&["sweep", "study.toml"]).done();
+    let refine = ["tradeoff", "results/study/study.h5", "--refine", "--json"];
+    let answer = folder.run(&refine).json();
+    let front = answer["front"].as_array().expect("a front");
+    let is_held = |point: &&Value| point["held_by"] == serde_json::json!(["event sequence"]);
+    let held: Vec<&Value> = front.iter().filter(is_held).collect();
+    assert!(!held.is_empty(), "{}", answer["front"]);
+    for point in held {
+        assert!(number(point, "stationarity") <= 1e-8);
+        no_better_around(point, FREE_OF_KINKED);
+        let [p_d, omega] = FREE_OF_KINKED.map(|(it, _)| number(&point["parameters"], it.symbol()));
+        let start = ["start_r", "start_y1", "start_y2"].map(|key| number(&point["start"], key));
+        let branches = format!(
+            "[parameters]\nk2 = \"20 kN/m\"\ndelta = \"3 mm\"\np_d = \"{p_d:?} N\"\n\
+             [[axes]]\nname = \"omega\"\nfrom = \"{:?} rad/s\"\nto = \"{:?} rad/s\"\npoints = 3\n\
+             [[branches]]\nname = \"along omega\"\nalong = \"omega\"\nat = {{ omega = \"{omega:?} rad/s\" }}\n\
+             orbit = \"newton\"\nperiod = {}\n\
+             start = {{ r = \"{:?} m\", y1 = \"{:?} m/s\", y2 = \"{:?} m/s\" }}\n",
+            omega - 0.01,
+            omega + 0.01,
+            point["period"],
+            start[0],
+            start[1],
+            start[2]
+        );
+        folder.put("branches.toml", &branches);
+        folder.run(&["continue", "branches.toml", "--overwrite"]).done();
+        let file = hdf5::File::open(folder.path("results/branches/branches.h5")).expect("a file");
+        let of_special = |name: &str| {
+            file.dataset(name).and_then(|it| it.read_raw::<f64>()).expect("special points")
+        };
+        let apart = of_special("special_omega").into_iter().map(|it| (it - omega).abs());
+        let apart = apart.fold(f64::INFINITY, f64::min);
+        assert!(apart <= 1e-9 * 15.0, "{apart} rad/s from {omega}");
     }
 }
 
