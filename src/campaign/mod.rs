@@ -10,6 +10,7 @@ mod compute;
 mod continuation;
 pub mod count;
 pub mod error;
+pub mod front_curve;
 mod join;
 pub mod kept;
 pub mod memory;

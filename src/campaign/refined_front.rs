@@ -10,8 +10,8 @@ use crate::store::Archive;
 use crate::store::catalogue::SECTION;
 use crate::study::{Coordinate, Study};
 use crate::tradeoff::{
-    Candidate, Direction, Family, Goal, Hold, MOST_FREE, OperatingPoint, Optima, Side, best, left,
-    sensitivity,
+    Best, Candidate, Direction, Family, Goal, Hold, MOST_FREE, OperatingPoint, Optima, Side, best,
+    left, sensitivity,
 };
 
 use super::error::CampaignError;
@@ -165,7 +165,7 @@ impl Refinement<'_> {
     }
 
     /// The motions without those that another search has led to already.
-    fn distinct(&self, found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {
+    pub(super) fn distinct(&self, found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {
         let mut distinct: Vec<RefinedMotion> = Vec::new();
         for motion in found {
             let is_same = |other: &RefinedMotion| {
@@ -197,6 +197,16 @@ impl Refinement<'_> {
         if self.gain(search.goal, [&before, &found.at.outputs]) < LEAST_GAIN {
             return Ok(None);
         }
+        Ok(self.settled(&family, &found, case))
+    }
+
+    /// The best orbit of a family, settled anew from its section point; none where it is not the same then.
+    pub(super) fn settled<R: Reading>(
+        &self,
+        family: &Family<R>,
+        found: &Best,
+        from: usize,
+    ) -> Option<RefinedMotion> {
         let system = family.at(&found.at.shares);
         let [r, y1, y2] = found.at.section;
         let (start, phase) = (State { r, y1, x2: 0.0, y2 }, system.phase);
@@ -208,15 +218,15 @@ impl Refinement<'_> {
             stationarity: Some(found.stationarity),
             held_by: words(&found.held_by, &family.free),
         };
-        Ok(is_same.then_some(RefinedMotion {
-            from: case,
+        is_same.then_some(RefinedMotion {
+            from,
             parameters: system.parameters,
             section: found.at.section,
             phase,
             period: family.period,
             outputs: orbit.outputs,
             slopes,
-        }))
+        })
     }
 
     /// The relative gain from one motion to another.
@@ -269,16 +279,7 @@ impl Refinement<'_> {
         };
         let Case { parameters, section_phase, .. } = self.study.case(case);
         let Some(section) = self.section(case)? else { return Ok(None) };
-        let mut free = self.free();
-        if free.len() > MOST_FREE {
-            free.clear();
-        }
-        let family = Family {
-            system: CapsuleSystem::<R>::new(parameters, section_phase),
-            free,
-            period: period as u64,
-            tolerance: self.study.protocol.tolerance,
-        };
+        let family = self.family_of((parameters, section_phase), period as u64);
         let first = family.orbit(&family.shares(), &section);
         Ok(first.map(|first| (family, first)))
     }
@@ -299,6 +300,20 @@ impl Refinement<'_> {
             Some((*parameter, [relative(Output::ProgressionSpeed), relative(self.of)]))
         })
         .collect()
+    }
+
+    /// The family of orbits over the free parameters that a motion belongs to.
+    pub(super) fn family_of<R: Reading>(
+        &self,
+        (parameters, phase): (Parameters, f64),
+        period: u64,
+    ) -> Family<R> {
+        let mut free = self.free();
+        if free.len() > MOST_FREE {
+            free.clear();
+        }
+        let system = CapsuleSystem::new(parameters, phase);
+        Family { system, free, period, tolerance: self.study.protocol.tolerance }
     }
 
     /// A section point of a periodic case: from the file, or computed again where that keeps none.

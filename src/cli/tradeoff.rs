@@ -14,7 +14,7 @@ use crate::campaign::{RefinedMotion, Refinement, study_of};
 use crate::capsule::Output;
 use crate::store::{self, CaseTable, Unread, candidates, quantity};
 use crate::study::document::unknown;
-use crate::tradeoff::{Candidate, Direction, MOST_FREE, Optima, hypervolume, optima};
+use crate::tradeoff::{Candidate, Direction, MOST_FREE, Optima, hypervolume, optima as best_of};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -94,7 +94,7 @@ impl Tradeoff {
         })?;
         let found = candidates(&cases, request.of, self.conditions.as_deref())
             .map_err(|error| failure(error, &self.file))?;
-        let of_cases = optima(&found.all, self.direction, request.at_rest);
+        let of_cases = best_of(&found.all, self.direction, request.at_rest);
         let rows = Rows::of(&cases, &archive, &shown)
             .map_err(|error| failure(Unread::Store(error), &self.file))?;
         // Only slopes and searches take more than what the file tells of its cases.
@@ -110,15 +110,9 @@ impl Tradeoff {
         });
         let asked = refinement.as_ref().filter(|_| self.refine);
         let refined = asked.map(|it| self.refined(it, &found.all, &of_cases)).transpose()?;
-        let mut all = found.all;
         let motions = refined.as_ref().map_or(&[][..], |(_, motions)| motions);
-        all.extend(motions.iter().enumerate().map(|(place, motion)| Candidate {
-            case: cases.cases() + place,
-            speed: motion.outputs[Output::ProgressionSpeed],
-            price: motion.outputs[request.of],
-            energy_per_metre: motion.outputs[Output::EnergyPerMetre],
-        }));
-        let best = optima(&all, self.direction, Some(of_cases.at_rest));
+        let all = with_refined((cases.cases(), &found.all), motions, request.of);
+        let best = best_of(&all, self.direction, Some(of_cases.at_rest));
         let speed = |at: usize| self.direction.of(all[at].speed);
         // Along the front price and speed both rise.
         let within = |most: f64| {
@@ -202,7 +196,19 @@ impl Tradeoff {
         let progress = Progress::new(searches.len(), "searches between the cases");
         let found = refinement.run(&searches, threads, || progress.step())?;
         progress.finish();
-        Ok((searches.len(), found))
+        let count = refinement.periods.len();
+        let all = with_refined((count, candidates), &found, refinement.of);
+        let front = best_of(&all, refinement.direction, Some(optima.at_rest)).front;
+        let on_front = |&at: &usize| {
+            let refined = all[at].case.checked_sub(count).map(|place| &found[place]);
+            (all[at].price, refined)
+        };
+        let gaps = refinement.gaps(&front.iter().map(on_front).collect::<Vec<_>>());
+        let progress = Progress::new(gaps.len(), "gaps of the front");
+        let followed = refinement.followed(&gaps, threads, || progress.step())?;
+        progress.finish();
+        let begun = searches.len() + gaps.len();
+        Ok((begun, refinement.joined(found, followed)))
     }
 
     fn request(&self) -> Result<Request, Failure> {
@@ -226,6 +232,21 @@ impl Tradeoff {
         };
         if faults.is_empty() { Ok(request) } else { Err(Failure::requests(&faults)) }
     }
+}
+
+/// The candidates of so many cases, and refined motions, numbered after them.
+fn with_refined(
+    (cases, candidates): (usize, &[Candidate]),
+    motions: &[RefinedMotion],
+    of: Output,
+) -> Vec<Candidate> {
+    let refined = motions.iter().enumerate().map(|(place, motion)| Candidate {
+        case: cases + place,
+        speed: motion.outputs[Output::ProgressionSpeed],
+        price: motion.outputs[of],
+        energy_per_metre: motion.outputs[Output::EnergyPerMetre],
+    });
+    candidates.iter().copied().chain(refined).collect()
 }
 
 fn failure(error: Unread, file: &Path) -> Failure {

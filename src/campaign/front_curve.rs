@@ -1,0 +1,90 @@
+//! The refined front as a curve: from one of its motions to the next, price by price.
+
+use crate::capsule::{AsPrinted, Filippov, Reading, Switching};
+use crate::run::on_all_threads;
+use crate::tradeoff::{Goal, best};
+
+use super::error::CampaignError;
+use super::refined_front::{RefinedMotion, Refinement};
+
+/// Neighbours on the front differ in price by no more than the range of prices over this.
+const PARTS: f64 = 64.0;
+/// A price is kept to this share.
+const KEEPS: f64 = 1e-8;
+
+/// Prices between a motion of the front and one beside it, in order from it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gap<'a> {
+    from: &'a RefinedMotion,
+    prices: Vec<f64>,
+}
+
+impl Refinement<'_> {
+    /// The gaps of a front of prices, each with its motion if that is a refined one, by rising price: from the motion
+    /// before a gap to the one behind it, and back.
+    pub fn gaps<'m>(&self, front: &[(f64, Option<&'m RefinedMotion>)]) -> Vec<Gap<'m>> {
+        let [(first, _), .., (last, _)] = front else { return Vec::new() };
+        let widest = (last - first) / PARTS;
+        let between = |pair: &[(f64, Option<&'m RefinedMotion>)]| {
+            let [low, high] = [pair[0].0, pair[1].0];
+            let parts = ((high - low) / widest).ceil() as usize;
+            let price = |part: usize| low + (high - low) * part as f64 / parts as f64;
+            let rising: Vec<f64> = (1..parts).map(price).collect();
+            let falling = rising.iter().rev().copied().collect();
+            [(pair[0].1, rising), (pair[1].1, falling)]
+        };
+        let all = front.windows(2).flat_map(between).filter(|(_, prices)| !prices.is_empty());
+        all.filter_map(|(from, prices)| Some(Gap { from: from?, prices })).collect()
+    }
+
+    /// The motions that are followed into gaps of the front, in their order; calls `done` after each gap.
+    ///
+    /// # Method
+    ///
+    /// At each price the fastest motion is sought as in [`best`], from the one before. Each gap is by itself: neither threads
+    /// nor order matter. Where the front is of several families, each is followed beyond where it is the best.
+    ///
+    /// Fails if the threads cannot be started.
+    pub fn followed(
+        &self,
+        gaps: &[Gap<'_>],
+        threads: Option<usize>,
+        done: impl Fn() + Sync,
+    ) -> Result<Vec<RefinedMotion>, CampaignError> {
+        let found = on_all_threads(threads, gaps.len(), |number| {
+            let found = match self.study.base.switching {
+                Switching::Filippov => self.follow::<Filippov>(&gaps[number]),
+                Switching::AsPrinted => self.follow::<AsPrinted>(&gaps[number]),
+            };
+            done();
+            found
+        })?;
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    fn follow<R: Reading>(&self, gap: &Gap<'_>) -> Vec<RefinedMotion> {
+        let from = gap.from;
+        let family = self.family_of::<R>((from.parameters.clone(), from.phase), from.period);
+        let mut last = family.orbit(&family.shares(), &from.section);
+        let mut motions = Vec::new();
+        for price in &gap.prices {
+            let Some(at) = last else { break };
+            let goal = Goal::Speed { direction: self.direction, budget: Some((self.of, *price)) };
+            let found = best(&family, at, goal);
+            let kept = found.filter(|it| it.at.outputs[self.of] <= price * (1.0 + KEEPS));
+            motions.extend(kept.as_ref().and_then(|it| self.settled(&family, it, from.from)));
+            last = kept.map(|it| it.at);
+        }
+        motions
+    }
+
+    /// Motions of two searches, each once.
+    pub fn joined(
+        &self,
+        mut motions: Vec<RefinedMotion>,
+        others: Vec<RefinedMotion>,
+    ) -> Vec<RefinedMotion> {
+        motions.extend(others);
+        self.distinct(motions)
+    }
+}
