@@ -14,7 +14,9 @@ use crate::campaign::{RefinedMotion, Refinement, study_of};
 use crate::capsule::Output;
 use crate::store::{self, CaseTable, Unread, candidates, quantity};
 use crate::study::document::unknown;
-use crate::tradeoff::{Candidate, Direction, MOST_FREE, Optima, hypervolume, optima as best_of};
+use crate::tradeoff::{
+    Candidate, Direction, MOST_FREE, Optima, fastest_first, hypervolume, optima as best_of,
+};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -26,7 +28,7 @@ Examples:
 
 The front is of all cases of the file, each with the attractor that it has ended on. Motions that are chaotic or
 quasi-periodic take part by their means. With --refine, periodic motions are followed from the cases to where speed is
-stationary for its price; each says what holds it.";
+stationary for its price, and from these along the front; each says what holds it.";
 
 /// Find the fastest motions for the least energy.
 #[derive(Debug, Args)]
@@ -113,26 +115,16 @@ impl Tradeoff {
         let motions = refined.as_ref().map_or(&[][..], |(_, motions)| motions);
         let all = with_refined((cases.cases(), &found.all), motions, request.of);
         let best = best_of(&all, self.direction, Some(of_cases.at_rest));
-        let speed = |at: usize| self.direction.of(all[at].speed);
-        // Along the front price and speed both rise.
-        let within = |most: f64| {
-            let last = best.front.partition_point(|&at| all[at].price <= most);
-            last.checked_sub(1).map(|place| best.front[place])
-        };
-        let reaching = |least: f64| best.front.iter().copied().find(|&at| speed(at) >= least);
         let named = [
             ("fastest", Some(best.fastest)),
             ("knee", Some(best.knee)),
             ("lowest_cost_of_transport", Some(best.lowest_cost_of_transport)),
-            ("fastest_within_budget", request.budget.map(within)),
-            ("least_for_speed", request.speed.map(reaching)),
+            ("fastest_within_budget", request.budget.map(|most| best.fastest_within(&all, most))),
+            (
+                "least_for_speed",
+                request.speed.map(|least| best.least_for(&all, (self.direction, least))),
+            ),
         ];
-        let mut order: Vec<usize> = (0..all.len()).collect();
-        let moves = |at: &usize| speed(*at) > best.at_rest;
-        order.retain(moves);
-        let at_rest = all.len() - order.len();
-        order.sort_by(|&a, &b| speed(b).total_cmp(&speed(a)));
-        order.truncate(self.top);
         let row = |at: usize| -> Result<Row, Failure> {
             let motion = &all[at];
             match (&refinement, motion.case.checked_sub(cases.cases())) {
@@ -145,17 +137,13 @@ impl Tradeoff {
                 _ => Ok(rows.row(motion)),
             }
         };
-        let points = |front: &[usize]| -> Vec<(f64, f64)> {
-            front.iter().map(|&at| (all[at].price, speed(at))).collect()
-        };
-        let fronts = [points(&of_cases.front), points(&best.front)];
-        let dearest = fronts.iter().flatten().fold(0.0, |most: f64, it| most.max(it.0));
         let gain = refined.as_ref().map(|(searches, motions)| Gain {
             searches: *searches,
             found: motions.len(),
             seed: self.seed,
-            hypervolumes: fronts.map(|front| hypervolume(&front, (dearest, best.at_rest))),
+            hypervolumes: self.hypervolumes([(&of_cases, &found.all), (&best, &all)]),
         });
+        let moving = fastest_first(&all, self.direction, best.at_rest);
         let named = named.into_iter().filter_map(|(name, at)| Some((name, at?)));
         let named = named.map(|(name, at)| Ok(Named { name, row: at.map(row).transpose()? }));
         let answer = Answer {
@@ -164,17 +152,25 @@ impl Tradeoff {
             direction: self.direction,
             cases: cases.cases(),
             left_out: found.left_out,
-            at_rest: (best.at_rest, at_rest),
+            at_rest: (best.at_rest, all.len() - moving.len()),
             refined: gain,
             named: named.collect::<Result<_, Failure>>()?,
             front: best.front.iter().map(|&at| row(at)).collect::<Result<_, _>>()?,
-            top: order.into_iter().map(row).collect::<Result<_, _>>()?,
+            top: moving.into_iter().take(self.top).map(row).collect::<Result<_, _>>()?,
         };
         print(&match (self.json, self.csv) {
             (true, _) => format!("{:#}\n", json(&answer)),
             (_, true) => csv(&answer),
             _ => table(&answer),
         })
+    }
+
+    /// The areas that fronts dominate, up to the dearest price of them all.
+    fn hypervolumes(&self, fronts: [(&Optima, &[Candidate]); 2]) -> [f64; 2] {
+        let at_rest = fronts[0].0.at_rest;
+        let fronts = fronts.map(|(optima, candidates)| optima.points(candidates, self.direction));
+        let dearest = fronts.iter().flatten().fold(0.0, |most: f64, it| most.max(it.0));
+        fronts.map(|front| hypervolume(&front, (dearest, at_rest)))
     }
 
     /// Searches between the cases: how many, and what they led to.

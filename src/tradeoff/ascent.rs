@@ -71,12 +71,12 @@ struct Slope {
 /// Sequential quadratic programming in the shares of the free parameters: exact gradients, second derivatives of the
 /// Lagrange function by central differences of them, the quadratic model solved exactly within the bounds, the budget and
 /// a region of trust; a trial counts where its orbit exists, is stable and gains. The region shrinks where the family ends.
-/// Where the sequence of events changes, outputs have a kink: the [`Surface`] between two orbits with different events
-/// bounds the model, as long as the value would become worse beyond it.
+/// Where the sequence of events changes, outputs have a kink: the surface of the parameters between two orbits with
+/// different events bounds the model, as long as the value would become worse beyond it.
 ///
 /// # Guarantees
 ///
-/// The orbit is no worse than the first. Local: another start may lead to a better one.
+/// The orbit is no worse than the first, but for 1e-8 where a surface is passed. Local: another start may lead to a better one.
 pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -> Option<Best> {
     let mut ascent = Ascent::from(family, &first, goal)?;
     let [mut trust, least] = TRUST;
@@ -109,16 +109,8 @@ pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -
         let multiplier = if here.excess.is_some() { found.multipliers[0] } else { 0.0 };
         let weight = 1.0 + 2.0 * multiplier.max(near.budget);
         let merit = |it: &Measured| it.value + weight * it.excess.map_or(0.0, |it| it.0.max(0.0));
-        let shares = std::array::from_fn(|i| on_bound(at.shares[i] + found.step[i]));
         let length = found.step.iter().fold(0.0, |most: f64, part| most.max(part.abs()));
-        let measured = |it: OperatingPoint| (ascent.objective.measured(&it), it);
-        let mut trial = family.moved(&at, &shares).map(measured);
-        if let Some((there, passed)) = &trial
-            && let Some(shares) = within_budget(there, &passed.shares)
-            && let Some(corrected) = family.moved(passed, &shares)
-        {
-            trial = Some(measured(corrected));
-        }
+        let trial = ascent.trial(&at, &found.step);
         let relieved = here.excess.map_or(0.0, |(excess, _)| weight * excess.max(0.0));
         let foretold = relieved - found.value;
         let Some((there, trial)) = trial else {
@@ -146,8 +138,13 @@ pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -
         } else if is_new {
             // The same step is tried again before the surface that it has passed.
             known.push(trial.events);
-        } else if foretold <= NO_GAIN && length < least {
-            let held_by = ascent.holds(&at, &slope);
+        } else if foretold <= NO_GAIN && length < 0.9 * trust {
+            // The whole step of the model gains no more than rounding.
+            let is_kinked = |it: &Hold| matches!(it, Hold::Grazing | Hold::EventSequence);
+            let held_by = match slope.held_by.iter().any(is_kinked) {
+                true => slope.held_by,
+                false => ascent.holds(&at, &slope),
+            };
             return Some(Best { at, stationarity: slope.left, held_by });
         } else {
             trust = 0.25 * length.min(trust);
@@ -182,6 +179,17 @@ impl<'a, R: Reading> Ascent<'a, R> {
     fn from(family: &'a Family<R>, first: &OperatingPoint, goal: Goal) -> Option<Self> {
         let objective = Objective::from(goal, family.free.len(), first)?;
         Some(Ascent { family, objective, beyond: Beyond::of(family, objective) })
+    }
+
+    /// The orbit a step away, then brought back to the budget if that is exceeded; none where the family does not reach.
+    fn trial(&self, at: &OperatingPoint, step: &Vector) -> Option<(Measured, OperatingPoint)> {
+        let measured = |it: OperatingPoint| (self.objective.measured(&it), it);
+        let shares = std::array::from_fn(|i| on_bound(at.shares[i] + step[i]));
+        let (there, passed) = self.family.moved(at, &shares).map(measured)?;
+        let corrected = within_budget(&there, &passed.shares)
+            .and_then(|shares| self.family.moved(&passed, &shares))
+            .map(measured);
+        Some(corrected.unwrap_or((there, passed)))
     }
 
     /// The slope that bounds, budget and surfaces leave which touch the orbit, or are so near [shares].
@@ -256,7 +264,11 @@ impl<'a, R: Reading> Ascent<'a, R> {
             // Where the region of trust does not reach the budget, most of the distance to it is gone.
             (normal, (-excess).max(0.8 * deepest))
         });
-        let before = surfaces.iter().map(|it| (it.normal, it.distance - CLEAR));
+        let clear = |distance: f64| {
+            let too_near = distance < 0.25 * CLEAR;
+            if too_near { distance - CLEAR } else { (distance - CLEAR).max(0.0) }
+        };
+        let before = surfaces.iter().map(|it| (it.normal, clear(it.distance)));
         let planes = budget.into_iter().chain(before).collect();
         let hessian = self.curvature((at, here), multiplier, surfaces, trust);
         Quadratic { count, gradient: here.gradient, hessian, bounds, planes }

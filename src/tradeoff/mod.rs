@@ -17,6 +17,6 @@ pub use front::{NOISE, front, speed_at_rest};
 pub use goal::Goal;
 pub use hold::{Hold, Side};
 pub use operating_point::{Family, OperatingPoint};
-pub use optima::{Candidate, Direction, Optima, hypervolume, optima};
+pub use optima::{Candidate, Direction, Optima, fastest_first, hypervolume, optima};
 pub use quadratic::MOST as MOST_FREE;
 pub use sensitivity::{Sensitivity, sensitivity};

@@ -59,6 +59,38 @@ pub struct Optima {
     pub lowest_cost_of_transport: Option<usize>,
 }
 
+impl Optima {
+    /// The front as prices and speeds in a direction, both rising.
+    pub fn points(&self, candidates: &[Candidate], direction: Direction) -> Vec<(f64, f64)> {
+        let point = |&at: &usize| (candidates[at].price, direction.of(candidates[at].speed));
+        self.front.iter().map(point).collect()
+    }
+
+    /// The fastest for no more than a price.
+    pub fn fastest_within(&self, candidates: &[Candidate], most: f64) -> Option<usize> {
+        let last = self.front.partition_point(|&at| candidates[at].price <= most);
+        last.checked_sub(1).map(|place| self.front[place])
+    }
+
+    /// The cheapest that is no slower than a speed in a direction [m/s].
+    pub fn least_for(
+        &self,
+        candidates: &[Candidate],
+        (direction, least): (Direction, f64),
+    ) -> Option<usize> {
+        let mut front = self.front.iter().copied();
+        front.find(|&at| direction.of(candidates[at].speed) >= least)
+    }
+}
+
+/// The motions that are not at rest, the fastest in a direction first.
+pub fn fastest_first(candidates: &[Candidate], direction: Direction, at_rest: f64) -> Vec<usize> {
+    let speed = |at: usize| direction.of(candidates[at].speed);
+    let mut moving: Vec<usize> = (0..candidates.len()).filter(|&at| speed(at) > at_rest).collect();
+    moving.sort_by(|&a, &b| speed(b).total_cmp(&speed(a)));
+    moving
+}
+
 /// The best of some motions in a direction; those slower than `at_rest` [m/s] are not among them, or than
 /// [`speed_at_rest`] if none is given.
 ///
