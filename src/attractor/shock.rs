@@ -1,6 +1,7 @@
 //! The smallest disturbance of an attractor after which the motion leads to another one.
 
 use crate::flow::Metric;
+use crate::orbit::matrix::norm;
 
 /// A disturbance of a motion at its section, after which it leads to another attractor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -135,10 +136,6 @@ impl<const D: usize> Search<'_, D> {
             }
         }
     }
-}
-
-fn norm<const D: usize>(vector: &[f64; D]) -> f64 {
-    vector.iter().map(|it| it * it).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

@@ -3,6 +3,8 @@
 use crate::flow::Reason;
 use crate::orbit::matrix::{Matrix, solve};
 
+pub use crate::orbit::matrix::{dot, norm};
+
 /// Newton's steps at most.
 const PATIENCE: usize = 12;
 /// A residual below this is not worth another step.
@@ -151,16 +153,6 @@ pub fn tangent<const U: usize>(mut rows: Matrix<U>, ahead: &[f64; U]) -> Option<
 pub fn unit<const U: usize>(vector: &[f64; U]) -> [f64; U] {
     let length = norm(vector);
     vector.map(|part| part / length)
-}
-
-/// The length of a vector.
-pub fn norm<const U: usize>(vector: &[f64; U]) -> f64 {
-    dot(vector, vector).sqrt()
-}
-
-/// The inner product.
-pub fn dot<const U: usize>(a: &[f64; U], b: &[f64; U]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The point so far from another in a direction.

@@ -36,7 +36,7 @@ pub struct RefinedMotion {
     pub from: usize,
     /// Its parameters.
     pub parameters: Parameters,
-    /// Its section point, and the phase of the drive there [rad].
+    /// Its section point (SI).
     pub section: Section,
     /// Phase of the drive at the section [rad].
     pub phase: f64,
@@ -61,7 +61,8 @@ pub struct Search {
 pub struct Slopes {
     /// Percent of speed and of price per percent of each parameter that is not zero.
     pub sensitivity: Vec<(Parameter, [f64; 2])>,
-    /// The largest relative slope of speed left at this price, for the whole range of a parameter [-]; none where no parameter is free.
+    /// The largest relative slope of speed left at this price, for the whole range of a parameter [-]; none where no parameter
+    /// is free.
     pub stationarity: Option<f64>,
     /// What keeps it from being better, in words.
     pub held_by: Vec<String>,
@@ -98,9 +99,9 @@ impl Refinement<'_> {
         free.collect()
     }
 
-    /// The searches among the motions of the file: from each periodic motion of the front, the most speed for no more than its price; from the fastest
-    /// ones, from those with the least energy per metre, and from some drawn by the seed, the most speed and the least energy
-    /// per metre.
+    /// The searches among the motions of the file: from each periodic motion of the front, the most speed for no more than its
+    /// price; from the fastest ones, from those with the least energy per metre, and from some drawn by the seed, the most
+    /// speed and the least energy per metre.
     pub fn searches(&self, candidates: &[Candidate], optima: &Optima) -> Vec<Search> {
         let (direction, of) = (self.direction, self.of);
         let is_periodic = |at: &usize| self.periods[candidates[*at].case] > 0.0;

@@ -55,6 +55,16 @@ pub fn solve<const D: usize>(mut a: Matrix<D>, mut b: [f64; D]) -> Option<[f64; 
     b.iter().all(|x| x.is_finite()).then_some(b)
 }
 
+/// The inner product.
+pub fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The length of a vector.
+pub fn norm<const D: usize>(vector: &[f64; D]) -> f64 {
+    dot(vector, vector).sqrt()
+}
+
 /// A matrix less the identity.
 pub fn less_identity<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
     let mut result = *a;

@@ -1,12 +1,13 @@
 //! From an orbit to the best one of its family: stationary within the bounds, or where the family or its outputs have an edge.
 
 use crate::capsule::Reading;
+use crate::orbit::matrix::{dot, norm};
 
 use super::beyond::Beyond;
 use super::goal::{Goal, Measured, Objective};
 use super::hold::{Hold, Side};
 use super::operating_point::{Family, OperatingPoint};
-use super::quadratic::{MOST, Quadratic, Vector, dot};
+use super::quadratic::{MOST, Quadratic, Vector};
 use super::slope;
 use super::surface::Surface;
 
@@ -101,8 +102,11 @@ pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -
         }
         let found = ascent.model((&at, &here), near.budget, &surfaces, trust).least();
         // Before a budget that is exceeded there may be no room on this side of a surface.
-        let found = found.or_else(|| ascent.model((&at, &here), near.budget, &[], trust).least());
-        let Some(found) = found else {
+        let alone = || {
+            let has_surfaces = !surfaces.is_empty();
+            has_surfaces.then(|| ascent.model((&at, &here), near.budget, &[], trust).least())?
+        };
+        let Some(found) = found.or_else(alone) else {
             trust *= 0.25;
             continue;
         };
@@ -141,10 +145,8 @@ pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -
         } else if foretold <= NO_GAIN && length < 0.9 * trust {
             // The whole step of the model gains no more than rounding.
             let is_kinked = |it: &Hold| matches!(it, Hold::Grazing | Hold::EventSequence);
-            let held_by = match slope.held_by.iter().any(is_kinked) {
-                true => slope.held_by,
-                false => ascent.holds(&at, &slope),
-            };
+            let is_held = slope.held_by.iter().any(is_kinked);
+            let held_by = if is_held { slope.held_by } else { ascent.holds(&at, &slope) };
             return Some(Best { at, stationarity: slope.left, held_by });
         } else {
             trust = 0.25 * length.min(trust);
@@ -200,9 +202,8 @@ impl<'a, R: Reading> Ascent<'a, R> {
         near: f64,
     ) -> Slope {
         let mut constraints: Vec<(Option<Hold>, Vector)> = Vec::new();
-        let is_near = |(excess, normal): &(f64, Vector)| {
-            -excess <= STATIONARY + near * dot(normal, normal).sqrt()
-        };
+        let is_near =
+            |(excess, normal): &(f64, Vector)| -excess <= STATIONARY + near * norm(normal);
         constraints.extend(here.excess.filter(is_near).map(|(_, normal)| (None, normal)));
         let has_budget = !constraints.is_empty();
         for place in 0..self.objective.count {

@@ -1,10 +1,11 @@
 //! The orbits beyond the surfaces near an orbit: they tell where events change.
 
 use crate::capsule::Reading;
+use crate::orbit::matrix::dot;
 
 use super::goal::{Measured, Objective};
 use super::operating_point::{Family, OperatingPoint};
-use super::quadratic::{PLANES, Vector, dot};
+use super::quadratic::{PLANES, Vector};
 use super::surface::Surface;
 
 /// Where an orbit towards a surface has the same events, one so many times farther is tried.
@@ -32,10 +33,7 @@ impl<'a, R: Reading> Beyond<'a, R> {
         if at.events == trial.events {
             return;
         }
-        let apart = |it: &OperatingPoint| {
-            let pairs = it.shares.iter().zip(&at.shares);
-            pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
-        };
+        let apart = |it: &OperatingPoint| it.apart(at);
         let is_nearer = |it: &OperatingPoint| it.events == trial.events && apart(it) < apart(trial);
         let nearest = self.orbits.iter().find(|it| is_nearer(it)).unwrap_or(trial).clone();
         self.orbits.retain(|it| it.events != at.events && it.events != trial.events);
@@ -93,10 +91,7 @@ impl<'a, R: Reading> Beyond<'a, R> {
     /// The nearest surfaces within reach of an orbit.
     pub fn near(&self, at: &OperatingPoint, here: &Measured, trust: f64) -> Vec<Surface> {
         let reach = (REACH[0] * trust).max(REACH[1]);
-        let is_near = |it: &&OperatingPoint| {
-            it.events != at.events
-                && it.shares.iter().zip(&at.shares).all(|(a, b)| (a - b).abs() <= reach)
-        };
+        let is_near = |it: &&OperatingPoint| it.events != at.events && it.apart(at) <= reach;
         let between = |there: &OperatingPoint| {
             Surface::between((at, here), (there, &self.objective.measured(there)))
         };

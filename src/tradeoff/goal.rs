@@ -84,7 +84,7 @@ impl Measured {
     }
 
     /// The gradient of the budget; zero where there is none.
-    pub fn normal(&self) -> Vector {
+    fn normal(&self) -> Vector {
         self.excess.map_or(Vector::default(), |(_, normal)| normal)
     }
 }

@@ -55,6 +55,12 @@ impl OperatingPoint {
         self.events.iter().filter(|event| event.is_impact()).count()
     }
 
+    /// How far it is from another, in shares of the ranges: the most of a parameter.
+    pub fn apart(&self, other: &OperatingPoint) -> f64 {
+        let pairs = self.shares.iter().zip(&other.shares);
+        pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+    }
+
     /// The derivatives of an output in the shares.
     pub fn gradient(&self, output: Output, count: usize) -> Vector {
         std::array::from_fn(|i| if i < count { self.slopes[i][output] } else { 0.0 })

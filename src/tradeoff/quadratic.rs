@@ -1,6 +1,6 @@
 //! The least value of a quadratic function within a box, below some planes.
 
-use crate::orbit::matrix::solve;
+use crate::orbit::matrix::{dot, solve};
 
 /// Free parameters at most.
 pub const MOST: usize = 6;
@@ -38,11 +38,6 @@ pub struct Least {
     pub value: f64,
     /// The multipliers of the planes, zero for those that do not hold the step.
     pub multipliers: [f64; PLANES],
-}
-
-/// The scalar product.
-pub fn dot(a: &Vector, b: &Vector) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl Quadratic {

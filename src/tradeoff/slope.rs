@@ -1,8 +1,8 @@
 //! The slope that constraints leave.
 
-use crate::orbit::matrix::solve;
+use crate::orbit::matrix::{dot, norm, solve};
 
-use super::quadratic::{MOST, PLANES, Vector, dot};
+use super::quadratic::{MOST, PLANES, Vector};
 
 /// Constraints that hold at once at most: a bound of each parameter, and the planes.
 const HOLDING: usize = MOST + PLANES;
@@ -29,10 +29,10 @@ pub fn left(gradient: &Vector, normals: &[Vector]) -> (Vector, Vec<f64>) {
     for _ in 0..1_usize << HOLDING {
         let slope = with(&multipliers);
         let gain = |place: usize| -dot(&slope, &normals[place]);
-        let least = ROUNDING * dot(gradient, gradient).sqrt();
+        let least = ROUNDING * norm(gradient);
         let next = (0..normals.len())
             .filter(|&place| {
-                !holds[place] && !refused[place] && gain(place) > least * length(&normals[place])
+                !holds[place] && !refused[place] && gain(place) > least * norm(&normals[place])
             })
             .max_by(|&a, &b| gain(a).total_cmp(&gain(b)));
         let Some(next) = next else { break };
@@ -61,10 +61,6 @@ pub fn left(gradient: &Vector, normals: &[Vector]) -> (Vector, Vec<f64>) {
         }
     }
     (with(&multipliers), multipliers)
-}
-
-fn length(vector: &Vector) -> f64 {
-    dot(vector, vector).sqrt()
 }
 
 /// The multipliers of those that hold which leave the least slope, whatever their signs.

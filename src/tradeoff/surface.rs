@@ -1,9 +1,11 @@
 //! A surface in the parameters on which the sequence of events changes: there the outputs have a kink.
 
+use crate::orbit::matrix::{dot, norm};
+
 use super::goal::Measured;
 use super::hold::Hold;
 use super::operating_point::OperatingPoint;
-use super::quadratic::{Vector, dot};
+use super::quadratic::Vector;
 
 /// Gradients that differ by less are those of one smooth piece.
 const KINK: f64 = 1e-4;
@@ -46,7 +48,7 @@ impl Surface {
         let apart: Vector = std::array::from_fn(|i| there.shares[i] - here.shares[i]);
         let jump = |here: (f64, Vector), there: (f64, Vector)| {
             let gradient: Vector = std::array::from_fn(|i| there.1[i] - here.1[i]);
-            (dot(&gradient, &gradient).sqrt(), there.0 - dot(&there.1, &apart) - here.0, gradient)
+            (norm(&gradient), there.0 - dot(&there.1, &apart) - here.0, gradient)
         };
         let of_value = jump((of_here.value, of_here.gradient), (of_there.value, of_there.gradient));
         let of_budget = of_here.excess.zip(of_there.excess).map(|(here, there)| jump(here, there));
@@ -57,11 +59,8 @@ impl Surface {
         let normal = gradient.map(|part| part * unit);
         let (distance, reach) = (-jump * unit, towards * unit);
         let is_between = (-SLACK * reach..=(1.0 + SLACK) * reach).contains(&distance);
-        let impacts = |it: &OperatingPoint| it.impacts();
-        let hold = match impacts(here) == impacts(there) {
-            true => Hold::EventSequence,
-            false => Hold::Grazing,
-        };
+        let has_same_impacts = here.impacts() == there.impacts();
+        let hold = if has_same_impacts { Hold::EventSequence } else { Hold::Grazing };
         (steep > KINK && is_between).then(|| Surface {
             normal,
             distance: distance.clamp(0.0, reach),
