@@ -52,6 +52,20 @@ pub enum CampaignError {
         /// The file.
         path: PathBuf,
     },
+    /// The file of kept searches is of another study, other results or another program, or no such file.
+    OtherSearches {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        what: &'static str,
+    },
+    /// What was asked of a trade-off has faults.
+    TradeOff {
+        /// The file of results.
+        path: PathBuf,
+        /// Every fault, a sentence each.
+        faults: Vec<String>,
+    },
     /// A file is where a folder is needed.
     NoFolder {
         /// The folder.
@@ -115,7 +129,7 @@ pub enum Cause {
 impl CampaignError {
     /// What it comes from.
     pub fn cause(&self) -> Cause {
-        use StoreError::{Busy, Changed, Held, NoBlocks, Occupied};
+        use StoreError::{Busy, Changed, Held, InUse, NoBlocks, Occupied};
         match self {
             CampaignError::Path { .. }
             | CampaignError::Study(_)
@@ -125,10 +139,17 @@ impl CampaignError {
             | CampaignError::Unreadable { .. }
             | CampaignError::OtherResults { .. }
             | CampaignError::OtherBranches { .. }
+            | CampaignError::OtherSearches { .. }
+            | CampaignError::TradeOff { .. }
             | CampaignError::NoFolder { .. }
             | CampaignError::Missing { .. }
             | CampaignError::Store(
-                Busy { .. } | Changed { .. } | Held { .. } | NoBlocks { .. } | Occupied { .. },
+                Busy { .. }
+                | Changed { .. }
+                | Held { .. }
+                | InUse { .. }
+                | NoBlocks { .. }
+                | Occupied { .. },
             ) => Cause::Request,
             CampaignError::Refused { .. }
             | CampaignError::Block { .. }
@@ -161,6 +182,18 @@ impl fmt::Display for CampaignError {
             }
             CampaignError::OtherBranches { path } => {
                 write!(f, "{}: holds branches of a study with another text", path.display())
+            }
+            CampaignError::OtherSearches { path, what } => {
+                write!(
+                    f,
+                    "{}: holds {what}, not searches of these results by this program",
+                    path.display()
+                )
+            }
+            CampaignError::TradeOff { path, faults } => {
+                let within = |fault: &String| format!("{}: {fault}", path.display());
+                let faults: Vec<String> = faults.iter().map(within).collect();
+                f.write_str(&faults.join("\n"))
             }
             CampaignError::NoFolder { folder, file } => {
                 let (folder, file) = (folder.display(), file.display());

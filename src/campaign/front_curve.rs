@@ -1,11 +1,13 @@
 //! The refined front as a curve: from one of its motions to the next, price by price.
 
-use crate::capsule::{AsPrinted, Filippov, Reading, Switching};
-use crate::run::on_all_threads;
+use serde_json::{Value, json};
+
+use crate::capsule::{AsPrinted, Filippov, Parameter, Reading, Switching};
 use crate::tradeoff::{Goal, best};
 
 use super::error::CampaignError;
-use super::refined_front::{RefinedMotion, Refinement};
+use super::refined_front::Refinement;
+use super::refined_motion::RefinedMotion;
 
 /// Neighbours on the front differ in price by no more than the range of prices over this.
 const PARTS: f64 = 64.0;
@@ -51,15 +53,30 @@ impl Refinement<'_> {
         threads: Option<usize>,
         done: impl Fn() + Sync,
     ) -> Result<Vec<RefinedMotion>, CampaignError> {
-        let found = on_all_threads(threads, gaps.len(), |number| {
-            let found = match self.study.base.switching {
-                Switching::Filippov => self.follow::<Filippov>(&gaps[number]),
-                Switching::AsPrinted => self.follow::<AsPrinted>(&gaps[number]),
-            };
-            done();
-            found
-        })?;
-        Ok(found.into_iter().flatten().collect())
+        self.each(threads, gaps.len(), done, |number| {
+            let gap = &gaps[number];
+            self.kept.or_do(&self.described_gap(gap), || {
+                Ok(match self.study.base.switching {
+                    Switching::Filippov => self.follow::<Filippov>(gap),
+                    Switching::AsPrinted => self.follow::<AsPrinted>(gap),
+                })
+            })
+        })
+    }
+
+    /// What is found in a gap depends on this, beside the results.
+    fn described_gap(&self, Gap { from, prices }: &Gap<'_>) -> Value {
+        let values: Vec<f64> = Parameter::ALL.iter().map(|it| from.parameters[*it]).collect();
+        json!({
+            "from": from.from,
+            "direction": self.direction.name(),
+            "of": self.of.name(),
+            "parameters": values,
+            "phase": from.phase,
+            "section": from.section,
+            "period": from.period,
+            "prices": prices,
+        })
     }
 
     fn follow<R: Reading>(&self, gap: &Gap<'_>) -> Vec<RefinedMotion> {

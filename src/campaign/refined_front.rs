@@ -1,5 +1,7 @@
 //! From the best cases of a file to the best motions between and beside them: the refined front of a trade-off.
 
+use serde_json::{Value, json};
+
 use crate::capsule::{
     AsPrinted, CapsuleSystem, Case, Filippov, Output, Outputs, Parameter, Parameters, Reading,
     Section, State, Switching, settle_case,
@@ -10,11 +12,13 @@ use crate::store::Archive;
 use crate::store::catalogue::SECTION;
 use crate::study::{Coordinate, Study};
 use crate::tradeoff::{
-    Best, Candidate, Direction, Family, Goal, Hold, MOST_FREE, OperatingPoint, Optima, Side, best,
-    left, sensitivity,
+    Best, Candidate, Direction, Family, Goal, MOST_FREE, OperatingPoint, Optima, best, left,
+    sensitivity,
 };
 
 use super::error::CampaignError;
+use super::kept_searches::KeptSearches;
+use super::refined_motion::{RefinedMotion, Slopes, words};
 use super::replay::Replay;
 use super::report::silent;
 
@@ -29,43 +33,12 @@ const LEAST_GAIN: f64 = 1e-9;
 /// Motions whose speeds and prices agree to this share are one.
 const SAME: f64 = 1e-8;
 
-/// A motion of the refined front.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RefinedMotion {
-    /// The case whose orbit was followed to it.
-    pub from: usize,
-    /// Its parameters.
-    pub parameters: Parameters,
-    /// Its section point (SI).
-    pub section: Section,
-    /// Phase of the drive at the section [rad].
-    pub phase: f64,
-    /// Period [cycles].
-    pub period: u64,
-    /// The outputs of the motion that starts at the section point (SI).
-    pub outputs: Outputs,
-    /// How it changes with the parameters.
-    pub slopes: Slopes,
-}
-
 /// A search for a better motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
     /// The case that it begins with.
     from: usize,
     goal: Goal,
-}
-
-/// How speed and price of a periodic motion change with the parameters.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Slopes {
-    /// Percent of speed and of price per percent of each parameter that is not zero.
-    pub sensitivity: Vec<(Parameter, [f64; 2])>,
-    /// The largest relative slope of speed left at this price, for the whole range of a parameter [-]; none where no parameter
-    /// is free.
-    pub stationarity: Option<f64>,
-    /// What keeps it from being better, in words.
-    pub held_by: Vec<String>,
 }
 
 /// What a search for better motions needs.
@@ -83,6 +56,8 @@ pub struct Refinement<'a> {
     pub direction: Direction,
     /// Number of the drawing of starts.
     pub seed: u64,
+    /// Searches that are done already, and where further ones are kept.
+    pub kept: &'a KeptSearches,
 }
 
 impl Refinement<'_> {
@@ -152,17 +127,43 @@ impl Refinement<'_> {
         threads: Option<usize>,
         done: impl Fn() + Sync,
     ) -> Result<Vec<RefinedMotion>, CampaignError> {
-        let found = on_all_threads(threads, searches.len(), |number| {
-            let found = match self.study.base.switching {
-                Switching::Filippov => self.search::<Filippov>(&searches[number]),
-                Switching::AsPrinted => self.search::<AsPrinted>(&searches[number]),
-            };
+        let found = self.each(threads, searches.len(), done, |number| {
+            let search = &searches[number];
+            self.kept.or_do(&self.described(search), || match self.study.base.switching {
+                Switching::Filippov => self.search::<Filippov>(search),
+                Switching::AsPrinted => self.search::<AsPrinted>(search),
+            })
+        })?;
+        Ok(self.distinct(found))
+    }
+
+    /// What a search depends on, beside the results.
+    fn described(&self, Search { from, goal }: &Search) -> Value {
+        let of = self.of.name();
+        match goal {
+            Goal::Speed { direction, budget } => {
+                let most = budget.map(|(_, most)| most);
+                json!({ "from": from, "direction": direction.name(), "of": of, "most": most })
+            }
+            Goal::Least(output) => json!({ "from": from, "least": output.name(), "of": of }),
+        }
+    }
+
+    /// The motions that each of some searches leads to, in the order of the searches; calls `done` after each.
+    pub(super) fn each(
+        &self,
+        threads: Option<usize>,
+        count: usize,
+        done: impl Fn() + Sync,
+        search: impl Fn(usize) -> Result<Vec<RefinedMotion>, CampaignError> + Sync,
+    ) -> Result<Vec<RefinedMotion>, CampaignError> {
+        let found = on_all_threads(threads, count, |number| {
+            let found = search(number);
             done();
             found
         })?;
-        let found: Result<Vec<RefinedMotion>, CampaignError> =
-            found.into_iter().filter_map(Result::transpose).collect();
-        found.map(|found| self.distinct(found))
+        let found: Result<Vec<Vec<RefinedMotion>>, CampaignError> = found.into_iter().collect();
+        Ok(found?.into_iter().flatten().collect())
     }
 
     /// The motions without those that another search has led to already.
@@ -190,15 +191,15 @@ impl Refinement<'_> {
         distinct
     }
 
-    fn search<R: Reading>(&self, search: &Search) -> Result<Option<RefinedMotion>, CampaignError> {
+    /// The motion that a search leads to, if any.
+    fn search<R: Reading>(&self, search: &Search) -> Result<Vec<RefinedMotion>, CampaignError> {
         let case = search.from;
-        let Some((family, first)) = self.family::<R>(case)? else { return Ok(None) };
+        let Some((family, first)) = self.family::<R>(case)? else { return Ok(Vec::new()) };
         let before = first.outputs;
-        let Some(found) = best(&family, first, search.goal) else { return Ok(None) };
-        if self.gain(search.goal, [&before, &found.at.outputs]) < LEAST_GAIN {
-            return Ok(None);
-        }
-        Ok(self.settled(&family, &found, case))
+        let found = best(&family, first, search.goal);
+        let gain = |it: &Best| self.gain(search.goal, [&before, &it.at.outputs]);
+        let found = found.filter(|it| gain(it) >= LEAST_GAIN);
+        Ok(found.and_then(|it| self.settled(&family, &it, case)).into_iter().collect())
     }
 
     /// The best orbit of a family, settled anew from its section point; none where it is not the same then.
@@ -334,22 +335,4 @@ impl Refinement<'_> {
         let end = [orbit.end.r, orbit.end.y1, orbit.end.y2];
         Ok((orbit.outcome == Outcome::Periodic).then_some(end))
     }
-}
-
-/// What holds a motion, in words.
-fn words(holds: &[Hold], free: &[(Parameter, [f64; 2])]) -> Vec<String> {
-    let in_words = |hold: &Hold| match hold {
-        Hold::Interior => "interior".to_owned(),
-        Hold::Bound(place, side) => {
-            let side = if *side == Side::Lower { "lower" } else { "upper" };
-            format!("{side} bound of {}", free[*place].0.symbol())
-        }
-        Hold::Fold => "fold".to_owned(),
-        Hold::PeriodDoubling => "period doubling".to_owned(),
-        Hold::NeimarkSacker => "Neimark-Sacker".to_owned(),
-        Hold::Grazing => "grazing".to_owned(),
-        Hold::EventSequence => "event sequence".to_owned(),
-        Hold::Steps => "not converged".to_owned(),
-    };
-    holds.iter().map(in_words).collect()
 }

@@ -111,6 +111,10 @@ pub enum Stage {
     Continuing,
     /// Cases are computed again; a step is a case.
     Repeating,
+    /// Better motions are sought between the cases; a step is a search.
+    Searching,
+    /// The refined front is followed; a step is a gap of it.
+    Following,
 }
 
 /// The blocks of a task before it begins.

@@ -56,6 +56,10 @@ impl fmt::Display for Failure {
 
 impl From<CampaignError> for Failure {
     fn from(error: CampaignError) -> Self {
+        if let CampaignError::TradeOff { path, faults } = error {
+            let within = |fault: &String| format!("{}: {fault}", path.display());
+            return Failure::requests(&faults.iter().map(within).collect::<Vec<_>>());
+        }
         let message = format!("{error}{}", advice(&error));
         match error.cause() {
             Cause::Request => Failure::request(message),
@@ -80,6 +84,7 @@ fn advice(error: &CampaignError) -> String {
             " (another place by --output, giving up by --overwrite)"
         }
         CampaignError::Store(StoreError::Occupied { .. }) => " by --output",
+        CampaignError::OtherSearches { .. } => "; remove it, or begin anew with --overwrite",
         CampaignError::NoFolder { .. } => "; name another --output",
         CampaignError::Refused { .. } => "; choose a place that you may use with --output",
         CampaignError::Missing { .. } => {

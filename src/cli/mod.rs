@@ -22,7 +22,6 @@ mod stop;
 mod summary;
 mod sweep;
 mod terminal;
-mod trade_off_rows;
 mod tradeoff;
 mod verify;
 mod watch;

@@ -1,77 +1,22 @@
 //! The answer of a trade-off as a table for people, as JSON and as comma-separated values.
 
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde_json::{Map, Value, json};
 
 use super::readable::{count, counted};
-use super::trade_off_rows::Row;
-use crate::campaign::Slopes;
+use crate::campaign::{Answer, Gain, Named, Row, Slopes};
 use crate::capsule::{Output, Parameter};
 use crate::store::catalogue::{ATTRACTOR, OUTCOME, PERIOD};
 use crate::study::Coordinate;
 use crate::tradeoff::Direction;
-
-/// What is best among the motions of a file.
-pub struct Answer {
-    /// The file of results.
-    pub file: String,
-    /// The output that should be small.
-    pub of: Output,
-    /// The motions that are compared.
-    pub direction: Direction,
-    /// Cases of the file.
-    pub cases: usize,
-    /// How many take no part, by the reason.
-    pub left_out: BTreeMap<String, usize>,
-    /// The speed up to which a motion counts as at rest [m/s], and how many do or move the other way.
-    pub at_rest: (f64, usize),
-    /// What a search between the cases has brought, if it was asked for.
-    pub refined: Option<Gain>,
-    /// The optima.
-    pub named: Vec<Named>,
-    /// The Pareto front, by rising price.
-    pub front: Vec<Row>,
-    /// The fastest motions, if they are asked for.
-    pub top: Vec<Row>,
-}
-
-/// What a search for motions between the cases has brought.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gain {
-    /// Searches.
-    pub searches: usize,
-    /// Motions that they have led to.
-    pub found: usize,
-    /// The number by which starts were drawn.
-    pub seed: u64,
-    /// The area that the front of the cases dominates up to the dearest price of both fronts, and that of the whole front, in
-    /// units of speed and price.
-    pub hypervolumes: [f64; 2],
-}
-
-/// An optimum.
-pub struct Named {
-    /// Its name in JSON.
-    pub name: &'static str,
-    /// The motion; none where there is none.
-    pub row: Option<Row>,
-}
-
-impl Answer {
-    fn direction(&self) -> &'static str {
-        let named = Direction::NAMES.iter().find(|(_, it)| *it == self.direction);
-        named.map_or("", |(name, _)| name)
-    }
-}
 
 /// One JSON object.
 pub fn json(answer: &Answer) -> Value {
     let point = |row: &Row| json_of_row(row, answer.of);
     let mut object = Map::new();
     object.insert("of".to_owned(), json!(answer.of.name()));
-    object.insert("moving".to_owned(), json!(answer.direction()));
+    object.insert("moving".to_owned(), json!(answer.direction.name()));
     object.insert("cases".to_owned(), json!(answer.cases));
     object.insert("left_out".to_owned(), json!(answer.left_out));
     object.insert("speed_at_rest".to_owned(), json!(answer.at_rest.0));
@@ -192,7 +137,7 @@ pub fn table(answer: &Answer) -> String {
         text,
         "Pareto front of {} ({}) and {}: {}\n",
         Output::ProgressionSpeed.name(),
-        answer.direction(),
+        answer.direction.name(),
         answer.of.name(),
         counted(answer.front.len(), "motion")
     );

@@ -1,22 +1,24 @@
 //! `capsulemap tradeoff`: what moves fastest for how little, from a file of results.
 
-use std::path::{Path, PathBuf};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
 
 use clap::Args;
 
 use super::arguments::named;
 use super::failure::Failure;
-use super::optima_text::{Answer, Gain, Named, csv, json, table};
-use super::progress::Progress;
-use super::terminal::print;
-use super::trade_off_rows::{Row, Rows};
-use crate::campaign::{RefinedMotion, Refinement, study_of};
-use crate::capsule::Output;
-use crate::store::{self, CaseTable, Unread, candidates, quantity};
-use crate::study::document::unknown;
-use crate::tradeoff::{
-    Candidate, Direction, MOST_FREE, Optima, fastest_first, hypervolume, optima as best_of,
+use super::optima_text::{csv, json, table};
+use super::readable::count;
+use super::stop::say_when_stopped;
+use super::terminal::{notify, print};
+use super::watch::Stages;
+use crate::campaign::{
+    Between, CampaignError, KeptSearches, Sought, TradeOff, searches_path, study_of,
 };
+use crate::capsule::Output;
+use crate::store::{self, Archive, StoreError, quantity};
+use crate::study::document::unknown;
+use crate::tradeoff::Direction;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -60,6 +62,9 @@ pub struct Tradeoff {
     /// Number by which cases are drawn that the search begins with beside the best ones.
     #[arg(long, value_name = "NUMBER", default_value_t = 1, requires = "refine")]
     seed: u64,
+    /// Give up the searches that are kept beside the file, and begin anew.
+    #[arg(long, requires = "refine")]
+    overwrite: bool,
     /// Worker threads; one per core by default.
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
     threads: Option<u64>,
@@ -87,77 +92,27 @@ impl Tradeoff {
     pub fn run(&self) -> Result<(), Failure> {
         let request = self.request()?;
         let archive = store::open(&self.file).map_err(Failure::request)?;
-        let shown = self.file.display().to_string();
-        let cases = CaseTable::of(&archive).map_err(Failure::request)?;
-        let cases = cases.ok_or_else(|| {
-            Failure::request(format!(
-                "{shown}: there are no cases; `capsulemap sweep` computes them"
-            ))
-        })?;
-        let found = candidates(&cases, request.of, self.conditions.as_deref())
-            .map_err(|error| failure(error, &self.file))?;
-        let of_cases = best_of(&found.all, self.direction, request.at_rest);
-        let rows = Rows::of(&cases, &archive, &shown)
-            .map_err(|error| failure(Unread::Store(error), &self.file))?;
-        // Only slopes and searches take more than what the file tells of its cases.
-        let asks_for_orbits = self.refine || self.json;
-        let study = asks_for_orbits.then(|| study_of(&archive, &self.file)).transpose()?;
-        let refinement = study.as_ref().map(|study| Refinement {
-            study,
+        let kept = self.refine.then(|| self.kept(&archive)).transpose()?;
+        let threads = self.threads.map(|threads| threads as usize);
+        let sought = Sought { seed: self.seed, threads };
+        let trade_off = TradeOff {
             archive: &archive,
-            periods: rows.periods(cases.cases()),
+            file: &self.file,
             of: request.of,
             direction: self.direction,
-            seed: self.seed,
-        });
-        let asked = refinement.as_ref().filter(|_| self.refine);
-        let refined = asked.map(|it| self.refined(it, &found.all, &of_cases)).transpose()?;
-        let motions = refined.as_ref().map_or(&[][..], |(_, motions)| motions);
-        let all = with_refined((cases.cases(), &found.all), motions, request.of);
-        let best = best_of(&all, self.direction, Some(of_cases.at_rest));
-        let named = [
-            ("fastest", Some(best.fastest)),
-            ("knee", Some(best.knee)),
-            ("lowest_cost_of_transport", Some(best.lowest_cost_of_transport)),
-            ("fastest_within_budget", request.budget.map(|most| best.fastest_within(&all, most))),
-            (
-                "least_for_speed",
-                request.speed.map(|least| best.least_for(&all, (self.direction, least))),
-            ),
-        ];
-        let row = |at: usize| -> Result<Row, Failure> {
-            let motion = &all[at];
-            match (&refinement, motion.case.checked_sub(cases.cases())) {
-                (Some(refinement), Some(place)) => {
-                    Ok(rows.refined(&motions[place], request.of, &refinement.protocol()))
-                }
-                (Some(refinement), None) if self.json => {
-                    Ok(Row { slopes: refinement.slopes(motion)?, ..rows.row(motion) })
-                }
-                _ => Ok(rows.row(motion)),
-            }
+            conditions: self.conditions.as_deref(),
+            at_rest: request.at_rest,
+            budget: request.budget,
+            speed: request.speed,
+            top: self.top,
+            slopes: self.json,
+            between: kept.as_ref().map_or(Between::Nothing, |it| Between::Sought(it, sought)),
         };
-        let gain = refined.as_ref().map(|(searches, motions)| Gain {
-            searches: *searches,
-            found: motions.len(),
-            seed: self.seed,
-            hypervolumes: self.hypervolumes([(&of_cases, &found.all), (&best, &all)]),
-        });
-        let moving = fastest_first(&all, self.direction, best.at_rest);
-        let named = named.into_iter().filter_map(|(name, at)| Some((name, at?)));
-        let named = named.map(|(name, at)| Ok(Named { name, row: at.map(row).transpose()? }));
-        let answer = Answer {
-            file: shown.clone(),
-            of: request.of,
-            direction: self.direction,
-            cases: cases.cases(),
-            left_out: found.left_out,
-            at_rest: (best.at_rest, all.len() - moving.len()),
-            refined: gain,
-            named: named.collect::<Result<_, Failure>>()?,
-            front: best.front.iter().map(|&at| row(at)).collect::<Result<_, _>>()?,
-            top: moving.into_iter().take(self.top).map(row).collect::<Result<_, _>>()?,
-        };
+        let stages = Stages::default();
+        let answer = trade_off.answer(&|event| {
+            stages.show(event);
+            ControlFlow::Continue(())
+        })?;
         print(&match (self.json, self.csv) {
             (true, _) => format!("{:#}\n", json(&answer)),
             (_, true) => csv(&answer),
@@ -165,46 +120,27 @@ impl Tradeoff {
         })
     }
 
-    /// The areas that fronts dominate, up to the dearest price of them all.
-    fn hypervolumes(&self, fronts: [(&Optima, &[Candidate]); 2]) -> [f64; 2] {
-        let at_rest = fronts[0].0.at_rest;
-        let fronts = fronts.map(|(optima, candidates)| optima.points(candidates, self.direction));
-        let dearest = fronts.iter().flatten().fold(0.0, |most: f64, it| most.max(it.0));
-        fronts.map(|front| hypervolume(&front, (dearest, at_rest)))
-    }
-
-    /// Searches between the cases: how many, and what they led to.
-    fn refined(
-        &self,
-        refinement: &Refinement<'_>,
-        candidates: &[Candidate],
-        optima: &Optima,
-    ) -> Result<(usize, Vec<RefinedMotion>), Failure> {
-        let free = refinement.free().len();
-        if !(1..=MOST_FREE).contains(&free) {
-            return Err(Failure::request(format!(
-                "--refine: {}: {free} parameters vary; 1 to {MOST_FREE} can be refined over",
-                self.file.display()
-            )));
+    /// The searches that are done, and where further ones are kept; nowhere if nothing can be written beside the results.
+    fn kept(&self, archive: &Archive) -> Result<KeptSearches, Failure> {
+        let study = study_of(archive, &self.file)?;
+        match KeptSearches::open(archive, &study, self.overwrite) {
+            Err(CampaignError::Store(error @ StoreError::System { .. })) => {
+                notify(&format!("{error}; searches are not kept"));
+                Ok(KeptSearches::default())
+            }
+            Err(error) => Err(error.into()),
+            Ok(kept) => {
+                let path = searches_path(archive.path()).display().to_string();
+                if !kept.is_empty() {
+                    let count = count(kept.len());
+                    notify(&format!("{path}: what {count} searches have led to is kept"));
+                }
+                say_when_stopped(move || {
+                    format!("what is found is kept in {path}; the same command resumes")
+                })?;
+                Ok(kept)
+            }
         }
-        let searches = refinement.searches(candidates, optima);
-        let threads = self.threads.map(|threads| threads as usize);
-        let progress = Progress::new(searches.len(), "searches between the cases");
-        let found = refinement.run(&searches, threads, || progress.step())?;
-        progress.finish();
-        let count = refinement.periods.len();
-        let all = with_refined((count, candidates), &found, refinement.of);
-        let front = best_of(&all, refinement.direction, Some(optima.at_rest)).front;
-        let on_front = |&at: &usize| {
-            let refined = all[at].case.checked_sub(count).map(|place| &found[place]);
-            (all[at].price, refined)
-        };
-        let gaps = refinement.gaps(&front.iter().map(on_front).collect::<Vec<_>>());
-        let progress = Progress::new(gaps.len(), "gaps of the front");
-        let followed = refinement.followed(&gaps, threads, || progress.step())?;
-        progress.finish();
-        let begun = searches.len() + gaps.len();
-        Ok((begun, refinement.joined(found, followed)))
     }
 
     fn request(&self) -> Result<Request, Failure> {
@@ -227,30 +163,5 @@ impl Tradeoff {
             speed: read("speed", &self.speed, speed_unit),
         };
         if faults.is_empty() { Ok(request) } else { Err(Failure::requests(&faults)) }
-    }
-}
-
-/// The candidates of so many cases, and refined motions, numbered after them.
-fn with_refined(
-    (cases, candidates): (usize, &[Candidate]),
-    motions: &[RefinedMotion],
-    of: Output,
-) -> Vec<Candidate> {
-    let refined = motions.iter().enumerate().map(|(place, motion)| Candidate {
-        case: cases + place,
-        speed: motion.outputs[Output::ProgressionSpeed],
-        price: motion.outputs[of],
-        energy_per_metre: motion.outputs[Output::EnergyPerMetre],
-    });
-    candidates.iter().copied().chain(refined).collect()
-}
-
-fn failure(error: Unread, file: &Path) -> Failure {
-    match error {
-        Unread::Store(error) => Failure::request(error),
-        Unread::Faults(faults) => {
-            let within = |fault: &String| format!("{}: {fault}", file.display());
-            Failure::requests(&faults.iter().map(within).collect::<Vec<_>>())
-        }
     }
 }

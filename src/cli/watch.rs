@@ -124,7 +124,7 @@ impl<'a> Watch<'a> {
 
 /// Progress of each stage, once it has begun.
 #[derive(Default)]
-pub struct Stages([OnceLock<Progress>; 4]);
+pub struct Stages([OnceLock<Progress>; 6]);
 
 impl Stages {
     /// Shows the events of stages, and no others.
@@ -148,5 +148,7 @@ fn what(stage: Stage) -> &'static str {
         Stage::Writing => "parts written",
         Stage::Continuing => "branches",
         Stage::Repeating => "cases",
+        Stage::Searching => "searches between the cases",
+        Stage::Following => "gaps of the front",
     }
 }

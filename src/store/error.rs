@@ -75,6 +75,11 @@ pub enum StoreError {
         /// The folder of its blocks.
         folder: PathBuf,
     },
+    /// Another process has the file open and adds to it.
+    InUse {
+        /// The file.
+        path: PathBuf,
+    },
     /// Another run has written in the same folder for so long that it is not waited for any more.
     Held {
         /// The folder.
@@ -178,6 +183,12 @@ impl fmt::Display for StoreError {
                 "{}: another run computes this study now; wait for it, or stop it and run again (what it \
                  has finished is kept)",
                 folder.display()
+            ),
+            StoreError::InUse { path } => write!(
+                f,
+                "{}: another process adds to it now; wait for it, or stop it and run again (what it has finished is \
+                 kept)",
+                path.display()
             ),
             StoreError::Held { folder } => write!(
                 f,

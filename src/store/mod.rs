@@ -16,6 +16,7 @@ mod file;
 mod flat;
 mod join;
 mod joined;
+mod line_file;
 mod lock;
 mod names;
 mod own_layout;
@@ -45,5 +46,6 @@ pub use file::{
     try_to_begin, write,
 };
 pub use join::{Blocks, FailedCase, write_beside_cases};
+pub use line_file::{LineFile, read_lines};
 pub use schema::{dataset, frame, numbers_of_case};
 pub use slab::MOST_NUMBERS;

@@ -34,6 +34,11 @@ impl Direction {
         ("either", Direction::Either),
     ];
 
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Direction::NAMES[self as usize].0
+    }
+
     /// The speed in this direction [m/s]; negative against it.
     pub fn of(self, speed: f64) -> f64 {
         match self {

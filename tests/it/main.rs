@@ -47,6 +47,7 @@ mod interference;
 mod interrupted_runs;
 mod invariants;
 mod kept_branches;
+mod kept_searches;
 mod killed_calls;
 mod lanes;
 mod mutants;

@@ -83,9 +83,7 @@ fn refined_motions_are_the_best_around_them_and_do_not_depend_on_threads_or_seed
         let words: Vec<&str> = replay.split(' ').skip(1).chain(["--json"]).collect();
         let again = folder.run(&words).done();
         for key in ["progression_speed", "power"] {
-            // The reader of JSON rounds the last digit as it likes.
-            let (found, told) = (again.printed(key), number(point, key));
-            assert!((found - told).abs() <= 4e-16 * told.abs(), "{found:?} {told:?}: {replay}");
+            assert_eq!(again.printed(key), number(point, key), "{replay}");
         }
         no_better_around(point, FREE);
         derivatives_are_those_of_differences(point);

@@ -1,12 +1,13 @@
 //! What is told of each motion of a trade-off: its case, its numbers, and how to compute it again.
 
-use crate::campaign::{RefinedMotion, Slopes};
 use crate::capsule::{Output, Parameter, Resistance, Switching};
 use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
 use crate::study::Coordinate;
 use crate::tradeoff::Candidate;
+
+use super::refined_motion::{RefinedMotion, Slopes};
 
 /// The columns from which the rows are read.
 pub struct Rows {

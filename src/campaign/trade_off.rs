@@ -1,0 +1,307 @@
+//! What is best among the motions of a file of results, and between its cases: the answer of a trade-off.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use crate::capsule::Output;
+use crate::store::{Archive, CaseTable, Unread, candidates};
+use crate::study::Study;
+use crate::tradeoff::{
+    Candidate, Direction, MOST_FREE, Optima, fastest_first, hypervolume, optima as best_of,
+};
+
+use super::error::CampaignError;
+use super::kept_searches::KeptSearches;
+use super::motion_row::{Row, Rows};
+use super::refined_front::Refinement;
+use super::refined_motion::RefinedMotion;
+use super::report::{Event, Report, Reports, Stage};
+use super::study_source::study_of;
+
+/// What is asked of the motions of a file.
+#[derive(Debug, Clone, Copy)]
+pub struct TradeOff<'a> {
+    /// The results.
+    pub archive: &'a Archive,
+    /// Their file, as it is shown.
+    pub file: &'a Path,
+    /// The output that should be small.
+    pub of: Output,
+    /// The motions that are compared.
+    pub direction: Direction,
+    /// Conditions on the cases.
+    pub conditions: Option<&'a str>,
+    /// Speed up to which a motion counts as at rest [m/s]; a millionth of the fastest by default.
+    pub at_rest: Option<f64>,
+    /// Most of the output that may be spent.
+    pub budget: Option<f64>,
+    /// Least speed that is wanted [m/s].
+    pub speed: Option<f64>,
+    /// How many of the fastest are told.
+    pub top: usize,
+    /// Whether the slopes of cases are told, too, for which their orbits are computed again.
+    pub slopes: bool,
+    /// Motions between the cases.
+    pub between: Between<'a>,
+}
+
+/// Which motions between the cases take part.
+#[derive(Debug, Clone, Copy)]
+pub enum Between<'a> {
+    /// None.
+    Nothing,
+    /// Those that are known.
+    Known(&'a KeptSearches),
+    /// Those that are found by searches which are not done yet.
+    Sought(&'a KeptSearches, Sought),
+}
+
+/// How motions are sought.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sought {
+    /// The number by which starts are drawn.
+    pub seed: u64,
+    /// Worker threads; one per core by default.
+    pub threads: Option<usize>,
+}
+
+/// What is best among the motions of a file.
+pub struct Answer {
+    /// The file of results.
+    pub file: String,
+    /// The output that should be small.
+    pub of: Output,
+    /// The motions that are compared.
+    pub direction: Direction,
+    /// Cases of the file.
+    pub cases: usize,
+    /// How many take no part, by the reason.
+    pub left_out: BTreeMap<String, usize>,
+    /// The speed up to which a motion counts as at rest [m/s], and how many do or move the other way.
+    pub at_rest: (f64, usize),
+    /// What a search between the cases has brought, if it was asked for.
+    pub refined: Option<Gain>,
+    /// The optima.
+    pub named: Vec<Named>,
+    /// The Pareto front, by rising price.
+    pub front: Vec<Row>,
+    /// The fastest motions, if they are asked for.
+    pub top: Vec<Row>,
+}
+
+/// What a search for motions between the cases has brought.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gain {
+    /// Searches.
+    pub searches: usize,
+    /// Motions that they have led to.
+    pub found: usize,
+    /// The number by which starts were drawn.
+    pub seed: u64,
+    /// The area that the front of the cases dominates up to the dearest price of both fronts, and that of the whole front, in
+    /// units of speed and price.
+    pub hypervolumes: [f64; 2],
+}
+
+/// An optimum.
+pub struct Named {
+    /// Its name in JSON.
+    pub name: &'static str,
+    /// The motion; none where there is none.
+    pub row: Option<Row>,
+}
+
+/// The cases of a file, and what is asked of them.
+struct Asked<'a> {
+    request: &'a TradeOff<'a>,
+    /// Those that take part.
+    candidates: &'a [Candidate],
+    /// The best of them.
+    optima: Optima,
+    refinement: Option<Refinement<'a>>,
+}
+
+impl TradeOff<'_> {
+    /// What is best.
+    ///
+    /// Fails if the file cannot be read or has no cases, if what is asked has faults, or if a case cannot be computed again.
+    pub fn answer(&self, report: &Report<'_>) -> Result<Answer, CampaignError> {
+        let fault = |fault: String| self.unread(Unread::Faults(vec![fault]));
+        let table = CaseTable::of(self.archive)?;
+        let table = table.ok_or_else(|| {
+            fault("there are no cases; `capsulemap sweep` computes them".to_owned())
+        })?;
+        let found = candidates(&table, self.of, self.conditions).map_err(|it| self.unread(it))?;
+        let rows = Rows::of(&table, self.archive, &self.file.display().to_string())?;
+        // Only slopes and searches take more than what the file tells of its cases.
+        let asks_for_orbits = self.slopes || !matches!(self.between, Between::Nothing);
+        let study = asks_for_orbits.then(|| study_of(self.archive, self.file)).transpose()?;
+        let none = KeptSearches::default();
+        let refinement = study.as_ref().map(|study| self.refinement(study, &rows, &none));
+        let optima = best_of(&found.all, self.direction, self.at_rest);
+        let asked = Asked { request: self, candidates: &found.all, optima, refinement };
+        let (searches, motions) = asked.between(&Reports::new(report))?;
+        let all = with_refined((table.cases(), &found.all), &motions, self.of);
+        let best = best_of(&all, self.direction, Some(asked.optima.at_rest));
+        let gain = searches.map(|searches| Gain {
+            searches,
+            found: motions.len(),
+            seed: self.seed(),
+            hypervolumes: self.hypervolumes([(&asked.optima, &found.all), (&best, &all)]),
+        });
+        let row = |at: usize| -> Result<Row, CampaignError> {
+            let motion = &all[at];
+            match (&asked.refinement, motion.case.checked_sub(table.cases())) {
+                (Some(refinement), Some(place)) => {
+                    Ok(rows.refined(&motions[place], self.of, &refinement.protocol()))
+                }
+                (Some(refinement), None) if self.slopes => {
+                    Ok(Row { slopes: refinement.slopes(motion)?, ..rows.row(motion) })
+                }
+                _ => Ok(rows.row(motion)),
+            }
+        };
+        let moving = fastest_first(&all, self.direction, best.at_rest);
+        let named = self.named(&best, &all).into_iter();
+        let named = named.map(|(name, at)| Ok(Named { name, row: at.map(row).transpose()? }));
+        Ok(Answer {
+            file: self.file.display().to_string(),
+            of: self.of,
+            direction: self.direction,
+            cases: table.cases(),
+            left_out: found.left_out,
+            at_rest: (best.at_rest, all.len() - moving.len()),
+            refined: gain,
+            named: named.collect::<Result<_, CampaignError>>()?,
+            front: best.front.iter().map(|&at| row(at)).collect::<Result<_, _>>()?,
+            top: moving.into_iter().take(self.top).map(row).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The optima that are asked for, each by its place among all motions.
+    fn named(&self, best: &Optima, all: &[Candidate]) -> Vec<(&'static str, Option<usize>)> {
+        let mut named = vec![
+            ("fastest", best.fastest),
+            ("knee", best.knee),
+            ("lowest_cost_of_transport", best.lowest_cost_of_transport),
+        ];
+        let within = |most| ("fastest_within_budget", best.fastest_within(all, most));
+        named.extend(self.budget.map(within));
+        let least = |least| ("least_for_speed", best.least_for(all, (self.direction, least)));
+        named.extend(self.speed.map(least));
+        named
+    }
+
+    fn refinement<'r>(
+        &'r self,
+        study: &'r Study,
+        rows: &Rows,
+        none: &'r KeptSearches,
+    ) -> Refinement<'r> {
+        let kept = match self.between {
+            Between::Nothing => none,
+            Between::Known(kept) | Between::Sought(kept, _) => kept,
+        };
+        Refinement {
+            study,
+            archive: self.archive,
+            periods: rows.periods(study.cases()),
+            of: self.of,
+            direction: self.direction,
+            seed: self.seed(),
+            kept,
+        }
+    }
+
+    fn seed(&self) -> u64 {
+        match self.between {
+            Between::Sought(_, Sought { seed, .. }) => seed,
+            _ => 0,
+        }
+    }
+
+    /// The areas that fronts dominate, up to the dearest price of them all.
+    fn hypervolumes(&self, fronts: [(&Optima, &[Candidate]); 2]) -> [f64; 2] {
+        let at_rest = fronts[0].0.at_rest;
+        let fronts = fronts.map(|(optima, candidates)| optima.points(candidates, self.direction));
+        let dearest = fronts.iter().flatten().fold(0.0, |most: f64, it| most.max(it.0));
+        fronts.map(|front| hypervolume(&front, (dearest, at_rest)))
+    }
+
+    fn unread(&self, error: Unread) -> CampaignError {
+        match error {
+            Unread::Store(error) => CampaignError::Store(error),
+            Unread::Faults(faults) => {
+                CampaignError::TradeOff { path: self.file.to_owned(), faults }
+            }
+        }
+    }
+}
+
+impl Asked<'_> {
+    /// The motions between the cases that take part, with the number of searches if they were sought.
+    fn between(
+        &self,
+        reports: &Reports<'_>,
+    ) -> Result<(Option<usize>, Vec<RefinedMotion>), CampaignError> {
+        match (&self.refinement, self.request.between) {
+            (Some(refinement), Between::Known(kept)) => {
+                Ok((None, refinement.distinct(kept.motions())))
+            }
+            (Some(refinement), Between::Sought(_, Sought { threads, .. })) => {
+                let free = refinement.free().len();
+                if !(1..=MOST_FREE).contains(&free) {
+                    let fault =
+                        format!("{free} parameters vary; 1 to {MOST_FREE} can be refined over");
+                    return Err(self.request.unread(Unread::Faults(vec![fault])));
+                }
+                let (searches, motions) = self.sought(refinement, threads, reports)?;
+                Ok((Some(searches), motions))
+            }
+            _ => Ok((None, Vec::new())),
+        }
+    }
+
+    /// Searches between the cases: how many, and what they led to.
+    fn sought(
+        &self,
+        refinement: &Refinement<'_>,
+        threads: Option<usize>,
+        reports: &Reports<'_>,
+    ) -> Result<(usize, Vec<RefinedMotion>), CampaignError> {
+        let searches = refinement.searches(self.candidates, &self.optima);
+        reports.send(Event::Begun(Stage::Searching, searches.len()))?;
+        let step = || reports.step(Stage::Searching);
+        let found = refinement.run(&searches, threads, step)?;
+        reports.send(Event::Ended(Stage::Searching))?;
+        let count = refinement.periods.len();
+        let all = with_refined((count, self.candidates), &found, refinement.of);
+        let front = best_of(&all, refinement.direction, Some(self.optima.at_rest)).front;
+        let on_front = |&at: &usize| {
+            let refined = all[at].case.checked_sub(count).map(|place| &found[place]);
+            (all[at].price, refined)
+        };
+        let gaps = refinement.gaps(&front.iter().map(on_front).collect::<Vec<_>>());
+        reports.send(Event::Begun(Stage::Following, gaps.len()))?;
+        let step = || reports.step(Stage::Following);
+        let followed = refinement.followed(&gaps, threads, step)?;
+        reports.send(Event::Ended(Stage::Following))?;
+        let begun = searches.len() + gaps.len();
+        Ok((begun, refinement.joined(found, followed)))
+    }
+}
+
+/// The candidates of so many cases, and refined motions, numbered after them.
+fn with_refined(
+    (cases, candidates): (usize, &[Candidate]),
+    motions: &[RefinedMotion],
+    of: Output,
+) -> Vec<Candidate> {
+    let refined = motions.iter().enumerate().map(|(place, motion)| Candidate {
+        case: cases + place,
+        speed: motion.outputs[Output::ProgressionSpeed],
+        price: motion.outputs[of],
+        energy_per_metre: motion.outputs[Output::EnergyPerMetre],
+    });
+    candidates.iter().copied().chain(refined).collect()
+}

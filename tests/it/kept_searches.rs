@@ -1,0 +1,115 @@
+//! The searches of a refinement are kept as they are done: killed and resumed it ends in the same bytes, and repeats nothing.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::process::Stdio;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{RngCore, SeedableRng};
+
+use super::program::WorkDir;
+
+/// The paper's capsule on a coarse grid over two parameters.
+const STUDY: &str = "[parameters]\nk2 = \"20 kN/m\"\ndelta = \"3 mm\"\n\
+     [[axes]]\nname = \"p_d\"\nfrom = \"7 N\"\nto = \"8 N\"\npoints = 6\n\
+     [[axes]]\nname = \"omega\"\nfrom = \"50 rad/s\"\nto = \"65 rad/s\"\npoints = 16\n";
+const REFINE: [&str; 4] = ["tradeoff", "results/study/study.h5", "--refine", "--json"];
+const SEARCHES: &str = "results/study/study.searches";
+
+fn swept(study: &str) -> WorkDir {
+    let folder = WorkDir::new();
+    folder.put("study.toml", study);
+    folder.run(&["sweep", "study.toml"]).done();
+    folder
+}
+
+/// The whole lines of the file of searches, which come in any order, each once.
+fn lines(folder: &WorkDir) -> BTreeSet<String> {
+    let text = fs::read_to_string(folder.path(SEARCHES)).unwrap_or_default();
+    let whole = text.rfind('\n').map_or("", |last| &text[..last]);
+    whole.lines().map(str::to_owned).collect()
+}
+
+/// In the long form `KILLS=20`; a refinement that ends before it is killed does not count.
+#[test]
+fn a_refinement_that_is_killed_at_random_and_resumed_ends_in_the_same_bytes() {
+    let wanted = std::env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(3);
+    let folder = swept(STUDY);
+    let begun = Instant::now();
+    let whole = folder.run(&REFINE).done();
+    let took = begun.elapsed();
+    let all = lines(&folder);
+    let mut random = ChaCha8Rng::seed_from_u64(16);
+    let (mut kills, mut resumed) = (0, 0);
+    for _ in 0..10 * wanted {
+        if kills == wanted {
+            break;
+        }
+        fs::remove_file(folder.path(SEARCHES)).expect("it is there");
+        for _ in 0..3 {
+            let before = lines(&folder);
+            let mut command = folder.command(&REFINE);
+            let quiet = command.stdout(Stdio::null()).stderr(Stdio::null());
+            let mut child = quiet.spawn().expect("it starts");
+            sleep(took.mul_f64(f64::from(random.next_u32()) / f64::from(u32::MAX) / 2.0));
+            let ended = child.try_wait().expect("a process");
+            child.kill().expect("it is killed or has ended");
+            child.wait().expect("a process");
+            kills += u32::from(ended.is_none());
+            assert!(before.is_subset(&lines(&folder)), "a search is lost");
+        }
+        resumed += lines(&folder).len();
+        assert_eq!(folder.run(&REFINE).done().out, whole.out);
+        assert!(lines(&folder) == all, "other searches than of a whole refinement");
+    }
+    println!("{kills} kills; {resumed} lines were there when it was resumed");
+    assert!(kills >= wanted && resumed > 0, "{kills} kills, {resumed} lines");
+    let kept = fs::read(folder.path(SEARCHES)).expect("searches");
+    let again = folder.run(&REFINE).done();
+    assert_eq!((again.out, again.err.contains("searches have led to is kept")), (whole.out, true));
+    assert!(fs::read(folder.path(SEARCHES)).expect("searches") == kept, "a search is repeated");
+}
+
+#[test]
+fn searches_of_something_else_are_refused_and_replaced_only_if_asked_for() {
+    let folder = swept(STUDY);
+    let whole = folder.run(&REFINE).done();
+    let text = fs::read_to_string(folder.path(SEARCHES)).expect("searches");
+    let torn = &text[..text.len() - 7];
+    folder.put(SEARCHES, torn);
+    assert_eq!(folder.run(&REFINE).done().out, whole.out);
+    for (kept, said) in [
+        ("anything\n".to_owned(), "holds something else than searches"),
+        (
+            text.replacen("\"fingerprint\":\"", "\"fingerprint\":\"0", 1),
+            "searches of another study",
+        ),
+        (
+            text.replacen("searches_by\":\"", "searches_by\":\"older ", 1),
+            "searches by another program",
+        ),
+        (text.replacen("\"section\":[", "\"section\":[[", 1), "a line that is damaged"),
+    ] {
+        folder.put(SEARCHES, &kept);
+        folder.run(&REFINE).refused(&[SEARCHES, said, "--overwrite"]);
+        assert_eq!(fs::read_to_string(folder.path(SEARCHES)).expect("it stays"), kept);
+    }
+    let anew = folder.run(&[&REFINE[..], &["--overwrite"]].concat()).done();
+    assert_eq!(anew.out, whole.out);
+}
+
+#[test]
+fn two_refinements_of_one_file_are_not_mixed() {
+    let folder = swept(STUDY);
+    let mut command = folder.command(&REFINE);
+    let mut first = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+    let begun = Instant::now();
+    while lines(&folder).is_empty() && begun.elapsed() < Duration::from_secs(60) {
+        sleep(Duration::from_millis(5));
+    }
+    let second = folder.run(&REFINE);
+    assert!(first.wait().expect("a process").success());
+    second.refused(&[SEARCHES, "another process adds to it now"]);
+}
