@@ -148,4 +148,6 @@ pub mod campaign;
 #[cfg(feature = "cli")]
 pub mod figure;
 #[cfg(feature = "cli")]
+pub mod explore;
+#[cfg(feature = "cli")]
 pub mod cli;

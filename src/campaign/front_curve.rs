@@ -55,7 +55,7 @@ impl Refinement<'_> {
     ) -> Result<Vec<RefinedMotion>, CampaignError> {
         self.each(threads, gaps.len(), done, |number| {
             let gap = &gaps[number];
-            self.kept.or_do(&self.described_gap(gap), || {
+            self.kept.kept_or_found(&self.described_gap(gap), || {
                 Ok(match self.study.base.switching {
                     Switching::Filippov => self.follow::<Filippov>(gap),
                     Switching::AsPrinted => self.follow::<AsPrinted>(gap),
@@ -93,15 +93,5 @@ impl Refinement<'_> {
             last = kept.map(|it| it.at);
         }
         motions
-    }
-
-    /// Motions of two searches, each once.
-    pub fn joined(
-        &self,
-        mut motions: Vec<RefinedMotion>,
-        others: Vec<RefinedMotion>,
-    ) -> Vec<RefinedMotion> {
-        motions.extend(others);
-        self.distinct(motions)
     }
 }

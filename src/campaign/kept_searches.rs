@@ -4,7 +4,7 @@
 //! interrupted refinement is taken up where it was, and a second one with another seed repeats nothing. The file is JSON lines:
 //! first what it belongs to, then each search with the motions found, numbers with all the digits that distinguish them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ use crate::store::{Archive, LineFile, provenance, read_lines};
 use crate::study::Study;
 
 use super::error::CampaignError;
-use super::refined_motion::{RefinedMotion, Slopes};
+use super::refined_motion::{RefinedMotion, Slopes, distinct};
 
 /// The extension of the file, beside that of the results.
 const EXTENSION: &str = "searches";
@@ -77,13 +77,22 @@ impl KeptSearches {
         self.known.is_empty()
     }
 
-    /// The motions found, in an order that does not depend on that of the searches.
+    /// The motions found, each once, in an order that does not depend on that of the searches.
     pub fn motions(&self) -> Vec<RefinedMotion> {
-        self.known.values().flatten().cloned().collect()
+        distinct(self.known.values().flatten().cloned().collect())
+    }
+
+    /// The directions and outputs, by their names, of the refinements whose searches are kept.
+    pub fn refinements(&self) -> BTreeSet<(String, String)> {
+        let read = |what: &String| -> Option<(String, String)> {
+            let what: Value = serde_json::from_str(what).ok()?;
+            Some((what["direction"].as_str()?.to_owned(), what["of"].as_str()?.to_owned()))
+        };
+        self.known.keys().filter_map(read).collect()
     }
 
     /// What a search has led to; it is done now and kept if it has not been.
-    pub(super) fn or_do(
+    pub(super) fn kept_or_found(
         &self,
         what: &Value,
         search: impl FnOnce() -> Result<Vec<RefinedMotion>, CampaignError>,

@@ -5,6 +5,7 @@
 //! `status` reads what is there. [`verify()`] and [`Replay`] compute cases again. Each reports
 //! [`Event`]s to a listener, stops when the listener asks for it, and prints nothing.
 
+pub mod answer;
 mod clear;
 mod compute;
 mod continuation;
@@ -23,13 +24,16 @@ pub mod refined_motion;
 pub mod report;
 pub mod request;
 pub mod result_file;
+pub mod robustness;
 pub mod share;
 mod start;
 pub mod status;
 pub mod study_source;
+pub mod tolerance_draws;
 pub mod trade_off;
 pub mod verify;
 
+pub use answer::{Answer, Gain, Named};
 pub use error::{CampaignError, Cause};
 pub use kept::Kept;
 pub use kept_searches::{KeptSearches, searches_path};
@@ -42,8 +46,9 @@ pub use replay::Replay;
 pub use report::{Event, Report, Stage, Survey, silent};
 pub use request::{BranchesDone, Campaign, Complete, Done};
 pub use result_file::{block_path, output_path};
+pub use robustness::{Robustness, Tolerances};
 pub use share::Task;
 pub use status::{BlockStatus, Pace, Status};
 pub use study_source::{read_study, read_study_or_results, study_of};
-pub use trade_off::{Answer, Between, Gain, Named, Sought, TradeOff};
+pub use trade_off::{Between, Sought, TradeOff};
 pub use verify::{Difference, Differs, Sample, Verified, verify};

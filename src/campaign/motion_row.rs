@@ -1,6 +1,6 @@
 //! What is told of each motion of a trade-off: its case, its numbers, and how to compute it again.
 
-use crate::capsule::{Output, Parameter, Resistance, Switching};
+use crate::capsule::{Output, Parameter, Resistance, Section, Switching};
 use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
@@ -8,6 +8,7 @@ use crate::study::Coordinate;
 use crate::tradeoff::Candidate;
 
 use super::refined_motion::{RefinedMotion, Slopes};
+use super::robustness::Robustness;
 
 /// The columns from which the rows are read.
 pub struct Rows {
@@ -44,8 +45,21 @@ pub struct Row {
     pub share: Option<f64>,
     /// How it changes with the parameters, and what holds it.
     pub slopes: Slopes,
+    /// What tolerances leave of it, if that was asked for and it repeats.
+    pub robustness: Option<Robustness>,
     /// The command that computes it again.
     pub replay: String,
+}
+
+impl Row {
+    /// Its start as r, y1, y2 (SI).
+    pub fn start(&self) -> Section {
+        let value = |wanted: Coordinate| {
+            let found = self.coordinates.iter().find(|(it, ..)| *it == wanted);
+            found.map_or(0.0, |(_, value, _)| *value)
+        };
+        [Coordinate::StartR, Coordinate::StartY1, Coordinate::StartY2].map(value)
+    }
 }
 
 impl Rows {
@@ -96,6 +110,7 @@ impl Rows {
             attractor,
             share: attractor.and_then(|it| self.shares.get(it as usize).copied()),
             slopes: Slopes::default(),
+            robustness: None,
             replay: format!("capsulemap simulate --study {} --case {case}", quoted(&self.file)),
         }
     }
@@ -107,18 +122,12 @@ impl Rows {
 
     /// What is told of a motion between the cases, whose price is this output.
     pub fn refined(&self, motion: &RefinedMotion, of: Output, protocol: &Protocol) -> Row {
-        let [r, y1, y2] = motion.section;
-        let value = |coordinate: Coordinate| match coordinate {
-            Coordinate::Parameter(parameter) => motion.parameters[parameter],
-            Coordinate::StartR => r,
-            Coordinate::StartY1 => y1,
-            Coordinate::StartY2 => y2,
-            Coordinate::StartPhase | Coordinate::SectionPhase => motion.phase,
-        };
         let all = self.coordinates.iter();
         Row {
             case: None,
-            coordinates: all.map(|(it, _, varies)| (*it, value(*it), *varies)).collect(),
+            coordinates: all
+                .map(|(it, _, varies)| (*it, motion.coordinate(*it), *varies))
+                .collect(),
             speed: motion.outputs[Output::ProgressionSpeed],
             price: motion.outputs[of],
             energy_per_metre: motion.outputs[Output::EnergyPerMetre],
@@ -127,6 +136,7 @@ impl Rows {
             attractor: None,
             share: None,
             slopes: motion.slopes.clone(),
+            robustness: None,
             replay: replay(motion, protocol),
         }
     }

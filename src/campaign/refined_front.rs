@@ -18,7 +18,8 @@ use crate::tradeoff::{
 
 use super::error::CampaignError;
 use super::kept_searches::KeptSearches;
-use super::refined_motion::{RefinedMotion, Slopes, words};
+use super::motion_row::Row;
+use super::refined_motion::{RefinedMotion, Slopes, distinct, words};
 use super::replay::Replay;
 use super::report::silent;
 
@@ -30,15 +31,25 @@ const DRAWN: usize = 24;
 /// A motion that is better by less than this share is the case from which it was sought.
 const LEAST_GAIN: f64 = 1e-9;
 
-/// Motions whose speeds and prices agree to this share are one.
-const SAME: f64 = 1e-8;
-
 /// A search for a better motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
     /// The case that it begins with.
     from: usize,
     goal: Goal,
+}
+
+/// A periodic motion: its parameters, and a point of its orbit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Whereabouts {
+    /// Its parameters.
+    pub parameters: Parameters,
+    /// Its section point (SI).
+    pub section: Section,
+    /// Phase of the drive at the section [rad].
+    pub phase: f64,
+    /// Period [cycles].
+    pub period: u64,
 }
 
 /// What a search for better motions needs.
@@ -76,7 +87,7 @@ impl Refinement<'_> {
 
     /// The searches among the motions of the file: from each periodic motion of the front, the most speed for no more than its
     /// price; from the fastest ones, from those with the least energy per metre, and from some drawn by the seed, the most
-    /// speed and the least energy per metre.
+    /// speed and the least energy per metre. Each once.
     pub fn searches(&self, candidates: &[Candidate], optima: &Optima) -> Vec<Search> {
         let (direction, of) = (self.direction, self.of);
         let is_periodic = |at: &usize| self.periods[candidates[*at].case] > 0.0;
@@ -102,7 +113,13 @@ impl Refinement<'_> {
             first(&|at| candidates[at].energy_per_metre).into_iter().chain(drawn.iter().copied());
         let all =
             of_front.chain(faster.map(|at| (at, fastest))).chain(cheaper.map(|at| (at, cheapest)));
-        all.map(|(at, goal)| Search { from: candidates[at].case, goal }).collect()
+        let mut searches: Vec<Search> = Vec::new();
+        for search in all.map(|(at, goal)| Search { from: candidates[at].case, goal }) {
+            if !searches.contains(&search) {
+                searches.push(search);
+            }
+        }
+        searches
     }
 
     /// Some of the motions, by the seed.
@@ -129,12 +146,12 @@ impl Refinement<'_> {
     ) -> Result<Vec<RefinedMotion>, CampaignError> {
         let found = self.each(threads, searches.len(), done, |number| {
             let search = &searches[number];
-            self.kept.or_do(&self.described(search), || match self.study.base.switching {
+            self.kept.kept_or_found(&self.described(search), || match self.study.base.switching {
                 Switching::Filippov => self.search::<Filippov>(search),
                 Switching::AsPrinted => self.search::<AsPrinted>(search),
             })
         })?;
-        Ok(self.distinct(found))
+        Ok(distinct(found))
     }
 
     /// What a search depends on, beside the results.
@@ -164,31 +181,6 @@ impl Refinement<'_> {
         })?;
         let found: Result<Vec<Vec<RefinedMotion>>, CampaignError> = found.into_iter().collect();
         Ok(found?.into_iter().flatten().collect())
-    }
-
-    /// The motions without those that another search has led to already.
-    pub(super) fn distinct(&self, found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {
-        let mut distinct: Vec<RefinedMotion> = Vec::new();
-        for motion in found {
-            let is_same = |other: &RefinedMotion| {
-                let agrees = |output: Output| {
-                    let [a, b] = [other.outputs[output], motion.outputs[output]];
-                    (a - b).abs() <= SAME * a.abs()
-                };
-                other.period == motion.period
-                    && agrees(Output::ProgressionSpeed)
-                    && agrees(self.of)
-                    && agrees(Output::EnergyPerMetre)
-            };
-            match distinct.iter_mut().find(|other| is_same(other)) {
-                Some(other) if motion.slopes.stationarity < other.slopes.stationarity => {
-                    *other = motion;
-                }
-                Some(_) => {}
-                None => distinct.push(motion),
-            }
-        }
-        distinct
     }
 
     /// The motion that a search leads to, if any.
@@ -316,6 +308,27 @@ impl Refinement<'_> {
         }
         let system = CapsuleSystem::new(parameters, phase);
         Family { system, free, period, tolerance: self.study.protocol.tolerance }
+    }
+
+    /// Where a motion is, a case of the file or one between them; none where it does not repeat.
+    ///
+    /// Fails if the file cannot be read or the case cannot be computed again.
+    pub fn whereabouts(&self, row: &Row) -> Result<Option<Whereabouts>, CampaignError> {
+        let Some(period) = row.period else { return Ok(None) };
+        let section = match row.case {
+            Some(case) => self.section(case)?,
+            None => Some(row.start()),
+        };
+        let mut parameters = self.study.base.clone();
+        let mut phase = self.study.section_phase;
+        for (coordinate, value, _) in &row.coordinates {
+            match coordinate {
+                Coordinate::Parameter(parameter) => parameters[*parameter] = *value,
+                Coordinate::SectionPhase => phase = *value,
+                _ => {}
+            }
+        }
+        Ok(section.map(|section| Whereabouts { parameters, section, phase, period }))
     }
 
     /// A section point of a periodic case: from the file, or computed again where that keeps none.

@@ -1,7 +1,11 @@
 //! A motion between the cases of a study: where it is, what it gives, and what keeps it from being better.
 
-use crate::capsule::{Outputs, Parameter, Parameters, Section};
+use crate::capsule::{Output, Outputs, Parameter, Parameters, Section};
+use crate::study::Coordinate;
 use crate::tradeoff::{Hold, Side};
+
+/// Said of a motion whose search has not converged.
+const NOT_CONVERGED: &str = "not converged";
 
 /// A motion of the refined front.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +26,25 @@ pub struct RefinedMotion {
     pub slopes: Slopes,
 }
 
+impl RefinedMotion {
+    /// Whether the search has not converged, so that a better motion may lie beside it.
+    pub fn is_open(&self) -> bool {
+        self.slopes.held_by.iter().any(|hold| hold == NOT_CONVERGED)
+    }
+
+    /// The value of a coordinate (SI); that of its start is its section point.
+    pub fn coordinate(&self, coordinate: Coordinate) -> f64 {
+        let [r, y1, y2] = self.section;
+        match coordinate {
+            Coordinate::Parameter(parameter) => self.parameters[parameter],
+            Coordinate::StartR => r,
+            Coordinate::StartY1 => y1,
+            Coordinate::StartY2 => y2,
+            Coordinate::StartPhase | Coordinate::SectionPhase => self.phase,
+        }
+    }
+}
+
 /// How speed and price of a periodic motion change with the parameters.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Slopes {
@@ -32,6 +55,33 @@ pub struct Slopes {
     pub stationarity: Option<f64>,
     /// What keeps it from being better, in words.
     pub held_by: Vec<String>,
+}
+
+/// Motions that agree in these to this share are one.
+const SAME: f64 = 1e-8;
+const TELL_APART: [Output; 4] =
+    [Output::ProgressionSpeed, Output::WorkPositive, Output::Power, Output::EnergyPerMetre];
+
+/// The motions without those that another search has led to already; of equal ones that with the least slope left.
+pub fn distinct(found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {
+    let mut distinct: Vec<RefinedMotion> = Vec::new();
+    for motion in found {
+        let is_same = |other: &RefinedMotion| {
+            let agrees = |output: &Output| {
+                let [a, b] = [other.outputs[*output], motion.outputs[*output]];
+                a == b || (a - b).abs() <= SAME * a.abs()
+            };
+            other.period == motion.period && TELL_APART.iter().all(agrees)
+        };
+        match distinct.iter_mut().find(|other| is_same(other)) {
+            Some(other) if motion.slopes.stationarity < other.slopes.stationarity => {
+                *other = motion;
+            }
+            Some(_) => {}
+            None => distinct.push(motion),
+        }
+    }
+    distinct
 }
 
 /// What holds a motion, in words.
@@ -47,7 +97,7 @@ pub(super) fn words(holds: &[Hold], free: &[(Parameter, [f64; 2])]) -> Vec<Strin
         Hold::NeimarkSacker => "Neimark-Sacker".to_owned(),
         Hold::Grazing => "grazing".to_owned(),
         Hold::EventSequence => "event sequence".to_owned(),
-        Hold::Steps => "not converged".to_owned(),
+        Hold::Steps => NOT_CONVERGED.to_owned(),
     };
     holds.iter().map(in_words).collect()
 }

@@ -115,6 +115,8 @@ pub enum Stage {
     Searching,
     /// The refined front is followed; a step is a gap of it.
     Following,
+    /// Motions are followed under tolerances of the parameters; a step is a motion.
+    Drawing,
 }
 
 /// The blocks of a task before it begins.

@@ -10,13 +10,16 @@ use crate::tradeoff::{
     Candidate, Direction, MOST_FREE, Optima, fastest_first, hypervolume, optima as best_of,
 };
 
+use super::answer::{Answer, Gain, Named};
 use super::error::CampaignError;
 use super::kept_searches::KeptSearches;
 use super::motion_row::{Row, Rows};
 use super::refined_front::Refinement;
-use super::refined_motion::RefinedMotion;
+use super::refined_motion::{RefinedMotion, distinct};
 use super::report::{Event, Report, Reports, Stage};
+use super::robustness::Tolerances;
 use super::study_source::study_of;
+use super::tolerance_draws::judge;
 
 /// What is asked of the motions of a file.
 #[derive(Debug, Clone, Copy)]
@@ -43,6 +46,8 @@ pub struct TradeOff<'a> {
     pub slopes: bool,
     /// Motions between the cases.
     pub between: Between<'a>,
+    /// Tolerances under which the optima and the front are judged, and worker threads for that.
+    pub under: Option<(&'a Tolerances, Option<usize>)>,
 }
 
 /// Which motions between the cases take part.
@@ -65,55 +70,12 @@ pub struct Sought {
     pub threads: Option<usize>,
 }
 
-/// What is best among the motions of a file.
-pub struct Answer {
-    /// The file of results.
-    pub file: String,
-    /// The output that should be small.
-    pub of: Output,
-    /// The motions that are compared.
-    pub direction: Direction,
-    /// Cases of the file.
-    pub cases: usize,
-    /// How many take no part, by the reason.
-    pub left_out: BTreeMap<String, usize>,
-    /// The speed up to which a motion counts as at rest [m/s], and how many do or move the other way.
-    pub at_rest: (f64, usize),
-    /// What a search between the cases has brought, if it was asked for.
-    pub refined: Option<Gain>,
-    /// The optima.
-    pub named: Vec<Named>,
-    /// The Pareto front, by rising price.
-    pub front: Vec<Row>,
-    /// The fastest motions, if they are asked for.
-    pub top: Vec<Row>,
-}
-
-/// What a search for motions between the cases has brought.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gain {
-    /// Searches.
-    pub searches: usize,
-    /// Motions that they have led to.
-    pub found: usize,
-    /// The number by which starts were drawn.
-    pub seed: u64,
-    /// The area that the front of the cases dominates up to the dearest price of both fronts, and that of the whole front, in
-    /// units of speed and price.
-    pub hypervolumes: [f64; 2],
-}
-
-/// An optimum.
-pub struct Named {
-    /// Its name in JSON.
-    pub name: &'static str,
-    /// The motion; none where there is none.
-    pub row: Option<Row>,
-}
-
 /// The cases of a file, and what is asked of them.
 struct Asked<'a> {
     request: &'a TradeOff<'a>,
+    /// Number of cases.
+    cases: usize,
+    rows: &'a Rows,
     /// Those that take part.
     candidates: &'a [Candidate],
     /// The best of them.
@@ -121,61 +83,49 @@ struct Asked<'a> {
     refinement: Option<Refinement<'a>>,
 }
 
+/// All motions that take part.
+struct Motions<'a> {
+    asked: &'a Asked<'a>,
+    /// Those between the cases.
+    between: &'a [RefinedMotion],
+    /// The cases, and then those.
+    all: Vec<Candidate>,
+}
+
 impl TradeOff<'_> {
     /// What is best.
     ///
     /// Fails if the file cannot be read or has no cases, if what is asked has faults, or if a case cannot be computed again.
     pub fn answer(&self, report: &Report<'_>) -> Result<Answer, CampaignError> {
-        let fault = |fault: String| self.unread(Unread::Faults(vec![fault]));
-        let table = CaseTable::of(self.archive)?;
-        let table = table.ok_or_else(|| {
-            fault("there are no cases; `capsulemap sweep` computes them".to_owned())
+        let table = CaseTable::of(self.archive)?.ok_or_else(|| {
+            self.fault("there are no cases; `capsulemap sweep` computes them".to_owned())
         })?;
         let found = candidates(&table, self.of, self.conditions).map_err(|it| self.unread(it))?;
         let rows = Rows::of(&table, self.archive, &self.file.display().to_string())?;
-        // Only slopes and searches take more than what the file tells of its cases.
-        let asks_for_orbits = self.slopes || !matches!(self.between, Between::Nothing);
-        let study = asks_for_orbits.then(|| study_of(self.archive, self.file)).transpose()?;
+        let study = self.needs_orbits().then(|| study_of(self.archive, self.file)).transpose()?;
         let none = KeptSearches::default();
-        let refinement = study.as_ref().map(|study| self.refinement(study, &rows, &none));
-        let optima = best_of(&found.all, self.direction, self.at_rest);
-        let asked = Asked { request: self, candidates: &found.all, optima, refinement };
-        let (searches, motions) = asked.between(&Reports::new(report))?;
-        let all = with_refined((table.cases(), &found.all), &motions, self.of);
-        let best = best_of(&all, self.direction, Some(asked.optima.at_rest));
-        let gain = searches.map(|searches| Gain {
-            searches,
-            found: motions.len(),
-            seed: self.seed(),
-            hypervolumes: self.hypervolumes([(&asked.optima, &found.all), (&best, &all)]),
-        });
-        let row = |at: usize| -> Result<Row, CampaignError> {
-            let motion = &all[at];
-            match (&asked.refinement, motion.case.checked_sub(table.cases())) {
-                (Some(refinement), Some(place)) => {
-                    Ok(rows.refined(&motions[place], self.of, &refinement.protocol()))
-                }
-                (Some(refinement), None) if self.slopes => {
-                    Ok(Row { slopes: refinement.slopes(motion)?, ..rows.row(motion) })
-                }
-                _ => Ok(rows.row(motion)),
-            }
-        };
-        let moving = fastest_first(&all, self.direction, best.at_rest);
-        let named = self.named(&best, &all).into_iter();
-        let named = named.map(|(name, at)| Ok(Named { name, row: at.map(row).transpose()? }));
-        Ok(Answer {
-            file: self.file.display().to_string(),
-            of: self.of,
-            direction: self.direction,
+        let asked = Asked {
+            request: self,
             cases: table.cases(),
-            left_out: found.left_out,
-            at_rest: (best.at_rest, all.len() - moving.len()),
-            refined: gain,
-            named: named.collect::<Result<_, CampaignError>>()?,
-            front: best.front.iter().map(|&at| row(at)).collect::<Result<_, _>>()?,
-            top: moving.into_iter().take(self.top).map(row).collect::<Result<_, _>>()?,
-        })
+            rows: &rows,
+            candidates: &found.all,
+            optima: best_of(&found.all, self.direction, self.at_rest),
+            refinement: study.as_ref().map(|study| self.refinement(study, &rows, &none)),
+        };
+        let reports = Reports::new(report);
+        let (searches, between) = asked.between(&reports)?;
+        let all = with_refined((asked.cases, &found.all), &between, self.of);
+        let motions = Motions { asked: &asked, between: &between, all };
+        let mut answer = Answer { left_out: found.left_out, ..motions.answer(searches)? };
+        if let (Some(refinement), Some(under)) = (&asked.refinement, self.under) {
+            judge(&mut answer, refinement, under, &reports)?;
+        }
+        Ok(answer)
+    }
+
+    /// Whether more is asked than what the file tells of its cases.
+    fn needs_orbits(&self) -> bool {
+        self.slopes || self.under.is_some() || !matches!(self.between, Between::Nothing)
     }
 
     /// The optima that are asked for, each by its place among all motions.
@@ -228,6 +178,10 @@ impl TradeOff<'_> {
         fronts.map(|front| hypervolume(&front, (dearest, at_rest)))
     }
 
+    fn fault(&self, fault: String) -> CampaignError {
+        CampaignError::TradeOff { path: self.file.to_owned(), faults: vec![fault] }
+    }
+
     fn unread(&self, error: Unread) -> CampaignError {
         match error {
             Unread::Store(error) => CampaignError::Store(error),
@@ -245,15 +199,13 @@ impl Asked<'_> {
         reports: &Reports<'_>,
     ) -> Result<(Option<usize>, Vec<RefinedMotion>), CampaignError> {
         match (&self.refinement, self.request.between) {
-            (Some(refinement), Between::Known(kept)) => {
-                Ok((None, refinement.distinct(kept.motions())))
-            }
+            (_, Between::Known(kept)) => Ok((None, kept.motions())),
             (Some(refinement), Between::Sought(_, Sought { threads, .. })) => {
                 let free = refinement.free().len();
                 if !(1..=MOST_FREE).contains(&free) {
                     let fault =
                         format!("{free} parameters vary; 1 to {MOST_FREE} can be refined over");
-                    return Err(self.request.unread(Unread::Faults(vec![fault])));
+                    return Err(self.request.fault(fault));
                 }
                 let (searches, motions) = self.sought(refinement, threads, reports)?;
                 Ok((Some(searches), motions))
@@ -287,7 +239,56 @@ impl Asked<'_> {
         let followed = refinement.followed(&gaps, threads, step)?;
         reports.send(Event::Ended(Stage::Following))?;
         let begun = searches.len() + gaps.len();
-        Ok((begun, refinement.joined(found, followed)))
+        Ok((begun, distinct([found, followed].concat())))
+    }
+}
+
+impl Motions<'_> {
+    /// What is best among them, before tolerances; with what so many searches have brought, if there were any.
+    fn answer(&self, searches: Option<usize>) -> Result<Answer, CampaignError> {
+        let Motions { asked, between, all } = self;
+        let request = asked.request;
+        let best = best_of(all, request.direction, Some(asked.optima.at_rest));
+        let row = |at: usize| self.row(&all[at]);
+        let rows = |places: &[usize]| places.iter().map(|&at| row(at)).collect::<Result<_, _>>();
+        let named = |(name, at): (&'static str, Option<usize>)| -> Result<Named, CampaignError> {
+            Ok(Named { name, row: at.map(row).transpose()? })
+        };
+        let gain = |searches: usize| Gain {
+            searches,
+            found: between.len(),
+            seed: request.seed(),
+            hypervolumes: request.hypervolumes([(&asked.optima, asked.candidates), (&best, all)]),
+        };
+        let moving = fastest_first(all, request.direction, best.at_rest);
+        Ok(Answer {
+            file: request.file.display().to_string(),
+            of: request.of,
+            direction: request.direction,
+            cases: asked.cases,
+            left_out: BTreeMap::new(),
+            at_rest: (best.at_rest, all.len() - moving.len()),
+            refined: searches.map(gain),
+            named: request.named(&best, all).into_iter().map(named).collect::<Result<_, _>>()?,
+            front: rows(&best.front)?,
+            top: rows(&moving[..moving.len().min(request.top)])?,
+            tolerances: request.under.map(|(tolerances, _)| tolerances.clone()),
+            robust_front: Vec::new(),
+        })
+    }
+
+    /// What is told of a motion.
+    fn row(&self, motion: &Candidate) -> Result<Row, CampaignError> {
+        let Asked { request, rows, refinement, .. } = self.asked;
+        match (refinement, motion.case.checked_sub(self.asked.cases)) {
+            (Some(refinement), Some(place)) => {
+                Ok(rows.refined(&self.between[place], request.of, &refinement.protocol()))
+            }
+            (Some(refinement), None) if request.slopes => {
+                Ok(Row { slopes: refinement.slopes(motion)?, ..rows.row(motion) })
+            }
+            _ => Ok(rows.row(motion)),
+        }
     }
 }
 

@@ -4,7 +4,8 @@ use clap::ValueEnum;
 
 use super::failure::Failure;
 use super::terminal::notify;
-use crate::figure::{FigureError, Files, Format, Needs, Place, draw, needs, variables};
+use crate::campaign::{KeptSearches, RefinedMotion, searches_path, study_of};
+use crate::figure::{FigureError, Files, Format, Needs, Place, Shown, draw, needs, variables};
 use crate::store::{Archive, Dataset, has_branches, has_cases};
 use crate::study::{Drawing, DrawingKind};
 
@@ -54,9 +55,28 @@ pub fn draw_each(
     for drawing in drawings {
         let shown = variables(drawing);
         let dataset = archive.labelled(|name| shown.contains(name)).map_err(Failure::machine)?;
-        failures.extend(draw_all(&dataset, std::slice::from_ref(drawing), place).err());
+        let refined =
+            if drawing.kind == DrawingKind::TradeOff { refined(archive)? } else { Vec::new() };
+        let shown = Shown { dataset: &dataset, refined: &refined };
+        failures.extend(draw_all(shown, std::slice::from_ref(drawing), place).err());
     }
     Failure::all(failures).map_or(Ok(()), Err)
+}
+
+/// The motions that a refinement has found between the cases of a file.
+fn refined(archive: &Archive) -> Result<Vec<RefinedMotion>, Failure> {
+    let path = searches_path(archive.path());
+    if !path.exists() {
+        return Ok(Vec::new());
+    }
+    let study = study_of(archive, archive.path())?;
+    match KeptSearches::read(archive, &study) {
+        Ok(kept) => Ok(kept.motions()),
+        Err(error) => {
+            notify(&format!("{error}; they are not shown"));
+            Ok(Vec::new())
+        }
+    }
 }
 
 /// Draws the figures from results without a single value, so that a mistake in one of them is
@@ -68,14 +88,14 @@ pub fn rehearse(empty: &Dataset, drawings: &[Drawing], place: &Place<'_>) -> Res
         place.check(&drawing.name).map_err(failure)?;
     }
     // In no format at all, nothing is written.
-    draw_all(empty, &ready, &Place { formats: &[], ..*place })
+    draw_all(empty.into(), &ready, &Place { formats: &[], ..*place })
 }
 
 /// Draws each figure and prints its files; one that cannot be drawn does not prevent the others.
-fn draw_all(dataset: &Dataset, drawings: &[Drawing], place: &Place<'_>) -> Result<(), Failure> {
+fn draw_all(shown: Shown<'_>, drawings: &[Drawing], place: &Place<'_>) -> Result<(), Failure> {
     let mut failures = Vec::new();
     for drawing in drawings {
-        match draw(dataset, drawing, place) {
+        match draw(shown, drawing, place) {
             Ok(Files { paths, .. }) if paths.is_empty() => {}
             Ok(Files { paths, notes }) => {
                 let names: Vec<String> =

@@ -15,6 +15,7 @@ mod optima_text;
 mod phases;
 mod progress;
 mod readable;
+mod report;
 mod simulate;
 mod slurm;
 mod status;
@@ -81,6 +82,8 @@ enum Command {
     Figure(figure::Figure),
     /// Find the fastest motions for the least energy in a file of results.
     Tradeoff(tradeoff::Tradeoff),
+    /// Write what a file of results says as one page for a browser.
+    Report(report::Report),
     /// Say what is in a file of results.
     Inspect(inspect::Inspect),
     /// Print the completions of a shell.
@@ -107,6 +110,7 @@ pub fn main() -> ExitCode {
         Command::Continue(continuation) => continuation.run(),
         Command::Figure(figure) => figure.run(),
         Command::Tradeoff(tradeoff) => tradeoff.run(),
+        Command::Report(report) => report.run(),
         Command::Inspect(inspect) => inspect.run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::{Map, Value, json};
 
 use super::readable::{count, counted};
-use crate::campaign::{Answer, Gain, Named, Row, Slopes};
+use crate::campaign::{Answer, Gain, Named, Robustness, Row, Slopes, Tolerances};
 use crate::capsule::{Output, Parameter};
 use crate::store::catalogue::{ATTRACTOR, OUTCOME, PERIOD};
 use crate::study::Coordinate;
@@ -33,6 +33,13 @@ pub fn json(answer: &Answer) -> Value {
     object.insert("front".to_owned(), Value::Array(answer.front.iter().map(point).collect()));
     for Named { name, row } in &answer.named {
         object.insert((*name).to_owned(), row.as_ref().map_or(Value::Null, point));
+    }
+    if let Some(Tolerances { each, draws, seed }) = &answer.tolerances {
+        let each: Map<String, Value> =
+            each.iter().map(|(it, most)| (it.symbol().to_owned(), json!(most))).collect();
+        let asked = json!({ "each": each, "draws": draws, "seed": seed });
+        object.insert("tolerances".to_owned(), asked);
+        object.insert("robust_front".to_owned(), json!(answer.robust_front));
     }
     if !answer.top.is_empty() {
         object.insert("top".to_owned(), Value::Array(answer.top.iter().map(point).collect()));
@@ -68,6 +75,15 @@ fn json_of_row(row: &Row, of: Output) -> Value {
     point.insert("stationarity".to_owned(), json!(stationarity));
     point.insert("sensitivity".to_owned(), Value::Object(each));
     point.insert(format!("sensitivity_of_{}", of.name()), Value::Object(price));
+    let robustness = row.robustness.map(|it| {
+        json!({
+            "draws": it.draws,
+            "kept": it.kept,
+            "speed_of_slowest_5_percent": it.speed,
+            "price_of_dearest_5_percent": it.price,
+        })
+    });
+    point.insert("robustness".to_owned(), json!(robustness));
     point.insert("replay".to_owned(), json!(row.replay));
     Value::Object(point)
 }
@@ -82,7 +98,16 @@ pub fn csv(answer: &Answer) -> String {
     let names = first.coordinates.iter().map(|(it, ..)| it.name());
     let fixed = ["what", "case", Output::ProgressionSpeed.name(), answer.of.name()];
     let rest = [OUTCOME.name, PERIOD.name, ATTRACTOR.name, "share"];
-    let header: Vec<&str> = fixed.into_iter().chain(rest).chain(names).collect();
+    let more = [
+        Output::EnergyPerMetre.name(),
+        "held_by",
+        "stationarity",
+        "kept",
+        "speed_of_slowest_5_percent",
+        "price_of_dearest_5_percent",
+        "replay",
+    ];
+    let header: Vec<&str> = fixed.into_iter().chain(rest).chain(names).chain(more).collect();
     let mut text = format!("{}\n", header.join(","));
     let optional = |it: Option<f64>| it.map_or(String::new(), |it| it.to_string());
     for (what, row) in all {
@@ -99,7 +124,18 @@ pub fn csv(answer: &Answer) -> String {
             attractor,
             optional(row.share),
         ];
-        let cells: Vec<String> = fixed.into_iter().chain(coordinates).collect();
+        let robustness = |of: fn(&Robustness) -> f64| optional(row.robustness.as_ref().map(of));
+        let more = [
+            format!("{:?}", row.energy_per_metre),
+            row.slopes.held_by.join("; "),
+            optional(row.slopes.stationarity),
+            robustness(|it| it.kept),
+            robustness(|it| it.speed),
+            robustness(|it| it.price),
+            // A command has commas.
+            format!("\"{}\"", row.replay.replace('"', "\"\"")),
+        ];
+        let cells: Vec<String> = fixed.into_iter().chain(coordinates).chain(more).collect();
         // Writing to a String cannot fail.
         let _ = writeln!(text, "{}", cells.join(","));
     }
@@ -130,7 +166,7 @@ pub fn table(answer: &Answer) -> String {
         };
         let _ = writeln!(
             text,
-            "{searches} between the cases led to {found}; the front dominates {gain:.3} % more"
+            "{searches} between the cases led to {found}; the area that the front dominates grows by {gain:.3} %"
         );
     }
     let _ = writeln!(
@@ -146,33 +182,46 @@ pub fn table(answer: &Answer) -> String {
     }
     let _ = writeln!(
         text,
-        "{:<26} {:>14} {:>16}  motion",
+        "{:<26} {:>14} {:>16} {:>12}  motion",
         "",
         "speed [mm/s]",
-        format!("{} [{}]", answer.of.name(), answer.of.unit())
+        format!("{} [{}]", answer.of.name(), answer.of.unit()),
+        "J/m"
     );
     for Named { name, row } in &answer.named {
         match row {
-            Some(row) => write_row(&mut text, &name.replace('_', " "), row),
+            Some(row) => write_row(&mut text, answer, &name.replace('_', " "), row),
             None => _ = writeln!(text, "{:<26} none", name.replace('_', " ")),
         }
     }
     for (heading, rows) in [("front", &answer.front), ("the fastest", &answer.top)] {
         for (place, row) in rows.iter().enumerate() {
-            write_row(&mut text, if place == 0 { heading } else { "" }, row);
+            write_row(&mut text, answer, if place == 0 { heading } else { "" }, row);
         }
     }
-    if let Some(Some(fastest)) = answer.named.first().map(|it| &it.row) {
-        let _ = writeln!(text, "\nreplay of the fastest: {}", fastest.replay);
+    text.push('\n');
+    for Named { name, row } in &answer.named {
+        if let Some(row) = row {
+            let _ = writeln!(text, "replay of {}: {}", name.replace('_', " "), row.replay);
+        }
     }
     text
 }
 
-fn write_row(text: &mut String, what: &str, row: &Row) {
+fn write_row(text: &mut String, answer: &Answer, what: &str, row: &Row) {
     let motion = match row.period {
         Some(period) => format!("period {period}"),
         None => row.outcome.clone(),
     };
+    let robust = row.robustness.map_or(String::new(), |it| {
+        let (kept, speed) = (100.0 * it.kept, 1e3 * it.speed);
+        format!(
+            "; under tolerances 95 % move {} by {speed:.4} mm/s or more, 95 % take {:.4e} {} or less, {kept:.1} % keep it",
+            answer.direction.adverb(),
+            it.price,
+            answer.of.unit()
+        )
+    });
     let basin =
         row.share.map_or(String::new(), |share| format!(", {:.1} % of the starts", 100.0 * share));
     let varied = row.coordinates.iter().filter(|(.., varies)| *varies);
@@ -186,9 +235,10 @@ fn write_row(text: &mut String, what: &str, row: &Row) {
         .collect();
     let _ = writeln!(
         text,
-        "{what:<26} {:>14.6} {:>16.6e}  {motion}{basin}; {}; {}",
+        "{what:<26} {:>14.6} {:>16.6e} {:>12.6}  {motion}{basin}; {}; {}{robust}",
         1e3 * row.speed,
         row.price,
+        row.energy_per_metre,
         place.join(", "),
         match row.case {
             Some(case) => format!("case {case}"),

@@ -13,9 +13,9 @@ use super::stop::say_when_stopped;
 use super::terminal::{notify, print};
 use super::watch::Stages;
 use crate::campaign::{
-    Between, CampaignError, KeptSearches, Sought, TradeOff, searches_path, study_of,
+    Between, CampaignError, KeptSearches, Sought, Tolerances, TradeOff, searches_path, study_of,
 };
-use crate::capsule::Output;
+use crate::capsule::{Dimension, Output, Parameter};
 use crate::store::{self, Archive, StoreError, quantity};
 use crate::study::document::unknown;
 use crate::tradeoff::Direction;
@@ -26,6 +26,7 @@ Examples:
   capsulemap tradeoff FILE.h5 --of work_positive --direction forward --json
   capsulemap tradeoff FILE.h5 --where \"peak_contact_force < 30 N and grazing_margin > 0.1 mm\" --top 20
   capsulemap tradeoff FILE.h5 --refine --json
+  capsulemap tradeoff FILE.h5 --refine --tolerances \"k2 = 5 %, mu_s = 10 %\"
   capsulemap tradeoff FILE.h5 --budget \"20 mW\" --speed \"5 mm/s\" --csv
 
 The front is of all cases of the file, each with the attractor that it has ended on. Motions that are chaotic or
@@ -59,8 +60,16 @@ pub struct Tradeoff {
     /// Search for better motions between the cases, over the parameters that vary, within their ranges (at most 6).
     #[arg(long, conflicts_with = "conditions")]
     refine: bool,
-    /// Number by which cases are drawn that the search begins with beside the best ones.
-    #[arg(long, value_name = "NUMBER", default_value_t = 1, requires = "refine")]
+    /// Tolerances of parameters, as "k2 = 5 %, mu_s = 10 %": of the optima and the front it is told which speed and price 5 % of
+    /// the draws miss, and how many keep the motion.
+    #[arg(long, value_name = "TOLERANCES")]
+    tolerances: Option<String>,
+    /// How many sets of parameters are drawn within the tolerances.
+    #[arg(long, value_name = "NUMBER", default_value_t = 200, requires = "tolerances",
+        value_parser = clap::value_parser!(u32).range(1..))]
+    draws: u32,
+    /// Number by which tolerances are drawn, and cases that the search begins with beside the best ones.
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
     /// Give up the searches that are kept beside the file, and begin anew.
     #[arg(long, requires = "refine")]
@@ -85,6 +94,7 @@ struct Request {
     at_rest: Option<f64>,
     budget: Option<f64>,
     speed: Option<f64>,
+    tolerances: Option<Tolerances>,
 }
 
 impl Tradeoff {
@@ -106,6 +116,7 @@ impl Tradeoff {
             speed: request.speed,
             top: self.top,
             slopes: self.json,
+            under: request.tolerances.as_ref().map(|it| (it, threads)),
             between: kept.as_ref().map_or(Between::Nothing, |it| Between::Sought(it, sought)),
         };
         let stages = Stages::default();
@@ -156,12 +167,42 @@ impl Tradeoff {
             value.map_err(|fault| faults.push(format!("--{option}: {fault}"))).ok()
         };
         let speed_unit = Output::ProgressionSpeed.unit();
-        let request = Request {
-            of,
-            at_rest: read("at-rest", &self.at_rest, speed_unit),
-            budget: read("budget", &self.budget, of.unit()),
-            speed: read("speed", &self.speed, speed_unit),
-        };
+        let [at_rest, budget, speed] = [
+            read("at-rest", &self.at_rest, speed_unit),
+            read("budget", &self.budget, of.unit()),
+            read("speed", &self.speed, speed_unit),
+        ];
+        let tolerances =
+            self.tolerances.as_ref().map(|text| self.read_tolerances(text, &mut faults));
+        let request = Request { of, at_rest, budget, speed, tolerances };
         if faults.is_empty() { Ok(request) } else { Err(Failure::requests(&faults)) }
+    }
+
+    /// The tolerances in a text; faults are noted.
+    fn read_tolerances(&self, text: &str, faults: &mut Vec<String>) -> Tolerances {
+        let mut each: Vec<(Parameter, f64)> = Vec::new();
+        for part in text.split(',') {
+            let fault = |message: String| format!("--tolerances {}: {message}", part.trim());
+            let Some((name, value)) = part.split_once('=') else {
+                faults.push(fault("expected PARAMETER = PERCENT".to_owned()));
+                continue;
+            };
+            let symbols = || Parameter::ALL.iter().map(|it| it.symbol());
+            match (Parameter::named(name.trim()), quantity(value, Dimension::Number.unit())) {
+                (None, _) => faults.push(fault(unknown("parameter", name.trim(), symbols()))),
+                (_, Err(message)) => faults.push(fault(message)),
+                (Some(parameter), Ok(_)) if each.iter().any(|it| it.0 == parameter) => {
+                    faults.push(fault(format!("{} is given twice", parameter.symbol())));
+                }
+                (Some(parameter), Ok(most)) if most > 0.0 && most < 1.0 => {
+                    each.push((parameter, most));
+                }
+                (_, Ok(most)) => {
+                    let percent = 100.0 * most;
+                    faults.push(fault(format!("is {percent} %; must lie between 0 and 100 %")));
+                }
+            }
+        }
+        Tolerances { each, draws: self.draws as usize, seed: self.seed }
     }
 }

@@ -124,7 +124,7 @@ impl<'a> Watch<'a> {
 
 /// Progress of each stage, once it has begun.
 #[derive(Default)]
-pub struct Stages([OnceLock<Progress>; 6]);
+pub struct Stages([OnceLock<Progress>; 7]);
 
 impl Stages {
     /// Shows the events of stages, and no others.
@@ -150,5 +150,6 @@ fn what(stage: Stage) -> &'static str {
         Stage::Repeating => "cases",
         Stage::Searching => "searches between the cases",
         Stage::Following => "gaps of the front",
+        Stage::Drawing => "motions under tolerances",
     }
 }

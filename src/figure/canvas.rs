@@ -147,6 +147,11 @@ impl Canvas {
         let _ = write!(self.body, "<g{attributes}>\n{}</g>\n", &svg[begin..end]);
     }
 
+    /// Width and height of the page [pt].
+    pub fn extent(&self) -> [f64; 2] {
+        [self.width, self.height]
+    }
+
     fn size(&self) -> (u32, u32) {
         ((self.width * FINE).round() as u32, (self.height * FINE).round() as u32)
     }

@@ -74,6 +74,7 @@ pub fn request(
         heights,
         rows,
         right_room: 0.0,
+        bottom_room: 0.0,
         pointing: Pointing::Inward,
     }
 }

@@ -232,6 +232,7 @@ fn request(
         heights: vec![HEIGHT; rows.len()],
         rows,
         right_room: 0.0,
+        bottom_room: 0.0,
         pointing: Pointing::Inward,
     }
 }

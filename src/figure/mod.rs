@@ -24,6 +24,7 @@ mod inferred;
 mod kind;
 mod map;
 mod mark;
+mod optima_table;
 mod outcome;
 mod output;
 mod page;
@@ -37,12 +38,15 @@ mod scale;
 mod section;
 mod settling;
 mod shares;
+mod shown;
 mod style;
 mod symbol;
 mod text;
 mod ticks;
 mod track;
 mod trade_off;
+mod trade_off_motions;
+mod trade_off_table;
 mod varied;
 mod view;
 
@@ -53,9 +57,10 @@ pub use error::FigureError;
 pub use format::Format;
 pub use kind::Needs;
 pub use output::Place;
+pub use shown::Shown;
 
-use crate::store::dataset::Dataset;
 use crate::study::{Drawing, DrawingKind};
+use canvas::Drawn;
 use output::Figure;
 use view::View;
 
@@ -72,10 +77,32 @@ pub fn variables(drawing: &Drawing) -> BTreeSet<String> {
     reads(drawing).and(varied::READS).into_set()
 }
 
-/// Draws `drawing` from the results in `dataset` and writes `<folder>/<name>.<extension>` in each format of `place`,
+/// Draws `drawing` from the results in `shown` and writes `<folder>/<name>.<extension>` in each format of `place`,
 /// each file complete or absent.
-pub fn draw(dataset: &Dataset, drawing: &Drawing, place: &Place<'_>) -> Result<Files, FigureError> {
-    let view = View::new(dataset, drawing)?;
+pub fn draw<'a>(
+    shown: impl Into<Shown<'a>>,
+    drawing: &'a Drawing,
+    place: &Place<'_>,
+) -> Result<Files, FigureError> {
+    let (drawn, notes) = drawn(shown.into(), drawing)?;
+    let figure = Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg };
+    Ok(Files { paths: figure.write(place)?, notes })
+}
+
+/// Draws `drawing` from the results in `shown` as a picture for a screen.
+pub fn picture<'a>(
+    shown: impl Into<Shown<'a>>,
+    drawing: &'a Drawing,
+) -> Result<Picture, FigureError> {
+    let (drawn, notes) = drawn(shown.into(), drawing)?;
+    let figure = Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg };
+    let (png, width_mm) = figure.raster(style::SCREEN_DPI)?;
+    Ok(Picture { png, width_mm, about: drawn.about, notes })
+}
+
+/// The drawing, and what it leaves out or takes for something else.
+fn drawn(shown: Shown<'_>, drawing: &Drawing) -> Result<(Drawn, Vec<String>), FigureError> {
+    let view = View::new(shown, drawing)?;
     check_request(&view)?;
     let drawn = (registry::kind(drawing.kind).draw)(&view)?;
     let figure = drawing.name.clone();
@@ -85,9 +112,21 @@ pub fn draw(dataset: &Dataset, drawing: &Drawing, place: &Place<'_>) -> Result<F
     if let Some(why) = drawn.fault {
         return Err(FigureError::Render { figure, why });
     }
-    let notes = [view.taken_for_another(), drawn.notes].concat();
-    let figure = Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg };
-    Ok(Files { paths: figure.write(place)?, notes })
+    let notes = [view.taken_for_another(), drawn.notes.clone()].concat();
+    Ok((drawn, notes))
+}
+
+/// A figure for a screen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// The bytes of a PNG file.
+    pub png: Vec<u8>,
+    /// Its width [mm].
+    pub width_mm: f64,
+    /// What it shows, in a sentence.
+    pub about: String,
+    /// What it leaves out or takes for something else, a sentence each; it stands in the picture, too.
+    pub notes: Vec<String>,
 }
 
 /// The files of a figure.

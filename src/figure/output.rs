@@ -68,9 +68,7 @@ impl Figure<'_> {
     pub fn write(&self, place: &Place<'_>) -> Result<Vec<PathBuf>, FigureError> {
         let Place { folder, formats, .. } = *place;
         place.check(self.name)?;
-        let options =
-            Options { fontdb: font::database(), font_family: FAMILY.into(), ..Options::default() };
-        let tree = Tree::from_str(self.svg, &options).map_err(|e| self.render(e.to_string()))?;
+        let tree = self.tree()?;
         if !formats.is_empty() {
             store::create_folder(folder)
                 .map_err(|source| FigureError::Write { figure: self.name.to_string(), source })?;
@@ -78,7 +76,7 @@ impl Figure<'_> {
         let mut paths = Vec::new();
         for format in formats {
             let bytes = match format {
-                Format::Png => self.png(&tree)?,
+                Format::Png => self.png(&tree, DPI)?,
                 Format::Svg => self.outlined(&tree).into_bytes(),
                 Format::Pdf => self.pdf(&tree)?,
             };
@@ -87,6 +85,19 @@ impl Figure<'_> {
             paths.push(path);
         }
         Ok(paths)
+    }
+
+    /// The figure as the bytes of a PNG file with so many dots per inch, and its width [mm].
+    pub fn raster(&self, dpi: f64) -> Result<(Vec<u8>, f64), FigureError> {
+        let tree = self.tree()?;
+        // A length of 96 in the tree is an inch.
+        Ok((self.png(&tree, dpi)?, f64::from(tree.size().width()) / 96.0 * 25.4))
+    }
+
+    fn tree(&self) -> Result<Tree, FigureError> {
+        let options =
+            Options { fontdb: font::database(), font_family: FAMILY.into(), ..Options::default() };
+        Tree::from_str(self.svg, &options).map_err(|e| self.render(e.to_string()))
     }
 
     /// The drawing with its text as outlines, so that it looks the same without our fonts.
@@ -107,9 +118,9 @@ impl Figure<'_> {
         )
     }
 
-    fn png(&self, tree: &Tree) -> Result<Vec<u8>, FigureError> {
+    fn png(&self, tree: &Tree, dpi: f64) -> Result<Vec<u8>, FigureError> {
         // A length of 96 in the tree is an inch.
-        let scale = (DPI / 96.0) as f32;
+        let scale = (dpi / 96.0) as f32;
         let pixels = |length: f32| (length * scale).round() as u32;
         let pixmap = Pixmap::new(pixels(tree.size().width()), pixels(tree.size().height()));
         let mut pixmap = pixmap.ok_or_else(|| self.render("it is too large".to_string()))?;
@@ -117,8 +128,8 @@ impl Figure<'_> {
         resvg::render(tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
         let pixels: Vec<u8> =
             pixmap.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
-        encode(pixmap.width(), pixmap.height(), &pixels, self.about)
-            .map_err(|error| self.render(error.to_string()))
+        let size = [pixmap.width(), pixmap.height()];
+        encode((size, dpi), &pixels, self.about).map_err(|error| self.render(error.to_string()))
     }
 
     fn pdf(&self, tree: &Tree) -> Result<Vec<u8>, FigureError> {
@@ -153,12 +164,16 @@ impl Figure<'_> {
 }
 
 /// An RGB image as PNG with its resolution and a description.
-fn encode(width: u32, height: u32, rgb: &[u8], about: &str) -> Result<Vec<u8>, png::EncodingError> {
+fn encode(
+    ([width, height], dpi): ([u32; 2], f64),
+    rgb: &[u8],
+    about: &str,
+) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    let per_metre = (DPI / 0.0254).round() as u32;
+    let per_metre = (dpi / 0.0254).round() as u32;
     encoder.set_pixel_dims(Some(png::PixelDimensions {
         xppu: per_metre,
         yppu: per_metre,

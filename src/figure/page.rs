@@ -34,6 +34,8 @@ pub struct PageRequest {
     pub rows: Vec<Vec<PanelRequest>>,
     /// Room on the right, for a colour bar or a legend [pt].
     pub right_room: f64,
+    /// Room below all panels [pt].
+    pub bottom_room: f64,
     /// Where ticks point.
     pub pointing: Pointing,
 }
@@ -61,6 +63,7 @@ impl PageRequest {
             heights: vec![height],
             rows: vec![vec![panel]],
             right_room: 0.0,
+            bottom_room: 0.0,
             pointing,
         }
     }
@@ -95,7 +98,7 @@ impl PageRequest {
             panels.push(placed);
             top += above + height + below;
         }
-        let mut canvas = Canvas::new(width, top + BORDER - 1.0);
+        let mut canvas = Canvas::new(width, top + self.bottom_room + BORDER - 1.0);
         for (line, words) in title.iter().enumerate() {
             let baseline = BORDER + (line as f64 + 0.8) * TITLE_LINE;
             canvas.text(words, (width / 2.0, baseline), TITLE_SIZE, Anchor::Middle);

@@ -2,7 +2,7 @@
 
 use super::scale::{Scale, finite_range};
 use super::text::Text;
-use super::ticks::{power_of_ten, short};
+use super::ticks::{power_of_ten, rounded, short};
 use crate::store::catalogue::{self, Place, Shown};
 use crate::store::dataset::{Dataset, Values, Variable};
 use crate::tradeoff::NOISE;
@@ -117,6 +117,16 @@ impl Quantity {
     /// The short form for legends: the symbol, or the name where there is none.
     pub fn short_name(&self) -> Text {
         if self.symbol.is_empty() { self.name.clone() } else { Text::markup(&self.symbol) }
+    }
+
+    /// The unit shown; empty where there is none.
+    pub fn unit(&self) -> Text {
+        Text::markup(&self.unit)
+    }
+
+    /// A `value` in SI as a table shows it, without its unit.
+    pub fn rounded(&self, value: f64) -> Text {
+        Text::markup(&rounded(value * self.factor))
     }
 
     /// "symbol = value unit", for a `value` in SI.

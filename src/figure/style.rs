@@ -10,6 +10,9 @@ pub const POINTS_PER_MM: f64 = 72.0 / 25.4;
 /// them [dots per inch].
 pub const DPI: f64 = 600.0;
 
+/// Resolution of pictures for a screen [dots per inch].
+pub const SCREEN_DPI: f64 = 220.0;
+
 /// One column of a journal [mm].
 pub const ONE_COLUMN: f64 = 88.0;
 /// Two columns of a journal [mm].

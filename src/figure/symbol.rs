@@ -1,4 +1,4 @@
-//! The symbols of special points: a shape for the point, a colour for curves of such points.
+//! The symbols of special points and of optima: a shape for the point, a colour for curves of such points.
 
 use plotters::style::RGBColor;
 
@@ -6,10 +6,10 @@ use super::canvas::{Canvas, Dash, Stroke};
 use super::geometry::Point;
 use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, GREEN, INK, PAPER, PURPLE, VERMILION};
 
-/// A kind of special point as figures show it.
+/// A kind of special point or of optimum as figures show it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Symbol {
-    /// Its name in files of results.
+    /// Its name in files of results; empty for optima, which are not there.
     pub name: &'static str,
     /// Its name in legends.
     pub words: &'static str,
@@ -27,6 +27,8 @@ enum Shape {
     Diamond,
     Star,
     Ring,
+    /// A ring that hides nothing within.
+    Circle,
     Cross,
 }
 
@@ -72,6 +74,17 @@ pub const SYMBOLS: [Symbol; 5] = [
     },
 ];
 
+/// The fastest motion of a trade-off.
+pub const FASTEST: Symbol = optimum("fastest", Shape::Circle);
+/// The knee of its front.
+pub const KNEE: Symbol = optimum("knee", Shape::Diamond);
+/// The motion with the least energy per metre.
+pub const LEAST: Symbol = optimum("least J/m", Shape::Triangle);
+
+const fn optimum(words: &'static str, shape: Shape) -> Symbol {
+    Symbol { name: "", words, shape, colour: INK, dash: Dash::None }
+}
+
 /// Corners of the shapes, in shares of the radius, upward negative.
 const TRIANGLE: [Point; 3] = [(0.0, -1.15), (1.0, 0.6), (-1.0, 0.6)];
 const DIAMOND: [Point; 4] = [(0.0, -1.15), (1.0, 0.0), (0.0, 1.15), (-1.0, 0.0)];
@@ -103,6 +116,10 @@ impl Symbol {
             Shape::Ring => {
                 canvas.discs(&[(at, PAPER)], RADIUS * 0.85);
                 canvas.rings(&[at], RADIUS * 0.85, Stroke::solid(INK, CURVE_WIDTH));
+            }
+            Shape::Circle => {
+                canvas.rings(&[at], RADIUS * 1.4, Stroke::solid(PAPER, 2.5 * CURVE_WIDTH));
+                canvas.rings(&[at], RADIUS * 1.4, Stroke::solid(INK, CURVE_WIDTH));
             }
             Shape::Cross => {
                 let reach = RADIUS * 0.62;

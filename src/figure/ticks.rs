@@ -133,6 +133,11 @@ pub fn significant(value: f64, digits: i32) -> String {
     number(value, (digits - 1 - magnitude).max(0) as usize)
 }
 
+/// `value` with four digits that count, without zeros at its end, as markup.
+pub fn rounded(value: f64) -> String {
+    trimmed(&significant(value, 4))
+}
+
 /// A decimal number without the zeros at its end.
 fn trimmed(number: &str) -> String {
     match number.contains('.') {

@@ -4,8 +4,10 @@ use ndarray::{ArrayD, Axis, IxDyn};
 
 use super::error::FigureError;
 use super::quantity::Quantity;
+use super::shown::Shown;
 use super::text::Text;
 use super::varied::varied;
+use crate::campaign::RefinedMotion;
 use crate::store::catalogue::{self, DIRECTION, DRAW, Entry, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::store::schema::INHERITED_ALONG;
@@ -24,6 +26,8 @@ const ROUNDING: f64 = 1e-9;
 pub struct View<'a> {
     /// The results.
     pub dataset: &'a Dataset,
+    /// Motions that were found between their cases.
+    pub refined: &'a [RefinedMotion],
     /// The request.
     pub drawing: &'a Drawing,
     /// Index at which each axis named by `at` is held.
@@ -31,9 +35,10 @@ pub struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// Checks the axes that `drawing` names against `dataset`.
-    pub fn new(dataset: &'a Dataset, drawing: &'a Drawing) -> Result<View<'a>, FigureError> {
-        let mut view = View { dataset, drawing, held: Vec::new() };
+    /// Checks the axes that `drawing` names against the results in `shown`.
+    pub fn new(shown: Shown<'a>, drawing: &'a Drawing) -> Result<View<'a>, FigureError> {
+        let Shown { dataset, refined } = shown;
+        let mut view = View { dataset, refined, drawing, held: Vec::new() };
         for name in drawing.x.iter().chain(&drawing.y) {
             if !varied(dataset).contains(&name.as_str()) {
                 view.check_axis(name)?;

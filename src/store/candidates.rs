@@ -55,7 +55,7 @@ pub fn candidates(
 }
 
 /// Whether motions of this outcome take part.
-fn takes_part(outcome: &str) -> bool {
+pub fn takes_part(outcome: &str) -> bool {
     [Outcome::Periodic, Outcome::Chaotic, Outcome::QuasiPeriodic]
         .iter()
         .any(|it| it.name() == outcome)

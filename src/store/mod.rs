@@ -34,7 +34,7 @@ pub use attractors::{add_attractors, add_sample};
 pub use block_file::{Summary, Unusable};
 pub use block_folder::{BlockFolder, Company, by_outcome, packed_bytes};
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
-pub use candidates::{Candidates, candidates};
+pub use candidates::{Candidates, candidates, takes_part};
 pub use case_table::{CaseTable, Column};
 pub use constraint::{fulfilled, quantity};
 pub use dataset::{Dataset, Values, Variable};

@@ -145,8 +145,11 @@ pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -
         } else if foretold <= NO_GAIN && length < 0.9 * trust {
             // The whole step of the model gains no more than rounding.
             let is_kinked = |it: &Hold| matches!(it, Hold::Grazing | Hold::EventSequence);
-            let is_held = slope.held_by.iter().any(is_kinked);
-            let held_by = if is_held { slope.held_by } else { ascent.holds(&at, &slope) };
+            let mut held_by = ascent.holds(&at, &slope);
+            if slope.left > STATIONARY && slope.held_by.iter().any(is_kinked) {
+                // At a kink a slope that is left is none of an edge.
+                held_by = [slope.held_by, vec![Hold::Steps]].concat();
+            }
             return Some(Best { at, stationarity: slope.left, held_by });
         } else {
             trust = 0.25 * length.min(trust);

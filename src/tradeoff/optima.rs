@@ -2,6 +2,9 @@
 
 use super::front::{front, speed_at_rest};
 
+/// Prices that differ by no more than this share differ by rounding.
+const SAME_PRICE: f64 = 1e-12;
+
 /// A motion that takes part in a trade-off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Candidate {
@@ -37,6 +40,15 @@ impl Direction {
     /// Its name.
     pub fn name(self) -> &'static str {
         Direction::NAMES[self as usize].0
+    }
+
+    /// How motions in it move.
+    pub fn adverb(self) -> &'static str {
+        match self {
+            Direction::Forward => "forward",
+            Direction::Backward => "backward",
+            Direction::Either => "either way",
+        }
     }
 
     /// The speed in this direction [m/s]; negative against it.
@@ -101,7 +113,7 @@ pub fn fastest_first(candidates: &[Candidate], direction: Direction, at_rest: f6
 ///
 /// # Method
 ///
-/// The front is that of [`front`]. Its knee is the motion farthest from the straight line between the ends of the front, on the
+/// The front is that of [`front`] without motions whose price is another's but for rounding, 1e-12, and that are slower. Its knee is the motion farthest from the straight line between the ends of the front, on the
 /// side of more speed, with price and speed as shares of their ranges on the front (Das 1999); of several the cheapest.
 ///
 /// # Breaks
@@ -114,7 +126,7 @@ pub fn optima(candidates: &[Candidate], direction: Direction, at_rest: Option<f6
     let moving: Vec<usize> = (0..candidates.len()).filter(|&at| moves(&candidates[at])).collect();
     let (prices, speeds): (Vec<f64>, Vec<f64>) =
         moving.iter().map(|&at| (candidates[at].price, direction.of(candidates[at].speed))).unzip();
-    let front = front(&prices, &speeds);
+    let front = without_rounding(front(&prices, &speeds), &prices);
     let points: Vec<(f64, f64)> = front.iter().map(|&at| (prices[at], speeds[at])).collect();
     let least = |of: &dyn Fn(&Candidate) -> f64| {
         let finite = moving.iter().copied().filter(|&at| of(&candidates[at]).is_finite());
@@ -127,6 +139,15 @@ pub fn optima(candidates: &[Candidate], direction: Direction, at_rest: Option<f6
         lowest_cost_of_transport: least(&|it| it.energy_per_metre),
         front: front.into_iter().map(|at| moving[at]).collect(),
     }
+}
+
+/// A front by rising price without motions that another is faster than and no dearer but for rounding.
+fn without_rounding(front: Vec<usize>, prices: &[f64]) -> Vec<usize> {
+    let counts = |place: usize| {
+        let next = front.get(place + 1).map(|&at| prices[at]);
+        next.is_none_or(|next| next > prices[front[place]] * (1.0 + SAME_PRICE))
+    };
+    (0..front.len()).filter(|place| counts(*place)).map(|place| front[place]).collect()
 }
 
 /// The place of the knee of a front of prices and speeds, both rising.

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 13] = [
+const FLOORS: [&str; 14] = [
     "lane",
     "flow",
     "orbit",
@@ -19,6 +19,7 @@ const FLOORS: [&str; 13] = [
     "store",
     "campaign",
     "figure",
+    "explore",
     "cli",
 ];
 

@@ -7,6 +7,7 @@ use capsulemap::study::{Drawing, DrawingKind};
 
 use super::figure::fixtures::{Fixture, OUTCOMES, plane, steps};
 use super::figure::{drawing, folder, into};
+use super::program::WorkDir;
 
 /// A trade-off over motions with these speeds [m/s] and outcomes.
 fn trade_off(speeds: &[f64], outcomes: &[i64]) -> String {
@@ -29,9 +30,11 @@ fn a_trade_off_has_a_front_for_each_direction_and_none_of_rounding() {
     assert!(trade_off(&[-0.01, -0.02, -0.03], &[0; 3]).contains(front));
     assert!(trade_off(&[0.01, 0.02, 0.03], &[0; 3]).contains(front));
     assert!(!trade_off(&[1e-17, -2e-17, 3e-17], &[0; 3]).contains(front));
-    // What is not periodic is shown and counted, and on no front.
-    let mixed = trade_off(&[0.01, 0.02, 0.03, f64::NAN], &[1, 3, 0, 4]);
+    // What is undecided is shown and counted, and on no front.
+    let mixed = trade_off(&[0.01, 0.02, 0.03, f64::NAN], &[3, 3, 0, 4]);
     assert!(!mixed.contains(front));
+    // What is chaotic takes part by its means, as in `capsulemap tradeoff`.
+    assert!(trade_off(&[0.01, 0.02, 0.03, f64::NAN], &[1, 3, 0, 4]).contains(front));
     let counted = "1 periodic cases, 2 others as means over their cycles, 1 without values";
     assert!(mixed.contains(counted), "{mixed}");
     let of = vec!["outcome".to_string()];
@@ -39,4 +42,43 @@ fn a_trade_off_has_a_front_for_each_direction_and_none_of_rounding() {
     let said =
         draw(&plane(5, 5), &request, &into(&folder("directions"), &[])).expect_err("no output");
     assert!(said.to_string().contains("`outcome` is no output of a motion"), "{said}");
+}
+
+/// The refined motions of a study are on the front of its figure as soon as their searches are kept, and are counted.
+#[test]
+fn a_trade_off_shows_what_was_found_between_the_cases() {
+    let folder = WorkDir::new();
+    folder.put(
+        "study.toml",
+        "[parameters]\nk2 = \"20 kN/m\"\ndelta = \"3 mm\"\n\
+         [[axes]]\nname = \"p_d\"\nfrom = \"7 N\"\nto = \"8 N\"\npoints = 3\n\
+         [[axes]]\nname = \"omega\"\nfrom = \"50 rad/s\"\nto = \"60 rad/s\"\npoints = 4\n",
+    );
+    folder.run(&["sweep", "study.toml"]).done();
+    let file = "results/study/study.h5";
+    let drawn = || {
+        let figure = ["figure", file, "--kind", "trade-off", "--of", "power", "--formats", "svg"];
+        folder.run(&figure).done();
+        fs::read_to_string(folder.path("results/study/trade-off-power.svg")).expect("a figure")
+    };
+    let alone = drawn();
+    assert!(alone.contains(" 0 periodic motions between the cases"));
+    folder.run(&["tradeoff", file, "--refine"]).done();
+    let kept = fs::read_to_string(folder.path("results/study/study.searches")).expect("searches");
+    let found = kept.matches("\"held_by\"").count();
+    assert!(found > 0);
+    let with_motions = drawn();
+    assert!(with_motions.contains(&format!(" {found} periodic motions between the cases")));
+    // The front of the cases alone is a line of its own now.
+    let lines = |svg: &str| svg.matches("#d55e00").count();
+    assert!(lines(&with_motions) >= lines(&alone) && with_motions != alone);
+    // Of other results they are not shown, and that is said.
+    folder.put(
+        "results/study/study.searches",
+        kept.replacen("fingerprint\":\"", "fingerprint\":\"0", 1),
+    );
+    let figure = ["figure", file, "--kind", "trade-off", "--of", "power", "--formats", "svg"];
+    let said = folder.run(&figure).done().err;
+    assert!(said.contains("searches of another study") && said.contains("not shown"), "{said}");
+    assert!(drawn() == alone);
 }

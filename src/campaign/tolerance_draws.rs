@@ -1,0 +1,98 @@
+//! Motions under tolerances of the parameters: each draw is followed from the orbit to where it settles.
+
+use crate::capsule::{Case, Output, Outputs, State, settle_case};
+use crate::orbit::Outcome;
+use crate::run::on_all_threads;
+use crate::store::takes_part;
+use crate::tradeoff::front;
+
+use super::answer::{Answer, Named};
+use super::error::CampaignError;
+use super::motion_row::Row;
+use super::refined_front::{Refinement, Whereabouts};
+use super::report::{Event, Reports, Stage};
+use super::robustness::{Robustness, Tolerances};
+
+impl Refinement<'_> {
+    /// What tolerances leave of each of some motions, none where it does not repeat; calls `done` after each motion.
+    ///
+    /// # Method
+    ///
+    /// The parameters of every draw are those of the motion times factors that are the same for all motions. The draw starts at
+    /// the section point of the orbit, as a device does that runs while its parameters drift, and is settled like a case; it
+    /// keeps the motion if it settles to the same period. Chaotic and quasi-periodic motions count by their means.
+    ///
+    /// # Breaks
+    ///
+    /// Another attractor of the same period is taken for the same motion.
+    ///
+    /// Fails if the file cannot be read or a case cannot be computed again.
+    pub fn robustness(
+        &self,
+        rows: &[&Row],
+        tolerances: &Tolerances,
+        (threads, done): (Option<usize>, impl Fn() + Sync),
+    ) -> Result<Vec<Option<Robustness>>, CampaignError> {
+        let found = on_all_threads(threads, rows.len(), |number| {
+            let whereabouts = self.whereabouts(rows[number]);
+            let found = whereabouts.map(|it| it.map(|it| self.under(&it, tolerances)));
+            done();
+            found
+        })?;
+        found.into_iter().collect()
+    }
+
+    fn under(&self, motion: &Whereabouts, tolerances: &Tolerances) -> Robustness {
+        let (mut speeds, mut prices, mut kept) = (Vec::new(), Vec::new(), 0);
+        for factors in tolerances.factors() {
+            let mut parameters = motion.parameters.clone();
+            for (parameter, factor) in factors {
+                parameters[parameter] *= factor;
+            }
+            let [r, y1, y2] = motion.section;
+            let start = State { r, y1, x2: 0.0, y2 };
+            let orbit =
+                settle_case(&Case::at_section(parameters, start, motion.phase), &self.protocol());
+            let counts = takes_part(orbit.outcome.name());
+            let outputs = if counts { orbit.outputs } else { Outputs::unknown() };
+            speeds.push(self.direction.of(outputs[Output::ProgressionSpeed]));
+            prices.push(outputs[self.of]);
+            kept +=
+                usize::from(orbit.outcome == Outcome::Periodic && orbit.period == motion.period);
+        }
+        Robustness::of(&speeds, &prices, kept)
+    }
+}
+
+/// Adds what tolerances leave of the optima and the front, and which motions of the front are best then.
+pub(super) fn judge(
+    answer: &mut Answer,
+    refinement: &Refinement<'_>,
+    (tolerances, threads): (&Tolerances, Option<usize>),
+    reports: &Reports<'_>,
+) -> Result<(), CampaignError> {
+    let named = answer.named.iter().filter_map(|it| it.row.as_ref());
+    let rows: Vec<&Row> = named.chain(&answer.front).chain(&answer.top).collect();
+    reports.send(Event::Begun(Stage::Drawing, rows.len()))?;
+    let step = || reports.step(Stage::Drawing);
+    let found = refinement.robustness(&rows, tolerances, (threads, step))?;
+    reports.send(Event::Ended(Stage::Drawing))?;
+    let named = answer.named.iter_mut().filter_map(|it| it.row.as_mut());
+    let rows = named.chain(&mut answer.front).chain(&mut answer.top);
+    rows.zip(found).for_each(|(row, robustness)| row.robustness = robustness);
+    let (mut places, mut prices, mut speeds) = (Vec::new(), Vec::new(), Vec::new());
+    for (place, row) in answer.front.iter().enumerate() {
+        let robustness = row.robustness.filter(|it| it.speed > answer.at_rest.0);
+        if let Some(Robustness { price, speed, .. }) = robustness.filter(|it| it.price.is_finite())
+        {
+            places.push(place);
+            prices.push(price);
+            speeds.push(speed);
+        }
+    }
+    answer.robust_front = front(&prices, &speeds).into_iter().map(|at| places[at]).collect();
+    // The front of rising prices ends with the fastest.
+    let fastest = answer.robust_front.last().map(|&place| answer.front[place].clone());
+    answer.named.push(Named { name: "fastest_under_tolerances", row: fastest });
+    Ok(())
+}

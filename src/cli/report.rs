@@ -1,0 +1,70 @@
+//! `capsulemap report`: a file of results as one page for a browser.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::terminal::print;
+use crate::capsule::Output;
+use crate::explore::{GENERATOR, Request, report};
+use crate::store;
+use crate::study::document::unknown;
+
+const EXAMPLES: &str = "\
+Examples:
+  capsulemap report results/overview/overview.h5
+  capsulemap report FILE.h5 --of work_positive --output for-a-colleague.html
+
+The page has the optima with their motions, the figures of the study, the study, where the results come from and how to
+compute them again. It needs no network and no other file. Motions between the cases are those that `capsulemap tradeoff
+--refine` has found.";
+
+/// Write what a file of results says as one HTML page.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Report {
+    /// The file of results.
+    file: PathBuf,
+    /// The output that should be small: an energy per cycle, `power`, `energy_per_metre` or another.
+    #[arg(long, value_name = "OUTPUT", default_value = Output::Power.name())]
+    of: String,
+    /// The page; beside the file of results, with its name, by default.
+    #[arg(long, value_name = "FILE.html")]
+    output: Option<PathBuf>,
+    /// Replace a file in the place of the page that is no page of this program.
+    #[arg(long)]
+    overwrite: bool,
+}
+
+impl Report {
+    /// Carries the command out.
+    pub fn run(&self) -> Result<(), Failure> {
+        let of = Output::ALL.iter().copied().find(|output| output.name() == self.of);
+        let of = of.ok_or_else(|| {
+            let names = Output::ALL.iter().map(|output| output.name());
+            Failure::request(format!("--of: {}", unknown("output", &self.of, names)))
+        })?;
+        let archive = store::open(&self.file).map_err(Failure::request)?;
+        let page = self.output.clone().unwrap_or_else(|| self.file.with_extension("html"));
+        self.check(&page)?;
+        let html = report(&Request { archive: &archive, file: &self.file, of })?;
+        store::create_folder(store::folder(&page))
+            .and_then(|()| store::put(&page, html.as_bytes()))
+            .map_err(Failure::machine)?;
+        print(&format!("{}\n", page.display()))
+    }
+
+    /// Refuses to replace what this program has not written.
+    fn check(&self, page: &Path) -> Result<(), Failure> {
+        let is_ours = |bytes: &[u8]| String::from_utf8_lossy(bytes).contains(GENERATOR);
+        match std::fs::read(page) {
+            Err(said) if said.kind() == std::io::ErrorKind::NotFound => Ok(()),
+            Ok(bytes) if self.overwrite || is_ours(&bytes) => Ok(()),
+            _ => Err(Failure::request(format!(
+                "{}: is there and is no report; name another --output, or replace it with --overwrite",
+                page.display()
+            ))),
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! The optima of a report: a table, sensitivities, commands that compute them again, and their motions.
+
+use super::html::Page;
+use super::numbers::{number, percent, unit};
+use super::optimum::{Drawings, Undrawn, drawings};
+use super::request::Request;
+use crate::campaign::{Answer, Between, CampaignError, KeptSearches, Named, Row, TradeOff, silent};
+use crate::capsule::{Output, Parameter};
+use crate::study::Study;
+use crate::tradeoff::Direction;
+
+/// Writes the optima in a direction, of the cases and of the motions between them that are known.
+pub fn write_optima(
+    page: &mut Page,
+    (request, study, kept): (&Request<'_>, &Study, &KeptSearches),
+    direction: Direction,
+) -> Result<(), CampaignError> {
+    let Request { archive, file, of } = *request;
+    page.heading(&format!("Moving {}", direction.name()));
+    let trade_off = TradeOff {
+        archive,
+        file,
+        of,
+        direction,
+        conditions: None,
+        at_rest: None,
+        budget: None,
+        speed: None,
+        top: 0,
+        slopes: false,
+        between: Between::Known(kept),
+        under: None,
+    };
+    let answer = match trade_off.answer(&silent) {
+        Err(CampaignError::TradeOff { faults, .. }) => {
+            page.text(&format!("No optima: {}.", faults.join("; ")));
+            return Ok(());
+        }
+        answer => answer?,
+    };
+    if answer.front.is_empty() {
+        page.text("No motion.");
+        return Ok(());
+    }
+    page.text(&front_in_words(&answer));
+    let row = |Named { name, row }: &'_ Named| Some((name.replace('_', " "), row.clone()?));
+    let named: Vec<(String, Row)> = answer.named.iter().filter_map(row).collect();
+    write_table(page, &named, of);
+    write_sensitivities(page, &named, of);
+    let replays: Vec<&str> = named.iter().map(|(_, row)| row.replay.as_str()).collect();
+    page.text("To compute them again:");
+    page.verbatim(&replays.join("\n"));
+    write_motions(page, &named, (study, direction))
+}
+
+/// Draws the motions of the optima.
+fn write_motions(
+    page: &mut Page,
+    named: &[(String, Row)],
+    (study, direction): (&Study, Direction),
+) -> Result<(), CampaignError> {
+    let laws = (study.base.resistance, study.base.switching);
+    for (name, row) in named {
+        match drawings(row, (&study.protocol, laws)) {
+            Ok(Some(Drawings { pictures, cycles })) => {
+                let direction = direction.name();
+                let caption = format!("{name}, {direction}: {cycles} cycles of the drive");
+                page.pictures(&pictures, &caption);
+            }
+            Ok(None) => page.note(&format!("{name}: does not repeat, and is not drawn.")),
+            Err(Undrawn::Figure(error)) => page.note(&format!("{name}: not drawn: {error}")),
+            Err(Undrawn::Run(error)) => return Err(error.into()),
+        }
+    }
+    Ok(())
+}
+
+/// The front, what takes part in it and what does not.
+fn front_in_words(answer: &Answer) -> String {
+    let between = answer.front.iter().filter(|row| row.case.is_none()).count();
+    let left_out: Vec<String> =
+        answer.left_out.iter().map(|(why, count)| format!("{count} {why}")).collect();
+    let left_out = if left_out.is_empty() {
+        String::new()
+    } else {
+        format!(" Cases left out: {}.", left_out.join(", "))
+    };
+    format!(
+        "The Pareto front of progression speed and {} has {} motions, {between} of them between the cases.{left_out} \
+         Motions of no more than {:.1e} m/s count as at rest.",
+        answer.of.name(),
+        answer.front.len(),
+        answer.at_rest.0
+    )
+}
+
+/// The optima side by side: what they give, what holds them, and where they are.
+fn write_table(page: &mut Page, named: &[(String, Row)], of: Output) {
+    let Some((_, first)) = named.first() else { return };
+    let mut rows = vec![
+        line("progression speed [m/s]", named, |row| number(row.speed)),
+        line(&format!("{} [{}]", of.name(), of.unit()), named, |row| number(row.price)),
+    ];
+    if of != Output::EnergyPerMetre {
+        rows.push(line("energy per metre [J/m]", named, |row| number(row.energy_per_metre)));
+    }
+    rows.push(line("motion", named, |row| match row.period {
+        Some(period) => format!("period {period}"),
+        None => format!("{}, by its mean", row.outcome),
+    }));
+    for (place, (coordinate, _, varies)) in first.coordinates.iter().enumerate() {
+        let label = format!("{} [{}]", coordinate.name(), unit(*coordinate));
+        let value = |row: &Row| row.coordinates.get(place).map_or(String::new(), |it| number(it.1));
+        rows.extend(varies.then(|| line(&label, named, value)));
+    }
+    rows.push(line("case", named, |row| {
+        row.case.map_or("between cases".to_owned(), |it| it.to_string())
+    }));
+    rows.push(line("held by", named, |row| row.slopes.held_by.join(", ")));
+    rows.push(line("relative slope left", named, |row| {
+        row.slopes.stationarity.map_or(String::new(), |it| format!("{it:.1e}"))
+    }));
+    let names = named.iter().map(|(name, _)| name.clone());
+    let headings: Vec<String> = [String::new()].into_iter().chain(names).collect();
+    page.table(&headings, &rows);
+}
+
+/// By how many percent speed and price of the motions between the cases change per percent of each parameter.
+fn write_sensitivities(page: &mut Page, named: &[(String, Row)], of: Output) {
+    let known: Vec<&(String, Row)> =
+        named.iter().filter(|(_, row)| !row.slopes.sensitivity.is_empty()).collect();
+    let Some((_, first)) = known.first() else { return };
+    let outputs = ["speed", of.name()];
+    let columns = known.iter().flat_map(|(name, _)| outputs.map(|it| format!("{it}, {name}")));
+    let row = |(parameter, _): &(Parameter, [f64; 2])| -> Vec<String> {
+        let of_row = |(_, row): &&(String, Row)| {
+            let known = row.slopes.sensitivity.iter().find(|(other, _)| other == parameter);
+            known.map_or([f64::NAN; 2], |(_, both)| *both).map(percent)
+        };
+        let cells = known.iter().flat_map(of_row);
+        [parameter.symbol().to_owned()].into_iter().chain(cells).collect()
+    };
+    let rows: Vec<Vec<String>> = first.slopes.sensitivity.iter().map(row).collect();
+    page.text(
+        "Change in percent per percent of each parameter. At a kink the change is another on its other side; that told is of the \
+         sequence of events of the motion:",
+    );
+    let headings: Vec<String> = [String::new()].into_iter().chain(columns).collect();
+    page.table(&headings, &rows);
+}
+
+/// A line of a table: its name, and a cell for each optimum.
+fn line(name: &str, named: &[(String, Row)], cell: impl Fn(&Row) -> String) -> Vec<String> {
+    let cells = named.iter().map(|(_, row)| cell(row));
+    [name.to_owned()].into_iter().chain(cells).collect()
+}

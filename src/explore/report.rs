@@ -1,0 +1,155 @@
+//! The report of a file of results: one page with its optima, its figures, its study, and how to compute it again.
+
+use super::html::Page;
+use super::numbers::{number, unit};
+use super::optima::write_optima;
+use super::request::Request;
+use crate::campaign::{CampaignError, KeptSearches, study_of};
+use crate::capsule::Parameter;
+use crate::figure::{FigureError, Picture, Shown, picture, variables};
+use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
+use crate::store::{CaseTable, provenance};
+use crate::study::{Coordinate, Drawing, DrawingKind, Study};
+use crate::tradeoff::Direction;
+
+/// The directions whose optima are told.
+const DIRECTIONS: [Direction; 2] = [Direction::Forward, Direction::Backward];
+/// The paper whose system it is.
+const PAPER: &str = "Y. Liu, H. Jiang, E. Pavlovskaia, M. Wiercigroch: Experimental investigation of the vibro-impact \
+     capsule system. Procedia IUTAM (2017).";
+
+/// The report as one HTML page that needs nothing else: the same bytes for the same file, searches and request.
+///
+/// The optima are of the cases and of the motions between them that [`KeptSearches`] has; none is sought here. What cannot be
+/// told or drawn is named with the reason.
+///
+/// Fails if the file cannot be read or a motion cannot be computed again.
+pub fn report(request: &Request<'_>) -> Result<String, CampaignError> {
+    let Request { archive, file, .. } = *request;
+    let study = study_of(archive, file)?;
+    let kept = KeptSearches::read(archive, &study)?;
+    let mut page = Page::default();
+    let report = Report { request, study: &study, kept: &kept };
+    report.write_figures(&mut page)?;
+    page.part("Optima");
+    for direction in DIRECTIONS {
+        write_optima(&mut page, (request, &study, &kept), direction)?;
+    }
+    report.write_head(&mut page)?;
+    report.write_study(&mut page);
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    Ok(page.finish(if study.title.is_empty() { &stem } else { &study.title }))
+}
+
+struct Report<'a> {
+    request: &'a Request<'a>,
+    study: &'a Study,
+    kept: &'a KeptSearches,
+}
+
+impl Report<'_> {
+    /// What the file holds.
+    fn write_head(&self, page: &mut Page) -> Result<(), CampaignError> {
+        let Request { archive, file, .. } = self.request;
+        page.part("Cases");
+        let Some(table) = CaseTable::of(archive)? else {
+            page.text(&format!("{} holds no cases of a sweep.", file.display()));
+            return Ok(());
+        };
+        page.text(&format!("{} holds {} cases.", file.display(), table.cases()));
+        if let Some(outcomes) = table.column(OUTCOME.name)? {
+            let count = |code: i64| outcomes.values.iter().filter(|it| **it == code as f64).count();
+            let rows = outcomes.flags.iter().map(|(code, name)| (name.clone(), count(*code)));
+            let rows: Vec<Vec<String>> = rows
+                .filter(|(_, count)| *count > 0)
+                .map(|(name, count)| vec![name, count.to_string()])
+                .collect();
+            page.table(&["outcome", "cases"].map(str::to_owned), &rows);
+        }
+        let ends = |coordinate: Coordinate| {
+            let [low, high] = self.study.case_set.ends(coordinate)?;
+            let unit = unit(coordinate);
+            let ends = [low, high].map(number).to_vec();
+            Some([vec![coordinate.name().to_owned()], ends, vec![unit.to_owned()]].concat())
+        };
+        let varied = self.study.case_set.varied();
+        let rows: Vec<Vec<String>> = varied.iter().filter_map(|it| ends(*it)).collect();
+        page.heading("What varies");
+        page.table(&["", "from", "to", "unit"].map(str::to_owned), &rows);
+        let held =
+            Parameter::ALL.iter().filter(|it| !varied.contains(&Coordinate::Parameter(**it)));
+        let row = |it: &Parameter| {
+            let coordinate = Coordinate::Parameter(*it);
+            vec![it.symbol().to_owned(), number(self.study.base[*it]), unit(coordinate).to_owned()]
+        };
+        page.heading("What is held");
+        page.table(&["", "value", "unit"].map(str::to_owned), &held.map(row).collect::<Vec<_>>());
+        let base = &self.study.base;
+        page.note(&format!(
+            "Resistance: {}. Switching between stick and slip: {}. Relative local error of a step: {:e}.",
+            base.resistance.name(),
+            base.switching.name(),
+            self.study.protocol.tolerance
+        ));
+        Ok(())
+    }
+
+    /// The figures of the study.
+    fn write_figures(&self, page: &mut Page) -> Result<(), CampaignError> {
+        page.part("Figures");
+        if self.study.drawings.is_empty() {
+            page.text("The study asks for none.");
+        }
+        for drawing in &self.study.drawings {
+            match self.drawn(drawing)? {
+                Ok(drawn) => {
+                    let notes: String = drawn.notes.iter().map(|it| format!("; {it}")).collect();
+                    let caption = format!("{}: {}{notes}", drawing.name, drawn.about);
+                    page.pictures(&[drawn], &caption);
+                }
+                Err(error) => page.note(&format!("{}: not drawn: {error}", drawing.name)),
+            }
+        }
+        Ok(())
+    }
+
+    fn drawn(&self, drawing: &Drawing) -> Result<Result<Picture, FigureError>, CampaignError> {
+        let shown = variables(drawing);
+        let dataset = self.request.archive.labelled(|name| shown.contains(name))?;
+        let shows_between = drawing.kind == DrawingKind::TradeOff;
+        let refined = if shows_between { self.kept.motions() } else { Vec::new() };
+        Ok(picture(Shown { dataset: &dataset, refined: &refined }, drawing))
+    }
+
+    /// The study, where the results come from, and how to cite and to repeat them.
+    fn write_study(&self, page: &mut Page) {
+        let Request { archive, file, .. } = self.request;
+        let frame = archive.frame();
+        page.part("Study");
+        page.verbatim(frame.texts.get(STUDY_TEXT).map_or("", String::as_str));
+        page.part("To compute it again");
+        let shown = file.display();
+        let mut commands = vec![
+            format!("capsulemap inspect {shown} --study > study.toml"),
+            "capsulemap sweep study.toml --output again.h5".to_owned(),
+        ];
+        commands.extend(self.kept.refinements().into_iter().map(|(direction, of)| {
+            format!("capsulemap tradeoff again.h5 --of {of} --direction {direction} --refine")
+        }));
+        commands.push(format!("capsulemap report again.h5 --of {}", self.request.of.name()));
+        page.verbatim(&commands.join("\n"));
+        if !self.kept.is_empty() {
+            page.note(&format!(
+                "{} motions between the cases are known, from {} searches.",
+                self.kept.motions().len(),
+                self.kept.len()
+            ));
+        }
+        page.part("Where it comes from");
+        let rows = frame.attributes.iter().map(|(key, value)| vec![key.clone(), value.clone()]);
+        page.table(&["", ""].map(str::to_owned), &rows.collect::<Vec<_>>());
+        page.part("To cite it");
+        page.text(&format!("{}.", provenance::program(&frame.attributes)));
+        page.text(PAPER);
+    }
+}

@@ -1,0 +1,155 @@
+//! The motions that a trade-off shows: those of the cases, those found between them, and the best in each direction.
+
+use super::error::FigureError;
+use super::outcome::Outcomes;
+use super::view::View;
+use crate::campaign::RefinedMotion;
+use crate::capsule::Output;
+use crate::store::catalogue::DRAW;
+use crate::store::takes_part;
+use crate::study::Coordinate;
+use crate::tradeoff::{Candidate, Direction, Optima, optima, speed_at_rest};
+
+/// The motions of a figure.
+pub struct Motions<'a> {
+    /// The cases that have both outputs, each with its place over the free axes, and then the refined motions, numbered after all
+    /// cases (SI).
+    all: Vec<Candidate>,
+    /// How many of them are cases.
+    of_cases: usize,
+    /// Number of cases, with or without outputs.
+    count: usize,
+    /// The outcome of each case.
+    outcomes: Outcomes<'a>,
+    refined: &'a [RefinedMotion],
+    /// How many cases have no outputs.
+    pub left_out: usize,
+    /// The speed up to which a motion is at rest [m/s].
+    pub at_rest: f64,
+}
+
+/// The best of the motions in a direction.
+pub struct Best {
+    /// The direction.
+    pub direction: Direction,
+    /// The best of all motions, by their places.
+    pub of_all: Optima,
+    /// The front of the cases alone, as prices and speeds (SI).
+    pub front_of_cases: Vec<(f64, f64)>,
+    /// The front of all motions, as prices and speeds (SI).
+    pub front: Vec<(f64, f64)>,
+}
+
+impl<'a> Motions<'a> {
+    /// The motions of a view over the axes `free`, with the output `price`; those between the cases only where no axis is held, as
+    /// they may lie anywhere along it.
+    pub fn of(view: &View<'a>, price: &str, free: &[&str]) -> Result<Motions<'a>, FigureError> {
+        let Some(output) = Output::ALL.iter().copied().find(|output| output.name() == price) else {
+            return Err(view.unfit(format!("`{price}` is no output of a motion")));
+        };
+        let (prices, speeds) =
+            (view.take(price, free)?, view.take(Output::ProgressionSpeed.name(), free)?);
+        if prices.len() != speeds.len() {
+            return Err(view.unfit(format!("`{price}` does not have one value per case")));
+        }
+        let metres = energies_per_metre(view, output, free)?;
+        let candidate = |(case, (price, speed)): (usize, (&f64, &f64))| Candidate {
+            case,
+            speed: *speed,
+            price: *price,
+            energy_per_metre: metres.get(case).copied().unwrap_or(price / speed.abs()),
+        };
+        let count = speeds.len();
+        let all = prices.iter().zip(&speeds).enumerate().map(candidate);
+        let mut all: Vec<Candidate> =
+            all.filter(|it| it.price.is_finite() && it.speed.is_finite()).collect();
+        let of_cases = all.len();
+        let at_rest = speed_at_rest(all.iter().map(|it| it.speed));
+        let refined = if free.len() == view.axes().len() { view.refined } else { &[] };
+        all.extend(refined.iter().enumerate().map(|(place, motion)| Candidate {
+            case: count + place,
+            speed: motion.outputs[Output::ProgressionSpeed],
+            price: motion.outputs[output],
+            energy_per_metre: motion.outputs[Output::EnergyPerMetre],
+        }));
+        let outcomes = Outcomes::over(view, free)?;
+        let left_out = count - of_cases;
+        Ok(Motions { all, of_cases, count, outcomes, refined, left_out, at_rest })
+    }
+
+    /// The cases that have both outputs.
+    pub fn cases(&self) -> &[Candidate] {
+        &self.all[..self.of_cases]
+    }
+
+    /// The number of motions between the cases.
+    pub fn between(&self) -> usize {
+        self.refined.len()
+    }
+
+    /// The motion between the cases that a candidate is, if it is one.
+    pub fn refined(&self, candidate: &Candidate) -> Option<&'a RefinedMotion> {
+        candidate.case.checked_sub(self.count).map(|place| &self.refined[place])
+    }
+
+    /// The motion at a place among all.
+    pub fn at(&self, place: usize) -> &Candidate {
+        &self.all[place]
+    }
+
+    /// Whether a motion is periodic, or nothing else is known of it.
+    pub fn is_periodic(&self, motion: &Candidate) -> bool {
+        motion.case >= self.count || self.outcomes.periodic(motion.case)
+    }
+
+    /// How many cases are shown that are not periodic.
+    pub fn aperiodic(&self) -> usize {
+        self.cases().iter().filter(|it| !self.is_periodic(it)).count()
+    }
+
+    /// The best in a direction; cases that are undecided or failed are not among them.
+    pub fn best(&self, direction: Direction) -> Best {
+        let counts = |it: &Candidate| {
+            let outcome = if it.case < self.count { self.outcomes.name(it.case) } else { None };
+            outcome.is_none_or(takes_part)
+        };
+        // What does not count is nowhere, so that places stay.
+        let nowhere =
+            |it: &Candidate| if counts(it) { *it } else { Candidate { speed: f64::NAN, ..*it } };
+        let all: Vec<Candidate> = self.all.iter().map(nowhere).collect();
+        let best = |motions: &[Candidate]| {
+            let optima = optima(motions, direction, Some(self.at_rest));
+            let point = |&at: &usize| (motions[at].price, motions[at].speed);
+            (optima.front.iter().map(point).collect(), optima)
+        };
+        let (front, of_all) = best(&all);
+        let (front_of_cases, _) = best(&all[..self.of_cases]);
+        Best { direction, of_all, front_of_cases, front }
+    }
+}
+
+/// The energy per metre of each case (SI), where the results have it and it is not the price over the speed.
+fn energies_per_metre(
+    view: &View<'_>,
+    price: Output,
+    free: &[&str],
+) -> Result<Vec<f64>, FigureError> {
+    let name = Output::EnergyPerMetre.name();
+    if view.dataset.variable(name).is_some() {
+        return Ok(view.take(name, free)?.into_iter().collect());
+    }
+    match price {
+        Output::Power => Ok(Vec::new()),
+        _ => Ok(vec![f64::NAN; view.take(price.name(), free)?.len()]),
+    }
+}
+
+/// The coordinates that vary among the cases over the axes `free`.
+pub fn coordinates(view: &View<'_>, free: &[&str]) -> Vec<Coordinate> {
+    let is_long = |name: &str| free.contains(&name) && view.coordinate_values(name).len() > 1;
+    let is_drawn = |name: &str| {
+        let over = view.dataset.variable(name).map(|it| &it.dimensions[..]);
+        free.contains(&DRAW.name) && over.is_some_and(|it| it == [DRAW.name])
+    };
+    Coordinate::all().filter(|it| is_long(it.name()) || is_drawn(it.name())).collect()
+}

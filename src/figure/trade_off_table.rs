@@ -1,0 +1,117 @@
+//! The optima of a trade-off: what marks them, and a table of their speeds, prices and parameters.
+
+use super::error::FigureError;
+use super::header::Mark;
+use super::optima_table::{Row, Table};
+use super::quantity::Quantity;
+use super::symbol::{FASTEST, KNEE, LEAST, Symbol};
+use super::text::Text;
+use super::trade_off_motions::{Best, Motions, coordinates};
+use super::view::View;
+use crate::campaign::RefinedMotion;
+use crate::capsule::Output;
+use crate::store::catalogue::DIRECTION;
+use crate::study::Coordinate;
+use crate::tradeoff::Candidate;
+
+/// Follows the name of an optimum that is no case.
+pub const BETWEEN: &str = "\u{2217}";
+/// Follows the name of an optimum whose search has not converged.
+pub const OPEN: &str = "\u{2020}";
+
+/// The text of a cell for a motion, which may lie between the cases.
+type Cell<'v> = Box<dyn Fn(&Candidate, Option<&RefinedMotion>) -> Text + 'v>;
+
+/// A column of the table.
+struct Column<'v> {
+    /// What it holds, and the unit.
+    heading: [Text; 2],
+    cell: Cell<'v>,
+}
+
+/// The optima in a direction with what marks them, those that matter least first.
+pub fn marked<'m>(motions: &'m Motions<'_>, best: &Best) -> Vec<(Symbol, &'m Candidate)> {
+    let of_all = &best.of_all;
+    let each =
+        [(LEAST, of_all.lowest_cost_of_transport), (KNEE, of_all.knee), (FASTEST, of_all.fastest)];
+    let found = each.into_iter().filter_map(|(symbol, place)| Some((symbol, place?)));
+    found.map(|(symbol, place)| (symbol, motions.at(place))).collect()
+}
+
+/// The optima in each direction with their speeds, their prices by the output `price`, and what varies over the axes `free`.
+pub fn table(
+    (view, free): (&View<'_>, &[&str]),
+    price: &str,
+    (motions, best): (&Motions<'_>, &[Best]),
+) -> Result<Table, FigureError> {
+    let columns = columns(view, price, free)?;
+    let mut table = Table::default();
+    for best in best {
+        for (symbol, motion) in marked(motions, best).into_iter().rev() {
+            let refined = motions.refined(motion);
+            let cells = columns.iter().map(|column| (column.cell)(motion, refined)).collect();
+            let name = Text::plain(&name(symbol, motions, (best, motion)));
+            table.rows.push(Row { mark: Mark::Symbol(symbol), name, cells });
+        }
+    }
+    table.headings = columns.into_iter().map(|column| column.heading).collect();
+    Ok(table)
+}
+
+fn name(symbol: Symbol, motions: &Motions<'_>, (best, motion): (&Best, &Candidate)) -> String {
+    let refined = motions.refined(motion);
+    let mean = if motions.is_periodic(motion) { "" } else { ", mean" };
+    let between = if refined.is_some() { BETWEEN } else { "" };
+    let open = if refined.is_some_and(RefinedMotion::is_open) { OPEN } else { "" };
+    format!("{}, {}{mean}{between}{open}", symbol.words, best.direction.name())
+}
+
+fn columns<'v>(
+    view: &'v View<'_>,
+    price: &str,
+    free: &'v [&'v str],
+) -> Result<Vec<Column<'v>>, FigureError> {
+    let speed = view.quantity(Output::ProgressionSpeed.name());
+    let price = view.quantity(price);
+    let mut columns = vec![
+        output(Text::plain("Speed"), speed, |motion| motion.speed),
+        output(price.short_name(), price, |motion| motion.price),
+    ];
+    for coordinate in coordinates(view, free) {
+        let of_case = view.parameter(coordinate.name(), free)?.into_iter().collect();
+        columns.push(parameter(view.quantity(coordinate.name()), coordinate, of_case));
+    }
+    columns.extend(free.contains(&DIRECTION.name).then(|| sweep(view, free)));
+    Ok(columns)
+}
+
+/// The column of an output.
+fn output<'v>(name: Text, quantity: Quantity, of: fn(&Candidate) -> f64) -> Column<'v> {
+    let heading = [name, quantity.unit()];
+    Column { heading, cell: Box::new(move |motion, _| quantity.rounded(of(motion))) }
+}
+
+/// The column of a coordinate that has these values at the cases.
+fn parameter<'v>(quantity: Quantity, coordinate: Coordinate, of_case: Vec<f64>) -> Column<'v> {
+    let heading = [quantity.short_name(), quantity.unit()];
+    let value = move |motion: &Candidate, refined: Option<&RefinedMotion>| match refined {
+        Some(refined) => refined.coordinate(coordinate),
+        None => of_case[motion.case],
+    };
+    let cell = move |motion: &Candidate, refined: Option<&RefinedMotion>| {
+        quantity.rounded(value(motion, refined))
+    };
+    Column { heading, cell: Box::new(cell) }
+}
+
+/// The column of the direction in which the starts of cases were inherited, which motions between them have none of.
+fn sweep<'v>(view: &'v View<'_>, free: &'v [&'v str]) -> Column<'v> {
+    let cell = |motion: &Candidate, refined: Option<&RefinedMotion>| match refined {
+        Some(_) => Text::default(),
+        None => {
+            let place = view.place_along(DIRECTION.name, free, motion.case);
+            view.value_note(DIRECTION.name, place)
+        }
+    };
+    Column { heading: [Text::default(), Text::plain("sweep")], cell: Box::new(cell) }
+}
