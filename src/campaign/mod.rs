@@ -38,7 +38,7 @@ pub use error::{CampaignError, Cause};
 pub use kept::Kept;
 pub use kept_searches::{KeptSearches, searches_path};
 pub use memory::{Memory, memory};
-pub use motion_row::Row;
+pub use motion_row::{Row, quoted};
 pub use probe::{Probe, probe};
 pub use refined_front::{Refinement, Search};
 pub use refined_motion::{RefinedMotion, Slopes};

@@ -166,7 +166,7 @@ fn replay(motion: &RefinedMotion, protocol: &Protocol) -> String {
 }
 
 /// A file as a shell takes it for one word.
-fn quoted(file: &str) -> String {
+pub fn quoted(file: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=:,".contains(c);
     match file.chars().all(is_plain) && !file.is_empty() {
         true => file.to_owned(),

@@ -4,7 +4,7 @@ use super::html::Page;
 use super::numbers::{number, unit};
 use super::optima::write_optima;
 use super::request::Request;
-use crate::campaign::{CampaignError, KeptSearches, study_of};
+use crate::campaign::{CampaignError, KeptSearches, quoted, study_of};
 use crate::capsule::Parameter;
 use crate::figure::{FigureError, Picture, Shown, picture, variables};
 use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
@@ -27,15 +27,22 @@ const PAPER: &str = "Y. Liu, H. Jiang, E. Pavlovskaia, M. Wiercigroch: Experimen
 pub fn report(request: &Request<'_>) -> Result<String, CampaignError> {
     let Request { archive, file, .. } = *request;
     let study = study_of(archive, file)?;
-    let kept = KeptSearches::read(archive, &study)?;
     let mut page = Page::default();
+    let kept = match KeptSearches::read(archive, &study) {
+        Err(error @ CampaignError::OtherSearches { .. }) => {
+            page.note(&format!("Motions between the cases are not shown: {error}."));
+            KeptSearches::default()
+        }
+        kept => kept?,
+    };
     let report = Report { request, study: &study, kept: &kept };
     report.write_figures(&mut page)?;
     page.part("Optima");
     for direction in DIRECTIONS {
         write_optima(&mut page, (request, &study, &kept), direction)?;
     }
-    report.write_head(&mut page)?;
+    report.write_cases(&mut page)?;
+    report.write_parameters(&mut page);
     report.write_study(&mut page);
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     Ok(page.finish(if study.title.is_empty() { &stem } else { &study.title }))
@@ -49,7 +56,7 @@ struct Report<'a> {
 
 impl Report<'_> {
     /// What the file holds.
-    fn write_head(&self, page: &mut Page) -> Result<(), CampaignError> {
+    fn write_cases(&self, page: &mut Page) -> Result<(), CampaignError> {
         let Request { archive, file, .. } = self.request;
         page.part("Cases");
         let Some(table) = CaseTable::of(archive)? else {
@@ -59,31 +66,32 @@ impl Report<'_> {
         page.text(&format!("{} holds {} cases.", file.display(), table.cases()));
         if let Some(outcomes) = table.column(OUTCOME.name)? {
             let count = |code: i64| outcomes.values.iter().filter(|it| **it == code as f64).count();
-            let rows = outcomes.flags.iter().map(|(code, name)| (name.clone(), count(*code)));
-            let rows: Vec<Vec<String>> = rows
-                .filter(|(_, count)| *count > 0)
-                .map(|(name, count)| vec![name, count.to_string()])
-                .collect();
+            let counts = outcomes.flags.iter().map(|(code, name)| (name.clone(), count(*code)));
+            let present = counts.filter(|(_, count)| *count > 0);
+            let rows: Vec<_> = present.map(|(name, count)| vec![name, count.to_string()]).collect();
             page.table(&["outcome", "cases"].map(str::to_owned), &rows);
         }
-        let ends = |coordinate: Coordinate| {
-            let [low, high] = self.study.case_set.ends(coordinate)?;
-            let unit = unit(coordinate);
-            let ends = [low, high].map(number).to_vec();
-            Some([vec![coordinate.name().to_owned()], ends, vec![unit.to_owned()]].concat())
-        };
+        Ok(())
+    }
+
+    /// What varies among the cases, and what is held.
+    fn write_parameters(&self, page: &mut Page) {
         let varied = self.study.case_set.varied();
-        let rows: Vec<Vec<String>> = varied.iter().filter_map(|it| ends(*it)).collect();
+        let ends = |coordinate: &Coordinate| {
+            let [low, high] = self.study.case_set.ends(*coordinate)?.map(number);
+            Some(vec![coordinate.name().to_owned(), low, high, unit(*coordinate).to_owned()])
+        };
         page.heading("What varies");
+        let rows: Vec<_> = varied.iter().filter_map(ends).collect();
         page.table(&["", "from", "to", "unit"].map(str::to_owned), &rows);
-        let held =
-            Parameter::ALL.iter().filter(|it| !varied.contains(&Coordinate::Parameter(**it)));
+        let is_held = |it: &&Parameter| !varied.contains(&Coordinate::Parameter(**it));
         let row = |it: &Parameter| {
-            let coordinate = Coordinate::Parameter(*it);
-            vec![it.symbol().to_owned(), number(self.study.base[*it]), unit(coordinate).to_owned()]
+            let unit = unit(Coordinate::Parameter(*it)).to_owned();
+            vec![it.symbol().to_owned(), number(self.study.base[*it]), unit]
         };
         page.heading("What is held");
-        page.table(&["", "value", "unit"].map(str::to_owned), &held.map(row).collect::<Vec<_>>());
+        let rows: Vec<_> = Parameter::ALL.iter().filter(is_held).map(row).collect();
+        page.table(&["", "value", "unit"].map(str::to_owned), &rows);
         let base = &self.study.base;
         page.note(&format!(
             "Resistance: {}. Switching between stick and slip: {}. Relative local error of a step: {:e}.",
@@ -91,7 +99,6 @@ impl Report<'_> {
             base.switching.name(),
             self.study.protocol.tolerance
         ));
-        Ok(())
     }
 
     /// The figures of the study.
@@ -128,9 +135,9 @@ impl Report<'_> {
         page.part("Study");
         page.verbatim(frame.texts.get(STUDY_TEXT).map_or("", String::as_str));
         page.part("To compute it again");
-        let shown = file.display();
+        let file = quoted(&file.display().to_string());
         let mut commands = vec![
-            format!("capsulemap inspect {shown} --study > study.toml"),
+            format!("capsulemap inspect {file} --study > study.toml"),
             "capsulemap sweep study.toml --output again.h5".to_owned(),
         ];
         commands.extend(self.kept.refinements().into_iter().map(|(direction, of)| {

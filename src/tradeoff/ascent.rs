@@ -31,6 +31,8 @@ const GAIN: f64 = 1e-4;
 const AT_EDGE: f64 = 1e-4;
 /// A surface this near holds an orbit, in shares of the ranges.
 const TOUCHES: f64 = 1e-9;
+/// A share this near to a bound is on it: bringing an orbit back to its budget may move it off by rounding.
+const ON_BOUND: f64 = 1e-13;
 /// Steps end so far before a surface, where rounding does not yet mix the derivatives of its two sides.
 const CLEAR: f64 = 1e-10;
 
@@ -356,10 +358,9 @@ fn within_budget(there: &Measured, shares: &Vector) -> Option<Vector> {
 
 /// A share of a range; what rounding leaves before a bound is on it.
 fn on_bound(share: f64) -> f64 {
-    let near = 4.0 * f64::EPSILON;
-    if share < near {
+    if share < ON_BOUND {
         0.0
-    } else if share > 1.0 - near {
+    } else if share > 1.0 - ON_BOUND {
         1.0
     } else {
         share

@@ -36,6 +36,7 @@ mod examples;
 mod exponents;
 mod far_starts;
 mod figure;
+mod folds_of_fronts;
 mod forms;
 mod full_disk;
 mod hostile_files;

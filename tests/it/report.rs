@@ -76,6 +76,16 @@ fn a_report_needs_nothing_else_and_its_optima_can_be_computed_again() {
 }
 
 #[test]
+fn motions_of_other_searches_are_not_shown_and_that_is_said() {
+    let folder = swept();
+    let alone = page(&folder);
+    folder.put("results/study/study.searches", "anything\n");
+    let html = page(&folder);
+    let said = "Motions between the cases are not shown: results/study/study.searches: holds something else";
+    assert!(html.contains(said) && !alone.contains("are not shown"), "{html}");
+}
+
+#[test]
 fn a_report_says_what_it_cannot_tell_and_replaces_no_page_of_others() {
     let folder = swept();
     let by_loss = ["report", FILE, "--of", "lyapunov_exponent", "--output", "loss.html"];
