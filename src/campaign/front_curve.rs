@@ -69,12 +69,12 @@ impl Refinement<'_> {
         let values: Vec<f64> = Parameter::ALL.iter().map(|it| from.parameters[*it]).collect();
         json!({
             "from": from.from,
-            "direction": self.direction.name(),
+            "moving": self.direction.name(),
             "of": self.of.name(),
             "parameters": values,
-            "phase": from.phase,
-            "section": from.section,
-            "period": from.period,
+            "at": from.phase,
+            "point": from.section,
+            "cycles_of_period": from.period,
             "prices": prices,
         })
     }

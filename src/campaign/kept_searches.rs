@@ -86,7 +86,7 @@ impl KeptSearches {
     pub fn refinements(&self) -> BTreeSet<(String, String)> {
         let read = |what: &String| -> Option<(String, String)> {
             let what: Value = serde_json::from_str(what).ok()?;
-            Some((what["direction"].as_str()?.to_owned(), what["of"].as_str()?.to_owned()))
+            Some((what["moving"].as_str()?.to_owned(), what["of"].as_str()?.to_owned()))
         };
         self.known.keys().filter_map(read).collect()
     }

@@ -160,7 +160,7 @@ impl Refinement<'_> {
         match goal {
             Goal::Speed { direction, budget } => {
                 let most = budget.map(|(_, most)| most);
-                json!({ "from": from, "direction": direction.name(), "of": of, "most": most })
+                json!({ "from": from, "moving": direction.name(), "of": of, "most": most })
             }
             Goal::Least(output) => json!({ "from": from, "least": output.name(), "of": of }),
         }

@@ -69,7 +69,7 @@ impl Report<'_> {
             let counts = outcomes.flags.iter().map(|(code, name)| (name.clone(), count(*code)));
             let present = counts.filter(|(_, count)| *count > 0);
             let rows: Vec<_> = present.map(|(name, count)| vec![name, count.to_string()]).collect();
-            page.table(&["outcome", "cases"].map(str::to_owned), &rows);
+            page.table(&[OUTCOME.name, "cases"].map(str::to_owned), &rows);
         }
         Ok(())
     }
