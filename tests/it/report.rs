@@ -99,9 +99,9 @@ fn a_report_says_what_it_cannot_tell_and_replaces_no_page_of_others() {
     // A file of branches alone.
     folder.put(
         "branches.toml",
-        "[parameters]\nk2 = \"20 kN/m\"\ndelta = \"1 mm\"\np_d = \"2 N\"\nomega = \"40 rad/s\"\n\
+        "[parameters]\nk2 = \"20 kN/m\"\ndelta = \"1 mm\"\np_d = \"2 N\"\n\
          [[axes]]\nname = \"omega\"\nfrom = \"39 rad/s\"\nto = \"41 rad/s\"\npoints = 3\n\
-         [[branches]]\nname = \"one\"\nalong = \"omega\"\n\
+         [[branches]]\nname = \"one\"\nalong = \"omega\"\nat = { omega = \"40 rad/s\" }\n\
          [[figures]]\nname = \"diagram\"\nkind = \"bifurcation\"\n",
     );
     folder.run(&["continue", "branches.toml", "--no-figures"]).done();
