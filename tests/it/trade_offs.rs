@@ -66,9 +66,11 @@ fn a_trade_off_shows_what_was_found_between_the_cases() {
     folder.run(&["tradeoff", file, "--refine"]).done();
     let kept = fs::read_to_string(folder.path("results/study/study.searches")).expect("searches");
     let found = kept.matches("\"held_by\"").count();
-    assert!(found > 0);
     let with_motions = drawn();
-    assert!(with_motions.contains(&format!(" {found} periodic motions between the cases")));
+    let said = with_motions.split(" periodic motions between the cases").next().expect("a part");
+    let shown: usize = said.rsplit(' ').next().and_then(|it| it.parse().ok()).expect("a number");
+    // Several searches lead to one motion.
+    assert!((1..=found).contains(&shown), "{shown} of {found}");
     // The front of the cases alone is a line of its own now.
     let lines = |svg: &str| svg.matches("#d55e00").count();
     assert!(lines(&with_motions) >= lines(&alone) && with_motions != alone);
