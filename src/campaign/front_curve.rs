@@ -73,7 +73,7 @@ impl Refinement<'_> {
             "of": self.of.name(),
             "parameters": values,
             "at": from.phase,
-            "point": from.section,
+            "begins_at": from.section,
             "cycles_of_period": from.period,
             "prices": prices,
         })
