@@ -2,7 +2,7 @@
 
 use crate::capsule::{Output, Outputs, Parameter, Parameters, Section};
 use crate::study::Coordinate;
-use crate::tradeoff::{Hold, Side};
+use crate::tradeoff::{Candidate, Hold, Side};
 
 /// Said of a motion whose search has not converged.
 const NOT_CONVERGED: &str = "not converged";
@@ -27,6 +27,16 @@ pub struct RefinedMotion {
 }
 
 impl RefinedMotion {
+    /// The motion as one that takes part in a trade-off, under this number and with this output as its price.
+    pub fn candidate(&self, case: usize, of: Output) -> Candidate {
+        Candidate {
+            case,
+            speed: self.outputs[Output::ProgressionSpeed],
+            price: self.outputs[of],
+            energy_per_metre: self.outputs[Output::EnergyPerMetre],
+        }
+    }
+
     /// Whether the search has not converged, so that a better motion may lie beside it.
     pub fn is_open(&self) -> bool {
         self.slopes.held_by.iter().any(|hold| hold == NOT_CONVERGED)

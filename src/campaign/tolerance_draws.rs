@@ -1,6 +1,6 @@
 //! Motions under tolerances of the parameters: each draw is followed from the orbit to where it settles.
 
-use crate::capsule::{Case, Output, Outputs, State, settle_case};
+use crate::capsule::{Case, Output, Outputs, Parameter, State, settle_case};
 use crate::orbit::Outcome;
 use crate::run::on_all_threads;
 use crate::store::takes_part;
@@ -33,21 +33,23 @@ impl Refinement<'_> {
         tolerances: &Tolerances,
         (threads, done): (Option<usize>, impl Fn() + Sync),
     ) -> Result<Vec<Option<Robustness>>, CampaignError> {
+        let draws = tolerances.factors();
         let found = on_all_threads(threads, rows.len(), |number| {
             let whereabouts = self.whereabouts(rows[number]);
-            let found = whereabouts.map(|it| it.map(|it| self.under(&it, tolerances)));
+            let found = whereabouts.map(|it| it.map(|it| self.under(&it, &draws)));
             done();
             found
         })?;
         found.into_iter().collect()
     }
 
-    fn under(&self, motion: &Whereabouts, tolerances: &Tolerances) -> Robustness {
+    /// What is left of a motion in draws with these factors of its parameters.
+    fn under(&self, motion: &Whereabouts, draws: &[Vec<(Parameter, f64)>]) -> Robustness {
         let (mut speeds, mut prices, mut kept) = (Vec::new(), Vec::new(), 0);
-        for factors in tolerances.factors() {
+        for factors in draws {
             let mut parameters = motion.parameters.clone();
             for (parameter, factor) in factors {
-                parameters[parameter] *= factor;
+                parameters[*parameter] *= factor;
             }
             let [r, y1, y2] = motion.section;
             let start = State { r, y1, x2: 0.0, y2 };

@@ -298,11 +298,7 @@ fn with_refined(
     motions: &[RefinedMotion],
     of: Output,
 ) -> Vec<Candidate> {
-    let refined = motions.iter().enumerate().map(|(place, motion)| Candidate {
-        case: cases + place,
-        speed: motion.outputs[Output::ProgressionSpeed],
-        price: motion.outputs[of],
-        energy_per_metre: motion.outputs[Output::EnergyPerMetre],
-    });
+    let numbered = motions.iter().enumerate();
+    let refined = numbered.map(|(place, motion)| motion.candidate(cases + place, of));
     candidates.iter().copied().chain(refined).collect()
 }

@@ -63,6 +63,11 @@ outputs! {
 }
 
 impl Output {
+    /// The output called `name`, if there is one.
+    pub fn named(name: &str) -> Option<Output> {
+        Output::ALL.iter().copied().find(|output| output.name() == name)
+    }
+
     /// Its dimension.
     pub fn dimension(self) -> Dimension {
         let has_unit = |dimension: &Dimension| dimension.unit() == self.unit();

@@ -3,9 +3,10 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::failure::Failure;
-use crate::capsule::Dimension;
+use crate::capsule::{Dimension, Output};
 use crate::lane::Instructions;
 use crate::run::Machine;
+use crate::study::document::unknown;
 use crate::study::parse_quantity;
 
 /// What to run on, as far as this machine has it.
@@ -33,6 +34,12 @@ pub fn named<T: Copy + Send + Sync + 'static>(
     let find = |given: &str| names.iter().find(|(name, _)| *name == given).map(|&(_, value)| value);
     PossibleValuesParser::new(names.iter().map(|&(name, _)| name))
         .map(move |given| find(&given).expect("only known names get here"))
+}
+
+/// The output that an option names.
+pub fn output(option: &str, name: &str) -> Result<Output, String> {
+    let names = Output::ALL.iter().map(|output| output.name());
+    Output::named(name).ok_or_else(|| format!("{option}: {}", unknown("output", name, names)))
 }
 
 /// A quantity on the command line, in SI; a plain number is in SI already, and none is infinite.

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::arguments::output;
 use super::failure::Failure;
 use super::terminal::print;
 use crate::capsule::Output;
 use crate::explore::{GENERATOR, Request, report};
 use crate::store;
-use crate::study::document::unknown;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -40,11 +40,7 @@ pub struct Report {
 impl Report {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let of = Output::ALL.iter().copied().find(|output| output.name() == self.of);
-        let of = of.ok_or_else(|| {
-            let names = Output::ALL.iter().map(|output| output.name());
-            Failure::request(format!("--of: {}", unknown("output", &self.of, names)))
-        })?;
+        let of = output("--of", &self.of).map_err(Failure::request)?;
         let archive = store::open(&self.file).map_err(Failure::request)?;
         let page = self.output.clone().unwrap_or_else(|| self.file.with_extension("html"));
         self.check(&page)?;

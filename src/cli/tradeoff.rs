@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::named;
+use super::arguments::{named, output};
 use super::failure::Failure;
 use super::optima_text::{csv, json, table};
 use super::readable::count;
@@ -156,12 +156,10 @@ impl Tradeoff {
 
     fn request(&self) -> Result<Request, Failure> {
         let mut faults = Vec::new();
-        let names = || Output::ALL.iter().map(|output| output.name());
-        let of = Output::ALL.iter().copied().find(|output| output.name() == self.of);
-        if of.is_none() {
-            faults.push(format!("--of: {}", unknown("output", &self.of, names())));
-        }
-        let of = of.unwrap_or(Output::Power);
+        let of = output("--of", &self.of).unwrap_or_else(|fault| {
+            faults.push(fault);
+            Output::Power
+        });
         let mut read = |option: &str, text: &Option<String>, unit: &str| {
             let value = quantity(text.as_deref()?, unit);
             value.map_err(|fault| faults.push(format!("--{option}: {fault}"))).ok()

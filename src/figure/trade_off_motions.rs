@@ -44,7 +44,7 @@ impl<'a> Motions<'a> {
     /// The motions of a view over the axes `free`, with the output `price`; those between the cases only where no axis is held, as
     /// they may lie anywhere along it.
     pub fn of(view: &View<'a>, price: &str, free: &[&str]) -> Result<Motions<'a>, FigureError> {
-        let Some(output) = Output::ALL.iter().copied().find(|output| output.name() == price) else {
+        let Some(output) = Output::named(price) else {
             return Err(view.unfit(format!("`{price}` is no output of a motion")));
         };
         let (prices, speeds) =
@@ -66,12 +66,8 @@ impl<'a> Motions<'a> {
         let of_cases = all.len();
         let at_rest = speed_at_rest(all.iter().map(|it| it.speed));
         let refined = if free.len() == view.axes().len() { view.refined } else { &[] };
-        all.extend(refined.iter().enumerate().map(|(place, motion)| Candidate {
-            case: count + place,
-            speed: motion.outputs[Output::ProgressionSpeed],
-            price: motion.outputs[output],
-            energy_per_metre: motion.outputs[Output::EnergyPerMetre],
-        }));
+        let numbered = refined.iter().enumerate();
+        all.extend(numbered.map(|(place, motion)| motion.candidate(count + place, output)));
         let outcomes = Outcomes::over(view, free)?;
         let left_out = count - of_cases;
         Ok(Motions { all, of_cases, count, outcomes, refined, left_out, at_rest })
