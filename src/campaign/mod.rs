@@ -15,6 +15,7 @@ pub mod front_curve;
 mod join;
 pub mod kept;
 pub mod kept_searches;
+pub mod margins;
 pub mod memory;
 pub mod motion_row;
 pub mod probe;

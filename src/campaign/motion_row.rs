@@ -5,7 +5,7 @@ use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
 use crate::study::Coordinate;
-use crate::tradeoff::Candidate;
+use crate::tradeoff::{Candidate, Margins};
 
 use super::refined_motion::{RefinedMotion, Slopes};
 use super::robustness::Robustness;
@@ -47,6 +47,9 @@ pub struct Row {
     pub slopes: Slopes,
     /// What tolerances leave of it, if that was asked for and it repeats.
     pub robustness: Option<Robustness>,
+    /// How far each parameter that varies may fall and rise before it ends or its events change, if that was asked for and it
+    /// repeats.
+    pub margins: Vec<Margins>,
     /// The command that computes it again.
     pub replay: String,
 }
@@ -111,6 +114,7 @@ impl Rows {
             share: attractor.and_then(|it| self.shares.get(it as usize).copied()),
             slopes: Slopes::default(),
             robustness: None,
+            margins: Vec::new(),
             replay: format!("capsulemap simulate --study {} --case {case}", quoted(&self.file)),
         }
     }
@@ -137,6 +141,7 @@ impl Rows {
             share: None,
             slopes: motion.slopes.clone(),
             robustness: None,
+            margins: Vec::new(),
             replay: replay(motion, protocol),
         }
     }

@@ -117,6 +117,8 @@ pub enum Stage {
     Following,
     /// Motions are followed under tolerances of the parameters; a step is a motion.
     Drawing,
+    /// The parameters of motions are followed to where these end; a step is a motion.
+    Bounding,
 }
 
 /// The blocks of a task before it begins.

@@ -48,6 +48,8 @@ pub struct TradeOff<'a> {
     pub between: Between<'a>,
     /// Tolerances under which the optima and the front are judged, and worker threads for that.
     pub under: Option<(&'a Tolerances, Option<usize>)>,
+    /// Whether it is told of the optima how far their parameters may change before they end, and worker threads for that.
+    pub margins: Option<Option<usize>>,
 }
 
 /// Which motions between the cases take part.
@@ -120,12 +122,18 @@ impl TradeOff<'_> {
         if let (Some(refinement), Some(under)) = (&asked.refinement, self.under) {
             judge(&mut answer, refinement, under, &reports)?;
         }
+        if let (Some(refinement), Some(threads)) = (&asked.refinement, self.margins) {
+            bound(&mut answer, refinement, threads, &reports)?;
+        }
         Ok(answer)
     }
 
     /// Whether more is asked than what the file tells of its cases.
     fn needs_orbits(&self) -> bool {
-        self.slopes || self.under.is_some() || !matches!(self.between, Between::Nothing)
+        self.slopes
+            || self.under.is_some()
+            || self.margins.is_some()
+            || !matches!(self.between, Between::Nothing)
     }
 
     /// The optima that are asked for, each by its place among all motions.
@@ -290,6 +298,23 @@ impl Motions<'_> {
             _ => Ok(rows.row(motion)),
         }
     }
+}
+
+/// Adds the margins of the optima.
+fn bound(
+    answer: &mut Answer,
+    refinement: &Refinement<'_>,
+    threads: Option<usize>,
+    reports: &Reports<'_>,
+) -> Result<(), CampaignError> {
+    let rows: Vec<&Row> = answer.named.iter().filter_map(|it| it.row.as_ref()).collect();
+    reports.send(Event::Begun(Stage::Bounding, rows.len()))?;
+    let step = || reports.step(Stage::Bounding);
+    let found = refinement.margins(&rows, (threads, step))?;
+    reports.send(Event::Ended(Stage::Bounding))?;
+    let rows = answer.named.iter_mut().filter_map(|it| it.row.as_mut());
+    rows.zip(found).for_each(|(row, margins)| row.margins = margins);
+    Ok(())
 }
 
 /// The candidates of so many cases, and refined motions, numbered after them.

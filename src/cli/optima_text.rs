@@ -9,7 +9,7 @@ use crate::campaign::{Answer, Gain, Named, Robustness, Row, Slopes, Tolerances};
 use crate::capsule::{Output, Parameter};
 use crate::store::catalogue::{ATTRACTOR, OUTCOME, PERIOD};
 use crate::study::Coordinate;
-use crate::tradeoff::Direction;
+use crate::tradeoff::{Direction, Margin, Margins};
 
 /// One JSON object.
 pub fn json(answer: &Answer) -> Value {
@@ -84,8 +84,18 @@ fn json_of_row(row: &Row, of: Output) -> Value {
         })
     });
     point.insert("robustness".to_owned(), json!(robustness));
+    if !row.margins.is_empty() {
+        let both = |it: &Margins| json!({ "down": margin(it.down), "up": margin(it.up) });
+        let margins = row.margins.iter().map(|it| (it.parameter.symbol().to_owned(), both(it)));
+        let margins: Map<String, Value> = margins.collect();
+        point.insert("margins".to_owned(), Value::Object(margins));
+    }
     point.insert("replay".to_owned(), json!(row.replay));
     Value::Object(point)
+}
+
+fn margin(Margin { value, what }: Margin) -> Value {
+    json!({ "value": value, "what": what.map(|it| it.name()) })
 }
 
 /// Comma-separated values: a header, then the optima, the front and the fastest, each with what it is.
@@ -194,6 +204,7 @@ pub fn table(answer: &Answer) -> String {
             None => _ = writeln!(text, "{:<26} none", name.replace('_', " ")),
         }
     }
+    write_margins(&mut text, answer);
     for (heading, rows) in [("front", &answer.front), ("the fastest", &answer.top)] {
         for (place, row) in rows.iter().enumerate() {
             write_row(&mut text, answer, if place == 0 { heading } else { "" }, row);
@@ -206,6 +217,25 @@ pub fn table(answer: &Answer) -> String {
         }
     }
     text
+}
+
+/// How far the parameters of the optima may change.
+fn write_margins(text: &mut String, answer: &Answer) {
+    let rows = answer.named.iter().filter_map(|Named { name, row }| Some((name, row.as_ref()?)));
+    for (name, row) in rows.filter(|(_, row)| !row.margins.is_empty()) {
+        let _ = writeln!(text, "{:<26} ends or changes its events at", name.replace('_', " "));
+        for Margins { parameter, down, up } in &row.margins {
+            let unit = parameter.dimension().unit();
+            let [down, up] = [down, up].map(|it| {
+                format!(
+                    "{:.7} {unit} ({})",
+                    it.value,
+                    it.what.map_or("no change so far", |it| it.name())
+                )
+            });
+            let _ = writeln!(text, "{:<26} {} = {down} and {up}", "", parameter.symbol());
+        }
+    }
 }
 
 fn write_row(text: &mut String, answer: &Answer, what: &str, row: &Row) {

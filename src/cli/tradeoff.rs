@@ -68,6 +68,10 @@ pub struct Tradeoff {
     #[arg(long, value_name = "NUMBER", default_value_t = 200, requires = "tolerances",
         value_parser = clap::value_parser!(u32).range(1..))]
     draws: u32,
+    /// Of the optima, tell how far each parameter that varies may fall and rise, by a half at most, before the motion ends, loses its
+    /// stability or changes its events.
+    #[arg(long)]
+    margins: bool,
     /// Number by which tolerances are drawn, and cases that the search begins with beside the best ones.
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
@@ -117,6 +121,7 @@ impl Tradeoff {
             top: self.top,
             slopes: self.json,
             under: request.tolerances.as_ref().map(|it| (it, threads)),
+            margins: self.margins.then_some(threads),
             between: kept.as_ref().map_or(Between::Nothing, |it| Between::Sought(it, sought)),
         };
         let stages = Stages::default();

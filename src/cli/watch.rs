@@ -124,7 +124,7 @@ impl<'a> Watch<'a> {
 
 /// Progress of each stage, once it has begun.
 #[derive(Default)]
-pub struct Stages([OnceLock<Progress>; 7]);
+pub struct Stages([OnceLock<Progress>; 8]);
 
 impl Stages {
     /// Shows the events of stages, and no others.
@@ -151,5 +151,6 @@ fn what(stage: Stage) -> &'static str {
         Stage::Searching => "searches between the cases",
         Stage::Following => "gaps of the front",
         Stage::Drawing => "motions under tolerances",
+        Stage::Bounding => "motions with their margins",
     }
 }

@@ -7,7 +7,7 @@ use super::request::Request;
 use crate::campaign::{Answer, Between, CampaignError, KeptSearches, Named, Row, TradeOff, silent};
 use crate::capsule::{Output, Parameter};
 use crate::study::Study;
-use crate::tradeoff::Direction;
+use crate::tradeoff::{Direction, Margin, Margins};
 
 /// Writes the optima in a direction, of the cases and of the motions between them that are known.
 pub fn write_optima(
@@ -30,6 +30,7 @@ pub fn write_optima(
         slopes: false,
         between: Between::Known(kept),
         under: None,
+        margins: Some(Some(1)),
     };
     let answer = match trade_off.answer(&silent) {
         Err(CampaignError::TradeOff { faults, .. }) => {
@@ -47,6 +48,7 @@ pub fn write_optima(
     let named: Vec<(String, Row)> = answer.named.iter().filter_map(row).collect();
     write_table(page, &named, of);
     write_sensitivities(page, &named, of);
+    write_margins(page, &named);
     let replays: Vec<&str> = named.iter().map(|(_, row)| row.replay.as_str()).collect();
     page.text("To compute them again:");
     page.verbatim(&replays.join("\n"));
@@ -146,6 +148,34 @@ fn write_sensitivities(page: &mut Page, named: &[(String, Row)], of: Output) {
          sequence of events of the motion:",
     );
     let headings: Vec<String> = [String::new()].into_iter().chain(columns).collect();
+    page.table(&headings, &rows);
+}
+
+/// How far the parameters of the optima may change before these end.
+fn write_margins(page: &mut Page, named: &[(String, Row)]) {
+    let known: Vec<&(String, Row)> =
+        named.iter().filter(|(_, row)| !row.margins.is_empty()).collect();
+    let Some((_, first)) = known.first() else { return };
+    let row = |Margins { parameter, .. }: &Margins| -> Vec<String> {
+        let of_row = |(_, row): &&(String, Row)| {
+            let found = row.margins.iter().find(|other| other.parameter == *parameter);
+            let text = |it: Margin| {
+                let what = it.what.map_or("no change so far", |what| what.name());
+                format!("{} ({what})", number(it.value))
+            };
+            found.map_or(["", ""].map(str::to_owned), |it| [it.down, it.up].map(text))
+        };
+        let label = format!("{} [{}]", parameter.symbol(), parameter.dimension().unit());
+        [label].into_iter().chain(known.iter().flat_map(of_row)).collect()
+    };
+    let rows: Vec<Vec<String>> = first.margins.iter().map(row).collect();
+    let columns =
+        known.iter().flat_map(|(name, _)| ["down", "up"].map(|it| format!("{name}, {it}")));
+    let headings: Vec<String> = [String::new()].into_iter().chain(columns).collect();
+    page.text(
+        "How far each parameter may fall and rise, by a half at most, before the motion ends, loses its stability or changes its \
+         events:",
+    );
     page.table(&headings, &rows);
 }
 

@@ -51,6 +51,7 @@ mod kept_branches;
 mod kept_searches;
 mod killed_calls;
 mod lanes;
+mod margins;
 mod mutants;
 mod neutral;
 mod observers;
