@@ -86,6 +86,8 @@ pub struct SpecialValue<const D: usize> {
     pub period: u64,
     /// Its section point.
     pub section: [f64; D],
+    /// Whether the branch goes on with stable orbits.
+    pub is_stable_beyond: bool,
 }
 
 /// How a segment ends.
@@ -352,7 +354,7 @@ fn special_value<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
     orbit: &SpecialOrbit<M::Event, D, U>,
 ) -> SpecialValue<D> {
-    let SpecialOrbit { kind, uncertainty, point, .. } = orbit;
+    let SpecialOrbit { kind, uncertainty, point, is_stable_beyond, .. } = orbit;
     let value = orbits.parameter(&point.at);
     let along = uncertainty * point.tangent[D].abs() * orbits.units[D];
     SpecialValue {
@@ -361,5 +363,6 @@ fn special_value<M: System<D>, const D: usize, const U: usize>(
         uncertainty: along + ONE_VALUE * orbits.family.period as f64 * value.abs(),
         period: orbits.family.period,
         section: orbits.section(&point.at),
+        is_stable_beyond: *is_stable_beyond,
     }
 }

@@ -1,19 +1,113 @@
-//! How far the parameters of a motion may fall and rise before it ends or its events change.
+//! How far the parameters of a motion may fall and rise before it ends, loses its stability or changes its events.
 
-use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Parameter, Reading, Switching};
+use crate::branch::{Along, SegmentEnd, SpecialKind, SpecialValue, segment};
+use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Parameter, Reading, Section, Switching};
+use crate::orbit::passage::{OneByOne, image};
+use crate::orbit::return_map::Cycles;
 use crate::run::on_all_threads;
-use crate::tradeoff::{Family, Margins, Side, margin};
 
+use super::answer::Answer;
 use super::error::CampaignError;
 use super::motion_row::Row;
 use super::refined_front::{Refinement, Whereabouts};
+use super::report::{Event, Reports, Stage};
 
 /// So far a parameter is followed down and up, as a share of its value.
-pub const REACH: f64 = 0.5;
+const REACH: f64 = 0.5;
+/// Segments in which it is followed each way, so that special points of one segment that undo each other are rare.
+const SEGMENTS: u32 = 25;
+
+/// Something that happens to a motion at a value of a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Change {
+    /// The value (SI).
+    pub value: f64,
+    /// How far the true value may be (SI).
+    pub uncertainty: f64,
+    /// What happens.
+    pub kind: SpecialKind,
+}
+
+/// How far a motion stays a stable one while a parameter falls or rises.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Margin {
+    /// The last value to which it is known to be stable (SI).
+    pub until: f64,
+    /// What ends it there.
+    pub end: MarginEnd,
+    /// Where its events change on the way, in order.
+    pub passed: Vec<Change>,
+}
+
+/// What ends a margin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MarginEnd {
+    /// Half or one and a half times the value is reached.
+    Range,
+    /// The motion ends or loses its stability.
+    Bifurcation(Change),
+    /// The motion could not be followed further, for reasons that are not known.
+    NotFollowed,
+}
+
+/// How far a parameter of a motion may change.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Margins {
+    /// The parameter.
+    pub parameter: Parameter,
+    /// Its value, by which a change is measured (SI).
+    pub at: f64,
+    /// While it falls.
+    pub down: Margin,
+    /// While it rises.
+    pub up: Margin,
+}
+
+impl Change {
+    fn at(special: &SpecialValue<3>) -> Self {
+        let SpecialValue { kind, value, uncertainty, .. } = *special;
+        Change { value, uncertainty, kind }
+    }
+
+    /// The name of what happens, as in files.
+    pub fn name(&self) -> &'static str {
+        SpecialKind::NAMES[self.kind as usize].0
+    }
+}
+
+impl Margins {
+    /// The margins down and up in words, as changes in percent.
+    pub fn in_words(&self) -> [String; 2] {
+        [&self.down, &self.up].map(|margin| {
+            let percent = |value: f64| format!("{:+.3} %", 100.0 * (value / self.at - 1.0));
+            let end = match margin.end {
+                MarginEnd::Range => format!("none to {}", percent(margin.until)),
+                MarginEnd::NotFollowed => format!("not known beyond {}", percent(margin.until)),
+                MarginEnd::Bifurcation(change) => {
+                    format!("{} at {}", change.name(), percent(change.value))
+                }
+            };
+            match margin.passed.first() {
+                Some(first) => {
+                    format!("{end} ({} at {} passed)", first.name(), percent(first.value))
+                }
+                None => end,
+            }
+        })
+    }
+}
 
 impl Refinement<'_> {
-    /// The margins of each of some motions along each parameter that varies and is not zero, whatever the bounds of the study; none
-    /// where a motion does not repeat or is not stable. Calls `done` after each motion. See [`margin`].
+    /// The margins of each of some motions along each parameter that is above zero, whether the study varies it or not; none
+    /// where a motion does not repeat or is not stable. Calls `done` after each motion.
+    ///
+    /// # Method
+    ///
+    /// The branch of the motion is continued by half the parameter's value each way, see [`segment`].
+    ///
+    /// # Breaks
+    ///
+    /// Two special points of one kind that undo each other within a fiftieth of the value may both be passed.
     ///
     /// Fails if the file cannot be read or a case cannot be computed again.
     pub fn margins(
@@ -22,31 +116,87 @@ impl Refinement<'_> {
         (threads, done): (Option<usize>, impl Fn() + Sync),
     ) -> Result<Vec<Vec<Margins>>, CampaignError> {
         let found = on_all_threads(threads, rows.len(), |number| {
-            let whereabouts = self.whereabouts(rows[number])?;
-            let found = whereabouts.map_or(Vec::new(), |motion| self.around(&motion));
+            let whereabouts = self.whereabouts(rows[number]);
+            let found = whereabouts.map(|it| it.map_or(Vec::new(), |motion| self.around(&motion)));
             done();
-            Ok(found)
+            found
         })?;
         found.into_iter().collect()
     }
 
     fn around(&self, motion: &Whereabouts) -> Vec<Margins> {
-        let free = self.free().into_iter().map(|(parameter, _)| parameter);
-        let both = |parameter: Parameter| match self.study.base.switching {
-            Switching::Filippov => self.along::<Filippov>(motion, parameter),
-            Switching::AsPrinted => self.along::<AsPrinted>(motion, parameter),
-        };
-        free.filter(|it| motion.parameters[*it] > 0.0).filter_map(both).collect()
+        match self.study.base.switching {
+            Switching::Filippov => self.around_as::<Filippov>(motion),
+            Switching::AsPrinted => self.around_as::<AsPrinted>(motion),
+        }
     }
 
-    fn along<R: Reading>(&self, motion: &Whereabouts, parameter: Parameter) -> Option<Margins> {
-        let value = motion.parameters[parameter];
+    fn around_as<R: Reading>(&self, motion: &Whereabouts) -> Vec<Margins> {
         let system = CapsuleSystem::<R>::new(motion.parameters.clone(), motion.phase);
-        let free = vec![(parameter, [value * (1.0 - REACH), value * (1.0 + REACH)])];
         let tolerance = self.study.protocol.tolerance;
-        let family = Family { system, free, period: motion.period, tolerance };
-        let at = family.orbit(&family.shares(), &motion.section)?;
-        let [down, up] = [Side::Lower, Side::Upper].map(|side| margin(&family, &at, side));
-        Some(Margins { parameter, down, up })
+        let mut points = vec![motion.section];
+        while (points.len() as u64) < motion.period {
+            let cycle = Cycles { count: 1, tolerance };
+            let Some(last) = points.last() else { break };
+            match image(&OneByOne, &system, last, &cycle) {
+                Ok(next) => points.push(next.end),
+                Err(_) => return Vec::new(),
+            }
+        }
+        let both = |parameter: Parameter| {
+            let along = Along { system: system.clone(), parameter, tolerance };
+            let value = motion.parameters[parameter];
+            let [down, up] = [-REACH, REACH].map(|by| margin(&along, (value, &points), by * value));
+            Margins { parameter, at: value, down, up }
+        };
+        let each = Parameter::ALL.iter().copied();
+        each.filter(|parameter| motion.parameters[*parameter] > 0.0).map(both).collect()
     }
+}
+
+/// How far the orbit through some section points at a value of the parameter stays stable, by a change of at most `by`.
+fn margin<R: Reading>(
+    along: &Along<CapsuleSystem<R>, 3>,
+    (value, points): (f64, &[Section]),
+    by: f64,
+) -> Margin {
+    let (mut until, mut points) = (value, points.to_vec());
+    let mut passed = Vec::new();
+    for number in 1..=SEGMENTS {
+        let to = value + by * f64::from(number) / f64::from(SEGMENTS);
+        let found = segment(&OneByOne, along, (until, &points), to);
+        let Some(found) = found else {
+            return Margin { until, end: MarginEnd::NotFollowed, passed };
+        };
+        let is_end = |special: &&SpecialValue<3>| !special.is_stable_beyond;
+        let end = found.special.iter().find(is_end).map(Change::at);
+        passed.extend(found.special.iter().take_while(|it| it.is_stable_beyond).map(Change::at));
+        match (end, found.end) {
+            (Some(end), _) => {
+                return Margin { until: end.value, end: MarginEnd::Bifurcation(end), passed };
+            }
+            (None, SegmentEnd::Reached(orbit)) if orbit.is_stable() => {
+                (until, points) = (to, orbit.points);
+            }
+            (None, _) => return Margin { until, end: MarginEnd::NotFollowed, passed },
+        }
+    }
+    Margin { until, end: MarginEnd::Range, passed }
+}
+
+/// Adds the margins of the optima.
+pub(super) fn bound(
+    answer: &mut Answer,
+    refinement: &Refinement<'_>,
+    threads: Option<usize>,
+    reports: &Reports<'_>,
+) -> Result<(), CampaignError> {
+    let rows: Vec<&Row> = answer.named.iter().filter_map(|it| it.row.as_ref()).collect();
+    reports.send(Event::Begun(Stage::Bounding, rows.len()))?;
+    let step = || reports.step(Stage::Bounding);
+    let found = refinement.margins(&rows, (threads, step))?;
+    reports.send(Event::Ended(Stage::Bounding))?;
+    let rows = answer.named.iter_mut().filter_map(|it| it.row.as_mut());
+    rows.zip(found).for_each(|(row, margins)| row.margins = margins);
+    Ok(())
 }

@@ -38,6 +38,7 @@ pub use answer::{Answer, Gain, Named};
 pub use error::{CampaignError, Cause};
 pub use kept::Kept;
 pub use kept_searches::{KeptSearches, searches_path};
+pub use margins::{Change, Margin, MarginEnd, Margins};
 pub use memory::{Memory, memory};
 pub use motion_row::{Row, quoted};
 pub use probe::{Probe, probe};

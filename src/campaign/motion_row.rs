@@ -5,8 +5,9 @@ use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
 use crate::study::Coordinate;
-use crate::tradeoff::{Candidate, Margins};
+use crate::tradeoff::Candidate;
 
+use super::margins::Margins;
 use super::refined_motion::{RefinedMotion, Slopes};
 use super::robustness::Robustness;
 
@@ -47,8 +48,7 @@ pub struct Row {
     pub slopes: Slopes,
     /// What tolerances leave of it, if that was asked for and it repeats.
     pub robustness: Option<Robustness>,
-    /// How far each parameter that varies may fall and rise before it ends or its events change, if that was asked for and it
-    /// repeats.
+    /// How far each parameter may fall and rise before it ends or loses its stability, if that was asked for and it repeats.
     pub margins: Vec<Margins>,
     /// The command that computes it again.
     pub replay: String,

@@ -97,12 +97,17 @@ pub fn distinct(found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {
 /// What holds a motion, in words.
 pub(super) fn words(holds: &[Hold], free: &[(Parameter, [f64; 2])]) -> Vec<String> {
     let in_words = |hold: &Hold| match hold {
+        Hold::Interior => "interior".to_owned(),
         Hold::Bound(place, side) => {
             let side = if *side == Side::Lower { "lower" } else { "upper" };
             format!("{side} bound of {}", free[*place].0.symbol())
         }
+        Hold::Fold => "fold".to_owned(),
+        Hold::PeriodDoubling => "period doubling".to_owned(),
+        Hold::NeimarkSacker => "Neimark-Sacker".to_owned(),
+        Hold::Grazing => "grazing".to_owned(),
+        Hold::EventSequence => "event sequence".to_owned(),
         Hold::Steps => NOT_CONVERGED.to_owned(),
-        other => other.name().to_owned(),
     };
     holds.iter().map(in_words).collect()
 }

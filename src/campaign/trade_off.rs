@@ -13,6 +13,7 @@ use crate::tradeoff::{
 use super::answer::{Answer, Gain, Named};
 use super::error::CampaignError;
 use super::kept_searches::KeptSearches;
+use super::margins::bound;
 use super::motion_row::{Row, Rows};
 use super::refined_front::Refinement;
 use super::refined_motion::{RefinedMotion, distinct};
@@ -298,23 +299,6 @@ impl Motions<'_> {
             _ => Ok(rows.row(motion)),
         }
     }
-}
-
-/// Adds the margins of the optima.
-fn bound(
-    answer: &mut Answer,
-    refinement: &Refinement<'_>,
-    threads: Option<usize>,
-    reports: &Reports<'_>,
-) -> Result<(), CampaignError> {
-    let rows: Vec<&Row> = answer.named.iter().filter_map(|it| it.row.as_ref()).collect();
-    reports.send(Event::Begun(Stage::Bounding, rows.len()))?;
-    let step = || reports.step(Stage::Bounding);
-    let found = refinement.margins(&rows, (threads, step))?;
-    reports.send(Event::Ended(Stage::Bounding))?;
-    let rows = answer.named.iter_mut().filter_map(|it| it.row.as_mut());
-    rows.zip(found).for_each(|(row, margins)| row.margins = margins);
-    Ok(())
 }
 
 /// The candidates of so many cases, and refined motions, numbered after them.

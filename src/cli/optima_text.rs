@@ -5,11 +5,13 @@ use std::fmt::Write;
 use serde_json::{Map, Value, json};
 
 use super::readable::{count, counted};
-use crate::campaign::{Answer, Gain, Named, Robustness, Row, Slopes, Tolerances};
+use crate::campaign::{
+    Answer, Gain, Margin, MarginEnd, Margins, Named, Robustness, Row, Slopes, Tolerances,
+};
 use crate::capsule::{Output, Parameter};
 use crate::store::catalogue::{ATTRACTOR, OUTCOME, PERIOD};
 use crate::study::Coordinate;
-use crate::tradeoff::{Direction, Margin, Margins};
+use crate::tradeoff::Direction;
 
 /// One JSON object.
 pub fn json(answer: &Answer) -> Value {
@@ -85,7 +87,7 @@ fn json_of_row(row: &Row, of: Output) -> Value {
     });
     point.insert("robustness".to_owned(), json!(robustness));
     if !row.margins.is_empty() {
-        let both = |it: &Margins| json!({ "down": margin(it.down), "up": margin(it.up) });
+        let both = |it: &Margins| json!({ "down": margin(&it.down), "up": margin(&it.up) });
         let margins = row.margins.iter().map(|it| (it.parameter.symbol().to_owned(), both(it)));
         let margins: Map<String, Value> = margins.collect();
         point.insert("margins".to_owned(), Value::Object(margins));
@@ -94,8 +96,18 @@ fn json_of_row(row: &Row, of: Output) -> Value {
     Value::Object(point)
 }
 
-fn margin(Margin { value, what }: Margin) -> Value {
-    json!({ "value": value, "what": what.map(|it| it.name()) })
+fn margin(margin: &Margin) -> Value {
+    let (end, uncertainty) = match margin.end {
+        MarginEnd::Range => ("none", None),
+        MarginEnd::NotFollowed => ("not known", None),
+        MarginEnd::Bifurcation(change) => (change.name(), Some(change.uncertainty)),
+    };
+    let passed: Vec<Value> = margin
+        .passed
+        .iter()
+        .map(|it| json!({ "value": it.value, "uncertainty": it.uncertainty, "what": it.name() }))
+        .collect();
+    json!({ "until": margin.until, "end": end, "uncertainty": uncertainty, "passed": passed })
 }
 
 /// Comma-separated values: a header, then the optima, the front and the fastest, each with what it is.
@@ -223,17 +235,14 @@ pub fn table(answer: &Answer) -> String {
 fn write_margins(text: &mut String, answer: &Answer) {
     let rows = answer.named.iter().filter_map(|Named { name, row }| Some((name, row.as_ref()?)));
     for (name, row) in rows.filter(|(_, row)| !row.margins.is_empty()) {
-        let _ = writeln!(text, "{:<26} ends or changes its events at", name.replace('_', " "));
-        for Margins { parameter, down, up } in &row.margins {
-            let unit = parameter.dimension().unit();
-            let [down, up] = [down, up].map(|it| {
-                format!(
-                    "{:.7} {unit} ({})",
-                    it.value,
-                    it.what.map_or("no change so far", |it| it.name())
-                )
-            });
-            let _ = writeln!(text, "{:<26} {} = {down} and {up}", "", parameter.symbol());
+        let _ = writeln!(
+            text,
+            "{:<26} bifurcations, as its parameters fall and rise:",
+            name.replace('_', " ")
+        );
+        for margins in &row.margins {
+            let [down, up] = margins.in_words();
+            let _ = writeln!(text, "{:<26} {:<7} {down}; {up}", "", margins.parameter.symbol());
         }
     }
 }

@@ -68,8 +68,8 @@ pub struct Tradeoff {
     #[arg(long, value_name = "NUMBER", default_value_t = 200, requires = "tolerances",
         value_parser = clap::value_parser!(u32).range(1..))]
     draws: u32,
-    /// Of the optima, tell how far each parameter that varies may fall and rise, by a half at most, before the motion ends, loses its
-    /// stability or changes its events.
+    /// Of the optima, tell how far each parameter may fall and rise, by a half at most, before the motion ends or loses its
+    /// stability, and where its events change on the way.
     #[arg(long)]
     margins: bool,
     /// Number by which tolerances are drawn, and cases that the search begins with beside the best ones.

@@ -4,10 +4,12 @@ use super::html::Page;
 use super::numbers::{number, percent, unit};
 use super::optimum::{Drawings, Undrawn, drawings};
 use super::request::Request;
-use crate::campaign::{Answer, Between, CampaignError, KeptSearches, Named, Row, TradeOff, silent};
+use crate::campaign::{
+    Answer, Between, CampaignError, KeptSearches, Margins, Named, Row, TradeOff, silent,
+};
 use crate::capsule::{Output, Parameter};
 use crate::study::Study;
-use crate::tradeoff::{Direction, Margin, Margins};
+use crate::tradeoff::Direction;
 
 /// Writes the optima in a direction, of the cases and of the motions between them that are known.
 pub fn write_optima(
@@ -155,26 +157,27 @@ fn write_sensitivities(page: &mut Page, named: &[(String, Row)], of: Output) {
 fn write_margins(page: &mut Page, named: &[(String, Row)]) {
     let known: Vec<&(String, Row)> =
         named.iter().filter(|(_, row)| !row.margins.is_empty()).collect();
-    let Some((_, first)) = known.first() else { return };
-    let row = |Margins { parameter, .. }: &Margins| -> Vec<String> {
-        let of_row = |(_, row): &&(String, Row)| {
-            let found = row.margins.iter().find(|other| other.parameter == *parameter);
-            let text = |it: Margin| {
-                let what = it.what.map_or("no change so far", |what| what.name());
-                format!("{} ({what})", number(it.value))
-            };
-            found.map_or(["", ""].map(str::to_owned), |it| [it.down, it.up].map(text))
-        };
-        let label = format!("{} [{}]", parameter.symbol(), parameter.dimension().unit());
-        [label].into_iter().chain(known.iter().flat_map(of_row)).collect()
+    if known.is_empty() {
+        return;
+    }
+    let cells = |parameter: Parameter, row: &Row| -> [String; 2] {
+        let found = row.margins.iter().find(|it| it.parameter == parameter);
+        found.map_or([String::new(), String::new()], Margins::in_words)
     };
-    let rows: Vec<Vec<String>> = first.margins.iter().map(row).collect();
+    let has = |parameter: &Parameter| {
+        known.iter().any(|(_, row)| row.margins.iter().any(|it| it.parameter == *parameter))
+    };
+    let line = |parameter: &Parameter| -> Vec<String> {
+        let cells = known.iter().flat_map(|(_, row)| cells(*parameter, row));
+        [parameter.symbol().to_owned()].into_iter().chain(cells).collect()
+    };
+    let rows: Vec<Vec<String>> = Parameter::ALL.iter().filter(|it| has(it)).map(line).collect();
     let columns =
-        known.iter().flat_map(|(name, _)| ["down", "up"].map(|it| format!("{name}, {it}")));
+        known.iter().flat_map(|(name, _)| ["falling", "rising"].map(|it| format!("{name}, {it}")));
     let headings: Vec<String> = [String::new()].into_iter().chain(columns).collect();
     page.text(
-        "How far each parameter may fall and rise, by a half at most, before the motion ends, loses its stability or changes its \
-         events:",
+        "The next bifurcation of each motion as one parameter falls or rises, by a half at most; in brackets the first \
+         change of events that it survives:",
     );
     page.table(&headings, &rows);
 }

@@ -36,20 +36,6 @@ pub enum Side {
 }
 
 impl Hold {
-    /// Its name; that of a bound without the parameter.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Hold::Interior => "interior",
-            Hold::Bound(..) => "bound",
-            Hold::Fold => "fold",
-            Hold::PeriodDoubling => "period doubling",
-            Hold::NeimarkSacker => "Neimark-Sacker",
-            Hold::Grazing => "grazing",
-            Hold::EventSequence => "event sequence",
-            Hold::Steps => "not known",
-        }
-    }
-
     /// Why a family ends beside an orbit with these multipliers.
     pub fn edge(multipliers: &[Complex; 3]) -> Hold {
         let critical = multipliers.iter().find(|it| it.abs() > 1.0 - CRITICAL);

@@ -1,88 +1,115 @@
-//! `capsulemap tradeoff --margins`: continuation finds special points where a parameter may change no further.
+//! `capsulemap tradeoff --margins`: motions that settle step by step stay until where they are said to end, and no longer.
 
 use serde_json::Value;
+
+use capsulemap::capsule::{Case, Orbit, Output, Parameter, Parameters, State, settle_case};
+use capsulemap::orbit::{Outcome, Protocol};
 
 use super::program::WorkDir;
 
 /// The paper's capsule near a fold, and where it moves fast.
-const STUDIES: [(&str, [&str; 2]); 2] = [
-    (
-        "k2 = \"100 kN/m\"\ndelta = \"0.22 mm\"\n",
-        ["\"1.25 N\", \"1.26 N\"", "\"31.9 rad/s\", \"32 rad/s\""],
-    ),
-    ("k2 = \"20 kN/m\"\ndelta = \"3 mm\"\n", ["\"7 N\", \"7.2 N\"", "\"54 rad/s\", \"56 rad/s\""]),
+const STUDIES: [&str; 2] = [
+    "[parameters]\nk2 = \"100 kN/m\"\ndelta = \"0.22 mm\"\n\
+     [[axes]]\nname = \"p_d\"\nvalues = [\"1.25 N\", \"1.26 N\"]\n\
+     [[axes]]\nname = \"omega\"\nvalues = [\"31.9 rad/s\", \"32 rad/s\"]\n",
+    "[parameters]\nk2 = \"20 kN/m\"\ndelta = \"3 mm\"\n\
+     [[axes]]\nname = \"p_d\"\nvalues = [\"7 N\", \"7.2 N\"]\n\
+     [[axes]]\nname = \"omega\"\nvalues = [\"54 rad/s\", \"56 rad/s\"]\n",
 ];
-/// The kinds of special points by their codes in files of results.
-const KINDS: [&str; 5] = ["fold", "period doubling", "Neimark-Sacker", "grazing", "event sequence"];
+/// Steps from the optimum to beside where it ends.
+const STEPS: u32 = 60;
+/// So far beside the end, as a share of the parameter, the motions on both sides are compared.
+const BESIDE: f64 = 1e-3;
 
 fn number(point: &Value, key: &str) -> f64 {
     point[key].as_f64().unwrap_or_else(|| panic!("{key} in {point}"))
 }
 
-/// The special points along a parameter between two values, from the case of a point, as values and kinds.
-fn specials(
-    folder: &WorkDir,
-    (held, point): (&str, &Value),
-    (symbol, unit): (&str, &str),
-    [low, high]: [f64; 2],
-) -> Vec<(f64, &'static str)> {
-    let value = |symbol: &str| number(&point["parameters"], symbol);
-    let (other, other_unit) = if symbol == "p_d" { ("omega", "rad/s") } else { ("p_d", "N") };
-    let study = format!(
-        "[parameters]\n{held}{other} = \"{:?} {other_unit}\"\n\
-         [[axes]]\nname = \"{symbol}\"\nfrom = \"{low:?} {unit}\"\nto = \"{high:?} {unit}\"\npoints = 3\n\
-         [[branches]]\nname = \"along\"\nalong = \"{symbol}\"\nat = {{ {symbol} = \"{:?} {unit}\" }}\n",
-        value(other),
-        value(symbol)
-    );
-    folder.put("branch.toml", study);
-    folder.run(&["continue", "branch.toml", "--overwrite"]).done();
-    let file = hdf5::File::open(folder.path("results/branch/branch.h5")).expect("a file");
-    let values = file.dataset(&format!("special_{symbol}")).and_then(|it| it.read_raw::<f64>());
-    let kinds = file.dataset("special_kind").and_then(|it| it.read_raw::<i64>());
-    let kinds = kinds.expect("kinds").into_iter().map(|code| KINDS[code as usize]);
-    values.expect("values").into_iter().zip(kinds).collect()
+/// The parameters of a motion.
+fn parameters(point: &Value) -> Parameters {
+    let mut parameters = Parameters::default();
+    for (symbol, value) in point["parameters"].as_object().expect("parameters") {
+        if let Some(parameter) = Parameter::named(symbol) {
+            parameters[parameter] = value.as_f64().expect("a number");
+        }
+    }
+    parameters
+}
+
+/// A motion that is followed by settling again and again.
+struct Settling {
+    parameters: Parameters,
+    parameter: Parameter,
+    last: State<f64>,
+}
+
+impl Settling {
+    /// The motion to which the last one leads at a value.
+    fn at(&mut self, value: f64) -> Orbit {
+        self.parameters[self.parameter] = value;
+        let protocol = Protocol { max_cycles: 40_000, ..Protocol::default() };
+        let case = Case::at_section(self.parameters.clone(), self.last, 0.0);
+        let orbit = settle_case(&case, &protocol);
+        self.last = State { x2: 0.0, ..orbit.end };
+        orbit
+    }
+}
+
+/// What is wrong with a margin, if anything is, and whether it has an end.
+fn judged(point: &Value, parameter: Parameter, margin: &Value) -> (Option<String>, bool) {
+    let until = number(margin, "until");
+    let period = point["period"].as_u64().expect("a period");
+    let start = |key: &str| number(&point["start"], key);
+    let last = State { r: start("start_r"), y1: start("start_y1"), x2: 0.0, y2: start("start_y2") };
+    let mut settling = Settling { parameters: parameters(point), parameter, last };
+    let from = settling.parameters[parameter];
+    let beside = BESIDE * from * (until - from).signum();
+    let stays = |orbit: &Orbit| orbit.outcome == Outcome::Periodic && orbit.period == period;
+    let mut speed = f64::NAN;
+    for step in 0..=STEPS {
+        let share = f64::from(step) / f64::from(STEPS);
+        let orbit = settling.at(from + share * (until - beside - from));
+        if !stays(&orbit) {
+            return (Some(format!("is {:?} at {share} of it", orbit.outcome)), true);
+        }
+        speed = orbit.outputs[Output::ProgressionSpeed];
+    }
+    if margin["end"] == "none" {
+        let share = until / from;
+        let is_range = [0.5, 1.5].iter().any(|it| (share - it).abs() < 1e-12);
+        return ((!is_range).then(|| format!("ends at {share} of the value")), false);
+    }
+    // Beyond the end it is another motion, which stays another one where the first one is again.
+    if !stays(&settling.at(until + beside)) {
+        return (None, true);
+    }
+    let back = settling.at(until - beside);
+    let again = back.outputs[Output::ProgressionSpeed];
+    let is_same = stays(&back) && (again - speed).abs() <= 1e-6 * speed.abs();
+    (is_same.then(|| "is passed".to_owned()), true)
 }
 
 #[test]
-fn margins_end_where_continuation_finds_special_points() {
-    let mut compared = 0;
-    for (held, [forces, frequencies]) in STUDIES {
+fn motions_stay_until_the_ends_of_their_margins_and_no_longer() {
+    let mut ends = 0;
+    let mut faults = Vec::new();
+    for study in STUDIES {
         let folder = WorkDir::new();
-        folder.put(
-            "study.toml",
-            format!(
-                "[parameters]\n{held}[[axes]]\nname = \"p_d\"\nvalues = [{forces}]\n\
-                 [[axes]]\nname = \"omega\"\nvalues = [{frequencies}]\n"
-            ),
-        );
+        folder.put("study.toml", study);
         folder.run(&["sweep", "study.toml"]).done();
         let asked = ["tradeoff", "results/study/study.h5", "--margins", "--json"];
         let answer = folder.run(&asked).json();
         let point = &answer["fastest"];
-        for (symbol, unit) in [("p_d", "N"), ("omega", "rad/s")] {
-            let margins = &point["margins"][symbol];
-            let here = number(&point["parameters"], symbol);
-            let [down, up] = ["down", "up"].map(|side| &margins[side]);
-            assert!(number(down, "value") < here && here < number(up, "value"), "{margins}");
-            for margin in [down, up] {
-                let Some(what) = margin["what"].as_str() else {
-                    let share = number(margin, "value") / here;
-                    assert!([0.5, 1.5].iter().any(|it| (share - it).abs() < 1e-9), "{margin}");
-                    continue;
-                };
-                let value = number(margin, "value");
-                let beyond = 0.1 * (value - here);
-                let mut ends = [here - beyond, value + beyond];
-                ends.sort_by(f64::total_cmp);
-                let found = specials(&folder, (held, point), (symbol, unit), ends);
-                let is_it = |(special, kind): &(f64, &str)| {
-                    (special - value).abs() <= 1e-6 * here && *kind == what
-                };
-                assert!(found.iter().any(is_it), "{symbol} {margin}: {found:?}");
-                compared += 1;
+        for (symbol, margins) in point["margins"].as_object().expect("margins") {
+            let parameter = Parameter::named(symbol).expect("a parameter");
+            for side in ["down", "up"] {
+                assert_ne!(margins[side]["end"], "not known", "{symbol} {margins}");
+                let (fault, is_end) = judged(point, parameter, &margins[side]);
+                faults.extend(fault.map(|it| format!("{symbol} {side} {}: {it}", margins[side])));
+                ends += usize::from(is_end);
             }
         }
     }
-    assert!(compared >= 4, "{compared}");
+    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(ends >= 12, "{ends} ends");
 }
