@@ -67,7 +67,7 @@ impl Refinement<'_> {
     /// What is found in a gap depends on this, beside the results.
     fn described_gap(&self, Gap { from, prices }: &Gap<'_>) -> Value {
         let values: Vec<f64> = Parameter::ALL.iter().map(|it| from.parameters[*it]).collect();
-        json!({
+        self.within_conditions(json!({
             "from": from.from,
             "moving": self.direction.name(),
             "of": self.of.name(),
@@ -76,7 +76,7 @@ impl Refinement<'_> {
             "begins_at": from.section,
             "cycles_of_period": from.period,
             "prices": prices,
-        })
+        }))
     }
 
     fn follow<R: Reading>(&self, gap: &Gap<'_>) -> Vec<RefinedMotion> {

@@ -8,6 +8,7 @@
 pub mod answer;
 mod clear;
 mod compute;
+pub mod conditions;
 mod continuation;
 pub mod count;
 pub mod error;

@@ -16,6 +16,7 @@ use crate::tradeoff::{
     sensitivity,
 };
 
+use super::conditions::Conditions;
 use super::error::CampaignError;
 use super::kept_searches::KeptSearches;
 use super::motion_row::Row;
@@ -65,6 +66,8 @@ pub struct Refinement<'a> {
     pub of: Output,
     /// The direction in which speed counts.
     pub direction: Direction,
+    /// What is asked of motions between the cases.
+    pub conditions: Conditions,
     /// Number of the drawing of starts.
     pub seed: u64,
     /// Searches that are done already, and where further ones are kept.
@@ -72,12 +75,13 @@ pub struct Refinement<'a> {
 }
 
 impl Refinement<'_> {
-    /// Parameters that vary, with the ends of their ranges.
+    /// Parameters that vary, with the ends of their ranges as far as conditions allow.
     pub fn free(&self) -> Vec<(Parameter, [f64; 2])> {
         let varied = self.study.case_set.varied().into_iter();
         let free = varied.filter_map(|coordinate| match coordinate {
             Coordinate::Parameter(parameter) => {
-                let [low, high] = self.study.case_set.ends(coordinate)?;
+                let ends = self.study.case_set.ends(coordinate)?;
+                let [low, high] = self.conditions.within(parameter, ends);
                 (high > low).then_some((parameter, [low, high]))
             }
             _ => None,
@@ -157,13 +161,21 @@ impl Refinement<'_> {
     /// What a search depends on, beside the results.
     fn described(&self, Search { from, goal }: &Search) -> Value {
         let of = self.of.name();
-        match goal {
+        self.within_conditions(match goal {
             Goal::Speed { direction, budget } => {
                 let most = budget.map(|(_, most)| most);
                 json!({ "from": from, "moving": direction.name(), "of": of, "most": most })
             }
             Goal::Least(output) => json!({ "from": from, "least": output.name(), "of": of }),
+        })
+    }
+
+    /// What a search depends on, with the conditions if there are any.
+    pub(super) fn within_conditions(&self, mut search: Value) -> Value {
+        if let Some(conditions) = self.conditions.described() {
+            search["where"] = conditions;
         }
+        search
     }
 
     /// The motions that each of some searches leads to, in the order of the searches; calls `done` after each.
@@ -194,7 +206,8 @@ impl Refinement<'_> {
         Ok(found.and_then(|it| self.settled(&family, &it, case)).into_iter().collect())
     }
 
-    /// The best orbit of a family, settled anew from its section point; none where it is not the same then.
+    /// The best orbit of a family, settled anew from its section point; none where it is not the same then or
+    /// does not keep the conditions.
     pub(super) fn settled<R: Reading>(
         &self,
         family: &Family<R>,
@@ -210,9 +223,10 @@ impl Refinement<'_> {
         let slopes = Slopes {
             sensitivity: self.sensitivity(&system, &found.at, family.period),
             stationarity: Some(found.stationarity),
-            held_by: words(&found.held_by, &family.free),
+            held_by: words(&found.held_by, family),
         };
-        is_same.then_some(RefinedMotion {
+        let counts = is_same && self.conditions.allow(&orbit.outputs);
+        counts.then_some(RefinedMotion {
             from,
             parameters: system.parameters,
             section: found.at.section,
@@ -259,7 +273,7 @@ impl Refinement<'_> {
         Ok(Slopes {
             sensitivity: self.sensitivity(&family.system, &at, family.period),
             stationarity,
-            held_by: words(&held_by.unwrap_or_default(), &family.free),
+            held_by: words(&held_by.unwrap_or_default(), &family),
         })
     }
 
@@ -307,7 +321,8 @@ impl Refinement<'_> {
             free.clear();
         }
         let system = CapsuleSystem::new(parameters, phase);
-        Family { system, free, period, tolerance: self.study.protocol.tolerance }
+        let limits = self.conditions.limits.clone();
+        Family { system, free, limits, period, tolerance: self.study.protocol.tolerance }
     }
 
     /// Where a motion is, a case of the file or one between them; none where it does not repeat.

@@ -2,7 +2,7 @@
 
 use crate::capsule::{Output, Outputs, Parameter, Parameters, Section};
 use crate::study::Coordinate;
-use crate::tradeoff::{Candidate, Hold, Side};
+use crate::tradeoff::{Candidate, Family, Hold, Side};
 
 /// Said of a motion whose search has not converged.
 const NOT_CONVERGED: &str = "not converged";
@@ -95,13 +95,14 @@ pub fn distinct(found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {
 }
 
 /// What holds a motion, in words.
-pub(super) fn words(holds: &[Hold], free: &[(Parameter, [f64; 2])]) -> Vec<String> {
+pub(super) fn words<R>(holds: &[Hold], family: &Family<R>) -> Vec<String> {
     let in_words = |hold: &Hold| match hold {
         Hold::Interior => "interior".to_owned(),
         Hold::Bound(place, side) => {
             let side = if *side == Side::Lower { "lower" } else { "upper" };
-            format!("{side} bound of {}", free[*place].0.symbol())
+            format!("{side} bound of {}", family.free[*place].0.symbol())
         }
+        Hold::Limit(place) => format!("limit of {}", family.limits[*place].output.name()),
         Hold::Fold => "fold".to_owned(),
         Hold::PeriodDoubling => "period doubling".to_owned(),
         Hold::NeimarkSacker => "Neimark-Sacker".to_owned(),

@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::capsule::Output;
-use crate::store::{Archive, CaseTable, Unread, candidates};
+use crate::store::{Archive, CaseTable, Condition, Unread, candidates, conditions};
 use crate::study::Study;
 use crate::tradeoff::{
-    Candidate, Direction, MOST_FREE, Optima, fastest_first, hypervolume, optima as best_of,
+    Candidate, Direction, MOST_FREE, Optima, SMOOTH, fastest_first, hypervolume, optima as best_of,
 };
 
 use super::answer::{Answer, Gain, Named};
+use super::conditions::Conditions;
 use super::error::CampaignError;
 use super::kept_searches::KeptSearches;
 use super::margins::bound;
@@ -103,17 +104,23 @@ impl TradeOff<'_> {
         let table = CaseTable::of(self.archive)?.ok_or_else(|| {
             self.fault("there are no cases; `capsulemap sweep` computes them".to_owned())
         })?;
-        let found = candidates(&table, self.of, self.conditions).map_err(|it| self.unread(it))?;
+        let conditions = self.conditions.map(|text| conditions(&table, text)).transpose();
+        let conditions = conditions.map_err(|it| self.unread(it))?.unwrap_or_default();
+        let found = candidates(&table, self.of, &conditions).map_err(|it| self.unread(it))?;
         let rows = Rows::of(&table, self.archive, &self.file.display().to_string())?;
         let study = self.needs_orbits().then(|| study_of(self.archive, self.file)).transpose()?;
         let none = KeptSearches::default();
+        let between = self.between_cases(&conditions)?;
         let asked = Asked {
             request: self,
             cases: table.cases(),
             rows: &rows,
             candidates: &found.all,
             optima: best_of(&found.all, self.direction, self.at_rest),
-            refinement: study.as_ref().map(|study| self.refinement(study, &rows, &none)),
+            refinement: study.as_ref().map(|study| Refinement {
+                conditions: between,
+                ..self.refinement(study, &rows, &none)
+            }),
         };
         let reports = Reports::new(report);
         let (searches, between) = asked.between(&reports)?;
@@ -127,6 +134,26 @@ impl TradeOff<'_> {
             bound(&mut answer, refinement, threads, &reports)?;
         }
         Ok(answer)
+    }
+
+    /// What is asked of motions between the cases, if they are sought.
+    ///
+    /// Fails if the conditions cannot be kept between the cases, or the price is not one that a search can make less.
+    fn between_cases(&self, conditions: &[Condition]) -> Result<Conditions, CampaignError> {
+        if !matches!(self.between, Between::Sought(..)) {
+            return Ok(Conditions::default());
+        }
+        let found = Conditions::of(conditions);
+        let of = self.of.name();
+        let price = (!SMOOTH.contains(&self.of))
+            .then(|| format!("`{of}` has no derivatives in the parameters; `--refine` needs them"));
+        match (found, price) {
+            (Ok(found), None) => Ok(found),
+            (found, price) => {
+                let faults = found.err().into_iter().flatten().chain(price).collect();
+                Err(CampaignError::TradeOff { path: self.file.to_owned(), faults })
+            }
+        }
     }
 
     /// Whether more is asked than what the file tells of its cases.
@@ -167,6 +194,7 @@ impl TradeOff<'_> {
             periods: rows.periods(study.cases()),
             of: self.of,
             direction: self.direction,
+            conditions: Conditions::default(),
             seed: self.seed(),
             kept,
         }

@@ -58,7 +58,7 @@ pub struct Tradeoff {
     #[arg(long, value_name = "QUANTITY")]
     speed: Option<String>,
     /// Search for better motions between the cases, over the parameters that vary, within their ranges (at most 6).
-    #[arg(long, conflicts_with = "conditions")]
+    #[arg(long)]
     refine: bool,
     /// Tolerances of parameters, as "k2 = 5 %, mu_s = 10 %": of the optima and the front it is told which speed and price 5 % of
     /// the draws miss, and how many keep the motion.

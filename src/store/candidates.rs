@@ -8,7 +8,7 @@ use crate::tradeoff::Candidate;
 
 use super::case_table::{CaseTable, Column};
 use super::catalogue::OUTCOME;
-use super::constraint::fulfilled;
+use super::constraint::{Condition, fulfils};
 use super::{StoreError, Unread};
 
 /// The motions of a file that take part in a trade-off.
@@ -20,27 +20,26 @@ pub struct Candidates {
     pub left_out: BTreeMap<String, usize>,
 }
 
-/// The cases that fulfil `conditions`, with their speeds and what these cost by the output `of`. Chaotic and quasi-periodic
+/// The cases that fulfil all of some conditions, with their speeds and what these cost by the output `of`. Chaotic and quasi-periodic
 /// motions take part by their means; cases that failed, are undecided, inferred or missing, or lack a number, do not.
 ///
-/// Fails if the file cannot be read, lacks the numbers, or the conditions have faults.
+/// Fails if the file cannot be read or lacks the numbers.
 pub fn candidates(
     table: &CaseTable<'_>,
     of: Output,
-    conditions: Option<&str>,
+    conditions: &[Condition],
 ) -> Result<Candidates, Unread> {
     let speeds = column(table, Output::ProgressionSpeed)?;
     let prices = column(table, of)?;
     let metres = column(table, Output::EnergyPerMetre).unwrap_or_else(|_| unknown(table));
     let outcomes = table.column(OUTCOME.name)?.unwrap_or_else(|| unknown(table));
-    let allowed = conditions.map(|text| fulfilled(table, text)).transpose()?;
     let mut found = Candidates { all: Vec::new(), left_out: BTreeMap::new() };
     for case in 0..table.cases() {
         let (speed, price) = (speeds.values[case], prices.values[case]);
         let reason = match name(&outcomes, case) {
             name if !takes_part(name) => Some(name),
             _ if !(speed.is_finite() && price.is_finite()) => Some("without values"),
-            _ if allowed.as_ref().is_some_and(|it| !it[case]) => Some("excluded by conditions"),
+            _ if !fulfils(conditions, case) => Some("excluded by conditions"),
             _ => None,
         };
         match reason {

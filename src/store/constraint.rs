@@ -7,15 +7,36 @@ use crate::study::parse_quantity;
 use super::case_table::{CaseTable, Column};
 use super::{StoreError, Unread};
 
-/// How a number is compared.
+/// How a number is compared with a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Comparison {
+pub enum Comparison {
+    /// It is less.
     Less,
+    /// It is no more.
     AtMost,
+    /// It is more.
     More,
+    /// It is no less.
     AtLeast,
+    /// It is the same.
     Equal,
+    /// It is another.
     Unequal,
+}
+
+/// A condition on the numbers of cases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Condition {
+    /// As it is written.
+    pub text: String,
+    /// What the numbers are called.
+    pub name: String,
+    /// The numbers.
+    pub column: Column,
+    /// How they are compared.
+    pub comparison: Comparison,
+    /// What they are compared with (SI, or the code of a category).
+    pub limit: f64,
 }
 
 /// Each by its signs, those that begin like others first.
@@ -43,27 +64,28 @@ impl Comparison {
     }
 }
 
-/// Which cases fulfil all of some conditions joined by `and`; a case that lacks the number does not.
+/// Conditions joined by `and`.
 ///
 /// Fails with all faults of the text, or if the file cannot be read.
-pub fn fulfilled(table: &CaseTable<'_>, text: &str) -> Result<Vec<bool>, Unread> {
-    let mut fulfilled = vec![true; table.cases()];
-    let mut faults = Vec::new();
+pub fn conditions(table: &CaseTable<'_>, text: &str) -> Result<Vec<Condition>, Unread> {
+    let (mut conditions, mut faults) = (Vec::new(), Vec::new());
     for part in text.split(" and ") {
         match condition(table, part.trim()) {
-            Ok((column, comparison, limit)) => {
-                let both = fulfilled.iter_mut().zip(&column.values);
-                both.for_each(|(all, value)| *all &= comparison.holds(*value, limit));
-            }
+            Ok(condition) => conditions.push(condition),
             Err(Unread::Store(error)) => return Err(Unread::Store(error)),
             Err(Unread::Faults(found)) => faults.extend(found),
         }
     }
-    if faults.is_empty() { Ok(fulfilled) } else { Err(Unread::Faults(faults)) }
+    if faults.is_empty() { Ok(conditions) } else { Err(Unread::Faults(faults)) }
 }
 
-/// One condition: the numbers that are compared, how, and with what.
-fn condition(table: &CaseTable<'_>, text: &str) -> Result<(Column, Comparison, f64), Unread> {
+/// Whether a case fulfils all conditions; one that lacks a number does not.
+pub fn fulfils(conditions: &[Condition], case: usize) -> bool {
+    conditions.iter().all(|it| it.comparison.holds(it.column.values[case], it.limit))
+}
+
+/// One condition.
+fn condition(table: &CaseTable<'_>, text: &str) -> Result<Condition, Unread> {
     let fault = |message: String| Unread::Faults(vec![format!("\"{text}\": {message}")]);
     let sign = text.find(['<', '>', '!', '=']).and_then(|at| {
         let found = SIGNS.iter().find(|(sign, _)| text[at..].starts_with(sign));
@@ -78,16 +100,17 @@ fn condition(table: &CaseTable<'_>, text: &str) -> Result<(Column, Comparison, f
         let names = table.names();
         return Err(fault(unknown("number of a case", name, names.iter().map(String::as_str))));
     };
+    let (text, name) = (text.to_owned(), name.to_owned());
     if !column.flags.is_empty() {
         let named = column.flags.iter().find(|(_, flag)| flag == limit).map(|(code, _)| *code);
         let names = column.flags.iter().map(|(_, flag)| flag.as_str());
         return match named {
-            Some(code) => Ok((column, comparison, code as f64)),
+            Some(code) => Ok(Condition { text, name, column, comparison, limit: code as f64 }),
             None => Err(fault(unknown("category", limit, names))),
         };
     }
     let limit = quantity(limit, &column.unit).map_err(fault)?;
-    Ok((column, comparison, limit))
+    Ok(Condition { text, name, column, comparison, limit })
 }
 
 /// A quantity with a unit of the dimension of `unit`, in SI; a plain number is in SI already.

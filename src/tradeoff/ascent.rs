@@ -1,10 +1,10 @@
 //! From an orbit to the best one of its family: stationary within the bounds, or where the family or its outputs have an edge.
 
 use crate::capsule::Reading;
-use crate::orbit::matrix::{dot, norm};
+use crate::orbit::matrix::norm;
 
 use super::beyond::Beyond;
-use super::goal::{Goal, Measured, Objective};
+use super::goal::{Goal, Measured, Multipliers, Objective};
 use super::hold::{Hold, Side};
 use super::operating_point::{Family, OperatingPoint};
 use super::quadratic::{MOST, Quadratic, Vector};
@@ -31,7 +31,7 @@ const GAIN: f64 = 1e-4;
 const AT_EDGE: f64 = 1e-4;
 /// A surface this near holds an orbit, in shares of the ranges.
 const TOUCHES: f64 = 1e-9;
-/// A share this near to a bound is on it: bringing an orbit back to its budget may move it off by rounding.
+/// A share this near to a bound is on it: bringing an orbit back to its limits may move it off by rounding.
 const ON_BOUND: f64 = 1e-13;
 /// Steps end so far before a surface, where rounding does not yet mix the derivatives of its two sides.
 const CLEAR: f64 = 1e-10;
@@ -42,7 +42,7 @@ pub struct Best {
     /// The orbit.
     pub at: OperatingPoint,
     /// The largest relative slope of the value that is left, for the whole range of a parameter, along directions that bounds,
-    /// budget and surfaces leave free [-].
+    /// limits and surfaces leave free [-].
     pub stationarity: f64,
     /// What holds it.
     pub held_by: Vec<Hold>,
@@ -59,20 +59,30 @@ struct Ascent<'a, R> {
 struct Slope {
     /// As in [`Best`].
     left: f64,
-    /// The multiplier of the budget; zero where it is not reached.
-    budget: f64,
-    /// The bounds and surfaces that hold the orbit.
+    /// The multipliers of the limits; zero of those that are not reached.
+    limits: Multipliers,
+    /// The bounds, limits and surfaces that hold the orbit, a budget aside.
     held_by: Vec<Hold>,
     /// The places of near surfaces beyond which it is better.
     passes: Vec<usize>,
 }
 
-/// The best orbit of a family for a goal, from an orbit of it; none where the goal has no value there.
+/// A step of the quadratic model.
+struct Step {
+    /// The step.
+    step: Vector,
+    /// The value there, relative to here.
+    value: f64,
+    /// The multipliers of the limits; zero of those that do not hold the step.
+    limits: Multipliers,
+}
+
+/// The best orbit of a family for a goal within its limits, from an orbit of it; none where the goal has no value there.
 ///
 /// # Method
 ///
 /// Sequential quadratic programming in the shares of the free parameters: exact gradients, second derivatives of the
-/// Lagrange function by central differences of them, the quadratic model solved exactly within the bounds, the budget and
+/// Lagrange function by central differences of them, the quadratic model solved exactly within the bounds, the limits and
 /// a region of trust; a trial counts where its orbit exists, is stable and gains. The region shrinks where the family ends.
 /// Where the sequence of events changes, outputs have a kink: the surface of the parameters between two orbits with
 /// different events bounds the model, as long as the value would become worse beyond it.
@@ -102,23 +112,26 @@ pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -
             at = surface.beyond.clone();
             continue;
         }
-        let found = ascent.model((&at, &here), near.budget, &surfaces, trust).least();
-        // Before a budget that is exceeded there may be no room on this side of a surface.
+        let found = ascent.step((&at, &here), &near.limits, &surfaces, trust);
+        // Before a limit that is exceeded there may be no room on this side of a surface.
         let alone = || {
             let has_surfaces = !surfaces.is_empty();
-            has_surfaces.then(|| ascent.model((&at, &here), near.budget, &[], trust).least())?
+            has_surfaces.then(|| ascent.step((&at, &here), &near.limits, &[], trust))?
         };
         let Some(found) = found.or_else(alone) else {
             trust *= 0.25;
             continue;
         };
-        let multiplier = if here.excess.is_some() { found.multipliers[0] } else { 0.0 };
-        let weight = 1.0 + 2.0 * multiplier.max(near.budget);
-        let merit = |it: &Measured| it.value + weight * it.excess.map_or(0.0, |it| it.0.max(0.0));
+        let weights: Multipliers =
+            std::array::from_fn(|i| 1.0 + 2.0 * found.limits[i].max(near.limits[i]));
+        let exceeded = |it: &Measured| -> f64 {
+            let parts = it.excess.iter().zip(weights);
+            parts.map(|((excess, _), weight)| weight * excess.max(0.0)).sum()
+        };
+        let merit = |it: &Measured| it.value + exceeded(it);
         let length = found.step.iter().fold(0.0, |most: f64, part| most.max(part.abs()));
         let trial = ascent.trial(&at, &found.step);
-        let relieved = here.excess.map_or(0.0, |(excess, _)| weight * excess.max(0.0));
-        let foretold = relieved - found.value;
+        let foretold = exceeded(&here) - found.value;
         let Some((there, trial)) = trial else {
             trust = 0.25 * length.min(trust);
             continue;
@@ -184,22 +197,25 @@ pub fn left<R: Reading>(
 impl<'a, R: Reading> Ascent<'a, R> {
     /// From an orbit of a family; none where the goal has no value there.
     fn from(family: &'a Family<R>, first: &OperatingPoint, goal: Goal) -> Option<Self> {
-        let objective = Objective::from(goal, family.free.len(), first)?;
-        Some(Ascent { family, objective, beyond: Beyond::of(family, objective) })
+        let objective = Objective::from(goal, &family.limits, (family.free.len(), first))?;
+        let beyond = Beyond::of(family, objective.clone());
+        Some(Ascent { family, objective, beyond })
     }
 
-    /// The orbit a step away, then brought back to the budget if that is exceeded; none where the family does not reach.
+    /// The orbit a step away, then brought back to the limits that are exceeded; none where the family does not reach.
     fn trial(&self, at: &OperatingPoint, step: &Vector) -> Option<(Measured, OperatingPoint)> {
         let measured = |it: OperatingPoint| (self.objective.measured(&it), it);
         let shares = std::array::from_fn(|i| on_bound(at.shares[i] + step[i]));
         let (there, passed) = self.family.moved(at, &shares).map(measured)?;
-        let corrected = within_budget(&there, &passed.shares)
+        let corrected = there
+            .back_to_limits()
+            .map(|by| std::array::from_fn(|i| on_bound(passed.shares[i] + by[i])))
             .and_then(|shares| self.family.moved(&passed, &shares))
             .map(measured);
         Some(corrected.unwrap_or((there, passed)))
     }
 
-    /// The slope that bounds, budget and surfaces leave which touch the orbit, or are so near [shares].
+    /// The slope that bounds, limits and surfaces leave which touch the orbit, or are so near [shares].
     fn slope(
         &self,
         (at, here): (&OperatingPoint, &Measured),
@@ -209,8 +225,13 @@ impl<'a, R: Reading> Ascent<'a, R> {
         let mut constraints: Vec<(Option<Hold>, Vector)> = Vec::new();
         let is_near =
             |(excess, normal): &(f64, Vector)| -excess <= STATIONARY + near * norm(normal);
-        constraints.extend(here.excess.filter(is_near).map(|(_, normal)| (None, normal)));
-        let has_budget = !constraints.is_empty();
+        let limits: Vec<usize> =
+            (0..here.excess.len()).filter(|&place| is_near(&here.excess[place])).collect();
+        let hold = |place: usize| match self.objective.has_budget() {
+            true => place.checked_sub(1).map(Hold::Limit),
+            false => Some(Hold::Limit(place)),
+        };
+        constraints.extend(limits.iter().map(|&place| (hold(place), here.excess[place].1)));
         for place in 0..self.objective.count {
             let outward = |sign: f64| std::array::from_fn(|i| if i == place { sign } else { 0.0 });
             if at.shares[place] <= near {
@@ -232,30 +253,30 @@ impl<'a, R: Reading> Ascent<'a, R> {
             constraints.extend(touching.iter().map(of_surface));
             let normals: Vec<Vector> = constraints.iter().map(|(_, normal)| *normal).collect();
             let (slope, multipliers) = slope::left(&here.gradient, &normals);
-            let budget = if has_budget { multipliers[0] } else { 0.0 };
+            let mut of_limits = Multipliers::default();
+            limits.iter().zip(&multipliers).for_each(|(&place, &by)| of_limits[place] = by);
             let count = passes.len();
-            passes.extend(touching.iter().filter(|&&i| surfaces[i].lets_pass(budget)));
+            passes.extend(touching.iter().filter(|&&i| surfaces[i].lets_pass(&of_limits)));
             if passes.len() > count {
                 touching.retain(|place| !passes.contains(place));
                 continue;
             }
-            let excess = here.excess.map_or(0.0, |(excess, _)| excess.max(0.0));
-            let left = slope.iter().fold(excess, |most, part| most.max(part.abs()));
+            let left = slope.iter().fold(here.most_excess(), |most, part| most.max(part.abs()));
             let holding = constraints.iter().zip(&multipliers);
             let holding = holding.filter(|(_, multiplier)| **multiplier > STATIONARY);
             let held_by = holding.filter_map(|((hold, _), _)| *hold).collect();
-            return Slope { left, budget, held_by, passes };
+            return Slope { left, limits: of_limits, held_by, passes };
         }
     }
 
-    /// The quadratic model within the region of trust; the first plane is the budget, if there is one.
-    fn model(
+    /// Where the quadratic model is least within the region of trust; none where there is no room.
+    fn step(
         &self,
         (at, here): (&OperatingPoint, &Measured),
-        multiplier: f64,
+        multipliers: &Multipliers,
         surfaces: &[Surface],
         trust: f64,
-    ) -> Quadratic {
+    ) -> Option<Step> {
         let count = self.objective.count;
         let bound = |side: f64| -> Vector {
             std::array::from_fn(|i| {
@@ -264,20 +285,34 @@ impl<'a, R: Reading> Ascent<'a, R> {
             })
         };
         let bounds = [bound(-1.0), bound(1.0)];
-        let budget = here.excess.map(|(excess, normal)| {
-            let deepest: f64 =
-                (0..count).map(|i| (normal[i] * bounds[0][i]).min(normal[i] * bounds[1][i])).sum();
-            // Where the region of trust does not reach the budget, most of the distance to it is gone.
-            (normal, (-excess).max(0.8 * deepest))
+        let extreme = |normal: &Vector, sign: f64| -> f64 {
+            let ends = (0..count).map(|i| [0, 1].map(|side| sign * normal[i] * bounds[side][i]));
+            sign * ends.map(|[low, high]| low.max(high)).sum::<f64>()
+        };
+        // Limits that no step reaches are no planes.
+        let places: Vec<usize> = (0..here.excess.len())
+            .filter(|&place| {
+                let (excess, normal) = &here.excess[place];
+                -excess <= extreme(normal, 1.0)
+            })
+            .collect();
+        let of_limits = places.iter().map(|&place| {
+            let (excess, normal) = here.excess[place];
+            // Where the region of trust does not reach a limit, most of the distance to it is gone.
+            (normal, (-excess).max(0.8 * extreme(&normal, -1.0)))
         });
         let clear = |distance: f64| {
             let too_near = distance < 0.25 * CLEAR;
             if too_near { distance - CLEAR } else { (distance - CLEAR).max(0.0) }
         };
         let before = surfaces.iter().map(|it| (it.normal, clear(it.distance)));
-        let planes = budget.into_iter().chain(before).collect();
-        let hessian = self.curvature((at, here), multiplier, surfaces, trust);
-        Quadratic { count, gradient: here.gradient, hessian, bounds, planes }
+        let planes = of_limits.chain(before).collect();
+        let hessian = self.curvature((at, here), multipliers, surfaces, trust);
+        let model = Quadratic { count, gradient: here.gradient, hessian, bounds, planes };
+        let least = model.least()?;
+        let mut limits = Multipliers::default();
+        places.iter().zip(least.multipliers).for_each(|(&place, by)| limits[place] = by);
+        Some(Step { step: least.step, value: least.value, limits })
     }
 
     /// The second derivatives of the Lagrange function. Where surfaces touch, those of both sides are combined as the gradients
@@ -285,16 +320,16 @@ impl<'a, R: Reading> Ascent<'a, R> {
     fn curvature(
         &self,
         (at, here): (&OperatingPoint, &Measured),
-        multiplier: f64,
+        multipliers: &Multipliers,
         surfaces: &[Surface],
         trust: f64,
     ) -> [Vector; MOST] {
-        let near = self.hessian(at, multiplier, trust);
+        let near = self.hessian(at, multipliers, trust);
         let mut curvature = near;
         for surface in surfaces.iter().filter(|it| it.distance <= trust) {
-            let share = surface.share(here, multiplier);
+            let share = surface.share(here, multipliers);
             if share > 0.0 {
-                let far = self.hessian(&surface.beyond, multiplier, trust);
+                let far = self.hessian(&surface.beyond, multipliers, trust);
                 for i in 0..self.objective.count {
                     for j in 0..self.objective.count {
                         curvature[i][j] += share * (far[i][j] - near[i][j]);
@@ -307,14 +342,19 @@ impl<'a, R: Reading> Ascent<'a, R> {
 
     /// The second derivatives of the Lagrange function, from orbits with the same events; zero where the family does not reach
     /// far enough to tell.
-    fn hessian(&self, at: &OperatingPoint, multiplier: f64, trust: f64) -> [Vector; MOST] {
+    fn hessian(
+        &self,
+        at: &OperatingPoint,
+        multipliers: &Multipliers,
+        trust: f64,
+    ) -> [Vector; MOST] {
         let [least, most] = DIFFERENCES;
         let by = (DIFFERENCE * trust).clamp(least, most);
         let slope = |shares: &Vector| -> Option<Vector> {
             let there = self.family.moved(at, shares).filter(|it| it.events == at.events)?;
-            Some(self.objective.measured(&there).lagrange(multiplier))
+            Some(self.objective.measured(&there).lagrange(multipliers))
         };
-        let here = self.objective.measured(at).lagrange(multiplier);
+        let here = self.objective.measured(at).lagrange(multipliers);
         let mut rows = [Vector::default(); MOST];
         for i in 0..self.objective.count {
             let shifted = |by: f64| {
@@ -346,14 +386,6 @@ impl<'a, R: Reading> Ascent<'a, R> {
         }
         holds
     }
-}
-
-/// The nearest shares at which the budget is met, as its gradient tells, from some that exceed it; none where they do not.
-fn within_budget(there: &Measured, shares: &Vector) -> Option<Vector> {
-    let (excess, normal) = there.excess?;
-    let steep = dot(&normal, &normal);
-    (excess > 0.0 && steep > 0.0)
-        .then(|| std::array::from_fn(|i| on_bound(shares[i] - normal[i] * excess / steep)))
 }
 
 /// A share of a range; what rounding leaves before a bound is on it.

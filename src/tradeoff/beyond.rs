@@ -5,7 +5,7 @@ use crate::orbit::matrix::dot;
 
 use super::goal::{Measured, Objective};
 use super::operating_point::{Family, OperatingPoint};
-use super::quadratic::{PLANES, Vector};
+use super::quadratic::{SURFACES, Vector};
 use super::surface::Surface;
 
 /// Where an orbit towards a surface has the same events, one so many times farther is tried.
@@ -98,7 +98,7 @@ impl<'a, R: Reading> Beyond<'a, R> {
         let near = self.orbits.iter().filter(is_near);
         let mut surfaces: Vec<Surface> = near.filter_map(between).collect();
         surfaces.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        surfaces.truncate(PLANES - 1);
+        surfaces.truncate(SURFACES);
         surfaces
     }
 }

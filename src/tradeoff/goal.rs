@@ -1,10 +1,13 @@
-//! What a search makes small, and what it may spend, relative to where it began.
+//! What a search makes small, and what limits it, relative to where it began.
 
 use crate::capsule::Output;
+use crate::orbit::matrix::{dot, solve};
 
+use super::hold::Side;
+use super::limit::Limit;
 use super::operating_point::OperatingPoint;
 use super::optima::Direction;
-use super::quadratic::Vector;
+use super::quadratic::{LIMITS, Vector};
 
 /// What is sought.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,33 +23,58 @@ pub enum Goal {
     Least(Output),
 }
 
+/// The multipliers of limits, by their places; zero of those that do not hold.
+pub type Multipliers = [f64; LIMITS];
+
 /// A goal over so many free parameters, relative to the first value.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Objective {
     goal: Goal,
     /// Free parameters.
     pub count: usize,
     /// The magnitude of the first value.
     unit: f64,
+    /// The limits, the budget first if there is one, each with the size by which it is measured.
+    limits: Vec<(Limit, f64)>,
 }
 
-/// Value, budget and their gradients at an orbit, relative to the first value and to the budget; both are to be small.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Value, limits and their gradients at an orbit, relative to the first value and to the limits; all are to be small.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
     /// The value.
     pub value: f64,
     /// Its gradient in the shares.
     pub gradient: Vector,
-    /// By how much the budget is exceeded, and the gradient of that.
-    pub excess: Option<(f64, Vector)>,
+    /// By how much each limit is exceeded, negative where it is not, and the gradient of that.
+    pub excess: Vec<(f64, Vector)>,
 }
 
 impl Objective {
-    /// A goal relative to its value at the first orbit; none where it has none there.
-    pub fn from(goal: Goal, count: usize, first: &OperatingPoint) -> Option<Self> {
-        let objective = Objective { goal, count, unit: 1.0 };
+    /// A goal within limits, relative to its value at the first orbit; none where it or a limited output has none there.
+    pub fn from(
+        goal: Goal,
+        limits: &[Limit],
+        (count, first): (usize, &OperatingPoint),
+    ) -> Option<Self> {
+        let budget = match goal {
+            Goal::Speed { budget, .. } => budget.map(Limit::budget),
+            Goal::Least(_) => None,
+        };
+        let measured = |limit: Limit| {
+            let sizes = [limit.value.abs(), first.outputs[limit.output].abs(), 1.0];
+            let size = sizes.into_iter().find(|size| *size > 0.0)?;
+            size.is_finite().then_some((limit, size))
+        };
+        let limits = budget.into_iter().chain(limits.iter().copied()).map(measured);
+        let limits = limits.collect::<Option<Vec<_>>>()?;
+        let objective = Objective { goal, count, unit: 1.0, limits };
         let unit = objective.value(first).abs();
         (unit > 0.0 && unit.is_finite()).then_some(Objective { unit, ..objective })
+    }
+
+    /// Whether the first limit is a budget.
+    pub fn has_budget(&self) -> bool {
+        matches!(self.goal, Goal::Speed { budget: Some(_), .. })
     }
 
     /// What is to be small, in SI.
@@ -57,34 +85,61 @@ impl Objective {
         }
     }
 
-    /// Value, budget and their gradients at an orbit.
+    /// Value, limits and their gradients at an orbit.
     pub fn measured(&self, at: &OperatingPoint) -> Measured {
         let slopes = |output: Output, factor: f64| -> Vector {
             at.gradient(output, self.count).map(|slope| slope * factor)
         };
-        let (gradient, budget) = match self.goal {
-            Goal::Speed { direction, budget } => {
+        let gradient = match self.goal {
+            Goal::Speed { direction, .. } => {
                 let speed = at.outputs[Output::ProgressionSpeed];
                 let sign = if direction.of(speed) == speed { 1.0 } else { -1.0 };
-                (slopes(Output::ProgressionSpeed, -sign / self.unit), budget)
+                slopes(Output::ProgressionSpeed, -sign / self.unit)
             }
-            Goal::Least(output) => (slopes(output, 1.0 / self.unit), None),
+            Goal::Least(output) => slopes(output, 1.0 / self.unit),
         };
-        let excess = budget
-            .map(|(output, most)| (at.outputs[output] / most - 1.0, slopes(output, 1.0 / most)));
+        let excess = |(limit, size): &(Limit, f64)| {
+            let factor = if limit.side == Side::Upper { 1.0 } else { -1.0 } / size;
+            (limit.excess(at.outputs[limit.output]) / size, slopes(limit.output, factor))
+        };
+        let excess = self.limits.iter().map(excess).collect();
         Measured { value: self.value(at) / self.unit, gradient, excess }
     }
 }
 
 impl Measured {
-    /// The gradient of the Lagrange function with this multiplier of the budget.
-    pub fn lagrange(&self, multiplier: f64) -> Vector {
-        let normal = self.normal();
-        std::array::from_fn(|i| self.gradient[i] + multiplier * normal[i])
+    /// The gradient of the Lagrange function with these multipliers of the limits.
+    pub fn lagrange(&self, multipliers: &Multipliers) -> Vector {
+        let with = |i: usize| {
+            let limits = self.excess.iter().zip(multipliers);
+            self.gradient[i] + limits.map(|((_, normal), by)| by * normal[i]).sum::<f64>()
+        };
+        std::array::from_fn(with)
     }
 
-    /// The gradient of the budget; zero where there is none.
-    fn normal(&self) -> Vector {
-        self.excess.map_or(Vector::default(), |(_, normal)| normal)
+    /// The most by which a limit is exceeded; zero where none is.
+    pub fn most_excess(&self) -> f64 {
+        self.excess.iter().fold(0.0, |most: f64, (excess, _)| most.max(*excess))
+    }
+
+    /// The least step of the shares by which the limits are met that are exceeded, as their gradients tell; none where no limit is,
+    /// or where the gradients depend on each other.
+    pub fn back_to_limits(&self) -> Option<Vector> {
+        let exceeded: Vec<&(f64, Vector)> = self.excess.iter().filter(|it| it.0 > 0.0).collect();
+        // The least step d with a d = -e for each excess e with gradient a: d = -A^T (A A^T)^-1 e.
+        let (mut rows, mut right) = ([[0.0; LIMITS]; LIMITS], [0.0; LIMITS]);
+        for (i, row) in rows.iter_mut().enumerate() {
+            row[i] = 1.0;
+        }
+        for (i, (excess, normal)) in exceeded.iter().enumerate() {
+            for (j, (_, other)) in exceeded.iter().enumerate() {
+                rows[i][j] = dot(normal, other);
+            }
+            right[i] = -excess;
+        }
+        let by = (!exceeded.is_empty()).then(|| solve(rows, right))??;
+        let moved =
+            |i: usize| exceeded.iter().zip(by).map(|((_, normal), by)| normal[i] * by).sum();
+        Some(std::array::from_fn(moved))
     }
 }

@@ -12,6 +12,8 @@ pub enum Hold {
     Interior,
     /// The lower or the upper bound of a free parameter, by its place.
     Bound(usize, Side),
+    /// The limit of an output, by its place among those of the family.
+    Limit(usize),
     /// A multiplier of one: beyond it there is no such orbit.
     Fold,
     /// A multiplier of minus one: beyond it the orbit is not stable.

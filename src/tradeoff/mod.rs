@@ -5,6 +5,7 @@ mod beyond;
 mod front;
 mod goal;
 mod hold;
+mod limit;
 mod operating_point;
 mod optima;
 mod quadratic;
@@ -16,7 +17,11 @@ pub use ascent::{Best, STATIONARY, best, left};
 pub use front::{NOISE, front, speed_at_rest};
 pub use goal::Goal;
 pub use hold::{Hold, Side};
+pub use limit::Limit;
 pub use operating_point::{Family, OperatingPoint};
 pub use optima::{Candidate, Direction, Optima, fastest_first, hypervolume, optima};
 pub use quadratic::MOST as MOST_FREE;
-pub use sensitivity::{Sensitivity, sensitivity};
+pub use sensitivity::{SMOOTH, Sensitivity, sensitivity};
+
+/// Limits of outputs that a search takes beside a budget, at most.
+pub const MOST_LIMITS: usize = quadratic::LIMITS - 1;

@@ -8,6 +8,7 @@ use crate::orbit::newton::close;
 use crate::orbit::passage::{Integrator, OneByOne, ReturnRequest, image};
 use crate::orbit::return_map::Cycles;
 
+use super::limit::Limit;
 use super::quadratic::{MOST, Vector};
 use super::sensitivity::sensitivity;
 
@@ -24,6 +25,8 @@ pub struct Family<R> {
     pub system: CapsuleSystem<R>,
     /// The free parameters with their bounds, at most [`MOST`].
     pub free: Vec<(Parameter, [f64; 2])>,
+    /// Limits of outputs within which an orbit is sought that is best, at most [`MOST_LIMITS`](super::MOST_LIMITS).
+    pub limits: Vec<Limit>,
     /// Period of the orbits [cycles].
     pub period: u64,
     /// Relative local error of a step.

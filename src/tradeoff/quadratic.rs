@@ -4,8 +4,12 @@ use crate::orbit::matrix::{dot, solve};
 
 /// Free parameters at most.
 pub const MOST: usize = 6;
+/// Limits of outputs at most, each a plane.
+pub const LIMITS: usize = 4;
+/// Surfaces on which events change at most, each a plane.
+pub const SURFACES: usize = 2;
 /// Planes at most.
-pub const PLANES: usize = 3;
+pub const PLANES: usize = LIMITS + SURFACES;
 /// Unknowns of the equations of a face: the step and the multipliers of the planes.
 const UNKNOWNS: usize = MOST + PLANES;
 /// A step may leave the box or pass the plane by so much, as rounding.

@@ -1,6 +1,8 @@
 //! How the section point and the outputs of a periodic orbit change with a parameter, exactly.
 
-use crate::capsule::{Account, CapsuleSystem, Outputs, Parameter, Reading, Section, per_cycle};
+use crate::capsule::{
+    Account, CapsuleSystem, Output, Outputs, Parameter, Reading, Section, per_cycle,
+};
 use crate::flow::System;
 use crate::lane::Dual;
 use crate::orbit::matrix::{less_identity, solve};
@@ -11,10 +13,28 @@ const DIRECTIONS: usize = 4;
 /// The place of the parameter among them.
 const FREE: usize = 3;
 
+/// The outputs that change smoothly along a family of orbits with the same events.
+pub const SMOOTH: [Output; 14] = [
+    Output::ProgressionSpeed,
+    Output::ProgressionPerCycle,
+    Output::WorkNet,
+    Output::WorkPositive,
+    Output::WorkAbsolute,
+    Output::WorkActuator,
+    Output::FrictionLoss,
+    Output::DamperLoss,
+    Output::CostOfTransport,
+    Output::Power,
+    Output::EnergyPerMetre,
+    Output::StickShare,
+    Output::PeakContactForce,
+    Output::GrazingMargin,
+];
+
 /// The outputs of a periodic orbit, and its derivatives in a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensitivity {
-    /// The outputs that change with parameters, NaN for others (SI).
+    /// The outputs of [`SMOOTH`], NaN for others (SI).
     pub outputs: Outputs,
     /// The derivative of the section point (SI).
     pub section_slope: Section,

@@ -2,7 +2,7 @@
 
 use crate::orbit::matrix::{dot, norm};
 
-use super::goal::Measured;
+use super::goal::{Measured, Multipliers};
 use super::hold::Hold;
 use super::operating_point::OperatingPoint;
 use super::quadratic::Vector;
@@ -30,7 +30,7 @@ pub struct Surface {
     pub hold: Hold,
     /// The orbit beyond it that tells of it.
     pub beyond: OperatingPoint,
-    /// Value and budget there.
+    /// Value and limits there.
     of_beyond: Measured,
 }
 
@@ -51,8 +51,9 @@ impl Surface {
             (norm(&gradient), there.0 - dot(&there.1, &apart) - here.0, gradient)
         };
         let of_value = jump((of_here.value, of_here.gradient), (of_there.value, of_there.gradient));
-        let of_budget = of_here.excess.zip(of_there.excess).map(|(here, there)| jump(here, there));
-        let jumps = std::iter::once(of_value).chain(of_budget);
+        let of_limits = of_here.excess.iter().zip(&of_there.excess);
+        let of_limits = of_limits.map(|(here, there)| jump(*here, *there));
+        let jumps = std::iter::once(of_value).chain(of_limits);
         let (steep, jump, gradient) = jumps.max_by(|a, b| a.0.total_cmp(&b.0))?;
         let towards = dot(&gradient, &apart);
         let unit = towards.signum() / steep;
@@ -67,7 +68,7 @@ impl Surface {
             reach,
             hold,
             beyond: there.clone(),
-            of_beyond: *of_there,
+            of_beyond: of_there.clone(),
         })
     }
 
@@ -82,16 +83,16 @@ impl Surface {
         self.reach - self.distance <= ENOUGH * (self.just_beyond() - self.distance)
     }
 
-    /// Whether the Lagrange function with this multiplier of the budget falls beyond it, so that it does not hold.
-    pub fn lets_pass(&self, multiplier: f64) -> bool {
-        dot(&self.of_beyond.lagrange(multiplier), &self.normal) < 0.0
+    /// Whether the Lagrange function with these multipliers of the limits falls beyond it, so that it does not hold.
+    pub fn lets_pass(&self, multipliers: &Multipliers) -> bool {
+        dot(&self.of_beyond.lagrange(multipliers), &self.normal) < 0.0
     }
 
     /// The share of the far side in a convex combination of the two gradients of the Lagrange function that has no slope
     /// across the surface, from the gradient of this side.
-    pub fn share(&self, here: &Measured, multiplier: f64) -> f64 {
+    pub fn share(&self, here: &Measured, multipliers: &Multipliers) -> f64 {
         let [near, far] =
-            [here, &self.of_beyond].map(|it| dot(&it.lagrange(multiplier), &self.normal));
+            [here, &self.of_beyond].map(|it| dot(&it.lagrange(multipliers), &self.normal));
         if near < 0.0 && far > 0.0 { near / (near - far) } else { 0.0 }
     }
 }
