@@ -55,8 +55,7 @@ pub fn draw_each(
     for drawing in drawings {
         let shown = variables(drawing);
         let dataset = archive.labelled(|name| shown.contains(name)).map_err(Failure::machine)?;
-        let refined =
-            if drawing.kind == DrawingKind::TradeOff { refined(archive)? } else { Vec::new() };
+        let refined = if drawing.kind.keys().between { refined(archive)? } else { Vec::new() };
         let shown = Shown { dataset: &dataset, refined: &refined };
         failures.extend(draw_all(shown, std::slice::from_ref(drawing), place).err());
     }

@@ -9,7 +9,7 @@ use crate::capsule::Parameter;
 use crate::figure::{FigureError, Picture, Shown, picture, variables};
 use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
 use crate::store::{CaseTable, provenance};
-use crate::study::{Coordinate, Drawing, DrawingKind, Study};
+use crate::study::{Coordinate, Drawing, Study};
 use crate::tradeoff::Direction;
 
 /// The directions whose optima are told.
@@ -123,8 +123,7 @@ impl Report<'_> {
     fn drawn(&self, drawing: &Drawing) -> Result<Result<Picture, FigureError>, CampaignError> {
         let shown = variables(drawing);
         let dataset = self.request.archive.labelled(|name| shown.contains(name))?;
-        let shows_between = drawing.kind == DrawingKind::TradeOff;
-        let refined = if shows_between { self.kept.motions() } else { Vec::new() };
+        let refined = if drawing.kind.keys().between { self.kept.motions() } else { Vec::new() };
         Ok(picture(Shown { dataset: &dataset, refined: &refined }, drawing))
     }
 

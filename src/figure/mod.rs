@@ -45,6 +45,7 @@ mod text;
 mod ticks;
 mod track;
 mod trade_off;
+mod trade_off_maps;
 mod trade_off_motions;
 mod trade_off_table;
 mod varied;
@@ -151,7 +152,7 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
         let (kind, of) = (kind.name(), of.join(", "));
         return Err(view.unfit(format!("a {kind} shows one output, and `of` names {of}")));
     }
-    let shows_all = matches!(kind, DrawingKind::Bifurcation | DrawingKind::TradeOff);
+    let shows_all = kind == DrawingKind::Bifurcation || kind.keys().between;
     if shows_all && inferred::has_inferred(view) {
         let why = "shows computed cases, and most of a refined grid are inferred; draw a map";
         return Err(view.unfit(format!("a {} {why}, or compute all", kind.name())));

@@ -32,7 +32,7 @@ pub struct PageRequest {
     pub heights: Vec<f64>,
     /// Panels, row by row; a last row may be shorter.
     pub rows: Vec<Vec<PanelRequest>>,
-    /// Room on the right, for a colour bar or a legend [pt].
+    /// Room right of each column, for a colour bar or a legend [pt].
     pub right_room: f64,
     /// Room below all panels [pt].
     pub bottom_room: f64,
@@ -76,8 +76,9 @@ impl PageRequest {
         let lefts = self.left_rooms(columns);
         let ends = self.right_ends();
         let taken: f64 = lefts.iter().map(|room| room.numbers + room.label).sum::<f64>()
-            + PANEL_GAP * (columns - 1) as f64;
-        let inner = width - 2.0 * BORDER - taken - self.right_room - ends;
+            + PANEL_GAP * (columns - 1) as f64
+            + self.right_room * columns as f64;
+        let inner = width - 2.0 * BORDER - taken - ends;
         let frame_width = (inner / columns as f64).max(20.0);
         let mut top = BORDER + title.len() as f64 * TITLE_LINE;
         let mut panels = Vec::new();
@@ -93,7 +94,7 @@ impl PageRequest {
                 let panel = self.place(request, frame, room.numbers);
                 below = below.max(self.bottom_room(&panel));
                 placed.push(panel);
-                left = right + PANEL_GAP;
+                left = right + self.right_room + PANEL_GAP;
             }
             panels.push(placed);
             top += above + height + below;

@@ -3,6 +3,7 @@
 use super::kind::Kind;
 use super::{
     basin, bifurcation, curves, history, map, phase_portrait, section, settling, shares, trade_off,
+    trade_off_maps,
 };
 use crate::study::DrawingKind;
 
@@ -18,6 +19,7 @@ pub fn kind(name: DrawingKind) -> &'static Kind {
         DrawingKind::Shares => &shares::KIND,
         DrawingKind::Section => &section::KIND,
         DrawingKind::TradeOff => &trade_off::KIND,
+        DrawingKind::TradeOffMaps => &trade_off_maps::KIND,
         DrawingKind::Curves => &curves::KIND,
     }
 }

@@ -24,22 +24,28 @@ use crate::tradeoff::{Candidate, Direction};
 /// The energy shown, unless another is asked for.
 const ENERGY: catalogue::Entry = catalogue::Entry::of_output(Output::WorkPositive);
 /// The speed shown.
-const SPEED: catalogue::Entry = catalogue::Entry::of_output(Output::ProgressionSpeed);
+pub const SPEED: catalogue::Entry = catalogue::Entry::of_output(Output::ProgressionSpeed);
 /// What marks a motion with the least of it.
 const PER_METRE: catalogue::Entry = catalogue::Entry::of_output(Output::EnergyPerMetre);
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
 /// The directions, each with a front and optima of its own.
-const DIRECTIONS: [Direction; 2] = [Direction::Forward, Direction::Backward];
+pub const DIRECTIONS: [Direction; 2] = [Direction::Forward, Direction::Backward];
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
+/// The name of the output that should be small.
+pub fn price(drawing: &Drawing) -> &str {
+    drawing.of.first().map_or(ENERGY.name, String::as_str)
+}
+
 /// What a trade-off reads: both quantities, the energy per metre, what was drawn, and the outcomes.
 fn reads(drawing: &Drawing) -> Names {
-    let energy = drawing.of.first().map_or(ENERGY.name, String::as_str);
     let drawn = Coordinate::all().map(|it| it.name().to_owned());
-    Names::of(outcome::READS).and([SPEED, PER_METRE]).and_named(drawn.chain([energy.to_owned()]))
+    Names::of(outcome::READS)
+        .and([SPEED, PER_METRE])
+        .and_named(drawn.chain([price(drawing).to_owned()]))
 }
 
 /// A trade-off that is drawn.
@@ -59,7 +65,7 @@ struct TradeOff<'v, 'a> {
 
 /// Draws the trade-off that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let price = view.drawing.of.first().map_or(ENERGY.name, String::as_str);
+    let price = price(view.drawing);
     let free = view.free_axes();
     let motions = Motions::of(view, price, &free)?;
     let best = DIRECTIONS.map(|direction| motions.best(direction));

@@ -98,6 +98,13 @@ impl<'a> Motions<'a> {
         motion.case >= self.count || self.outcomes.periodic(motion.case)
     }
 
+    /// Whether a motion may be among the best: it is no case that is undecided or failed.
+    pub fn counts(&self, motion: &Candidate) -> bool {
+        let is_case = motion.case < self.count;
+        let outcome = if is_case { self.outcomes.name(motion.case) } else { None };
+        outcome.is_none_or(takes_part)
+    }
+
     /// How many cases are shown that are not periodic.
     pub fn aperiodic(&self) -> usize {
         self.cases().iter().filter(|it| !self.is_periodic(it)).count()
@@ -105,13 +112,11 @@ impl<'a> Motions<'a> {
 
     /// The best in a direction; cases that are undecided or failed are not among them.
     pub fn best(&self, direction: Direction) -> Best {
-        let counts = |it: &Candidate| {
-            let outcome = if it.case < self.count { self.outcomes.name(it.case) } else { None };
-            outcome.is_none_or(takes_part)
-        };
         // What does not count is nowhere, so that places stay.
-        let nowhere =
-            |it: &Candidate| if counts(it) { *it } else { Candidate { speed: f64::NAN, ..*it } };
+        let nowhere = |it: &Candidate| match self.counts(it) {
+            true => *it,
+            false => Candidate { speed: f64::NAN, ..*it },
+        };
         let all: Vec<Candidate> = self.all.iter().map(nowhere).collect();
         let best = |motions: &[Candidate]| {
             let optima = optima(motions, direction, Some(self.at_rest));

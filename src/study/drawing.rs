@@ -24,10 +24,12 @@ pub struct Keys {
     pub most: usize,
     /// Whether `x` and `y` may name parameters in which orbits are continued.
     pub continued: bool,
+    /// Whether it shows motions that are found between the cases.
+    pub between: bool,
 }
 
 /// Keys that name axes only.
-const AXES: Keys = Keys { outputs: false, others: &[], most: 0, continued: false };
+const AXES: Keys = Keys { outputs: false, others: &[], most: 0, continued: false, between: false };
 /// How many names `of` takes where there is no limit.
 const ANY: usize = usize::MAX;
 
@@ -58,7 +60,7 @@ kinds! {
     PhasePortrait "phase-portrait" AXES;
     /// A section coordinate over an axis, with the progression speed below it.
     Bifurcation "bifurcation"
-        Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true };
+        Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true, ..AXES };
     /// One output over two axes.
     Map "map" Keys { outputs: true, others: &[&VERDICTS], most: 1, ..AXES };
     /// Which attractor each start leads to, over two coordinates of the start.
@@ -70,7 +72,9 @@ kinds! {
     /// The stroboscopic section points of one case, and its impacts.
     Section "section" AXES;
     /// Progression speed against an energy per cycle.
-    TradeOff "trade-off" Keys { outputs: true, most: 1, ..AXES };
+    TradeOff "trade-off" Keys { outputs: true, most: 1, between: true, ..AXES };
+    /// The speed of the fastest motion of each cell over two axes, and beside it what it costs, with the fronts on both.
+    TradeOffMaps "trade-off-maps" Keys { outputs: true, most: 1, between: true, ..AXES };
     /// Special points of branches as curves in two parameters.
     Curves "curves" Keys { continued: true, ..AXES };
 }

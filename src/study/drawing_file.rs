@@ -46,7 +46,7 @@ pub(super) fn read_drawings(
 
 /// Refuses a figure that runs along axes, of which a study with `[draws]` has none.
 fn refuse_without_grid(entry: &Entry<'_, '_>, kind: DrawingKind) {
-    if matches!(kind, DrawingKind::Bifurcation | DrawingKind::Map) {
+    if matches!(kind, DrawingKind::Bifurcation | DrawingKind::Map | DrawingKind::TradeOffMaps) {
         entry.fault(format!(
             "a figure of the kind {} needs a grid, and `[draws]` makes none; a trade-off shows draws",
             kind.name()

@@ -199,7 +199,7 @@ impl Random {
         let (x, y) = (name_of(), name_of());
         let mut of: Vec<String> =
             self.some(&kind.can_show(&study.outputs)).into_iter().map(str::to_owned).collect();
-        if matches!(kind, DrawingKind::Map | DrawingKind::TradeOff) {
+        if kind.keys().most == 1 {
             of.truncate(1);
         }
         let held = self.some(&coordinates);

@@ -1,0 +1,188 @@
+//! The fastest motion of each cell of a plane and what it costs, side by side, with the front of the trade-off on both.
+
+use super::axis::AxisRequest;
+use super::canvas::{Canvas, Drawn};
+use super::colour::Colours;
+use super::error::FigureError;
+use super::geometry::Point;
+use super::header::{Entry, Header, Mark};
+use super::kind::{Kind, Needs};
+use super::page::{PageRequest, PanelRequest, letter};
+use super::panel::{Panel, Pointing};
+use super::plane::Plane;
+use super::raster::Fill;
+use super::style::{INK, PAPER, TWO_COLUMNS};
+use super::symbol::Symbol;
+use super::text::Text;
+use super::trade_off::{DIRECTIONS, KIND as TRADE_OFF, SPEED, price};
+use super::trade_off_motions::{Best, Motions};
+use super::trade_off_table::marked;
+use super::view::View;
+use crate::study::Coordinate;
+use crate::tradeoff::Candidate;
+
+/// Height of the frames [pt].
+const HEIGHT: f64 = 158.0;
+/// Radius of a motion of the front, and of the rim that lifts it off the colours [pt].
+const DOT: [f64; 2] = [0.8, 1.4];
+
+/// The kind of figure; it reads what a trade-off reads.
+pub const KIND: Kind = Kind { needs: Needs::Cases, reads: TRADE_OFF.reads, draw };
+
+/// The motions of the fronts over two axes, in the units of the figure.
+struct Path {
+    points: Vec<(f64, f64)>,
+    /// The optima, those that matter least first.
+    optima: Vec<(Symbol, (f64, f64))>,
+}
+
+impl Path {
+    fn draw(&self, canvas: &mut Canvas, panel: &Panel) {
+        let places: Vec<Point> = panel.places(&self.points);
+        for (colour, radius) in [(PAPER, DOT[1]), (INK, DOT[0])] {
+            let discs: Vec<_> = places.iter().map(|at| (*at, colour)).collect();
+            canvas.discs(&discs, radius);
+        }
+        for (symbol, (x, y)) in &self.optima {
+            symbol.draw(canvas, panel.place(*x, *y));
+        }
+    }
+}
+
+/// Draws the maps that `view` asks for.
+fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let plane = Plane::of(view, "maps of a trade-off")?;
+    let price = price(view.drawing);
+    let free = view.free_axes();
+    let motions = Motions::of(view, price, &free)?;
+    let best = DIRECTIONS.map(|direction| motions.best(direction));
+    let axes = [plane.x_name, plane.y_name];
+    let path = path(view, (&free, axes), (&motions, &best))?;
+    let fastest = fastest(view, (&free, &plane), &motions);
+    let speed = |motion: &Candidate| motion.speed;
+    let cost = |motion: &Candidate| motion.price;
+    let shown = [(SPEED.name, speed as fn(&Candidate) -> f64), (price, cost)].map(|(name, of)| {
+        let quantity = view.quantity(name);
+        let value = |it: &Option<&Candidate>| it.map_or(f64::NAN, |it| of(it) * quantity.factor);
+        let values: Vec<f64> = fastest.iter().map(value).collect();
+        (Colours::for_values(&values, quantity), values)
+    });
+    let over: Vec<&str> = searched(view, (&free, axes));
+    let rooms = shown.iter().map(|(colours, _)| colours.as_ref().map_or(0.0, |it| it.room(HEIGHT)));
+    let legend = legend(&path, (fastest.iter().any(Option::is_none), &over));
+    let panel = |place: usize| PanelRequest {
+        x: AxisRequest::new(view.quantity(axes[0]), plane.x.scale),
+        y: AxisRequest::new(view.quantity(axes[1]), plane.y.scale),
+        header: Header {
+            letter: letter(place, shown.len()),
+            note: view.held_note(&free),
+            legend: if place == 0 { legend.clone() } else { Vec::new() },
+        },
+    };
+    let page = PageRequest {
+        title: view.drawing.title.clone(),
+        width_mm: view.drawing.width_mm.unwrap_or(TWO_COLUMNS),
+        heights: vec![HEIGHT],
+        rows: vec![(0..shown.len()).map(panel).collect()],
+        right_room: rooms.fold(0.0, f64::max),
+        bottom_room: 0.0,
+        pointing: Pointing::Outward,
+    };
+    let (mut canvas, panels) = page.lay_out();
+    for (panel, (colours, values)) in panels.iter().flatten().zip(&shown) {
+        let colour = |case: usize| {
+            let colours = colours.as_ref().filter(|_| values[case].is_finite());
+            Fill::of(colours.map(|it| it.of(values[case])))
+        };
+        plane.draw(&mut canvas, panel, colour);
+        path.draw(&mut canvas, panel);
+        panel.finish(&mut canvas);
+        if let Some(colours) = colours {
+            colours.draw_bar(&mut canvas, panel.frame);
+        }
+    }
+    let about = view.about(&[SPEED.name.to_owned(), price.to_owned()], &axes);
+    let count = |it: usize| best[it].front.len();
+    Ok(canvas.finish(&format!(
+        "{about} of the fastest motion of each cell{}; the fronts have {} motions forward and {} backward, {} periodic motions \
+         between the cases take part",
+        if over.is_empty() { String::new() } else { format!(" over {}", over.join(", ")) },
+        count(0),
+        count(1),
+        motions.between()
+    )))
+}
+
+/// Where the motions of the fronts, and the optima, are over two axes.
+fn path(
+    view: &View<'_>,
+    (free, axes): (&[&str], [&str; 2]),
+    (motions, best): (&Motions<'_>, &[Best]),
+) -> Result<Path, FigureError> {
+    let mut along = Vec::new();
+    for name in axes {
+        let coordinate = Coordinate::all().find(|it| it.name() == name);
+        let coordinate = coordinate
+            .ok_or_else(|| view.unfit(format!("`{name}` is no parameter or start of a motion")))?;
+        let of_case: Vec<f64> = view.parameter(name, free)?.into_iter().collect();
+        along.push((coordinate, of_case, view.quantity(name).factor));
+    }
+    let place = |motion: &Candidate| {
+        let value = |(coordinate, of_case, factor): &(Coordinate, Vec<f64>, f64)| {
+            let refined = motions.refined(motion).map(|it| it.coordinate(*coordinate));
+            refined.unwrap_or_else(|| of_case[motion.case]) * factor
+        };
+        (value(&along[0]), value(&along[1]))
+    };
+    let fronts = best.iter().flat_map(|best| &best.of_all.front);
+    let points = fronts.map(|&at| place(motions.at(at))).collect();
+    let optima = best.iter().flat_map(|best| marked(motions, best));
+    let optima = optima.map(|(symbol, motion)| (symbol, place(motion))).collect();
+    Ok(Path { points, optima })
+}
+
+/// The free axes with several values over which the fastest motion of a cell is taken.
+fn searched<'a>(view: &View<'a>, (free, axes): (&[&'a str], [&str; 2])) -> Vec<&'a str> {
+    let is_other = |name: &&&str| !axes.contains(*name) && view.coordinate_values(name).len() > 1;
+    free.iter().filter(is_other).copied().collect()
+}
+
+/// The fastest motion among the cases of each cell, by its magnitude; none where no case of a cell takes part.
+fn fastest<'m>(
+    view: &View<'_>,
+    (free, plane): (&[&str], &Plane<'_>),
+    motions: &'m Motions<'_>,
+) -> Vec<Option<&'m Candidate>> {
+    let mut fastest: Vec<Option<&Candidate>> = vec![None; plane.count()];
+    for motion in motions.cases().iter().filter(|it| motions.counts(it)) {
+        let place = |axis: &str| view.place_along(axis, free, motion.case);
+        let cell = &mut fastest[place(plane.y_name) * plane.x.count() + place(plane.x_name)];
+        if cell.is_none_or(|known| motion.speed.abs() > known.speed.abs()) {
+            *cell = Some(motion);
+        }
+    }
+    fastest
+}
+
+/// What the marks mean.
+fn legend(path: &Path, (has_gaps, over): (bool, &[&str])) -> Vec<Entry> {
+    let said = |what: &str| Text::plain(what);
+    let mut legend = Vec::new();
+    if !over.is_empty() {
+        let text = format!("fastest motion over {}", over.join(", "));
+        legend.push((Mark::Nothing, said(&text)));
+    }
+    if !path.points.is_empty() {
+        legend.push((Mark::Disc(INK, DOT[0]), said("Pareto fronts")));
+        for (symbol, _) in &path.optima {
+            let entry = (Mark::Symbol(*symbol), said(symbol.words));
+            if !legend.contains(&entry) {
+                legend.push(entry);
+            }
+        }
+    }
+    if has_gaps {
+        legend.push((Mark::Filled(Fill::NO_VALUE), said("no motion that takes part")));
+    }
+    legend
+}
