@@ -168,11 +168,17 @@ fn margin<R: Reading>(
         let Some(found) = found else {
             return Margin { until, end: MarginEnd::NotFollowed, passed };
         };
-        let is_end = |special: &&SpecialValue<3>| !special.is_stable_beyond;
-        let end = found.special.iter().find(is_end).map(Change::at);
-        passed.extend(found.special.iter().take_while(|it| it.is_stable_beyond).map(Change::at));
+        let special = before_turning(&found.special, by.signum());
+        let has_turned = special.len() < found.special.len();
+        let ends = |it: &SpecialValue<3>| !it.is_stable_beyond || it.kind == SpecialKind::Fold;
+        let end = special.iter().position(ends);
+        // Where a branch turns back at a kink, that is its last change of events.
+        let turns = has_turned || found.end == SegmentEnd::Ended;
+        let end = end.or_else(|| special.len().checked_sub(1).filter(|_| turns));
+        passed.extend(special.iter().take(end.unwrap_or(special.len())).map(Change::at));
         match (end, found.end) {
             (Some(end), _) => {
+                let end = Change::at(&special[end]);
                 return Margin { until: end.value, end: MarginEnd::Bifurcation(end), passed };
             }
             (None, SegmentEnd::Reached(orbit)) if orbit.is_stable() => {
@@ -182,6 +188,13 @@ fn margin<R: Reading>(
         }
     }
     Margin { until, end: MarginEnd::Range, passed }
+}
+
+/// The special points of a segment before it turns back, if it does, where the parameter goes so.
+fn before_turning(special: &[SpecialValue<3>], ahead: f64) -> &[SpecialValue<3>] {
+    let goes_back = |pair: &[SpecialValue<3>]| ahead * (pair[1].value - pair[0].value) < 0.0;
+    let turn = special.windows(2).position(goes_back);
+    &special[..turn.map_or(special.len(), |before| before + 1)]
 }
 
 /// Adds the margins of the optima.

@@ -12,7 +12,7 @@ use crate::campaign::study_of;
 use crate::figure::Place;
 use crate::store::{self, Archive, Dataset};
 use crate::study::document::unknown;
-use crate::study::{Coordinate, Drawing, DrawingKind};
+use crate::study::{Coordinate, Drawing, DrawingKind, check_panels};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -38,7 +38,8 @@ pub struct Figure {
     /// Axis along the ordinate of a map.
     #[arg(long, requires = "kind")]
     y: Option<String>,
-    /// Where another axis is held, within its range; the nearest value is taken, and named.
+    /// Where another axis is held, within its range; the nearest value is taken, and named. A map has a panel for each of
+    /// several values.
     #[arg(long, value_name = "AXIS=VALUE", requires = "kind")]
     at: Vec<String>,
     /// Heading above the axes.
@@ -82,6 +83,7 @@ impl Figure {
     }
 
     fn drawing(&self, kind: DrawingKind, archive: &Archive) -> Result<Drawing, Failure> {
+        let (at, panels) = self.held(kind, archive.frame())?;
         Ok(Drawing {
             name: self.name.clone().unwrap_or_else(|| self.free_name(kind, archive)),
             kind,
@@ -89,7 +91,8 @@ impl Figure {
             x: self.x.clone(),
             y: self.y.clone(),
             of: self.of.clone(),
-            at: self.held(archive.frame())?,
+            at,
+            panels,
             cycles: self.cycles()?,
             branches: !self.no_branches,
             width_mm: self.width,
@@ -116,10 +119,11 @@ impl Figure {
         }
     }
 
-    fn held(&self, dataset: &Dataset) -> Result<BTreeMap<String, f64>, Failure> {
+    /// Where axes are held, and those that are held at several values.
+    fn held(&self, kind: DrawingKind, dataset: &Dataset) -> Result<Held, Failure> {
         let axes: Vec<Coordinate> =
             Coordinate::all().filter(|axis| dataset.coordinate(axis.name()).is_some()).collect();
-        let mut held = BTreeMap::new();
+        let mut held: BTreeMap<String, Vec<f64>> = BTreeMap::new();
         let mut faults = Vec::new();
         for text in &self.at {
             let Some((name, value)) = text.split_once('=') else {
@@ -134,16 +138,30 @@ impl Figure {
             };
             match plain_or_quantity(value, axis.dimension()) {
                 Err(message) => faults.push(format!("--at {name}: {message}")),
-                Ok(value) => {
-                    if held.insert(name.to_owned(), value).is_some() {
-                        faults.push(format!("--at {name}: is given twice"));
-                    }
-                }
+                Ok(value) => held.entry(name.to_owned()).or_default().push(value),
             }
         }
-        if faults.is_empty() { Ok(held) } else { Err(Failure::requests(&faults)) }
+        let several = |name: &str| held.get(name).filter(|values| values.len() > 1);
+        // Panels lie along the axes in the order of the study.
+        let panels: Vec<(String, Vec<f64>)> = dataset
+            .coordinates
+            .iter()
+            .filter_map(|(name, _)| Some((name.clone(), several(name)?.clone())))
+            .collect();
+        if !kind.keys().panels {
+            faults.extend(panels.iter().map(|it| format!("--at {}: is given twice", it.0)));
+        }
+        if !panels.is_empty() {
+            faults.extend(check_panels(&panels).err().map(|fault| format!("--at: {fault}")));
+        }
+        let at = held.into_iter().filter(|(_, values)| values.len() == 1);
+        let at = at.map(|(name, values)| (name, values[0])).collect();
+        if faults.is_empty() { Ok((at, panels)) } else { Err(Failure::requests(&faults)) }
     }
 }
+
+/// Where axes are held, and those that are held at several values.
+type Held = (BTreeMap<String, f64>, Vec<(String, Vec<f64>)>);
 
 /// The figures that the study in the file asks for.
 fn studied(archive: &Archive, file: &Path) -> Result<Vec<Drawing>, Failure> {

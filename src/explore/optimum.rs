@@ -82,6 +82,7 @@ fn drawing(kind: DrawingKind) -> Drawing {
         y: None,
         of: Vec::new(),
         at: std::collections::BTreeMap::new(),
+        panels: Vec::new(),
         cycles: None,
         branches: true,
         width_mm: Some(WIDTH),

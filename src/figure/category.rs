@@ -48,26 +48,31 @@ pub struct Kinds {
 }
 
 impl Kinds {
-    /// Sorts the cases by the variable `name`, which holds periods or has named values.
-    pub fn of(view: &View<'_>, name: &str, free: &[&str]) -> Result<Kinds, FigureError> {
-        let codes = view.take(name, free)?;
-        let outcomes = Outcomes::over(view, free)?;
-        let flags = view.flags(name);
-        let resting = resting(view, free)?;
-        let kind = |case: usize, code: f64| match name == PERIOD.name {
-            true if resting.get(case) == Some(&true) => rest(),
-            true => by_period(code, outcomes.name(case)),
-            false => by_flag(code, flags),
-        };
+    /// Sorts the cases of one panel after the other by the variable `name`, which holds periods or has named values.
+    pub fn of(
+        (view, panels): (&View<'_>, &[View<'_>]),
+        name: &str,
+        free: &[&str],
+    ) -> Result<Kinds, FigureError> {
         // The kinds with their places in the legend, in the order in which cases show them.
         let mut present: Vec<(usize, Kind)> = Vec::new();
-        let mut of_case = Vec::with_capacity(codes.len());
-        for (case, code) in codes.iter().enumerate() {
-            let kind = kind(case, *code);
-            let known = present.iter().position(|other| other.1 == kind.1);
-            of_case.push(known.unwrap_or(present.len()) as u16);
-            if known.is_none() {
-                present.push(kind);
+        let mut of_case = Vec::new();
+        let flags = view.flags(name);
+        for panel in panels {
+            let codes = panel.take(name, free)?;
+            let outcomes = Outcomes::over(panel, free)?;
+            let resting = resting(panel, free)?;
+            for (case, code) in codes.iter().enumerate() {
+                let kind = match name == PERIOD.name {
+                    true if resting.get(case) == Some(&true) => rest(),
+                    true => by_period(*code, outcomes.name(case)),
+                    false => by_flag(*code, flags),
+                };
+                let known = present.iter().position(|other| other.1 == kind.1);
+                of_case.push(known.unwrap_or(present.len()) as u16);
+                if known.is_none() {
+                    present.push(kind);
+                }
             }
         }
         let mut order: Vec<usize> = (0..present.len()).collect();

@@ -73,6 +73,7 @@ pub fn request(
         width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
         heights,
         rows,
+        column_room: 0.0,
         right_room: 0.0,
         bottom_room: 0.0,
         pointing: Pointing::Inward,

@@ -231,6 +231,7 @@ fn request(
         width_mm: view.drawing.width_mm.unwrap_or(width),
         heights: vec![HEIGHT; rows.len()],
         rows,
+        column_room: 0.0,
         right_room: 0.0,
         bottom_room: 0.0,
         pointing: Pointing::Inward,

@@ -7,15 +7,16 @@ use super::canvas::{Canvas, Drawn};
 use super::category::{self, Kinds};
 use super::colour::Colours;
 use super::error::FigureError;
+use super::geometry::Rect;
 use super::header::{Header, Mark};
 use super::inferred;
 use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
-use super::page::{PageRequest, PanelRequest};
+use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
 use super::plane::Plane;
 use super::raster::Fill;
-use super::style::{INFERRED, INFINITE};
+use super::style::{INFERRED, INFINITE, ONE_COLUMN, TWO_COLUMNS};
 use super::text::Text;
 use super::view::View;
 use crate::capsule::Output;
@@ -26,6 +27,8 @@ use crate::study::Drawing;
 const OUTPUT: Entry = Entry::of_output(Output::ProgressionSpeed);
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
+/// Height of each of several frames [pt].
+const HEIGHT_OF_SEVERAL: f64 = 100.0;
 
 /// How the cells are coloured.
 enum Paint {
@@ -47,20 +50,20 @@ impl Paint {
         }
     }
 
-    /// Room beside the frame for the bar or the list of kinds [pt].
-    fn room(&self) -> f64 {
+    /// Room beside frames of this height for the bar or the list of kinds [pt].
+    fn room(&self, height: f64) -> f64 {
         match self {
-            Paint::Numbers(colours, ..) => colours.as_ref().map_or(0.0, |it| it.room(HEIGHT)),
+            Paint::Numbers(colours, ..) => colours.as_ref().map_or(0.0, |it| it.room(height)),
             Paint::Kinds(kinds) => kinds.room(),
         }
     }
 
-    /// Draws the bar or the list of kinds beside `panel`.
-    fn explain(&self, canvas: &mut Canvas, panel: &Panel) {
+    /// Draws the bar or the list of kinds beside a frame.
+    fn explain(&self, canvas: &mut Canvas, frame: Rect) {
         match self {
-            Paint::Numbers(Some(colours), ..) => colours.draw_bar(canvas, panel.frame),
+            Paint::Numbers(Some(colours), ..) => colours.draw_bar(canvas, frame),
             Paint::Numbers(None, ..) => {}
-            Paint::Kinds(kinds) => kinds.draw_legend(canvas, panel.frame),
+            Paint::Kinds(kinds) => kinds.draw_legend(canvas, frame),
         }
     }
 
@@ -94,51 +97,112 @@ fn reads(drawing: &Drawing) -> Names {
     Names::of(outcome::READS).and(inferred::READS).and(sorting).and_named([output.to_owned()])
 }
 
-/// Draws the map that `view` asks for.
+/// Draws the map that `view` asks for, or one for each of several values of other axes.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let plane = Plane::of(view, "a map")?;
-    let (x_name, y_name) = (plane.x_name, plane.y_name);
+    let names = [plane.x_name, plane.y_name];
     let output = view.drawing.of.first().cloned().unwrap_or_else(|| OUTPUT.name.to_owned());
-    let paint = paint(view, &output, &plane.free(), plane.count())?;
-    let inferred = inferred::inferred(&Outcomes::over(view, &plane.free())?, plane.count());
-    let told = inferred::told(view, &inferred, "cases", "differ");
-    let legend = told.iter().map(|it| (Mark::Nothing, Text::plain(it)));
-    let panel = PanelRequest {
-        x: AxisRequest::new(view.quantity(x_name), plane.x.scale),
-        y: AxisRequest::new(view.quantity(y_name), plane.y.scale),
-        header: Header {
-            note: view.held_note(&[x_name, y_name]),
-            legend: paint.legend().into_iter().chain(legend).chain(plane.legend()).collect(),
-            ..Header::default()
-        },
-    };
-    let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Outward);
-    let page = PageRequest { right_room: paint.room(), ..page };
+    let rows = view.panels();
+    let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
+    let views: Vec<View<'_>> = rows.into_iter().flatten().collect();
+    let paint = paint((view, &views), &output, (&plane.free(), plane.count()))?;
+    let legend = paint.legend().into_iter().chain(told(&views, &plane)?).chain(plane.legend());
+    let page = page(view, (&plane, &views, &lengths), legend.collect());
+    let height = page.heights.iter().sum::<f64>();
+    let page = PageRequest { right_room: paint.room(height), ..page };
     let (mut canvas, panels) = page.lay_out();
-    for panel in panels.iter().flatten() {
-        plane.draw(&mut canvas, panel, |case| Fill::of(paint.colour(case)));
+    let all: Vec<&Panel> = panels.iter().flatten().collect();
+    for (number, panel) in all.iter().enumerate() {
+        let first = number * plane.count();
+        plane.draw(&mut canvas, panel, |case| Fill::of(paint.colour(first + case)));
         panel.finish(&mut canvas);
-        paint.explain(&mut canvas, panel);
     }
-    Ok(canvas.finish(&view.about(&[output], &[x_name, y_name])))
+    if let (Some(first), Some(last)) = (all.first(), all.last()) {
+        let right = all.iter().map(|panel| panel.frame.right).fold(f64::MIN, f64::max);
+        paint.explain(&mut canvas, Rect { right, bottom: last.frame.bottom, ..first.frame });
+    }
+    Ok(canvas.finish(&view.about(&[output], &names)))
 }
 
-fn paint(view: &View<'_>, output: &str, free: &[&str], cases: usize) -> Result<Paint, FigureError> {
-    let mut values: Vec<f64> = view.shown(output, free)?.into_iter().collect();
-    if values.len() != cases {
-        let why = format!("`{output}` has several values per case, and a map shows one");
-        return Err(view.unfit(why));
+/// What is inferred of the cases of all panels.
+fn told(views: &[View<'_>], plane: &Plane<'_>) -> Result<Vec<(Mark, Text)>, FigureError> {
+    let mut all = Vec::new();
+    for view in views {
+        all.extend(inferred::inferred(&Outcomes::over(view, &plane.free())?, plane.count()));
+    }
+    let told = views.first().map_or(Vec::new(), |it| inferred::told(it, &all, "cases", "differ"));
+    Ok(told.iter().map(|it| (Mark::Nothing, Text::plain(it))).collect())
+}
+
+/// The page of some panels in rows of these lengths.
+fn page(
+    view: &View<'_>,
+    (plane, views, lengths): (&Plane<'_>, &[View<'_>], &[usize]),
+    legend: Vec<(Mark, Text)>,
+) -> PageRequest {
+    let names = [plane.x_name, plane.y_name];
+    let columns = lengths.iter().copied().max().unwrap_or(1);
+    let is_alone = views.len() == 1;
+    let mut number = 0;
+    let mut rows = Vec::new();
+    for length in lengths {
+        let mut row = Vec::new();
+        for column in 0..*length {
+            // Numbers stand where no panel lies beyond.
+            let (is_lowest, is_first) = (number + columns >= views.len(), column == 0);
+            let x = AxisRequest::new(view.quantity(names[0]), plane.x.scale);
+            let y = AxisRequest::new(view.quantity(names[1]), plane.y.scale);
+            row.push(PanelRequest {
+                x: AxisRequest { labelled: is_lowest, numbered: is_lowest, ..x },
+                y: AxisRequest { labelled: is_first, numbered: is_first, ..y },
+                header: Header {
+                    letter: letter(number, views.len()),
+                    note: views[number].held_note(&names),
+                    legend: if number == 0 { legend.clone() } else { Vec::new() },
+                },
+            });
+            number += 1;
+        }
+        rows.push(row);
+    }
+    let width = if columns > 2 { TWO_COLUMNS } else { ONE_COLUMN };
+    PageRequest {
+        title: view.drawing.title.clone(),
+        width_mm: view.drawing.width_mm.unwrap_or(width),
+        heights: vec![if is_alone { HEIGHT } else { HEIGHT_OF_SEVERAL }; lengths.len()],
+        rows,
+        column_room: 0.0,
+        right_room: 0.0,
+        bottom_room: 0.0,
+        pointing: Pointing::Outward,
+    }
+}
+
+/// The colours of the cases of one panel after the other.
+fn paint(
+    (view, panels): (&View<'_>, &[View<'_>]),
+    output: &str,
+    (free, cases): (&[&str], usize),
+) -> Result<Paint, FigureError> {
+    let (mut all, mut all_inferred) = (Vec::new(), Vec::new());
+    for panel in panels {
+        let mut values: Vec<f64> = panel.shown(output, free)?.into_iter().collect();
+        if values.len() != cases {
+            let why = format!("`{output}` has several values per case, and a map shows one");
+            return Err(view.unfit(why));
+        }
+        let outcomes = Outcomes::over(panel, free)?;
+        for (case, value) in values.iter_mut().enumerate() {
+            if outcomes.failed(case) {
+                *value = f64::NAN;
+            }
+        }
+        all.extend(values);
+        all_inferred.extend(inferred::inferred(&outcomes, cases));
     }
     if output == PERIOD.name || !view.flags(output).is_empty() {
-        return Ok(Paint::Kinds(Kinds::of(view, output, free)?));
+        return Ok(Paint::Kinds(Kinds::of((view, panels), output, free)?));
     }
-    let outcomes = Outcomes::over(view, free)?;
-    let inferred = inferred::inferred(&outcomes, cases);
-    for (case, value) in values.iter_mut().enumerate() {
-        if outcomes.failed(case) {
-            *value = f64::NAN;
-        }
-    }
-    let colours = Colours::for_values(&values, view.quantity(output));
-    Ok(Paint::Numbers(colours, values, inferred))
+    let colours = Colours::for_values(&all, view.quantity(output));
+    Ok(Paint::Numbers(colours, all, all_inferred))
 }

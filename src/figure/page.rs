@@ -33,6 +33,8 @@ pub struct PageRequest {
     /// Panels, row by row; a last row may be shorter.
     pub rows: Vec<Vec<PanelRequest>>,
     /// Room right of each column, for a colour bar or a legend [pt].
+    pub column_room: f64,
+    /// Room on the right of all columns, for a colour bar or a legend that is theirs [pt].
     pub right_room: f64,
     /// Room below all panels [pt].
     pub bottom_room: f64,
@@ -62,6 +64,7 @@ impl PageRequest {
             width_mm: drawing.width_mm.unwrap_or(ONE_COLUMN),
             heights: vec![height],
             rows: vec![vec![panel]],
+            column_room: 0.0,
             right_room: 0.0,
             bottom_room: 0.0,
             pointing,
@@ -77,7 +80,8 @@ impl PageRequest {
         let ends = self.right_ends();
         let taken: f64 = lefts.iter().map(|room| room.numbers + room.label).sum::<f64>()
             + PANEL_GAP * (columns - 1) as f64
-            + self.right_room * columns as f64;
+            + self.column_room * columns as f64
+            + self.right_room;
         let inner = width - 2.0 * BORDER - taken - ends;
         let frame_width = (inner / columns as f64).max(20.0);
         let mut top = BORDER + title.len() as f64 * TITLE_LINE;
@@ -94,7 +98,7 @@ impl PageRequest {
                 let panel = self.place(request, frame, room.numbers);
                 below = below.max(self.bottom_room(&panel));
                 placed.push(panel);
-                left = right + self.right_room + PANEL_GAP;
+                left = right + self.column_room + PANEL_GAP;
             }
             panels.push(placed);
             top += above + height + below;
@@ -138,7 +142,11 @@ impl PageRequest {
             let axis = Axis::new(&request.x, Along::Across, 150.0);
             if axis.numbered { axis.widest / 2.0 } else { 0.0 }
         };
-        if self.right_room > 0.0 { 0.0 } else { last.map(half).fold(2.0, f64::max) }
+        if self.right_room + self.column_room > 0.0 {
+            0.0
+        } else {
+            last.map(half).fold(2.0, f64::max)
+        }
     }
 
     fn bottom_room(&self, panel: &Panel) -> f64 {

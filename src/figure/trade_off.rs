@@ -193,6 +193,7 @@ impl TradeOff<'_, '_> {
             width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
             heights: vec![HEIGHT],
             rows: vec![vec![panel]],
+            column_room: 0.0,
             right_room: self.hue.as_ref().map_or(0.0, |(colours, _)| colours.room(HEIGHT)),
             bottom_room: table.room(),
             pointing: Pointing::Inward,

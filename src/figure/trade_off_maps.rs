@@ -84,7 +84,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         width_mm: view.drawing.width_mm.unwrap_or(TWO_COLUMNS),
         heights: vec![HEIGHT],
         rows: vec![(0..shown.len()).map(panel).collect()],
-        right_room: rooms.fold(0.0, f64::max),
+        column_room: rooms.fold(0.0, f64::max),
+        right_room: 0.0,
         bottom_room: 0.0,
         pointing: Pointing::Outward,
     };

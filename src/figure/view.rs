@@ -19,6 +19,8 @@ fn is_inner(dimension: &str) -> bool {
     catalogue::named(dimension).is_some_and(|entry| entry.extent == Extent::Dimension)
 }
 
+/// Panels along one axis that stand side by side at most.
+const COLUMNS: usize = 4;
 /// Values that differ by no more than this, relative to them, are one.
 const ROUNDING: f64 = 1e-9;
 
@@ -32,18 +34,20 @@ pub struct View<'a> {
     pub drawing: &'a Drawing,
     /// Index at which each axis named by `at` is held.
     held: Vec<(String, usize)>,
+    /// Indices of the panels along each axis that is held at several values.
+    panels: Vec<(String, Vec<usize>)>,
 }
 
 impl<'a> View<'a> {
     /// Checks the axes that `drawing` names against the results in `shown`.
     pub fn new(shown: Shown<'a>, drawing: &'a Drawing) -> Result<View<'a>, FigureError> {
         let Shown { dataset, refined } = shown;
-        let mut view = View { dataset, refined, drawing, held: Vec::new() };
+        let mut view = View { dataset, refined, drawing, held: Vec::new(), panels: Vec::new() };
         for name in drawing.x.iter().chain(&drawing.y) {
             if !varied(dataset).contains(&name.as_str()) {
                 view.check_axis(name)?;
             }
-            if drawing.at.contains_key(name) {
+            if drawing.at.contains_key(name) || drawing.panels.iter().any(|it| it.0 == *name) {
                 return Err(view.unfit(format!("the axis `{name}` is both drawn and held by `at`")));
             }
         }
@@ -51,7 +55,43 @@ impl<'a> View<'a> {
             let index = view.nearest(name, *wanted)?;
             view.held.push((name.clone(), index));
         }
+        for (name, wanted) in &drawing.panels {
+            let indices = wanted.iter().map(|it| view.nearest(name, *it));
+            let indices = indices.collect::<Result<Vec<usize>, FigureError>>()?;
+            view.held.extend(indices.first().map(|first| (name.clone(), *first)));
+            view.panels.push((name.clone(), indices));
+        }
         Ok(view)
+    }
+
+    /// What each panel shows, row by row: those of the first axis that is held at several values, those of the second side by side.
+    pub fn panels(&self) -> Vec<Vec<View<'a>>> {
+        let [rows, columns] = [0, 1].map(|axis| {
+            let one = || vec![None];
+            let each = |(name, indices): &(String, Vec<usize>)| {
+                indices.iter().map(|index| Some((name.clone(), *index))).collect()
+            };
+            self.panels.get(axis).map_or_else(one, each)
+        });
+        let at = |row: &Option<(String, usize)>, column: &Option<(String, usize)>| {
+            let is_moved = |name: &String| self.panels.iter().any(|it| it.0 == *name);
+            let held = self.held.iter().filter(|(name, _)| !is_moved(name)).cloned();
+            let View { dataset, refined, drawing, .. } = *self;
+            let held = held.chain(row.clone()).chain(column.clone()).collect();
+            View { dataset, refined, drawing, held, panels: Vec::new() }
+        };
+        let row = |row: &Option<(String, usize)>| columns.iter().map(|it| at(row, it)).collect();
+        let all: Vec<Vec<View<'a>>> = rows.iter().map(row).collect();
+        if self.panels.len() != 1 {
+            return all;
+        }
+        // The panels along one axis are read like lines of text.
+        let mut all = all.into_iter().flatten().peekable();
+        let mut wrapped = Vec::new();
+        while all.peek().is_some() {
+            wrapped.push(all.by_ref().take(COLUMNS).collect());
+        }
+        wrapped
     }
 
     /// The index of the value of an axis that is nearest to one within its range.
@@ -79,14 +119,20 @@ impl<'a> View<'a> {
 
     /// What `at` asks for and the axes do not have, with the value that was taken, for each.
     pub fn taken_for_another(&self) -> Vec<String> {
-        let note = |(name, index): &(String, usize)| {
-            let (wanted, values) = (*self.drawing.at.get(name)?, self.coordinate_values(name));
-            let (taken, unit) = (*values.get(*index)?, self.unit(name));
+        let note = |(name, index, wanted): (&String, usize, f64)| {
+            let (taken, unit) = (*self.coordinate_values(name).get(index)?, self.unit(name));
             let differs = (taken - wanted).abs() > ROUNDING * taken.abs().max(wanted.abs());
             let note = format!("{name} = {taken}{unit} is taken for {wanted}{unit}, the nearest");
             differs.then_some(note)
         };
-        self.held.iter().filter_map(note).collect()
+        let held = self.held.iter();
+        let one = held.filter_map(|(name, at)| Some((name, *at, *self.drawing.at.get(name)?)));
+        let several = self.drawing.panels.iter().zip(&self.panels).flat_map(
+            |((name, wanted), (_, taken))| {
+                wanted.iter().zip(taken).map(move |it| (name, *it.1, *it.0))
+            },
+        );
+        one.chain(several).filter_map(note).collect()
     }
 
     /// The fault that the request does not fit.

@@ -237,6 +237,11 @@ impl<'r, 'a> Entry<'r, 'a> {
             .collect()
     }
 
+    /// Whether the value is a list.
+    pub fn is_list(&self) -> bool {
+        self.value.get_ref().is_array()
+    }
+
     /// The value as a plain number.
     fn number(&self) -> Option<f64> {
         match self.value.get_ref() {

@@ -26,10 +26,15 @@ pub struct Keys {
     pub continued: bool,
     /// Whether it shows motions that are found between the cases.
     pub between: bool,
+    /// Whether `at` may hold axes at several values, with a panel for each.
+    pub panels: bool,
 }
 
 /// Keys that name axes only.
-const AXES: Keys = Keys { outputs: false, others: &[], most: 0, continued: false, between: false };
+const AXES: Keys =
+    Keys { outputs: false, others: &[], most: 0, continued: false, between: false, panels: false };
+/// Axes along which panels lie at most, and panels of a figure at most.
+const PANELS: [usize; 2] = [2, 16];
 /// How many names `of` takes where there is no limit.
 const ANY: usize = usize::MAX;
 
@@ -62,7 +67,7 @@ kinds! {
     Bifurcation "bifurcation"
         Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true, ..AXES };
     /// One output over two axes.
-    Map "map" Keys { outputs: true, others: &[&VERDICTS], most: 1, ..AXES };
+    Map "map" Keys { outputs: true, others: &[&VERDICTS], most: 1, panels: true, ..AXES };
     /// Which attractor each start leads to, over two coordinates of the start.
     Basin "basin" AXES;
     /// For how many cycles each start is followed until its attractor is decided, over two coordinates of the start.
@@ -112,10 +117,26 @@ pub struct Drawing {
     /// Where the other axes are held, in SI, within their ranges; the nearest grid value is taken, by default the
     /// first.
     pub at: BTreeMap<String, f64>,
+    /// Axes that `at` holds at several values, in SI, each with a row or a column of panels; one or two, for maps.
+    pub panels: Vec<(String, Vec<f64>)>,
     /// Range of cycles shown by a history, counted from its start; all by default.
     pub cycles: Option<[f64; 2]>,
     /// Whether a bifurcation diagram shows the branches, too.
     pub branches: bool,
     /// Width of the figure [mm]; by default one or two columns of a journal, as the kind needs.
     pub width_mm: Option<f64>,
+}
+
+/// Fails where panels along these axes are too many, or none.
+pub fn check_panels(panels: &[(String, Vec<f64>)]) -> Result<(), String> {
+    let [most_axes, most] = PANELS;
+    let count: usize = panels.iter().map(|(_, values)| values.len()).product();
+    match (panels.len() <= most_axes, (1..=most).contains(&count)) {
+        (true, true) => Ok(()),
+        (false, _) => Err(format!(
+            "{} axes are held at several values; panels lie along {most_axes} at most",
+            panels.len()
+        )),
+        (_, false) => Err(format!("{count} panels; a figure has 1 to {most}")),
+    }
 }

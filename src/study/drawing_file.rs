@@ -6,6 +6,7 @@ use crate::capsule::{Dimension, Output, Parameter};
 
 use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
+use super::drawing::check_panels;
 use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine};
 
 /// The unit of widths [m].
@@ -71,6 +72,8 @@ fn read_drawing(
             table.missing(key, "a figure to have a name and a kind");
         }
     }
+    let held = table.table("at").map(|at| read_at(&at, axes, kind)).unwrap_or_default();
+    let (at, panels) = held;
     Drawing {
         name: table.entry("name").and_then(|entry| read_name(&entry)).unwrap_or_default(),
         kind: kind.unwrap_or(DrawingKind::Map),
@@ -78,7 +81,8 @@ fn read_drawing(
         x: axis("x"),
         y: axis("y"),
         of: table.entry("of").map(|of| read_of(&of, kind, outputs)).unwrap_or_default(),
-        at: table.table("at").map(|at| read_at(&at, axes)).unwrap_or_default(),
+        at,
+        panels,
         cycles: table.entry("cycles").and_then(|entry| read_cycles(&entry)),
         branches: table.entry("branches").and_then(|entry| entry.truth()).unwrap_or(true),
         width_mm: table.entry("width").and_then(|e| e.quantity_in(Dimension::Length, MILLIMETRE)),
@@ -156,22 +160,28 @@ fn read_cycles(entry: &Entry<'_, '_>) -> Option<[f64; 2]> {
     range
 }
 
-fn read_at(table: &Table<'_, '_>, axes: &[Axis]) -> BTreeMap<String, f64> {
-    let mut at = BTreeMap::new();
+/// Where axes are held, and those that are held at several values.
+type Held = (BTreeMap<String, f64>, Vec<(String, Vec<f64>)>);
+
+fn read_at(table: &Table<'_, '_>, axes: &[Axis], kind: Option<DrawingKind>) -> Held {
+    let (mut at, mut several, mut last) = (BTreeMap::new(), BTreeMap::new(), None);
     for (name, entry) in table.entries() {
-        let is_named = |axis: &&Axis| {
+        let is_named = |axis: &Axis| {
             axis.coordinate.name() == name || older_name(axis).is_some_and(|it| it.0 == name)
         };
-        match axes.iter().find(is_named) {
-            Some(axis) => {
-                let value = entry.quantity(axis.coordinate.dimension());
-                if value.is_some_and(|value| !is_within(value, &axis.values)) {
-                    let [low, high] = range(&axis.values);
-                    entry.fault(format!(
-                        "expected a value within the axis, from {low} to {high} in SI units"
-                    ));
+        match axes.iter().position(is_named) {
+            Some(place) if entry.is_list() => {
+                let values =
+                    entry.list().iter().filter_map(|it| value_of(it, &axes[place])).collect();
+                several.insert(place, values);
+                if kind.is_some_and(|kind| !kind.keys().panels) {
+                    entry.fault("expected one value for this kind of figure; maps take lists");
                 }
-                at.extend(value.map(|value| (axis.coordinate.name().to_owned(), value)));
+                last = Some(entry);
+            }
+            Some(place) => {
+                let value = value_of(&entry, &axes[place]);
+                at.extend(value.map(|value| (axes[place].coordinate.name().to_owned(), value)));
             }
             None => {
                 let names = axes.iter().map(|axis| axis.coordinate.name());
@@ -179,5 +189,21 @@ fn read_at(table: &Table<'_, '_>, axes: &[Axis]) -> BTreeMap<String, f64> {
             }
         }
     }
-    at
+    let named =
+        |(place, values): (usize, Vec<f64>)| (axes[place].coordinate.name().to_owned(), values);
+    let panels: Vec<(String, Vec<f64>)> = several.into_iter().map(named).collect();
+    if let (Err(fault), Some(entry)) = (check_panels(&panels), last) {
+        entry.fault(fault);
+    }
+    (at, panels)
+}
+
+/// The value at which an axis is held; faults are noted.
+fn value_of(entry: &Entry<'_, '_>, axis: &Axis) -> Option<f64> {
+    let value = entry.quantity(axis.coordinate.dimension());
+    if value.is_some_and(|value| !is_within(value, &axis.values)) {
+        let [low, high] = range(&axis.values);
+        entry.fault(format!("expected a value within the axis, from {low} to {high} in SI units"));
+    }
+    value
 }

@@ -41,7 +41,7 @@ fn motions_between_the_cases_keep_limits_and_bounds_and_are_the_best_that_do() {
     let peak = |point: &Value| {
         let replay = point["replay"].as_str().expect("a command");
         let arguments: Vec<&str> = replay.split(' ').skip(1).chain(["--json"]).collect();
-        number(&folder.run(&arguments).json()["outputs"], "peak_contact_force")
+        number(&folder.run(&arguments).json()["orbit"], "peak_contact_force")
     };
     // A limit that the best motion exceeds by a tenth.
     let most = peak(&free["fastest"]) / 1.1;

@@ -34,6 +34,7 @@ pub fn drawing(name: &str, kind: DrawingKind) -> Drawing {
         y: None,
         of: Vec::new(),
         at: BTreeMap::new(),
+        panels: Vec::new(),
         cycles: None,
         branches: true,
         width_mm: None,

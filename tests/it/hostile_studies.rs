@@ -124,6 +124,7 @@ at = { omega = "20 rad/s" }
         y: None,
         of: vec!["progression_speed".into()],
         at: BTreeMap::from([(at.into(), if at == "omega" { 20.0 } else { 4.0 })]),
+        panels: Vec::new(),
         cycles: None,
         branches: true,
         width_mm: None,

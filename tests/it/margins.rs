@@ -19,7 +19,7 @@ const STUDIES: [&str; 2] = [
 /// Steps from the optimum to beside where it ends.
 const STEPS: u32 = 60;
 /// So far beside the end, as a share of the parameter, the motions on both sides are compared.
-const BESIDE: f64 = 1e-3;
+const BESIDE: f64 = 1e-5;
 
 fn number(point: &Value, key: &str) -> f64 {
     point[key].as_f64().unwrap_or_else(|| panic!("{key} in {point}"))
@@ -47,7 +47,7 @@ impl Settling {
     /// The motion to which the last one leads at a value.
     fn at(&mut self, value: f64) -> Orbit {
         self.parameters[self.parameter] = value;
-        let protocol = Protocol { max_cycles: 40_000, ..Protocol::default() };
+        let protocol = Protocol { max_cycles: 100_000, ..Protocol::default() };
         let case = Case::at_section(self.parameters.clone(), self.last, 0.0);
         let orbit = settle_case(&case, &protocol);
         self.last = State { x2: 0.0, ..orbit.end };

@@ -217,6 +217,7 @@ impl Random {
             y,
             of,
             at,
+            panels: Vec::new(),
             cycles: self.is_so().then_some([from, from + 0.5]),
             branches: self.is_so(),
             width_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
