@@ -69,14 +69,15 @@ impl Header {
     /// Draws the header above `frame`.
     pub fn draw(&self, canvas: &mut Canvas, frame: Rect) {
         let baseline = frame.top - 4.0;
-        let mut left = frame.left;
+        let notes = self.note_lines(frame.width());
+        let first = baseline - (notes.len().max(1) - 1) as f64 * HEADER_LINE;
         if let Some(letter) = self.letter {
-            let text = letter_text(letter);
-            canvas.text(&text, (left, baseline), LABEL_SIZE, Anchor::Start);
-            left += text.width(LABEL_SIZE) + 5.0;
+            canvas.text(&letter_text(letter), (frame.left, first), LABEL_SIZE, Anchor::Start);
         }
-        if let Some(note) = &self.note {
-            canvas.text(note, (left, baseline), SMALL_SIZE, Anchor::Start);
+        let left = frame.left + self.letter_width();
+        for (line, note) in notes.iter().enumerate() {
+            let at = (left, first + line as f64 * HEADER_LINE);
+            canvas.text(note, at, SMALL_SIZE, Anchor::Start);
         }
         let lines = self.legend_lines(frame.width());
         let several = lines.len() > 1;
@@ -92,16 +93,28 @@ impl Header {
         }
     }
 
+    /// Width of the panel letter with the gap after it [pt].
+    fn letter_width(&self) -> f64 {
+        self.letter.map_or(0.0, |letter| letter_text(letter).width(LABEL_SIZE) + 5.0)
+    }
+
+    /// The note in lines that fit beside the letter above a frame of `width` [pt].
+    fn note_lines(&self, width: f64) -> Vec<Text> {
+        let fits = |note: &Text| note.wrapped(width - self.letter_width(), SMALL_SIZE);
+        self.note.as_ref().map_or(Vec::new(), fits)
+    }
+
     /// Width of the panel letter and the note [pt].
     fn left_width(&self) -> f64 {
-        let letter = self.letter.map_or(0.0, |letter| letter_text(letter).width(LABEL_SIZE) + 5.0);
-        letter + self.note.as_ref().map_or(0.0, |note| note.width(SMALL_SIZE) + ENTRY_GAP)
+        self.letter_width()
+            + self.note.as_ref().map_or(0.0, |note| note.width(SMALL_SIZE) + ENTRY_GAP)
     }
 
     /// The legend in lines that fit `width` [pt], the lowest last; it shares its line with letter
     /// and note where there is room for all, and else stands above them.
     fn legend_lines(&self, width: f64) -> Vec<&[Entry]> {
-        if self.left_width() + legend_width(&self.legend) <= width {
+        let is_short = self.note_lines(width).len() <= 1;
+        if is_short && self.left_width() + legend_width(&self.legend) <= width {
             return vec![&self.legend];
         }
         let mut lines = Vec::new();
@@ -112,9 +125,8 @@ impl Header {
             lines.push(&rest[..count]);
             rest = &rest[count..];
         }
-        if self.left_width() > 0.0 {
-            lines.push(&[]);
-        }
+        let below = if self.left_width() > 0.0 { self.note_lines(width).len().max(1) } else { 0 };
+        lines.extend(std::iter::repeat_n(&[] as &[Entry], below));
         lines
     }
 

@@ -129,10 +129,10 @@ impl Quantity {
         Text::markup(&rounded(value * self.factor))
     }
 
-    /// "symbol = value unit", for a `value` in SI.
+    /// "symbol = value unit", for a `value` in SI, in one line.
     pub fn note(&self, value: f64) -> Text {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        let equals = format!(" = {}{unit}", short(value * self.factor));
+        let equals = format!(" = {}{unit}", short(value * self.factor)).replace(' ', "\u{a0}");
         self.short_name().then(Text::markup(&equals))
     }
 }

@@ -69,7 +69,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     });
     let over: Vec<&str> = searched(view, (&free, axes));
     let rooms = shown.iter().map(|(colours, _)| colours.as_ref().map_or(0.0, |it| it.room(HEIGHT)));
-    let legend = legend(&path, (fastest.iter().any(Option::is_none), &over));
+    let legend = legend(view, &path, (fastest.iter().any(Option::is_none), &over));
     let panel = |place: usize| PanelRequest {
         x: AxisRequest::new(view.quantity(axes[0]), plane.x.scale),
         y: AxisRequest::new(view.quantity(axes[1]), plane.y.scale),
@@ -166,13 +166,12 @@ fn fastest<'m>(
 }
 
 /// What the marks mean.
-fn legend(path: &Path, (has_gaps, over): (bool, &[&str])) -> Vec<Entry> {
+fn legend(view: &View<'_>, path: &Path, (has_gaps, over): (bool, &[&str])) -> Vec<Entry> {
     let said = |what: &str| Text::plain(what);
     let mut legend = Vec::new();
-    if !over.is_empty() {
-        let text = format!("fastest motion over {}", over.join(", "));
-        legend.push((Mark::Nothing, said(&text)));
-    }
+    let names = over.iter().map(|name| view.quantity(name).short_name());
+    let names = names.reduce(|names, name| names.then(said(", ")).then(name));
+    legend.extend(names.map(|it| (Mark::Nothing, said("fastest motion over ").then(it))));
     if !path.points.is_empty() {
         legend.push((Mark::Disc(INK, DOT[0]), said("Pareto fronts")));
         for (symbol, _) in &path.optima {

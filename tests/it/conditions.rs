@@ -64,9 +64,9 @@ fn motions_between_the_cases_keep_limits_and_bounds_and_are_the_best_that_do() {
             }
         }
         assert!(held >= 2, "{condition}: {held}");
-        // No case of the fine grid is faster, and the fastest of them is not much slower.
+        // No case of the fine grid is faster, and the fastest of them, at most a step away, is not much slower.
         let [best, of_grid] = [best, &grid["fastest"]].map(|it| -number(it, "progression_speed"));
-        assert!(best >= of_grid && of_grid > 0.99 * best, "{best} {of_grid}");
+        assert!(best >= of_grid && of_grid > 0.97 * best, "{best} {of_grid}");
     }
 }
 

@@ -65,6 +65,7 @@ fn every_kind_comes_out_in_every_format() {
         (&plane, of("map-work", DrawingKind::Map, "work_positive")),
         (&plane, of("map-cost", DrawingKind::Map, "cost_of_transport")),
         (&plane, drawing("trade-off", DrawingKind::TradeOff)),
+        (&plane, drawing("trade-off-maps", DrawingKind::TradeOffMaps)),
     ];
     for (dataset, request) in requests {
         let paths = draw(dataset, &request, &into(&folder, &ALL)).unwrap().paths;

@@ -58,6 +58,7 @@ mod neutral;
 mod observers;
 mod optima;
 mod oscillators;
+mod panels;
 mod paper;
 mod passages;
 mod phases;

@@ -65,14 +65,15 @@ fn judged(point: &Value, parameter: Parameter, margin: &Value) -> (Option<String
     let from = settling.parameters[parameter];
     let beside = BESIDE * from * (until - from).signum();
     let stays = |orbit: &Orbit| orbit.outcome == Outcome::Periodic && orbit.period == period;
-    let mut speed = f64::NAN;
+    // A capsule at rest still takes power.
+    let mut power = f64::NAN;
     for step in 0..=STEPS {
         let share = f64::from(step) / f64::from(STEPS);
         let orbit = settling.at(from + share * (until - beside - from));
         if !stays(&orbit) {
             return (Some(format!("is {:?} at {share} of it", orbit.outcome)), true);
         }
-        speed = orbit.outputs[Output::ProgressionSpeed];
+        power = orbit.outputs[Output::Power];
     }
     if margin["end"] == "none" {
         let share = until / from;
@@ -84,8 +85,8 @@ fn judged(point: &Value, parameter: Parameter, margin: &Value) -> (Option<String
         return (None, true);
     }
     let back = settling.at(until - beside);
-    let again = back.outputs[Output::ProgressionSpeed];
-    let is_same = stays(&back) && (again - speed).abs() <= 1e-6 * speed.abs();
+    let again = back.outputs[Output::Power];
+    let is_same = stays(&back) && (again - power).abs() <= 1e-6 * power.abs();
     (is_same.then(|| "is passed".to_owned()), true)
 }
 
