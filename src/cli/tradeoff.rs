@@ -31,7 +31,8 @@ Examples:
 
 The front is of all cases of the file, each with the attractor that it has ended on. Motions that are chaotic or
 quasi-periodic take part by their means. With --refine, periodic motions are followed from the cases to where speed is
-stationary for its price, and from these along the front; each says what holds it.";
+stationary for its price, and from these along the front; each says what holds it. Conditions then bound the search:
+parameters, and up to 3 outputs that change smoothly, which may reach their limits.";
 
 /// Find the fastest motions for the least energy.
 #[derive(Debug, Args)]
