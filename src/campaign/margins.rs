@@ -87,12 +87,12 @@ impl Margins {
                     format!("{} at {}", change.name(), percent(change.value))
                 }
             };
-            match margin.passed.first() {
-                Some(first) => {
-                    format!("{end} ({} at {} passed)", first.name(), percent(first.value))
-                }
-                None => end,
-            }
+            let Some(first) = margin.passed.first() else { return end };
+            let more = match margin.passed.len() - 1 {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            format!("{end} ({} at {}{more} passed)", first.name(), percent(first.value))
         })
     }
 }

@@ -102,14 +102,13 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             colours.draw_bar(&mut canvas, panel.frame);
         }
     }
-    let about = view.about(&[SPEED.name.to_owned(), price.to_owned()], &axes);
-    let count = |it: usize| best[it].front.len();
+    let about = view.about(&[SPEED.name.to_owned(), price.to_owned()], &free);
+    let among = if over.is_empty() { String::new() } else { format!(" over {}", over.join(", ")) };
+    let [forward, backward] = [0, 1].map(|it| best[it].front.len());
     Ok(canvas.finish(&format!(
-        "{about} of the fastest motion of each cell{}; the fronts have {} motions forward and {} backward, {} periodic motions \
-         between the cases take part",
-        if over.is_empty() { String::new() } else { format!(" over {}", over.join(", ")) },
-        count(0),
-        count(1),
+        "{about}; in each cell over {} the fastest motion{among}, aperiodic ones by their means; the fronts have {forward} \
+         motions forward and {backward} backward, {} periodic motions between the cases take part",
+        axes.join(", "),
         motions.between()
     )))
 }

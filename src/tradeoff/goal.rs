@@ -100,7 +100,10 @@ impl Objective {
         };
         let excess = |(limit, size): &(Limit, f64)| {
             let factor = if limit.side == Side::Upper { 1.0 } else { -1.0 } / size;
-            (limit.excess(at.outputs[limit.output]) / size, slopes(limit.output, factor))
+            let excess = limit.excess(at.outputs[limit.output]) / size;
+            // What is infinitely far from its limit, as grazing is of a motion that has no maximum, does not hold.
+            let is_near = excess.is_finite();
+            (excess, if is_near { slopes(limit.output, factor) } else { Vector::default() })
         };
         let excess = self.limits.iter().map(excess).collect();
         Measured { value: self.value(at) / self.unit, gradient, excess }

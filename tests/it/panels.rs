@@ -87,7 +87,8 @@ fn the_maps_of_a_trade_off_show_the_fastest_motion_of_each_cell() {
     let (svg, all) = images(&dataset, &request("power"));
     // Two maps, each with its bar.
     assert_eq!(all.len(), 4);
-    assert!(svg.contains("of the fastest motion of each cell over k2, delta"), "{svg}");
+    let said = "over k2, delta, p_d, omega; in each cell over omega, p_d the fastest motion over k2, delta";
+    assert!(svg.contains(said));
     // Here the fastest has the greatest stiffness and gap: the same cells as where these are held there.
     let at = BTreeMap::from([("k2".to_owned(), 1e5), ("delta".to_owned(), 2e-3)]);
     let (_, held) = images(&dataset, &Drawing { at, ..request("power") });
