@@ -8,6 +8,7 @@ use crate::study::Coordinate;
 use crate::tradeoff::Candidate;
 
 use super::margins::Margins;
+use super::mean_errors::MeanErrors;
 use super::refined_motion::{RefinedMotion, Slopes};
 use super::robustness::Robustness;
 
@@ -44,6 +45,8 @@ pub struct Row {
     pub attractor: Option<u64>,
     /// The share of the starts that lead to it, where they are all that varies.
     pub share: Option<f64>,
+    /// Standard errors of its means, where it does not repeat and orbits are computed again.
+    pub errors: Option<MeanErrors>,
     /// How it changes with the parameters, and what holds it.
     pub slopes: Slopes,
     /// What tolerances leave of it, if that was asked for and it repeats.
@@ -112,6 +115,7 @@ impl Rows {
             period: whole(&self.periods).filter(|period| *period > 0),
             attractor,
             share: attractor.and_then(|it| self.shares.get(it as usize).copied()),
+            errors: None,
             slopes: Slopes::default(),
             robustness: None,
             margins: Vec::new(),
@@ -139,6 +143,7 @@ impl Rows {
             period: Some(motion.period),
             attractor: None,
             share: None,
+            errors: None,
             slopes: motion.slopes.clone(),
             robustness: None,
             margins: Vec::new(),

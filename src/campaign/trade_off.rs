@@ -15,6 +15,7 @@ use super::conditions::Conditions;
 use super::error::CampaignError;
 use super::kept_searches::KeptSearches;
 use super::margins::bound;
+use super::mean_errors::add_errors;
 use super::motion_row::{Row, Rows};
 use super::refined_front::Refinement;
 use super::refined_motion::{RefinedMotion, distinct};
@@ -48,10 +49,12 @@ pub struct TradeOff<'a> {
     pub slopes: bool,
     /// Motions between the cases.
     pub between: Between<'a>,
-    /// Tolerances under which the optima and the front are judged, and worker threads for that.
-    pub under: Option<(&'a Tolerances, Option<usize>)>,
-    /// Whether it is told of the optima how far their parameters may change before they end, and worker threads for that.
-    pub margins: Option<Option<usize>>,
+    /// Tolerances under which the optima and the front are judged.
+    pub under: Option<&'a Tolerances>,
+    /// Whether it is told of the optima how far their parameters may change before they end.
+    pub margins: bool,
+    /// Worker threads; one per core by default.
+    pub threads: Option<usize>,
 }
 
 /// Which motions between the cases take part.
@@ -61,17 +64,8 @@ pub enum Between<'a> {
     Nothing,
     /// Those that are known.
     Known(&'a KeptSearches),
-    /// Those that are found by searches which are not done yet.
-    Sought(&'a KeptSearches, Sought),
-}
-
-/// How motions are sought.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Sought {
-    /// The number by which starts are drawn.
-    pub seed: u64,
-    /// Worker threads; one per core by default.
-    pub threads: Option<usize>,
+    /// Those that are found by searches which are not done yet, with the number by which starts are drawn.
+    Sought(&'a KeptSearches, u64),
 }
 
 /// The cases of a file, and what is asked of them.
@@ -127,11 +121,14 @@ impl TradeOff<'_> {
         let all = with_refined((asked.cases, &found.all), &between, self.of);
         let motions = Motions { asked: &asked, between: &between, all };
         let mut answer = Answer { left_out: found.left_out, ..motions.answer(searches)? };
-        if let (Some(refinement), Some(under)) = (&asked.refinement, self.under) {
-            judge(&mut answer, refinement, under, &reports)?;
+        if let Some(refinement) = &asked.refinement {
+            add_errors(&mut answer, refinement, self.threads)?;
         }
-        if let (Some(refinement), Some(threads)) = (&asked.refinement, self.margins) {
-            bound(&mut answer, refinement, threads, &reports)?;
+        if let (Some(refinement), Some(under)) = (&asked.refinement, self.under) {
+            judge(&mut answer, refinement, (under, self.threads), &reports)?;
+        }
+        if let Some(refinement) = asked.refinement.as_ref().filter(|_| self.margins) {
+            bound(&mut answer, refinement, self.threads, &reports)?;
         }
         Ok(answer)
     }
@@ -158,10 +155,8 @@ impl TradeOff<'_> {
 
     /// Whether more is asked than what the file tells of its cases.
     fn needs_orbits(&self) -> bool {
-        self.slopes
-            || self.under.is_some()
-            || self.margins.is_some()
-            || !matches!(self.between, Between::Nothing)
+        let seeks = !matches!(self.between, Between::Nothing);
+        self.slopes || self.under.is_some() || self.margins || seeks
     }
 
     /// The optima that are asked for, each by its place among all motions.
@@ -202,7 +197,7 @@ impl TradeOff<'_> {
 
     fn seed(&self) -> u64 {
         match self.between {
-            Between::Sought(_, Sought { seed, .. }) => seed,
+            Between::Sought(_, seed) => seed,
             _ => 0,
         }
     }
@@ -237,14 +232,14 @@ impl Asked<'_> {
     ) -> Result<(Option<usize>, Vec<RefinedMotion>), CampaignError> {
         match (&self.refinement, self.request.between) {
             (_, Between::Known(kept)) => Ok((None, kept.motions())),
-            (Some(refinement), Between::Sought(_, Sought { threads, .. })) => {
+            (Some(refinement), Between::Sought(..)) => {
                 let free = refinement.free().len();
                 if !(1..=MOST_FREE).contains(&free) {
                     let fault =
                         format!("{free} parameters vary; 1 to {MOST_FREE} can be refined over");
                     return Err(self.request.fault(fault));
                 }
-                let (searches, motions) = self.sought(refinement, threads, reports)?;
+                let (searches, motions) = self.sought(refinement, reports)?;
                 Ok((Some(searches), motions))
             }
             _ => Ok((None, Vec::new())),
@@ -255,9 +250,9 @@ impl Asked<'_> {
     fn sought(
         &self,
         refinement: &Refinement<'_>,
-        threads: Option<usize>,
         reports: &Reports<'_>,
     ) -> Result<(usize, Vec<RefinedMotion>), CampaignError> {
+        let threads = self.request.threads;
         let searches = refinement.searches(self.candidates, &self.optima);
         reports.send(Event::Begun(Stage::Searching, searches.len()))?;
         let step = || reports.step(Stage::Searching);
@@ -309,7 +304,7 @@ impl Motions<'_> {
             named: request.named(&best, all).into_iter().map(named).collect::<Result<_, _>>()?,
             front: rows(&best.front)?,
             top: rows(&moving[..moving.len().min(request.top)])?,
-            tolerances: request.under.map(|(tolerances, _)| tolerances.clone()),
+            tolerances: request.under.cloned(),
             robust_front: Vec::new(),
         })
     }

@@ -62,6 +62,11 @@ fn json_of_row(row: &Row, of: Output) -> Value {
     point.insert(Output::ProgressionSpeed.name().to_owned(), json!(row.speed));
     point.insert(Output::EnergyPerMetre.name().to_owned(), json!(row.energy_per_metre));
     point.insert(of.name().to_owned(), json!(row.price));
+    let errors = row.errors.map(|it| {
+        let speed = (Output::ProgressionSpeed.name().to_owned(), json!(it.speed));
+        Value::Object([speed, (of.name().to_owned(), json!(it.price))].into_iter().collect())
+    });
+    point.insert("standard_errors".to_owned(), json!(errors));
     point.insert(PERIOD.name.to_owned(), json!(row.period));
     point.insert(OUTCOME.name.to_owned(), json!(row.outcome));
     point.insert(ATTRACTOR.name.to_owned(), json!(row.attractor));
@@ -122,6 +127,8 @@ pub fn csv(answer: &Answer) -> String {
     let rest = [OUTCOME.name, PERIOD.name, ATTRACTOR.name, "share"];
     let more = [
         Output::EnergyPerMetre.name(),
+        "standard_error_of_speed",
+        "standard_error_of_price",
         "held_by",
         "stationarity",
         "kept",
@@ -149,6 +156,8 @@ pub fn csv(answer: &Answer) -> String {
         let robustness = |of: fn(&Robustness) -> f64| optional(row.robustness.as_ref().map(of));
         let more = [
             format!("{:?}", row.energy_per_metre),
+            optional(row.errors.map(|it| it.speed)),
+            optional(row.errors.map(|it| it.price)),
             row.slopes.held_by.join("; "),
             optional(row.slopes.stationarity),
             robustness(|it| it.kept),
@@ -250,7 +259,10 @@ fn write_margins(text: &mut String, answer: &Answer) {
 fn write_row(text: &mut String, answer: &Answer, what: &str, row: &Row) {
     let motion = match row.period {
         Some(period) => format!("period {period}"),
-        None => row.outcome.clone(),
+        None => {
+            let error = row.errors.map(|it| format!(" \u{b1} {:.6} mm/s", 1e3 * it.speed));
+            format!("{}, means{}", row.outcome, error.unwrap_or_default())
+        }
     };
     let robust = row.robustness.map_or(String::new(), |it| {
         let (kept, speed) = (100.0 * it.kept, 1e3 * it.speed);

@@ -13,7 +13,7 @@ use super::stop::say_when_stopped;
 use super::terminal::{notify, print};
 use super::watch::Stages;
 use crate::campaign::{
-    Between, CampaignError, KeptSearches, Sought, Tolerances, TradeOff, searches_path, study_of,
+    Between, CampaignError, KeptSearches, Tolerances, TradeOff, searches_path, study_of,
 };
 use crate::capsule::{Dimension, Output, Parameter};
 use crate::store::{self, Archive, StoreError, quantity};
@@ -109,7 +109,6 @@ impl Tradeoff {
         let archive = store::open(&self.file).map_err(Failure::request)?;
         let kept = self.refine.then(|| self.kept(&archive)).transpose()?;
         let threads = self.threads.map(|threads| threads as usize);
-        let sought = Sought { seed: self.seed, threads };
         let trade_off = TradeOff {
             archive: &archive,
             file: &self.file,
@@ -121,9 +120,10 @@ impl Tradeoff {
             speed: request.speed,
             top: self.top,
             slopes: self.json,
-            under: request.tolerances.as_ref().map(|it| (it, threads)),
-            margins: self.margins.then_some(threads),
-            between: kept.as_ref().map_or(Between::Nothing, |it| Between::Sought(it, sought)),
+            under: request.tolerances.as_ref(),
+            margins: self.margins,
+            threads,
+            between: kept.as_ref().map_or(Between::Nothing, |it| Between::Sought(it, self.seed)),
         };
         let stages = Stages::default();
         let answer = trade_off.answer(&|event| {

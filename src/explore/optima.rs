@@ -32,7 +32,8 @@ pub fn write_optima(
         slopes: false,
         between: Between::Known(kept),
         under: None,
-        margins: Some(Some(1)),
+        margins: true,
+        threads: Some(1),
     };
     let answer = match trade_off.answer(&silent) {
         Err(CampaignError::TradeOff { faults, .. }) => {
@@ -102,7 +103,10 @@ fn front_in_words(answer: &Answer) -> String {
 fn write_table(page: &mut Page, named: &[(String, Row)], of: Output) {
     let Some((_, first)) = named.first() else { return };
     let mut rows = vec![
-        line("progression speed [m/s]", named, |row| number(row.speed)),
+        line("progression speed [m/s]", named, |row| {
+            let error = row.errors.map(|it| format!(" \u{b1} {}", number(it.speed)));
+            number(row.speed) + &error.unwrap_or_default()
+        }),
         line(&format!("{} [{}]", of.name(), of.unit()), named, |row| number(row.price)),
     ];
     if of != Output::EnergyPerMetre {

@@ -53,6 +53,7 @@ mod kept_searches;
 mod killed_calls;
 mod lanes;
 mod margins;
+mod mean_errors;
 mod mutants;
 mod neutral;
 mod observers;
