@@ -82,11 +82,13 @@ impl KeptSearches {
         distinct(self.known.values().flatten().cloned().collect())
     }
 
-    /// The directions and outputs, by their names, of the refinements whose searches are kept.
-    pub fn refinements(&self) -> BTreeSet<(String, String)> {
-        let read = |what: &String| -> Option<(String, String)> {
+    /// The options of the refinements whose searches are kept, the direction first.
+    pub fn refinements(&self) -> BTreeSet<String> {
+        let read = |what: &String| -> Option<String> {
             let what: Value = serde_json::from_str(what).ok()?;
-            Some((what["moving"].as_str()?.to_owned(), what["of"].as_str()?.to_owned()))
+            let options =
+                format!("--direction {} --of {}", what["moving"].as_str()?, what["of"].as_str()?);
+            Some(options + &conditions(&what).unwrap_or_default())
         };
         self.known.keys().filter_map(read).collect()
     }
@@ -107,6 +109,13 @@ impl KeptSearches {
         }
         Ok(found)
     }
+}
+
+/// The option of the conditions that a search has kept.
+fn conditions(what: &Value) -> Option<String> {
+    let part = |it: &Value| Some(format!("{} {} {}", it[0].as_str()?, it[1].as_str()?, it[2]));
+    let parts: Option<Vec<String>> = what["where"].as_array()?.iter().map(part).collect();
+    Some(format!(" --where \"{}\"", parts?.join(" and ")))
 }
 
 /// What the searches belong to.

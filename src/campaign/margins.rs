@@ -76,24 +76,34 @@ impl Change {
 }
 
 impl Margins {
-    /// The margins down and up in words, as changes in percent.
-    pub fn in_words(&self) -> [String; 2] {
+    /// What ends the motion, down and up, with the changes in percent.
+    pub fn ends(&self) -> [String; 2] {
         [&self.down, &self.up].map(|margin| {
-            let percent = |value: f64| format!("{:+.3} %", 100.0 * (value / self.at - 1.0));
-            let end = match margin.end {
-                MarginEnd::Range => format!("none to {}", percent(margin.until)),
-                MarginEnd::NotFollowed => format!("not known beyond {}", percent(margin.until)),
-                MarginEnd::Bifurcation(change) => {
-                    format!("{} at {}", change.name(), percent(change.value))
-                }
-            };
+            let until = self.percent(margin.until);
+            match margin.end {
+                MarginEnd::Range => format!("none to {until}"),
+                MarginEnd::NotFollowed => format!("not known beyond {until}"),
+                MarginEnd::Bifurcation(change) => format!("{} at {until}", change.name()),
+            }
+        })
+    }
+
+    /// What ends the motion, down and up, and the changes of events that it survives on the way.
+    pub fn in_words(&self) -> [String; 2] {
+        let [down, up] = self.ends();
+        [(&self.down, down), (&self.up, up)].map(|(margin, end)| {
             let Some(first) = margin.passed.first() else { return end };
             let more = match margin.passed.len() - 1 {
                 0 => String::new(),
                 more => format!(" and {more} more"),
             };
-            format!("{end} ({} at {}{more} passed)", first.name(), percent(first.value))
+            format!("{end} ({} at {}{more} passed)", first.name(), self.percent(first.value))
         })
+    }
+
+    /// A value as a change in percent.
+    fn percent(&self, value: f64) -> String {
+        format!("{:+.3}\u{a0}%", 100.0 * (value / self.at - 1.0))
     }
 }
 

@@ -166,7 +166,7 @@ fn write_margins(page: &mut Page, named: &[(String, Row)]) {
     }
     let cells = |parameter: Parameter, row: &Row| -> [String; 2] {
         let found = row.margins.iter().find(|it| it.parameter == parameter);
-        found.map_or([String::new(), String::new()], Margins::in_words)
+        found.map_or([String::new(), String::new()], Margins::ends)
     };
     let has = |parameter: &Parameter| {
         known.iter().any(|(_, row)| row.margins.iter().any(|it| it.parameter == *parameter))
@@ -180,8 +180,8 @@ fn write_margins(page: &mut Page, named: &[(String, Row)]) {
         known.iter().flat_map(|(name, _)| ["falling", "rising"].map(|it| format!("{name}, {it}")));
     let headings: Vec<String> = [String::new()].into_iter().chain(columns).collect();
     page.text(
-        "The next bifurcation of each motion as one parameter falls or rises, by a half at most; in brackets the first \
-         change of events that it survives:",
+        "Where each motion ends or loses its stability as one parameter falls or rises, by a half at most; `tradeoff --margins` \
+         tells the changes of events on the way, too:",
     );
     page.table(&headings, &rows);
 }

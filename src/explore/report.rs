@@ -139,9 +139,10 @@ impl Report<'_> {
             format!("capsulemap inspect {file} --study > study.toml"),
             "capsulemap sweep study.toml --output again.h5".to_owned(),
         ];
-        commands.extend(self.kept.refinements().into_iter().map(|(direction, of)| {
-            format!("capsulemap tradeoff again.h5 --of {of} --direction {direction} --refine")
-        }));
+        let refined = self.kept.refinements().into_iter();
+        commands.extend(
+            refined.map(|options| format!("capsulemap tradeoff again.h5 {options} --refine")),
+        );
         commands.push(format!("capsulemap report again.h5 --of {}", self.request.of.name()));
         page.verbatim(&commands.join("\n"));
         if !self.kept.is_empty() {
