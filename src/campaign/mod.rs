@@ -6,6 +6,7 @@
 //! [`Event`]s to a listener, stops when the listener asks for it, and prints nothing.
 
 pub mod answer;
+pub mod bounding;
 mod clear;
 mod compute;
 pub mod conditions;
@@ -29,6 +30,7 @@ pub mod request;
 pub mod result_file;
 pub mod robustness;
 pub mod share;
+pub mod spread;
 mod start;
 pub mod status;
 pub mod study_source;

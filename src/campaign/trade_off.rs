@@ -11,16 +11,16 @@ use crate::tradeoff::{
 };
 
 use super::answer::{Answer, Gain, Named};
+use super::bounding::bound;
 use super::conditions::Conditions;
 use super::error::CampaignError;
 use super::kept_searches::KeptSearches;
-use super::margins::bound;
-use super::mean_errors::add_errors;
 use super::motion_row::{Row, Rows};
 use super::refined_front::Refinement;
 use super::refined_motion::{RefinedMotion, distinct};
 use super::report::{Event, Report, Reports, Stage};
 use super::robustness::Tolerances;
+use super::spread::add_errors;
 use super::study_source::study_of;
 use super::tolerance_draws::judge;
 

@@ -1,0 +1,96 @@
+//! The motions of a trade-off that do not repeat, followed further: their spread tells the errors of their means.
+
+use crate::capsule::{
+    Account, AsPrinted, CapsuleSystem, Filippov, Output, Parameter, Reading, Section, Switching,
+    per_cycle, settle_case,
+};
+use crate::flow::System;
+use crate::orbit::Protocol;
+use crate::orbit::return_map::{Cycles, observed};
+use crate::run::{Machine, on_all_threads};
+
+use super::answer::Answer;
+use super::error::CampaignError;
+use super::mean_errors::MeanErrors;
+use super::motion_row::Row;
+use super::refined_front::Refinement;
+use super::replay::Replay;
+use super::report::silent;
+
+/// The cycles are averaged in so many batches, whose spread tells the error.
+const BATCHES: u64 = 16;
+
+impl Refinement<'_> {
+    /// The standard errors of speed and price of each of some motions, none of those that repeat or could not be followed.
+    ///
+    /// # Method
+    ///
+    /// The case is computed again and followed on from its end for as many cycles as it was measured over, in 16 batches; the error
+    /// is the standard deviation of their means over the root of their number.
+    ///
+    /// # Assumes
+    ///
+    /// Batches are long against the memory of the motion; that of a quasi-periodic motion never fades, and its error is that of
+    /// the batches all the same.
+    ///
+    /// Fails if a case cannot be computed again.
+    pub fn mean_errors(
+        &self,
+        rows: &[&Row],
+        threads: Option<usize>,
+    ) -> Result<Vec<Option<MeanErrors>>, CampaignError> {
+        let found = on_all_threads(threads, rows.len(), |number| {
+            let case = rows[number].case.filter(|_| rows[number].period.is_none());
+            let found = case.map(|case| match self.study.base.switching {
+                Switching::Filippov => self.mean_errors_of::<Filippov>(case),
+                Switching::AsPrinted => self.mean_errors_of::<AsPrinted>(case),
+            });
+            found.transpose().map(Option::flatten)
+        })?;
+        found.into_iter().collect()
+    }
+
+    fn mean_errors_of<R: Reading>(&self, case: usize) -> Result<Option<MeanErrors>, CampaignError> {
+        let replay = Replay::new(self.study, case)?;
+        let case = replay.as_run(Machine::single(), &silent)?;
+        let end = settle_case(&case, replay.protocol()).end;
+        let system = CapsuleSystem::<R>::new(case.parameters, case.section_phase);
+        Ok(self.of_batches(&system, [end.r, end.y1, end.y2], replay.protocol()))
+    }
+
+    /// The errors of the cycles from a section point on.
+    fn of_batches<R: Reading>(
+        &self,
+        system: &CapsuleSystem<R>,
+        mut point: Section,
+        protocol: &Protocol,
+    ) -> Option<MeanErrors> {
+        let Protocol { measured_cycles, tolerance, .. } = *protocol;
+        let cycles = Cycles { count: measured_cycles.div_ceil(BATCHES), tolerance };
+        let of = |parameter: Parameter| system.parameters[parameter];
+        let (mut speeds, mut prices) = (Vec::new(), Vec::new());
+        for _ in 0..BATCHES {
+            let mut account = Account::new(of, 0);
+            point = observed(&system.system(of), point, &cycles, &mut account).ok()?;
+            let outputs = per_cycle(&account, of, cycles.count as f64);
+            speeds.push(outputs[Output::ProgressionSpeed]);
+            prices.push(outputs[self.of]);
+        }
+        Some(MeanErrors::of(&speeds, &prices))
+    }
+}
+
+/// Adds the errors of the motions that do not repeat.
+pub(super) fn add_errors(
+    answer: &mut Answer,
+    refinement: &Refinement<'_>,
+    threads: Option<usize>,
+) -> Result<(), CampaignError> {
+    let named = answer.named.iter().filter_map(|it| it.row.as_ref());
+    let rows: Vec<&Row> = named.chain(&answer.front).chain(&answer.top).collect();
+    let found = refinement.mean_errors(&rows, threads)?;
+    let named = answer.named.iter_mut().filter_map(|it| it.row.as_mut());
+    let rows = named.chain(&mut answer.front).chain(&mut answer.top);
+    rows.zip(found).for_each(|(row, errors)| row.errors = errors);
+    Ok(())
+}
