@@ -281,13 +281,17 @@ fn write_drawing(document: &mut Document, drawing: &Drawing) {
     if !drawing.of.is_empty() {
         document.put("of", list(drawing.of.iter().map(|name| text(name))));
     }
-    if !drawing.at.is_empty() {
-        let held = drawing.at.iter().map(|(name, value)| {
+    if !drawing.at.is_empty() || !drawing.panels.is_empty() {
+        let value = |name: &str, value: f64| {
             let known = Coordinate::all().find(|coordinate| coordinate.name() == name);
-            let value = known.map_or(number(*value), |it| quantity(*value, it.dimension()));
-            (text(name), value)
-        });
-        document.put("at", inline(held));
+            known.map_or(number(value), |it| quantity(value, it.dimension()))
+        };
+        let one = drawing.at.iter().map(|(name, it)| (text(name), value(name, *it)));
+        let several = drawing
+            .panels
+            .iter()
+            .map(|(name, values)| (text(name), list(values.iter().map(|it| value(name, *it)))));
+        document.put("at", inline(one.chain(several)));
     }
     if let Some(cycles) = drawing.cycles {
         document.put("cycles", list(cycles.into_iter().map(number)));

@@ -16,8 +16,8 @@ const STUDIES: [&str; 2] = [
      [[axes]]\nname = \"p_d\"\nvalues = [\"7 N\", \"7.2 N\"]\n\
      [[axes]]\nname = \"omega\"\nvalues = [\"54 rad/s\", \"56 rad/s\"]\n",
 ];
-/// Steps from the optimum to beside where it ends.
-const STEPS: u32 = 60;
+/// Steps from the optimum to beside where it ends, each shorter than the one before by the same share, as basins shrink there.
+const STEPS: u32 = 150;
 /// So far beside the end, as a share of the parameter, the motions on both sides are compared.
 const BESIDE: f64 = 1e-5;
 
@@ -68,10 +68,10 @@ fn judged(point: &Value, parameter: Parameter, margin: &Value) -> (Option<String
     // A capsule at rest still takes power.
     let mut power = f64::NAN;
     for step in 0..=STEPS {
-        let share = f64::from(step) / f64::from(STEPS);
-        let orbit = settling.at(from + share * (until - beside - from));
+        let left = (beside / (until - from)).powf(f64::from(step) / f64::from(STEPS));
+        let orbit = settling.at(until + left * (from - until));
         if !stays(&orbit) {
-            return (Some(format!("is {:?} at {share} of it", orbit.outcome)), true);
+            return (Some(format!("is {:?} with {left} of it left", orbit.outcome)), true);
         }
         power = orbit.outputs[Output::Power];
     }

@@ -181,6 +181,6 @@ fn a_search_is_refused_where_nothing_varies_or_conditions_could_not_be_kept() {
     folder.run(&["sweep", "study.toml"]).done();
     let file = "results/study/study.h5";
     folder.run(&["tradeoff", file, "--refine"]).refused(&["0 parameters vary", "1 to 6"]);
-    let both = ["tradeoff", file, "--refine", "--where", "power < 1 W"];
-    folder.run(&both).refused(&["--refine", "--where", "cannot be used with"]);
+    let both = ["tradeoff", file, "--refine", "--where", "start_r > 0 mm"];
+    folder.run(&both).refused(&["start_r > 0 mm", "`--refine` cannot keep it between the cases"]);
 }
