@@ -179,8 +179,9 @@ impl Random {
 
     fn drawing(&mut self, study: &Study, name: String) -> Drawing {
         let is_grid = matches!(study.case_set, CaseSet::Grid(_));
-        let needs_grid =
-            |kind: &DrawingKind| matches!(kind, DrawingKind::Map | DrawingKind::Bifurcation);
+        let needs_grid = |kind: &DrawingKind| {
+            matches!(kind, DrawingKind::Map | DrawingKind::Bifurcation | DrawingKind::TradeOffMaps)
+        };
         let kinds = DrawingKind::NAMES.iter().map(|(_, kind)| *kind).collect::<Vec<_>>();
         let kinds: Vec<_> = kinds.into_iter().filter(|kind| is_grid || !needs_grid(kind)).collect();
         let kind = self.one(&kinds);
