@@ -2,7 +2,7 @@
 
 use crate::flow::{Metric, System};
 use crate::orbit::precision::OBLIQUE;
-use crate::orbit::return_map::{Cycles, returned};
+use crate::orbit::return_map::append_points;
 use crate::orbit::{Outcome, Protocol};
 
 use super::final_motion::FinalMotion;
@@ -48,7 +48,7 @@ impl<const D: usize> Attractor<D> {
             Outcome::Periodic | Outcome::Undecided | Outcome::Failed => return None,
         };
         let mut points = vec![motion.section];
-        append_points(system, &mut points, wanted, protocol)?;
+        append_points(system, &mut points, wanted, protocol.tolerance)?;
         let metric = system.metric();
         let size = metric.largest(&points);
         let bound = relative_bound(motion.residual, motion.from_one, protocol) * size;
@@ -90,7 +90,8 @@ impl<const D: usize> Attractor<D> {
         protocol: &Protocol,
     ) {
         if !self.has_points_for(comparison) {
-            let _ = append_points(system, &mut self.points, COMPARED[comparison].0, protocol);
+            let _ =
+                append_points(system, &mut self.points, COMPARED[comparison].0, protocol.tolerance);
         }
     }
 
@@ -165,21 +166,6 @@ fn own_neighbours<const D: usize>(a: &[[f64; D]], b: &[[f64; D]], metric: &Metri
         is_own
     };
     (0..sorted.len()).filter(has_own).count() as f64 / sorted.len() as f64
-}
-
-/// Follows a motion from the last of its section points until there are so many; none where it cannot be followed so far.
-fn append_points<M: System<D>, const D: usize>(
-    system: &M,
-    points: &mut Vec<[f64; D]>,
-    wanted: usize,
-    protocol: &Protocol,
-) -> Option<()> {
-    let system = system.single();
-    let cycles = Cycles { count: 1, tolerance: protocol.tolerance };
-    while points.len() < wanted {
-        points.push(returned(&system, points[points.len() - 1], &cycles, |_| ()).ok()?);
-    }
-    Some(())
 }
 
 #[cfg(test)]

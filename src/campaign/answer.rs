@@ -37,6 +37,20 @@ pub struct Answer {
     pub robust_front: Vec<usize>,
 }
 
+impl Answer {
+    /// The optima, the front and the fastest, one after the other; a motion may be among several.
+    pub fn rows(&self) -> impl Iterator<Item = &Row> {
+        let named = self.named.iter().filter_map(|it| it.row.as_ref());
+        named.chain(&self.front).chain(&self.top)
+    }
+
+    /// The same, to be changed.
+    pub fn rows_mut(&mut self) -> impl Iterator<Item = &mut Row> {
+        let named = self.named.iter_mut().filter_map(|it| it.row.as_mut());
+        named.chain(&mut self.front).chain(&mut self.top)
+    }
+}
+
 /// What a search for motions between the cases has brought.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gain {

@@ -2,8 +2,7 @@
 
 use crate::branch::Along;
 use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Parameter, Reading, Switching};
-use crate::orbit::passage::{OneByOne, image};
-use crate::orbit::return_map::Cycles;
+use crate::orbit::return_map::append_points;
 use crate::run::on_all_threads;
 
 use super::answer::Answer;
@@ -48,13 +47,8 @@ impl Refinement<'_> {
         let system = CapsuleSystem::<R>::new(motion.parameters.clone(), motion.phase);
         let tolerance = self.study.protocol.tolerance;
         let mut points = vec![motion.section];
-        while (points.len() as u64) < motion.period {
-            let cycle = Cycles { count: 1, tolerance };
-            let Some(last) = points.last() else { break };
-            match image(&OneByOne, &system, last, &cycle) {
-                Ok(next) => points.push(next.end),
-                Err(_) => return Vec::new(),
-            }
+        if append_points(&system, &mut points, motion.period as usize, tolerance).is_none() {
+            return Vec::new();
         }
         let both = |parameter: Parameter| {
             let along = Along { system: system.clone(), parameter, tolerance };

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::capsule::{Output, Outputs, Parameter};
+use crate::capsule::{Outputs, Parameter};
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};
 use crate::tradeoff::{Limit, MOST_LIMITS, SMOOTH, Side};
@@ -97,7 +97,7 @@ impl Conditions {
     pub fn described(&self) -> Option<Value> {
         let sign = |side: Side| if side == Side::Upper { "<=" } else { ">=" };
         let bounds = self.bounds.iter().map(|it| (it.0.symbol(), it.1, it.2));
-        let limits = self.limits.iter().map(|it| (Output::name(it.output), it.side, it.value));
+        let limits = self.limits.iter().map(|it| (it.output.name(), it.side, it.value));
         let all: Vec<Value> = bounds
             .chain(limits)
             .map(|(name, side, value)| json!([name, sign(side), value]))

@@ -1,5 +1,7 @@
 //! The motions of a trade-off that do not repeat, followed further: their spread tells the errors of their means.
 
+use std::collections::BTreeSet;
+
 use crate::capsule::{
     Account, AsPrinted, CapsuleSystem, Filippov, Output, Parameter, Reading, Section, Switching,
     per_cycle, settle_case,
@@ -21,7 +23,7 @@ use super::report::silent;
 const BATCHES: u64 = 16;
 
 impl Refinement<'_> {
-    /// The standard errors of speed and price of each of some motions, none of those that repeat or could not be followed.
+    /// The standard errors of speed and price of each of some cases that do not repeat; none of those that could not be followed.
     ///
     /// # Method
     ///
@@ -36,17 +38,14 @@ impl Refinement<'_> {
     /// Fails if a case cannot be computed again.
     pub fn mean_errors(
         &self,
-        rows: &[&Row],
+        cases: &[usize],
         threads: Option<usize>,
     ) -> Result<Vec<Option<MeanErrors>>, CampaignError> {
-        let found = on_all_threads(threads, rows.len(), |number| {
-            let case = rows[number].case.filter(|_| rows[number].period.is_none());
-            let found = case.map(|case| match self.study.base.switching {
-                Switching::Filippov => self.mean_errors_of::<Filippov>(case),
-                Switching::AsPrinted => self.mean_errors_of::<AsPrinted>(case),
-            });
-            found.transpose().map(Option::flatten)
-        })?;
+        let found =
+            on_all_threads(threads, cases.len(), |number| match self.study.base.switching {
+                Switching::Filippov => self.mean_errors_of::<Filippov>(cases[number]),
+                Switching::AsPrinted => self.mean_errors_of::<AsPrinted>(cases[number]),
+            })?;
         found.into_iter().collect()
     }
 
@@ -86,11 +85,14 @@ pub(super) fn add_errors(
     refinement: &Refinement<'_>,
     threads: Option<usize>,
 ) -> Result<(), CampaignError> {
-    let named = answer.named.iter().filter_map(|it| it.row.as_ref());
-    let rows: Vec<&Row> = named.chain(&answer.front).chain(&answer.top).collect();
-    let found = refinement.mean_errors(&rows, threads)?;
-    let named = answer.named.iter_mut().filter_map(|it| it.row.as_mut());
-    let rows = named.chain(&mut answer.front).chain(&mut answer.top);
-    rows.zip(found).for_each(|(row, errors)| row.errors = errors);
+    let aperiodic = |row: &Row| row.case.filter(|_| row.period.is_none());
+    // A motion may be an optimum and on the front.
+    let cases: BTreeSet<usize> = answer.rows().filter_map(aperiodic).collect();
+    let cases: Vec<usize> = cases.into_iter().collect();
+    let found = refinement.mean_errors(&cases, threads)?;
+    for row in answer.rows_mut() {
+        let place = aperiodic(row).and_then(|case| cases.binary_search(&case).ok());
+        row.errors = place.and_then(|place| found[place]);
+    }
     Ok(())
 }

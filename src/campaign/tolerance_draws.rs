@@ -73,15 +73,12 @@ pub(super) fn judge(
     (tolerances, threads): (&Tolerances, Option<usize>),
     reports: &Reports<'_>,
 ) -> Result<(), CampaignError> {
-    let named = answer.named.iter().filter_map(|it| it.row.as_ref());
-    let rows: Vec<&Row> = named.chain(&answer.front).chain(&answer.top).collect();
+    let rows: Vec<&Row> = answer.rows().collect();
     reports.send(Event::Begun(Stage::Drawing, rows.len()))?;
     let step = || reports.step(Stage::Drawing);
     let found = refinement.robustness(&rows, tolerances, (threads, step))?;
     reports.send(Event::Ended(Stage::Drawing))?;
-    let named = answer.named.iter_mut().filter_map(|it| it.row.as_mut());
-    let rows = named.chain(&mut answer.front).chain(&mut answer.top);
-    rows.zip(found).for_each(|(row, robustness)| row.robustness = robustness);
+    answer.rows_mut().zip(found).for_each(|(row, robustness)| row.robustness = robustness);
     let (mut places, mut prices, mut speeds) = (Vec::new(), Vec::new(), Vec::new());
     for (place, row) in answer.front.iter().enumerate() {
         let robustness = row.robustness.filter(|it| it.speed > answer.at_rest.0);

@@ -111,10 +111,7 @@ impl TradeOff<'_> {
             rows: &rows,
             candidates: &found.all,
             optima: best_of(&found.all, self.direction, self.at_rest),
-            refinement: study.as_ref().map(|study| Refinement {
-                conditions: between,
-                ..self.refinement(study, &rows, &none)
-            }),
+            refinement: study.as_ref().map(|study| self.refinement(study, (&rows, between), &none)),
         };
         let reports = Reports::new(report);
         let (searches, between) = asked.between(&reports)?;
@@ -176,7 +173,7 @@ impl TradeOff<'_> {
     fn refinement<'r>(
         &'r self,
         study: &'r Study,
-        rows: &Rows,
+        (rows, conditions): (&Rows, Conditions),
         none: &'r KeptSearches,
     ) -> Refinement<'r> {
         let kept = match self.between {
@@ -189,7 +186,7 @@ impl TradeOff<'_> {
             periods: rows.periods(study.cases()),
             of: self.of,
             direction: self.direction,
-            conditions: Conditions::default(),
+            conditions,
             seed: self.seed(),
             kept,
         }

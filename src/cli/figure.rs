@@ -12,7 +12,7 @@ use crate::campaign::study_of;
 use crate::figure::Place;
 use crate::store::{self, Archive, Dataset};
 use crate::study::document::unknown;
-use crate::study::{Coordinate, Drawing, DrawingKind, check_panels};
+use crate::study::{Coordinate, Drawing, DrawingKind, Held, check_panels};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -159,9 +159,6 @@ impl Figure {
         if faults.is_empty() { Ok((at, panels)) } else { Err(Failure::requests(&faults)) }
     }
 }
-
-/// Where axes are held, and those that are held at several values.
-type Held = (BTreeMap<String, f64>, Vec<(String, Vec<f64>)>);
 
 /// The figures that the study in the file asks for.
 fn studied(archive: &Archive, file: &Path) -> Result<Vec<Drawing>, Failure> {

@@ -33,7 +33,7 @@ pub fn write_optima(
         between: Between::Known(kept),
         under: None,
         margins: true,
-        threads: Some(1),
+        threads: None,
     };
     let answer = match trade_off.answer(&silent) {
         Err(CampaignError::TradeOff { faults, .. }) => {
@@ -164,18 +164,15 @@ fn write_margins(page: &mut Page, named: &[(String, Row)]) {
     if known.is_empty() {
         return;
     }
-    let cells = |parameter: Parameter, row: &Row| -> [String; 2] {
-        let found = row.margins.iter().find(|it| it.parameter == parameter);
-        found.map_or([String::new(), String::new()], Margins::ends)
+    let line = |parameter: &Parameter| -> Option<Vec<String>> {
+        let along =
+            |row: &Row| row.margins.iter().find(|it| it.parameter == *parameter).map(Margins::ends);
+        let ends: Vec<Option<[String; 2]>> = known.iter().map(|(_, row)| along(row)).collect();
+        let is_known = ends.iter().any(Option::is_some);
+        let cells = ends.into_iter().flat_map(Option::unwrap_or_default);
+        is_known.then(|| [parameter.symbol().to_owned()].into_iter().chain(cells).collect())
     };
-    let has = |parameter: &Parameter| {
-        known.iter().any(|(_, row)| row.margins.iter().any(|it| it.parameter == *parameter))
-    };
-    let line = |parameter: &Parameter| -> Vec<String> {
-        let cells = known.iter().flat_map(|(_, row)| cells(*parameter, row));
-        [parameter.symbol().to_owned()].into_iter().chain(cells).collect()
-    };
-    let rows: Vec<Vec<String>> = Parameter::ALL.iter().filter(|it| has(it)).map(line).collect();
+    let rows: Vec<Vec<String>> = Parameter::ALL.iter().filter_map(line).collect();
     let columns =
         known.iter().flat_map(|(name, _)| ["falling", "rising"].map(|it| format!("{name}, {it}")));
     let headings: Vec<String> = [String::new()].into_iter().chain(columns).collect();

@@ -15,7 +15,7 @@ use super::style::{INK, PAPER, TWO_COLUMNS};
 use super::symbol::Symbol;
 use super::text::Text;
 use super::trade_off::{DIRECTIONS, KIND as TRADE_OFF, SPEED, price};
-use super::trade_off_motions::{Best, Motions};
+use super::trade_off_motions::{Best, Motions, value_of};
 use super::trade_off_table::marked;
 use super::view::View;
 use crate::study::Coordinate;
@@ -129,8 +129,7 @@ fn path(
     }
     let place = |motion: &Candidate| {
         let value = |(coordinate, of_case, factor): &(Coordinate, Vec<f64>, f64)| {
-            let refined = motions.refined(motion).map(|it| it.coordinate(*coordinate));
-            refined.unwrap_or_else(|| of_case[motion.case]) * factor
+            value_of((motion, motions.refined(motion)), *coordinate, of_case) * factor
         };
         (value(&along[0]), value(&along[1]))
     };
@@ -154,9 +153,9 @@ fn fastest<'m>(
     motions: &'m Motions<'_>,
 ) -> Vec<Option<&'m Candidate>> {
     let mut fastest: Vec<Option<&Candidate>> = vec![None; plane.count()];
+    let [row, column] = [plane.y_name, plane.x_name].map(|axis| view.places_along(axis, free));
     for motion in motions.cases().iter().filter(|it| motions.counts(it)) {
-        let place = |axis: &str| view.place_along(axis, free, motion.case);
-        let cell = &mut fastest[place(plane.y_name) * plane.x.count() + place(plane.x_name)];
+        let cell = &mut fastest[row(motion.case) * plane.x.count() + column(motion.case)];
         if cell.is_none_or(|known| motion.speed.abs() > known.speed.abs()) {
             *cell = Some(motion);
         }

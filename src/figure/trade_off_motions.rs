@@ -145,6 +145,15 @@ fn energies_per_metre(
     }
 }
 
+/// A coordinate of a motion, which is a case unless it is `refined`, from its values at the cases.
+pub fn value_of(
+    (motion, refined): (&Candidate, Option<&RefinedMotion>),
+    coordinate: Coordinate,
+    of_case: &[f64],
+) -> f64 {
+    refined.map_or_else(|| of_case[motion.case], |it| it.coordinate(coordinate))
+}
+
 /// The coordinates that vary among the cases over the axes `free`.
 pub fn coordinates(view: &View<'_>, free: &[&str]) -> Vec<Coordinate> {
     let is_long = |name: &str| free.contains(&name) && view.coordinate_values(name).len() > 1;

@@ -6,7 +6,7 @@ use super::optima_table::{Row, Table};
 use super::quantity::Quantity;
 use super::symbol::{FASTEST, KNEE, LEAST, Symbol};
 use super::text::Text;
-use super::trade_off_motions::{Best, Motions, coordinates};
+use super::trade_off_motions::{Best, Motions, coordinates, value_of};
 use super::view::View;
 use crate::campaign::RefinedMotion;
 use crate::capsule::Output;
@@ -94,24 +94,18 @@ fn output<'v>(name: Text, quantity: Quantity, of: fn(&Candidate) -> f64) -> Colu
 /// The column of a coordinate that has these values at the cases.
 fn parameter<'v>(quantity: Quantity, coordinate: Coordinate, of_case: Vec<f64>) -> Column<'v> {
     let heading = [quantity.short_name(), quantity.unit()];
-    let value = move |motion: &Candidate, refined: Option<&RefinedMotion>| match refined {
-        Some(refined) => refined.coordinate(coordinate),
-        None => of_case[motion.case],
-    };
     let cell = move |motion: &Candidate, refined: Option<&RefinedMotion>| {
-        quantity.rounded(value(motion, refined))
+        quantity.rounded(value_of((motion, refined), coordinate, &of_case))
     };
     Column { heading, cell: Box::new(cell) }
 }
 
 /// The column of the direction in which the starts of cases were inherited, which motions between them have none of.
 fn sweep<'v>(view: &'v View<'_>, free: &'v [&'v str]) -> Column<'v> {
-    let cell = |motion: &Candidate, refined: Option<&RefinedMotion>| match refined {
+    let place = view.places_along(DIRECTION.name, free);
+    let cell = move |motion: &Candidate, refined: Option<&RefinedMotion>| match refined {
         Some(_) => Text::default(),
-        None => {
-            let place = view.place_along(DIRECTION.name, free, motion.case);
-            view.value_note(DIRECTION.name, place)
-        }
+        None => view.value_note(DIRECTION.name, place(motion.case)),
     };
     Column { heading: [Text::default(), Text::plain("sweep")], cell: Box::new(cell) }
 }

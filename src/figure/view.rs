@@ -335,12 +335,12 @@ impl<'a> View<'a> {
         parts.reduce(|note, next| note.then(Text::plain("; ")).then(next))
     }
 
-    /// The index along `axis` of case number `case` over the axes `free`.
-    pub fn place_along(&self, axis: &str, free: &[&str], case: usize) -> usize {
+    /// The index along `axis` of each case by its number over the axes `free`.
+    pub fn places_along(&self, axis: &str, free: &[&str]) -> impl Fn(usize) -> usize + use<> {
         let later = free.iter().skip_while(|name| **name != axis).skip(1);
         let spacing: usize = later.map(|name| self.coordinate_values(name).len()).product();
         let length = self.coordinate_values(axis).len();
-        (case / spacing.max(1)) % length.max(1)
+        move |case| (case / spacing.max(1)) % length.max(1)
     }
 
     /// The name of a direction in which starts were inherited, with the axis that it goes along unless that is `x`.

@@ -1,6 +1,6 @@
 //! The map from one section point to a later one, with its derivatives.
 
-use crate::flow::{Motion, Observer, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, cycle};
+use crate::flow::{Motion, Observer, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, System, cycle};
 use crate::lane::{Dual, Lane};
 
 use super::matrix::Matrix;
@@ -64,6 +64,21 @@ where
     S: Stroboscopic<L, D>,
 {
     returned(system, from, cycles, |step| observer.see(system, step))
+}
+
+/// Follows a motion from the last of its section points until there are so many; none where it cannot be followed so far.
+pub fn append_points<M: System<D>, const D: usize>(
+    system: &M,
+    points: &mut Vec<[f64; D]>,
+    wanted: usize,
+    tolerance: f64,
+) -> Option<()> {
+    let system = system.single();
+    let cycles = Cycles { count: 1, tolerance };
+    while points.len() < wanted {
+        points.push(returned(&system, points[points.len() - 1], &cycles, |_| ()).ok()?);
+    }
+    Some(())
 }
 
 /// A point of the section, every coordinate a direction; directions beyond are left to parameters.

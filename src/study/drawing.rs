@@ -99,6 +99,9 @@ impl DrawingKind {
     }
 }
 
+/// Where axes are held, and those that are held at several values in the order of the study (SI).
+pub type Held = (BTreeMap<String, f64>, Vec<(String, Vec<f64>)>);
+
 /// One figure to draw.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {

@@ -6,7 +6,7 @@ use crate::capsule::{Dimension, Output, Parameter};
 
 use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
-use super::drawing::check_panels;
+use super::drawing::{Held, check_panels};
 use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine};
 
 /// The unit of widths [m].
@@ -159,9 +159,6 @@ fn read_cycles(entry: &Entry<'_, '_>) -> Option<[f64; 2]> {
     }
     range
 }
-
-/// Where axes are held, and those that are held at several values.
-type Held = (BTreeMap<String, f64>, Vec<(String, Vec<f64>)>);
 
 fn read_at(table: &Table<'_, '_>, axes: &[Axis], kind: Option<DrawingKind>) -> Held {
     let (mut at, mut several, mut last) = (BTreeMap::new(), BTreeMap::new(), None);
