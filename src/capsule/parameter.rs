@@ -33,13 +33,15 @@ pub enum Dimension {
     EnergyPerLength,
     /// Rate of growth [1/s].
     Rate,
+    /// Time [s].
+    Time,
     /// A plain number.
     Number,
 }
 
 impl Dimension {
     /// All of them.
-    pub const ALL: [Dimension; 15] = [
+    pub const ALL: [Dimension; 16] = [
         Dimension::Mass,
         Dimension::Stiffness,
         Dimension::Damping,
@@ -54,6 +56,7 @@ impl Dimension {
         Dimension::Power,
         Dimension::EnergyPerLength,
         Dimension::Rate,
+        Dimension::Time,
         Dimension::Number,
     ];
 
@@ -74,6 +77,7 @@ impl Dimension {
             Dimension::Power => "W",
             Dimension::EnergyPerLength => "J/m",
             Dimension::Rate => "1/s",
+            Dimension::Time => "s",
             Dimension::Number => "1",
         }
     }

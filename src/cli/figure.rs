@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::appearance::Appearance;
 use super::arguments::{named, plain_or_quantity};
 use super::drawing::{FormatChoice, draw_each, draw_from, formats};
 use super::failure::Failure;
@@ -48,9 +49,8 @@ pub struct Figure {
     /// Cycles that a history shows, as 0,5.
     #[arg(long, value_name = "FROM,TO", value_delimiter = ',', requires = "kind")]
     cycles: Vec<f64>,
-    /// Width in mm.
-    #[arg(long, requires = "kind")]
-    width: Option<f64>,
+    #[command(flatten)]
+    appearance: Appearance,
     /// Leave the branches out of a bifurcation diagram.
     #[arg(long, requires = "kind")]
     no_branches: bool,
@@ -84,9 +84,8 @@ impl Figure {
 
     fn drawing(&self, kind: DrawingKind, archive: &Archive) -> Result<Drawing, Failure> {
         let (at, panels) = self.held(kind, archive.frame())?;
-        Ok(Drawing {
-            name: self.name.clone().unwrap_or_else(|| self.free_name(kind, archive)),
-            kind,
+        let name = self.name.clone().unwrap_or_else(|| self.free_name(kind, archive));
+        let drawing = Drawing {
             title: self.title.clone(),
             x: self.x.clone(),
             y: self.y.clone(),
@@ -95,8 +94,9 @@ impl Figure {
             panels,
             cycles: self.cycles()?,
             branches: !self.no_branches,
-            width_mm: self.width,
-        })
+            ..Drawing::new(name, kind)
+        };
+        self.appearance.set(drawing).map_err(|faults| Failure::requests(&faults))
     }
 
     /// The kind and what is drawn, different from the names of the figures of the study.

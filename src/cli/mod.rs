@@ -1,5 +1,6 @@
 //! The command line: one file per command, messages and progress.
 
+mod appearance;
 mod arguments;
 mod attractor_list;
 mod block_progress;
@@ -79,7 +80,7 @@ enum Command {
     #[command(visible_alias = "follow")]
     Continue(continuation::Continue),
     /// Draw figures from a file of results.
-    Figure(figure::Figure),
+    Figure(Box<figure::Figure>),
     /// Find the fastest motions for the least energy in a file of results.
     Tradeoff(tradeoff::Tradeoff),
     /// Write what a file of results says as one page for a browser.

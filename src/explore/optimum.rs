@@ -74,17 +74,5 @@ fn study(
 }
 
 fn drawing(kind: DrawingKind) -> Drawing {
-    Drawing {
-        name: kind.name().to_owned(),
-        kind,
-        title: None,
-        x: None,
-        y: None,
-        of: Vec::new(),
-        at: std::collections::BTreeMap::new(),
-        panels: Vec::new(),
-        cycles: None,
-        branches: true,
-        width_mm: Some(WIDTH),
-    }
+    Drawing { width_mm: Some(WIDTH), ..Drawing::new(kind.name(), kind) }
 }

@@ -70,7 +70,7 @@ pub fn draw(
         mark_zero(&mut canvas, panel, output, view);
         // Points stand out on both sides of the lines through them.
         let wider = if lines.is_empty() { 1.0 } else { 1.4 };
-        let radius = wider * cloud::radius(cloud.iter().map(Vec::len).sum());
+        let radius = wider * view.radius(cloud.iter().map(Vec::len).sum());
         for (dots, look) in cloud.iter().zip(&looks) {
             let share = if *look == Look::Undecided { 0.6 } else { 1.0 };
             cloud::draw(&mut canvas, panel, dots, radius * share);
@@ -90,8 +90,7 @@ fn draw_symbols(canvas: &mut Canvas, panel: &Panel, symbols: &[(Symbol, f64, f64
         let hides = |(other, there): &(Symbol, Point)| {
             other == symbol && (at.0 - there.0).hypot(at.1 - there.1) < SYMBOL_SPACING
         };
-        let inside = panel.x.scale.holds(*x) && panel.y.scale.holds(*y);
-        if inside && !drawn.iter().any(hides) {
+        if panel.holds(*x, *y) && !drawn.iter().any(hides) {
             symbol.draw(canvas, at);
             drawn.push((*symbol, at));
         }

@@ -4,7 +4,7 @@ use super::quantity::Quantity;
 use super::scale::{Scale, Spacing};
 use super::style::{LABEL_SIZE, LINE_HEIGHT, SMALL_SIZE};
 use super::text::Text;
-use super::ticks::{Ticks, linear_ticks, log_ticks};
+use super::ticks::{DIGITS, Ticks, linear_ticks, log_ticks, symmetric_ticks};
 
 /// The direction an axis runs in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,15 +31,18 @@ pub struct AxisRequest {
 }
 
 impl AxisRequest {
-    /// An axis with label and numbers.
+    /// An axis with label and numbers, over this range unless another is set.
     pub fn new(quantity: Quantity, scale: Scale) -> AxisRequest {
+        let scale = quantity.fitted(scale);
         AxisRequest { quantity, scale, empty: false, labelled: true, numbered: true }
     }
 
     /// An axis around `values`, without marks where none of them is finite.
     pub fn around(quantity: Quantity, values: &[f64], margin: f64) -> AxisRequest {
-        let empty = !values.iter().any(|value| value.is_finite());
         let scale = quantity.scale(values, margin);
+        let has_place = |value: &f64| value.is_finite() && scale.can_hold(*value);
+        let empty = !values.iter().any(has_place);
+        quantity.note_left_out(&scale, values);
         AxisRequest { empty, numbered: !empty, ..AxisRequest::new(quantity, scale) }
     }
 }
@@ -91,17 +94,29 @@ impl Axis {
     }
 }
 
+/// A logarithmic axis that spans less has no two powers of ten.
+const A_DECADE: f64 = 10.0;
+
 /// The densest marks whose numbers do not touch; two at least, where the range has them.
 fn choose(request: &AxisRequest, along: Along, length: f64) -> Ticks {
     let scale = &request.scale;
+    let decimals = request.quantity.decimals();
+    let steps = DIGITS.map(|digits| (digits, 1)).into_iter();
+    let steps = steps.chain((2..=40).map(|every| (DIGITS[DIGITS.len() - 1], every)));
     let candidates: Vec<Ticks> = match scale.spacing {
-        Spacing::Log => (1..=40).map(|every| log_ticks(scale, every)).collect(),
-        Spacing::Linear => {
+        // Less than a decade has its marks where a linear axis has them.
+        Spacing::Log if scale.high >= A_DECADE * scale.low => {
+            steps.map(|step| log_ticks(scale, step)).collect()
+        }
+        Spacing::Symmetric(width) => {
+            steps.map(|step| symmetric_ticks(scale, width, step)).collect()
+        }
+        Spacing::Linear | Spacing::Log => {
             let start = ((scale.high - scale.low).log10().floor() as i32) - 2;
             let start = if request.quantity.whole { start.max(0) } else { start };
-            let mut candidates: Vec<_> = (start..start + 5)
-                .flat_map(|power| [1, 2, 5].map(|digit| linear_ticks(scale, digit, power)))
-                .collect();
+            let steps = (start..start + 5).flat_map(|power| [1, 2, 5].map(|digit| (digit, power)));
+            let mut candidates: Vec<_> =
+                steps.filter_map(|step| linear_ticks(scale, step, decimals)).collect();
             if request.quantity.whole {
                 let whole = |value: &f64| (value - value.round()).abs() < 1e-6;
                 candidates.iter_mut().for_each(|ticks| ticks.minor.retain(whole));
@@ -113,7 +128,10 @@ fn choose(request: &AxisRequest, along: Along, length: f64) -> Ticks {
     match roomy {
         Some(ticks) if ticks.major.len() >= 2 => ticks.clone(),
         // Rather two numbers close together than an axis that cannot be read.
-        _ => candidates.iter().rev().find(|t| t.major.len() >= 2).unwrap_or(&candidates[0]).clone(),
+        _ => {
+            let two = candidates.iter().rev().find(|ticks| ticks.major.len() >= 2);
+            two.or(candidates.first()).cloned().unwrap_or_default()
+        }
     }
 }
 

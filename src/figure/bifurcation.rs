@@ -114,7 +114,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         if !has_points(view, output) {
             panel.mark_zero(&mut canvas);
         }
-        let radius = cloud::radius(cloud.iter().map(Vec::len).sum());
+        let radius = view.radius(cloud.iter().map(Vec::len).sum());
         for (dots, branch) in cloud.iter().zip(&branches) {
             cloud::draw(&mut canvas, panel, dots, radius * branch.size);
         }

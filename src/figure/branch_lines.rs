@@ -111,8 +111,7 @@ pub fn draw_symbols(
     symbol: Symbol,
     places: impl Iterator<Item = (f64, f64)>,
 ) {
-    let on_panel = |(x, y): &(f64, f64)| panel.x.scale.holds(*x) && panel.y.scale.holds(*y);
-    for (x, y) in places.filter(on_panel) {
+    for (x, y) in places.filter(|(x, y)| panel.holds(*x, *y)) {
         symbol.draw(canvas, panel.place(x, y));
     }
 }

@@ -100,6 +100,8 @@ pub struct Canvas {
     clips: usize,
     missing: Option<(char, String)>,
     fault: Option<String>,
+    /// What of the request does not fit the page.
+    pub unfit: Option<String>,
 }
 
 /// A finished page.
@@ -112,6 +114,8 @@ pub struct Drawn {
     pub missing: Option<(char, String)>,
     /// What plotters could not draw.
     pub fault: Option<String>,
+    /// What of the request does not fit the page.
+    pub unfit: Option<String>,
     /// What it leaves out or takes for something else, a sentence each.
     pub notes: Vec<String>,
 }
@@ -127,7 +131,15 @@ impl Drawn {
 impl Canvas {
     /// An empty page [pt].
     pub fn new(width: f64, height: f64) -> Canvas {
-        Canvas { width, height, body: String::new(), clips: 0, missing: None, fault: None }
+        Canvas {
+            width,
+            height,
+            body: String::new(),
+            clips: 0,
+            missing: None,
+            fault: None,
+            unfit: None,
+        }
     }
 
     /// Runs `draw` on a plotters area over the whole page; `attributes` hold for all its shapes.
@@ -306,7 +318,8 @@ impl Canvas {
             self.body
         );
         let (about, notes) = (about.to_string(), Vec::new());
-        Drawn { about, svg, missing: self.missing, fault: self.fault, notes }
+        let (missing, fault, unfit) = (self.missing, self.fault, self.unfit);
+        Drawn { about, svg, missing, fault, unfit, notes }
     }
 }
 

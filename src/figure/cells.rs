@@ -8,6 +8,8 @@ const UNEVEN: f64 = 1.01;
 /// The cells along one axis: their places in the results, from the smallest value to the largest.
 pub struct Cells {
     order: Vec<usize>,
+    /// Their values, from the smallest to the largest.
+    sorted: Vec<f64>,
     /// Where each cell but the last ends, as a share of the axis.
     ends: Vec<f64>,
     /// The axis, from its first value to its last: beyond them nothing was computed.
@@ -27,13 +29,18 @@ impl Cells {
         let ends: Vec<f64> = sorted.windows(2).map(middle).collect();
         let steps = sorted.windows(2).map(|pair| scale.share(pair[1]) - scale.share(pair[0]));
         let (least, most) = finite_range(steps).unwrap_or((1.0, 1.0));
-        let uneven = if most > UNEVEN * least { sorted } else { Vec::new() };
-        Cells { order, ends, scale, uneven }
+        let uneven = if most > UNEVEN * least { sorted.clone() } else { Vec::new() };
+        Cells { order, sorted, ends, scale, uneven }
     }
 
     /// How many cells there are.
     pub fn count(&self) -> usize {
         self.order.len()
+    }
+
+    /// The values of the cells, from the smallest to the largest.
+    pub fn values(&self) -> impl Iterator<Item = f64> + '_ {
+        self.sorted.iter().copied()
     }
 
     /// The place in the results of cell number `cell`.
@@ -45,6 +52,11 @@ impl Cells {
     pub fn range(&self, cell: usize) -> [f64; 2] {
         let begins = cell.checked_sub(1).map_or(0.0, |before| self.ends[before]);
         [begins, self.ends.get(cell).copied().unwrap_or(1.0)]
+    }
+
+    /// The place in the results of the cell at `share` of another axis, or the nearest to it.
+    pub fn under(&self, axis: &Scale, share: f64) -> usize {
+        self.at(self.scale.share(axis.value(share)))
     }
 
     /// The place in the results of the cell at `share` of the axis.

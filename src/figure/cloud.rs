@@ -33,8 +33,10 @@ const SHINE_THROUGH: f64 = 0.3;
 
 /// Draws the points of `dots` that lie on `panel`, the later over the earlier.
 pub fn draw(canvas: &mut Canvas, panel: &Panel, dots: &[Dot], radius: f64) {
-    let on_panel = |dot: &&Dot| panel.x.scale.holds(dot.at.0) && panel.y.scale.holds(dot.at.1);
-    let placed = dots.iter().filter(on_panel).map(|dot| (panel.place(dot.at.0, dot.at.1), dot));
+    let placed = dots
+        .iter()
+        .filter(|dot| panel.holds(dot.at.0, dot.at.1))
+        .map(|dot| (panel.place(dot.at.0, dot.at.1), dot));
     if dots.len() <= CLOUD_LIMIT {
         let discs: Vec<(Point, RGBColor)> = placed.map(|(at, dot)| (at, dot.colour)).collect();
         canvas.discs(&discs, radius);

@@ -1,5 +1,6 @@
 //! Colours of numbers, and the colour bar with their scale.
 
+use colorous::Gradient;
 use plotters::style::RGBColor;
 
 use super::axis::{Along, Axis, AxisRequest};
@@ -8,11 +9,12 @@ use super::geometry::Rect;
 use super::panel::draw_upward;
 use super::quantity::Quantity;
 use super::raster::{Fill, Raster};
-use super::scale::{Scale, finite_range};
+use super::scale::{Scale, Spacing, finite_range};
 use super::style::{
     FRAME_WIDTH, INK, LABEL_GAP, LABEL_SIZE, MAJOR_LENGTH, MINOR_LENGTH, MINOR_WIDTH, SMALL_SIZE,
 };
 use super::text::Text;
+use crate::study::{ColourMap, Colouring};
 
 /// Distance between a frame and its bar [pt].
 const BAR_GAP: f64 = 6.0;
@@ -20,13 +22,36 @@ const BAR_GAP: f64 = 6.0;
 const NUMBER_GAP: f64 = 5.0;
 /// Width of the bar [pt].
 const BAR_WIDTH: f64 = 8.0;
+/// Length of the arrow at an end of the bar beyond which there are values [pt].
+const ARROW: f64 = 5.0;
+
+/// The gradient of some colours, and whether it begins with their last.
+fn gradient(map: ColourMap) -> (Gradient, bool) {
+    match map {
+        ColourMap::Viridis => (colorous::VIRIDIS, false),
+        ColourMap::Cividis => (colorous::CIVIDIS, false),
+        ColourMap::Magma => (colorous::MAGMA, false),
+        ColourMap::Inferno => (colorous::INFERNO, false),
+        ColourMap::Plasma => (colorous::PLASMA, false),
+        ColourMap::Greys => (colorous::GREYS, false),
+        ColourMap::Blues => (colorous::BLUES, false),
+        ColourMap::BlueRed => (colorous::RED_BLUE, true),
+        ColourMap::PurpleOrange => (colorous::PURPLE_ORANGE, true),
+        ColourMap::GreenBrown => (colorous::BROWN_GREEN, true),
+        ColourMap::Turbo => (colorous::TURBO, false),
+    }
+}
 
 /// A scale of colours with its bar.
 pub struct Colours {
     /// Range of the bar.
     scale: Scale,
-    /// Largest magnitude, where zero is the middle of the colours.
-    centred: Option<f64>,
+    /// The value in the middle of the colours, and how far their ends are from it.
+    centred: Option<[f64; 2]>,
+    /// Which colours, and whether they run the other way.
+    map: (Gradient, bool),
+    /// Whether there are values below and above the range.
+    beyond: [bool; 2],
     quantity: Quantity,
 }
 
@@ -34,28 +59,64 @@ impl Colours {
     /// The colours for `values`: centred on zero where both signs occur,
     /// and none where no value is finite.
     pub fn for_values(values: &[f64], quantity: Quantity) -> Option<Colours> {
-        let (low, high) = finite_range(values.iter().copied())?;
+        let (centre, chosen) = (quantity.chosen.centre(), quantity.chosen.colour_map());
         let scale = quantity.scale(values, 0.0);
+        quantity.note_left_out(&scale, values);
+        let (low, high) = finite_range(values.iter().copied().filter(|it| scale.can_hold(*it)))?;
         // A trace of the other sign, as rounding leaves it, does not count.
         let most = high.max(-low);
-        let is_centred = low < -1e-3 * most && high > 1e-3 * most && most > quantity.noise;
-        let centred = is_centred.then_some(most);
-        Some(Colours { scale, centred, quantity })
+        let has_both = low < -1e-3 * most && high > 1e-3 * most && most > quantity.noise;
+        let is_linear = scale.spacing == Spacing::Linear;
+        let usual = (has_both && is_linear && scale.holds(0.0)).then_some(0.0);
+        let centre = centre.map(|it| it * quantity.factor).or(usual);
+        let beyond =
+            [low < scale.low && !scale.holds(low), high > scale.high && !scale.holds(high)];
+        Some(Colours::new((scale, centre), chosen, beyond, quantity))
     }
 
     /// The colours for the values of an axis.
     pub fn for_axis(values: &[f64], quantity: Quantity) -> Colours {
-        Colours { scale: Scale::of_axis(values), centred: None, quantity }
+        let (centre, chosen) = (quantity.chosen.centre(), quantity.chosen.colour_map());
+        let scale = quantity.fitted(Scale::of_axis(values));
+        let centre = centre.map(|it| it * quantity.factor);
+        let beyond = |is_beyond: fn(&f64, &Scale) -> bool| {
+            values.iter().any(|it| is_beyond(it, &scale) && !scale.holds(*it))
+        };
+        let beyond = [beyond(|it, scale| *it < scale.low), beyond(|it, scale| *it > scale.high)];
+        Colours::new((scale, centre), chosen, beyond, quantity)
     }
 
-    /// The colour of a finite `value`.
+    fn new(
+        (scale, centre): (Scale, Option<f64>),
+        chosen: Option<Colouring>,
+        beyond: [bool; 2],
+        quantity: Quantity,
+    ) -> Colours {
+        // Red for forward, blue for backward.
+        let usual = if centre.is_some() { ColourMap::BlueRed } else { ColourMap::Viridis };
+        let Colouring { map, reversed } =
+            chosen.unwrap_or(Colouring { map: usual, reversed: false });
+        let centre = centre.filter(|it| scale.can_hold(*it)).map(|it| scale.share(it));
+        let centred = centre.map(|it| [it, it.max(1.0 - it)]);
+        let (gradient, is_turned) = gradient(map);
+        Colours { scale, centred, map: (gradient, is_turned != reversed), beyond, quantity }
+    }
+
+    /// The colour of a finite `value`; beyond the range that of its end.
     pub fn of(&self, value: f64) -> RGBColor {
-        let colour = match self.centred {
-            // Red for forward, blue for backward.
-            Some(most) => colorous::RED_BLUE.eval_continuous(0.5 - 0.5 * value / most),
-            None => colorous::VIRIDIS.eval_continuous(self.scale.share(value).clamp(0.0, 1.0)),
+        let share = self.scale.share(value).clamp(0.0, 1.0);
+        let place = match self.centred {
+            Some([centre, reach]) => 0.5 + 0.5 * (share - centre) / reach,
+            None => share,
         };
+        let (gradient, is_turned) = self.map;
+        let colour = gradient.eval_continuous(if is_turned { 1.0 - place } else { place });
         RGBColor(colour.r, colour.g, colour.b)
+    }
+
+    /// Whether a finite value has a colour: on a logarithmic scale, those above zero.
+    pub fn has(&self, value: f64) -> bool {
+        self.scale.can_hold(value)
     }
 
     fn axis(&self, height: f64) -> Axis {
@@ -69,6 +130,18 @@ impl Colours {
         BAR_GAP + BAR_WIDTH + NUMBER_GAP + axis.widest + LABEL_GAP + axis.label_room() + 1.0
     }
 
+    /// An arrow at each end of the bar beyond which there are values.
+    fn draw_ends(&self, canvas: &mut Canvas, bar: Rect) {
+        let middle = (bar.left + bar.right) / 2.0;
+        let ends = [(self.scale.low, bar.bottom, 1.0), (self.scale.high, bar.top, -1.0)];
+        for ((value, end, outward), _) in ends.into_iter().zip(self.beyond).filter(|it| it.1) {
+            let tip = (middle, end + outward * ARROW);
+            let corners = [(bar.left, end), tip, (bar.right, end)];
+            canvas.polygon(&corners, self.of(value));
+            canvas.line(&corners, Stroke::solid(INK, FRAME_WIDTH));
+        }
+    }
+
     /// Draws the bar beside `frame`.
     pub fn draw_bar(&self, canvas: &mut Canvas, frame: Rect) {
         let left = frame.right + BAR_GAP;
@@ -80,6 +153,7 @@ impl Colours {
         };
         canvas.image(bar, &Raster::cells(bar, |_| 0, row, colour));
         canvas.frame(bar, Stroke::solid(INK, FRAME_WIDTH));
+        self.draw_ends(canvas, bar);
         let axis = self.axis(frame.height());
         let place = |value: f64| bar.bottom - axis.scale.share(value) * bar.height();
         let tick = |value: f64, length: f64| {

@@ -4,7 +4,7 @@ use super::axis::AxisRequest;
 use super::branch_lines::BranchLines;
 use super::cloud::Dot;
 use super::header::{Header, Mark};
-use super::page::{PageRequest, PanelRequest, letter};
+use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::panel::Pointing;
 use super::scale::{Scale, Spacing, finite_range};
 use super::style::ONE_COLUMN;
@@ -34,6 +34,7 @@ pub fn span(values: &[f64], reached: &[f64]) -> Scale {
     match plain.spacing {
         Spacing::Linear => Scale::around([plain.low, plain.high], 0.02),
         Spacing::Log => Scale::log_around([plain.low, plain.high], 0.02),
+        Spacing::Symmetric(_) => plain,
     }
 }
 
@@ -48,13 +49,13 @@ pub fn has_points(view: &View<'_>, output: &str) -> bool {
 }
 
 /// The page with a row for each output.
-pub fn request(
-    view: &View<'_>,
+pub fn request<'a>(
+    view: &View<'a>,
     outputs: &[String],
     (clouds, lines): (&[Vec<Vec<Dot>>], &[BranchLines]),
     abscissa: AxisRequest,
     header: Option<Text>,
-) -> PageRequest {
+) -> PageRequest<'a> {
     let mut rows = Vec::new();
     let mut heights = Vec::new();
     for (index, (output, cloud)) in outputs.iter().zip(clouds).enumerate() {
@@ -69,12 +70,12 @@ pub fn request(
         heights.push(if has_points(view, output) { SECTION_HEIGHT } else { OUTPUT_HEIGHT });
     }
     PageRequest {
-        title: view.drawing.title.clone(),
-        width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
+        drawing: view.drawing,
+        width_mm: ONE_COLUMN,
         heights,
         rows,
-        column_room: 0.0,
-        right_room: 0.0,
+        column_room: NO_ROOM,
+        right_room: NO_ROOM,
         bottom_room: 0.0,
         pointing: Pointing::Inward,
     }

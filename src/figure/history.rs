@@ -5,7 +5,7 @@ use super::canvas::{Canvas, Dash, Drawn, Stroke};
 use super::error::FigureError;
 use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
-use super::page::{PageRequest, PanelRequest, letter};
+use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
 use super::scale::Scale;
 use super::style::{
@@ -205,13 +205,13 @@ fn ordinates(cells: &[Cell], output: &str, noise: f64) -> Vec<Scale> {
 }
 
 /// The page for `cells`, which come output by output.
-fn request(
-    view: &View<'_>,
+fn request<'a>(
+    view: &View<'a>,
     cells: &[Cell],
     columns: usize,
     cases: usize,
     notes: &[Option<Text>],
-) -> PageRequest {
+) -> PageRequest<'a> {
     let mut rows: Vec<Vec<PanelRequest>> = Vec::new();
     for (index, cell) in cells.iter().enumerate() {
         let column = cell.case % columns;
@@ -227,12 +227,12 @@ fn request(
     }
     let width = if columns > 1 { TWO_COLUMNS } else { ONE_COLUMN };
     PageRequest {
-        title: view.drawing.title.clone(),
-        width_mm: view.drawing.width_mm.unwrap_or(width),
+        drawing: view.drawing,
+        width_mm: width,
         heights: vec![HEIGHT; rows.len()],
         rows,
-        column_room: 0.0,
-        right_room: 0.0,
+        column_room: NO_ROOM,
+        right_room: NO_ROOM,
         bottom_room: 0.0,
         pointing: Pointing::Inward,
     }

@@ -12,12 +12,13 @@ use super::header::{Header, Mark};
 use super::inferred;
 use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
-use super::page::{PageRequest, PanelRequest, letter};
+use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
-use super::plane::Plane;
+use super::plane::{CONTOUR, Plane};
 use super::raster::Fill;
 use super::style::{INFERRED, INFINITE, ONE_COLUMN, TWO_COLUMNS};
 use super::text::Text;
+use super::ticks::short;
 use super::view::View;
 use crate::capsule::Output;
 use crate::store::catalogue::{self, Entry, PERIOD, Type};
@@ -45,7 +46,9 @@ impl Paint {
             Paint::Numbers(_, values, inferred) if values[case].is_nan() => {
                 inferred[case].then_some(INFERRED)
             }
-            Paint::Numbers(colours, values, _) => colours.as_ref().map(|it| it.of(values[case])),
+            Paint::Numbers(colours, values, _) => {
+                colours.as_ref().filter(|it| it.has(values[case])).map(|it| it.of(values[case]))
+            }
             Paint::Kinds(kinds) => kinds.colour(case),
         }
     }
@@ -69,7 +72,7 @@ impl Paint {
 
     /// The entries that the colour bar does not explain.
     fn legend(&self) -> Vec<(Mark, Text)> {
-        let Paint::Numbers(_, values, inferred) = self else { return Vec::new() };
+        let Paint::Numbers(colours, values, inferred) = self else { return Vec::new() };
         let mut legend = Vec::new();
         if values.iter().any(|value| value.is_infinite()) {
             legend.push((Mark::Patch(INFINITE), Text::plain("infinite")));
@@ -78,8 +81,16 @@ impl Paint {
         if without.clone().any(|(_, inferred)| *inferred) {
             legend.push((Mark::Patch(INFERRED), Text::plain("not computed")));
         }
-        if without.any(|(_, inferred)| !inferred) {
-            legend.push((Mark::Filled(Fill::NO_VALUE), Text::plain("no value")));
+        let has_none = without.any(|(_, inferred)| !inferred);
+        let has_no_place =
+            |colours: &Colours| values.iter().any(|it| it.is_finite() && !colours.has(*it));
+        let words = match (has_none, colours.as_ref().is_some_and(has_no_place)) {
+            (true, true) => "no value, or not above zero",
+            (false, true) => "not above zero",
+            _ => "no value",
+        };
+        if has_none || words != "no value" {
+            legend.push((Mark::Filled(Fill::NO_VALUE), Text::plain(words)));
         }
         legend
     }
@@ -106,15 +117,20 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
     let views: Vec<View<'_>> = rows.into_iter().flatten().collect();
     let paint = paint((view, &views), &output, (&plane.free(), plane.count()))?;
+    let levels = levels(view, &output, &paint);
     let legend = paint.legend().into_iter().chain(told(&views, &plane)?).chain(plane.legend());
+    let legend = legend.chain(contours(view, &output, &levels));
     let page = page(view, (&plane, &views, &lengths), legend.collect());
-    let height = page.heights.iter().sum::<f64>();
-    let page = PageRequest { right_room: paint.room(height), ..page };
-    let (mut canvas, panels) = page.lay_out();
+    let room = |height: f64| paint.room(height);
+    let (mut canvas, panels) = PageRequest { right_room: &room, ..page }.lay_out();
     let all: Vec<&Panel> = panels.iter().flatten().collect();
     for (number, panel) in all.iter().enumerate() {
         let first = number * plane.count();
         plane.draw(&mut canvas, panel, |case| Fill::of(paint.colour(first + case)));
+        if let Paint::Numbers(_, values, _) = &paint {
+            let of_panel = &values[first..first + plane.count()];
+            plane.draw_contours(&mut canvas, panel, of_panel, &levels);
+        }
         panel.finish(&mut canvas);
     }
     if let (Some(first), Some(last)) = (all.first(), all.last()) {
@@ -122,6 +138,27 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         paint.explain(&mut canvas, Rect { right, bottom: last.frame.bottom, ..first.frame });
     }
     Ok(canvas.finish(&view.about(&[output], &names)))
+}
+
+/// The values at which there are contour lines, in the unit shown.
+fn levels(view: &View<'_>, output: &str, paint: &Paint) -> Vec<f64> {
+    let quantity = view.quantity(output);
+    match paint {
+        Paint::Numbers(..) => {
+            quantity.chosen.contours().iter().map(|it| it * quantity.factor).collect()
+        }
+        Paint::Kinds(_) => Vec::new(),
+    }
+}
+
+/// What the contour lines mean.
+fn contours(view: &View<'_>, output: &str, levels: &[f64]) -> Option<(Mark, Text)> {
+    let quantity = view.quantity(output);
+    let numbers: Vec<String> = levels.iter().map(|level| short(*level)).collect();
+    let unit = Text::plain("\u{a0}").then(quantity.unit());
+    let unit = if quantity.unit().is_empty() { Text::default() } else { unit };
+    let words = Text::markup(&numbers.join(", ")).then(unit);
+    (!levels.is_empty()).then_some((Mark::Line(CONTOUR), words))
 }
 
 /// What is inferred of the cases of all panels.
@@ -135,11 +172,11 @@ fn told(views: &[View<'_>], plane: &Plane<'_>) -> Result<Vec<(Mark, Text)>, Figu
 }
 
 /// The page of some panels in rows of these lengths.
-fn page(
-    view: &View<'_>,
+fn page<'a>(
+    view: &View<'a>,
     (plane, views, lengths): (&Plane<'_>, &[View<'_>], &[usize]),
     legend: Vec<(Mark, Text)>,
-) -> PageRequest {
+) -> PageRequest<'a> {
     let names = [plane.x_name, plane.y_name];
     let columns = lengths.iter().copied().max().unwrap_or(1);
     let is_alone = views.len() == 1;
@@ -167,12 +204,12 @@ fn page(
     }
     let width = if columns > 2 { TWO_COLUMNS } else { ONE_COLUMN };
     PageRequest {
-        title: view.drawing.title.clone(),
-        width_mm: view.drawing.width_mm.unwrap_or(width),
+        drawing: view.drawing,
+        width_mm: width,
         heights: vec![if is_alone { HEIGHT } else { HEIGHT_OF_SEVERAL }; lengths.len()],
         rows,
-        column_room: 0.0,
-        right_room: 0.0,
+        column_room: NO_ROOM,
+        right_room: NO_ROOM,
         bottom_room: 0.0,
         pointing: Pointing::Outward,
     }

@@ -7,9 +7,11 @@ mod basin;
 mod bifurcation;
 mod canvas;
 mod category;
+mod chosen;
 mod cells;
 mod cloud;
 mod colour;
+mod contour;
 mod curves;
 mod diagram;
 mod error;
@@ -24,6 +26,7 @@ mod inferred;
 mod kind;
 mod map;
 mod mark;
+mod notes;
 mod optima_table;
 mod outcome;
 mod output;
@@ -48,6 +51,7 @@ mod trade_off;
 mod trade_off_maps;
 mod trade_off_motions;
 mod trade_off_table;
+mod unit;
 mod varied;
 mod view;
 
@@ -60,6 +64,9 @@ pub use kind::Needs;
 pub use output::Place;
 pub use shown::Shown;
 
+use crate::capsule::Parameter;
+use crate::store::catalogue::Entry;
+use crate::study::appearance::NATURAL;
 use crate::study::{Drawing, DrawingKind};
 use canvas::Drawn;
 use output::Figure;
@@ -75,7 +82,10 @@ pub fn needs(kind: DrawingKind) -> Needs {
 pub fn variables(drawing: &Drawing) -> BTreeSet<String> {
     let reads = registry::kind(drawing.kind).reads;
     // Every figure looks for the parameters along which orbits were continued.
-    reads(drawing).and(varied::READS).into_set()
+    let names = reads(drawing).and(varied::READS);
+    let of_natural = [Parameter::K1, Parameter::M1].map(Entry::of_parameter);
+    let is_natural = drawing.settings.values().any(|it| it.unit == Some(NATURAL));
+    names.and(of_natural.into_iter().filter(|_| is_natural)).into_set()
 }
 
 /// Draws `drawing` from the results in `shown` and writes `<folder>/<name>.<extension>` in each format of `place`,
@@ -86,7 +96,8 @@ pub fn draw<'a>(
     place: &Place<'_>,
 ) -> Result<Files, FigureError> {
     let (drawn, notes) = drawn(shown.into(), drawing)?;
-    let figure = Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg };
+    let dpi = drawing.dpi.unwrap_or(style::DPI);
+    let figure = Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg, dpi };
     Ok(Files { paths: figure.write(place)?, notes })
 }
 
@@ -96,8 +107,9 @@ pub fn picture<'a>(
     drawing: &'a Drawing,
 ) -> Result<Picture, FigureError> {
     let (drawn, notes) = drawn(shown.into(), drawing)?;
-    let figure = Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg };
-    let (png, width_mm) = figure.raster(style::SCREEN_DPI)?;
+    let (about, svg) = (&drawn.about, &drawn.svg);
+    let figure = Figure { name: &drawing.name, about, svg, dpi: style::SCREEN_DPI };
+    let (png, width_mm) = figure.raster()?;
     Ok(Picture { png, width_mm, about: drawn.about, notes })
 }
 
@@ -106,6 +118,12 @@ fn drawn(shown: Shown<'_>, drawing: &Drawing) -> Result<(Drawn, Vec<String>), Fi
     let view = View::new(shown, drawing)?;
     check_request(&view)?;
     let drawn = (registry::kind(drawing.kind).draw)(&view)?;
+    if let Some(fault) = view.fault_of_settings() {
+        return Err(fault);
+    }
+    if let Some(why) = drawn.unfit {
+        return Err(view.unfit(why));
+    }
     let figure = drawing.name.clone();
     if let Some((character, label)) = drawn.missing {
         return Err(FigureError::Glyph { figure, character, label });
@@ -113,7 +131,7 @@ fn drawn(shown: Shown<'_>, drawing: &Drawing) -> Result<(Drawn, Vec<String>), Fi
     if let Some(why) = drawn.fault {
         return Err(FigureError::Render { figure, why });
     }
-    let notes = [view.taken_for_another(), drawn.notes.clone()].concat();
+    let notes = [view.taken_for_another(), drawn.notes.clone(), view.notes_of_settings()].concat();
     Ok((drawn, notes))
 }
 
@@ -157,11 +175,18 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
         let why = "shows computed cases, and most of a refined grid are inferred; draw a map";
         return Err(view.unfit(format!("a {} {why}, or compute all", kind.name())));
     }
-    match view.drawing.width_mm {
-        Some(width) if !(style::WIDTHS.0..=style::WIDTHS.1).contains(&width) => {
-            let (low, high) = style::WIDTHS;
-            Err(view.unfit(format!("width-mm = {width} is not within {low} to {high} mm")))
+    let drawing = view.drawing;
+    let sizes = [
+        ("width", drawing.width_mm, style::WIDTHS, " mm"),
+        ("height", drawing.height_mm, style::WIDTHS, " mm"),
+        ("point", drawing.point_mm, style::POINTS, " mm"),
+        ("dpi", drawing.dpi, style::RESOLUTIONS, ""),
+    ];
+    for (key, size, (low, high), unit) in sizes {
+        if let Some(size) = size.filter(|size| !(low..=high).contains(size)) {
+            let why = format!("{key} = {size}{unit} is not within {low} to {high}{unit}");
+            return Err(view.unfit(why));
         }
-        _ => Ok(()),
     }
+    Ok(())
 }

@@ -16,7 +16,7 @@ use super::error::FigureError;
 use super::font;
 use super::format::Format;
 use super::mark;
-use super::style::{DPI, FAMILY};
+use super::style::FAMILY;
 use super::text::escape;
 use crate::store;
 
@@ -61,6 +61,8 @@ pub struct Figure<'a> {
     pub about: &'a str,
     /// The drawing.
     pub svg: &'a str,
+    /// Dots per inch of its pixels.
+    pub dpi: f64,
 }
 
 impl Figure<'_> {
@@ -76,7 +78,7 @@ impl Figure<'_> {
         let mut paths = Vec::new();
         for format in formats {
             let bytes = match format {
-                Format::Png => self.png(&tree, DPI)?,
+                Format::Png => self.png(&tree)?,
                 Format::Svg => self.outlined(&tree).into_bytes(),
                 Format::Pdf => self.pdf(&tree)?,
             };
@@ -87,11 +89,11 @@ impl Figure<'_> {
         Ok(paths)
     }
 
-    /// The figure as the bytes of a PNG file with so many dots per inch, and its width [mm].
-    pub fn raster(&self, dpi: f64) -> Result<(Vec<u8>, f64), FigureError> {
+    /// The figure as the bytes of a PNG file, and its width [mm].
+    pub fn raster(&self) -> Result<(Vec<u8>, f64), FigureError> {
         let tree = self.tree()?;
         // A length of 96 in the tree is an inch.
-        Ok((self.png(&tree, dpi)?, f64::from(tree.size().width()) / 96.0 * 25.4))
+        Ok((self.png(&tree)?, f64::from(tree.size().width()) / 96.0 * 25.4))
     }
 
     fn tree(&self) -> Result<Tree, FigureError> {
@@ -118,9 +120,9 @@ impl Figure<'_> {
         )
     }
 
-    fn png(&self, tree: &Tree, dpi: f64) -> Result<Vec<u8>, FigureError> {
+    fn png(&self, tree: &Tree) -> Result<Vec<u8>, FigureError> {
         // A length of 96 in the tree is an inch.
-        let scale = (dpi / 96.0) as f32;
+        let scale = (self.dpi / 96.0) as f32;
         let pixels = |length: f32| (length * scale).round() as u32;
         let pixmap = Pixmap::new(pixels(tree.size().width()), pixels(tree.size().height()));
         let mut pixmap = pixmap.ok_or_else(|| self.render("it is too large".to_string()))?;
@@ -129,7 +131,8 @@ impl Figure<'_> {
         let pixels: Vec<u8> =
             pixmap.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
         let size = [pixmap.width(), pixmap.height()];
-        encode((size, dpi), &pixels, self.about).map_err(|error| self.render(error.to_string()))
+        encode((size, self.dpi), &pixels, self.about)
+            .map_err(|error| self.render(error.to_string()))
     }
 
     fn pdf(&self, tree: &Tree) -> Result<Vec<u8>, FigureError> {

@@ -3,7 +3,7 @@
 use super::axis::{Along, Axis, AxisRequest};
 use super::canvas::{Anchor, Canvas};
 use super::geometry::Rect;
-use super::header::Header;
+use super::header::{Header, Mark};
 use super::panel::{Panel, Pointing, tick_room};
 use super::style::{
     BORDER, LABEL_GAP, LABEL_SIZE, ONE_COLUMN, PANEL_GAP, POINTS_PER_MM, SMALL_SIZE, TITLE_SIZE,
@@ -22,24 +22,40 @@ pub struct PanelRequest {
     pub header: Header,
 }
 
+/// Room beside frames, given their height [pt].
+pub type Room<'a> = &'a dyn Fn(f64) -> f64;
+
+/// No room at all.
+pub const NO_ROOM: Room<'static> = &|_| 0.0;
+
 /// What a page is to hold.
-pub struct PageRequest {
-    /// Heading.
-    pub title: Option<String>,
-    /// Width [mm].
+pub struct PageRequest<'a> {
+    /// The figure, which sets its heading and its size.
+    pub drawing: &'a Drawing,
+    /// Width if the figure sets none [mm].
     pub width_mm: f64,
-    /// Height of each row's frames [pt].
+    /// Height of each row's frames, if the figure sets none, else relative to each other [pt].
     pub heights: Vec<f64>,
     /// Panels, row by row; a last row may be shorter.
     pub rows: Vec<Vec<PanelRequest>>,
-    /// Room right of each column, for a colour bar or a legend [pt].
-    pub column_room: f64,
-    /// Room on the right of all columns, for a colour bar or a legend that is theirs [pt].
-    pub right_room: f64,
+    /// Room right of each column, for a colour bar or a legend, given the height of its frames.
+    pub column_room: Room<'a>,
+    /// Room on the right of all columns, for a colour bar or a legend that is theirs, given the height of all rows.
+    pub right_room: Room<'a>,
     /// Room below all panels [pt].
     pub bottom_room: f64,
     /// Where ticks point.
     pub pointing: Pointing,
+}
+
+/// Where the parts of a page stand.
+struct Arrangement {
+    /// Width and height of the page [pt].
+    size: [f64; 2],
+    /// The lines of the heading.
+    title: Vec<Text>,
+    /// The frame of each panel with the distance of the ordinate's label from it.
+    frames: Vec<Vec<(Rect, f64)>>,
 }
 
 /// Room left of a column of frames [pt].
@@ -55,17 +71,27 @@ struct LeftRoom {
 const TITLE_LINE: f64 = 1.25 * TITLE_SIZE;
 /// Room for a label, from its baseline to the border [pt].
 const DESCENT: f64 = 0.28 * LABEL_SIZE;
+/// Steps in which frames are brought to the height that a figure sets.
+const STEPS_OF_HEIGHT: usize = 4;
 
-impl PageRequest {
+/// Frames are no lower than this [pt].
+const LEAST_FRAME: f64 = 20.0;
+
+impl<'a> PageRequest<'a> {
     /// A page of one panel whose frame has this height [pt], of the width of a column unless the request says another.
-    pub fn of_one(drawing: &Drawing, panel: PanelRequest, height: f64, pointing: Pointing) -> Self {
+    pub fn of_one(
+        drawing: &'a Drawing,
+        panel: PanelRequest,
+        height: f64,
+        pointing: Pointing,
+    ) -> PageRequest<'a> {
         PageRequest {
-            title: drawing.title.clone(),
-            width_mm: drawing.width_mm.unwrap_or(ONE_COLUMN),
+            drawing,
+            width_mm: ONE_COLUMN,
             heights: vec![height],
             rows: vec![vec![panel]],
-            column_room: 0.0,
-            right_room: 0.0,
+            column_room: NO_ROOM,
+            right_room: NO_ROOM,
             bottom_room: 0.0,
             pointing,
         }
@@ -73,46 +99,78 @@ impl PageRequest {
 
     /// Lays the page out: an empty canvas and the panels in their places.
     pub fn lay_out(mut self) -> (Canvas, Vec<Vec<Panel>>) {
-        let width = self.width_mm.clamp(WIDTHS.0, WIDTHS.1) * POINTS_PER_MM;
-        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(1).max(1);
-        let title = self.title_lines(width);
-        let lefts = self.left_rooms(columns);
-        let ends = self.right_ends();
-        let taken: f64 = lefts.iter().map(|room| room.numbers + room.label).sum::<f64>()
-            + PANEL_GAP * (columns - 1) as f64
-            + self.column_room * columns as f64
-            + self.right_room;
-        let inner = width - 2.0 * BORDER - taken - ends;
-        let frame_width = (inner / columns as f64).max(20.0);
-        let mut top = BORDER + title.len() as f64 * TITLE_LINE;
-        let mut panels = Vec::new();
-        for (row, height) in std::mem::take(&mut self.rows).into_iter().zip(&self.heights) {
-            let above = row.iter().map(|it| it.header.room(frame_width)).fold(0.0, f64::max);
-            let mut below: f64 = 0.0;
-            let mut left = BORDER;
-            let mut placed = Vec::new();
-            for (request, room) in row.into_iter().zip(&lefts) {
-                left += room.numbers + room.label;
-                let (right, top) = (left + frame_width, top + above);
-                let frame = Rect { left, top, right, bottom: top + height };
-                let panel = self.place(request, frame, room.numbers);
-                below = below.max(self.bottom_room(&panel));
-                placed.push(panel);
-                left = right + self.column_room + PANEL_GAP;
+        if !self.drawing.legend {
+            for request in self.rows.iter_mut().flatten() {
+                // What is told without a mark is what the figure leaves out.
+                request.header.legend.retain(|(mark, _)| *mark == Mark::Nothing);
             }
-            panels.push(placed);
-            top += above + height + below;
         }
-        let mut canvas = Canvas::new(width, top + self.bottom_room + BORDER - 1.0);
+        let wanted = self.drawing.height_mm.map(|height| height * POINTS_PER_MM);
+        let mut arrangement = self.arrange();
+        // Lower frames may need wider numbers and longer labels, so that their share is found in steps.
+        for _ in 0..STEPS_OF_HEIGHT {
+            let Some(wanted) = wanted else { break };
+            let frames: f64 = self.heights.iter().sum();
+            let factor = 1.0 + (wanted - arrangement.size[1]) / frames;
+            self.heights.iter_mut().for_each(|it| *it = (*it * factor).max(LEAST_FRAME));
+            arrangement = self.arrange();
+        }
+        let Arrangement { size: [width, height], title, frames } = arrangement;
+        let mut canvas = Canvas::new(width, wanted.unwrap_or(height));
+        if wanted.is_some_and(|wanted| (wanted - height).abs() > 0.5) {
+            let least = (height / POINTS_PER_MM).ceil();
+            canvas.unfit = Some(format!("its panels need a height of {least} mm at least"));
+        }
         for (line, words) in title.iter().enumerate() {
             let baseline = BORDER + (line as f64 + 0.8) * TITLE_LINE;
             canvas.text(words, (width / 2.0, baseline), TITLE_SIZE, Anchor::Middle);
         }
-        (canvas, panels)
+        let rows = std::mem::take(&mut self.rows);
+        let place = |(request, (frame, distance))| self.place(request, frame, distance);
+        let row = |(row, frames): (Vec<PanelRequest>, Vec<(Rect, f64)>)| {
+            row.into_iter().zip(frames).map(place).collect()
+        };
+        (canvas, rows.into_iter().zip(frames).map(row).collect())
+    }
+
+    /// Finds a place for everything.
+    fn arrange(&self) -> Arrangement {
+        let wanted = self.drawing.width_mm.unwrap_or(self.width_mm);
+        let width = wanted.clamp(WIDTHS.0, WIDTHS.1) * POINTS_PER_MM;
+        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(1).max(1);
+        let title = self.title_lines(width);
+        let lefts = self.left_rooms(columns);
+        let highest = self.heights.iter().copied().fold(0.0, f64::max);
+        let beside = (self.column_room)(highest);
+        let right_room = (self.right_room)(self.heights.iter().sum());
+        let ends = if beside + right_room > 0.0 { 0.0 } else { self.right_ends() };
+        let taken: f64 = lefts.iter().map(|room| room.numbers + room.label).sum::<f64>()
+            + PANEL_GAP * (columns - 1) as f64
+            + beside * columns as f64
+            + right_room;
+        let inner = width - 2.0 * BORDER - taken - ends;
+        let frame_width = (inner / columns as f64).max(LEAST_FRAME);
+        let mut top = BORDER + title.len() as f64 * TITLE_LINE;
+        let mut frames = Vec::new();
+        for (row, height) in self.rows.iter().zip(&self.heights) {
+            let above = row.iter().map(|it| it.header.room(frame_width)).fold(0.0, f64::max);
+            let below = row.iter().map(|it| self.bottom_room(it, frame_width)).fold(0.0, f64::max);
+            let mut left = BORDER;
+            let mut placed = Vec::new();
+            for room in &lefts[..row.len()] {
+                left += room.numbers + room.label;
+                let (right, top) = (left + frame_width, top + above);
+                placed.push((Rect { left, top, right, bottom: top + height }, room.numbers));
+                left = right + beside + PANEL_GAP;
+            }
+            frames.push(placed);
+            top += above + height + below;
+        }
+        Arrangement { size: [width, top + self.bottom_room + BORDER - 1.0], title, frames }
     }
 
     fn title_lines(&self, width: f64) -> Vec<Text> {
-        let title = Text::plain(self.title.as_deref().unwrap_or(""));
+        let title = Text::tex(self.drawing.title.as_deref().unwrap_or(""));
         title.wrapped(width - 2.0 * BORDER, TITLE_SIZE)
     }
 
@@ -142,19 +200,17 @@ impl PageRequest {
             let axis = Axis::new(&request.x, Along::Across, 150.0);
             if axis.numbered { axis.widest / 2.0 } else { 0.0 }
         };
-        if self.right_room + self.column_room > 0.0 {
-            0.0
-        } else {
-            last.map(half).fold(2.0, f64::max)
-        }
+        last.map(half).fold(2.0, f64::max)
     }
 
-    fn bottom_room(&self, panel: &Panel) -> f64 {
-        let numbers = if panel.x.numbered { SMALL_SIZE } else { 0.0 };
-        let gap = if panel.x.label.is_empty() { 0.0 } else { LABEL_GAP };
-        match panel.x.numbered || !panel.x.label.is_empty() {
+    /// Room below a frame of this width.
+    fn bottom_room(&self, request: &PanelRequest, width: f64) -> f64 {
+        let axis = Axis::new(&request.x, Along::Across, width);
+        let numbers = if axis.numbered { SMALL_SIZE } else { 0.0 };
+        let gap = if axis.label.is_empty() { 0.0 } else { LABEL_GAP };
+        match axis.numbered || !axis.label.is_empty() {
             false => 0.0,
-            true => tick_room(self.pointing) + numbers + gap + panel.x.label_room(),
+            true => tick_room(self.pointing) + numbers + gap + axis.label_room(),
         }
     }
 

@@ -45,18 +45,23 @@ impl Panel {
         )
     }
 
-    /// The places of values on the page, without those that have none.
+    /// Whether a value lies inside the frame.
+    pub fn holds(&self, x: f64, y: f64) -> bool {
+        self.x.scale.holds(x) && self.y.scale.holds(y)
+    }
+
+    /// The places of those values on the page that lie inside the frame.
     pub fn places(&self, values: &[(f64, f64)]) -> Vec<Point> {
-        let finite = |(x, y): &(f64, f64)| x.is_finite() && y.is_finite();
-        values.iter().filter(|value| finite(value)).map(|(x, y)| self.place(*x, *y)).collect()
+        let inside = values.iter().filter(|(x, y)| self.holds(*x, *y));
+        inside.map(|(x, y)| self.place(*x, *y)).collect()
     }
 
     /// A curve, broken where values are missing.
     pub fn curve(&self, canvas: &mut Canvas, values: &[(f64, f64)], stroke: Stroke) {
         canvas.clipped(self.frame, |canvas| {
-            for part in values.split(|(x, y)| !x.is_finite() || !y.is_finite()) {
-                let places = self.places(part);
-                match places.as_slice() {
+            let places: Vec<Point> = values.iter().map(|(x, y)| self.place(*x, *y)).collect();
+            for places in places.split(|(x, y)| !x.is_finite() || !y.is_finite()) {
+                match places {
                     [] => {}
                     [alone] => canvas.discs(&[(*alone, stroke.colour)], CURVE_WIDTH),
                     places => canvas.line(&thinned(places), stroke),
@@ -69,7 +74,7 @@ impl Panel {
     pub fn mark_zero(&self, canvas: &mut Canvas) {
         // The margin alone does not make values of both signs.
         let inside = (0.06..0.94).contains(&self.y.scale.share(0.0));
-        if self.y.scale.spacing == Spacing::Linear && inside && !self.y.empty {
+        if self.y.scale.spacing != Spacing::Log && inside && !self.y.empty {
             let zero = [(self.x.scale.low, 0.0), (self.x.scale.high, 0.0)];
             self.curve(canvas, &zero, Stroke::solid(FAINT_INK, MINOR_WIDTH));
         }

@@ -124,7 +124,8 @@ fn legend(portrait: &Portrait) -> Vec<(Mark, Text)> {
 fn draw_portrait(canvas: &mut Canvas, panel: &Panel, portrait: &Portrait) {
     if let Some(gap) = portrait.gap {
         let (surface, _) = panel.place(gap, panel.y.scale.low);
-        canvas.fill(Rect { left: surface, ..panel.frame }, CONTACT);
+        let left = surface.clamp(panel.frame.left, panel.frame.right);
+        canvas.fill(Rect { left, ..panel.frame }, CONTACT);
         let ends = [(gap, panel.y.scale.low), (gap, panel.y.scale.high)];
         panel.curve(canvas, &ends, Stroke::dashed(FAINT_INK, REFERENCE_WIDTH));
     }

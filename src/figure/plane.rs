@@ -1,17 +1,22 @@
 //! Two axes of a study as a plane of cells, one for each case.
 
-use super::canvas::{Canvas, Stroke};
+use super::canvas::{Canvas, Dash, Stroke};
 use super::cells::Cells;
+use super::contour::Field;
 use super::error::FigureError;
+use super::geometry::Rect;
 use super::header::Mark;
 use super::panel::Panel;
 use super::raster::{Fill, Raster};
-use super::style::{FRAME_WIDTH, INK};
+use super::style::{CURVE_WIDTH, FRAME_WIDTH, INK, PAPER};
 use super::text::Text;
 use super::view::View;
 
 /// Length of the mark of a value of an uneven axis [pt].
 const VALUE_MARK: f64 = 3.0;
+
+/// Contour lines.
+pub const CONTOUR: Stroke = Stroke { colour: INK, width: CURVE_WIDTH, dash: Dash::None };
 
 /// Two axes with their cells.
 pub struct Plane<'a> {
@@ -46,24 +51,59 @@ impl<'a> Plane<'a> {
     /// axes at the upper and the right side of the frame.
     pub fn draw(&self, canvas: &mut Canvas, panel: &Panel, fill: impl Fn(usize) -> Fill) {
         let columns = self.x.count();
-        let raster = Raster::cells(
-            panel.frame,
-            |share| self.x.at(share),
-            |share| self.y.at(1.0 - share),
-            |column, row| fill(row * columns + column),
-        );
-        canvas.image(panel.frame, &raster);
+        // The limits of the axes may be others than those of the cells.
+        let frame = panel.frame;
+        let [left, bottom] = <[f64; 2]>::from(panel.place(self.x.scale.low, self.y.scale.low));
+        let [right, top] = <[f64; 2]>::from(panel.place(self.x.scale.high, self.y.scale.high));
+        let across = |at: f64| at.clamp(frame.left, frame.right);
+        let down = |at: f64| at.clamp(frame.top, frame.bottom);
+        let area =
+            Rect { left: across(left), right: across(right), top: down(top), bottom: down(bottom) };
+        if area.width() > 0.0 && area.height() > 0.0 {
+            let x = |share: f64| (area.left + share * area.width() - frame.left) / frame.width();
+            let y = |share: f64| (frame.bottom - area.top - share * area.height()) / frame.height();
+            let raster = Raster::cells(
+                area,
+                |share| self.x.under(&panel.x.scale, x(share)),
+                |share| self.y.under(&panel.y.scale, y(share)),
+                |column, row| fill(row * columns + column),
+            );
+            canvas.image(area, &raster);
+        }
         let up = |&value: &f64| {
-            let (place, top) = panel.place(value, panel.y.scale.high);
-            ((place, top), (place, top - VALUE_MARK))
+            let (place, _) = panel.place(value, panel.y.scale.high);
+            ((place, frame.top), (place, frame.top - VALUE_MARK))
         };
         let right = |&value: &f64| {
-            let (right, place) = panel.place(panel.x.scale.high, value);
-            ((right, place), (right + VALUE_MARK, place))
+            let (_, place) = panel.place(panel.x.scale.high, value);
+            ((frame.right, place), (frame.right + VALUE_MARK, place))
         };
-        let marks: Vec<_> =
-            self.x.uneven.iter().map(up).chain(self.y.uneven.iter().map(right)).collect();
+        let above = self.x.uneven.iter().filter(|it| panel.x.scale.holds(**it)).map(up);
+        let beside = self.y.uneven.iter().filter(|it| panel.y.scale.holds(**it)).map(right);
+        let marks: Vec<_> = above.chain(beside).collect();
         canvas.segments(&marks, Stroke::solid(INK, FRAME_WIDTH));
+    }
+
+    /// Draws the lines along which the values of the cases over the free axes have these levels.
+    pub fn draw_contours(
+        &self,
+        canvas: &mut Canvas,
+        panel: &Panel,
+        values: &[f64],
+        levels: &[f64],
+    ) {
+        let columns = self.x.count();
+        let x: Vec<f64> = self.x.values().map(|x| panel.place(x, panel.y.scale.low).0).collect();
+        let y: Vec<f64> = self.y.values().map(|y| panel.place(panel.x.scale.low, y).1).collect();
+        let value =
+            |column: usize, row: usize| values[self.y.place(row) * columns + self.x.place(column)];
+        let field = Field { x: &x, y: &y, value: &value };
+        canvas.clipped(panel.frame, |canvas| {
+            for line in levels.iter().flat_map(|level| field.lines(*level)) {
+                canvas.line(&line, Stroke::solid(PAPER, 2.2 * CONTOUR.width));
+                canvas.line(&line, CONTOUR);
+            }
+        });
     }
 
     /// What the marks of uneven axes mean.

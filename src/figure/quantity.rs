@@ -1,10 +1,15 @@
 //! How each quantity is named in figures, and its values in the unit that they show.
 
-use super::scale::{Scale, finite_range};
+use std::rc::Rc;
+
+use super::chosen::Chosen;
+use super::scale::{Scale, Spacing, finite_range};
 use super::text::Text;
 use super::ticks::{power_of_ten, rounded, short};
+use super::unit::{ShownUnit, raised};
 use crate::store::catalogue::{self, Place, Shown};
 use crate::store::dataset::{Dataset, Values, Variable};
+use crate::study::ScaleChoice;
 use crate::tradeoff::NOISE;
 
 /// Ratio of positive values above which their logarithm is shown.
@@ -39,6 +44,8 @@ pub struct Quantity {
     /// Whether its logarithm is shown where it spans many decades: it is a ratio, and no speed, length or energy, whose
     /// differences matter.
     is_ratio: bool,
+    /// What the request sets of it.
+    pub chosen: Rc<Chosen>,
 }
 
 impl Quantity {
@@ -61,6 +68,7 @@ impl Quantity {
                 whole,
                 noise: least * factor,
                 is_ratio,
+                chosen: Rc::default(),
             },
             None => Quantity { whole, noise: least, is_ratio, ..Quantity::as_stored(name, stored) },
         }
@@ -79,17 +87,76 @@ impl Quantity {
             whole: false,
             noise: 0.0,
             is_ratio: false,
+            chosen: Rc::default(),
         }
     }
 
-    /// The scale of values of it, in the unit shown: logarithmic for positive ratios that span many decades.
-    pub fn scale(&self, values: &[f64], margin: f64) -> Scale {
-        match finite_range(values.iter().copied()) {
-            Some((low, high)) if self.is_ratio && low > 0.0 && high / low > MANY_DECADES => {
-                Scale::log_around(values.iter().copied(), margin)
+    /// The quantity as a request sets it.
+    pub fn with(self, chosen: Rc<Chosen>) -> Quantity {
+        let quantity = match chosen.unit().cloned() {
+            None => self,
+            Some(ShownUnit { unit, divisor, factor }) => Quantity {
+                symbol: format!("{}{divisor}", self.symbol),
+                unit,
+                noise: self.noise / self.factor * factor,
+                factor,
+                ..self
+            },
+        };
+        match chosen.label() {
+            Some(label) => {
+                let (name, symbol) = (Text::tex(label), String::new());
+                Quantity { name, symbol, chosen: chosen.clone(), ..quantity }
             }
-            _ => Scale::above(self.noise, values.iter().copied(), margin),
+            None => Quantity { chosen, ..quantity },
         }
+    }
+
+    /// The scale of values of it, in the unit shown: logarithmic for positive ratios that span many decades, unless the
+    /// request sets another.
+    pub fn scale(&self, values: &[f64], margin: f64) -> Scale {
+        let range = finite_range(values.iter().copied());
+        let has_many_decades = |(low, high): (f64, f64)| low > 0.0 && high / low > MANY_DECADES;
+        let is_log = match self.chosen.scale() {
+            None => self.is_ratio && range.is_some_and(has_many_decades),
+            Some(chosen) => chosen == ScaleChoice::Log,
+        };
+        self.fitted(match is_log {
+            true => Scale::log_around(values.iter().copied(), margin),
+            false => Scale::above(self.noise, values.iter().copied(), margin),
+        })
+    }
+
+    /// A scale in the unit shown, as the request sets it.
+    pub fn fitted(&self, scale: Scale) -> Scale {
+        let limits = self.chosen.limits().map(|limits| limits.map(|end| end * self.factor));
+        let [low, high] = limits.unwrap_or([scale.low, scale.high]);
+        let scale = Scale { low, high, ..scale };
+        match self.chosen.scale() {
+            // A range that the figure chose to be logarithmic may be set to begin elsewhere.
+            None if scale.spacing == Spacing::Log && low <= 0.0 => {
+                Scale { spacing: Spacing::Linear, ..scale }
+            }
+            None => scale,
+            Some(ScaleChoice::Linear) => Scale { spacing: Spacing::Linear, ..scale },
+            Some(ScaleChoice::Symlog(width)) => scale.symmetric(width.map(|it| it * self.factor)),
+            Some(ScaleChoice::Log) if low > 0.0 => Scale { spacing: Spacing::Log, ..scale },
+            Some(ScaleChoice::Log) => {
+                self.chosen.refuse("its axis is not above zero and cannot be logarithmic");
+                scale
+            }
+        }
+    }
+
+    /// Notes how many of `values` have no place on a scale.
+    pub fn note_left_out(&self, scale: &Scale, values: &[f64]) {
+        let has_none = |value: &&f64| value.is_finite() && !scale.can_hold(**value);
+        self.chosen.leave_out(values.iter().filter(has_none).count());
+    }
+
+    /// Digits after the point of the numbers along its axis, if they are set.
+    pub fn decimals(&self) -> Option<usize> {
+        self.chosen.decimals()
     }
 
     /// The label with its unit in brackets, when `offset` is taken from the numbers and they count
@@ -135,24 +202,6 @@ impl Quantity {
         let equals = format!(" = {}{unit}", short(value * self.factor)).replace(' ', "\u{a0}");
         self.short_name().then(Text::markup(&equals))
     }
-}
-
-/// A unit as written in tables ("m/s^2"), with its powers raised.
-fn raised(unit: &str) -> String {
-    let mut markup = String::new();
-    let mut characters = unit.chars().peekable();
-    while let Some(character) = characters.next() {
-        if character != '^' {
-            markup.push(if character == '*' { '·' } else { character });
-            continue;
-        }
-        markup.push_str("^{");
-        while let Some(digit) = characters.next_if(|c| c.is_ascii_digit() || *c == '-') {
-            markup.push(if digit == '-' { '−' } else { digit });
-        }
-        markup.push('}');
-    }
-    markup
 }
 
 #[cfg(test)]

@@ -1,12 +1,14 @@
 //! From a value to its place along an axis.
 
 /// How values are spread along an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Spacing {
     /// Equal differences take equal lengths.
     Linear,
     /// Equal ratios take equal lengths.
     Log,
+    /// A value v stands at asinh(v/w) for this w.
+    Symmetric(f64),
 }
 
 /// Numbers below this are zero to the eye, so near to the least that can be held that marks between them cannot.
@@ -71,11 +73,24 @@ impl Scale {
         Scale { spacing: Spacing::Log, low: 10f64.powf(scale.low), high: 10f64.powf(scale.high) }
     }
 
+    /// The same range, symmetrically logarithmic and linear within `width` of zero; without one, within the power of ten
+    /// below a thousandth of its largest magnitude.
+    pub fn symmetric(self, width: Option<f64>) -> Scale {
+        let size = self.low.abs().max(self.high.abs());
+        let usual = || 10f64.powf((1e-3 * size).log10().floor());
+        Scale { spacing: Spacing::Symmetric(width.unwrap_or_else(usual)), ..self }
+    }
+
     /// Where `value` stands, as a share of the axis from its low end.
     pub fn share(&self, value: f64) -> f64 {
         match self.spacing {
             Spacing::Linear => (value - self.low) / (self.high - self.low),
             Spacing::Log => (value / self.low).ln() / (self.high / self.low).ln(),
+            Spacing::Symmetric(width) => {
+                let [low, value, high] =
+                    [self.low, value, self.high].map(|it| (it / width).asinh());
+                (value - low) / (high - low)
+            }
         }
     }
 
@@ -84,7 +99,16 @@ impl Scale {
         match self.spacing {
             Spacing::Linear => self.low + share * (self.high - self.low),
             Spacing::Log => self.low * (self.high / self.low).powf(share),
+            Spacing::Symmetric(width) => {
+                let [low, high] = [self.low, self.high].map(|it| (it / width).asinh());
+                width * (low + share * (high - low)).sinh()
+            }
         }
+    }
+
+    /// Whether a value has a place on the axis or its continuation: on a logarithmic one, those above zero.
+    pub fn can_hold(&self, value: f64) -> bool {
+        self.spacing != Spacing::Log || value > 0.0
     }
 
     /// Whether `value` lies on the axis, its ends included up to rounding.

@@ -71,11 +71,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let first =
         PageRequest::of_one(view.drawing, panel((0, &sections[0])), HEIGHT, Pointing::Inward);
     let page = PageRequest {
-        width_mm: if count > 1 {
-            view.drawing.width_mm.unwrap_or(TWO_COLUMNS)
-        } else {
-            first.width_mm
-        },
+        width_mm: if count > 1 { TWO_COLUMNS } else { first.width_mm },
         rows: vec![sections.iter().enumerate().map(panel).collect()],
         ..first
     };
@@ -84,7 +80,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let crowding = section.points.len() as f64;
         let dot = |at: &[f64; 2]| Dot { at: (at[0], at[1]), colour: INK, crowding };
         let dots: Vec<Dot> = section.points.iter().map(dot).collect();
-        cloud::draw(&mut canvas, panel, &dots, cloud::radius(dots.len()));
+        cloud::draw(&mut canvas, panel, &dots, view.radius(dots.len()));
         panel.finish(&mut canvas);
     }
     let told: Vec<String> = sections.iter().map(Section::told).collect();

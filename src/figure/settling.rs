@@ -74,12 +74,14 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         y: AxisRequest::new(view.quantity(plane.y_name), plane.y.scale),
         header: Header { note: view.held_note(&free), legend, letter: None },
     };
-    let room = colours.as_ref().map_or(0.0, |it| it.room(HEIGHT));
+    let room = |height: f64| colours.as_ref().map_or(0.0, |it| it.room(height));
     let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Outward);
-    let (mut canvas, panels) = PageRequest { right_room: room, ..page }.lay_out();
+    let (mut canvas, panels) = PageRequest { right_room: &room, ..page }.lay_out();
     let fill = |case: usize| match &colours {
         _ if inferred[case] => Fill::Plain(INFERRED),
-        Some(colours) if !cycles[case].is_nan() => Fill::Plain(colours.of(cycles[case])),
+        Some(colours) if !cycles[case].is_nan() && colours.has(cycles[case]) => {
+            Fill::Plain(colours.of(cycles[case]))
+        }
         _ => Fill::NO_VALUE,
     };
     for panel in panels.iter().flatten() {

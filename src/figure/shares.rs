@@ -234,6 +234,7 @@ impl Bands {
             Fill::Plain(self.shares[value].iter().position(reaches).map_or(undecided(), band))
         };
         let row = |share: f64| (share * ROWS as f64) as usize;
-        canvas.image(panel.frame, &Raster::cells(panel.frame, |x| cells.at(x), row, colour));
+        let column = |share: f64| cells.under(&panel.x.scale, share);
+        canvas.image(panel.frame, &Raster::cells(panel.frame, column, row, colour));
     }
 }

@@ -31,6 +31,47 @@ impl Script {
     }
 }
 
+/// Symbols by their names in TeX.
+const SYMBOLS: [(&str, &str); 37] = [
+    ("alpha", "α"),
+    ("beta", "β"),
+    ("gamma", "γ"),
+    ("delta", "δ"),
+    ("epsilon", "ε"),
+    ("zeta", "ζ"),
+    ("eta", "η"),
+    ("theta", "θ"),
+    ("kappa", "κ"),
+    ("lambda", "λ"),
+    ("mu", "μ"),
+    ("nu", "ν"),
+    ("xi", "ξ"),
+    ("pi", "π"),
+    ("rho", "ρ"),
+    ("sigma", "σ"),
+    ("tau", "τ"),
+    ("phi", "φ"),
+    ("varphi", "φ"),
+    ("chi", "χ"),
+    ("psi", "ψ"),
+    ("omega", "ω"),
+    ("Delta", "Δ"),
+    ("Omega", "Ω"),
+    ("Phi", "Φ"),
+    ("cos", "cos\u{202f}"),
+    ("sin", "sin\u{202f}"),
+    ("sqrt", "√"),
+    ("cdot", "·"),
+    ("times", "×"),
+    ("pm", "±"),
+    ("le", "≤"),
+    ("ge", "≥"),
+    ("approx", "≈"),
+    ("circ", "°"),
+    (",", "\u{202f}"),
+    ("%", "%"),
+];
+
 /// Characters in one face and position.
 #[derive(Debug, Clone, PartialEq)]
 struct Run {
@@ -65,6 +106,65 @@ impl Text {
             }
         }
         text
+    }
+
+    /// The label with symbols as in TeX between dollar signs: `$k_2$`, `$\\omega/\\omega_{1}$`. Letters are italic, those of
+    /// sub- and superscripts upright, as in the labels of axes; what is not known stays as it is.
+    pub fn tex(source: &str) -> Text {
+        let parts: Vec<&str> = source.split('$').collect();
+        if parts.len().is_multiple_of(2) {
+            // A dollar sign without a second one is a dollar sign.
+            return Text::plain(source);
+        }
+        let mut text = Text::default();
+        for (number, part) in parts.into_iter().enumerate() {
+            match number % 2 {
+                0 => text = text.then(Text::plain(part)),
+                _ => text.push_symbols(part),
+            }
+        }
+        text
+    }
+
+    /// Adds what stands between dollar signs.
+    fn push_symbols(&mut self, source: &str) {
+        let mut rest = source;
+        let (mut script, mut is_group) = (Script::Line, false);
+        while let Some(character) = rest.chars().next() {
+            let named = rest.strip_prefix('\\').and_then(|rest| {
+                let known = SYMBOLS.iter().filter(|(name, _)| rest.starts_with(name));
+                known.max_by_key(|(name, _)| name.len())
+            });
+            if let Some((name, symbol)) = named {
+                rest = rest[1 + name.len()..].trim_start();
+                match symbol.chars().count() {
+                    1 => symbol.chars().for_each(|it| self.push_symbol(it, script)),
+                    // The name of a function is upright.
+                    _ => symbol.chars().for_each(|it| self.push(it, Face::Regular, script)),
+                }
+            } else {
+                rest = &rest[character.len_utf8()..];
+                match character {
+                    '_' | '^' => {
+                        script = if character == '_' { Script::Sub } else { Script::Super };
+                        is_group = rest.starts_with('{');
+                        rest = rest.strip_prefix('{').unwrap_or(rest);
+                        continue;
+                    }
+                    '}' if is_group => is_group = false,
+                    '-' => self.push_symbol('\u{2212}', script),
+                    other => self.push_symbol(other, script),
+                }
+            }
+            if !is_group {
+                script = Script::Line;
+            }
+        }
+    }
+
+    fn push_symbol(&mut self, character: char, script: Script) {
+        let is_italic = character.is_alphabetic() && script == Script::Line;
+        self.push(character, if is_italic { Face::Italic } else { Face::Regular }, script);
     }
 
     /// The label exactly as given, without markup.

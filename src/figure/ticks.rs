@@ -31,11 +31,15 @@ fn multiples(scale: &Scale, step: f64) -> Vec<i64> {
     (first..=last).collect()
 }
 
-/// Linear marks whose numbers are `digit` times 10^`power` apart.
-pub fn linear_ticks(scale: &Scale, digit: i64, power: i32) -> Ticks {
+/// Linear marks whose numbers are `digit` times 10^`power` apart; with so many decimals, if they tell the numbers apart.
+pub fn linear_ticks(
+    scale: &Scale,
+    (digit, power): (i64, i32),
+    wanted: Option<usize>,
+) -> Option<Ticks> {
     let step = digit as f64 * 10f64.powi(power);
     if !step.is_normal() {
-        return Ticks::default();
+        return None;
     }
     let size = scale.low.abs().max(scale.high.abs());
     let minor_parts = if digit == 2 { 4 } else { 5 };
@@ -51,7 +55,11 @@ pub fn linear_ticks(scale: &Scale, digit: i64, power: i32) -> Ticks {
     // Powers of ten go to the label where the numbers would be long without.
     let short = (-3..=4).contains(&magnitude) && power >= -4;
     let exponent = if short { 0 } else { magnitude.div_euclid(3) * 3 };
-    let decimals = (exponent - power).max(0) as usize;
+    let needed = (exponent - power).max(0) as usize;
+    if wanted.is_some_and(|wanted| wanted < needed) {
+        return None;
+    }
+    let decimals = wanted.unwrap_or(needed);
     let major = multiples(scale, step)
         .into_iter()
         .map(|count| {
@@ -69,33 +77,69 @@ pub fn linear_ticks(scale: &Scale, digit: i64, power: i32) -> Ticks {
         .collect();
     let offset_decimals = (-(span.log10().round() as i32)).max(0) as usize;
     let offset = if base == 0.0 { String::new() } else { trimmed(&number(base, offset_decimals)) };
-    Ticks { major, minor, exponent, offset }
+    Some(Ticks { major, minor, exponent, offset })
 }
 
-/// Logarithmic marks: every `every` decades, and between decades where there are few of them.
-pub fn log_ticks(scale: &Scale, every: i32) -> Ticks {
+/// Numbers of a decade that are marked, from many to few.
+pub const DIGITS: [&[i32]; 3] = [&[1, 2, 5], &[1, 3], &[1]];
+
+/// Logarithmic marks: numbers at these `digits` of every `every` decades, small marks at the others.
+pub fn log_ticks(scale: &Scale, (digits, every): (&[i32], i32)) -> Ticks {
     let (low, high) = (scale.low.log10(), scale.high.log10());
+    let is_plain = low > -2.5 && high < 3.5;
     let mut ticks = Ticks::default();
-    let few = (high + 1e-9).floor() - (low - 1e-9).ceil() < 1.0;
     for decade in low.floor() as i32..=high.ceil() as i32 {
+        ticks.add_decade(scale, (decade, 1.0), (digits, every), is_plain);
+    }
+    ticks
+}
+
+/// Marks of a symmetrically logarithmic scale: zero, and decades on both sides from `width` on.
+pub fn symmetric_ticks(scale: &Scale, width: f64, (digits, every): (&[i32], i32)) -> Ticks {
+    let size = scale.low.abs().max(scale.high.abs());
+    let (first, last) = (width.log10().ceil() as i32, size.log10().ceil() as i32);
+    let is_plain = first >= -2 && last <= 3;
+    let mut ticks = Ticks::default();
+    for decade in (first..=last).rev() {
+        ticks.add_decade(scale, (decade, -1.0), (digits, every), is_plain);
+    }
+    if scale.holds(0.0) {
+        ticks.major.push(Tick { value: 0.0, label: "0".to_owned() });
+    }
+    for decade in first..=last {
+        ticks.add_decade(scale, (decade, 1.0), (digits, every), is_plain);
+    }
+    ticks.major.sort_by(|a, b| a.value.total_cmp(&b.value));
+    ticks
+}
+
+impl Ticks {
+    /// Adds the marks of a decade of one sign.
+    fn add_decade(
+        &mut self,
+        scale: &Scale,
+        (decade, sign): (i32, f64),
+        (digits, every): (&[i32], i32),
+        is_plain: bool,
+    ) {
         for digit in 1..10 {
-            let value = f64::from(digit) * 10f64.powi(decade);
+            let value = sign * f64::from(digit) * 10f64.powi(decade);
             if !scale.holds(value) {
                 continue;
             }
-            let plain = few && matches!(digit, 1 | 2 | 5);
-            let round = digit == 1 && decade.rem_euclid(every) == 0;
-            match (round, plain) {
-                (true, false) if low > -2.5 && high < 3.5 => {
-                    ticks.major.push(Tick { value, label: short(value) });
-                }
-                (true, false) => ticks.major.push(Tick { value, label: power_of_ten(decade) }),
-                (_, true) => ticks.major.push(Tick { value, label: short(value) }),
-                _ => ticks.minor.push(value),
+            if !digits.contains(&digit) || decade.rem_euclid(every) != 0 {
+                self.minor.push(value);
+                continue;
             }
+            let minus = if sign < 0.0 { "\u{2212}" } else { "" };
+            let label = match (is_plain, digit) {
+                (true, _) => short(value),
+                (false, 1) => format!("{minus}{}", power_of_ten(decade)),
+                (false, _) => format!("{minus}{digit} × {}", power_of_ten(decade)),
+            };
+            self.major.push(Tick { value, label });
         }
     }
-    ticks
 }
 
 /// 10 to the power `exponent`, as markup.

@@ -9,7 +9,7 @@ use super::header::{Entry, Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::optima_table::Table;
 use super::outcome;
-use super::page::{PageRequest, PanelRequest};
+use super::page::{NO_ROOM, PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
 use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, INK, MINOR_WIDTH, ONE_COLUMN, VERMILION};
 use super::text::Text;
@@ -73,7 +73,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let factors = [price, SPEED.name].map(|name| view.quantity(name).factor);
     let shown = TradeOff { view, price, factors, free: &free, motions, best, hue };
     let table = table((view, &free), price, (&shown.motions, &shown.best))?;
-    let page = shown.request(&table);
+    let bar = |height: f64| shown.hue.as_ref().map_or(0.0, |(colours, _)| colours.room(height));
+    let page = PageRequest { right_room: &bar, ..shown.request(&table) };
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         shown.draw(&mut canvas, panel);
@@ -93,6 +94,12 @@ impl TradeOff<'_, '_> {
         (price * of_price, speed * of_speed)
     }
 
+    /// The radius of the points of cases [pt].
+    fn radius(&self, count: usize) -> f64 {
+        let usual = if self.view.drawing.point_mm.is_some() { 1.0 } else { 1.4 };
+        usual * self.view.radius(count)
+    }
+
     fn draw(&self, canvas: &mut Canvas, panel: &Panel) {
         panel.mark_zero(canvas);
         let motions = &self.motions;
@@ -106,7 +113,7 @@ impl TradeOff<'_, '_> {
         let (periodic, others): (Vec<&Candidate>, Vec<&Candidate>) =
             motions.cases().iter().partition(|case| motions.is_periodic(case));
         let dots: Vec<_> = others.into_iter().chain(periodic).map(dot).collect();
-        cloud::draw(canvas, panel, &dots, 1.4 * cloud::radius(dots.len()));
+        cloud::draw(canvas, panel, &dots, self.radius(dots.len()));
         // That of all motions lies over that of the cases, which it is where no motion between them is better.
         let mut curve = |front: &[(f64, f64)], stroke: Stroke| {
             let line = stairs(&front.iter().map(|it| self.place(*it)).collect::<Vec<_>>());
@@ -123,7 +130,9 @@ impl TradeOff<'_, '_> {
         for best in &self.best {
             for (symbol, motion) in marked(motions, best) {
                 let (x, y) = self.place((motion.price, motion.speed));
-                symbol.draw(canvas, panel.place(x, y));
+                if panel.holds(x, y) {
+                    symbol.draw(canvas, panel.place(x, y));
+                }
             }
         }
     }
@@ -176,7 +185,7 @@ impl TradeOff<'_, '_> {
         legend
     }
 
-    fn request(&self, table: &Table) -> PageRequest {
+    fn request(&self, table: &Table) -> PageRequest<'_> {
         let (view, motions) = (self.view, &self.motions);
         let fronts = self.best.iter().flat_map(|best| best.front.iter().copied());
         let cases = motions.cases().iter().map(|it| (it.price, it.speed));
@@ -189,12 +198,12 @@ impl TradeOff<'_, '_> {
             header: Header { legend, note: view.held_note(self.free), ..Header::default() },
         };
         PageRequest {
-            title: view.drawing.title.clone(),
-            width_mm: view.drawing.width_mm.unwrap_or(ONE_COLUMN),
+            drawing: view.drawing,
+            width_mm: ONE_COLUMN,
             heights: vec![HEIGHT],
             rows: vec![vec![panel]],
-            column_room: 0.0,
-            right_room: self.hue.as_ref().map_or(0.0, |(colours, _)| colours.room(HEIGHT)),
+            column_room: NO_ROOM,
+            right_room: NO_ROOM,
             bottom_room: table.room(),
             pointing: Pointing::Inward,
         }

@@ -7,7 +7,7 @@ use super::error::FigureError;
 use super::geometry::Point;
 use super::header::{Entry, Header, Mark};
 use super::kind::{Kind, Needs};
-use super::page::{PageRequest, PanelRequest, letter};
+use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
 use super::plane::Plane;
 use super::raster::Fill;
@@ -44,7 +44,9 @@ impl Path {
             canvas.discs(&discs, radius);
         }
         for (symbol, (x, y)) in &self.optima {
-            symbol.draw(canvas, panel.place(*x, *y));
+            if panel.holds(*x, *y) {
+                symbol.draw(canvas, panel.place(*x, *y));
+            }
         }
     }
 }
@@ -68,7 +70,10 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         (Colours::for_values(&values, quantity), values)
     });
     let over: Vec<&str> = searched(view, (&free, axes));
-    let rooms = shown.iter().map(|(colours, _)| colours.as_ref().map_or(0.0, |it| it.room(HEIGHT)));
+    let room = |height: f64| {
+        let rooms = shown.iter().filter_map(|(colours, _)| Some(colours.as_ref()?.room(height)));
+        rooms.fold(0.0, f64::max)
+    };
     let legend = legend(view, &path, (fastest.iter().any(Option::is_none), &over));
     let panel = |place: usize| PanelRequest {
         x: AxisRequest::new(view.quantity(axes[0]), plane.x.scale),
@@ -80,19 +85,20 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         },
     };
     let page = PageRequest {
-        title: view.drawing.title.clone(),
-        width_mm: view.drawing.width_mm.unwrap_or(TWO_COLUMNS),
+        drawing: view.drawing,
+        width_mm: TWO_COLUMNS,
         heights: vec![HEIGHT],
         rows: vec![(0..shown.len()).map(panel).collect()],
-        column_room: rooms.fold(0.0, f64::max),
-        right_room: 0.0,
+        column_room: &room,
+        right_room: NO_ROOM,
         bottom_room: 0.0,
         pointing: Pointing::Outward,
     };
     let (mut canvas, panels) = page.lay_out();
     for (panel, (colours, values)) in panels.iter().flatten().zip(&shown) {
         let colour = |case: usize| {
-            let colours = colours.as_ref().filter(|_| values[case].is_finite());
+            let value = values[case];
+            let colours = colours.as_ref().filter(|it| value.is_finite() && it.has(value));
             Fill::of(colours.map(|it| it.of(values[case])))
         };
         plane.draw(&mut canvas, panel, colour);

@@ -2,15 +2,21 @@
 
 use ndarray::{ArrayD, Axis, IxDyn};
 
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use super::chosen::Chosen;
+use super::cloud;
 use super::error::FigureError;
 use super::quantity::Quantity;
 use super::shown::Shown;
-use super::text::Text;
+use super::style::POINTS_PER_MM;
+use super::unit::ShownUnit;
 use super::varied::varied;
 use crate::campaign::RefinedMotion;
+use crate::capsule::Parameter;
 use crate::store::catalogue::{self, DIRECTION, DRAW, Entry, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
-use crate::store::schema::INHERITED_ALONG;
 use crate::study::Drawing;
 use crate::study::axis::{is_within, range};
 
@@ -21,8 +27,6 @@ fn is_inner(dimension: &str) -> bool {
 
 /// Panels along one axis that stand side by side at most.
 const COLUMNS: usize = 4;
-/// Values that differ by no more than this, relative to them, are one.
-const ROUNDING: f64 = 1e-9;
 
 /// The results as one figure sees them.
 pub struct View<'a> {
@@ -33,16 +37,19 @@ pub struct View<'a> {
     /// The request.
     pub drawing: &'a Drawing,
     /// Index at which each axis named by `at` is held.
-    held: Vec<(String, usize)>,
+    pub held: Vec<(String, usize)>,
     /// Indices of the panels along each axis that is held at several values.
-    panels: Vec<(String, Vec<usize>)>,
+    pub panelled: Vec<(String, Vec<usize>)>,
+    /// What is set of quantities, by their names.
+    pub chosen: Rc<BTreeMap<String, Rc<Chosen>>>,
 }
 
 impl<'a> View<'a> {
     /// Checks the axes that `drawing` names against the results in `shown`.
     pub fn new(shown: Shown<'a>, drawing: &'a Drawing) -> Result<View<'a>, FigureError> {
         let Shown { dataset, refined } = shown;
-        let mut view = View { dataset, refined, drawing, held: Vec::new(), panels: Vec::new() };
+        let (held, panelled, chosen) = (Vec::new(), Vec::new(), Rc::default());
+        let mut view = View { dataset, refined, drawing, held, panelled, chosen };
         for name in drawing.x.iter().chain(&drawing.y) {
             if !varied(dataset).contains(&name.as_str()) {
                 view.check_axis(name)?;
@@ -59,9 +66,34 @@ impl<'a> View<'a> {
             let indices = wanted.iter().map(|it| view.nearest(name, *it));
             let indices = indices.collect::<Result<Vec<usize>, FigureError>>()?;
             view.held.extend(indices.first().map(|first| (name.clone(), *first)));
-            view.panels.push((name.clone(), indices));
+            view.panelled.push((name.clone(), indices));
         }
+        let mut chosen = BTreeMap::new();
+        for (name, set) in &drawing.settings {
+            let unit = |unit| ShownUnit::of(name, unit, || view.natural_frequency());
+            let unit = set.unit.map(unit).transpose().map_err(|why| view.unfit(why))?;
+            chosen.insert(name.clone(), Rc::new(Chosen::new(set.clone(), unit)));
+        }
+        view.chosen = Rc::new(chosen);
         Ok(view)
+    }
+
+    /// The natural frequency of the mass on its spring alone [rad/s], where it is the same for all cases.
+    fn natural_frequency(&self) -> Option<f64> {
+        let one = |parameter: Parameter| {
+            let values = self.parameter(parameter.symbol(), &[]).ok()?;
+            let varies = self.coordinate_values(parameter.symbol()).len() > 1;
+            values.first().copied().filter(|_| !varies)
+        };
+        Some((one(Parameter::K1)? / one(Parameter::M1)?).sqrt())
+    }
+
+    /// The first fault of what is set.
+    pub fn fault_of_settings(&self) -> Option<FigureError> {
+        let fault = |(name, chosen): (&String, &Rc<Chosen>)| {
+            chosen.fault().map(|fault| self.unfit(format!("`scale` of {name}: {fault}")))
+        };
+        self.chosen.iter().find_map(fault)
     }
 
     /// What each panel shows, row by row: those of the first axis that is held at several values, those of the second side by side.
@@ -71,18 +103,25 @@ impl<'a> View<'a> {
             let each = |(name, indices): &(String, Vec<usize>)| {
                 indices.iter().map(|index| Some((name.clone(), *index))).collect()
             };
-            self.panels.get(axis).map_or_else(one, each)
+            self.panelled.get(axis).map_or_else(one, each)
         });
         let at = |row: &Option<(String, usize)>, column: &Option<(String, usize)>| {
-            let is_moved = |name: &String| self.panels.iter().any(|it| it.0 == *name);
+            let is_moved = |name: &String| self.panelled.iter().any(|it| it.0 == *name);
             let held = self.held.iter().filter(|(name, _)| !is_moved(name)).cloned();
             let View { dataset, refined, drawing, .. } = *self;
             let held = held.chain(row.clone()).chain(column.clone()).collect();
-            View { dataset, refined, drawing, held, panels: Vec::new() }
+            View {
+                dataset,
+                refined,
+                drawing,
+                held,
+                panelled: Vec::new(),
+                chosen: self.chosen.clone(),
+            }
         };
         let row = |row: &Option<(String, usize)>| columns.iter().map(|it| at(row, it)).collect();
         let all: Vec<Vec<View<'a>>> = rows.iter().map(row).collect();
-        if self.panels.len() != 1 {
+        if self.panelled.len() != 1 {
             return all;
         }
         // The panels along one axis are read like lines of text.
@@ -112,27 +151,9 @@ impl<'a> View<'a> {
     }
 
     /// The unit of an axis after a space; nothing where it has none.
-    fn unit(&self, name: &str) -> String {
+    pub fn unit(&self, name: &str) -> String {
         let unit = self.dataset.coordinate(name).map_or("1", |it| it.unit.as_str());
         if unit == "1" { String::new() } else { format!(" {unit}") }
-    }
-
-    /// What `at` asks for and the axes do not have, with the value that was taken, for each.
-    pub fn taken_for_another(&self) -> Vec<String> {
-        let note = |(name, index, wanted): (&String, usize, f64)| {
-            let (taken, unit) = (*self.coordinate_values(name).get(index)?, self.unit(name));
-            let differs = (taken - wanted).abs() > ROUNDING * taken.abs().max(wanted.abs());
-            let note = format!("{name} = {taken}{unit} is taken for {wanted}{unit}, the nearest");
-            differs.then_some(note)
-        };
-        let held = self.held.iter();
-        let one = held.filter_map(|(name, at)| Some((name, *at, *self.drawing.at.get(name)?)));
-        let several = self.drawing.panels.iter().zip(&self.panels).flat_map(
-            |((name, wanted), (_, taken))| {
-                wanted.iter().zip(taken).map(move |it| (name, *it.1, *it.0))
-            },
-        );
-        one.chain(several).filter_map(note).collect()
     }
 
     /// The fault that the request does not fit.
@@ -164,15 +185,6 @@ impl<'a> View<'a> {
             .into_iter()
             .filter(|name| ![DIRECTION.name, DRAW.name].contains(name))
             .collect()
-    }
-
-    /// What a figure shows, in a sentence kept inside its files.
-    pub fn about(&self, outputs: &[String], free: &[&str]) -> String {
-        let over =
-            if free.is_empty() { String::new() } else { format!(" over {}", free.join(", ")) };
-        let held = self.held_record(free);
-        let at = if held.is_empty() { String::new() } else { format!(" at {held}") };
-        format!("{}{over}{at}", outputs.join(", "))
     }
 
     fn check_axis(&self, name: &str) -> Result<(), FigureError> {
@@ -275,7 +287,17 @@ impl<'a> View<'a> {
 
     /// How figures show the quantity called `name`.
     pub fn quantity(&self, name: &str) -> Quantity {
-        Quantity::named(name, self.dataset)
+        let quantity = Quantity::named(name, self.dataset);
+        match self.chosen.get(name) {
+            Some(chosen) => quantity.with(chosen.clone()),
+            None => quantity,
+        }
+    }
+
+    /// The radius of `count` points of cases [pt].
+    pub fn radius(&self, count: usize) -> f64 {
+        let set = self.drawing.point_mm.map(|diameter| diameter / 2.0 * POINTS_PER_MM);
+        set.unwrap_or_else(|| cloud::radius(count))
     }
 
     /// A parameter over the axis `free`, in SI: the axis of that name, or the variable.
@@ -304,35 +326,8 @@ impl<'a> View<'a> {
     }
 
     /// Index at which an axis that is not drawn is held.
-    fn held_index(&self, name: &str) -> usize {
+    pub fn held_index(&self, name: &str) -> usize {
         self.held.iter().find(|(axis, _)| axis == name).map_or(0, |(_, index)| *index)
-    }
-
-    /// Where the axes other than `free` are held, as "name = value unit".
-    pub fn held_record(&self, free: &[&str]) -> String {
-        let mut notes = Vec::new();
-        for name in self.axes().into_iter().filter(|name| !free.contains(name)) {
-            if let Some(value) = self.coordinate_values(name).get(self.held_index(name)) {
-                notes.push(format!("{name} = {value}{}", self.unit(name)));
-            }
-        }
-        notes.join(", ")
-    }
-
-    /// The part of the study that a figure shows, for those of its axes that have several values
-    /// and are not among `free`.
-    pub fn held_note(&self, free: &[&str]) -> Option<Text> {
-        let several = |name: &&str| self.coordinate_values(name).len() > 1;
-        let ours = self.axes().into_iter().filter(|name| !free.contains(name)).filter(several);
-        ours.map(|name| self.value_note(name, self.held_index(name)))
-            .reduce(|note, next| note.then(Text::plain(", ")).then(next))
-    }
-
-    /// The note on where the axes are held, and on what is left out.
-    pub fn note(&self, free: &[&str], left_out: &Option<String>) -> Option<Text> {
-        let left_out = left_out.as_deref().map(Text::plain);
-        let parts = self.held_note(free).into_iter().chain(left_out);
-        parts.reduce(|note, next| note.then(Text::plain("; ")).then(next))
     }
 
     /// The index along `axis` of each case by its number over the axes `free`.
@@ -341,27 +336,6 @@ impl<'a> View<'a> {
         let spacing: usize = later.map(|name| self.coordinate_values(name).len()).product();
         let length = self.coordinate_values(axis).len();
         move |case| (case / spacing.max(1)) % length.max(1)
-    }
-
-    /// The name of a direction in which starts were inherited, with the axis that it goes along unless that is `x`.
-    pub fn direction_name(&self, name: &str, x: Option<&str>) -> String {
-        match self.dataset.attributes.get(INHERITED_ALONG) {
-            Some(axis) if x != Some(axis.as_str()) => format!("{name} in {axis}"),
-            _ => name.to_owned(),
-        }
-    }
-
-    /// A value of an axis, as "symbol = value unit" or by its name where values have names.
-    pub fn value_note(&self, axis: &str, index: usize) -> Text {
-        let value = self.coordinate_values(axis).get(index).copied().unwrap_or(f64::NAN);
-        let flags = self.dataset.coordinate(axis).map_or(&[][..], |it| &it.flags);
-        match flags.iter().find(|(code, _)| *code as f64 == value) {
-            Some((_, name)) if axis == DIRECTION.name => {
-                Text::plain(&self.direction_name(name, None))
-            }
-            Some((_, name)) => Text::plain(name),
-            None => self.quantity(axis).note(value),
-        }
     }
 
     /// The name and meaning of each category of an integer variable.

@@ -237,6 +237,15 @@ impl<'r, 'a> Entry<'r, 'a> {
             .collect()
     }
 
+    /// The value as text, or the elements of a list as texts; a number is written out.
+    pub fn parts(&self) -> Option<Vec<String>> {
+        let one = |entry: &Entry<'r, 'a>| match entry.number() {
+            Some(number) => Some(number.to_string()),
+            None => entry.text().map(str::to_owned),
+        };
+        if self.is_list() { self.list().iter().map(one).collect() } else { Some(vec![one(self)?]) }
+    }
+
     /// Whether the value is a list.
     pub fn is_list(&self) -> bool {
         self.value.get_ref().is_array()

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::capsule::Output;
 
+use super::appearance::Settings;
+
 /// What there is for each case besides the outputs.
 const VERDICTS: [&str; 3] = ["outcome", "period", "cycles"];
 /// What there is for each point of the sections.
@@ -128,6 +130,40 @@ pub struct Drawing {
     pub branches: bool,
     /// Width of the figure [mm]; by default one or two columns of a journal, as the kind needs.
     pub width_mm: Option<f64>,
+    /// Height of the figure [mm]; by default what its panels need.
+    pub height_mm: Option<f64>,
+    /// Dots per inch of its pixels in a PNG file; 600 by default.
+    pub dpi: Option<f64>,
+    /// Diameter of the points of cases [mm]; by default the more there are, the smaller.
+    pub point_mm: Option<f64>,
+    /// Whether it says what its marks mean; what it leaves out is said in any case.
+    pub legend: bool,
+    /// What is set of the quantities that it shows, by their names.
+    pub settings: Settings,
+}
+
+impl Drawing {
+    /// A figure of a kind that chooses everything else by itself.
+    pub fn new(name: impl Into<String>, kind: DrawingKind) -> Drawing {
+        Drawing {
+            name: name.into(),
+            kind,
+            title: None,
+            x: None,
+            y: None,
+            of: Vec::new(),
+            at: BTreeMap::new(),
+            panels: Vec::new(),
+            cycles: None,
+            branches: true,
+            width_mm: None,
+            height_mm: None,
+            dpi: None,
+            point_mm: None,
+            legend: true,
+            settings: Settings::new(),
+        }
+    }
 }
 
 /// Fails where panels along these axes are too many, or none.

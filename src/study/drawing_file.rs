@@ -4,10 +4,13 @@ use std::collections::BTreeMap;
 
 use crate::capsule::{Dimension, Output, Parameter};
 
+use super::appearance::{Setting, Settings, dimension_of};
 use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
 use super::drawing::{Held, check_panels};
-use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine};
+use super::{
+    Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine, parse_quantity,
+};
 
 /// The unit of widths [m].
 const MILLIMETRE: f64 = 1e-3;
@@ -72,6 +75,9 @@ fn read_drawing(
             table.missing(key, "a figure to have a name and a kind");
         }
     }
+    let millimetres = |key: &str| {
+        table.entry(key).and_then(|entry| entry.quantity_in(Dimension::Length, MILLIMETRE))
+    };
     let held = table.table("at").map(|at| read_at(&at, axes, kind)).unwrap_or_default();
     let (at, panels) = held;
     Drawing {
@@ -85,8 +91,29 @@ fn read_drawing(
         panels,
         cycles: table.entry("cycles").and_then(|entry| read_cycles(&entry)),
         branches: table.entry("branches").and_then(|entry| entry.truth()).unwrap_or(true),
-        width_mm: table.entry("width").and_then(|e| e.quantity_in(Dimension::Length, MILLIMETRE)),
+        width_mm: millimetres("width"),
+        height_mm: millimetres("height"),
+        dpi: table.entry("dpi").and_then(|entry| entry.quantity(Dimension::Number)),
+        point_mm: millimetres("point"),
+        legend: table.entry("legend").and_then(|entry| entry.truth()).unwrap_or(true),
+        settings: read_settings(table),
     }
+}
+
+/// What is set of quantities: a table for each setting, with quantities by their names.
+fn read_settings(table: &Table<'_, '_>) -> Settings {
+    let mut settings = Settings::new();
+    for (key, setting) in Setting::NAMES {
+        for (name, entry) in table.table(key).iter().flat_map(Table::entries) {
+            let put = dimension_of(&name).and_then(|dimension| {
+                let Some(parts) = entry.parts() else { return Ok(()) };
+                let of_name = settings.entry(name).or_default();
+                of_name.put(setting, dimension, (&parts, parse_quantity))
+            });
+            put.err().into_iter().for_each(|message| entry.fault(message));
+        }
+    }
+    settings
 }
 
 /// What a figure of this kind can run along: the axes, and the parameters of branches where it shows them.

@@ -1,5 +1,6 @@
 //! Asked: what to compute, from a study's file or from code, as cases by index.
 
+pub mod appearance;
 pub mod axis;
 mod axis_file;
 pub mod block;
@@ -22,6 +23,7 @@ mod study_text;
 mod toml_text;
 mod without_effect;
 
+pub use appearance::{ColourMap, Colouring, QuantitySettings, ScaleChoice, Setting, Settings};
 pub use axis::{Axis, Coordinate, Spacing};
 pub use block::spread;
 pub use case_set::CaseSet;

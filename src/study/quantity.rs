@@ -13,7 +13,14 @@ fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {
         }
         Dimension::Damping => &[("N s/m", 1.0), ("kg/s", 1.0), ("N s/mm", 1e3), ("kN s/m", 1e3)],
         Dimension::QuadraticDamping => &[("N s2/m2", 1.0), ("kg/m", 1.0)],
-        Dimension::Length => &[("m", 1.0), ("mm", 1e-3), ("cm", 1e-2), ("um", 1e-6)],
+        Dimension::Length => &[
+            ("m", 1.0),
+            ("mm", 1e-3),
+            ("cm", 1e-2),
+            ("um", 1e-6),
+            ("in", 0.0254),
+            ("pt", 0.0254 / 72.0),
+        ],
         Dimension::Force => &[("N", 1.0), ("mN", 1e-3), ("kN", 1e3)],
         Dimension::AngularFrequency => &[
             ("rad/s", 1.0),
@@ -29,6 +36,7 @@ fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {
         Dimension::Power => &[("W", 1.0), ("mW", 1e-3), ("uW", 1e-6)],
         Dimension::EnergyPerLength => &[("J/m", 1.0), ("mJ/m", 1e-3), ("mJ/mm", 1.0)],
         Dimension::Rate => &[("1/s", 1.0)],
+        Dimension::Time => &[("s", 1.0), ("ms", 1e-3), ("min", 60.0)],
         Dimension::Number => &[("", 1.0), ("%", 1e-2)],
     }
 }
@@ -50,8 +58,14 @@ fn name(dimension: Dimension) -> &'static str {
         Dimension::Power => "a power",
         Dimension::EnergyPerLength => "an energy per length",
         Dimension::Rate => "a rate",
+        Dimension::Time => "a time",
         Dimension::Number => "a plain number",
     }
+}
+
+/// The unit of a dimension that `text` names, with its size in SI.
+pub fn unit(text: &str, dimension: Dimension) -> Option<(&'static str, f64)> {
+    units(dimension).iter().find(|(known, _)| plain(known) == plain(text)).copied()
 }
 
 /// What is expected where a quantity of `dimension` stands, with its units.
@@ -79,9 +93,7 @@ pub fn parse_in(text: &str, dimension: Dimension, unit_size: f64) -> Result<f64,
         return Err(format!("\"{text}\" does not begin with a number; expected {expected}"));
     };
     let unit = plain(unit);
-    let size_in = |dimension| {
-        units(dimension).iter().find(|(known, _)| plain(known) == unit).map(|&(_, size)| size)
-    };
+    let size_in = |dimension| self::unit(&unit, dimension).map(|it| it.1);
     if let Some(size) = size_in(dimension) {
         return Ok(value * (size / unit_size));
     }

@@ -2,15 +2,16 @@
 
 use std::fmt::Debug;
 
-use crate::capsule::{Output, Parameter, State};
+use crate::capsule::{Dimension, Output, Parameter, State};
 use crate::orbit::{HistorySpan, Protocol};
 
+use super::appearance::dimension_of;
 use super::continuation::FirstOrbit;
 use super::draws::Range;
-use super::toml_text::{Document, inline, list, number, quantity, text};
+use super::toml_text::{Document, inline, list, number, plain_quantity, quantity, text};
 use super::{
-    Axis, CaseSet, Continuation, Coordinate, Drawing, Draws, Fault, Faults, Grid, Inherit, Refine,
-    Spacing, Study,
+    Axis, CaseSet, Continuation, Coordinate, Drawing, Draws, Fault, Faults, Grid, Inherit,
+    QuantitySettings, Refine, Setting, Spacing, Study,
 };
 
 impl Study {
@@ -297,7 +298,28 @@ fn write_drawing(document: &mut Document, drawing: &Drawing) {
         document.put("cycles", list(cycles.into_iter().map(number)));
     }
     document.put("branches", drawing.branches);
-    if let Some(width) = drawing.width_mm {
-        document.put("width", text(&format!("{width:?} mm")));
+    let sizes =
+        [("width", drawing.width_mm), ("height", drawing.height_mm), ("point", drawing.point_mm)];
+    for (key, size) in sizes {
+        if let Some(size) = size {
+            document.put(key, text(&format!("{size:?} mm")));
+        }
+    }
+    if let Some(dpi) = drawing.dpi {
+        document.put("dpi", number(dpi));
+    }
+    document.put("legend", drawing.legend);
+    for (key, setting) in Setting::NAMES {
+        let of_quantity = |(name, set): (&String, &QuantitySettings)| {
+            let dimension = dimension_of(name).unwrap_or(Dimension::Number);
+            let parts = set.parts(setting, |value| plain_quantity(value, dimension))?;
+            let parts: Vec<String> = parts.iter().map(|part| text(part)).collect();
+            let value = if setting.is_list() { list(parts.into_iter()) } else { parts.concat() };
+            Some((text(name), value))
+        };
+        let all: Vec<_> = drawing.settings.iter().filter_map(of_quantity).collect();
+        if !all.is_empty() {
+            document.put(key, inline(all.into_iter()));
+        }
     }
 }

@@ -49,9 +49,15 @@ pub(super) fn number(value: f64) -> String {
 
 /// A quantity of `dimension`, of which `value` is given in SI.
 pub(super) fn quantity(value: f64, dimension: Dimension) -> String {
+    let plain = plain_quantity(value, dimension);
+    if dimension == Dimension::Number { plain } else { text(&plain) }
+}
+
+/// The same without quotes.
+pub(super) fn plain_quantity(value: f64, dimension: Dimension) -> String {
     match dimension {
         Dimension::Number => number(value),
-        _ => format!("\"{value:?} {}\"", dimension.unit()),
+        _ => format!("{value:?} {}", dimension.unit()),
     }
 }
 

@@ -26,19 +26,7 @@ pub fn into<'a>(folder: &'a Path, formats: &'a [Format]) -> Place<'a> {
 
 /// A request for a figure of this kind, all else as usual.
 pub fn drawing(name: &str, kind: DrawingKind) -> Drawing {
-    Drawing {
-        name: name.into(),
-        kind,
-        title: None,
-        x: None,
-        y: None,
-        of: Vec::new(),
-        at: BTreeMap::new(),
-        panels: Vec::new(),
-        cycles: None,
-        branches: true,
-        width_mm: None,
-    }
+    Drawing::new(name, kind)
 }
 
 #[test]

@@ -117,17 +117,10 @@ at = { omega = "20 rad/s" }
     let dataset = store::read(&dir.path("s.h5")).expect("a result");
     assert_eq!(dataset.attributes["start_inherited_along"], "omega");
     let drawing = |x: &str, at: &str| Drawing {
-        name: "d".into(),
-        kind: DrawingKind::Bifurcation,
-        title: None,
         x: Some(x.into()),
-        y: None,
         of: vec!["progression_speed".into()],
         at: BTreeMap::from([(at.into(), if at == "omega" { 20.0 } else { 4.0 })]),
-        panels: Vec::new(),
-        cycles: None,
-        branches: true,
-        width_mm: None,
+        ..Drawing::new("d", DrawingKind::Bifurcation)
     };
     // Over another axis the name says along which the starts were inherited: more letters, more outlines.
     let place = Place { folder: dir.folder(), formats: &[Format::Svg], overwrite: true };

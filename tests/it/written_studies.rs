@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 
 use capsulemap::capsule::{Allowed, Output, Parameter, Parameters, Resistance, State, Switching};
 use capsulemap::orbit::{HistorySpan, Protocol};
+use capsulemap::study::appearance::NATURAL;
 use capsulemap::study::{
-    Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Drawing, DrawingKind, Draws,
-    FirstOrbit, Grid, Inherit, Range, Spacing, Study,
+    Axis, CaseSet, ColourMap, Colouring, Continuation, Coordinate, Direction, DrawKind, Drawing,
+    DrawingKind, Draws, FirstOrbit, Grid, Inherit, QuantitySettings, Range, ScaleChoice, Settings,
+    Spacing, Study,
 };
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -222,6 +224,39 @@ impl Random {
             cycles: self.is_so().then_some([from, from + 0.5]),
             branches: self.is_so(),
             width_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
+            height_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
+            dpi: self.is_so().then(|| self.uniform(50.0, 2400.0)),
+            point_mm: self.is_so().then(|| self.uniform(0.02, 5.0)),
+            legend: self.is_so(),
+            settings: self.settings(),
+        }
+    }
+
+    fn settings(&mut self) -> Settings {
+        let names = ["omega", "delta", "progression_speed", "section_r", "period", "start_phase"];
+        let names = self.some(&names);
+        names.into_iter().map(|name| (name.to_owned(), self.quantity_settings(name))).collect()
+    }
+
+    fn quantity_settings(&mut self, name: &str) -> QuantitySettings {
+        let low = self.uniform(1e-3, 1.0);
+        let width = self.is_so().then(|| self.uniform(1e-6, 1e-3));
+        let scales = [ScaleChoice::Linear, ScaleChoice::Log, ScaleChoice::Symlog(width)];
+        let unit = if name == "omega" { ["rad/s", "Hz", NATURAL] } else { ["um", "mm", "m"] };
+        let has_unit = ["omega", "delta", "section_r"].contains(&name);
+        let maps = ColourMap::NAMES.iter().map(|(_, map)| *map).collect::<Vec<_>>();
+        // A quantity of which nothing is set is not written.
+        QuantitySettings {
+            limits: self.is_so().then_some([low, low + 0.25]),
+            scale: Some(self.one(&scales)),
+            unit: (has_unit && self.is_so()).then(|| self.one(&unit)),
+            label: self.is_so().then(|| self.text(&[])),
+            decimals: self.is_so().then(|| self.below(13)),
+            colour_map: self
+                .is_so()
+                .then(|| Colouring { map: self.one(&maps), reversed: self.is_so() }),
+            centre: self.is_so().then(|| self.number(Allowed::Finite)),
+            contours: (0..self.below(3)).map(|_| self.number(Allowed::Finite)).collect(),
         }
     }
 

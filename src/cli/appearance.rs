@@ -1,0 +1,113 @@
+//! What the command line sets of a figure: its size, and how it shows quantities.
+
+use clap::Args;
+
+use super::arguments::plain_or_quantity;
+use crate::capsule::Dimension;
+use crate::study::appearance::dimension_of;
+use crate::study::{Drawing, Setting, parse_quantity};
+
+/// Options that set how a figure looks.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Appearance")]
+pub struct Appearance {
+    /// Width, in mm unless another unit is named, such as "3.4 in" or "246 pt".
+    #[arg(long, requires = "kind")]
+    width: Option<String>,
+    /// Height, likewise.
+    #[arg(long, requires = "kind")]
+    height: Option<String>,
+    /// Diameter of the points of cases, likewise.
+    #[arg(long, requires = "kind")]
+    point: Option<String>,
+    /// Dots per inch of a PNG file; 600 by default.
+    #[arg(long, requires = "kind")]
+    dpi: Option<f64>,
+    /// Leave out what the marks mean; what the figure leaves out is still said.
+    #[arg(long, requires = "kind")]
+    no_legend: bool,
+    /// Ends of an axis, or of colours, by the quantity that they show.
+    #[arg(long, value_name = "NAME=LOW,HIGH", requires = "kind", allow_hyphen_values = true)]
+    limits: Vec<String>,
+    /// How values are spread: linear, log, or symlog with the width of its linear part if it is set.
+    #[arg(long, value_name = "NAME=SCALE", requires = "kind")]
+    scale: Vec<String>,
+    /// Unit of a quantity, as Hz, deg or, for frequencies, sqrt(k1/m1).
+    #[arg(long, value_name = "NAME=UNIT", requires = "kind")]
+    unit: Vec<String>,
+    /// What a quantity is called; symbols stand between dollar signs, as in $k_2$.
+    #[arg(long, value_name = "NAME=TEXT", requires = "kind")]
+    label: Vec<String>,
+    /// Digits after the point of the numbers along an axis.
+    #[arg(long, value_name = "NAME=COUNT", requires = "kind")]
+    decimals: Vec<String>,
+    /// Colours of values: viridis, cividis, magma, inferno, plasma, greys, blues, blue-red, purple-orange, green-brown or
+    /// turbo, each also with -reversed.
+    #[arg(long, value_name = "NAME=COLOURS", requires = "kind")]
+    colour_map: Vec<String>,
+    /// Value in the middle of the colours.
+    #[arg(long, value_name = "NAME=VALUE", requires = "kind", allow_hyphen_values = true)]
+    centre: Vec<String>,
+    /// Values at which a map has contour lines.
+    #[arg(long, value_name = "NAME=VALUE,...", requires = "kind", allow_hyphen_values = true)]
+    contours: Vec<String>,
+}
+
+impl Appearance {
+    /// The drawing as these options set it; all faults otherwise.
+    pub fn set(&self, drawing: Drawing) -> Result<Drawing, Vec<String>> {
+        let mut faults = Vec::new();
+        let mut drawing = Drawing { dpi: self.dpi, legend: !self.no_legend, ..drawing };
+        let sizes = [
+            ("width", &self.width, &mut drawing.width_mm),
+            ("height", &self.height, &mut drawing.height_mm),
+            ("point", &self.point, &mut drawing.point_mm),
+        ];
+        for (option, text, size) in sizes {
+            match text.as_deref().map(millimetres).transpose() {
+                Ok(found) => *size = found,
+                Err(fault) => faults.push(format!("--{option}: {fault}")),
+            }
+        }
+        for (key, setting) in Setting::NAMES {
+            for text in self.of(setting) {
+                let put = put(&mut drawing, setting, text);
+                let option = key.replace('_', "-");
+                faults.extend(put.err().map(|fault| format!("--{option} {text}: {fault}")));
+            }
+        }
+        if faults.is_empty() { Ok(drawing) } else { Err(faults) }
+    }
+
+    /// What is given of a setting.
+    fn of(&self, setting: Setting) -> &[String] {
+        match setting {
+            Setting::Limits => &self.limits,
+            Setting::Scale => &self.scale,
+            Setting::Unit => &self.unit,
+            Setting::Label => &self.label,
+            Setting::Decimals => &self.decimals,
+            Setting::ColourMap => &self.colour_map,
+            Setting::Centre => &self.centre,
+            Setting::Contours => &self.contours,
+        }
+    }
+}
+
+/// A length [mm]; a plain number is in millimetres.
+fn millimetres(text: &str) -> Result<f64, String> {
+    let plain = text.trim().parse::<f64>().ok();
+    plain.map_or_else(|| Ok(1e3 * parse_quantity(text, Dimension::Length)?), Ok)
+}
+
+/// Sets what "NAME=VALUE" says.
+fn put(drawing: &mut Drawing, setting: Setting, text: &str) -> Result<(), String> {
+    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
+    let dimension = dimension_of(name.trim())?;
+    let parts: Vec<String> = match setting.is_list() {
+        true => value.split(',').map(str::to_owned).collect(),
+        false => vec![value.to_owned()],
+    };
+    let settings = drawing.settings.entry(name.trim().to_owned()).or_default();
+    settings.put(setting, dimension, (&parts, plain_or_quantity))
+}

@@ -1,0 +1,91 @@
+//! What a figure says of the part of the results that it shows: where axes are held, what is taken for something else.
+
+use super::text::Text;
+use super::view::View;
+use crate::store::catalogue::DIRECTION;
+use crate::store::schema::INHERITED_ALONG;
+
+/// Values that differ by no more than this, relative to them, are one.
+const ROUNDING: f64 = 1e-9;
+
+impl View<'_> {
+    /// What is set and has no effect, or leaves values out.
+    pub fn notes_of_settings(&self) -> Vec<String> {
+        self.chosen.iter().flat_map(|(name, chosen)| chosen.notes(name)).collect()
+    }
+
+    /// What `at` asks for and the axes do not have, with the value that was taken, for each.
+    pub fn taken_for_another(&self) -> Vec<String> {
+        let note = |(name, index, wanted): (&String, usize, f64)| {
+            let (taken, unit) = (*self.coordinate_values(name).get(index)?, self.unit(name));
+            let differs = (taken - wanted).abs() > ROUNDING * taken.abs().max(wanted.abs());
+            let note = format!("{name} = {taken}{unit} is taken for {wanted}{unit}, the nearest");
+            differs.then_some(note)
+        };
+        let held = self.held.iter();
+        let one = held.filter_map(|(name, at)| Some((name, *at, *self.drawing.at.get(name)?)));
+        let several = self.drawing.panels.iter().zip(&self.panelled).flat_map(
+            |((name, wanted), (_, taken))| {
+                wanted.iter().zip(taken).map(move |it| (name, *it.1, *it.0))
+            },
+        );
+        one.chain(several).filter_map(note).collect()
+    }
+
+    /// What a figure shows, in a sentence kept inside its files.
+    pub fn about(&self, outputs: &[String], free: &[&str]) -> String {
+        let over =
+            if free.is_empty() { String::new() } else { format!(" over {}", free.join(", ")) };
+        let held = self.held_record(free);
+        let at = if held.is_empty() { String::new() } else { format!(" at {held}") };
+        format!("{}{over}{at}", outputs.join(", "))
+    }
+
+    /// Where the axes other than `free` are held, as "name = value unit".
+    pub fn held_record(&self, free: &[&str]) -> String {
+        let mut notes = Vec::new();
+        for name in self.axes().into_iter().filter(|name| !free.contains(name)) {
+            if let Some(value) = self.coordinate_values(name).get(self.held_index(name)) {
+                notes.push(format!("{name} = {value}{}", self.unit(name)));
+            }
+        }
+        notes.join(", ")
+    }
+
+    /// The part of the study that a figure shows, for those of its axes that have several values
+    /// and are not among `free`.
+    pub fn held_note(&self, free: &[&str]) -> Option<Text> {
+        let several = |name: &&str| self.coordinate_values(name).len() > 1;
+        let ours = self.axes().into_iter().filter(|name| !free.contains(name)).filter(several);
+        ours.map(|name| self.value_note(name, self.held_index(name)))
+            .reduce(|note, next| note.then(Text::plain(", ")).then(next))
+    }
+
+    /// The note on where the axes are held, and on what is left out.
+    pub fn note(&self, free: &[&str], left_out: &Option<String>) -> Option<Text> {
+        let left_out = left_out.as_deref().map(Text::plain);
+        let parts = self.held_note(free).into_iter().chain(left_out);
+        parts.reduce(|note, next| note.then(Text::plain("; ")).then(next))
+    }
+
+    /// The name of a direction in which starts were inherited, with the axis that it goes along unless that is `x`.
+    pub fn direction_name(&self, name: &str, x: Option<&str>) -> String {
+        match self.dataset.attributes.get(INHERITED_ALONG) {
+            Some(axis) if x != Some(axis.as_str()) => format!("{name} in {axis}"),
+            _ => name.to_owned(),
+        }
+    }
+
+    /// A value of an axis, as "symbol = value unit" or by its name where values have names.
+    pub fn value_note(&self, axis: &str, index: usize) -> Text {
+        let value = self.coordinate_values(axis).get(index).copied().unwrap_or(f64::NAN);
+        let flags = self.dataset.coordinate(axis).map_or(&[][..], |it| &it.flags);
+        match flags.iter().find(|(code, _)| *code as f64 == value) {
+            Some((_, name)) if axis == DIRECTION.name => {
+                Text::plain(&self.direction_name(name, None))
+            }
+            Some((_, name)) => Text::plain(name),
+            None => self.quantity(axis).note(value),
+        }
+    }
+}
