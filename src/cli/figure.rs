@@ -13,7 +13,7 @@ use crate::campaign::study_of;
 use crate::figure::Place;
 use crate::store::{self, Archive, Dataset};
 use crate::study::document::unknown;
-use crate::study::{Coordinate, Drawing, DrawingKind, Held, check_panels};
+use crate::study::{Coordinate, Drawing, DrawingKind, Held, Sweep, check_panels};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -43,7 +43,13 @@ pub struct Figure {
     /// several values.
     #[arg(long, value_name = "AXIS=VALUE", requires = "kind")]
     at: Vec<String>,
-    /// Heading above the axes.
+    /// Which cases of sweeps in both directions are shown; a map shows their difference, too.
+    #[arg(long, value_parser = named(Sweep::NAMES), requires = "kind")]
+    sweep: Option<Sweep>,
+    /// What the colours of points tell in a diagram or a trade-off: an output, an axis, attractor, direction, period or outcome.
+    #[arg(long, value_name = "NAME", requires = "kind")]
+    colour_by: Option<String>,
+    /// Heading above the axes; symbols stand between dollar signs, as in $k_2$.
     #[arg(long, requires = "kind")]
     title: Option<String>,
     /// Cycles that a history shows, as 0,5.
@@ -93,6 +99,8 @@ impl Figure {
             at,
             panels,
             cycles: self.cycles()?,
+            sweep: self.sweep,
+            colour_by: self.colour_by.clone(),
             branches: !self.no_branches,
             ..Drawing::new(name, kind)
         };

@@ -6,13 +6,15 @@ use super::branch_lines::BranchLines;
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::cloud::{self, Dot};
-use super::diagram::{has_points, request, span, with_branch_lines};
+use super::diagram::{explain, has_points, paint, request, span, with_branch_lines, with_paint};
 use super::error::FigureError;
 use super::event_marks::EventMarks;
 use super::geometry::{Point, Rect};
 use super::header::{self, Mark};
+use super::page::PageRequest;
+use super::paint::Paint;
 use super::panel::Panel;
-use super::style::{ATTRACTORS, COEXISTENCE, FAINT_INK, MINOR_WIDTH};
+use super::style::{ATTRACTORS, COEXISTENCE, FAINT_INK, MINOR_WIDTH, UNDECIDED_DOT};
 use super::symbol::Symbol;
 use super::text::Text;
 use super::track::elsewhere;
@@ -42,9 +44,10 @@ pub fn draw(
     let values: Vec<f64> =
         view.axis_values(x_name)?.iter().map(|value| value * quantity.factor).collect();
     let looks = looks(attractors);
+    let paint = paint(view, &attractors.free, values.len())?;
     let clouds = outputs
         .iter()
-        .map(|output| points(view, output, &values, attractors, &looks))
+        .map(|output| points(view, output, &values, (attractors, paint.as_ref()), &looks))
         .collect::<Result<Vec<_>, _>>()?;
     let has_section = SECTION.iter().any(|entry| outputs.iter().any(|it| it == entry.name));
     let marks = match has_section {
@@ -60,10 +63,11 @@ pub fn draw(
     let note = view.note(&attractors.free, &left_out);
     let mut page = request(view, &outputs, (&clouds, &lines), abscissa, note);
     if let Some(first) = page.rows.first_mut().and_then(|row| row.first_mut()) {
-        first.header.legend = legend(attractors, &marks, !windows.is_empty());
+        first.header.legend = legend((attractors, paint.is_some()), &marks, !windows.is_empty());
     }
-    page.rows = with_branch_lines(page.rows, &clouds, &lines);
-    let (mut canvas, panels) = page.lay_out();
+    page.rows = with_paint(with_branch_lines(page.rows, &clouds, &lines), paint.as_ref());
+    let room = |height: f64| paint.as_ref().map_or(0.0, |it| it.room(height));
+    let (mut canvas, panels) = PageRequest { right_room: &room, ..page }.lay_out();
     let shown = clouds.iter().zip(&lines).zip(&outputs);
     for (panel, ((cloud, lines), output)) in panels.iter().flatten().zip(shown) {
         shade(&mut canvas, panel, &windows);
@@ -79,6 +83,7 @@ pub fn draw(
         lines.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }
+    explain(&mut canvas, &panels, paint.as_ref());
     Ok(canvas.finish(&view.about(&outputs, &attractors.free)).noting(left_out))
 }
 
@@ -117,7 +122,7 @@ fn points(
     view: &View<'_>,
     output: &str,
     x_values: &[f64],
-    attractors: &Attractors<'_>,
+    (attractors, paint): (&Attractors<'_>, Option<&Paint>),
     looks: &[Look],
 ) -> Result<Vec<Vec<Dot>>, FigureError> {
     let array = view.shown(output, &attractors.free)?;
@@ -131,7 +136,9 @@ fn points(
         let shown = &values[case * per_case..(case + 1) * per_case];
         let finite: Vec<f64> = shown.iter().copied().filter(|it| it.is_finite()).collect();
         let crowding = (finite.len() * x_values.len()) as f64;
-        let (x, colour) = (x_values[case / attractors.per_value], looks[cloud].colour());
+        let own = paint.map(|it| it.colour(case).unwrap_or(UNDECIDED_DOT));
+        let (x, colour) =
+            (x_values[case / attractors.per_value], own.unwrap_or(looks[cloud].colour()));
         clouds[cloud].extend(finite.into_iter().map(|y| Dot { at: (x, y), colour, crowding }));
     }
     Ok(clouds)
@@ -178,9 +185,13 @@ fn mark_zero(canvas: &mut Canvas, panel: &Panel, output: &str, view: &View<'_>) 
     }
 }
 
-fn legend(attractors: &Attractors<'_>, marks: &EventMarks, shaded: bool) -> Vec<header::Entry> {
+fn legend(
+    (attractors, has_own_colours): (&Attractors<'_>, bool),
+    marks: &EventMarks,
+    shaded: bool,
+) -> Vec<header::Entry> {
     let mut legend = Vec::new();
-    let count = attractors.own.len();
+    let count = if has_own_colours { 0 } else { attractors.own.len() };
     if (2..=NAMED).contains(&count) {
         let disc = |place: usize| Mark::Disc(Look::Own(place).colour(), 1.8);
         let name = |place: usize| Text::plain(&format!("attractor {}", place + 1));
@@ -190,7 +201,7 @@ fn legend(attractors: &Attractors<'_>, marks: &EventMarks, shaded: bool) -> Vec<
         legend.push((discs, Text::plain("attractors, each in its colour")));
     }
     for (look, words) in [(Look::Other, "further attractors"), (Look::Undecided, "undecided")] {
-        if attractors.has(look) {
+        if attractors.has(look) && !has_own_colours {
             legend.push((Mark::Disc(look.colour(), 1.4), Text::plain(words)));
         }
     }

@@ -8,19 +8,20 @@ use super::axis::AxisRequest;
 use super::branch_lines::{BranchLines, faded};
 use super::canvas::Drawn;
 use super::cloud::{self, Dot};
-use super::diagram::{has_points, request, span, with_branch_lines};
+use super::diagram::{explain, has_points, paint, request, span, with_branch_lines, with_paint};
 use super::error::FigureError;
 use super::header::Mark;
 use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
-use super::style::{BLUE, INK, VERMILION};
+use super::paint::Paint;
+use super::style::{BLUE, INK, UNDECIDED_DOT, VERMILION};
 use super::text::Text;
 use super::varied::along;
 use super::view::View;
-use super::{attractors, event_marks, track};
+use super::{attractors, category, event_marks, track};
 use crate::capsule::Output;
-use crate::store::catalogue::{DIRECTION, Entry, Place, SECTION_R};
+use crate::store::catalogue::{ATTRACTOR, DIRECTION, Entry, Place, SECTION_R};
 use crate::study::Drawing;
 
 /// Panels of a bifurcation diagram, unless others are asked for.
@@ -55,6 +56,8 @@ fn reads(drawing: &Drawing) -> Names {
     };
     Names::of(outcome::READS)
         .and(attractors::READS)
+        .and(category::READS)
+        .and_named(drawing.colour_by.clone())
         .and_all(event_marks::reads())
         .and_all(track::reads(&outputs))
         .and_named(outputs)
@@ -75,8 +78,14 @@ fn abscissa<'a>(view: &View<'a>) -> Result<&'a str, FigureError> {
 /// Draws the bifurcation diagram that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let x_name = abscissa(view)?;
-    if let Some(attractors) = Attractors::along(view, x_name)? {
-        return attractor_diagram::draw(view, x_name, &attractors);
+    let by = view.drawing.colour_by.as_deref();
+    match Attractors::along(view, x_name)? {
+        Some(attractors) => return attractor_diagram::draw(view, x_name, &attractors),
+        None if by == Some(ATTRACTOR.name) => {
+            let why = "`colour_by`: the results tell no attractors, as no axis is a start";
+            return Err(view.unfit(why));
+        }
+        None => {}
     }
     let mut branches = branches(view, x_name);
     let mut free = vec![x_name];
@@ -95,9 +104,14 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     if lines.iter().any(|lines| !lines.is_empty()) {
         branches.iter_mut().for_each(Branch::step_back);
     }
+    // Directions have colours of their own.
+    let paint = match by == Some(DIRECTION.name) && free.len() > 1 {
+        true => None,
+        false => paint(view, &free, values.len())?,
+    };
     let clouds = outputs
         .iter()
-        .map(|output| points(view, output, &values, &free, &branches))
+        .map(|output| points(view, output, &values, (&free, paint.as_ref()), &branches))
         .collect::<Result<Vec<_>, _>>()?;
     let reached: Vec<f64> = lines.iter().flat_map(BranchLines::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
@@ -105,10 +119,11 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let note = view.note(&free, &left_out);
     let page = request(view, &outputs, (&clouds, &lines), abscissa, note);
     // Without cases there are only the lines of branches to explain.
-    let shown = if values.is_empty() { &[][..] } else { &branches[..] };
+    let shown = if values.is_empty() || paint.is_some() { &[][..] } else { &branches[..] };
     let rows = with_legend(page.rows, shown);
-    let page = PageRequest { rows: with_branch_lines(rows, &clouds, &lines), ..page };
-    let (mut canvas, panels) = page.lay_out();
+    let rows = with_paint(with_branch_lines(rows, &clouds, &lines), paint.as_ref());
+    let room = |height: f64| paint.as_ref().map_or(0.0, |it| it.room(height));
+    let (mut canvas, panels) = PageRequest { rows, right_room: &room, ..page }.lay_out();
     let shown = clouds.iter().zip(&lines).zip(&outputs);
     for (panel, ((cloud, lines), output)) in panels.iter().flatten().zip(shown) {
         if !has_points(view, output) {
@@ -121,6 +136,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         lines.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }
+    explain(&mut canvas, &panels, paint.as_ref());
     Ok(canvas.finish(&view.about(&outputs, &free)).noting(left_out))
 }
 
@@ -148,7 +164,7 @@ fn points(
     view: &View<'_>,
     output: &str,
     x_values: &[f64],
-    free: &[&str],
+    (free, paint): (&[&str], Option<&Paint>),
     branches: &[Branch],
 ) -> Result<Vec<Vec<Dot>>, FigureError> {
     // Orbits may have been continued alone, or along what is no axis.
@@ -172,7 +188,9 @@ fn points(
             let shown = &values[case * per_case..(case + 1) * per_case];
             let finite: Vec<f64> = shown.iter().copied().filter(|it| it.is_finite()).collect();
             let crowding = (finite.len() * x_values.len()) as f64;
-            let dot = |y| Dot { at: (*x, y), colour: branch.colour, crowding };
+            let own = paint.map(|it| it.colour(case).unwrap_or(UNDECIDED_DOT));
+            let colour = own.unwrap_or(branch.colour);
+            let dot = |y| Dot { at: (*x, y), colour, crowding };
             dots.extend(finite.into_iter().map(dot));
         }
         dots

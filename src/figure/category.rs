@@ -10,12 +10,13 @@ use super::inferred;
 use super::outcome::Outcomes;
 use super::raster::Fill;
 use super::style::{
-    CHAOTIC, INFERRED, LONG_PERIOD, NOT_YET, PAPER, PERIODS, QUASI_PERIODIC, SMALL_SIZE, UNDECIDED,
+    ATTRACTORS, CHAOTIC, INFERRED, LONG_PERIOD, NOT_YET, OTHER_ATTRACTOR, PAPER, PERIODS,
+    QUASI_PERIODIC, SMALL_SIZE, UNDECIDED,
 };
 use super::text::Text;
 use super::view::View;
 use crate::capsule::Output;
-use crate::store::catalogue::{Entry, OUTCOME, PERIOD};
+use crate::store::catalogue::{ATTRACTOR, Entry, OUTCOME, PERIOD};
 
 /// Tells motions in which the capsule never slides.
 const STICK_SHARE: Entry = Entry::of_output(Output::StickShare);
@@ -54,25 +55,37 @@ impl Kinds {
         name: &str,
         free: &[&str],
     ) -> Result<Kinds, FigureError> {
-        // The kinds with their places in the legend, in the order in which cases show them.
+        let mut sorted = Vec::new();
+        for panel in panels {
+            sorted.extend(kinds(panel, name, free)?);
+        }
+        Ok(Kinds::sorted(sorted, view.quantity(name).short_name()))
+    }
+
+    /// Whether the cases of two sweeps are of the same kind.
+    pub fn of_difference(
+        [first, second]: [&View<'_>; 2],
+        name: &str,
+        free: &[&str],
+    ) -> Result<Kinds, FigureError> {
+        let both = kinds(first, name, free)?.into_iter().zip(kinds(second, name, free)?);
+        let kind = |(a, b): ((usize, Kind), (usize, Kind))| {
+            let words = if a == b { "upward and downward alike" } else { "different" };
+            let colour = if a == b { PAPER } else { PERIODS[4] };
+            (usize::from(a != b), Kind { name: words.to_owned(), colour: Some(colour) })
+        };
+        Ok(Kinds::sorted(both.map(kind).collect(), first.quantity(name).short_name()))
+    }
+
+    /// The kinds of cases that occur in the order of their places in the legend.
+    fn sorted(kinds: Vec<(usize, Kind)>, heading: Text) -> Kinds {
         let mut present: Vec<(usize, Kind)> = Vec::new();
         let mut of_case = Vec::new();
-        let flags = view.flags(name);
-        for panel in panels {
-            let codes = panel.take(name, free)?;
-            let outcomes = Outcomes::over(panel, free)?;
-            let resting = resting(panel, free)?;
-            for (case, code) in codes.iter().enumerate() {
-                let kind = match name == PERIOD.name {
-                    true if resting.get(case) == Some(&true) => rest(),
-                    true => by_period(*code, outcomes.name(case)),
-                    false => by_flag(*code, flags),
-                };
-                let known = present.iter().position(|other| other.1 == kind.1);
-                of_case.push(known.unwrap_or(present.len()) as u16);
-                if known.is_none() {
-                    present.push(kind);
-                }
+        for kind in kinds {
+            let known = present.iter().position(|other| other.1 == kind.1);
+            of_case.push(known.unwrap_or(present.len()) as u16);
+            if known.is_none() {
+                present.push(kind);
             }
         }
         let mut order: Vec<usize> = (0..present.len()).collect();
@@ -84,7 +97,7 @@ impl Kinds {
         let places: Vec<u16> = (0..present.len() as u16).map(|it| place(it) as u16).collect();
         of_case.iter_mut().for_each(|it| *it = places[usize::from(*it)]);
         let kinds = order.iter().map(|&it| present[it].1.clone()).collect();
-        Ok(Kinds { kinds, heading: view.quantity(name).short_name(), of_case })
+        Kinds { kinds, heading, of_case }
     }
 
     /// The colour of a case.
@@ -110,6 +123,39 @@ impl Kinds {
             let at = (left - 1.0 + MARK, baseline);
             canvas.text(&Text::plain(&kind.name), at, SMALL_SIZE, Anchor::Start);
         }
+    }
+}
+
+/// Whether the values of a variable or an axis are kinds, which have no order.
+pub fn is_sorted(view: &View<'_>, name: &str) -> bool {
+    name == PERIOD.name || name == ATTRACTOR.name || !view.flags(name).is_empty()
+}
+
+/// The kind of each case with its place in the legend.
+fn kinds(view: &View<'_>, name: &str, free: &[&str]) -> Result<Vec<(usize, Kind)>, FigureError> {
+    let codes = view.parameter(name, free)?;
+    let (flags, outcomes) = (view.flags(name), Outcomes::over(view, free)?);
+    let resting = resting(view, free)?;
+    let kind = |(case, code): (usize, &f64)| match name {
+        _ if name == ATTRACTOR.name => by_attractor(*code),
+        _ if name != PERIOD.name => by_flag(*code, flags),
+        _ if resting.get(case) == Some(&true) => rest(),
+        _ => by_period(*code, outcomes.name(case)),
+    };
+    Ok(codes.iter().enumerate().map(kind).collect())
+}
+
+/// The kind of a case that leads to an attractor, by its number.
+fn by_attractor(number: f64) -> (usize, Kind) {
+    let place = match number {
+        number if number >= 0.0 => number as usize,
+        _ => return (98, Kind { name: "no attractor known".to_owned(), colour: Some(UNDECIDED) }),
+    };
+    match ATTRACTORS.get(place) {
+        Some(colour) => {
+            (place, Kind { name: format!("attractor {}", place + 1), colour: Some(*colour) })
+        }
+        None => (97, Kind { name: "further attractors".to_owned(), colour: Some(OTHER_ATTRACTOR) }),
     }
 }
 

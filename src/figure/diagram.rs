@@ -2,15 +2,19 @@
 
 use super::axis::AxisRequest;
 use super::branch_lines::BranchLines;
+use super::canvas::Canvas;
 use super::cloud::Dot;
+use super::error::FigureError;
+use super::geometry::Rect;
 use super::header::{Header, Mark};
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
-use super::panel::Pointing;
+use super::paint::Paint;
+use super::panel::{Panel, Pointing};
 use super::scale::{Scale, Spacing, finite_range};
-use super::style::ONE_COLUMN;
+use super::style::{ONE_COLUMN, UNDECIDED_DOT};
 use super::text::Text;
 use super::view::View;
-use crate::store::catalogue::Place;
+use crate::store::catalogue::{ATTRACTOR, Place};
 
 /// Height of the frames of section coordinates [pt].
 const SECTION_HEIGHT: f64 = 125.0;
@@ -99,4 +103,37 @@ pub fn with_branch_lines(
     let known: Vec<Mark> = legend.iter().map(|(mark, _)| *mark).collect();
     legend.extend(entries.into_iter().filter(|(mark, _)| !known.contains(mark)));
     rows
+}
+
+/// The colours of the cases over the axes `free`, where the request names what tells them; attractors have colours of their own.
+pub fn paint(view: &View<'_>, free: &[&str], values: usize) -> Result<Option<Paint>, FigureError> {
+    let by = view.drawing.colour_by.as_deref().filter(|by| *by != ATTRACTOR.name && values > 0);
+    let Some(by) = by else { return Ok(None) };
+    let lengths = free.iter().map(|axis| view.coordinate_values(axis).len());
+    let cases = lengths.product();
+    Paint::of((view, std::slice::from_ref(view)), by, (free, cases)).map(Some)
+}
+
+/// The rows with what colours do not explain in the first legend.
+pub fn with_paint(
+    mut rows: Vec<Vec<PanelRequest>>,
+    paint: Option<&Paint>,
+) -> Vec<Vec<PanelRequest>> {
+    let first = rows.first_mut().and_then(|row| row.first_mut());
+    if let (Some(first), Some(paint)) = (first, paint) {
+        let mark = |(mark, words): (Mark, Text)| match mark {
+            Mark::Filled(_) => (Mark::Disc(UNDECIDED_DOT, 1.6), words),
+            mark => (mark, words),
+        };
+        first.header.legend.extend(paint.legend().into_iter().map(mark));
+    }
+    rows
+}
+
+/// Draws the bar or the list that explains the colours beside all panels.
+pub fn explain(canvas: &mut Canvas, panels: &[Vec<Panel>], paint: Option<&Paint>) {
+    let all = || panels.iter().flatten();
+    if let (Some(first), Some(last), Some(paint)) = (all().next(), all().last(), paint) {
+        paint.explain(canvas, Rect { bottom: last.frame.bottom, ..first.frame });
+    }
 }

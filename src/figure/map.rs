@@ -1,11 +1,8 @@
 //! One output over two axes, in colours.
 
-use plotters::style::RGBColor;
-
 use super::axis::AxisRequest;
-use super::canvas::{Canvas, Drawn};
-use super::category::{self, Kinds};
-use super::colour::Colours;
+use super::canvas::Drawn;
+use super::category;
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
@@ -13,16 +10,17 @@ use super::inferred;
 use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
+use super::paint::Paint;
 use super::panel::{Panel, Pointing};
 use super::plane::{CONTOUR, Plane};
 use super::raster::Fill;
-use super::style::{INFERRED, INFINITE, ONE_COLUMN, TWO_COLUMNS};
+use super::style::{ONE_COLUMN, TWO_COLUMNS};
 use super::text::Text;
 use super::ticks::short;
 use super::view::View;
 use crate::capsule::Output;
-use crate::store::catalogue::{self, Entry, PERIOD, Type};
-use crate::study::Drawing;
+use crate::store::catalogue::{self, Entry, Type};
+use crate::study::{Direction, Drawing, Sweep};
 
 /// The output shown, unless another is asked for.
 const OUTPUT: Entry = Entry::of_output(Output::ProgressionSpeed);
@@ -30,71 +28,6 @@ const OUTPUT: Entry = Entry::of_output(Output::ProgressionSpeed);
 const HEIGHT: f64 = 158.0;
 /// Height of each of several frames [pt].
 const HEIGHT_OF_SEVERAL: f64 = 100.0;
-
-/// How the cells are coloured.
-enum Paint {
-    /// By their values; those that are inferred and have none are marked.
-    Numbers(Option<Colours>, Vec<f64>, Vec<bool>),
-    Kinds(Kinds),
-}
-
-impl Paint {
-    /// The colour of a case; none where it has no value.
-    fn colour(&self, case: usize) -> Option<RGBColor> {
-        match self {
-            Paint::Numbers(_, values, _) if values[case].is_infinite() => Some(INFINITE),
-            Paint::Numbers(_, values, inferred) if values[case].is_nan() => {
-                inferred[case].then_some(INFERRED)
-            }
-            Paint::Numbers(colours, values, _) => {
-                colours.as_ref().filter(|it| it.has(values[case])).map(|it| it.of(values[case]))
-            }
-            Paint::Kinds(kinds) => kinds.colour(case),
-        }
-    }
-
-    /// Room beside frames of this height for the bar or the list of kinds [pt].
-    fn room(&self, height: f64) -> f64 {
-        match self {
-            Paint::Numbers(colours, ..) => colours.as_ref().map_or(0.0, |it| it.room(height)),
-            Paint::Kinds(kinds) => kinds.room(),
-        }
-    }
-
-    /// Draws the bar or the list of kinds beside a frame.
-    fn explain(&self, canvas: &mut Canvas, frame: Rect) {
-        match self {
-            Paint::Numbers(Some(colours), ..) => colours.draw_bar(canvas, frame),
-            Paint::Numbers(None, ..) => {}
-            Paint::Kinds(kinds) => kinds.draw_legend(canvas, frame),
-        }
-    }
-
-    /// The entries that the colour bar does not explain.
-    fn legend(&self) -> Vec<(Mark, Text)> {
-        let Paint::Numbers(colours, values, inferred) = self else { return Vec::new() };
-        let mut legend = Vec::new();
-        if values.iter().any(|value| value.is_infinite()) {
-            legend.push((Mark::Patch(INFINITE), Text::plain("infinite")));
-        }
-        let mut without = values.iter().zip(inferred).filter(|(value, _)| value.is_nan());
-        if without.clone().any(|(_, inferred)| *inferred) {
-            legend.push((Mark::Patch(INFERRED), Text::plain("not computed")));
-        }
-        let has_none = without.any(|(_, inferred)| !inferred);
-        let has_no_place =
-            |colours: &Colours| values.iter().any(|it| it.is_finite() && !colours.has(*it));
-        let words = match (has_none, colours.as_ref().is_some_and(has_no_place)) {
-            (true, true) => "no value, or not above zero",
-            (false, true) => "not above zero",
-            _ => "no value",
-        };
-        if has_none || words != "no value" {
-            legend.push((Mark::Filled(Fill::NO_VALUE), Text::plain(words)));
-        }
-        legend
-    }
-}
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
@@ -138,6 +71,24 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         paint.explain(&mut canvas, Rect { right, bottom: last.frame.bottom, ..first.frame });
     }
     Ok(canvas.finish(&view.about(&[output], &names)))
+}
+
+/// The colours of the cases of all panels.
+fn paint(
+    (view, panels): (&View<'_>, &[View<'_>]),
+    output: &str,
+    cases: (&[&str], usize),
+) -> Result<Paint, FigureError> {
+    match (view.drawing.sweep, panels) {
+        (Some(Sweep::Difference), [first]) => {
+            let second = first.swept(Direction::Downward)?;
+            Paint::of_difference([first, &second], output, cases)
+        }
+        (Some(Sweep::Difference), _) => {
+            Err(view.unfit("the difference of two sweeps has one panel, and `at` asks for several"))
+        }
+        _ => Paint::of((view, panels), output, cases),
+    }
 }
 
 /// The values at which there are contour lines, in the unit shown.
@@ -213,33 +164,4 @@ fn page<'a>(
         bottom_room: 0.0,
         pointing: Pointing::Outward,
     }
-}
-
-/// The colours of the cases of one panel after the other.
-fn paint(
-    (view, panels): (&View<'_>, &[View<'_>]),
-    output: &str,
-    (free, cases): (&[&str], usize),
-) -> Result<Paint, FigureError> {
-    let (mut all, mut all_inferred) = (Vec::new(), Vec::new());
-    for panel in panels {
-        let mut values: Vec<f64> = panel.shown(output, free)?.into_iter().collect();
-        if values.len() != cases {
-            let why = format!("`{output}` has several values per case, and a map shows one");
-            return Err(view.unfit(why));
-        }
-        let outcomes = Outcomes::over(panel, free)?;
-        for (case, value) in values.iter_mut().enumerate() {
-            if outcomes.failed(case) {
-                *value = f64::NAN;
-            }
-        }
-        all.extend(values);
-        all_inferred.extend(inferred::inferred(&outcomes, cases));
-    }
-    if output == PERIOD.name || !view.flags(output).is_empty() {
-        return Ok(Paint::Kinds(Kinds::of((view, panels), output, free)?));
-    }
-    let colours = Colours::for_values(&all, view.quantity(output));
-    Ok(Paint::Numbers(colours, all, all_inferred))
 }

@@ -31,6 +31,7 @@ mod optima_table;
 mod outcome;
 mod output;
 mod page;
+mod paint;
 mod panel;
 mod phase_portrait;
 mod plane;
@@ -67,7 +68,7 @@ pub use shown::Shown;
 use crate::capsule::Parameter;
 use crate::store::catalogue::Entry;
 use crate::study::appearance::NATURAL;
-use crate::study::{Drawing, DrawingKind};
+use crate::study::{Drawing, DrawingKind, Sweep};
 use canvas::Drawn;
 use output::Figure;
 use view::View;
@@ -170,12 +171,18 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
         let (kind, of) = (kind.name(), of.join(", "));
         return Err(view.unfit(format!("a {kind} shows one output, and `of` names {of}")));
     }
+    let drawing = view.drawing;
+    if drawing.colour_by.is_some() && !kind.keys().coloured {
+        return Err(view.unfit(format!("`colour_by` does not go with a {}", kind.name())));
+    }
+    if drawing.sweep == Some(Sweep::Difference) && kind != DrawingKind::Map {
+        return Err(view.unfit("only a map shows the difference of two sweeps"));
+    }
     let shows_all = kind == DrawingKind::Bifurcation || kind.keys().between;
     if shows_all && inferred::has_inferred(view) {
         let why = "shows computed cases, and most of a refined grid are inferred; draw a map";
         return Err(view.unfit(format!("a {} {why}, or compute all", kind.name())));
     }
-    let drawing = view.drawing;
     let sizes = [
         ("width", drawing.width_mm, style::WIDTHS, " mm"),
         ("height", drawing.height_mm, style::WIDTHS, " mm"),

@@ -4,6 +4,7 @@ use super::text::Text;
 use super::view::View;
 use crate::store::catalogue::DIRECTION;
 use crate::store::schema::INHERITED_ALONG;
+use crate::study::Sweep;
 
 /// Values that differ by no more than this, relative to them, are one.
 const ROUNDING: f64 = 1e-9;
@@ -56,7 +57,11 @@ impl View<'_> {
     /// and are not among `free`.
     pub fn held_note(&self, free: &[&str]) -> Option<Text> {
         let several = |name: &&str| self.coordinate_values(name).len() > 1;
+        // What is told of the difference of two sweeps holds for both.
+        let is_both =
+            |name: &&str| *name == DIRECTION.name && self.drawing.sweep == Some(Sweep::Difference);
         let ours = self.axes().into_iter().filter(|name| !free.contains(name)).filter(several);
+        let ours = ours.filter(|name| !is_both(name));
         ours.map(|name| self.value_note(name, self.held_index(name)))
             .reduce(|note, next| note.then(Text::plain(", ")).then(next))
     }

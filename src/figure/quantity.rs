@@ -112,6 +112,11 @@ impl Quantity {
         }
     }
 
+    /// The quantity with words behind its name.
+    pub fn followed_by(self, words: &str) -> Quantity {
+        Quantity { name: self.name.then(Text::plain(words)), ..self }
+    }
+
     /// The scale of values of it, in the unit shown: logarithmic for positive ratios that span many decades, unless the
     /// request sets another.
     pub fn scale(&self, values: &[f64], margin: f64) -> Scale {

@@ -2,16 +2,19 @@
 
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn, Stroke};
+use super::category;
 use super::cloud::{self, Dot};
-use super::colour::Colours;
 use super::error::FigureError;
 use super::header::{Entry, Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::optima_table::Table;
 use super::outcome;
 use super::page::{NO_ROOM, PageRequest, PanelRequest};
+use super::paint::Paint;
 use super::panel::{Panel, Pointing};
-use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, INK, MINOR_WIDTH, ONE_COLUMN, VERMILION};
+use super::style::{
+    BLUE, CURVE_WIDTH, FAINT_INK, INK, MINOR_WIDTH, ONE_COLUMN, UNDECIDED_DOT, VERMILION,
+};
 use super::text::Text;
 use super::trade_off_motions::{Best, Motions};
 use super::trade_off_table::{BETWEEN, OPEN, marked, table};
@@ -45,6 +48,8 @@ fn reads(drawing: &Drawing) -> Names {
     let drawn = Coordinate::all().map(|it| it.name().to_owned());
     Names::of(outcome::READS)
         .and([SPEED, PER_METRE])
+        .and(category::READS)
+        .and_named(drawing.colour_by.clone())
         .and_named(drawn.chain([price(drawing).to_owned()]))
 }
 
@@ -59,8 +64,8 @@ struct TradeOff<'v, 'a> {
     motions: Motions<'a>,
     /// The best in each direction.
     best: [Best; 2],
-    /// The colours of an axis, and the axis' value for each case.
-    hue: Option<(Colours, Vec<f64>)>,
+    /// The colours of the cases.
+    paint: Option<Paint>,
 }
 
 /// Draws the trade-off that `view` asks for.
@@ -69,17 +74,17 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let free = view.free_axes();
     let motions = Motions::of(view, price, &free)?;
     let best = DIRECTIONS.map(|direction| motions.best(direction));
-    let hue = hue(view, &free)?;
+    let paint = paint(view, &free)?;
     let factors = [price, SPEED.name].map(|name| view.quantity(name).factor);
-    let shown = TradeOff { view, price, factors, free: &free, motions, best, hue };
+    let shown = TradeOff { view, price, factors, free: &free, motions, best, paint };
     let table = table((view, &free), price, (&shown.motions, &shown.best))?;
-    let bar = |height: f64| shown.hue.as_ref().map_or(0.0, |(colours, _)| colours.room(height));
+    let bar = |height: f64| shown.paint.as_ref().map_or(0.0, |it| it.room(height));
     let page = PageRequest { right_room: &bar, ..shown.request(&table) };
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         shown.draw(&mut canvas, panel);
-        if let Some((colours, _)) = &shown.hue {
-            colours.draw_bar(&mut canvas, panel.frame);
+        if let Some(paint) = &shown.paint {
+            paint.explain(&mut canvas, panel.frame);
         }
         panel.finish(&mut canvas);
     }
@@ -105,8 +110,8 @@ impl TradeOff<'_, '_> {
         let motions = &self.motions;
         let crowding = motions.cases().len() as f64;
         let dot = |case: &Candidate| {
-            let of_axis = |(colours, of): &(Colours, Vec<f64>)| colours.of(of[case.case]);
-            let colour = self.hue.as_ref().map_or(BLUE, of_axis);
+            let own = |paint: &Paint| paint.colour(case.case).unwrap_or(UNDECIDED_DOT);
+            let colour = self.paint.as_ref().map_or(BLUE, own);
             let colour = if motions.is_periodic(case) { colour } else { FAINT_INK };
             Dot { at: self.place((case.price, case.speed)), colour, crowding }
         };
@@ -210,18 +215,15 @@ impl TradeOff<'_, '_> {
     }
 }
 
-/// The colours of an axis, and the axis' value for each case.
-fn hue(view: &View<'_>, free: &[&str]) -> Result<Option<(Colours, Vec<f64>)>, FigureError> {
-    let wanted = view.drawing.x.as_deref();
+/// The colours of the cases: by what the request names, else by the axis `x` or the first that varies.
+fn paint(view: &View<'_>, free: &[&str]) -> Result<Option<Paint>, FigureError> {
     let long = |name: &&&str| **name != DRAW.name && view.coordinate_values(name).len() > 1;
+    let wanted = view.drawing.colour_by.as_deref().or(view.drawing.x.as_deref());
     let Some(name) = wanted.or_else(|| free.iter().find(long).copied()) else {
         return Ok(None);
     };
-    let quantity = view.quantity(name);
-    let factor = quantity.factor;
-    let values: Vec<f64> = view.axis_values(name)?.iter().map(|value| value * factor).collect();
-    let of_case = view.parameter(name, free)?.iter().map(|value| value * factor).collect();
-    Ok(Some((Colours::for_axis(&values, quantity), of_case)))
+    let cases = free.iter().map(|axis| view.coordinate_values(axis).len()).product();
+    Paint::of((view, std::slice::from_ref(view)), name, (free, cases)).map(Some)
 }
 
 /// The front as stairs: up to the next case, the last one stays the best.

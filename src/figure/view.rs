@@ -17,8 +17,8 @@ use crate::campaign::RefinedMotion;
 use crate::capsule::Parameter;
 use crate::store::catalogue::{self, DIRECTION, DRAW, Entry, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
-use crate::study::Drawing;
 use crate::study::axis::{is_within, range};
+use crate::study::{Direction, Drawing};
 
 /// Whether a dimension lies within a case or beside the cases, and is no axis of the study.
 fn is_inner(dimension: &str) -> bool {
@@ -68,6 +68,11 @@ impl<'a> View<'a> {
             view.held.extend(indices.first().map(|first| (name.clone(), *first)));
             view.panelled.push((name.clone(), indices));
         }
+        if let Some(sweep) = drawing.sweep {
+            let [first, _] = sweep.directions();
+            let index = view.direction(first)?;
+            view.held.push((DIRECTION.name.to_owned(), index));
+        }
         let mut chosen = BTreeMap::new();
         for (name, set) in &drawing.settings {
             let unit = |unit| ShownUnit::of(name, unit, || view.natural_frequency());
@@ -94,6 +99,33 @@ impl<'a> View<'a> {
             chosen.fault().map(|fault| self.unfit(format!("`scale` of {name}: {fault}")))
         };
         self.chosen.iter().find_map(fault)
+    }
+
+    /// The index of a direction in which starts were inherited.
+    fn direction(&self, direction: Direction) -> Result<usize, FigureError> {
+        let flags = self.flags(DIRECTION.name);
+        let code = flags.iter().find(|(_, name)| name == direction.name()).map(|it| it.0 as f64);
+        let index = self.coordinate_values(DIRECTION.name).iter().position(|it| Some(*it) == code);
+        index.ok_or_else(|| {
+            let wanted = direction.name();
+            self.unfit(format!("`sweep`: the starts of these results were not inherited {wanted}"))
+        })
+    }
+
+    /// The same for the cases whose starts were inherited in another direction.
+    pub fn swept(&self, direction: Direction) -> Result<View<'a>, FigureError> {
+        let index = self.direction(direction)?;
+        let others = self.held.iter().filter(|(name, _)| name != DIRECTION.name).cloned();
+        let held = others.chain([(DIRECTION.name.to_owned(), index)]).collect();
+        let View { dataset, refined, drawing, .. } = *self;
+        Ok(View {
+            dataset,
+            refined,
+            drawing,
+            held,
+            panelled: Vec::new(),
+            chosen: self.chosen.clone(),
+        })
     }
 
     /// What each panel shows, row by row: those of the first axis that is held at several values, those of the second side by side.
@@ -340,6 +372,7 @@ impl<'a> View<'a> {
 
     /// The name and meaning of each category of an integer variable.
     pub fn flags(&self, name: &str) -> &'a [(i64, String)] {
-        self.dataset.variable(name).map_or(&[], |variable| &variable.flags)
+        let stored = self.dataset.variable(name).or_else(|| self.dataset.coordinate(name));
+        stored.map_or(&[], |variable| &variable.flags)
     }
 }

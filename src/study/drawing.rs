@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::capsule::Output;
 
 use super::appearance::Settings;
+use super::grid::Direction;
 
 /// What there is for each case besides the outputs.
 const VERDICTS: [&str; 3] = ["outcome", "period", "cycles"];
@@ -30,11 +31,22 @@ pub struct Keys {
     pub between: bool,
     /// Whether `at` may hold axes at several values, with a panel for each.
     pub panels: bool,
+    /// Whether its points can be coloured by what `colour_by` names.
+    pub coloured: bool,
 }
 
 /// Keys that name axes only.
-const AXES: Keys =
-    Keys { outputs: false, others: &[], most: 0, continued: false, between: false, panels: false };
+const AXES: Keys = Keys {
+    outputs: false,
+    others: &[],
+    most: 0,
+    continued: false,
+    between: false,
+    panels: false,
+    coloured: false,
+};
+/// What tells the colours of points beside outputs.
+pub const COLOURED_BY: [&str; 4] = ["attractor", "direction", "period", "outcome"];
 /// Axes along which panels lie at most, and panels of a figure at most.
 const PANELS: [usize; 2] = [2, 16];
 /// How many names `of` takes where there is no limit.
@@ -67,7 +79,7 @@ kinds! {
     PhasePortrait "phase-portrait" AXES;
     /// A section coordinate over an axis, with the progression speed below it.
     Bifurcation "bifurcation"
-        Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true, ..AXES };
+        Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true, coloured: true, ..AXES };
     /// One output over two axes.
     Map "map" Keys { outputs: true, others: &[&VERDICTS], most: 1, panels: true, ..AXES };
     /// Which attractor each start leads to, over two coordinates of the start.
@@ -79,7 +91,7 @@ kinds! {
     /// The stroboscopic section points of one case, and its impacts.
     Section "section" AXES;
     /// Progression speed against an energy per cycle.
-    TradeOff "trade-off" Keys { outputs: true, most: 1, between: true, ..AXES };
+    TradeOff "trade-off" Keys { outputs: true, most: 1, between: true, coloured: true, ..AXES };
     /// The speed of the fastest motion of each cell over two axes, and beside it what it costs, with the fronts on both.
     TradeOffMaps "trade-off-maps" Keys { outputs: true, most: 1, between: true, ..AXES };
     /// Special points of branches as curves in two parameters.
@@ -98,6 +110,39 @@ impl DrawingKind {
         let outputs = if keys.outputs { outputs } else { &[] };
         let others = keys.others.iter().copied().flatten().copied();
         outputs.iter().map(|output| output.name()).chain(others).collect()
+    }
+}
+
+/// Which of the cases of sweeps in both directions a figure shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sweep {
+    /// Those whose starts were inherited upward.
+    Upward,
+    /// Those whose starts were inherited downward.
+    Downward,
+    /// What the latter have more than the former, for maps.
+    Difference,
+}
+
+impl Sweep {
+    /// Each by its name.
+    pub const NAMES: &[(&str, Sweep)] = &[
+        ("upward", Sweep::Upward),
+        ("downward", Sweep::Downward),
+        ("difference", Sweep::Difference),
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Sweep::NAMES[self as usize].0
+    }
+
+    /// The direction that is shown, or from which the difference is taken, and the other.
+    pub fn directions(self) -> [Direction; 2] {
+        match self {
+            Sweep::Upward | Sweep::Difference => [Direction::Upward, Direction::Downward],
+            Sweep::Downward => [Direction::Downward, Direction::Upward],
+        }
     }
 }
 
@@ -126,6 +171,11 @@ pub struct Drawing {
     pub panels: Vec<(String, Vec<f64>)>,
     /// Range of cycles shown by a history, counted from its start; all by default.
     pub cycles: Option<[f64; 2]>,
+    /// Which cases of sweeps in both directions it shows; by default, diagrams show all and maps those of the first.
+    pub sweep: Option<Sweep>,
+    /// What the colours of points tell: an output, or `attractor`, `period`, `outcome`, `direction`; the kind of figure has its
+    /// own default.
+    pub colour_by: Option<String>,
     /// Whether a bifurcation diagram shows the branches, too.
     pub branches: bool,
     /// Width of the figure [mm]; by default one or two columns of a journal, as the kind needs.
@@ -155,6 +205,8 @@ impl Drawing {
             at: BTreeMap::new(),
             panels: Vec::new(),
             cycles: None,
+            sweep: None,
+            colour_by: None,
             branches: true,
             width_mm: None,
             height_mm: None,

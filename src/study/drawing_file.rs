@@ -7,7 +7,7 @@ use crate::capsule::{Dimension, Output, Parameter};
 use super::appearance::{Setting, Settings, dimension_of};
 use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
-use super::drawing::{Held, check_panels};
+use super::drawing::{COLOURED_BY, Held, Sweep, check_panels};
 use super::{
     Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine, parse_quantity,
 };
@@ -90,6 +90,8 @@ fn read_drawing(
         at,
         panels,
         cycles: table.entry("cycles").and_then(|entry| read_cycles(&entry)),
+        sweep: table.entry("sweep").and_then(|it| read_sweep(&it, kind)),
+        colour_by: table.entry("colour_by").and_then(|it| read_colour_by(&it, kind, axes, outputs)),
         branches: table.entry("branches").and_then(|entry| entry.truth()).unwrap_or(true),
         width_mm: millimetres("width"),
         height_mm: millimetres("height"),
@@ -175,6 +177,32 @@ fn read_of(of: &Entry<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output]) ->
         kind.can_show(outputs).into_iter().map(|name| (name, name)).collect();
     let known = |entry: &Entry<'_, '_>| entry.one_of("output for this kind of figure", &names);
     list.iter().filter_map(known).map(str::to_owned).collect()
+}
+
+/// Which of the sweeps is shown; only maps show a difference.
+fn read_sweep(entry: &Entry<'_, '_>, kind: Option<DrawingKind>) -> Option<Sweep> {
+    let sweep = entry.one_of("sweep", Sweep::NAMES);
+    if sweep == Some(Sweep::Difference) && kind.is_some_and(|kind| kind != DrawingKind::Map) {
+        entry.fault("only a map shows a difference");
+    }
+    sweep
+}
+
+/// What tells the colours of points.
+fn read_colour_by(
+    entry: &Entry<'_, '_>,
+    kind: Option<DrawingKind>,
+    axes: &[Axis],
+    outputs: &[Output],
+) -> Option<String> {
+    let kind = kind?;
+    if !kind.keys().coloured {
+        entry.fault(format!("does not go with a figure of the kind {}", kind.name()));
+    }
+    let names = outputs.iter().map(|it| it.name()).chain(COLOURED_BY);
+    let names = names.chain(axes.iter().map(|it| it.coordinate.name()));
+    let names: Vec<_> = names.map(|name| (name, name)).collect();
+    entry.one_of("output, axis or kind", &names).map(str::to_owned)
 }
 
 fn read_cycles(entry: &Entry<'_, '_>) -> Option<[f64; 2]> {

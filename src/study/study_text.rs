@@ -297,6 +297,12 @@ fn write_drawing(document: &mut Document, drawing: &Drawing) {
     if let Some(cycles) = drawing.cycles {
         document.put("cycles", list(cycles.into_iter().map(number)));
     }
+    if let Some(sweep) = drawing.sweep {
+        document.put("sweep", text(sweep.name()));
+    }
+    if let Some(name) = &drawing.colour_by {
+        document.put("colour_by", text(name));
+    }
     document.put("branches", drawing.branches);
     let sizes =
         [("width", drawing.width_mm), ("height", drawing.height_mm), ("point", drawing.point_mm)];

@@ -6,9 +6,9 @@ use capsulemap::capsule::{Allowed, Output, Parameter, Parameters, Resistance, St
 use capsulemap::orbit::{HistorySpan, Protocol};
 use capsulemap::study::appearance::NATURAL;
 use capsulemap::study::{
-    Axis, CaseSet, ColourMap, Colouring, Continuation, Coordinate, Direction, DrawKind, Drawing,
-    DrawingKind, Draws, FirstOrbit, Grid, Inherit, QuantitySettings, Range, ScaleChoice, Settings,
-    Spacing, Study,
+    Axis, COLOURED_BY, CaseSet, ColourMap, Colouring, Continuation, Coordinate, Direction,
+    DrawKind, Drawing, DrawingKind, Draws, FirstOrbit, Grid, Inherit, QuantitySettings, Range,
+    ScaleChoice, Settings, Spacing, Study, Sweep,
 };
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -222,6 +222,9 @@ impl Random {
             at,
             panels: Vec::new(),
             cycles: self.is_so().then_some([from, from + 0.5]),
+            sweep: self.is_so().then(|| self.one(&[Sweep::Upward, Sweep::Downward])),
+            colour_by: (kind.keys().coloured && self.is_so())
+                .then(|| self.one(&COLOURED_BY).to_owned()),
             branches: self.is_so(),
             width_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
             height_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),

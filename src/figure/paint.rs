@@ -1,0 +1,149 @@
+//! The colours of cases: by a quantity with a bar, or by kinds with a list.
+
+use plotters::style::RGBColor;
+
+use super::canvas::Canvas;
+use super::category::{self, Kinds};
+use super::colour::Colours;
+use super::error::FigureError;
+use super::geometry::Rect;
+use super::header::Mark;
+use super::inferred;
+use super::outcome::Outcomes;
+use super::raster::Fill;
+use super::style::{INFERRED, INFINITE};
+use super::text::Text;
+use super::view::View;
+
+/// What follows the name of a quantity whose difference between two sweeps is shown.
+const DIFFERENCE: &str = ", downward − upward";
+
+/// How cases are coloured.
+pub enum Paint {
+    /// By their values; those that are inferred and have none are marked.
+    Numbers(Option<Colours>, Vec<f64>, Vec<bool>),
+    /// By their kinds.
+    Kinds(Kinds),
+}
+
+impl Paint {
+    /// The colours of the cases of one panel after the other, of which each has so many over its axes `free`, by an output, by
+    /// kinds, or by an axis.
+    pub fn of(
+        (view, panels): (&View<'_>, &[View<'_>]),
+        name: &str,
+        (free, cases): (&[&str], usize),
+    ) -> Result<Paint, FigureError> {
+        if category::is_sorted(view, name) {
+            return Ok(Paint::Kinds(Kinds::of((view, panels), name, free)?));
+        }
+        let (mut all, mut all_inferred) = (Vec::new(), Vec::new());
+        for panel in panels {
+            let values = numbers(panel, name, free)?;
+            if values.len() != cases {
+                let why = format!("`{name}` has several values per case; one tells a colour");
+                return Err(view.unfit(why));
+            }
+            all.extend(values);
+            all_inferred.extend(inferred::inferred(&Outcomes::over(panel, free)?, cases));
+        }
+        let is_axis = view.dataset.variable(name).is_none();
+        let quantity = view.quantity(name);
+        let colours = match is_axis {
+            true => {
+                let values = view.axis_values(name)?;
+                let values: Vec<f64> = values.iter().map(|it| it * quantity.factor).collect();
+                Some(Colours::for_axis(&values, quantity))
+            }
+            false => Colours::for_values(&all, quantity),
+        };
+        Ok(Paint::Numbers(colours, all, all_inferred))
+    }
+
+    /// The colours of the differences of two sweeps, the second less the first.
+    pub fn of_difference(
+        [first, second]: [&View<'_>; 2],
+        name: &str,
+        (free, cases): (&[&str], usize),
+    ) -> Result<Paint, FigureError> {
+        if category::is_sorted(first, name) {
+            return Ok(Paint::Kinds(Kinds::of_difference([first, second], name, free)?));
+        }
+        let [of_first, of_second] = [numbers(first, name, free)?, numbers(second, name, free)?];
+        let values: Vec<f64> = of_second.iter().zip(&of_first).map(|(b, a)| b - a).collect();
+        let inferred = [first, second].map(|view| {
+            Ok::<_, FigureError>(inferred::inferred(&Outcomes::over(view, free)?, cases))
+        });
+        let [a, b] = inferred;
+        let inferred = a?.into_iter().zip(b?).map(|(a, b)| a || b).collect();
+        let quantity = first.quantity(name).followed_by(DIFFERENCE);
+        Ok(Paint::Numbers(Colours::for_values(&values, quantity), values, inferred))
+    }
+
+    /// The colour of a case; none where it has no value.
+    pub fn colour(&self, case: usize) -> Option<RGBColor> {
+        match self {
+            Paint::Numbers(_, values, _) if values[case].is_infinite() => Some(INFINITE),
+            Paint::Numbers(_, values, inferred) if values[case].is_nan() => {
+                inferred[case].then_some(INFERRED)
+            }
+            Paint::Numbers(colours, values, _) => {
+                colours.as_ref().filter(|it| it.has(values[case])).map(|it| it.of(values[case]))
+            }
+            Paint::Kinds(kinds) => kinds.colour(case),
+        }
+    }
+
+    /// Room beside frames of this height for the bar or the list of kinds [pt].
+    pub fn room(&self, height: f64) -> f64 {
+        match self {
+            Paint::Numbers(colours, ..) => colours.as_ref().map_or(0.0, |it| it.room(height)),
+            Paint::Kinds(kinds) => kinds.room(),
+        }
+    }
+
+    /// Draws the bar or the list of kinds beside a frame.
+    pub fn explain(&self, canvas: &mut Canvas, frame: Rect) {
+        match self {
+            Paint::Numbers(Some(colours), ..) => colours.draw_bar(canvas, frame),
+            Paint::Numbers(None, ..) => {}
+            Paint::Kinds(kinds) => kinds.draw_legend(canvas, frame),
+        }
+    }
+
+    /// The entries that the colour bar does not explain.
+    pub fn legend(&self) -> Vec<(Mark, Text)> {
+        let Paint::Numbers(colours, values, inferred) = self else { return Vec::new() };
+        let mut legend = Vec::new();
+        if values.iter().any(|value| value.is_infinite()) {
+            legend.push((Mark::Patch(INFINITE), Text::plain("infinite")));
+        }
+        let mut without = values.iter().zip(inferred).filter(|(value, _)| value.is_nan());
+        if without.clone().any(|(_, inferred)| *inferred) {
+            legend.push((Mark::Patch(INFERRED), Text::plain("not computed")));
+        }
+        let has_none = without.any(|(_, inferred)| !inferred);
+        let has_no_place =
+            |colours: &Colours| values.iter().any(|it| it.is_finite() && !colours.has(*it));
+        let words = match (has_none, colours.as_ref().is_some_and(has_no_place)) {
+            (true, true) => "no value, or not above zero",
+            (false, true) => "not above zero",
+            _ => "no value",
+        };
+        if has_none || words != "no value" {
+            legend.push((Mark::Filled(Fill::NO_VALUE), Text::plain(words)));
+        }
+        legend
+    }
+}
+
+/// The numbers of cases over the axes `free` in the unit shown; cases that failed have none.
+fn numbers(view: &View<'_>, name: &str, free: &[&str]) -> Result<Vec<f64>, FigureError> {
+    let factor = view.quantity(name).factor;
+    let outcomes = Outcomes::over(view, free)?;
+    let number = |(case, value): (usize, f64)| match outcomes.failed(case) {
+        true => f64::NAN,
+        false => value * factor,
+    };
+    Ok(view.parameter(name, free)?.into_iter().enumerate().map(number).collect())
+}
