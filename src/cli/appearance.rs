@@ -26,6 +26,12 @@ pub struct Appearance {
     /// Leave out what the marks mean; what the figure leaves out is still said.
     #[arg(long, requires = "kind")]
     no_legend: bool,
+    /// Write the data behind the figure beside it, as CSV in the units of its axes.
+    #[arg(long, requires = "kind")]
+    data: bool,
+    /// Keep text as text in SVG files; they look the same only where the font is.
+    #[arg(long, requires = "kind")]
+    svg_text: bool,
     /// Ends of an axis, or of colours, by the quantity that they show.
     #[arg(long, value_name = "NAME=LOW,HIGH", requires = "kind", allow_hyphen_values = true)]
     limits: Vec<String>,
@@ -57,7 +63,8 @@ impl Appearance {
     /// The drawing as these options set it; all faults otherwise.
     pub fn set(&self, drawing: Drawing) -> Result<Drawing, Vec<String>> {
         let mut faults = Vec::new();
-        let mut drawing = Drawing { dpi: self.dpi, legend: !self.no_legend, ..drawing };
+        let Appearance { dpi, data, svg_text, .. } = *self;
+        let mut drawing = Drawing { dpi, legend: !self.no_legend, data, svg_text, ..drawing };
         let sizes = [
             ("width", &self.width, &mut drawing.width_mm),
             ("height", &self.height, &mut drawing.height_mm),

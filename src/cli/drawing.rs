@@ -84,7 +84,7 @@ pub fn rehearse(empty: &Dataset, drawings: &[Drawing], place: &Place<'_>) -> Res
     let ready: Vec<Drawing> =
         drawings.iter().filter(|it| waits_for(it.kind, empty.into()).is_none()).cloned().collect();
     for drawing in &ready {
-        place.check(&drawing.name).map_err(failure)?;
+        place.check(&drawing.name, drawing.data).map_err(failure)?;
     }
     // In no format at all, nothing is written.
     draw_all(empty.into(), &ready, &Place { formats: &[], ..*place })

@@ -78,6 +78,7 @@ pub fn draw(
         for (dots, look) in cloud.iter().zip(&looks) {
             let share = if *look == Look::Undecided { 0.6 } else { 1.0 };
             cloud::draw(&mut canvas, panel, dots, radius * share);
+            panel.record(&mut canvas, &look.name(), dots.iter().map(|dot| dot.at));
         }
         draw_symbols(&mut canvas, panel, &marks.on(view, output));
         lines.draw(&mut canvas, panel);
@@ -97,6 +98,7 @@ fn draw_symbols(canvas: &mut Canvas, panel: &Panel, symbols: &[(Symbol, f64, f64
         };
         if panel.holds(*x, *y) && !drawn.iter().any(hides) {
             symbol.draw(canvas, at);
+            panel.record(canvas, symbol.words, [(*x, *y)]);
             drawn.push((*symbol, at));
         }
     }

@@ -25,6 +25,15 @@ pub enum Look {
 }
 
 impl Look {
+    /// Its name in the data behind a figure.
+    pub fn name(self) -> String {
+        match self {
+            Look::Undecided => "undecided".to_owned(),
+            Look::Other => "further attractors".to_owned(),
+            Look::Own(place) => format!("attractor {}", place + 1),
+        }
+    }
+
     /// The colour of its points.
     pub fn colour(self) -> RGBColor {
         match self {

@@ -52,6 +52,8 @@ impl AxisRequest {
 pub struct Axis {
     /// From values to places.
     pub scale: Scale,
+    /// What it shows, with its unit.
+    pub name: String,
     /// Marks and numbers.
     pub ticks: Ticks,
     /// The lines of the label; none without one.
@@ -80,6 +82,7 @@ impl Axis {
         let label = label.wrapped(room, LABEL_SIZE);
         Axis {
             scale: request.scale,
+            name: request.quantity.told(),
             ticks,
             label,
             empty: request.empty,

@@ -6,6 +6,7 @@ use plotters::style::RGBColor;
 
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn, Stroke};
+use super::data::Value;
 use super::error::FigureError;
 use super::header::{Header, Mark};
 use super::inferred;
@@ -106,11 +107,13 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         plane.draw(&mut canvas, panel, |case| basins.fill(case));
+        plane.record(&mut canvas, panel, ("attractor", |case| basins.value(case)));
         if let Some(ends) = surface {
             panel.curve(&mut canvas, &ends, Stroke::dashed(INK, REFERENCE_WIDTH));
         }
         mark_saddles(&mut canvas, panel, &saddles);
         mark_points(&mut canvas, panel, &points);
+        panel.record(&mut canvas, "saddles on the boundary", saddles.iter().copied());
         panel.finish(&mut canvas);
     }
     let about = view.about(&[ATTRACTOR.name.to_owned()], &[plane.x_name, plane.y_name]);
@@ -160,6 +163,15 @@ impl Basins {
             _ if self.without[case] => Fill::NO_VALUE,
             number if number < 0 => Fill::Plain(UNDECIDED),
             number => self.of_attractor(number as usize),
+        }
+    }
+
+    /// The attractor of a case, numbered from 1 as in the legend.
+    fn value(&self, case: usize) -> Value {
+        match self.numbers[case] {
+            _ if self.without[case] => Value::None,
+            number if number < 0 => Value::Name("unknown".to_owned()),
+            number => Value::Number(number as f64 + 1.0),
         }
     }
 
@@ -317,6 +329,7 @@ pub(super) fn mark_points(canvas: &mut Canvas, panel: &Panel, points: &[((f64, f
             canvas.discs(&[(at, *colour)], RADIUS - RIM);
         }
     });
+    panel.record(canvas, "section points of the attractors", points.iter().map(|it| it.0));
 }
 
 /// Draws the section points of saddles: rings on paper, as they belong to no basin.

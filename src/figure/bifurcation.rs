@@ -132,6 +132,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let radius = view.radius(cloud.iter().map(Vec::len).sum());
         for (dots, branch) in cloud.iter().zip(&branches) {
             cloud::draw(&mut canvas, panel, dots, radius * branch.size);
+            let name = if branch.name.is_empty() { "cases" } else { &branch.name };
+            panel.record(&mut canvas, name, dots.iter().map(|dot| dot.at));
         }
         lines.draw(&mut canvas, panel);
         panel.finish(&mut canvas);

@@ -79,6 +79,12 @@ impl BranchLines {
         for (lines, stroke) in self.lines.iter().zip(STROKES) {
             lines.iter().for_each(|line| panel.curve(canvas, line, stroke));
         }
+        for (lines, name) in self.lines.iter().zip(STABILITIES) {
+            for (number, line) in lines.iter().enumerate() {
+                let series = format!("{name} orbits, line {}", number + 1);
+                panel.record(canvas, &series, line.iter().copied());
+            }
+        }
         for symbol in SYMBOLS {
             let ours = self.specials.iter().filter(|(other, _)| *other == symbol);
             draw_symbols(canvas, panel, symbol, ours.map(|(_, place)| *place));
@@ -87,7 +93,7 @@ impl BranchLines {
 
     /// What the lines and symbols mean.
     pub fn legend(&self) -> Vec<Entry> {
-        let lines = STROKES.iter().zip(["unstable", "stable"]).zip(&self.lines).rev();
+        let lines = STROKES.iter().zip(STABILITIES).zip(&self.lines).rev();
         let lines = lines
             .filter(|(_, lines)| lines.iter().any(|line| line.len() > 1))
             .map(|((stroke, words), _)| (Mark::Line(*stroke), Text::plain(words)));
@@ -104,6 +110,9 @@ const STROKES: [Stroke; 2] = [
     Stroke { colour: INK, width: 0.5 * CURVE_WIDTH, dash: Dash::None },
 ];
 
+/// What the lines are of, in their order.
+const STABILITIES: [&str; 2] = ["unstable", "stable"];
+
 /// The symbol at those of `places` that lie on the panel.
 pub fn draw_symbols(
     canvas: &mut Canvas,
@@ -113,6 +122,7 @@ pub fn draw_symbols(
 ) {
     for (x, y) in places.filter(|(x, y)| panel.holds(*x, *y)) {
         symbol.draw(canvas, panel.place(x, y));
+        panel.record(canvas, symbol.words, [(x, y)]);
     }
 }
 

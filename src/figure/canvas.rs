@@ -10,6 +10,7 @@ use plotters::prelude::{
 };
 use plotters::style::RGBColor;
 
+use super::data::Data;
 use super::geometry::{Point, Rect};
 use super::raster::Raster;
 use super::style::{FAMILY, INK};
@@ -102,6 +103,8 @@ pub struct Canvas {
     fault: Option<String>,
     /// What of the request does not fit the page.
     pub unfit: Option<String>,
+    /// What is drawn, if it is to be told.
+    pub data: Option<Data>,
 }
 
 /// A finished page.
@@ -116,6 +119,8 @@ pub struct Drawn {
     pub fault: Option<String>,
     /// What of the request does not fit the page.
     pub unfit: Option<String>,
+    /// What is drawn, if it is to be told.
+    pub data: Option<Data>,
     /// What it leaves out or takes for something else, a sentence each.
     pub notes: Vec<String>,
 }
@@ -131,14 +136,9 @@ impl Drawn {
 impl Canvas {
     /// An empty page [pt].
     pub fn new(width: f64, height: f64) -> Canvas {
-        Canvas {
-            width,
-            height,
-            body: String::new(),
-            clips: 0,
-            missing: None,
-            fault: None,
-            unfit: None,
+        {
+            let (missing, fault, unfit, data) = (None, None, None, None);
+            Canvas { width, height, body: String::new(), clips: 0, missing, fault, unfit, data }
         }
     }
 
@@ -319,7 +319,7 @@ impl Canvas {
         );
         let (about, notes) = (about.to_string(), Vec::new());
         let (missing, fault, unfit) = (self.missing, self.fault, self.unfit);
-        Drawn { about, svg, missing, fault, unfit, notes }
+        Drawn { about, svg, missing, fault, unfit, data: self.data, notes }
     }
 }
 

@@ -100,6 +100,16 @@ impl Kinds {
         Kinds { kinds, heading, of_case }
     }
 
+    /// What the kinds are of.
+    pub fn told(&self) -> String {
+        self.heading.content()
+    }
+
+    /// The name of the kind of a case.
+    pub fn name(&self, case: usize) -> Option<String> {
+        self.of_case.get(case).map(|place| self.kinds[usize::from(*place)].name.clone())
+    }
+
     /// The colour of a case.
     pub fn colour(&self, case: usize) -> Option<RGBColor> {
         self.of_case.get(case).and_then(|place| self.kinds[usize::from(*place)].colour)

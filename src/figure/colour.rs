@@ -119,6 +119,11 @@ impl Colours {
         self.scale.can_hold(value)
     }
 
+    /// What they tell, with its unit.
+    pub fn told(&self) -> String {
+        self.quantity.told()
+    }
+
     fn axis(&self, height: f64) -> Axis {
         let request = AxisRequest::new(self.quantity.clone(), self.scale);
         Axis::new(&request, Along::Up, height)

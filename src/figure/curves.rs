@@ -172,6 +172,8 @@ fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
     for symbol in SYMBOLS.into_iter().rev() {
         for curve in curves.iter().filter(|curve| curve.symbol == symbol) {
             panel.curve(canvas, &curve.points, curve.stroke(&periods));
+            let series = format!("{}, period {}", symbol.words, curve.period);
+            panel.record(canvas, &series, curve.points.iter().copied());
         }
     }
     for curve in curves {

@@ -9,6 +9,8 @@ pub enum Format {
     Svg,
     /// Vectors, for papers.
     Pdf,
+    /// The data behind the figure.
+    Csv,
 }
 
 impl Format {
@@ -18,6 +20,7 @@ impl Format {
             Format::Png => "png",
             Format::Svg => "svg",
             Format::Pdf => "pdf",
+            Format::Csv => "csv",
         }
     }
 }

@@ -281,6 +281,7 @@ fn draw_cell(canvas: &mut Canvas, panel: &Panel, cell: &Cell) {
     }
     for curve in &cell.curves {
         panel.curve(canvas, &curve.points, curve.stroke);
+        panel.record(canvas, curve.variable.name, curve.points.iter().copied());
     }
     panel.finish(canvas);
 }

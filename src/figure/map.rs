@@ -60,6 +60,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     for (number, panel) in all.iter().enumerate() {
         let first = number * plane.count();
         plane.draw(&mut canvas, panel, |case| Fill::of(paint.colour(first + case)));
+        plane.record(&mut canvas, panel, (&paint.told(), |case| paint.value(first + case)));
         if let Paint::Numbers(_, values, _) = &paint {
             let of_panel = &values[first..first + plane.count()];
             plane.draw_contours(&mut canvas, panel, of_panel, &levels);

@@ -1,7 +1,7 @@
 //! The mark of a figure's file, by which the program knows it again: no other file is replaced.
 //!
 //! It holds a checksum of the rest, so that a figure that was changed by hand is known for another. Each format keeps it
-//! where readers ignore it: SVG and PDF in a comment at the end, PNG in a chunk of its own before the last.
+//! where readers ignore it: SVG, PDF and CSV in a comment at the end, PNG in a chunk of its own before the last.
 
 use super::format::Format;
 
@@ -16,7 +16,7 @@ const LAST: [u8; 12] = *b"\0\0\0\0IEND\xae\x42\x60\x82";
 pub fn add(format: Format, mut bytes: Vec<u8>) -> Vec<u8> {
     let body = match format {
         Format::Png => bytes.len().saturating_sub(LAST.len()),
-        Format::Svg | Format::Pdf => bytes.len(),
+        Format::Svg | Format::Pdf | Format::Csv => bytes.len(),
     };
     let mark = mark(format, crc32fast::hash(&bytes[..body]));
     bytes.splice(body..body, mark);
@@ -27,7 +27,7 @@ pub fn add(format: Format, mut bytes: Vec<u8>) -> Vec<u8> {
 pub fn is_valid(format: Format, bytes: &[u8]) -> bool {
     let end: &[u8] = match format {
         Format::Png => &LAST,
-        Format::Svg | Format::Pdf => &[],
+        Format::Svg | Format::Pdf | Format::Csv => &[],
     };
     let Some(marked) = bytes.strip_suffix(end) else { return false };
     let length = mark(format, 0).len();
@@ -41,6 +41,7 @@ fn mark(format: Format, sum: u32) -> Vec<u8> {
     match format {
         Format::Svg => format!("<!-- {NAME}{sum:08x} -->\n").into_bytes(),
         Format::Pdf => format!("\n%{NAME}{sum:08x}\n").into_bytes(),
+        Format::Csv => format!("# {NAME}{sum:08x}\n").into_bytes(),
         Format::Png => {
             let inside = [CHUNK, sum.to_be_bytes()].concat();
             let own = crc32fast::hash(&inside);
@@ -60,6 +61,7 @@ mod tests {
             (Format::Png, png),
             (Format::Svg, b"<svg></svg>\n".to_vec()),
             (Format::Pdf, b"%PDF-1.7 %%EOF".to_vec()),
+            (Format::Csv, b"panel,x,y\n".to_vec()),
         ] {
             assert!(!is_valid(format, &file));
             let marked = add(format, file);

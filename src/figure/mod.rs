@@ -13,6 +13,7 @@ mod cloud;
 mod colour;
 mod contour;
 mod curves;
+mod data;
 mod diagram;
 mod error;
 mod branch_lines;
@@ -28,6 +29,7 @@ mod map;
 mod mark;
 mod notes;
 mod optima_table;
+mod origin;
 mod outcome;
 mod output;
 mod page;
@@ -70,6 +72,7 @@ use crate::store::catalogue::Entry;
 use crate::study::appearance::NATURAL;
 use crate::study::{Drawing, DrawingKind, Sweep};
 use canvas::Drawn;
+use origin::Origin;
 use output::Figure;
 use view::View;
 
@@ -96,9 +99,18 @@ pub fn draw<'a>(
     drawing: &'a Drawing,
     place: &Place<'_>,
 ) -> Result<Files, FigureError> {
-    let (drawn, notes) = drawn(shown.into(), drawing)?;
-    let dpi = drawing.dpi.unwrap_or(style::DPI);
-    let figure = Figure { name: &drawing.name, about: &drawn.about, svg: &drawn.svg, dpi };
+    let shown = shown.into();
+    let origin = Origin::of(shown.dataset);
+    let (drawn, notes) = drawn(shown, drawing)?;
+    let figure = Figure {
+        name: &drawing.name,
+        about: &drawn.about,
+        svg: &drawn.svg,
+        data: drawn.data.map(|data| data.text(&drawn.about)),
+        keeps_text: drawing.svg_text,
+        origin: Some(&origin),
+        dpi: drawing.dpi.unwrap_or(style::DPI),
+    };
     Ok(Files { paths: figure.write(place)?, notes })
 }
 
@@ -109,7 +121,8 @@ pub fn picture<'a>(
 ) -> Result<Picture, FigureError> {
     let (drawn, notes) = drawn(shown.into(), drawing)?;
     let (about, svg) = (&drawn.about, &drawn.svg);
-    let figure = Figure { name: &drawing.name, about, svg, dpi: style::SCREEN_DPI };
+    let (name, dpi) = (&drawing.name, style::SCREEN_DPI);
+    let figure = Figure { name, about, svg, data: None, keeps_text: false, origin: None, dpi };
     let (png, width_mm) = figure.raster()?;
     Ok(Picture { png, width_mm, about: drawn.about, notes })
 }

@@ -1,4 +1,4 @@
-//! From a drawing to files: SVG with outlined text, PNG and PDF, each complete or absent.
+//! From a drawing to files: SVG with outlined text, PNG, PDF and the data behind it, each complete or absent.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -16,6 +16,7 @@ use super::error::FigureError;
 use super::font;
 use super::format::Format;
 use super::mark;
+use super::origin::Origin;
 use super::style::FAMILY;
 use super::text::escape;
 use crate::store;
@@ -37,9 +38,11 @@ impl Place<'_> {
         self.folder.join(format!("{name}.{}", format.extension()))
     }
 
-    /// Whether a figure can be written there: fails if a file is in its place that is no figure of this program.
-    pub fn check(&self, name: &str) -> Result<(), FigureError> {
-        for &format in self.formats.iter().filter(|_| !self.overwrite) {
+    /// Whether a figure, and the data behind it if it has them, can be written there: fails if a file is in its place that is no
+    /// figure of this program.
+    pub fn check(&self, name: &str, has_data: bool) -> Result<(), FigureError> {
+        let of_data = has_data.then_some(&Format::Csv);
+        for &format in self.formats.iter().chain(of_data).filter(|_| !self.overwrite) {
             let path = self.path(name, format);
             let is_file = fs::symlink_metadata(&path).map(|it| it.is_file());
             match is_file.and_then(|is_file| if is_file { fs::read(&path) } else { Ok(Vec::new()) })
@@ -61,6 +64,12 @@ pub struct Figure<'a> {
     pub about: &'a str,
     /// The drawing.
     pub svg: &'a str,
+    /// The data behind it as CSV, if they are to be written.
+    pub data: Option<String>,
+    /// Whether its SVG keeps text as text, which looks the same only where the font is.
+    pub keeps_text: bool,
+    /// Where it comes from; none in a picture that is shown at once.
+    pub origin: Option<&'a Origin>,
     /// Dots per inch of its pixels.
     pub dpi: f64,
 }
@@ -69,15 +78,18 @@ impl Figure<'_> {
     /// Writes the figure to its place in each of its formats; says which files came out.
     pub fn write(&self, place: &Place<'_>) -> Result<Vec<PathBuf>, FigureError> {
         let Place { folder, formats, .. } = *place;
-        place.check(self.name)?;
+        place.check(self.name, self.data.is_some())?;
         let tree = self.tree()?;
         if !formats.is_empty() {
             store::create_folder(folder)
                 .map_err(|source| FigureError::Write { figure: self.name.to_string(), source })?;
         }
         let mut paths = Vec::new();
-        for format in formats {
+        let of_data = self.data.iter().filter(|_| !formats.is_empty()).map(|_| &Format::Csv);
+        for format in formats.iter().chain(of_data) {
             let bytes = match format {
+                Format::Csv => self.data.clone().unwrap_or_default().into_bytes(),
+                Format::Svg if self.keeps_text => self.svg.as_bytes().to_vec(),
                 Format::Png => self.png(&tree)?,
                 Format::Svg => self.outlined(&tree).into_bytes(),
                 Format::Pdf => self.pdf(&tree)?,
@@ -131,8 +143,19 @@ impl Figure<'_> {
         let pixels: Vec<u8> =
             pixmap.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
         let size = [pixmap.width(), pixmap.height()];
-        encode((size, self.dpi), &pixels, self.about)
+        encode((size, self.dpi), &pixels, &self.texts())
             .map_err(|error| self.render(error.to_string()))
+    }
+
+    /// What a PNG file says of itself, by the usual keys.
+    fn texts(&self) -> Vec<(&'static str, String)> {
+        let mut texts = vec![("Description", self.about.to_string())];
+        if let Some(origin) = self.origin {
+            texts.push(("Software", origin.program.clone()));
+            texts.push(("Creation Time", origin.time()));
+            texts.extend(origin.study.iter().map(|it| ("Source", format!("study {it}"))));
+        }
+        texts
     }
 
     fn pdf(&self, tree: &Tree) -> Result<Vec<u8>, FigureError> {
@@ -142,9 +165,15 @@ impl Figure<'_> {
         let settings = PageSettings::from_wh(width, height).ok_or_else(empty)?;
         let size = Size::from_wh(width, height).ok_or_else(empty)?;
         let mut document = Document::new();
-        document.set_metadata(
-            Metadata::new().title(self.name.to_string()).description(self.about.to_string()),
-        );
+        let metadata =
+            Metadata::new().title(self.name.to_string()).description(self.about.to_string());
+        document.set_metadata(match self.origin {
+            Some(origin) => metadata
+                .creator(origin.program.clone())
+                .keywords(origin.study.iter().map(|it| format!("study {it}")).collect())
+                .creation_date(origin.of_pdf()),
+            None => metadata,
+        });
         let mut page = document.start_page_with(settings);
         let mut surface = page.surface();
         let drawn = surface.draw_svg(tree, size, SvgSettings::default());
@@ -166,11 +195,11 @@ impl Figure<'_> {
     }
 }
 
-/// An RGB image as PNG with its resolution and a description.
+/// An RGB image as PNG with its resolution and what it says of itself.
 fn encode(
     ([width, height], dpi): ([u32; 2], f64),
     rgb: &[u8],
-    about: &str,
+    texts: &[(&str, String)],
 ) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
@@ -182,7 +211,9 @@ fn encode(
         yppu: per_metre,
         unit: png::Unit::Meter,
     }));
-    encoder.add_itxt_chunk("Description".to_string(), about.to_string())?;
+    for (key, text) in texts {
+        encoder.add_itxt_chunk((*key).to_string(), text.clone())?;
+    }
     let mut writer = encoder.write_header()?;
     writer.write_image_data(rgb)?;
     writer.finish()?;

@@ -2,6 +2,7 @@
 
 use super::axis::{Along, Axis, AxisRequest};
 use super::canvas::{Anchor, Canvas};
+use super::data::Data;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
 use super::panel::{Panel, Pointing, tick_room};
@@ -126,11 +127,23 @@ impl<'a> PageRequest<'a> {
             canvas.text(words, (width / 2.0, baseline), TITLE_SIZE, Anchor::Middle);
         }
         let rows = std::mem::take(&mut self.rows);
-        let place = |(request, (frame, distance))| self.place(request, frame, distance);
-        let row = |(row, frames): (Vec<PanelRequest>, Vec<(Rect, f64)>)| {
-            row.into_iter().zip(frames).map(place).collect()
+        let mut number = 0;
+        let mut place = |(request, (frame, distance))| {
+            number += 1;
+            Panel { number, ..self.place(request, frame, distance) }
         };
-        (canvas, rows.into_iter().zip(frames).map(row).collect())
+        let row = |(row, frames): (Vec<PanelRequest>, Vec<(Rect, f64)>)| {
+            row.into_iter().zip(frames).map(&mut place).collect()
+        };
+        let panels: Vec<Vec<Panel>> = rows.into_iter().zip(frames).map(row).collect();
+        if self.drawing.data {
+            let mut data = Data::default();
+            for Panel { x, y, .. } in panels.iter().flatten() {
+                data.add_panel([x.name.clone(), y.name.clone()]);
+            }
+            canvas.data = Some(data);
+        }
+        (canvas, panels)
     }
 
     /// Finds a place for everything.
@@ -218,7 +231,7 @@ impl<'a> PageRequest<'a> {
         let x = Axis::new(&request.x, Along::Across, frame.width());
         let y = Axis::new(&request.y, Along::Up, frame.height());
         let PanelRequest { header, .. } = request;
-        Panel { frame, x, y, label_distance, pointing: self.pointing, header }
+        Panel { number: 0, frame, x, y, label_distance, pointing: self.pointing, header }
     }
 }
 

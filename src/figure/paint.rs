@@ -5,6 +5,7 @@ use plotters::style::RGBColor;
 use super::canvas::Canvas;
 use super::category::{self, Kinds};
 use super::colour::Colours;
+use super::data::Value;
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::Mark;
@@ -91,6 +92,22 @@ impl Paint {
                 colours.as_ref().filter(|it| it.has(values[case])).map(|it| it.of(values[case]))
             }
             Paint::Kinds(kinds) => kinds.colour(case),
+        }
+    }
+
+    /// What the colours tell, with its unit.
+    pub fn told(&self) -> String {
+        match self {
+            Paint::Numbers(colours, ..) => colours.as_ref().map_or(String::new(), Colours::told),
+            Paint::Kinds(kinds) => kinds.told(),
+        }
+    }
+
+    /// What the colour of a case tells.
+    pub fn value(&self, case: usize) -> Value {
+        match self {
+            Paint::Numbers(_, values, _) => Value::Number(values[case]),
+            Paint::Kinds(kinds) => kinds.name(case).map_or(Value::None, Value::Name),
         }
     }
 

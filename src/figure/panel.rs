@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::canvas::{Anchor, Canvas, Reading, Stroke};
+use super::data::Value;
 use super::geometry::{Point, Rect};
 use super::header::Header;
 use super::scale::Spacing;
@@ -22,6 +23,8 @@ pub enum Pointing {
 
 /// A panel with its place on the page.
 pub struct Panel {
+    /// Which panel of its page it is, from 1.
+    pub number: usize,
     /// The frame around the data.
     pub frame: Rect,
     /// The abscissa.
@@ -43,6 +46,28 @@ impl Panel {
             self.frame.left + self.x.scale.share(x) * self.frame.width(),
             self.frame.bottom - self.y.scale.share(y) * self.frame.height(),
         )
+    }
+
+    /// Notes points that are drawn, where the data of the figure are to be told.
+    pub fn record(
+        &self,
+        canvas: &mut Canvas,
+        series: &str,
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) {
+        self.record_values(canvas, series, points.into_iter().map(|at| (at, Value::None)));
+    }
+
+    /// Notes points or cells with what they show.
+    pub fn record_values(
+        &self,
+        canvas: &mut Canvas,
+        series: &str,
+        rows: impl IntoIterator<Item = ((f64, f64), Value)>,
+    ) {
+        if let Some(data) = &mut canvas.data {
+            data.add(self.number, series, rows.into_iter());
+        }
     }
 
     /// Whether a value lies inside the frame.

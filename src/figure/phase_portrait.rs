@@ -135,5 +135,12 @@ fn draw_portrait(canvas: &mut Canvas, panel: &Panel, portrait: &Portrait) {
     let sections: Vec<_> =
         panel.places(&portrait.sections).into_iter().map(|at| (at, INK)).collect();
     canvas.discs(&sections, SECTION_RADIUS);
+    for (series, points) in [
+        ("motion", &portrait.orbit),
+        ("stroboscopic", &portrait.sections),
+        ("impact", &portrait.impacts),
+    ] {
+        panel.record(canvas, series, points.iter().copied());
+    }
     panel.finish(canvas);
 }

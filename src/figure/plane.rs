@@ -3,6 +3,7 @@
 use super::canvas::{Canvas, Dash, Stroke};
 use super::cells::Cells;
 use super::contour::Field;
+use super::data::Value;
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::Mark;
@@ -82,6 +83,23 @@ impl<'a> Plane<'a> {
         let beside = self.y.uneven.iter().filter(|it| panel.y.scale.holds(**it)).map(right);
         let marks: Vec<_> = above.chain(beside).collect();
         canvas.segments(&marks, Stroke::solid(INK, FRAME_WIDTH));
+    }
+
+    /// Notes what the cells over a panel show, by the number of their case over the free axes.
+    pub fn record(
+        &self,
+        canvas: &mut Canvas,
+        panel: &Panel,
+        (series, value): (&str, impl Fn(usize) -> Value),
+    ) {
+        let columns = self.x.count();
+        let (x, y): (Vec<f64>, Vec<f64>) = (self.x.values().collect(), self.y.values().collect());
+        let cells = (0..y.len()).flat_map(|row| (0..x.len()).map(move |column| (row, column)));
+        let cell = |(row, column): (usize, usize)| {
+            let case = self.y.place(row) * columns + self.x.place(column);
+            ((x[column], y[row]), value(case))
+        };
+        panel.record_values(canvas, series, cells.map(cell));
     }
 
     /// Draws the lines along which the values of the cases over the free axes have these levels.

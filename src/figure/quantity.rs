@@ -186,6 +186,11 @@ impl Quantity {
         })
     }
 
+    /// Its name and unit in plain letters.
+    pub fn told(&self) -> String {
+        self.label("", 0).content().replace('\u{a0}', " ")
+    }
+
     /// The short form for legends: the symbol, or the name where there is none.
     pub fn short_name(&self) -> Text {
         if self.symbol.is_empty() { self.name.clone() } else { Text::markup(&self.symbol) }

@@ -81,6 +81,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let dot = |at: &[f64; 2]| Dot { at: (at[0], at[1]), colour: INK, crowding };
         let dots: Vec<Dot> = section.points.iter().map(dot).collect();
         cloud::draw(&mut canvas, panel, &dots, view.radius(dots.len()));
+        panel.record(&mut canvas, section.name, dots.iter().map(|dot| dot.at));
         panel.finish(&mut canvas);
     }
     let told: Vec<String> = sections.iter().map(Section::told).collect();

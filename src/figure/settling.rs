@@ -4,6 +4,7 @@ use super::axis::AxisRequest;
 use super::basin::{mark_points, section_points};
 use super::canvas::Drawn;
 use super::colour::Colours;
+use super::data::Value;
 use super::error::FigureError;
 use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
@@ -86,6 +87,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     };
     for panel in panels.iter().flatten() {
         plane.draw(&mut canvas, panel, fill);
+        let told = colours.as_ref().map_or(String::new(), Colours::told);
+        plane.record(&mut canvas, panel, (&told, |case| Value::Number(cycles[case])));
         mark_points(&mut canvas, panel, &points);
         panel.finish(&mut canvas);
         if let Some(colours) = &colours {

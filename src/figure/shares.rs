@@ -143,6 +143,9 @@ impl Room {
                 let line: Vec<(f64, f64)> =
                     self.values.iter().copied().zip(measure.iter().copied()).collect();
                 panel.curve(canvas, &line, stroke(colour(number), dashed));
+                let name = if dashed { "minimal critical shock" } else { "largest ball inside" };
+                let series = format!("{name}, attractor {}", number + 1);
+                panel.record(canvas, &series, line);
             }
         }
     }
@@ -234,6 +237,14 @@ impl Bands {
             Fill::Plain(self.shares[value].iter().position(reaches).map_or(undecided(), band))
         };
         let row = |share: f64| (share * ROWS as f64) as usize;
+        let values: Vec<(usize, f64)> =
+            (0..cells.count()).map(|it| cells.place(it)).zip(cells.values()).collect();
+        for number in 0..self.shares.first().map_or(0, Vec::len) {
+            let share =
+                |(place, value): &(usize, f64)| (*value, 100.0 * self.shares[*place][number]);
+            let series = format!("attractor {}", number + 1);
+            panel.record(canvas, &series, values.iter().map(share));
+        }
         let column = |share: f64| cells.under(&panel.x.scale, share);
         canvas.image(panel.frame, &Raster::cells(panel.frame, column, row, colour));
     }

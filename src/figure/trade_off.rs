@@ -4,6 +4,7 @@ use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::category;
 use super::cloud::{self, Dot};
+use super::data::Value;
 use super::error::FigureError;
 use super::header::{Entry, Header, Mark};
 use super::kind::{Kind, Names, Needs};
@@ -119,6 +120,15 @@ impl TradeOff<'_, '_> {
             motions.cases().iter().partition(|case| motions.is_periodic(case));
         let dots: Vec<_> = others.into_iter().chain(periodic).map(dot).collect();
         cloud::draw(canvas, panel, &dots, self.radius(dots.len()));
+        let value = |case: &Candidate| {
+            self.paint.as_ref().map_or(Value::None, |paint| paint.value(case.case))
+        };
+        let told = self.paint.as_ref().map_or(String::new(), |it| format!(", {}", it.told()));
+        for (periodic, name) in [(true, "periodic cases"), (false, "other cases by their means")] {
+            let ours = motions.cases().iter().filter(|it| motions.is_periodic(it) == periodic);
+            let rows = ours.map(|it| (self.place((it.price, it.speed)), value(it)));
+            panel.record_values(canvas, &format!("{name}{told}"), rows);
+        }
         // That of all motions lies over that of the cases, which it is where no motion between them is better.
         let mut curve = |front: &[(f64, f64)], stroke: Stroke| {
             let line = stairs(&front.iter().map(|it| self.place(*it)).collect::<Vec<_>>());
@@ -133,9 +143,15 @@ impl TradeOff<'_, '_> {
             curve(&best.front, Stroke::solid(VERMILION, CURVE_WIDTH));
         }
         for best in &self.best {
+            let fronts =
+                [(&best.front, "Pareto front"), (&best.front_of_cases, "that of the cases alone")];
+            for (front, name) in fronts {
+                panel.record(canvas, name, front.iter().map(|it| self.place(*it)));
+            }
             for (symbol, motion) in marked(motions, best) {
                 let (x, y) = self.place((motion.price, motion.speed));
                 if panel.holds(x, y) {
+                    panel.record(canvas, symbol.words, [(x, y)]);
                     symbol.draw(canvas, panel.place(x, y));
                 }
             }

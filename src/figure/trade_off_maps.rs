@@ -3,6 +3,7 @@
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn};
 use super::colour::Colours;
+use super::data::Value;
 use super::error::FigureError;
 use super::geometry::Point;
 use super::header::{Entry, Header, Mark};
@@ -43,9 +44,11 @@ impl Path {
             let discs: Vec<_> = places.iter().map(|at| (*at, colour)).collect();
             canvas.discs(&discs, radius);
         }
+        panel.record(canvas, "motions of the fronts", self.points.iter().copied());
         for (symbol, (x, y)) in &self.optima {
             if panel.holds(*x, *y) {
                 symbol.draw(canvas, panel.place(*x, *y));
+                panel.record(canvas, symbol.words, [(*x, *y)]);
             }
         }
     }
@@ -102,6 +105,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             Fill::of(colours.map(|it| it.of(values[case])))
         };
         plane.draw(&mut canvas, panel, colour);
+        let told = colours.as_ref().map_or(String::new(), Colours::told);
+        plane.record(&mut canvas, panel, (&told, |case: usize| Value::Number(values[case])));
         path.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
         if let Some(colours) = colours {

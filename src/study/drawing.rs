@@ -188,6 +188,10 @@ pub struct Drawing {
     pub point_mm: Option<f64>,
     /// Whether it says what its marks mean; what it leaves out is said in any case.
     pub legend: bool,
+    /// Whether the data behind it are written as CSV beside it.
+    pub data: bool,
+    /// Whether its SVG keeps text as text, which looks the same only where the font is; by default text is outlines.
+    pub svg_text: bool,
     /// What is set of the quantities that it shows, by their names.
     pub settings: Settings,
 }
@@ -213,6 +217,8 @@ impl Drawing {
             dpi: None,
             point_mm: None,
             legend: true,
+            data: false,
+            svg_text: false,
             settings: Settings::new(),
         }
     }

@@ -98,6 +98,8 @@ fn read_drawing(
         dpi: table.entry("dpi").and_then(|entry| entry.quantity(Dimension::Number)),
         point_mm: millimetres("point"),
         legend: table.entry("legend").and_then(|entry| entry.truth()).unwrap_or(true),
+        data: table.entry("data").and_then(|entry| entry.truth()).unwrap_or(false),
+        svg_text: table.entry("svg_text").and_then(|entry| entry.truth()).unwrap_or(false),
         settings: read_settings(table),
     }
 }

@@ -315,6 +315,8 @@ fn write_drawing(document: &mut Document, drawing: &Drawing) {
         document.put("dpi", number(dpi));
     }
     document.put("legend", drawing.legend);
+    document.put("data", drawing.data);
+    document.put("svg_text", drawing.svg_text);
     for (key, setting) in Setting::NAMES {
         let of_quantity = |(name, set): (&String, &QuantitySettings)| {
             let dimension = dimension_of(name).unwrap_or(Dimension::Number);

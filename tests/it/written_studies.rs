@@ -231,6 +231,8 @@ impl Random {
             dpi: self.is_so().then(|| self.uniform(50.0, 2400.0)),
             point_mm: self.is_so().then(|| self.uniform(0.02, 5.0)),
             legend: self.is_so(),
+            data: self.is_so(),
+            svg_text: self.is_so(),
             settings: self.settings(),
         }
     }
