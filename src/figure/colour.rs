@@ -36,7 +36,7 @@ fn gradient(map: ColourMap) -> (Gradient, bool) {
         ColourMap::Greys => (colorous::GREYS, false),
         ColourMap::Blues => (colorous::BLUES, false),
         ColourMap::BlueRed => (colorous::RED_BLUE, true),
-        ColourMap::PurpleOrange => (colorous::PURPLE_ORANGE, true),
+        ColourMap::PurpleOrange => (colorous::PURPLE_ORANGE, false),
         ColourMap::GreenBrown => (colorous::BROWN_GREEN, true),
         ColourMap::Turbo => (colorous::TURBO, false),
     }
@@ -66,8 +66,8 @@ impl Colours {
         // A trace of the other sign, as rounding leaves it, does not count.
         let most = high.max(-low);
         let has_both = low < -1e-3 * most && high > 1e-3 * most && most > quantity.noise;
-        let is_linear = scale.spacing == Spacing::Linear;
-        let usual = (has_both && is_linear && scale.holds(0.0)).then_some(0.0);
+        let is_log = scale.spacing == Spacing::Log;
+        let usual = (has_both && !is_log && scale.holds(0.0)).then_some(0.0);
         let centre = centre.map(|it| it * quantity.factor).or(usual);
         let beyond =
             [low < scale.low && !scale.holds(low), high > scale.high && !scale.holds(high)];
@@ -177,5 +177,34 @@ impl Colours {
         }
         let first = numbers + axis.widest + LABEL_GAP + 0.75 * LABEL_SIZE;
         draw_upward(canvas, &axis, frame, first);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn diverging_colours_run_as_they_are_called() {
+        let ends = |map: ColourMap| {
+            let (gradient, is_turned) = gradient(map);
+            let at =
+                |share: f64| gradient.eval_continuous(if is_turned { 1.0 - share } else { share });
+            let channels = |share: f64| at(share).as_array().map(i32::from);
+            [channels(0.1), channels(0.5), channels(0.9)]
+        };
+        // The channels that lead at the low end and at the high one: red 0, green 1, blue 2.
+        for (map, first, last) in [
+            (ColourMap::BlueRed, 2, 0),
+            (ColourMap::PurpleOrange, 2, 0),
+            (ColourMap::GreenBrown, 1, 0),
+        ] {
+            let [low, middle, high] = ends(map);
+            assert!(
+                low[first] > low[last] && high[last] > high[first],
+                "{map:?}: {low:?} {high:?}"
+            );
+            assert!(middle.iter().all(|channel| *channel > 220), "{map:?}: {middle:?}");
+        }
     }
 }

@@ -63,7 +63,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         plane.record(&mut canvas, panel, (&paint.told(), |case| paint.value(first + case)));
         if let Paint::Numbers(_, values, _) = &paint {
             let of_panel = &values[first..first + plane.count()];
-            plane.draw_contours(&mut canvas, panel, of_panel, &levels);
+            let noise = view.quantity(&output).noise;
+            plane.draw_contours(&mut canvas, panel, (of_panel, noise), &levels);
         }
         panel.finish(&mut canvas);
     }

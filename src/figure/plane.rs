@@ -102,12 +102,13 @@ impl<'a> Plane<'a> {
         panel.record_values(canvas, series, cells.map(cell));
     }
 
-    /// Draws the lines along which the values of the cases over the free axes have these levels.
+    /// Draws the lines along which the values of the cases over the free axes have these levels; differences up to `noise`
+    /// are none.
     pub fn draw_contours(
         &self,
         canvas: &mut Canvas,
         panel: &Panel,
-        values: &[f64],
+        (values, noise): (&[f64], f64),
         levels: &[f64],
     ) {
         let columns = self.x.count();
@@ -115,13 +116,19 @@ impl<'a> Plane<'a> {
         let y: Vec<f64> = self.y.values().map(|y| panel.place(panel.x.scale.low, y).1).collect();
         let value =
             |column: usize, row: usize| values[self.y.place(row) * columns + self.x.place(column)];
-        let field = Field { x: &x, y: &y, value: &value };
-        canvas.clipped(panel.frame, |canvas| {
-            for line in levels.iter().flat_map(|level| field.lines(*level)) {
-                canvas.line(&line, Stroke::solid(PAPER, 2.2 * CONTOUR.width));
-                canvas.line(&line, CONTOUR);
-            }
-        });
+        for level in levels {
+            let value = |column: usize, row: usize| {
+                let value = value(column, row);
+                if (value - level).abs() <= noise { *level } else { value }
+            };
+            let lines = Field { x: &x, y: &y, value: &value }.lines(*level);
+            canvas.clipped(panel.frame, |canvas| {
+                for line in &lines {
+                    canvas.line(line, Stroke::solid(PAPER, 2.2 * CONTOUR.width));
+                    canvas.line(line, CONTOUR);
+                }
+            });
+        }
     }
 
     /// What the marks of uneven axes mean.

@@ -89,7 +89,8 @@ pub fn log_ticks(scale: &Scale, (digits, every): (&[i32], i32)) -> Ticks {
     let is_plain = low > -2.5 && high < 3.5;
     let mut ticks = Ticks::default();
     for decade in low.floor() as i32..=high.ceil() as i32 {
-        ticks.add_decade(scale, (decade, 1.0), (digits, every), is_plain);
+        let is_marked = decade.rem_euclid(every) == 0;
+        ticks.add_decade(scale, (decade, 1.0), if is_marked { digits } else { &[] }, is_plain);
     }
     ticks
 }
@@ -97,29 +98,30 @@ pub fn log_ticks(scale: &Scale, (digits, every): (&[i32], i32)) -> Ticks {
 /// Marks of a symmetrically logarithmic scale: zero, and decades on both sides from `width` on.
 pub fn symmetric_ticks(scale: &Scale, width: f64, (digits, every): (&[i32], i32)) -> Ticks {
     let size = scale.low.abs().max(scale.high.abs());
-    let (first, last) = (width.log10().ceil() as i32, size.log10().ceil() as i32);
+    let (first, last) = (width.log10().ceil() as i32, size.log10().floor() as i32);
     let is_plain = first >= -2 && last <= 3;
     let mut ticks = Ticks::default();
-    for decade in (first..=last).rev() {
-        ticks.add_decade(scale, (decade, -1.0), (digits, every), is_plain);
+    for decade in first..=last {
+        // The largest decade is marked in any case.
+        let digits = if (last - decade).rem_euclid(every) == 0 { digits } else { &[] };
+        for sign in [-1.0, 1.0] {
+            ticks.add_decade(scale, (decade, sign), digits, is_plain);
+        }
     }
     if scale.holds(0.0) {
         ticks.major.push(Tick { value: 0.0, label: "0".to_owned() });
-    }
-    for decade in first..=last {
-        ticks.add_decade(scale, (decade, 1.0), (digits, every), is_plain);
     }
     ticks.major.sort_by(|a, b| a.value.total_cmp(&b.value));
     ticks
 }
 
 impl Ticks {
-    /// Adds the marks of a decade of one sign.
+    /// Adds the marks of a decade of one sign, with numbers at these digits.
     fn add_decade(
         &mut self,
         scale: &Scale,
         (decade, sign): (i32, f64),
-        (digits, every): (&[i32], i32),
+        digits: &[i32],
         is_plain: bool,
     ) {
         for digit in 1..10 {
@@ -127,7 +129,7 @@ impl Ticks {
             if !scale.holds(value) {
                 continue;
             }
-            if !digits.contains(&digit) || decade.rem_euclid(every) != 0 {
+            if !digits.contains(&digit) {
                 self.minor.push(value);
                 continue;
             }
