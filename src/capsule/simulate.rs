@@ -37,13 +37,16 @@ pub struct Sample {
     pub impacts: u64,
 }
 
-/// An event with its time since the start [s].
+/// An event with its time since the start [s] and the state there, which it does not change.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Event {
     /// When [s].
     pub t: f64,
     /// What.
     pub kind: EventKind,
+    /// Where.
+    #[serde(flatten)]
+    pub state: State<f64>,
 }
 
 /// A case followed from its start for a number of cycles.
@@ -106,7 +109,8 @@ fn simulate_on<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
         let followed = trajectory.cycle(|step| {
             account.see(system, step);
             if let Some(kind) = EventKind::from_code(step.event) {
-                events.push(Event { t: begun + (step.start + step.length), kind });
+                let state = system.jet(&step.jet).state(step.length);
+                events.push(Event { t: begun + (step.start + step.length), kind, state });
             }
         });
         if let Err(why) = followed {

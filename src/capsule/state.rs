@@ -6,7 +6,7 @@ use crate::flow::Event;
 use crate::lane::{Lane, Series, series, side_by_side};
 
 /// Positions and velocities [m, m/s].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct State<L> {
     /// Relative displacement of the mass, `x1 - x2` [m].
     pub r: L,

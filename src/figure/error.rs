@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use crate::store::StoreError;
+use crate::study::document::nearest;
 
 /// Why a figure could not be drawn.
 #[derive(Debug)]
@@ -58,22 +59,12 @@ pub enum FigureError {
     },
 }
 
-/// The name among `present` that looks most like `name`, if any is close.
-fn closest<'a>(name: &str, present: &'a [String]) -> Option<&'a String> {
-    present
-        .iter()
-        .map(|other| (strsim::jaro_winkler(name, other), other))
-        .filter(|(likeness, _)| *likeness > 0.75)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, other)| other)
-}
-
 impl fmt::Display for FigureError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             FigureError::Missing { figure, what, name, present } => {
                 write!(f, "figure `{figure}`: the results hold no {what} `{name}`")?;
-                if let Some(other) = closest(name, present) {
+                if let Some(other) = nearest(name, present.iter().map(String::as_str)) {
                     write!(f, "; did you mean `{other}`?")?;
                 }
                 match present.is_empty() {

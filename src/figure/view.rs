@@ -14,7 +14,7 @@ use super::style::POINTS_PER_MM;
 use super::unit::ShownUnit;
 use super::varied::varied;
 use crate::campaign::RefinedMotion;
-use crate::capsule::Parameter;
+use crate::capsule::{Output, Parameter};
 use crate::store::catalogue::{self, DIRECTION, DRAW, Entry, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::study::axis::{is_within, range};
@@ -259,7 +259,11 @@ impl<'a> View<'a> {
     /// The variable called `name`.
     pub fn variable(&self, name: &str) -> Result<&'a Variable, FigureError> {
         self.dataset.variable(name).ok_or_else(|| {
-            self.missing("variable", name, self.dataset.variables.keys().cloned().collect())
+            let variables = &self.dataset.variables;
+            let drawable = self.drawing.kind.can_show(Output::ALL).into_iter().map(str::to_owned);
+            let present: Vec<String> = drawable.filter(|it| variables.contains_key(it)).collect();
+            let all = || variables.keys().cloned().collect();
+            self.missing("variable", name, if present.is_empty() { all() } else { present })
         })
     }
 

@@ -334,17 +334,28 @@ pub fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str>)
     if known.is_empty() {
         return format!("unknown {what} \"{name}\" (there is none)");
     }
-    let likely = |candidate: &str| candidate.starts_with(name) && !name.is_empty();
-    let nearest = known
-        .iter()
-        .map(|&candidate| (strsim::damerau_levenshtein(name, candidate), candidate))
-        .min_by_key(|&(distance, candidate)| (!likely(candidate), distance))
-        .filter(|&(distance, candidate)| {
-            likely(candidate) || distance <= 1 + name.chars().count() / 3
-        });
+    let nearest = nearest(name, known.iter().copied());
     let hint = match nearest {
-        Some((_, candidate)) => format!("; did you mean \"{candidate}\"?"),
+        Some(candidate) => format!("; did you mean \"{candidate}\"?"),
         None => String::new(),
     };
     format!("unknown {what} \"{name}\"{hint} (allowed: {})", known.join(", "))
+}
+
+/// The name among `known` that was probably meant: one that begins with it or has it among its words, else one that differs in few
+/// letters.
+pub fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    let begins = |candidate: &str| candidate.starts_with(name) && !name.is_empty();
+    let has_word = |candidate: &str| candidate.split(['_', '-']).any(|word| word == name);
+    let rank = |candidate: &str| match candidate {
+        _ if begins(candidate) => 0,
+        _ if has_word(candidate) => 1,
+        _ => 2,
+    };
+    let distance = |candidate: &str| strsim::damerau_levenshtein(name, candidate);
+    known
+        .map(|candidate| (rank(candidate), distance(candidate), candidate))
+        .filter(|&(rank, distance, _)| rank < 2 || distance <= 1 + name.chars().count() / 3)
+        .min_by_key(|&(rank, distance, _)| (rank, distance))
+        .map(|(_, _, candidate)| candidate)
 }

@@ -116,6 +116,16 @@ fn sections_events_and_sums_agree_with_each_other() {
         let events = list(&ran, "events");
         let times: Vec<f64> = events.iter().map(|event| number(&event["t"])).collect();
         assert!(times.is_sorted(), "{more:?}");
+        let delta = number(&ran["parameters"]["delta"]);
+        for event in events {
+            let [r, y1, y2] = ["r", "y1", "y2"].map(|name| number(&event[name]));
+            // Relative to displacements of millimetres and velocities below a metre per second.
+            let (place, rest) = match event["kind"].as_str() {
+                Some("contact-closed" | "contact-opened") => (r - delta, 0.0),
+                _ => (0.0, y2),
+            };
+            assert!(place.abs() < 1e-12 && rest.abs() < 1e-9 && y1.is_finite(), "{event}");
+        }
         let kinds = [
             "contact-closed",
             "contact-opened",
