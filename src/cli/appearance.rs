@@ -5,7 +5,8 @@ use clap::Args;
 use super::arguments::plain_or_quantity;
 use crate::capsule::Dimension;
 use crate::study::appearance::dimension_of;
-use crate::study::{Drawing, Setting, parse_quantity};
+use crate::study::quantity::parse_in;
+use crate::study::{Drawing, Setting};
 
 /// Options that set how a figure looks.
 #[derive(Debug, Args)]
@@ -104,7 +105,7 @@ impl Appearance {
 /// A length [mm]; a plain number is in millimetres.
 fn millimetres(text: &str) -> Result<f64, String> {
     let plain = text.trim().parse::<f64>().ok();
-    plain.map_or_else(|| Ok(1e3 * parse_quantity(text, Dimension::Length)?), Ok)
+    plain.map_or_else(|| parse_in(text, Dimension::Length, 1e-3), Ok)
 }
 
 /// Sets what "NAME=VALUE" says.

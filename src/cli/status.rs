@@ -10,6 +10,7 @@ use super::summary::outcomes;
 use super::terminal::print;
 use crate::campaign::{BlockStatus, Campaign, block_path, output_path, read_study};
 use crate::store::Archive;
+use crate::store::provenance::CREATED;
 use crate::study::Study;
 
 const EXAMPLES: &str = "\
@@ -52,7 +53,7 @@ impl Status {
 
 /// A file of this study.
 fn whole(output: &Path, archive: &Archive) -> String {
-    let created = archive.frame().attributes.get("created").map_or("", String::as_str);
+    let created = archive.frame().attributes.get(CREATED).map_or("", String::as_str);
     let holds = match archive.has_cases() {
         true => "all cases",
         false => "branches only",

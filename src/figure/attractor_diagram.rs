@@ -14,6 +14,7 @@ use super::header::{self, Mark};
 use super::page::PageRequest;
 use super::paint::Paint;
 use super::panel::Panel;
+use super::scale::Scale;
 use super::style::{ATTRACTORS, COEXISTENCE, FAINT_INK, MINOR_WIDTH, UNDECIDED_DOT};
 use super::symbol::Symbol;
 use super::text::Text;
@@ -54,11 +55,14 @@ pub fn draw(
         true => EventMarks::of(view, x_name, attractors)?,
         false => EventMarks::none(),
     };
-    let windows = windows(&values, attractors);
+    let mut windows = windows(&values, attractors);
     let lines: Vec<BranchLines> =
         outputs.iter().map(|output| BranchLines::shown(view, x_name, output)).collect();
     let reached: Vec<f64> = lines.iter().flat_map(BranchLines::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
+    // Other limits may be set than those of the values.
+    let Scale { low, high, .. } = abscissa.scale;
+    windows.retain(|[from, to]| *from < high && *to > low);
     let left_out = elsewhere(view, &[x_name]);
     let note = view.note(&attractors.free, &left_out);
     let mut page = request(view, &outputs, (&clouds, &lines), abscissa, note);

@@ -107,7 +107,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         plane.draw(&mut canvas, panel, |case| basins.fill(case));
-        plane.record(&mut canvas, panel, ("attractor", |case| basins.value(case)));
+        plane.record(&mut canvas, panel, (ATTRACTOR.name, |case| basins.value(case)));
         if let Some(ends) = surface {
             panel.curve(&mut canvas, &ends, Stroke::dashed(INK, REFERENCE_WIDTH));
         }

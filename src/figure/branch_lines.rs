@@ -28,11 +28,13 @@ impl BranchLines {
         if !view.drawing.branches {
             return branches;
         }
-        let factors = (view.quantity(x).factor, view.quantity(output).factor);
+        let (along, own) = (view.quantity(x), view.quantity(output));
+        let factors = (along.factor, own.factor);
         let scaled = |(x, y): (f64, f64)| (x * factors.0, y * factors.1);
         for track in tracks(view, x, output) {
             branches.add(&track, scaled);
         }
+        branches.specials.retain(|(_, (x, y))| along.is_within(*x) && own.is_within(*y));
         branches
     }
 

@@ -48,7 +48,8 @@ impl EventMarks {
         x: &str,
         attractors: &Attractors<'_>,
     ) -> Result<EventMarks, FigureError> {
-        let factor = view.quantity(x).factor;
+        let quantity = view.quantity(x);
+        let factor = quantity.factor;
         let mut events = Vec::new();
         if view.dataset.variable(EVENT_KIND.name).is_none() {
             return Ok(EventMarks { events, factor });
@@ -66,7 +67,7 @@ impl EventMarks {
             let name = flags.iter().find(|(code, _)| *code as f64 == *kind);
             let Some(symbol) = name.and_then(|(_, name)| Symbol::named(name)) else { continue };
             let attractor = numbers[i] as i64;
-            if attractors.own.contains(&attractor) {
+            if attractors.own.contains(&attractor) && quantity.is_within(places[i] * factor) {
                 events.push(Event {
                     symbol,
                     period: periods[i] as i64,

@@ -152,7 +152,7 @@ impl Figure<'_> {
         let mut texts = vec![("Description", self.about.to_string())];
         if let Some(origin) = self.origin {
             texts.push(("Software", origin.program.clone()));
-            texts.push(("Creation Time", origin.time()));
+            texts.extend(origin.time.iter().map(|it| ("Creation Time", it.clone())));
             texts.extend(origin.study.iter().map(|it| ("Source", format!("study {it}"))));
         }
         texts
@@ -168,10 +168,14 @@ impl Figure<'_> {
         let metadata =
             Metadata::new().title(self.name.to_string()).description(self.about.to_string());
         document.set_metadata(match self.origin {
-            Some(origin) => metadata
-                .creator(origin.program.clone())
-                .keywords(origin.study.iter().map(|it| format!("study {it}")).collect())
-                .creation_date(origin.of_pdf()),
+            Some(origin) => {
+                let keywords = origin.study.iter().map(|it| format!("study {it}")).collect();
+                let metadata = metadata.creator(origin.program.clone()).keywords(keywords);
+                match origin.of_pdf() {
+                    Some(time) => metadata.creation_date(time),
+                    None => metadata,
+                }
+            }
             None => metadata,
         });
         let mut page = document.start_page_with(settings);

@@ -153,6 +153,12 @@ impl Quantity {
         }
     }
 
+    /// Whether a value, in the unit shown, lies within the limits that are set, if any are.
+    pub fn is_within(&self, value: f64) -> bool {
+        let limits = self.chosen.limits().map(|limits| limits.map(|end| end * self.factor));
+        limits.is_none_or(|[low, high]| (low..=high).contains(&value))
+    }
+
     /// Notes how many of `values` have no place on a scale.
     pub fn note_left_out(&self, scale: &Scale, values: &[f64]) {
         let has_none = |value: &&f64| value.is_finite() && !scale.can_hold(**value);

@@ -3,12 +3,15 @@
 use std::collections::BTreeMap;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+/// Attribute: when a file was made.
+pub const CREATED: &str = "created";
+
 /// The provenance of what this program writes now on this machine.
 pub fn attributes() -> BTreeMap<String, String> {
     [
         ("source", format!("capsulemap {}", env!("CARGO_PKG_VERSION"))),
         ("commit", env!("CAPSULEMAP_COMMIT").to_owned()),
-        ("created", now()),
+        (CREATED, now()),
         ("host_architecture", std::env::consts::ARCH.to_owned()),
         ("host_instruction_set", instruction_set()),
     ]
@@ -40,7 +43,15 @@ pub fn maker(provenance: &BTreeMap<String, String>) -> String {
 /// environment variable SOURCE_DATE_EPOCH has it [s since 1970], which reproducible-builds.org defines.
 fn now() -> String {
     let elapsed = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs());
-    let since: u64 = given_time().ok().flatten().unwrap_or_else(elapsed);
+    iso(given_time().ok().flatten().unwrap_or_else(elapsed))
+}
+
+/// The time that the environment gives for files, in the same form, if it gives one.
+pub fn fixed_time() -> Option<String> {
+    given_time().ok().flatten().map(iso)
+}
+
+fn iso(since: u64) -> String {
     let (days, seconds) = (since / 86_400, since % 86_400);
     let (year, month, day) = civil(days);
     let (hour, minute, second) = (seconds / 3600, seconds / 60 % 60, seconds % 60);

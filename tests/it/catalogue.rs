@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use capsulemap::capsule::{Output, Parameter};
 use capsulemap::store::catalogue::{self, ATTRACTOR_AXIS, Entry, Extent, Type};
 use capsulemap::store::{self, Dataset, Values, Variable};
+use capsulemap::study::appearance::dimension_of;
 use capsulemap::study::{DrawingKind, Study};
 
 use super::house::{sources, string_length};
@@ -20,13 +21,19 @@ const DEFINING: [&str; 5] = [
 ];
 
 /// What is spelled like a variable elsewhere and is none: the file, the words, and what they are there.
-const OTHERS: [(&str, &[&str], &str); 13] = [
+const OTHERS: [(&str, &[&str], &str); 15] = [
     ("src/study/study_file.rs", &["cycles", "attractor"], "keys of a study"),
     ("src/study/study_text.rs", KEYS, "keys of a study"),
     ("src/study/start_file.rs", &["start_phase", "section_phase", "direction"], "keys of a study"),
     ("src/study/branch_file.rs", &["period"], "keys of a study"),
     ("src/study/drawing_file.rs", &["cycles"], "a key of a study"),
     ("src/study/drawing.rs", SHOWN, "what the key `of` may name, which a test here compares"),
+    ("src/study/drawing.rs", &["attractor", "direction"], "what the key `colour_by` may name"),
+    (
+        "src/study/appearance.rs",
+        SET,
+        "what the keys of quantities may name, which a test here compares",
+    ),
     ("src/study/quantity.rs", &["g"], "the gram"),
     ("src/cli/simulate.rs", OPTIONS, "options of a command"),
     ("src/cli/phases.rs", &["start_phase", "section_phase"], "options of a command"),
@@ -56,6 +63,30 @@ const SHOWN: &[&str] = &[
     "history_x2",
     "history_r",
     "velocities",
+    "history_y1",
+    "history_y2",
+    "history_drive",
+];
+
+/// What the keys that set how a quantity is shown may name beside coordinates and outputs.
+const SET: &[&str] = &[
+    "outcome",
+    "period",
+    "cycles",
+    "attractor",
+    "attractor_share",
+    "attractor_integrity_factor",
+    "section_r",
+    "section_y1",
+    "section_y2",
+    "impact_phase",
+    "impact_y1",
+    "impact_y2",
+    "relative_velocity",
+    "time",
+    "velocities",
+    "history_x2",
+    "history_r",
     "history_y1",
     "history_y2",
     "history_drive",
@@ -122,6 +153,19 @@ fn what_a_study_may_draw_is_in_the_catalogue() {
             let extent = catalogue::named(name).expect(name).extent;
             let drawn = matches!(extent, Extent::Case | Extent::CaseRow(_) | Extent::Derived);
             assert!(drawn, "{name}");
+        }
+    }
+}
+
+#[test]
+fn what_can_be_set_of_figures_is_in_the_catalogue_with_its_dimension() {
+    for name in SET {
+        let entry = catalogue::named(name).expect(name);
+        assert_eq!(dimension_of(name).expect(name).unit(), entry.unit, "{name}");
+    }
+    for (_, kind) in DrawingKind::NAMES {
+        for name in kind.can_show(Output::ALL) {
+            assert!(dimension_of(name).is_ok(), "{name}");
         }
     }
 }

@@ -37,6 +37,7 @@ mod examples;
 mod exponents;
 mod far_starts;
 mod figure;
+mod figure_settings;
 mod folds_of_fronts;
 mod forms;
 mod full_disk;
