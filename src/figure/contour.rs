@@ -28,7 +28,7 @@ impl Field<'_> {
         let mut neighbours: BTreeMap<Crossing, Vec<Crossing>> = BTreeMap::new();
         for row in 1..self.y.len() {
             for column in 1..self.x.len() {
-                for [a, b] in self.pieces((column - 1, row - 1), level) {
+                for [a, b] in self.segments((column - 1, row - 1), level) {
                     neighbours.entry(a).or_default().push(b);
                     neighbours.entry(b).or_default().push(a);
                 }
@@ -49,8 +49,8 @@ impl Field<'_> {
         lines.into_iter().map(place).collect()
     }
 
-    /// The pieces of lines in the cell whose first corner is given.
-    fn pieces(&self, (column, row): (usize, usize), level: f64) -> Vec<[Crossing; 2]> {
+    /// The segments of lines in the cell whose first corner is given.
+    fn segments(&self, (column, row): (usize, usize), level: f64) -> Vec<[Crossing; 2]> {
         let corners = [(0, 0), (1, 0), (1, 1), (0, 1)];
         let values = corners.map(|(right, up)| (self.value)(column + right, row + up));
         if values.iter().any(|value| !value.is_finite()) {
@@ -65,14 +65,14 @@ impl Field<'_> {
         ];
         let crossed = |side: &usize| is_above[*side] != is_above[(side + 1) % 4];
         let found: Vec<usize> = (0..4).filter(crossed).collect();
-        let piece = |a: usize, b: usize| [sides[found[a]], sides[found[b]]];
+        let segment = |a: usize, b: usize| [sides[found[a]], sides[found[b]]];
         match found.len() {
-            2 => vec![piece(0, 1)],
+            2 => vec![segment(0, 1)],
             // The corner between two sides is cut off unless the middle is on its side of the level.
             4 if (values.iter().sum::<f64>() / 4.0 >= level) == is_above[0] => {
-                vec![piece(0, 1), piece(2, 3)]
+                vec![segment(0, 1), segment(2, 3)]
             }
-            4 => vec![piece(3, 0), piece(1, 2)],
+            4 => vec![segment(3, 0), segment(1, 2)],
             _ => Vec::new(),
         }
     }
@@ -88,7 +88,7 @@ impl Field<'_> {
     }
 }
 
-/// Follows a line from a crossing, whose pieces are taken away; none where there are none left.
+/// Follows a line from a crossing, whose segments are taken away; none where there are none left.
 fn walk(
     neighbours: &mut BTreeMap<Crossing, Vec<Crossing>>,
     first: Crossing,

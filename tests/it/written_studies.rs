@@ -4,44 +4,42 @@ use std::collections::BTreeMap;
 
 use capsulemap::capsule::{Allowed, Output, Parameter, Parameters, Resistance, State, Switching};
 use capsulemap::orbit::{HistorySpan, Protocol};
-use capsulemap::study::appearance::NATURAL;
 use capsulemap::study::{
-    Axis, COLOURED_BY, CaseSet, ColourMap, Colouring, Continuation, Coordinate, Direction,
-    DrawKind, Drawing, DrawingKind, Draws, FirstOrbit, Grid, Inherit, QuantitySettings, Range,
-    ScaleChoice, Settings, Spacing, Study, Sweep,
+    Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Draws, FirstOrbit, Grid, Inherit,
+    Range, Spacing, Study,
 };
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// Draws whatever a study may hold.
-struct Random(ChaCha8Rng);
+pub struct Random(ChaCha8Rng);
 
 impl Random {
-    fn below(&mut self, count: usize) -> usize {
+    pub fn below(&mut self, count: usize) -> usize {
         (self.0.next_u64() % count as u64) as usize
     }
 
-    fn is_so(&mut self) -> bool {
+    pub fn is_so(&mut self) -> bool {
         self.below(2) == 0
     }
 
-    fn uniform(&mut self, low: f64, high: f64) -> f64 {
+    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn one<T: Copy>(&mut self, of: &[T]) -> T {
+    pub fn one<T: Copy>(&mut self, of: &[T]) -> T {
         of[self.below(of.len())]
     }
 
     /// Some of `all`, in any order.
-    fn some<T: Clone>(&mut self, all: &[T]) -> Vec<T> {
+    pub fn some<T: Clone>(&mut self, all: &[T]) -> Vec<T> {
         let mut left = all.to_vec();
         let count = self.below(all.len() + 1);
         (0..count).map(|_| left.swap_remove(self.below(left.len()))).collect()
     }
 
     /// A number over many magnitudes.
-    fn number(&mut self, allowed: Allowed) -> f64 {
+    pub fn number(&mut self, allowed: Allowed) -> f64 {
         let size = libm::exp(self.uniform(-12.0, 12.0));
         match allowed {
             Allowed::Positive => size,
@@ -61,7 +59,7 @@ impl Random {
     }
 
     /// A text that is hard to quote.
-    fn text(&mut self, more: &[char]) -> String {
+    pub fn text(&mut self, more: &[char]) -> String {
         let all: Vec<char> = "abz 09.,\"\\'#=[]{}äω\u{2028}".chars().collect();
         let length = self.below(8);
         (0..length).map(|_| self.one(&[&all[..], more].concat())).collect()
@@ -176,92 +174,6 @@ impl Random {
             second,
             longest_step: self.uniform(1e-6, 1.0),
             most_points: 2 + self.below(1_000_000 - 1),
-        }
-    }
-
-    fn drawing(&mut self, study: &Study, name: String) -> Drawing {
-        let is_grid = matches!(study.case_set, CaseSet::Grid(_));
-        let needs_grid = |kind: &DrawingKind| {
-            matches!(kind, DrawingKind::Map | DrawingKind::Bifurcation | DrawingKind::TradeOffMaps)
-        };
-        let kinds = DrawingKind::NAMES.iter().map(|(_, kind)| *kind).collect::<Vec<_>>();
-        let kinds: Vec<_> = kinds.into_iter().filter(|kind| is_grid || !needs_grid(kind)).collect();
-        let kind = self.one(&kinds);
-        let mut names: Vec<&str> = study.axes().iter().map(|axis| axis.coordinate.name()).collect();
-        let coordinates: Vec<Coordinate> =
-            study.axes().iter().map(|axis| axis.coordinate).collect();
-        if matches!(kind, DrawingKind::Bifurcation | DrawingKind::Curves) {
-            names.extend(
-                study.branches.iter().flat_map(Continuation::varied).map(Parameter::symbol),
-            );
-        }
-        let mut name_of = || {
-            let wanted = !names.is_empty() && self.is_so();
-            wanted.then(|| self.one(&names).to_owned())
-        };
-        let (x, y) = (name_of(), name_of());
-        let mut of: Vec<String> =
-            self.some(&kind.can_show(&study.outputs)).into_iter().map(str::to_owned).collect();
-        if kind.keys().most == 1 {
-            of.truncate(1);
-        }
-        let held = self.some(&coordinates);
-        let held_at = |it: &Coordinate| {
-            let axis = study.axes().iter().find(|axis| axis.coordinate == *it);
-            (it.name().to_owned(), self.one(&axis.expect("an axis").values))
-        };
-        let at: BTreeMap<String, f64> = held.iter().map(held_at).collect();
-        let from = self.uniform(0.0, 3.0);
-        Drawing {
-            name,
-            kind,
-            title: self.is_so().then(|| self.text(&['\n', '\t', '\u{7f}', '\0'])),
-            x,
-            y,
-            of,
-            at,
-            panels: Vec::new(),
-            cycles: self.is_so().then_some([from, from + 0.5]),
-            sweep: self.is_so().then(|| self.one(&[Sweep::Upward, Sweep::Downward])),
-            colour_by: (kind.keys().coloured && self.is_so())
-                .then(|| self.one(&COLOURED_BY).to_owned()),
-            branches: self.is_so(),
-            width_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
-            height_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
-            dpi: self.is_so().then(|| self.uniform(50.0, 2400.0)),
-            point_mm: self.is_so().then(|| self.uniform(0.02, 5.0)),
-            legend: self.is_so(),
-            data: self.is_so(),
-            svg_text: self.is_so(),
-            settings: self.settings(),
-        }
-    }
-
-    fn settings(&mut self) -> Settings {
-        let names = ["omega", "delta", "progression_speed", "section_r", "period", "start_phase"];
-        let names = self.some(&names);
-        names.into_iter().map(|name| (name.to_owned(), self.quantity_settings(name))).collect()
-    }
-
-    fn quantity_settings(&mut self, name: &str) -> QuantitySettings {
-        let low = self.uniform(1e-3, 1.0);
-        let width = self.is_so().then(|| self.uniform(1e-6, 1e-3));
-        let scales = [ScaleChoice::Linear, ScaleChoice::Log, ScaleChoice::Symlog(width)];
-        let unit = if name == "omega" { ["rad/s", "Hz", NATURAL] } else { ["um", "mm", "m"] };
-        let has_unit = ["omega", "delta", "section_r"].contains(&name);
-        let maps = ColourMap::NAMES.iter().map(|(_, map)| *map).collect::<Vec<_>>();
-        // A quantity of which nothing is set is not written.
-        QuantitySettings {
-            limits: self.is_so().then_some([low, low + 0.25]),
-            scale: Some(self.one(&scales)),
-            unit: (has_unit && self.is_so()).then(|| self.one(&unit)),
-            label: self.is_so().then(|| self.text(&[])),
-            decimals: self.is_so().then(|| self.below(13)),
-            colour_map: self
-                .is_so()
-                .then(|| Colouring { map: self.one(&maps), reversed: self.is_so() }),
-            centre: self.is_so().then(|| self.number(Allowed::Finite)),
-            contours: (0..self.below(3)).map(|_| self.number(Allowed::Finite)).collect(),
         }
     }
 

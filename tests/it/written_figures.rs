@@ -1,0 +1,101 @@
+//! Random figures of random studies, with whatever their keys may hold.
+
+use std::collections::BTreeMap;
+
+use capsulemap::capsule::{Allowed, Parameter};
+use capsulemap::study::appearance::NATURAL;
+use capsulemap::study::{
+    COLOURED_BY, CaseSet, ColourMap, Colouring, Continuation, Coordinate, Drawing, DrawingKind,
+    QuantitySettings, ScaleChoice, Settings, Study, Sweep,
+};
+
+use super::written_studies::Random;
+
+impl Random {
+    /// A figure of a study.
+    pub fn drawing(&mut self, study: &Study, name: String) -> Drawing {
+        let is_grid = matches!(study.case_set, CaseSet::Grid(_));
+        let needs_grid = |kind: &DrawingKind| {
+            matches!(kind, DrawingKind::Map | DrawingKind::Bifurcation | DrawingKind::TradeOffMaps)
+        };
+        let kinds = DrawingKind::NAMES.iter().map(|(_, kind)| *kind).collect::<Vec<_>>();
+        let kinds: Vec<_> = kinds.into_iter().filter(|kind| is_grid || !needs_grid(kind)).collect();
+        let kind = self.one(&kinds);
+        let mut names: Vec<&str> = study.axes().iter().map(|axis| axis.coordinate.name()).collect();
+        let coordinates: Vec<Coordinate> =
+            study.axes().iter().map(|axis| axis.coordinate).collect();
+        if matches!(kind, DrawingKind::Bifurcation | DrawingKind::Curves) {
+            names.extend(
+                study.branches.iter().flat_map(Continuation::varied).map(Parameter::symbol),
+            );
+        }
+        let mut name_of = || {
+            let wanted = !names.is_empty() && self.is_so();
+            wanted.then(|| self.one(&names).to_owned())
+        };
+        let (x, y) = (name_of(), name_of());
+        let mut of: Vec<String> =
+            self.some(&kind.can_show(&study.outputs)).into_iter().map(str::to_owned).collect();
+        if kind.keys().most == 1 {
+            of.truncate(1);
+        }
+        let held = self.some(&coordinates);
+        let held_at = |it: &Coordinate| {
+            let axis = study.axes().iter().find(|axis| axis.coordinate == *it);
+            (it.name().to_owned(), self.one(&axis.expect("an axis").values))
+        };
+        let at: BTreeMap<String, f64> = held.iter().map(held_at).collect();
+        let from = self.uniform(0.0, 3.0);
+        Drawing {
+            name,
+            kind,
+            title: self.is_so().then(|| self.text(&['\n', '\t', '\u{7f}', '\0'])),
+            x,
+            y,
+            of,
+            at,
+            panels: Vec::new(),
+            cycles: self.is_so().then_some([from, from + 0.5]),
+            sweep: self.is_so().then(|| self.one(&[Sweep::Upward, Sweep::Downward])),
+            colour_by: (kind.keys().coloured && self.is_so())
+                .then(|| self.one(&COLOURED_BY).to_owned()),
+            branches: self.is_so(),
+            width_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
+            height_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
+            dpi: self.is_so().then(|| self.uniform(50.0, 2400.0)),
+            point_mm: self.is_so().then(|| self.uniform(0.02, 5.0)),
+            legend: self.is_so(),
+            data: self.is_so(),
+            svg_text: self.is_so(),
+            settings: self.settings(),
+        }
+    }
+
+    fn settings(&mut self) -> Settings {
+        let names = ["omega", "delta", "progression_speed", "section_r", "period", "start_phase"];
+        let names = self.some(&names);
+        names.into_iter().map(|name| (name.to_owned(), self.quantity_settings(name))).collect()
+    }
+
+    fn quantity_settings(&mut self, name: &str) -> QuantitySettings {
+        let low = self.uniform(1e-3, 1.0);
+        let width = self.is_so().then(|| self.uniform(1e-6, 1e-3));
+        let scales = [ScaleChoice::Linear, ScaleChoice::Log, ScaleChoice::Symlog(width)];
+        let unit = if name == "omega" { ["rad/s", "Hz", NATURAL] } else { ["um", "mm", "m"] };
+        let has_unit = ["omega", "delta", "section_r"].contains(&name);
+        let maps = ColourMap::NAMES.iter().map(|(_, map)| *map).collect::<Vec<_>>();
+        // A quantity of which nothing is set is not written.
+        QuantitySettings {
+            limits: self.is_so().then_some([low, low + 0.25]),
+            scale: Some(self.one(&scales)),
+            unit: (has_unit && self.is_so()).then(|| self.one(&unit)),
+            label: self.is_so().then(|| self.text(&[])),
+            decimals: self.is_so().then(|| self.below(13)),
+            colour_map: self
+                .is_so()
+                .then(|| Colouring { map: self.one(&maps), reversed: self.is_so() }),
+            centre: self.is_so().then(|| self.number(Allowed::Finite)),
+            contours: (0..self.below(3)).map(|_| self.number(Allowed::Finite)).collect(),
+        }
+    }
+}
