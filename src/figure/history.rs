@@ -5,6 +5,7 @@ use super::canvas::{Canvas, Dash, Drawn, Stroke};
 use super::error::FigureError;
 use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
+use super::motion::{Motion, sources};
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
 use super::scale::Scale;
@@ -15,21 +16,25 @@ use super::text::Text;
 use super::view::View;
 use crate::capsule::Parameter;
 use crate::store::catalogue::{
-    Entry, HISTORY_DRIVE, HISTORY_R, HISTORY_TIME, HISTORY_X2, HISTORY_Y1, HISTORY_Y2, TIME,
-    VELOCITIES,
+    Entry, HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_TIME, HISTORY_X1,
+    HISTORY_X2, HISTORY_Y1, HISTORY_Y2, RELATIVE_VELOCITY, TIME, VELOCITIES,
 };
 use crate::study::Drawing;
 
 /// Panels of a history, unless others are asked for.
 const PANELS: [Entry; 3] = [HISTORY_X2, HISTORY_R, VELOCITIES];
 /// What a history can show, each with its variables.
-const SHOWN: [(Entry, &[Entry]); 6] = [
+const SHOWN: [(Entry, &[Entry]); 10] = [
+    (HISTORY_X1, &[HISTORY_X1]),
     (HISTORY_X2, &[HISTORY_X2]),
     (HISTORY_R, &[HISTORY_R]),
     (VELOCITIES, &[HISTORY_Y1, HISTORY_Y2]),
     (HISTORY_Y1, &[HISTORY_Y1]),
     (HISTORY_Y2, &[HISTORY_Y2]),
+    (RELATIVE_VELOCITY, &[RELATIVE_VELOCITY]),
     (HISTORY_DRIVE, &[HISTORY_DRIVE]),
+    (HISTORY_CONTACT, &[HISTORY_CONTACT]),
+    (HISTORY_FRICTION, &[HISTORY_FRICTION]),
 ];
 /// Cases that one page has room for.
 const MOST_CASES: usize = 12;
@@ -66,7 +71,9 @@ fn reads(drawing: &Drawing) -> Names {
     let of = drawing.of.iter().map(String::as_str);
     let shown = of.chain(usual.into_iter().filter(|_| drawing.of.is_empty()));
     let constants = [Parameter::Omega, Parameter::Delta].map(Entry::of_parameter);
-    Names::of(shown.flat_map(variables).copied()).and(constants)
+    let shown: Vec<Entry> = shown.flat_map(variables).copied().collect();
+    let sources: Vec<Entry> = shown.iter().flat_map(|entry| sources(entry.name)).collect();
+    Names::of(shown).and(sources).and(constants)
 }
 
 /// Draws the history that `view` asks for.
@@ -108,7 +115,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 }
 
 /// The axis whose every value gets a panel.
-fn case_axis<'a>(view: &View<'a>) -> Result<Option<&'a str>, FigureError> {
+pub fn case_axis<'a>(view: &View<'a>) -> Result<Option<&'a str>, FigureError> {
     let free = view.free_axes();
     let wanted = view.drawing.x.as_deref();
     let long = |name: &&str| view.coordinate_values(name).len() > 1;
@@ -120,7 +127,7 @@ fn case_axis<'a>(view: &View<'a>) -> Result<Option<&'a str>, FigureError> {
     let count = view.coordinate_values(name).len();
     if count > MOST_CASES {
         return Err(view.unfit(format!(
-            "axis `{name}` has {count} values, more than the {MOST_CASES} panels a history has \
+            "axis `{name}` has {count} values, more than the {MOST_CASES} panels that there is \
              room for: hold it at one of them with `at`"
         )));
     }
@@ -164,14 +171,9 @@ fn cell(view: &View<'_>, output: &str, case: usize, free: &[&str]) -> Result<Cel
     let shown = |cycle: f64| (first - 1e-9..=last + 1e-9).contains(&cycle);
     let mut curves = Vec::new();
     for (variable, stroke) in curves_of(view, output)? {
-        let values = view.shown(variable.name, free)?;
-        let samples = values.iter().skip(case * times.len()).take(times.len());
-        let points: Vec<_> = times
-            .iter()
-            .zip(samples)
-            .filter(|((_, cycle), _)| shown(*cycle))
-            .map(|((time, _), value)| (*time, *value))
-            .collect();
+        let samples = Motion::new(view, free, case).shown(variable.name)?;
+        let both = times.iter().zip(samples).filter(|((_, cycle), _)| shown(*cycle));
+        let points: Vec<_> = both.map(|((time, _), value)| (*time, value)).collect();
         if points.is_empty() {
             let why = format!("no sample of the history lies in cycles {first} to {last}");
             return Err(view.unfit(why));

@@ -27,6 +27,7 @@ mod inferred;
 mod kind;
 mod map;
 mod mark;
+mod motion;
 mod notes;
 mod optima_table;
 mod origin;
@@ -182,7 +183,8 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
     let most = kind.keys().most;
     if of.len() > most && most > 0 {
         let (kind, of) = (kind.name(), of.join(", "));
-        return Err(view.unfit(format!("a {kind} shows one output, and `of` names {of}")));
+        let most = if most == 1 { "one".to_owned() } else { most.to_string() };
+        return Err(view.unfit(format!("a {kind} shows {most} at most, and `of` names {of}")));
     }
     let drawing = view.drawing;
     if drawing.colour_by.is_some() && !kind.keys().coloured {

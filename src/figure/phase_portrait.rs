@@ -1,110 +1,184 @@
-//! Relative velocity over relative displacement, with the impact surface and the section points.
+//! One coordinate of a motion over another, with the impact surface, section points and impacts: a panel for each case.
 
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
+use super::history::case_axis;
 use super::kind::{Kind, Names, Needs};
-use super::page::{PageRequest, PanelRequest};
+use super::motion::{Motion, sources};
+use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
-use super::style::{BLUE, CONTACT, CURVE_WIDTH, FAINT_INK, INK, REFERENCE_WIDTH, VERMILION};
+use super::style::{
+    BLUE, CONTACT, CURVE_WIDTH, FAINT_INK, INK, ONE_COLUMN, REFERENCE_WIDTH, TWO_COLUMNS, VERMILION,
+};
 use super::text::Text;
 use super::view::View;
 use crate::capsule::Parameter;
 use crate::store::catalogue::{
-    Entry, HISTORY_R, HISTORY_TIME, HISTORY_Y1, HISTORY_Y2, IMPACT_Y1, IMPACT_Y2,
-    RELATIVE_VELOCITY, SECTION_R, SECTION_Y1, SECTION_Y2,
+    Entry, HISTORY_R, HISTORY_Y1, HISTORY_Y2, IMPACT_Y1, IMPACT_Y2, RELATIVE_VELOCITY, SECTION_R,
+    SECTION_Y1, SECTION_Y2,
 };
 use crate::study::Drawing;
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 165.0;
+/// Height of each of several frames [pt].
+const HEIGHT_OF_SEVERAL: f64 = 120.0;
 /// Radius of section points [pt].
 const SECTION_RADIUS: f64 = 2.2;
 /// Radius of impact points [pt].
 const IMPACT_RADIUS: f64 = 2.2;
+/// The coordinates shown, unless others are asked for.
+const COORDINATES: [Entry; 2] = [HISTORY_R, RELATIVE_VELOCITY];
 
 /// What a portrait shows, in the units of its axes.
 struct Portrait {
     orbit: Vec<(f64, f64)>,
     sections: Vec<(f64, f64)>,
     impacts: Vec<(f64, f64)>,
-    gap: Option<f64>,
+    /// Where the mass reaches the stop, along the abscissa and along the ordinate.
+    gap: [Option<f64>; 2],
 }
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What a portrait reads: the motion, the points of both sections, and the gap.
-fn reads(_: &Drawing) -> Names {
+fn reads(drawing: &Drawing) -> Names {
+    let named = drawing.of.iter().flat_map(|name| sources(name));
     Names::of([HISTORY_R, HISTORY_Y1, HISTORY_Y2])
         .and([SECTION_R, SECTION_Y1, SECTION_Y2, IMPACT_Y1, IMPACT_Y2])
         .and([Entry::of_parameter(Parameter::Delta)])
+        .and(named)
+        .and_named(drawing.of.clone())
 }
 
-/// Draws the phase portrait that `view` asks for.
+/// Draws the phase portraits that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let portrait = portrait(view)?;
-    let all = || portrait.orbit.iter().chain(&portrait.sections).chain(&portrait.impacts);
-    let x: Vec<f64> = all().map(|point| point.0).chain(portrait.gap).collect();
-    let y: Vec<f64> = all().map(|point| point.1).collect();
-    let panel = PanelRequest {
-        x: AxisRequest::around(view.quantity(HISTORY_R.name), &x, 0.06),
-        y: AxisRequest::around(view.quantity(RELATIVE_VELOCITY.name), &y, 0.06),
-        header: Header { letter: None, note: view.held_note(&[]), legend: legend(&portrait) },
+    let names: [&str; 2] = match &view.drawing.of[..] {
+        [] => COORDINATES.map(|entry| entry.name),
+        [x, y] => [x, y],
+        _ => return Err(view.unfit("`of` names the coordinates of both axes of a phase portrait")),
     };
-    let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Inward);
-    let (mut canvas, panels) = page.lay_out();
-    for panel in panels.iter().flatten() {
-        draw_portrait(&mut canvas, panel, &portrait);
+    let axis = case_axis(view)?;
+    let free: Vec<&str> = axis.into_iter().collect();
+    let count = axis.map_or(1, |name| view.coordinate_values(name).len());
+    let portraits = (0..count).map(|case| portrait(view, names, (&free, case)));
+    let portraits = portraits.collect::<Result<Vec<Portrait>, FigureError>>()?;
+    let columns = match count {
+        1 => 1,
+        2 | 4 => 2,
+        _ => 3,
+    };
+    let request = |(case, portrait): (usize, &Portrait)| {
+        let all = || portrait.orbit.iter().chain(&portrait.sections).chain(&portrait.impacts);
+        let x: Vec<f64> = all().map(|point| point.0).chain(portrait.gap[0]).collect();
+        let y: Vec<f64> = all().map(|point| point.1).chain(portrait.gap[1]).collect();
+        let own = axis.map(|name| view.value_note(name, case));
+        let note = own.into_iter().chain(view.held_note(&free).filter(|note| !note.is_empty()));
+        let note = note.reduce(|note, next| note.then(Text::plain(", ")).then(next));
+        let x = AxisRequest::around(view.quantity(names[0]), &x, 0.06);
+        let y = AxisRequest::around(view.quantity(names[1]), &y, 0.06);
+        PanelRequest {
+            x: AxisRequest { labelled: case + columns >= count, ..x },
+            y: AxisRequest { labelled: case.is_multiple_of(columns), ..y },
+            header: Header {
+                letter: letter(case, count),
+                note,
+                legend: if case == 0 { legend(portrait) } else { Vec::new() },
+            },
+        }
+    };
+    let mut panels: Vec<PanelRequest> = portraits.iter().enumerate().map(request).collect();
+    let mut rows = Vec::new();
+    while !panels.is_empty() {
+        let rest = panels.split_off(columns.min(panels.len()));
+        rows.push(std::mem::replace(&mut panels, rest));
     }
-    Ok(canvas.finish(&view.about(&[HISTORY_R.name.to_owned()], &[])))
+    let page = PageRequest {
+        drawing: view.drawing,
+        width_mm: if columns > 1 { TWO_COLUMNS } else { ONE_COLUMN },
+        heights: vec![if count > 1 { HEIGHT_OF_SEVERAL } else { HEIGHT }; rows.len()],
+        rows,
+        column_room: NO_ROOM,
+        right_room: NO_ROOM,
+        bottom_room: 0.0,
+        pointing: Pointing::Inward,
+    };
+    let (mut canvas, panels) = page.lay_out();
+    for (panel, portrait) in panels.iter().flatten().zip(&portraits) {
+        draw_portrait(&mut canvas, panel, portrait);
+    }
+    Ok(canvas.finish(&view.about(&names.map(str::to_owned), &free)))
 }
 
-fn portrait(view: &View<'_>) -> Result<Portrait, FigureError> {
-    let cycles = view.coordinate_values(HISTORY_TIME.name);
-    if cycles.is_empty() {
-        return Err(view.without_histories());
-    }
+/// One coordinate over another, for a case.
+fn portrait(
+    view: &View<'_>,
+    names: [&str; 2],
+    (free, case): (&[&str], usize),
+) -> Result<Portrait, FigureError> {
+    let motion = Motion::new(view, free, case);
     let [first, last] = view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-    let r = view.shown(HISTORY_R.name, &[])?;
-    let (y1, y2) = (view.take(HISTORY_Y1.name, &[])?, view.take(HISTORY_Y2.name, &[])?);
-    let orbit: Vec<_> = cycles
-        .iter()
-        .zip(r.iter().zip(y1.iter().zip(&y2)))
-        .filter(|(cycle, _)| (first - 1e-9..=last + 1e-9).contains(*cycle))
-        .map(|(_, (r, (y1, y2)))| (*r, y1 - y2))
+    let samples = motion.shown(names[0])?.into_iter().zip(motion.shown(names[1])?);
+    let orbit: Vec<_> = motion
+        .cycles()?
+        .into_iter()
+        .zip(samples)
+        .filter(|(cycle, _)| (first - 1e-9..=last + 1e-9).contains(cycle))
+        .map(|(_, place)| place)
         .collect();
     if orbit.is_empty() {
         return Err(view.unfit(format!("no sample lies in cycles {first} to {last}")));
     }
     let delta = Parameter::Delta.symbol();
-    let factor = view.quantity(delta).factor;
-    let gap = view.parameter(delta, &[]).ok().and_then(|gap| gap.first().map(|it| it * factor));
-    let sections = match view.dataset.variable(SECTION_R.name) {
-        Some(_) => {
-            let r = view.shown(SECTION_R.name, &[])?;
-            relative(view, [SECTION_Y1, SECTION_Y2], r.iter())?
+    let gap = view.parameter(delta, free).ok().and_then(|gaps| gaps.iter().nth(case).copied());
+    let of_case = |entry: Entry| -> Result<Vec<f64>, FigureError> {
+        if view.dataset.variable(entry.name).is_none() {
+            return Ok(Vec::new());
         }
-        None => Vec::new(),
+        let all = view.take(entry.name, free)?;
+        let count = all.shape().last().copied().unwrap_or(0);
+        Ok(all.iter().skip(case * count).take(count).copied().collect())
     };
-    let impacts = match (view.dataset.variable(IMPACT_Y1.name), gap) {
-        (Some(_), Some(gap)) => relative(view, [IMPACT_Y1, IMPACT_Y2], std::iter::repeat(&gap))?,
-        _ => Vec::new(),
+    let less = |a: Vec<f64>, b: Vec<f64>| a.into_iter().zip(b).map(|(a, b)| a - b).collect();
+    // What sections tell of a coordinate; nothing of displacements, which go on from cycle to cycle.
+    let at_section = |name: &str| -> Result<Vec<f64>, FigureError> {
+        match name {
+            _ if name == HISTORY_R.name => of_case(SECTION_R),
+            _ if name == HISTORY_Y1.name => of_case(SECTION_Y1),
+            _ if name == HISTORY_Y2.name => of_case(SECTION_Y2),
+            _ if name == RELATIVE_VELOCITY.name => {
+                Ok(less(of_case(SECTION_Y1)?, of_case(SECTION_Y2)?))
+            }
+            _ => Ok(Vec::new()),
+        }
     };
-    Ok(Portrait { orbit, sections, impacts, gap })
-}
-
-/// Points of given displacement and the difference of two velocities, without the padding.
-fn relative<'a>(
-    view: &View<'_>,
-    [y1, y2]: [Entry; 2],
-    r: impl Iterator<Item = &'a f64>,
-) -> Result<Vec<(f64, f64)>, FigureError> {
-    let (y1, y2) = (view.take(y1.name, &[])?, view.take(y2.name, &[])?);
-    let points = r.zip(y1.iter().zip(&y2)).map(|(r, (y1, y2))| (*r, y1 - y2));
-    Ok(points.filter(|(r, velocity)| r.is_finite() && velocity.is_finite()).collect())
+    let at_impact = |name: &str| -> Result<Vec<f64>, FigureError> {
+        match (name, gap) {
+            (name, Some(gap)) if name == HISTORY_R.name => {
+                Ok(of_case(IMPACT_Y1)?.into_iter().map(|_| gap).collect())
+            }
+            (name, _) if name == HISTORY_Y1.name => of_case(IMPACT_Y1),
+            (name, _) if name == HISTORY_Y2.name => of_case(IMPACT_Y2),
+            (name, _) if name == RELATIVE_VELOCITY.name => {
+                Ok(less(of_case(IMPACT_Y1)?, of_case(IMPACT_Y2)?))
+            }
+            _ => Ok(Vec::new()),
+        }
+    };
+    let factors = names.map(|name| view.quantity(name).factor);
+    let both = |x: Vec<f64>, y: Vec<f64>| -> Vec<(f64, f64)> {
+        let places = x.into_iter().zip(y).map(|(x, y)| (x * factors[0], y * factors[1]));
+        places.filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
+    };
+    let sections = both(at_section(names[0])?, at_section(names[1])?);
+    let impacts = both(at_impact(names[0])?, at_impact(names[1])?);
+    let reached =
+        |at: usize| gap.filter(|_| names[at] == HISTORY_R.name).map(|it| it * factors[at]);
+    Ok(Portrait { orbit, sections, impacts, gap: [reached(0), reached(1)] })
 }
 
 fn legend(portrait: &Portrait) -> Vec<(Mark, Text)> {
@@ -115,20 +189,31 @@ fn legend(portrait: &Portrait) -> Vec<(Mark, Text)> {
     if !portrait.impacts.is_empty() {
         legend.push((Mark::Ring(VERMILION, IMPACT_RADIUS), Text::plain("impact")));
     }
-    if portrait.gap.is_some() {
+    if portrait.gap.iter().any(Option::is_some) {
         legend.push((Mark::Patch(CONTACT), Text::plain("contact")));
     }
     legend
 }
 
-fn draw_portrait(canvas: &mut Canvas, panel: &Panel, portrait: &Portrait) {
-    if let Some(gap) = portrait.gap {
-        let (surface, _) = panel.place(gap, panel.y.scale.low);
-        let left = surface.clamp(panel.frame.left, panel.frame.right);
-        canvas.fill(Rect { left, ..panel.frame }, CONTACT);
-        let ends = [(gap, panel.y.scale.low), (gap, panel.y.scale.high)];
-        panel.curve(canvas, &ends, Stroke::dashed(FAINT_INK, REFERENCE_WIDTH));
+/// Shades the side of the impact surface where the stop is pressed, with a line along the surface.
+fn draw_contact(canvas: &mut Canvas, panel: &Panel, gap: [Option<f64>; 2]) {
+    let frame = panel.frame;
+    let (x, y) = (&panel.x.scale, &panel.y.scale);
+    let line = Stroke::dashed(FAINT_INK, REFERENCE_WIDTH);
+    if let Some(gap) = gap[0] {
+        let left = panel.place(gap, y.low).0.clamp(frame.left, frame.right);
+        canvas.fill(Rect { left, ..frame }, CONTACT);
+        panel.curve(canvas, &[(gap, y.low), (gap, y.high)], line);
     }
+    if let Some(gap) = gap[1] {
+        let bottom = panel.place(x.low, gap).1.clamp(frame.top, frame.bottom);
+        canvas.fill(Rect { bottom, ..frame }, CONTACT);
+        panel.curve(canvas, &[(x.low, gap), (x.high, gap)], line);
+    }
+}
+
+fn draw_portrait(canvas: &mut Canvas, panel: &Panel, portrait: &Portrait) {
+    draw_contact(canvas, panel, portrait.gap);
     panel.curve(canvas, &portrait.orbit, Stroke::solid(BLUE, CURVE_WIDTH));
     let rings = Stroke::solid(VERMILION, CURVE_WIDTH);
     canvas.rings(&panel.places(&portrait.impacts), IMPACT_RADIUS, rings);

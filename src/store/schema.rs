@@ -14,6 +14,10 @@ use super::catalogue::*;
 use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, Values, Variable, drawn, provenance};
 
+/// Attribute: the law of resistance to the capsule.
+pub const RESISTANCE: &str = "resistance";
+/// Attribute: the reading of the switching between stick and slip.
+pub const SWITCHING: &str = "friction_switching";
 /// Attribute: differs between studies whose cases differ, see [`Study::fingerprint`].
 pub const FINGERPRINT: &str = "study_fingerprint";
 
@@ -87,10 +91,8 @@ pub fn frame(study: &Study) -> Dataset {
     dataset.attributes.insert("title".to_owned(), study.title.clone());
     dataset.attributes.extend(provenance::attributes());
     dataset.attributes.extend(protocol(study));
-    dataset
-        .attributes
-        .insert("friction_switching".to_owned(), study.base.switching.name().to_owned());
-    dataset.attributes.insert("resistance".to_owned(), study.base.resistance.name().to_owned());
+    dataset.attributes.insert(SWITCHING.to_owned(), study.base.switching.name().to_owned());
+    dataset.attributes.insert(RESISTANCE.to_owned(), study.base.resistance.name().to_owned());
     dataset.attributes.insert(FINGERPRINT.to_owned(), study.fingerprint());
     if let Some(inherit) = study.inherit() {
         let axis = study.axes()[inherit.axis].coordinate.name();

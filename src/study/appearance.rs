@@ -9,7 +9,7 @@ use super::document::unknown;
 use super::quantity::{expectation, unit};
 
 /// What figures show besides coordinates and outputs, with its dimension.
-const OTHERS: [(&str, Dimension); 20] = [
+const OTHERS: [(&str, Dimension); 23] = [
     ("outcome", Dimension::Number),
     ("period", Dimension::Number),
     ("cycles", Dimension::Number),
@@ -24,11 +24,14 @@ const OTHERS: [(&str, Dimension); 20] = [
     ("relative_velocity", Dimension::Velocity),
     ("time", Dimension::Time),
     ("velocities", Dimension::Velocity),
+    ("history_x1", Dimension::Length),
     ("history_x2", Dimension::Length),
     ("history_r", Dimension::Length),
     ("history_y1", Dimension::Velocity),
     ("history_y2", Dimension::Velocity),
     ("history_drive", Dimension::Force),
+    ("history_contact", Dimension::Force),
+    ("history_friction", Dimension::Force),
     ("attractor", Dimension::Number),
 ];
 

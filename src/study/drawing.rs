@@ -13,8 +13,21 @@ const VERDICTS: [&str; 3] = ["outcome", "period", "cycles"];
 const POINTS: [&str; 6] =
     ["section_r", "section_y1", "section_y2", "impact_phase", "impact_y1", "impact_y2"];
 /// What a history shows.
-const HISTORIES: [&str; 6] =
-    ["history_x2", "history_r", "velocities", "history_y1", "history_y2", "history_drive"];
+const HISTORIES: [&str; 10] = [
+    "history_x1",
+    "history_x2",
+    "history_r",
+    "velocities",
+    "history_y1",
+    "history_y2",
+    "relative_velocity",
+    "history_drive",
+    "history_contact",
+    "history_friction",
+];
+/// What the axes of a phase portrait can be.
+const COORDINATES: [&str; 6] =
+    ["history_x1", "history_x2", "history_r", "history_y1", "history_y2", "relative_velocity"];
 
 /// What the keys of a figure may name beside the axes of its study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,8 +88,8 @@ macro_rules! kinds {
 kinds! {
     /// Displacements and velocities over time.
     History "history" Keys { others: &[&HISTORIES], most: ANY, ..AXES };
-    /// Relative velocity over relative displacement, with the impact surface and section points.
-    PhasePortrait "phase-portrait" AXES;
+    /// Relative velocity over relative displacement, or one coordinate over another, with section points and impacts.
+    PhasePortrait "phase-portrait" Keys { others: &[&COORDINATES], most: 2, ..AXES };
     /// A section coordinate over an axis, with the progression speed below it.
     Bifurcation "bifurcation"
         Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true, coloured: true, ..AXES };

@@ -172,8 +172,12 @@ fn read_of(of: &Entry<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output]) ->
         of.fault(format!("does not go with a figure of the kind {}", kind.name()));
         return Vec::new();
     }
-    if most == 1 && list.len() > 1 {
-        of.fault(format!("expected one output for this kind of figure, found {}", list.len()));
+    if list.len() > most {
+        let most = if most == 1 { "one output".to_owned() } else { format!("{most} outputs") };
+        of.fault(format!("expected {most} for this kind of figure, found {}", list.len()));
+    }
+    if kind == DrawingKind::PhasePortrait && list.len() == 1 {
+        of.fault("expected the coordinates of both axes, found one");
     }
     let names: Vec<(&str, &str)> =
         kind.can_show(outputs).into_iter().map(|name| (name, name)).collect();

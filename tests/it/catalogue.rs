@@ -60,12 +60,16 @@ const SHOWN: &[&str] = &[
     "impact_phase",
     "impact_y1",
     "impact_y2",
+    "history_x1",
     "history_x2",
     "history_r",
     "velocities",
+    "relative_velocity",
     "history_y1",
     "history_y2",
     "history_drive",
+    "history_contact",
+    "history_friction",
 ];
 
 /// What the keys that set how a quantity is shown may name beside coordinates and outputs.
@@ -85,11 +89,14 @@ const SET: &[&str] = &[
     "relative_velocity",
     "time",
     "velocities",
+    "history_x1",
     "history_x2",
     "history_r",
     "history_y1",
     "history_y2",
     "history_drive",
+    "history_contact",
+    "history_friction",
 ];
 
 /// The contents of the string literals of `text`, comments and its tests left out.

@@ -42,6 +42,7 @@ mod figure_settings;
 mod folds_of_fronts;
 mod forms;
 mod full_disk;
+mod histories;
 mod hostile_files;
 mod hostile_places;
 mod hostile_studies;

@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::process::Command;
 
+use capsulemap::capsule::Parameter;
 use capsulemap::store;
-use capsulemap::study::Study;
+use capsulemap::study::{Study, parse_quantity};
 
 const README: &str = include_str!("../../README.md");
 
@@ -184,6 +185,22 @@ fn the_table_of_the_readme_is_the_tested_one() {
     for digits in ["10.298005", "25.39085", "0.008345", "1.119443", "0.528927", "3.575601"] {
         assert!(README.contains(digits) && tested.contains(digits), "{digits}");
     }
+}
+
+#[test]
+fn the_defaults_of_the_readme_are_those_of_the_program() {
+    let cells = |line: &'static str| line.trim_matches('|').split('|').map(str::trim);
+    let lines: Vec<&str> = README.lines().collect();
+    let at = lines.iter().position(|line| line.starts_with("| m1 |")).expect("a table");
+    let (names, values) = (cells(lines[at]), cells(lines[at + 2]));
+    let mut count = 0;
+    for (name, value) in names.zip(values) {
+        let parameter = Parameter::named(name).expect(name);
+        let value = parse_quantity(value, parameter.dimension()).expect(name);
+        assert_eq!(value, parameter.default_value(), "{name}");
+        count += 1;
+    }
+    assert_eq!(count, 8);
 }
 
 #[test]

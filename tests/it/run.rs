@@ -6,7 +6,7 @@ use std::path::Path;
 use capsulemap::capsule::{Output, Parameter, State, settle};
 use capsulemap::lane::Instructions;
 use capsulemap::store::{self, Dataset, Values, Variable};
-use capsulemap::study::Study;
+use capsulemap::study::{DrawingKind, Study};
 use serde_json::Value;
 
 use super::program::{FIG5, WorkDir};
@@ -42,7 +42,9 @@ fn rich_figures() -> String {
     let mut figure = |name: &str, kind: &str, more: &str| {
         text += &format!("[[figures]]\nname = \"{name}\"\nkind = \"{kind}\"\n{more}\n");
     };
-    let histories = "\"history_x2\", \"history_r\", \"velocities\", \"history_y1\", \"history_y2\", \"history_drive\"";
+    let history = DrawingKind::History.can_show(&[]);
+    let histories: Vec<String> = history.iter().map(|name| format!("\"{name}\"")).collect();
+    let histories = histories.join(", ");
     figure("h", "history", &format!("of = [{histories}]\nat = {{ p_d = \"4 N\" }}"));
     figure("p", "phase-portrait", "cycles = [0, 1]");
     figure("b", "bifurcation", &format!("of = [{outputs}]\nx = \"p_d\""));

@@ -36,8 +36,9 @@ impl Random {
         let (x, y) = (name_of(), name_of());
         let mut of: Vec<String> =
             self.some(&kind.can_show(&study.outputs)).into_iter().map(str::to_owned).collect();
-        if kind.keys().most == 1 {
-            of.truncate(1);
+        of.truncate(kind.keys().most);
+        if kind == DrawingKind::PhasePortrait && of.len() == 1 {
+            of.clear();
         }
         let held = self.some(&coordinates);
         let held_at = |it: &Coordinate| {

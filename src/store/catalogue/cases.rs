@@ -94,6 +94,13 @@ entries! {
 
     TIME "time" "s" Derived, Real, words("Time", "s"),
         "time since the history begins";
+    HISTORY_X1 "history_x1" "m" Derived, Real,
+        shown("", "*x*_{1}", "mm", 1e3),
+        "displacement of the mass";
+    HISTORY_CONTACT "history_contact" "N" Derived, Real, words("Contact force", "N"),
+        "force of the stop on the mass";
+    HISTORY_FRICTION "history_friction" "N" Derived, Real, words("Friction", "N"),
+        "force of the friction on the capsule, against its motion";
     VELOCITIES "velocities" "m/s" Derived, Real, shown("", "*y*_{1}, *y*_{2}", "m/s", 1.0),
         "velocities of the mass and of the capsule";
     RELATIVE_VELOCITY "relative_velocity" "m/s" Derived, Real,
