@@ -1,14 +1,13 @@
 //! What a sweep would take: cases, time and disk space, estimated from a probe.
 
-use std::path::Path;
 use std::time::Duration;
 
 use super::failure::Failure;
 use super::readable::{count, counted, estimated, size, time};
 use super::terminal::print;
-use crate::campaign::{Probe, memory, probe, silent};
+use crate::campaign::{BlockStatus, Campaign, Probe, memory, probe, silent};
 use crate::figure::variables;
-use crate::run::{Machine, has_attractors};
+use crate::run::{Estimate, Machine, has_attractors};
 use crate::store;
 use crate::study::Study;
 
@@ -18,25 +17,39 @@ const SMALL: f64 = 1e7;
 const PROBE: Duration = Duration::from_secs(5);
 
 /// Computes a few blocks, spread over the study, and says what all would take. Writes nothing.
-pub fn estimate(study: &Study, machine: Machine, output: &Path) -> Result<(), Failure> {
-    let probe = probe(study, machine, PROBE, &silent)?;
-    print(&text(study, machine, output, &probe))
+pub fn estimate(campaign: &Campaign<'_>) -> Result<(), Failure> {
+    let blocks = campaign.status()?.blocks.unwrap_or_default();
+    let probe = probe(campaign.study, campaign.machine, PROBE, &silent)?;
+    print(&text(campaign, &blocks, &probe))
 }
 
-fn text(study: &Study, machine: Machine, output: &Path, probe: &Probe) -> String {
-    let (cases, blocks) = (count(study.cases()), counted(study.blocks(), "block"));
+fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String {
+    let Campaign { study, machine, output, .. } = *campaign;
+    // What is done takes neither time nor room any more; the probe is a sample of all blocks.
+    let left = 1.0 - blocks.cases() as f64 / study.cases() as f64;
+    let done = match blocks.done.len() {
+        0 => String::new(),
+        done => format!(
+            "  done   {} of them with {}; what follows is of the rest\n",
+            counted(done, "block"),
+            counted(blocks.cases(), "case")
+        ),
+    };
+    let scaled = |it: Estimate| Estimate { value: it.value * left, error: it.error * left };
+    let (cases, all) = (count(study.cases()), counted(study.blocks(), "block"));
     let memory = memory(study, count_threads(machine));
     let [computing, joining] = [memory.computing, memory.joining].map(size);
-    let whole = probe.seconds.map_or("not known".to_owned(), estimated);
+    let whole = probe.seconds.map(scaled).map_or("not known".to_owned(), estimated);
     let threads = counted(count_threads(machine), "thread");
     let more = if has_attractors(study) { ", and more to search for attractors" } else { "" };
     let figures = figures(study).map_or(String::new(), |it| format!(", {} for a figure", size(it)));
     format!(
-        "{}\n  cases  {cases} in {blocks}\n  time   {whole} with {threads}{more}\n  \
-         room   {} for the blocks, and as much again while they are joined\n  \
+        "{}\n  cases  {cases} in {all}\n{done}  time   {whole} with {threads}{more}\n  \
+         room   {} for the blocks, and {} while all are joined\n  \
          memory about {computing} while cases are computed, {joining} while they are joined{figures}\n  \
          estimated from {} in {}, computed in {}; nothing was written\n",
         output.display(),
+        size(probe.bytes * left),
         size(probe.bytes),
         counted(probe.cases, "case"),
         counted(probe.blocks, "block"),

@@ -82,7 +82,7 @@ impl Sweep {
         if self.dry_run {
             campaign.kept()?;
             self.rehearse(&study, &place)?;
-            return estimate(&study, machine, &output);
+            return estimate(&campaign);
         }
         let task = self.task()?;
         let watch = Watch::new(&self.study, &study);

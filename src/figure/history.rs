@@ -218,7 +218,8 @@ fn request<'a>(
     for (index, cell) in cells.iter().enumerate() {
         let column = cell.case % columns;
         let (x, y) = axes(view, cells, index, columns, cases);
-        let note = notes[cell.case].clone();
+        // The quantities of a case stand below each other, and the case is named above the first.
+        let note = notes[cell.case].clone().filter(|_| index < cases);
         let header =
             Header { letter: letter(index, cells.len()), note, legend: legend(view, cell) };
         let panel = PanelRequest { x, y, header };

@@ -325,6 +325,16 @@ fn a_dry_run_estimates_and_leaves_nothing() {
         assert!(ran.contains(part), "{part}: {ran}");
     }
     assert_eq!(long.dir.files(), before);
+    // Blocks that are done are told, and are no part of what follows.
+    long.sweep(&["--task", "1/2"]).done();
+    let half = long.sweep(&["--dry-run"]).done().out;
+    assert!(half.contains("12 blocks with 6 144 cases; what follows is of the rest"), "{half}");
+    let room = |text: &str| -> f64 {
+        let rest = text.split_once("room   ").expect("a size").1;
+        rest.split_whitespace().next().and_then(|it| it.parse().ok()).expect("a number")
+    };
+    let share = room(&half) / room(&ran);
+    assert!((0.4..0.6).contains(&share), "{share}: {ran} {half}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use capsulemap::capsule::Parameter;
 use capsulemap::store;
-use capsulemap::study::{Study, parse_quantity};
+use capsulemap::study::{DrawingKind, Study, parse_quantity};
 
 const README: &str = include_str!("../../README.md");
 
@@ -184,6 +184,32 @@ fn the_table_of_the_readme_is_the_tested_one() {
     let tested = include_str!("paper.rs");
     for digits in ["10.298005", "25.39085", "0.008345", "1.119443", "0.528927", "3.575601"] {
         assert!(README.contains(digits) && tested.contains(digits), "{digits}");
+    }
+}
+
+#[test]
+fn the_gallery_is_as_its_script_writes_it_and_shows_every_kind() {
+    let (page, root) = ("results/README.md", Path::new(env!("CARGO_MANIFEST_DIR")));
+    let folder = clone();
+    let script = "scripts/gallery.sh";
+    for part in ["scripts", "results"] {
+        std::fs::create_dir_all(folder.path().join(part)).expect("a folder");
+    }
+    std::fs::copy(root.join(script), folder.path().join(script)).expect("the script");
+    let mut bash = Command::new("bash");
+    let ran = bash.args([script, "--page"]).current_dir(folder.path()).status().expect("bash");
+    assert!(ran.success());
+    let written = std::fs::read_to_string(folder.path().join(page)).expect("a page");
+    let kept = std::fs::read_to_string(root.join(page)).expect("a page");
+    assert!(written == kept, "run {script} --page");
+    for (name, _) in DrawingKind::NAMES {
+        assert!(kept.contains(&format!("## {name}\n")), "{name}");
+        assert!(kept.contains(&format!("kind = \"{name}\"")), "{name}");
+    }
+    for picture in kept.split("](").skip(1).filter_map(|it| it.split(')').next()) {
+        let picture = picture.trim_start_matches("../");
+        let places = [root.join("results").join(picture), root.join(picture)];
+        assert!(places.iter().any(|place| place.exists()), "{picture}");
     }
 }
 
