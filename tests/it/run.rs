@@ -42,9 +42,8 @@ fn rich_figures() -> String {
     let mut figure = |name: &str, kind: &str, more: &str| {
         text += &format!("[[figures]]\nname = \"{name}\"\nkind = \"{kind}\"\n{more}\n");
     };
-    let history = DrawingKind::History.can_show(&[]);
-    let histories: Vec<String> = history.iter().map(|name| format!("\"{name}\"")).collect();
-    let histories = histories.join(", ");
+    let names = DrawingKind::History.can_show(&[]);
+    let histories = format!("\"{}\"", names.join("\", \""));
     figure("h", "history", &format!("of = [{histories}]\nat = {{ p_d = \"4 N\" }}"));
     figure("p", "phase-portrait", "cycles = [0, 1]");
     figure("b", "bifurcation", &format!("of = [{outputs}]\nx = \"p_d\""));
