@@ -6,7 +6,7 @@ use super::arguments::plain_or_quantity;
 use crate::capsule::Dimension;
 use crate::study::appearance::dimension_of;
 use crate::study::quantity::parse_in;
-use crate::study::{Drawing, Setting};
+use crate::study::{Drawing, Setting, Size};
 
 /// Options that set how a figure looks.
 #[derive(Debug, Args)]
@@ -67,16 +67,20 @@ impl Appearance {
         let Appearance { dpi, data, svg_text, .. } = *self;
         let mut drawing = Drawing { dpi, legend: !self.no_legend, data, svg_text, ..drawing };
         let sizes = [
-            ("width", &self.width, &mut drawing.width_mm),
-            ("height", &self.height, &mut drawing.height_mm),
-            ("point", &self.point, &mut drawing.point_mm),
+            ("width", &self.width, &mut drawing.width_mm, Size::Width),
+            ("height", &self.height, &mut drawing.height_mm, Size::Height),
+            ("point", &self.point, &mut drawing.point_mm, Size::Point),
         ];
-        for (option, text, size) in sizes {
-            match text.as_deref().map(millimetres).transpose() {
-                Ok(found) => *size = found,
+        for (option, text, kept, size) in sizes {
+            let found = text.as_deref().map(millimetres).transpose();
+            let checked = found.and_then(|it| it.map_or(Ok(()), |it| size.check(it)).map(|()| it));
+            match checked {
+                Ok(found) => *kept = found,
                 Err(fault) => faults.push(format!("--{option}: {fault}")),
             }
         }
+        let checked = self.dpi.map_or(Ok(()), |dpi| Size::Resolution.check(dpi));
+        faults.extend(checked.err().map(|fault| format!("--dpi: {fault}")));
         for (key, setting) in Setting::NAMES {
             for text in self.of(setting) {
                 let put = put(&mut drawing, setting, text);

@@ -2,7 +2,10 @@
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
+use std::path::Path;
+
 use super::failure::Failure;
+use crate::campaign::quoted;
 use crate::capsule::{Dimension, Output};
 use crate::lane::Instructions;
 use crate::run::Machine;
@@ -40,6 +43,13 @@ pub fn named<T: Copy + Send + Sync + 'static>(
 pub fn output(option: &str, name: &str) -> Result<Output, String> {
     let names = Output::ALL.iter().map(|output| output.name());
     Output::named(name).ok_or_else(|| format!("{option}: {}", unknown("output", name, names)))
+}
+
+/// What follows a command in a hint, so that it runs as it is printed: the study, and the output where it was given.
+pub fn study_arguments(study: &Path, output: Option<&Path>) -> String {
+    let shown = |path: &Path| quoted(&path.to_string_lossy());
+    let output = output.map_or(String::new(), |it| format!(" --output {}", shown(it)));
+    format!("{}{output}", shown(study))
 }
 
 /// A quantity on the command line, in SI; a plain number is in SI already, and none is infinite.

@@ -123,7 +123,12 @@ impl Figure {
         match self.cycles[..] {
             [] => Ok(None),
             [from, to] if from < to => Ok(Some([from, to])),
-            _ => Err(Failure::request("--cycles: expected two numbers, the lesser first, as 0,5")),
+            _ => {
+                let found: Vec<String> = self.cycles.iter().map(f64::to_string).collect();
+                let found = found.join(",");
+                let expected = "expected two numbers, the lesser first, as 0,5";
+                Err(Failure::request(format!("--cycles {found}: {expected}")))
+            }
         }
     }
 

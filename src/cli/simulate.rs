@@ -63,14 +63,14 @@ pub struct Simulate {
     #[command(flatten)]
     phases: Phases,
     /// Drive cycles to compute in full.
-    #[arg(long, default_value_t = 20)]
+    #[arg(long, default_value_t = 20, allow_negative_numbers = true)]
     cycles: u64,
     /// Relative local error of a step.
-    #[arg(long, default_value = "1e-12")]
+    #[arg(long, default_value = "1e-12", allow_negative_numbers = true)]
     tolerance: f64,
     /// Drive cycles within which the motion must settle; if it does not, up to 2048 more are computed with the
     /// linearised flow to distinguish chaos from long periods, and 128 are measured.
-    #[arg(long, default_value_t = 2000)]
+    #[arg(long, default_value_t = 2000, allow_negative_numbers = true)]
     max_cycles: u64,
     /// Steps that all of it may take, else the case fails.
     #[arg(long, default_value_t = Protocol::default().max_steps, value_parser = clap::value_parser!(u64).range(1..))]

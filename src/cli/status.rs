@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::arguments::study_arguments;
 use super::failure::Failure;
 use super::readable::{count, counted, estimated, rate, size, time};
 use super::summary::outcomes;
@@ -37,7 +38,8 @@ impl Status {
         let status = Campaign::new(&study, &output).status()?;
         let mut text = String::new();
         if let Some(blocks) = &status.blocks {
-            text.push_str(&unfinished(&study, blocks));
+            let arguments = study_arguments(&self.study, self.output.as_deref());
+            text.push_str(&unfinished(&study, blocks, &arguments));
         }
         let file = status.file.map_err(Failure::from);
         if let Ok(Some(kept)) = &file {
@@ -61,8 +63,8 @@ fn whole(output: &Path, archive: &Archive) -> String {
     format!("{}: {holds}, written {created}\n", output.display())
 }
 
-/// A run that is not finished.
-fn unfinished(study: &Study, blocks: &BlockStatus) -> String {
+/// A run that is not finished; `arguments` name its study and output.
+fn unfinished(study: &Study, blocks: &BlockStatus, arguments: &str) -> String {
     let done = count(blocks.done.len());
     let all = count(study.blocks());
     let shown = blocks.folder.display();
@@ -73,9 +75,9 @@ fn unfinished(study: &Study, blocks: &BlockStatus) -> String {
     if blocks.is_busy {
         text.push_str("a run is active");
     } else if blocks.done.len() == study.blocks() {
-        text.push_str("all blocks are there: `capsulemap join` joins them");
+        text.push_str(&format!("all blocks are there: `capsulemap join {arguments}` joins them"));
     } else {
-        text.push_str("no run is active: `capsulemap sweep` resumes");
+        text.push_str(&format!("no run is active: `capsulemap sweep {arguments}` resumes"));
     }
     text.push_str(&pace(study, blocks));
     text.push('\n');

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::{machine, named};
+use super::arguments::{machine, named, study_arguments};
 use super::drawing::{FormatChoice, draw_from, formats, rehearse};
 use super::dry_run::estimate;
 use super::failure::Failure;
@@ -141,9 +141,10 @@ impl Sweep {
 
     /// The end of a task.
     fn part_with(&self, task: Task, blocks: &Path) {
-        let (shown, study) = (blocks.display(), self.study.display());
+        let shown = blocks.display();
+        let join = study_arguments(&self.study, self.output.as_deref());
         notify(&format!(
-            "{task}: its blocks are in {shown}; once all tasks are done: capsulemap join {study}"
+            "{task}: its blocks are in {shown}; once all tasks are done: capsulemap join {join}"
         ));
     }
 }

@@ -71,7 +71,7 @@ pub use shown::Shown;
 use crate::capsule::Parameter;
 use crate::store::catalogue::Entry;
 use crate::study::appearance::NATURAL;
-use crate::study::{Drawing, DrawingKind, Sweep};
+use crate::study::{Drawing, DrawingKind, Size, Sweep};
 use canvas::Drawn;
 use origin::Origin;
 use output::Figure;
@@ -199,16 +199,14 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
         return Err(view.unfit(format!("a {} {why}, or compute all", kind.name())));
     }
     let sizes = [
-        ("width", drawing.width_mm, style::WIDTHS, " mm"),
-        ("height", drawing.height_mm, style::WIDTHS, " mm"),
-        ("point", drawing.point_mm, style::POINTS, " mm"),
-        ("dpi", drawing.dpi, style::RESOLUTIONS, ""),
+        ("width", drawing.width_mm, Size::Width),
+        ("height", drawing.height_mm, Size::Height),
+        ("point", drawing.point_mm, Size::Point),
+        ("dpi", drawing.dpi, Size::Resolution),
     ];
-    for (key, size, (low, high), unit) in sizes {
-        if let Some(size) = size.filter(|size| !(low..=high).contains(size)) {
-            let why = format!("{key} = {size}{unit} is not within {low} to {high}{unit}");
-            return Err(view.unfit(why));
-        }
+    for (key, value, size) in sizes {
+        let checked = value.map_or(Ok(()), |value| size.check(value));
+        checked.map_err(|fault| view.unfit(format!("`{key}`: {fault}")))?;
     }
     Ok(())
 }

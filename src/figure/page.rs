@@ -8,10 +8,9 @@ use super::header::{Header, Mark};
 use super::panel::{Panel, Pointing, tick_room};
 use super::style::{
     BORDER, LABEL_GAP, LABEL_SIZE, ONE_COLUMN, PANEL_GAP, POINTS_PER_MM, SMALL_SIZE, TITLE_SIZE,
-    WIDTHS,
 };
 use super::text::Text;
-use crate::study::Drawing;
+use crate::study::{Drawing, Size};
 
 /// What a panel is to show.
 pub struct PanelRequest {
@@ -149,7 +148,8 @@ impl<'a> PageRequest<'a> {
     /// Finds a place for everything.
     fn arrange(&self) -> Arrangement {
         let wanted = self.drawing.width_mm.unwrap_or(self.width_mm);
-        let width = wanted.clamp(WIDTHS.0, WIDTHS.1) * POINTS_PER_MM;
+        let (least, most) = Size::Width.range();
+        let width = wanted.clamp(least, most) * POINTS_PER_MM;
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(1).max(1);
         let title = self.title_lines(width);
         let lefts = self.left_rooms(columns);

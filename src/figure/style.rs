@@ -17,12 +17,6 @@ pub const SCREEN_DPI: f64 = 220.0;
 pub const ONE_COLUMN: f64 = 88.0;
 /// Two columns of a journal [mm].
 pub const TWO_COLUMNS: f64 = 180.0;
-/// The widths and heights a figure may have [mm].
-pub const WIDTHS: (f64, f64) = (40.0, 1000.0);
-/// The diameters that points may have [mm].
-pub const POINTS: (f64, f64) = (0.02, 5.0);
-/// The resolutions that pixels may have [dots per inch].
-pub const RESOLUTIONS: (f64, f64) = (50.0, 2400.0);
 
 /// Size of headings [pt].
 pub const TITLE_SIZE: f64 = 10.0;

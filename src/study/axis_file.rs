@@ -29,7 +29,7 @@ pub(super) fn read_case_set(top: &Table<'_, '_>) -> CaseSet {
         table.finish();
         let (Some(name), Some(coordinate)) = (name, coordinate) else { continue };
         if seen.contains(&coordinate) {
-            name.fault(format!("a second axis \"{}\"", coordinate.name()));
+            name.fault(format!("a second axis \"{}\"; each is given once", coordinate.name()));
             continue;
         }
         seen.push(coordinate);
@@ -104,7 +104,8 @@ fn read_values(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<
     let points = points.and_then(|entry| entry.whole(1, MOST_VALUES));
     let ((from, to, spacing), points) = (ends?, points?);
     if from == to && points > 1 {
-        table.entry("to")?.fault("is the same as `from`");
+        let to = table.entry("to")?;
+        to.fault(format!("{} is the same as `from`; expected another value", to.shown()));
         return None;
     }
     let values = spacing.values(from, to, points as usize);
@@ -129,7 +130,8 @@ fn read_range(
     }
     let ends = read_ends(table, coordinate, "from and to, the range to draw from")?;
     if ends.0 == ends.1 {
-        table.entry("to")?.fault("is the same as `from`");
+        let to = table.entry("to")?;
+        to.fault(format!("{} is the same as `from`; expected another value", to.shown()));
         return None;
     }
     Some(ends)

@@ -202,10 +202,21 @@ impl<'r, 'a> Entry<'r, 'a> {
 
     fn expected<T>(&self, found: Option<T>, what: &str) -> Option<T> {
         if found.is_none() {
-            let kind = self.value.get_ref().type_str();
-            self.fault(format!("expected {what}, found {} {kind}", article(kind)));
+            self.fault(format!("expected {what}, found {}", self.shown()));
         }
         found
+    }
+
+    /// The value as it stands in the document; of a list or a table only what it is.
+    pub fn shown(&self) -> String {
+        match self.value.get_ref() {
+            DeValue::String(text) => format!("\"{text}\""),
+            DeValue::Integer(number) => number.as_str().to_owned(),
+            DeValue::Float(number) => number.as_str().to_owned(),
+            DeValue::Boolean(truth) => truth.to_string(),
+            DeValue::Datetime(time) => time.to_string(),
+            other => format!("{} {}", article(other.type_str()), other.type_str()),
+        }
     }
 
     /// The value as text.

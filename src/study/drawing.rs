@@ -159,6 +159,38 @@ impl Sweep {
     }
 }
 
+/// What a figure may be given in numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Size {
+    /// Its width [mm].
+    Width,
+    /// Its height [mm].
+    Height,
+    /// The diameter of its points [mm].
+    Point,
+    /// The dots of its pixels per inch.
+    Resolution,
+}
+
+impl Size {
+    /// The least and the most that is allowed.
+    pub const fn range(self) -> (f64, f64) {
+        match self {
+            Size::Width | Size::Height => (40.0, 1000.0),
+            Size::Point => (0.02, 5.0),
+            Size::Resolution => (50.0, 2400.0),
+        }
+    }
+
+    /// Fails with what is allowed where a size is not.
+    pub fn check(self, value: f64) -> Result<(), String> {
+        let (low, high) = self.range();
+        let unit = if self == Size::Resolution { "" } else { " mm" };
+        let fault = || format!("{value}{unit} is not within {low} to {high}{unit}");
+        if (low..=high).contains(&value) { Ok(()) } else { Err(fault()) }
+    }
+}
+
 /// Where axes are held, and those that are held at several values in the order of the study (SI).
 pub type Held = (BTreeMap<String, f64>, Vec<(String, Vec<f64>)>);
 

@@ -7,7 +7,7 @@ use crate::capsule::{Dimension, Output, Parameter};
 use super::appearance::{Setting, Settings, dimension_of};
 use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
-use super::drawing::{COLOURED_BY, Held, Sweep, check_panels};
+use super::drawing::{COLOURED_BY, Held, Size, Sweep, check_panels};
 use super::{
     Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine, parse_quantity,
 };
@@ -40,7 +40,10 @@ pub(super) fn read_drawings(
         let alike = |other: &Drawing| other.name.eq_ignore_ascii_case(&drawing.name);
         if let Some(name) = table.entry("name").filter(|_| drawings.iter().any(alike)) {
             // Not even in capitals: some disks take such names for one.
-            name.fault(format!("a second figure \"{}\"", drawing.name));
+            name.fault(format!(
+                "a second figure \"{}\"; names differ in more than capitals",
+                drawing.name
+            ));
         }
         table.finish();
         drawings.push(drawing);
@@ -75,8 +78,11 @@ fn read_drawing(
             table.missing(key, "a figure to have a name and a kind");
         }
     }
-    let millimetres = |key: &str| {
-        table.entry(key).and_then(|entry| entry.quantity_in(Dimension::Length, MILLIMETRE))
+    let size = |key: &str, (dimension, unit): (Dimension, f64), size: Size| {
+        let entry = table.entry(key)?;
+        let value = entry.quantity_in(dimension, unit)?;
+        size.check(value).map_err(|fault| entry.fault(fault)).ok()?;
+        Some(value)
     };
     let held = table.table("at").map(|at| read_at(&at, axes, kind)).unwrap_or_default();
     let (at, panels) = held;
@@ -93,10 +99,10 @@ fn read_drawing(
         sweep: table.entry("sweep").and_then(|it| read_sweep(&it, kind)),
         colour_by: table.entry("colour_by").and_then(|it| read_colour_by(&it, kind, axes, outputs)),
         branches: table.entry("branches").and_then(|entry| entry.truth()).unwrap_or(true),
-        width_mm: millimetres("width"),
-        height_mm: millimetres("height"),
-        dpi: table.entry("dpi").and_then(|entry| entry.quantity(Dimension::Number)),
-        point_mm: millimetres("point"),
+        width_mm: size("width", (Dimension::Length, MILLIMETRE), Size::Width),
+        height_mm: size("height", (Dimension::Length, MILLIMETRE), Size::Height),
+        dpi: size("dpi", (Dimension::Number, 1.0), Size::Resolution),
+        point_mm: size("point", (Dimension::Length, MILLIMETRE), Size::Point),
         legend: table.entry("legend").and_then(|entry| entry.truth()).unwrap_or(true),
         data: table.entry("data").and_then(|entry| entry.truth()).unwrap_or(false),
         svg_text: table.entry("svg_text").and_then(|entry| entry.truth()).unwrap_or(false),
@@ -216,7 +222,9 @@ fn read_cycles(entry: &Entry<'_, '_>) -> Option<[f64; 2]> {
         entry.list().iter().filter_map(|end| end.quantity(Dimension::Number)).collect();
     let range = <[f64; 2]>::try_from(ends).ok().filter(|[from, to]| from < to);
     if range.is_none() {
-        entry.fault("expected two numbers of cycles, the lesser first");
+        let found: Vec<String> = entry.list().iter().map(Entry::shown).collect();
+        let found = found.join(", ");
+        entry.fault(format!("expected two numbers of cycles, the lesser first, found {found}"));
     }
     range
 }
@@ -261,7 +269,10 @@ fn value_of(entry: &Entry<'_, '_>, axis: &Axis) -> Option<f64> {
     let value = entry.quantity(axis.coordinate.dimension());
     if value.is_some_and(|value| !is_within(value, &axis.values)) {
         let [low, high] = range(&axis.values);
-        entry.fault(format!("expected a value within the axis, from {low} to {high} in SI units"));
+        let found = entry.shown();
+        entry.fault(format!(
+            "expected a value within the axis, from {low} to {high} in SI units, found {found}"
+        ));
     }
     value
 }

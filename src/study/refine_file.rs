@@ -21,14 +21,17 @@ pub(super) fn read_basin(top: &Table<'_, '_>, case_set: &CaseSet) -> Basin {
     let is_for = |key: &str, value: &mut bool, applies: bool, which: &str| {
         let Some(entry) = table.entry(key) else { return };
         if !applies {
-            entry.fault(format!("is for {which} whose cases differ in their starts alone"));
+            entry.fault(format!(
+                "{} is for {which} whose cases differ in their starts alone",
+                entry.shown()
+            ));
         }
         *value = entry.truth().unwrap_or(*value);
     };
     let of_starts = case_set.varies_starts_alone();
     is_for("early_decision", &mut basin.early_decision, of_starts, "studies");
     let is_grid = matches!(case_set, CaseSet::Grid(_));
-    is_for("refine", &mut basin.refine, of_starts && is_grid, "grids, not for [draws],");
+    is_for("refine", &mut basin.refine, of_starts && is_grid, "grids (not [draws])");
     table.finish();
     basin
 }

@@ -96,7 +96,9 @@ fn read_inherit(table: &Table<'_, '_>, axes: &[Axis]) -> Option<Inherit> {
     let mut chosen = Vec::new();
     for entry in directions.map(|entry| entry.list()).unwrap_or_default() {
         match entry.one_of("direction", &names) {
-            Some(direction) if chosen.contains(&direction) => entry.fault("is given twice"),
+            Some(direction) if chosen.contains(&direction) => {
+                entry.fault(format!("{} is given twice", entry.shown()))
+            }
             Some(direction) => chosen.push(direction),
             None => {}
         }

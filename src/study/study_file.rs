@@ -187,7 +187,9 @@ fn read_outputs(top: &Table<'_, '_>) -> Vec<Output> {
     let mut outputs = Vec::new();
     for entry in entry.list() {
         match entry.one_of("output", &names) {
-            Some(output) if outputs.contains(&output) => entry.fault("is given twice"),
+            Some(output) if outputs.contains(&output) => {
+                entry.fault(format!("{} is given twice", entry.shown()))
+            }
             output => outputs.extend(output),
         }
     }

@@ -141,6 +141,6 @@ fn only_a_grid_of_starts_is_refined() {
     let ran = folder.run(&["sweep", "other.toml"]);
     ran.refused(&[
         "basin.refine",
-        "is for grids, not for [draws], whose cases differ in their starts alone",
+        "is for grids (not [draws]) whose cases differ in their starts alone",
     ]);
 }

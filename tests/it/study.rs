@@ -88,14 +88,14 @@ fn many_faults_are_reported_at_once_each_with_line_and_key() {
         &[
             "line 1: titel: unknown key \"titel\"; did you mean \"title\"?",
             "line 2: outputs[1]: unknown output \"progresion_speed\"; did you mean \"progression_s",
-            "line 2: outputs[2]: expected a text in quotes, found an integer",
+            "line 2: outputs[2]: expected a text in quotes, found 3",
             "line 4: parameters.omega: 77.91 has no unit; expected a frequency in rad/s, Hz",
             "line 5: parameters.p_d: \"4 mm\" is a length; expected a force in N",
             "line 6: parameters.m1: -1 kg must be a finite number above zero",
             "line 7: parameters.mu_s: -0.1 must be a finite number, zero or above",
             "line 8: parameters.mud: unknown key \"mud\"; did you mean \"mu_d\"?",
             "line 9: parameters.resistance: unknown resistance \"colomb\"; did you mean \"coulomb\"",
-            "line 10: parameters.friction_switching: expected a text in quotes, found an integer",
+            "line 10: parameters.friction_switching: expected a text in quotes, found 3",
             "line 16: axes[1].spacing: needs both ends above zero",
             "line 19: axes[2].values: expected at least one value",
             "line 24: axes[3].points: expected a whole number, 1 to 10000000, found 0",
@@ -177,7 +177,7 @@ fn axes_are_linear_logarithmic_or_lists() {
     let falling = "from = \"40 rad/s\"\nto = \"10 rad/s\"\npoints = 2\nspacing = \"linear\"";
     assert_eq!(values(falling), [40.0, 10.0]);
     let twice = "from = \"1 Hz\"\nto = \"1 Hz\"\npoints = 2";
-    assert_said(&omega_axis(twice), &["line 8: axes[1].to: is the same as `from`"]);
+    assert_said(&omega_axis(twice), &["line 8: axes[1].to: \"1 Hz\" is the same as `from`"]);
     assert_said(
         &omega_axis("values = [\"1 Hz\"]\npoints = 3"),
         &["line 8: axes[1].points: does not go with a list of values"],
@@ -227,7 +227,7 @@ fn cases_inherit_their_start_upward_downward_or_both() {
         &inherit("inherit = \"omega\"\ndirections = [\"up\", \"upward\", \"upward\"]"),
         &[
             "line 10: start.directions[1]: unknown direction \"up\"",
-            "line 10: start.directions[3]: is given twice",
+            "line 10: start.directions[3]: \"upward\" is given twice",
         ],
     );
     assert_said(
