@@ -69,6 +69,7 @@ fi
     kind section "The stroboscopic section points of a motion, and its impacts." chaos section chaos/section.png
     kind history "Displacements, velocities and forces over time." fig6 fig6 paper/fig6.png
     kind phase-portrait "One coordinate over another, for one case or several." fig6 fig6-phase-portrait paper/fig6-phase-portrait.png
+    kind spectrum "Amplitudes of a history over frequency." fig6 fig6-spectrum paper/fig6-spectrum.png
     kind curves "Special points of branches as curves in two parameters." regions curves regions/curves.png
     kind trade-off "Speed against what it costs, with the Pareto fronts and the optima of both directions." \
         best best-trade-off paper/best-trade-off.png
@@ -81,7 +82,7 @@ fi
         --colour-map progression_speed=purple-orange --width "86 mm" --height "65 mm"
     setting "Colours by another quantity" "Points have the colours of their periods, and frequencies are relative to the natural one." \
         periods results/hysteresis/hysteresis.h5 --kind bifurcation --of section_r,progression_speed --colour-by period \
-        --unit "omega=sqrt(k1/m1)" --point "0.4 mm"
+        --unit "omega=sqrt(k1/m1)" --marker-size "0.4 mm"
     setting "Symmetric logarithmic scales" "Speeds of both signs over five decades; linear within 0.01 mm/s of zero." \
         symlog results/overview/overview.h5 --kind map --of progression_speed --x omega --y p_d \
         --scale "progression_speed=symlog 0.01 mm/s" --title "Progression for "'$k_2$ = 86.8 kN/m'

@@ -20,7 +20,7 @@ pub struct Appearance {
     height: Option<String>,
     /// Diameter of the points of cases, likewise.
     #[arg(long, requires = "kind")]
-    point: Option<String>,
+    marker_size: Option<String>,
     /// Dots per inch of a PNG file; 600 by default.
     #[arg(long, requires = "kind")]
     dpi: Option<f64>,
@@ -69,7 +69,7 @@ impl Appearance {
         let sizes = [
             ("width", &self.width, &mut drawing.width_mm, Size::Width),
             ("height", &self.height, &mut drawing.height_mm, Size::Height),
-            ("point", &self.point, &mut drawing.point_mm, Size::Point),
+            ("marker-size", &self.marker_size, &mut drawing.marker_mm, Size::Marker),
         ];
         for (option, text, kept, size) in sizes {
             let found = text.as_deref().map(millimetres).transpose();

@@ -30,7 +30,7 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
     let done = match blocks.done.len() {
         0 => String::new(),
         done => format!(
-            "  done   {} of them with {}; what follows is of the rest\n",
+            "  done   {} with {}; what follows is of the rest\n",
             counted(done, "block"),
             counted(blocks.cases(), "case")
         ),

@@ -127,8 +127,14 @@ fn choose(request: &AxisRequest, along: Along, length: f64) -> Ticks {
             candidates
         }
     };
-    let roomy = candidates.iter().find(|ticks| has_room(ticks, scale, along, length));
-    match roomy {
+    let usual = if along == Along::Across { 9 } else { 7 };
+    let roomy = |most: usize| {
+        candidates.iter().find(|it| it.major.len() <= most && has_room(it, scale, along, length))
+    };
+    // Where steps of a size that is usual leave few numbers, smaller ones give a few more than usual.
+    let few = |ticks: &&Ticks| ticks.major.len() < FEW;
+    let chosen = roomy(usual).filter(|it| !few(it)).or_else(|| roomy(usual + MORE));
+    match chosen {
         Some(ticks) if ticks.major.len() >= 2 => ticks.clone(),
         // Rather two numbers close together than an axis that cannot be read.
         _ => {
@@ -138,21 +144,21 @@ fn choose(request: &AxisRequest, along: Along, length: f64) -> Ticks {
     }
 }
 
-/// Whether the numbers stand clear of each other, and are not more than an eye wants.
+/// Fewer numbers leave values between them hard to read.
+const FEW: usize = 4;
+/// So many more numbers than usual are better than few.
+const MORE: usize = 2;
+
+/// Whether the numbers stand clear of each other.
 fn has_room(ticks: &Ticks, scale: &Scale, along: Along, length: f64) -> bool {
     let half = |label: &str| match along {
         Along::Across => label_width(label) / 2.0 + 5.0,
         Along::Up => SMALL_SIZE * 0.8,
     };
-    let most = match along {
-        Along::Across => 9,
-        Along::Up => 7,
-    };
-    let clear = ticks.major.windows(2).all(|pair| {
+    ticks.major.windows(2).all(|pair| {
         let distance = (scale.share(pair[1].value) - scale.share(pair[0].value)) * length;
         distance >= half(&pair[0].label) + half(&pair[1].label)
-    });
-    clear && ticks.major.len() <= most
+    })
 }
 
 fn label_width(label: &str) -> f64 {

@@ -68,7 +68,7 @@ impl Stroke {
     }
 
     /// A broken line.
-    pub fn dashed(colour: RGBColor, width: f64) -> Stroke {
+    pub const fn dashed(colour: RGBColor, width: f64) -> Stroke {
         Stroke { colour, width, dash: Dash::Usual }
     }
 }

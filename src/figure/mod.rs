@@ -46,6 +46,7 @@ mod section;
 mod settling;
 mod shares;
 mod shown;
+mod spectrum;
 mod style;
 mod symbol;
 mod text;
@@ -201,7 +202,7 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
     let sizes = [
         ("width", drawing.width_mm, Size::Width),
         ("height", drawing.height_mm, Size::Height),
-        ("point", drawing.point_mm, Size::Point),
+        ("marker_size", drawing.marker_mm, Size::Marker),
         ("dpi", drawing.dpi, Size::Resolution),
     ];
     for (key, value, size) in sizes {

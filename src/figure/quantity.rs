@@ -117,6 +117,16 @@ impl Quantity {
         Quantity { name: self.name.then(Text::plain(words)), ..self }
     }
 
+    /// The quantity with words before its name.
+    pub fn preceded_by(self, words: &str) -> Quantity {
+        let name = self.name.content();
+        let mut letters = name.chars();
+        let first: String = letters.next().into_iter().flat_map(char::to_lowercase).collect();
+        let joint = if name.is_empty() { "" } else { " " };
+        let name = Text::plain(&format!("{words}{joint}{first}{}", letters.as_str()));
+        Quantity { name, ..self }
+    }
+
     /// The scale of values of it, in the unit shown: logarithmic for positive ratios that span many decades, unless the
     /// request sets another.
     pub fn scale(&self, values: &[f64], margin: f64) -> Scale {

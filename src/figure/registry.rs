@@ -2,8 +2,8 @@
 
 use super::kind::Kind;
 use super::{
-    basin, bifurcation, curves, history, map, phase_portrait, section, settling, shares, trade_off,
-    trade_off_maps,
+    basin, bifurcation, curves, history, map, phase_portrait, section, settling, shares, spectrum,
+    trade_off, trade_off_maps,
 };
 use crate::study::DrawingKind;
 
@@ -13,6 +13,7 @@ pub fn kind(name: DrawingKind) -> &'static Kind {
         DrawingKind::History => &history::KIND,
         DrawingKind::PhasePortrait => &phase_portrait::KIND,
         DrawingKind::Bifurcation => &bifurcation::KIND,
+        DrawingKind::Spectrum => &spectrum::KIND,
         DrawingKind::Map => &map::KIND,
         DrawingKind::Basin => &basin::KIND,
         DrawingKind::Settling => &settling::KIND,

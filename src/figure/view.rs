@@ -332,7 +332,7 @@ impl<'a> View<'a> {
 
     /// The radius of `count` points of cases [pt].
     pub fn radius(&self, count: usize) -> f64 {
-        let set = self.drawing.point_mm.map(|diameter| diameter / 2.0 * POINTS_PER_MM);
+        let set = self.drawing.marker_mm.map(|diameter| diameter / 2.0 * POINTS_PER_MM);
         set.unwrap_or_else(|| cloud::radius(count))
     }
 

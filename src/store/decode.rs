@@ -215,14 +215,18 @@ fn check_format(file: &File, path: &Path) -> Result<(), StoreError> {
 }
 
 fn found(array: &Array, file: &File, name: &str) -> hdf5::Result<Found> {
-    if let TypeDescriptor::VarLenUnicode = array.dtype()?.to_descriptor()? {
+    let is_words = matches!(array.dtype()?.to_descriptor()?, TypeDescriptor::VarLenUnicode);
+    if is_words && array.ndim() == 0 {
         return Ok(Found::Text(text(array.read_scalar::<VarLenUnicode>()?)?));
     }
     let labels = [words(array, UNITS)?, words(array, LONG_NAME)?];
     let mut variable =
         Variable::labelled(Vec::new(), labels, nothing(array)?).with_flags(flags(array, file)?);
     if has(array, DIMENSION_ID)? {
-        variable.values = values(array)?;
+        variable.values = match is_words {
+            true => codes(array, &variable.flags)?,
+            false => values(array)?,
+        };
         variable.dimensions.push(name.to_owned());
         return Ok(Found::Coordinate(array.attr(DIMENSION_ID)?.read_scalar()?, variable));
     }
@@ -231,6 +235,17 @@ fn found(array: &Array, file: &File, name: &str) -> hdf5::Result<Found> {
         false => Vec::new(),
     };
     Ok(Found::Variable(ids, variable))
+}
+
+/// The numbers of a category whose values are stored by their names.
+fn codes(array: &Array, flags: &[(i64, String)]) -> hdf5::Result<Values> {
+    let code = |name: VarLenUnicode| {
+        let name = text(name)?;
+        let flag = flags.iter().find(|(_, other)| *other == name);
+        Ok(flag.ok_or_else(|| format!("\"{name}\" is none of its values"))?.0)
+    };
+    let names: Vec<VarLenUnicode> = array.read_raw()?;
+    Ok(Values::integers(names.into_iter().map(code).collect::<hdf5::Result<Vec<i64>>>()?))
 }
 
 /// No numbers, of the kind that the array has.
@@ -283,9 +298,19 @@ fn dimensions(dataset: &Dataset, ids: &[i32], lengths: &[usize]) -> hdf5::Result
 fn attributes(file: &File) -> hdf5::Result<BTreeMap<String, String>> {
     let names = file.attr_names()?.into_iter();
     names
-        .filter(|name| name != CONVENTIONS && name != FORMAT)
-        .map(|name| words(file, &name).map(|words| (name, words)))
+        .filter(|name| ![CONVENTIONS, FORMAT, COORDINATES].contains(&name.as_str()))
+        .map(|name| number_or_words(file, &name).map(|words| (name, words)))
         .collect()
+}
+
+/// An attribute as words, which are those of a number where it holds one.
+fn number_or_words(file: &File, name: &str) -> hdf5::Result<String> {
+    let attribute = file.attr(name)?;
+    match attribute.dtype()?.to_descriptor()? {
+        TypeDescriptor::Integer(_) => Ok(attribute.read_scalar::<i64>()?.to_string()),
+        TypeDescriptor::Float(_) => Ok(format!("{:e}", attribute.read_scalar::<f64>()?)),
+        _ => words(file, name),
+    }
 }
 
 fn has(place: &Location, name: &str) -> hdf5::Result<bool> {

@@ -11,6 +11,7 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset as Array, DatasetBuilder, File, H5Type, Hyperslab, Location};
 use ndarray::{ArrayD, ArrayView1};
 
+use super::catalogue::{DIRECTION, PERIOD};
 use super::names::*;
 use super::{Dataset, StoreError, Values, Variable, scale};
 
@@ -61,8 +62,16 @@ pub fn lay_out(file: &File, dataset: &Dataset, path: &Path) -> Result<Scales, St
         put_text(file, name, text).map_err(failed(format!("storing the text {name}")))?;
     }
     for (name, words) in &dataset.attributes {
-        put_attribute(file, name, words)
+        put_number_or_words(file, name, words)
             .map_err(failed(format!("storing the attribute {name}")))?;
+    }
+    // What is the same for all cases, so that xarray does not spread it over them.
+    let constants = dataset.variables.iter().filter(|(_, it)| it.dimensions.is_empty());
+    let constants = constants.map(|(name, _)| name).chain(dataset.texts.keys());
+    let constants: Vec<&str> = constants.map(String::as_str).collect();
+    if !constants.is_empty() {
+        put_attribute(file, COORDINATES, &constants.join(" "))
+            .map_err(failed(format!("storing the attribute {COORDINATES}")))?;
     }
     Ok(scales)
 }
@@ -91,9 +100,26 @@ fn put_coordinate(
     coordinate: &Variable,
     position: usize,
 ) -> hdf5::Result<Array> {
-    let array = put_labelled(file, name, coordinate)?;
+    let array = match name == DIRECTION.name {
+        true => put_names(file, name, coordinate)?,
+        false => put_labelled(file, name, coordinate)?,
+    };
     scale::declare(&array, name)?;
     array.new_attr::<i32>().create(DIMENSION_ID)?.write_scalar(&(position as i32))?;
+    Ok(array)
+}
+
+/// A category as the names of its values, by which xarray selects; the flags tell their numbers.
+fn put_names(file: &File, name: &str, category: &Variable) -> hdf5::Result<Array> {
+    let word = |code: f64| {
+        let flag = category.flags.iter().find(|(value, _)| *value as f64 == code);
+        let (_, word) = flag.ok_or_else(|| format!("{name} has a value without a name"))?;
+        string(word)
+    };
+    let words: Vec<VarLenUnicode> =
+        category.values.to_real().iter().map(|code| word(*code)).collect::<hdf5::Result<_>>()?;
+    let array = file.new_dataset_builder().with_data(ArrayView1::from(&words)).create(name)?;
+    label(&array, category, Element::of(category, category.values.range()))?;
     Ok(array)
 }
 
@@ -104,13 +130,25 @@ fn put_variable(
     scales: &[(String, Array)],
 ) -> hdf5::Result<()> {
     let array = put_labelled(file, name, variable)?;
-    attach(&array, variable, scales)
+    let element = Element::of(variable, variable.values.range());
+    attach(&array, (name, variable, element), scales)
 }
 
 /// Names the coordinates of a variable, and the number that stands for a missing one.
-pub fn attach(array: &Array, variable: &Variable, scales: &[(String, Array)]) -> hdf5::Result<()> {
-    if let Values::Real(_) = variable.values {
-        array.new_attr::<f64>().create(FILL_VALUE)?.write_scalar(&f64::NAN)?;
+pub fn attach(
+    array: &Array,
+    (name, variable, element): (&str, &Variable, Element),
+    scales: &[(String, Array)],
+) -> hdf5::Result<()> {
+    let fill_value = |array: &Array| match element {
+        Element::Real => array.new_attr::<f64>().create(FILL_VALUE)?.write_scalar(&f64::NAN),
+        Element::Byte => array.new_attr::<i8>().create(FILL_VALUE)?.write_scalar(&0),
+        Element::Int => array.new_attr::<i32>().create(FILL_VALUE)?.write_scalar(&0),
+        Element::Long => array.new_attr::<i64>().create(FILL_VALUE)?.write_scalar(&0),
+    };
+    // No motion has the period 0: the number stands for none.
+    if element == Element::Real || name == PERIOD.name {
+        fill_value(array)?;
     }
     let mut positions = Vec::new();
     for (dimension, along) in variable.dimensions.iter().enumerate() {
@@ -264,6 +302,17 @@ pub fn chunk_shape(shape: &[usize], element: usize) -> Vec<usize> {
         }
     }
     chunk
+}
+
+/// An attribute of the protocol as a number where it is one, any other as it is.
+fn put_number_or_words(file: &File, name: &str, words: &str) -> hdf5::Result<()> {
+    if let (true, Ok(whole)) = (name.starts_with(OF_PROTOCOL), words.parse::<i64>()) {
+        return file.new_attr::<i64>().create(name)?.write_scalar(&whole);
+    }
+    if let (true, Ok(real)) = (name.starts_with(OF_PROTOCOL), words.parse::<f64>()) {
+        return file.new_attr::<f64>().create(name)?.write_scalar(&real);
+    }
+    put_attribute(file, name, words)
 }
 
 /// A string variable, which unlike an attribute may have any length.

@@ -107,7 +107,7 @@ pub fn count_slabs(columns: &[Column], axes: usize) -> usize {
 fn begin(file: &hdf5::File, column: &Column, scales: &Scales) -> hdf5::Result<Array> {
     let array = column.element().create(file, &column.name, &column.shape)?;
     encode::label(&array, &column.label, column.element())?;
-    encode::attach(&array, &column.label, scales)?;
+    encode::attach(&array, (&column.name, &column.label, column.element()), scales)?;
     Ok(array)
 }
 

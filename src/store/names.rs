@@ -9,6 +9,11 @@ pub const FORMAT: &str = "capsulemap_format";
 /// The layout that this version writes and reads.
 pub const FORMAT_WRITTEN: &str = "1";
 
+/// Root attribute: what else describes the whole file and is no variable over the cases, as CF has it.
+pub const COORDINATES: &str = "coordinates";
+/// Root attributes that begin so hold numbers where they can.
+pub const OF_PROTOCOL: &str = "protocol_";
+
 /// Attribute: the unit of a variable.
 pub const UNITS: &str = "units";
 /// Attribute: what a variable is.

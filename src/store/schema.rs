@@ -11,6 +11,7 @@ use crate::run::Record;
 use crate::study::{CaseSet, Coordinate, Study};
 
 use super::catalogue::*;
+use super::names::OF_PROTOCOL;
 use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, Values, Variable, drawn, provenance};
 
@@ -121,7 +122,7 @@ fn protocol(study: &Study) -> [(String, String); 8] {
         ("measured_cycles", protocol.measured_cycles.to_string()),
         ("exponent_cycles", protocol.exponent_cycles.to_string()),
     ]
-    .map(|(key, value)| (format!("protocol_{key}"), value))
+    .map(|(key, value)| (format!("{OF_PROTOCOL}{key}"), value))
 }
 
 /// The orbits of some cases of a study.

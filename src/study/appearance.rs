@@ -9,7 +9,7 @@ use super::document::unknown;
 use super::quantity::{expectation, unit};
 
 /// What figures show besides coordinates and outputs, with its dimension.
-const OTHERS: [(&str, Dimension); 23] = [
+const OTHERS: [(&str, Dimension); 24] = [
     ("outcome", Dimension::Number),
     ("period", Dimension::Number),
     ("cycles", Dimension::Number),
@@ -32,6 +32,7 @@ const OTHERS: [(&str, Dimension); 23] = [
     ("history_drive", Dimension::Force),
     ("history_contact", Dimension::Force),
     ("history_friction", Dimension::Force),
+    ("spectrum_frequency", Dimension::AngularFrequency),
     ("attractor", Dimension::Number),
 ];
 

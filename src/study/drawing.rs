@@ -25,6 +25,18 @@ const HISTORIES: [&str; 10] = [
     "history_contact",
     "history_friction",
 ];
+/// What spectra are taken of.
+const SPECTRA: [&str; 9] = [
+    "history_x1",
+    "history_x2",
+    "history_r",
+    "history_y1",
+    "history_y2",
+    "relative_velocity",
+    "history_drive",
+    "history_contact",
+    "history_friction",
+];
 /// What the axes of a phase portrait can be.
 const COORDINATES: [&str; 6] =
     ["history_x1", "history_x2", "history_r", "history_y1", "history_y2", "relative_velocity"];
@@ -90,6 +102,8 @@ kinds! {
     History "history" Keys { others: &[&HISTORIES], most: ANY, ..AXES };
     /// Relative velocity over relative displacement, or one coordinate over another, with section points and impacts.
     PhasePortrait "phase-portrait" Keys { others: &[&COORDINATES], most: 2, ..AXES };
+    /// Amplitudes of a history over frequency.
+    Spectrum "spectrum" Keys { others: &[&SPECTRA], most: ANY, ..AXES };
     /// A section coordinate over an axis, with the progression speed below it.
     Bifurcation "bifurcation"
         Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true, coloured: true, ..AXES };
@@ -166,8 +180,8 @@ pub enum Size {
     Width,
     /// Its height [mm].
     Height,
-    /// The diameter of its points [mm].
-    Point,
+    /// The diameter of the points of cases [mm].
+    Marker,
     /// The dots of its pixels per inch.
     Resolution,
 }
@@ -177,7 +191,7 @@ impl Size {
     pub const fn range(self) -> (f64, f64) {
         match self {
             Size::Width | Size::Height => (40.0, 1000.0),
-            Size::Point => (0.02, 5.0),
+            Size::Marker => (0.02, 5.0),
             Size::Resolution => (50.0, 2400.0),
         }
     }
@@ -230,7 +244,7 @@ pub struct Drawing {
     /// Dots per inch of its pixels in a PNG file; 600 by default.
     pub dpi: Option<f64>,
     /// Diameter of the points of cases [mm]; by default the more there are, the smaller.
-    pub point_mm: Option<f64>,
+    pub marker_mm: Option<f64>,
     /// Whether it says what its marks mean; what it leaves out is said in any case.
     pub legend: bool,
     /// Whether the data behind it are written as CSV beside it.
@@ -260,7 +274,7 @@ impl Drawing {
             width_mm: None,
             height_mm: None,
             dpi: None,
-            point_mm: None,
+            marker_mm: None,
             legend: true,
             data: false,
             svg_text: false,

@@ -102,7 +102,7 @@ fn read_drawing(
         width_mm: size("width", (Dimension::Length, MILLIMETRE), Size::Width),
         height_mm: size("height", (Dimension::Length, MILLIMETRE), Size::Height),
         dpi: size("dpi", (Dimension::Number, 1.0), Size::Resolution),
-        point_mm: size("point", (Dimension::Length, MILLIMETRE), Size::Point),
+        marker_mm: size("marker_size", (Dimension::Length, MILLIMETRE), Size::Marker),
         legend: table.entry("legend").and_then(|entry| entry.truth()).unwrap_or(true),
         data: table.entry("data").and_then(|entry| entry.truth()).unwrap_or(false),
         svg_text: table.entry("svg_text").and_then(|entry| entry.truth()).unwrap_or(false),

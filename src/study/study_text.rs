@@ -304,8 +304,11 @@ fn write_drawing(document: &mut Document, drawing: &Drawing) {
         document.put("colour_by", text(name));
     }
     document.put("branches", drawing.branches);
-    let sizes =
-        [("width", drawing.width_mm), ("height", drawing.height_mm), ("point", drawing.point_mm)];
+    let sizes = [
+        ("width", drawing.width_mm),
+        ("height", drawing.height_mm),
+        ("marker_size", drawing.marker_mm),
+    ];
     for (key, size) in sizes {
         if let Some(size) = size {
             document.put(key, text(&format!("{size:?} mm")));

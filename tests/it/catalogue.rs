@@ -21,7 +21,7 @@ const DEFINING: [&str; 5] = [
 ];
 
 /// What is spelled like a variable elsewhere and is none: the file, the words, and what they are there.
-const OTHERS: [(&str, &[&str], &str); 15] = [
+const OTHERS: [(&str, &[&str], &str); 16] = [
     ("src/study/study_file.rs", &["cycles", "attractor"], "keys of a study"),
     ("src/study/study_text.rs", KEYS, "keys of a study"),
     ("src/study/start_file.rs", &["start_phase", "section_phase", "direction"], "keys of a study"),
@@ -35,6 +35,7 @@ const OTHERS: [(&str, &[&str], &str); 15] = [
         "what the keys of quantities may name, which a test here compares",
     ),
     ("src/study/quantity.rs", &["g"], "the gram"),
+    ("src/figure/text.rs", &["delta", "omega"], "names of symbols in TeX"),
     ("src/cli/simulate.rs", OPTIONS, "options of a command"),
     ("src/cli/phases.rs", &["start_phase", "section_phase"], "options of a command"),
     ("src/campaign/error.rs", &["block"], "a word of a message"),
@@ -87,6 +88,7 @@ const SET: &[&str] = &[
     "impact_y1",
     "impact_y2",
     "relative_velocity",
+    "spectrum_frequency",
     "time",
     "velocities",
     "history_x1",

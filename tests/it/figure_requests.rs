@@ -18,7 +18,7 @@ fn a_study_and_the_command_line_set_the_same() {
     };
     let text = study(
         "[[figures]]\nname = \"own\"\nkind = \"bifurcation\"\nof = [\"progression_speed\"]\nwidth = \"3 in\"\n\
-         height = \"60 mm\"\npoint = \"2 pt\"\ndpi = 100\nlegend = false\ndata = true\nsvg_text = true\n\
+         height = \"60 mm\"\nmarker_size = \"2 pt\"\ndpi = 100\nlegend = false\ndata = true\nsvg_text = true\n\
          limits = { omega = [\"19 rad/s\", \"31 rad/s\"] }\nscale = { progression_speed = \"symlog 0.1 mm/s\" }\n\
          unit = { omega = \"Hz\" }\nlabel = { omega = \"Drive $f$\" }\ndecimals = { omega = 2 }\n",
     );
@@ -31,7 +31,7 @@ fn a_study_and_the_command_line_set_the_same() {
     let own = [
         "--width",
         "3 in",
-        "--point",
+        "--marker-size",
         "2 pt",
         "--scale",
         "progression_speed=symlog 0.1 mm/s",

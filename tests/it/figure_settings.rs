@@ -305,7 +305,7 @@ fn pages_have_the_size_that_is_set() {
     for wrong in [
         Drawing { height_mm: Some(5.0), ..map.clone() },
         Drawing { dpi: Some(5e4), ..map.clone() },
-        Drawing { point_mm: Some(0.0), ..map.clone() },
+        Drawing { marker_mm: Some(0.0), ..map.clone() },
     ] {
         assert!(refused(&dataset, &wrong).contains("is not within"));
     }

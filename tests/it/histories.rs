@@ -7,6 +7,7 @@ use capsulemap::figure::{Format, draw};
 use capsulemap::store;
 use capsulemap::study::{Drawing, DrawingKind};
 
+use super::figure::fixtures::{Fixture, with_history};
 use super::figure::into;
 use super::program::{FIG5, WorkDir};
 
@@ -116,4 +117,39 @@ fn portraits_of_several_cases_are_panels_with_the_coordinates_that_are_asked_for
     }
     let said = drawn(&["history_r"], "one").expect_err("a fault").to_string();
     assert!(said.contains("`of` names the coordinates of both axes"), "{said}");
+}
+
+#[test]
+fn a_spectrum_has_the_amplitudes_of_the_sinusoids_that_make_a_motion() {
+    // r = 1.3 cos + 0.35 sin 3 + 0.15 [mm], with the phase of a drive of 20 rad/s, over 6 cycles.
+    let fixture = Fixture::default().real("omega", &[], |_| 20.0);
+    let dataset = with_history(fixture, &[], 6.0, 3001).0;
+    let folder = super::figure::folder("spectrum");
+    let drawn = |of: &str| {
+        let of = vec![of.to_owned()];
+        let request = Drawing { of, data: true, ..Drawing::new("s", DrawingKind::Spectrum) };
+        let files = draw(&dataset, &request, &into(&folder, &[Format::Png])).expect("drawn");
+        series(&fs::read_to_string(&files.paths[1]).expect("a file"))
+    };
+    let lines = drawn("history_r")[&(1, "history_r".to_owned())].clone();
+    let drive = 20.0 / std::f64::consts::TAU;
+    for (at, (frequency, amplitude)) in lines.iter().enumerate() {
+        // Six lines to a multiple of the drive; the window has half of an amplitude on both sides.
+        assert!((frequency - (at + 1) as f64 / 6.0 * drive).abs() < 1e-9 * frequency);
+        let expected = match at + 1 {
+            6 => 1.3,
+            5 | 7 => 0.65,
+            18 => 0.35,
+            17 | 19 => 0.175,
+            _ => 0.0,
+        };
+        assert!((amplitude - expected).abs() < 1e-9, "{frequency} {amplitude} {expected}");
+    }
+    // A displacement is shown without its mean advance.
+    let advance = drawn("history_x2")[&(1, "history_x2".to_owned())].clone();
+    assert!(advance[0].1 < 1e-2, "{:?}", advance[0]);
+    let short = with_history(Fixture::default().real("omega", &[], |_| 20.0), &[], 0.5, 200).0;
+    let request = Drawing::new("s", DrawingKind::Spectrum);
+    let said = draw(&short, &request, &into(&folder, &[])).expect_err("a fault").to_string();
+    assert!(said.contains("a spectrum needs the history of a whole cycle"), "{said}");
 }

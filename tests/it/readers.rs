@@ -125,3 +125,34 @@ fn every_file_that_the_program_writes_opens_with_all_its_labels() {
     }
     assert_readers_find(&python, &file, &whole);
 }
+
+#[test]
+fn xarray_selects_by_name_and_keeps_constants_apart() {
+    let Some(python) = python() else { return };
+    let dir = WorkDir::new();
+    dir.put("all.toml", STUDY);
+    dir.run(&["sweep", "all.toml", "--no-figures"]).done();
+    let script = r#"
+import numpy, xarray
+runs = xarray.open_dataset("results/all/all.h5", engine="h5netcdf")
+up, down = (runs.sel(direction=name) for name in ("upward", "downward"))
+assert up.progression_speed.dims == ("omega", "start_y1"), up.progression_speed.dims
+assert not numpy.array_equal(up.section_r.values, down.section_r.values, equal_nan=True)
+assert runs.k2.shape == () and float(runs.k2) == 18960.0 and "k2" in runs.coords
+fast = runs.where(runs.progression_speed > 1e-3)
+assert fast.k2.shape == () and fast.study.shape == ()
+assert isinstance(runs.attrs["protocol_max_cycles"] + 1, (int, numpy.integer))
+assert runs.attrs["protocol_tolerance"] == 1e-12
+other = runs.outcome.values != 0
+assert other.any() and numpy.isnan(runs.period.values[other]).all()
+assert (runs.period.values[~other] >= 1).all()
+names = [variable.attrs["long_name"] for variable in runs.variables.values() if "long_name" in variable.attrs]
+twice = {name for name in names if names.count(name) > 1}
+assert not twice, twice
+table = runs.progression_speed.to_dataframe()
+assert len(table) == runs.progression_speed.size
+"#;
+    let done = Command::new(&python).args(["-c", script]).current_dir(dir.folder()).output();
+    let done = done.expect("python runs");
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+}

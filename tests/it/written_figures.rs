@@ -64,7 +64,7 @@ impl Random {
             width_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
             height_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
             dpi: self.is_so().then(|| self.uniform(50.0, 2400.0)),
-            point_mm: self.is_so().then(|| self.uniform(0.02, 5.0)),
+            marker_mm: self.is_so().then(|| self.uniform(0.02, 5.0)),
             legend: self.is_so(),
             data: self.is_so(),
             svg_text: self.is_so(),

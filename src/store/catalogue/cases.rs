@@ -101,6 +101,9 @@ entries! {
         "force of the stop on the mass";
     HISTORY_FRICTION "history_friction" "N" Derived, Real, words("Friction", "N"),
         "force of the friction on the capsule, against its motion";
+    SPECTRUM_FREQUENCY "spectrum_frequency" "rad/s" Derived, Real,
+        shown("Frequency", "", "Hz", 0.5 * std::f64::consts::FRAC_1_PI),
+        "frequency of a part of a spectrum";
     VELOCITIES "velocities" "m/s" Derived, Real, shown("", "*y*_{1}, *y*_{2}", "m/s", 1.0),
         "velocities of the mass and of the capsule";
     RELATIVE_VELOCITY "relative_velocity" "m/s" Derived, Real,

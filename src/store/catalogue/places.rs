@@ -97,17 +97,17 @@ impl Place {
         Entry { name, meaning, extent, ..entry }
     }
 
-    /// The column called after a parameter.
-    fn parameter(self, parameter: Parameter) -> Entry {
-        let where_to = match self {
-            Place::Attractor | Place::Event => "",
+    /// The column called after another variable, with what it is here.
+    fn here(self, entry: Entry) -> Entry {
+        let place = match self {
+            Place::Attractor => " of the attractor",
+            Place::Event => " at the event",
             Place::Request => " at the first orbit",
             Place::Branch => " on the branch",
             Place::Special => " at the special point",
             Place::Curve => " on the curve",
         };
-        let meaning = format!("{}{where_to}", parameter.meaning()).leak();
-        self.column(Entry::of_parameter(parameter), meaning)
+        self.column(entry, format!("{}{place}", entry.meaning).leak())
     }
 
     /// All columns called after other variables.
@@ -115,18 +115,14 @@ impl Place {
         // All attractors of starts have the same parameters.
         let parameters = if self == Place::Attractor { &[][..] } else { Parameter::ALL };
         let mut columns: Vec<Entry> =
-            parameters.iter().map(|&parameter| self.parameter(parameter)).collect();
+            parameters.iter().map(|&it| self.here(Entry::of_parameter(it))).collect();
         let of_orbits = matches!(self, Place::Attractor | Place::Branch | Place::Special);
-        let section = |entry: Entry| match of_orbits {
-            true => self.column(entry, entry.meaning),
-            false => self.column(entry, "section point of the orbit at the event"),
-        };
         if of_orbits || self == Place::Event {
-            columns.extend(SECTION.map(section));
+            columns.extend(SECTION.map(|entry| self.here(entry)));
         }
         if of_orbits {
             let outputs = Output::ALL.iter().map(|&output| Entry::of_output(output));
-            columns.extend(outputs.map(|entry| self.column(entry, entry.meaning)));
+            columns.extend(outputs.map(|entry| self.here(entry)));
         }
         columns
     }
