@@ -80,10 +80,11 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let is_lowest = index + columns >= spectra.len();
         let x = AxisRequest::new(view.quantity(SPECTRUM_FREQUENCY.name), spectrum.frequencies());
         let y = view.quantity(&spectrum.output).preceded_by("Amplitude of");
+        let y = AxisRequest::new(y, spectrum.amplitudes());
         let legend = if index == 0 { legend(spectrum.cycles) } else { Vec::new() };
         let panel = PanelRequest {
             x: AxisRequest { labelled: is_lowest, ..x },
-            y: AxisRequest::new(y, spectrum.amplitudes()),
+            y: AxisRequest { empty: spectrum.lines.is_empty(), ..y },
             header: Header {
                 letter: letter(index, spectra.len()),
                 note: note.filter(|_| index < cases),
@@ -134,7 +135,8 @@ impl Spectrum {
     fn frequencies(&self) -> Scale {
         let least = REACH * self.largest();
         let last = self.lines.iter().rev().find(|line| line.1 >= least).map_or(0.0, |line| line.0);
-        Scale::around([0.0, last.max(2.0 * self.drive)], 0.0)
+        let drive = if self.drive.is_finite() { self.drive } else { 0.0 };
+        Scale::around([0.0, last.max(2.0 * drive)], 0.0)
     }
 
     /// The range of amplitudes.
@@ -164,11 +166,22 @@ fn spectrum(
     // Rounding makes no history shorter.
     let cycles = (last + 1e-9).floor();
     let count = (cycles / step).round() as usize;
-    if !(cycles >= 1.0 && count >= 4 && count < times.len()) {
+    if !(cycles >= 1.0 && count < times.len()) {
         return Err(view.unfit("a spectrum needs the history of a whole cycle"));
     }
+    let omega = view.parameter(Parameter::Omega.symbol(), free)?;
+    let omega = omega.iter().nth(case).copied().unwrap_or(f64::NAN);
+    let drive = omega * view.quantity(SPECTRUM_FREQUENCY.name).factor;
+    let found = |lines: Vec<(f64, f64)>| Spectrum {
+        output: output.to_owned(),
+        case,
+        lines,
+        drive,
+        cycles: cycles as usize,
+    };
+    // A case that failed has no motion.
     if values.iter().any(|value| !value.is_finite()) {
-        return Err(view.unfit(format!("the history of {output} has samples without a value")));
+        return Ok(found(Vec::new()));
     }
     let goes_on = [HISTORY_X1.name, HISTORY_X2.name].contains(&output);
     let advance = if goes_on { (values[count] - values[0]) / count as f64 } else { 0.0 };
@@ -179,11 +192,7 @@ fn spectrum(
     let sample = |(at, value): (usize, &f64)| Complex::new((value - mean) * window(at), 0.0);
     let mut samples: Vec<Complex<f64>> = level.iter().enumerate().map(sample).collect();
     FftPlanner::new().plan_fft_forward(count).process(&mut samples);
-    let omega = view.parameter(Parameter::Omega.symbol(), free)?;
-    let omega = omega.iter().nth(case).copied().unwrap_or(f64::NAN);
-    let drive = omega * view.quantity(SPECTRUM_FREQUENCY.name).factor;
     // The window's mean is a half, and a sinusoid has half its amplitude at a positive frequency.
     let line = |at: usize| (at as f64 / cycles * drive, 4.0 * samples[at].norm() / count as f64);
-    let lines = (1..count / 2).map(line).collect();
-    Ok(Spectrum { output: output.to_owned(), case, lines, drive, cycles: cycles as usize })
+    Ok(found((1..count.div_ceil(2)).map(line).collect()))
 }

@@ -130,7 +130,8 @@ fn every_file_that_the_program_writes_opens_with_all_its_labels() {
 fn xarray_selects_by_name_and_keeps_constants_apart() {
     let Some(python) = python() else { return };
     let dir = WorkDir::new();
-    dir.put("all.toml", STUDY);
+    // So few cycles leave motions undecided, which have no period.
+    dir.put("all.toml", STUDY.replace("max_cycles = 100", "max_cycles = 2"));
     dir.run(&["sweep", "all.toml", "--no-figures"]).done();
     let script = r#"
 import numpy, xarray

@@ -61,8 +61,8 @@ impl Random {
             colour_by: (kind.keys().coloured && self.is_so())
                 .then(|| self.one(&COLOURED_BY).to_owned()),
             branches: self.is_so(),
-            width_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
-            height_mm: self.is_so().then(|| self.uniform(20.0, 200.0)),
+            width_mm: self.is_so().then(|| self.uniform(40.0, 200.0)),
+            height_mm: self.is_so().then(|| self.uniform(40.0, 200.0)),
             dpi: self.is_so().then(|| self.uniform(50.0, 2400.0)),
             marker_mm: self.is_so().then(|| self.uniform(0.02, 5.0)),
             legend: self.is_so(),

@@ -74,7 +74,7 @@ const STUDIES: &[(&str, &[&str])] = &[
     ("@~[basin]\nearly_decision = 1\n", &["line 11: basin.early_decision: 1 is for studies whose cases differ in their starts alone", "expected true or false, found 1"]),
     ("@~[map]\nrefine = { speed = \"1 mm/s\" }\n", &["line 11: map.refine.speed: unknown output of this study \"speed\"; did you mean \"progression_speed\"? (allowed"]),
     ("@~[[figures]]\nkind = \"map\"\n", &["line 10: figures[1].name: missing; expected a figure to have a name and a kind"]),
-    ("@~[[figures]]\nname = \"a\"\nkind = \"chart\"\n", &["line 12: figures[1].kind: unknown kind \"chart\" (allowed: history, phase-portrait, bifurcation, map"]),
+    ("@~[[figures]]\nname = \"a\"\nkind = \"chart\"\n", &["line 12: figures[1].kind: unknown kind \"chart\" (allowed: history, phase-portrait, spectrum, bifurcation"]),
     ("@~[[figures]]\nname = \"a/b\"\nkind = \"map\"\n", &["line 11: figures[1].name: \"a/b\" cannot name a file; expected 1 to 200 bytes"]),
     ("@~[[figures]]\nname = \"a\"\nkind = \"map\"\n[[figures]]\nname = \"A\"\nkind = \"map\"\n", &["line 14: figures[2].name: a second figure \"A\"; names differ in more than capitals"]),
     ("@~[[figures]]\nname = \"a\"\nkind = \"map\"\nx = \"k2\"\n", &["line 13: figures[1].x: unknown axis of this study \"k2\" (allowed: omega)"]),
