@@ -5,6 +5,7 @@ use clap::Args;
 use super::arguments::plain_or_quantity;
 use crate::capsule::Dimension;
 use crate::study::appearance::dimension_of;
+use crate::study::document::unknown;
 use crate::study::quantity::parse_in;
 use crate::study::{Drawing, Setting, Size};
 
@@ -24,6 +25,10 @@ pub struct Appearance {
     /// Dots per inch of a PNG file; 600 by default.
     #[arg(long, requires = "kind")]
     dpi: Option<f64>,
+    /// Marks to leave out, as the help of the kind of figure has them: gap, stroboscopic, impacts, contact, drive, coexistence,
+    /// events, special-points, section-points, saddles, impact-surface, fronts, optima.
+    #[arg(long, value_delimiter = ',', requires = "kind")]
+    hide: Vec<String>,
     /// Leave out what the marks mean; what the figure leaves out is still said.
     #[arg(long, requires = "kind")]
     no_legend: bool,
@@ -65,7 +70,13 @@ impl Appearance {
     pub fn set(&self, drawing: Drawing) -> Result<Drawing, Vec<String>> {
         let mut faults = Vec::new();
         let Appearance { dpi, data, svg_text, .. } = *self;
-        let mut drawing = Drawing { dpi, legend: !self.no_legend, data, svg_text, ..drawing };
+        let marks = drawing.kind.keys().marks;
+        for name in self.hide.iter().filter(|name| !marks.contains(&name.as_str())) {
+            let fault = unknown("mark of this kind of figure", name, marks.iter().copied());
+            faults.push(format!("--hide: {fault}"));
+        }
+        let hide = self.hide.clone();
+        let mut drawing = Drawing { hide, dpi, legend: !self.no_legend, data, svg_text, ..drawing };
         let sizes = [
             ("width", &self.width, &mut drawing.width_mm, Size::Width),
             ("height", &self.height, &mut drawing.height_mm, Size::Height),

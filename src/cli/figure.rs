@@ -57,6 +57,9 @@ pub struct Figure {
     cycles: Vec<f64>,
     #[command(flatten)]
     appearance: Appearance,
+    /// Draw the curves of special points over a map of their two parameters.
+    #[arg(long, requires = "kind")]
+    curves: bool,
     /// Leave the branches out of a bifurcation diagram.
     #[arg(long, requires = "kind")]
     no_branches: bool,
@@ -101,6 +104,7 @@ impl Figure {
             cycles: self.cycles()?,
             sweep: self.sweep,
             colour_by: self.colour_by.clone(),
+            curves: self.curves,
             branches: !self.no_branches,
             ..Drawing::new(name, kind)
         };

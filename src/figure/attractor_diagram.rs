@@ -51,7 +51,7 @@ pub fn draw(
         .map(|output| points(view, output, &values, (attractors, paint.as_ref()), &looks))
         .collect::<Result<Vec<_>, _>>()?;
     let has_section = SECTION.iter().any(|entry| outputs.iter().any(|it| it == entry.name));
-    let marks = match has_section {
+    let marks = match has_section && view.shows("events") {
         true => EventMarks::of(view, x_name, attractors)?,
         false => EventMarks::none(),
     };
@@ -62,7 +62,7 @@ pub fn draw(
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
     // Other limits may be set than those of the values.
     let Scale { low, high, .. } = abscissa.scale;
-    windows.retain(|[from, to]| *from < high && *to > low);
+    windows.retain(|[from, to]| *from < high && *to > low && view.shows("coexistence"));
     let left_out = elsewhere(view, &[x_name]);
     let note = view.note(&attractors.free, &left_out);
     let mut page = request(view, &outputs, (&clouds, &lines), abscissa, note);

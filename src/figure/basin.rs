@@ -74,9 +74,12 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         }
     }
     let basins = Basins::of(view, &plane)?;
-    let points = section_points(view, &plane);
-    let saddles = saddles(view, &plane);
-    let surface = surface(view, &plane);
+    let points = match view.shows("section-points") {
+        true => section_points(view, &plane),
+        false => Vec::new(),
+    };
+    let saddles = if view.shows("saddles") { saddles(view, &plane) } else { Vec::new() };
+    let surface = surface(view, &plane).filter(|_| view.shows("impact-surface"));
     let mut legend = basins.legend(view);
     if !points.is_empty() {
         legend.push((

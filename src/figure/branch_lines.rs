@@ -34,7 +34,9 @@ impl BranchLines {
         for track in tracks(view, x, output) {
             branches.add(&track, scaled);
         }
-        branches.specials.retain(|(_, (x, y))| along.is_within(*x) && own.is_within(*y));
+        let is_shown = view.shows("special-points");
+        let is_within = |(x, y): (f64, f64)| along.is_within(x) && own.is_within(y);
+        branches.specials.retain(|(_, place)| is_shown && is_within(*place));
         branches
     }
 

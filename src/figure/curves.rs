@@ -24,7 +24,7 @@ use crate::study::Drawing;
 const HEIGHT: f64 = 165.0;
 
 /// A curve in the units of the figure.
-struct Curve {
+pub struct Curve {
     symbol: Symbol,
     /// Period of the orbits on it.
     period: u64,
@@ -37,7 +37,7 @@ struct Curve {
 pub const KIND: Kind = Kind { needs: Needs::Branches, reads, draw };
 
 /// What is read of the curves, and of the special points that they go through.
-fn reads(_: &Drawing) -> Names {
+pub fn reads(_: &Drawing) -> Names {
     let places = [Place::Request, Place::Special, Place::Curve];
     Names::of([CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH])
         .and([SPECIAL_BRANCH, SPECIAL_CURVE, INDEX_REQUEST])
@@ -47,7 +47,10 @@ fn reads(_: &Drawing) -> Names {
 /// Draws the curves that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let axes = axes(view)?;
-    let curves = curves(view, &axes);
+    let mut curves = curves(view, &axes);
+    if !view.shows("special-points") {
+        curves.iter_mut().for_each(|curve| curve.specials.clear());
+    }
     let range = |of: fn(&(f64, f64)) -> f64| {
         let places = curves.iter().flat_map(|curve| curve.points.iter().chain(&curve.specials));
         places.map(of).collect::<Vec<f64>>()
@@ -67,6 +70,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         draw_curves(&mut canvas, panel, &curves);
+        panel.finish(&mut canvas);
     }
     let names = SYMBOLS.map(|symbol| symbol.name.to_owned());
     Ok(canvas.finish(&view.about(&names, &drawn)).noting(left_out))
@@ -91,7 +95,7 @@ fn axes(view: &View<'_>) -> Result<[String; 2], FigureError> {
 }
 
 /// The curves over the two parameters `axes` that lie where `view` holds the others.
-fn curves(view: &View<'_>, axes: &[String; 2]) -> Vec<Curve> {
+pub fn curves(view: &View<'_>, axes: &[String; 2]) -> Vec<Curve> {
     let dataset = view.dataset;
     let rows = |entry: Entry| Rows::new(dataset, entry.name);
     let at = |place: Place, name: &str| Rows::new(dataset, &place.name(name));
@@ -149,7 +153,8 @@ fn periods(curves: &[Curve]) -> Vec<u64> {
     periods
 }
 
-fn legend(curves: &[Curve]) -> Vec<header::Entry> {
+/// What the curves are.
+pub fn legend(curves: &[Curve]) -> Vec<header::Entry> {
     let periods = periods(curves);
     let mut legend = Vec::new();
     for symbol in SYMBOLS.into_iter().rev() {
@@ -166,7 +171,8 @@ fn legend(curves: &[Curve]) -> Vec<header::Entry> {
     legend
 }
 
-fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
+/// Draws the curves, and the special points of branches on them.
+pub fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
     let periods = periods(curves);
     // The dashed go over the solid, so that both show where they run together.
     for symbol in SYMBOLS.into_iter().rev() {
@@ -179,5 +185,4 @@ fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
     for curve in curves {
         draw_symbols(canvas, panel, curve.symbol, curve.specials.iter().copied());
     }
-    panel.finish(canvas);
 }

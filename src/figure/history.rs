@@ -181,7 +181,7 @@ fn cell(view: &View<'_>, output: &str, case: usize, free: &[&str]) -> Result<Cel
         curves.push(Curve { variable, points, stroke });
     }
     let delta = Parameter::Delta.symbol();
-    let gaps = match output == HISTORY_R.name {
+    let gaps = match output == HISTORY_R.name && view.shows("gap") {
         true => view.parameter(delta, free).ok(),
         false => None,
     };

@@ -3,6 +3,7 @@
 use super::axis::AxisRequest;
 use super::canvas::Drawn;
 use super::category;
+use super::curves;
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
@@ -38,7 +39,9 @@ fn reads(drawing: &Drawing) -> Names {
     let entry = catalogue::named(output);
     let sorted = entry.is_none_or(|entry| !matches!(entry.numbers, Type::Real));
     let sorting = category::READS.into_iter().filter(|_| sorted);
-    Names::of(outcome::READS).and(inferred::READS).and(sorting).and_named([output.to_owned()])
+    let names = Names::of(outcome::READS).and(inferred::READS).and(sorting);
+    let names = names.and_named([output.to_owned()]);
+    if drawing.curves { names.and_all(curves::reads(drawing)) } else { names }
 }
 
 /// Draws the map that `view` asks for, or one for each of several values of other axes.
@@ -53,6 +56,11 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let levels = levels(view, &output, &paint);
     let legend = paint.legend().into_iter().chain(told(&views, &plane)?).chain(plane.legend());
     let legend = legend.chain(contours(view, &output, &levels));
+    let over = match view.drawing.curves {
+        true => curves::curves(view, &names.map(str::to_owned)),
+        false => Vec::new(),
+    };
+    let legend = legend.chain(curves::legend(&over));
     let page = page(view, (&plane, &views, &lengths), legend.collect());
     let room = |height: f64| paint.room(height);
     let (mut canvas, panels) = PageRequest { right_room: &room, ..page }.lay_out();
@@ -66,13 +74,17 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             let noise = view.quantity(&output).noise;
             plane.draw_contours(&mut canvas, panel, (of_panel, noise), &levels);
         }
+        curves::draw_curves(&mut canvas, panel, &over);
         panel.finish(&mut canvas);
     }
     if let (Some(first), Some(last)) = (all.first(), all.last()) {
         let right = all.iter().map(|panel| panel.frame.right).fold(f64::MIN, f64::max);
         paint.explain(&mut canvas, Rect { right, bottom: last.frame.bottom, ..first.frame });
     }
-    Ok(canvas.finish(&view.about(&[output], &names)))
+    let [x, y] = names;
+    let without = (view.drawing.curves && over.is_empty())
+        .then(|| format!("there are no curves in {x} and {y}; `capsulemap continue` finds them"));
+    Ok(canvas.finish(&view.about(&[output], &names)).noting(without))
 }
 
 /// The colours of the cases of all panels.

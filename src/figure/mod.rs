@@ -191,6 +191,15 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
     if drawing.colour_by.is_some() && !kind.keys().coloured {
         return Err(view.unfit(format!("`colour_by` does not go with a {}", kind.name())));
     }
+    let marks = kind.keys().marks;
+    if let Some(mark) = drawing.hide.iter().find(|mark| !marks.contains(&mark.as_str())) {
+        let marks = marks.join(", ");
+        let why = format!("`hide`: a {} has no mark {mark} (it has: {marks})", kind.name());
+        return Err(view.unfit(why));
+    }
+    if drawing.curves && kind != DrawingKind::Map {
+        return Err(view.unfit("`curves` lie over a map"));
+    }
     if drawing.sweep == Some(Sweep::Difference) && kind != DrawingKind::Map {
         return Err(view.unfit("only a map shows the difference of two sweeps"));
     }

@@ -174,10 +174,17 @@ fn portrait(
         let places = x.into_iter().zip(y).map(|(x, y)| (x * factors[0], y * factors[1]));
         places.filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
     };
-    let sections = both(at_section(names[0])?, at_section(names[1])?);
-    let impacts = both(at_impact(names[0])?, at_impact(names[1])?);
+    let sections = match view.shows("stroboscopic") {
+        true => both(at_section(names[0])?, at_section(names[1])?),
+        false => Vec::new(),
+    };
+    let impacts = match view.shows("impacts") {
+        true => both(at_impact(names[0])?, at_impact(names[1])?),
+        false => Vec::new(),
+    };
+    let shown = gap.filter(|_| view.shows("contact"));
     let reached =
-        |at: usize| gap.filter(|_| names[at] == HISTORY_R.name).map(|it| it * factors[at]);
+        |at: usize| shown.filter(|_| names[at] == HISTORY_R.name).map(|it| it * factors[at]);
     Ok(Portrait { orbit, sections, impacts, gap: [reached(0), reached(1)] })
 }
 

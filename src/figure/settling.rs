@@ -57,7 +57,10 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         }
     }
     let colours = Colours::for_values(&cycles, view.quantity(CYCLES.name));
-    let points = section_points(view, &plane);
+    let points = match view.shows("section-points") {
+        true => section_points(view, &plane),
+        false => Vec::new(),
+    };
     let mut legend = Vec::new();
     if !points.is_empty() {
         let text = "section points of the attractors";

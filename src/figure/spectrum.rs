@@ -81,7 +81,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let x = AxisRequest::new(view.quantity(SPECTRUM_FREQUENCY.name), spectrum.frequencies());
         let y = view.quantity(&spectrum.output).preceded_by("Amplitude of");
         let y = AxisRequest::new(y, spectrum.amplitudes());
-        let legend = if index == 0 { legend(spectrum.cycles) } else { Vec::new() };
+        let legend = if index == 0 { legend(view, spectrum) } else { Vec::new() };
         let panel = PanelRequest {
             x: AxisRequest { labelled: is_lowest, ..x },
             y: AxisRequest { empty: spectrum.lines.is_empty(), ..y },
@@ -109,7 +109,9 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let (mut canvas, panels) = page.lay_out();
     for (panel, spectrum) in panels.iter().flatten().zip(&spectra) {
         let drive = [(spectrum.drive, panel.y.scale.low), (spectrum.drive, panel.y.scale.high)];
-        panel.curve(&mut canvas, &drive, DRIVE);
+        if view.shows("drive") {
+            panel.curve(&mut canvas, &drive, DRIVE);
+        }
         panel.curve(&mut canvas, &spectrum.lines, Stroke::solid(BLUE, CURVE_WIDTH));
         panel.record(&mut canvas, &spectrum.output, spectrum.lines.iter().copied());
         panel.finish(&mut canvas);
@@ -121,9 +123,11 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 /// The line at the frequency of the drive.
 const DRIVE: Stroke = Stroke::dashed(FAINT_INK, REFERENCE_WIDTH);
 
-fn legend(cycles: usize) -> Vec<(Mark, Text)> {
+fn legend(view: &View<'_>, spectrum: &Spectrum) -> Vec<(Mark, Text)> {
+    let cycles = spectrum.cycles;
     let over = format!("Hann window over {cycles} cycles");
-    vec![(Mark::Line(DRIVE), Text::plain("drive")), (Mark::Nothing, Text::plain(&over))]
+    let drive = view.shows("drive").then(|| (Mark::Line(DRIVE), Text::plain("drive")));
+    drive.into_iter().chain([(Mark::Nothing, Text::plain(&over))]).collect()
 }
 
 impl Spectrum {

@@ -74,7 +74,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let price = price(view.drawing);
     let free = view.free_axes();
     let motions = Motions::of(view, price, &free)?;
-    let best = DIRECTIONS.map(|direction| motions.best(direction));
+    let best = DIRECTIONS.map(|direction| motions.best(direction).shown(view));
     let paint = paint(view, &free)?;
     let factors = [price, SPEED.name].map(|name| view.quantity(name).factor);
     let shown = TradeOff { view, price, factors, free: &free, motions, best, paint };

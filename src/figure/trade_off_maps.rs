@@ -62,6 +62,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let motions = Motions::of(view, price, &free)?;
     let best = DIRECTIONS.map(|direction| motions.best(direction));
     let axes = [plane.x_name, plane.y_name];
+    let [forward, backward] = [0, 1].map(|it| best[it].front.len());
+    let best = best.map(|best| best.shown(view));
     let path = path(view, (&free, axes), (&motions, &best))?;
     let fastest = fastest(view, (&free, &plane), &motions);
     let speed = |motion: &Candidate| motion.speed;
@@ -115,7 +117,6 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     }
     let about = view.about(&[SPEED.name.to_owned(), price.to_owned()], &free);
     let among = if over.is_empty() { String::new() } else { format!(" over {}", over.join(", ")) };
-    let [forward, backward] = [0, 1].map(|it| best[it].front.len());
     Ok(canvas.finish(&format!(
         "{about}; in each cell over {} the fastest motion{among}, aperiodic ones by their means; the fronts have {forward} \
          motions forward and {backward} backward, {} periodic motions between the cases take part",

@@ -40,6 +40,22 @@ pub struct Best {
     pub front: Vec<(f64, f64)>,
 }
 
+impl Best {
+    /// Without what the request hides.
+    pub fn shown(mut self, view: &View<'_>) -> Best {
+        if !view.shows("fronts") {
+            self.front.clear();
+            self.front_of_cases.clear();
+            self.of_all.front.clear();
+        }
+        if !view.shows("optima") {
+            let (knee, fastest, lowest_cost_of_transport) = (None, None, None);
+            self.of_all = Optima { knee, fastest, lowest_cost_of_transport, ..self.of_all };
+        }
+        self
+    }
+}
+
 impl<'a> Motions<'a> {
     /// The motions of a view over the axes `free`, with the output `price`; those between the cases only where no axis is held, as
     /// they may lie anywhere along it.

@@ -330,6 +330,11 @@ impl<'a> View<'a> {
         }
     }
 
+    /// Whether a mark is shown.
+    pub fn shows(&self, mark: &str) -> bool {
+        !self.drawing.hide.iter().any(|hidden| hidden == mark)
+    }
+
     /// The radius of `count` points of cases [pt].
     pub fn radius(&self, count: usize) -> f64 {
         let set = self.drawing.marker_mm.map(|diameter| diameter / 2.0 * POINTS_PER_MM);

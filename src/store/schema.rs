@@ -251,6 +251,7 @@ fn add_impacts(dataset: &mut Dataset, table: &Table<'_>) {
     table.put(dataset, IMPACT_PHASE, of(|impact| impact.phase));
     table.put(dataset, IMPACT_Y1, of(|impact| impact.y1));
     table.put(dataset, IMPACT_Y2, of(|impact| impact.y2));
+    table.put(dataset, IMPACT_VELOCITY, of(|impact| impact.y1 - impact.y2));
 }
 
 fn add_history(dataset: &mut Dataset, table: &Table<'_>) {

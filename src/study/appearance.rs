@@ -9,7 +9,7 @@ use super::document::unknown;
 use super::quantity::{expectation, unit};
 
 /// What figures show besides coordinates and outputs, with its dimension.
-const OTHERS: [(&str, Dimension); 24] = [
+const OTHERS: [(&str, Dimension); 25] = [
     ("outcome", Dimension::Number),
     ("period", Dimension::Number),
     ("cycles", Dimension::Number),
@@ -21,6 +21,7 @@ const OTHERS: [(&str, Dimension); 24] = [
     ("impact_phase", Dimension::Angle),
     ("impact_y1", Dimension::Velocity),
     ("impact_y2", Dimension::Velocity),
+    ("impact_velocity", Dimension::Velocity),
     ("relative_velocity", Dimension::Velocity),
     ("time", Dimension::Time),
     ("velocities", Dimension::Velocity),

@@ -10,8 +10,15 @@ use super::grid::Direction;
 /// What there is for each case besides the outputs.
 const VERDICTS: [&str; 3] = ["outcome", "period", "cycles"];
 /// What there is for each point of the sections.
-const POINTS: [&str; 6] =
-    ["section_r", "section_y1", "section_y2", "impact_phase", "impact_y1", "impact_y2"];
+const POINTS: [&str; 7] = [
+    "section_r",
+    "section_y1",
+    "section_y2",
+    "impact_phase",
+    "impact_y1",
+    "impact_y2",
+    "impact_velocity",
+];
 /// What a history shows.
 const HISTORIES: [&str; 10] = [
     "history_x1",
@@ -58,6 +65,8 @@ pub struct Keys {
     pub panels: bool,
     /// Whether its points can be coloured by what `colour_by` names.
     pub coloured: bool,
+    /// What it marks and `hide` can leave out.
+    pub marks: &'static [&'static str],
 }
 
 /// Keys that name axes only.
@@ -69,6 +78,7 @@ const AXES: Keys = Keys {
     between: false,
     panels: false,
     coloured: false,
+    marks: &[],
 };
 /// What tells the colours of points beside outputs.
 pub const COLOURED_BY: [&str; 4] = ["attractor", "direction", "period", "outcome"];
@@ -99,30 +109,35 @@ macro_rules! kinds {
 
 kinds! {
     /// Displacements and velocities over time.
-    History "history" Keys { others: &[&HISTORIES], most: ANY, ..AXES };
+    History "history" Keys { others: &[&HISTORIES], most: ANY, marks: &["gap"], ..AXES };
     /// Relative velocity over relative displacement, or one coordinate over another, with section points and impacts.
-    PhasePortrait "phase-portrait" Keys { others: &[&COORDINATES], most: 2, ..AXES };
+    PhasePortrait "phase-portrait" Keys {
+        others: &[&COORDINATES],
+        most: 2,
+        marks: &["stroboscopic", "impacts", "contact"],
+        ..AXES
+    };
     /// Amplitudes of a history over frequency.
-    Spectrum "spectrum" Keys { others: &[&SPECTRA], most: ANY, ..AXES };
+    Spectrum "spectrum" Keys { others: &[&SPECTRA], most: ANY, marks: &["drive"], ..AXES };
     /// A section coordinate over an axis, with the progression speed below it.
     Bifurcation "bifurcation"
-        Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true, coloured: true, ..AXES };
+        Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true, coloured: true, marks: &["coexistence", "events", "special-points"], ..AXES };
     /// One output over two axes.
     Map "map" Keys { outputs: true, others: &[&VERDICTS], most: 1, panels: true, ..AXES };
     /// Which attractor each start leads to, over two coordinates of the start.
-    Basin "basin" AXES;
+    Basin "basin" Keys { marks: &["section-points", "saddles", "impact-surface"], ..AXES };
     /// For how many cycles each start is followed until its attractor is decided, over two coordinates of the start.
-    Settling "settling" AXES;
+    Settling "settling" Keys { marks: &["section-points"], ..AXES };
     /// Shares of the starts that lead to each attractor, along a parameter, and the room of each basin.
     Shares "shares" AXES;
     /// The stroboscopic section points of one case, and its impacts.
     Section "section" AXES;
     /// Progression speed against an energy per cycle.
-    TradeOff "trade-off" Keys { outputs: true, most: 1, between: true, coloured: true, ..AXES };
+    TradeOff "trade-off" Keys { outputs: true, most: 1, between: true, coloured: true, marks: &["fronts", "optima"], ..AXES };
     /// The speed of the fastest motion of each cell over two axes, and beside it what it costs, with the fronts on both.
-    TradeOffMaps "trade-off-maps" Keys { outputs: true, most: 1, between: true, ..AXES };
+    TradeOffMaps "trade-off-maps" Keys { outputs: true, most: 1, between: true, marks: &["fronts", "optima"], ..AXES };
     /// Special points of branches as curves in two parameters.
-    Curves "curves" Keys { continued: true, ..AXES };
+    Curves "curves" Keys { continued: true, marks: &["special-points"], ..AXES };
 }
 
 impl DrawingKind {
@@ -235,6 +250,8 @@ pub struct Drawing {
     /// What the colours of points tell: an output, or `attractor`, `period`, `outcome`, `direction`; the kind of figure has its
     /// own default.
     pub colour_by: Option<String>,
+    /// Whether a map shows the curves of special points in its two parameters, too.
+    pub curves: bool,
     /// Whether a bifurcation diagram shows the branches, too.
     pub branches: bool,
     /// Width of the figure [mm]; by default one or two columns of a journal, as the kind needs.
@@ -245,6 +262,8 @@ pub struct Drawing {
     pub dpi: Option<f64>,
     /// Diameter of the points of cases [mm]; by default the more there are, the smaller.
     pub marker_mm: Option<f64>,
+    /// Marks that it leaves out, with what the legend says of them.
+    pub hide: Vec<String>,
     /// Whether it says what its marks mean; what it leaves out is said in any case.
     pub legend: bool,
     /// Whether the data behind it are written as CSV beside it.
@@ -270,11 +289,13 @@ impl Drawing {
             cycles: None,
             sweep: None,
             colour_by: None,
+            curves: false,
             branches: true,
             width_mm: None,
             height_mm: None,
             dpi: None,
             marker_mm: None,
+            hide: Vec::new(),
             legend: true,
             data: false,
             svg_text: false,

@@ -98,11 +98,13 @@ fn read_drawing(
         cycles: table.entry("cycles").and_then(|entry| read_cycles(&entry)),
         sweep: table.entry("sweep").and_then(|it| read_sweep(&it, kind)),
         colour_by: table.entry("colour_by").and_then(|it| read_colour_by(&it, kind, axes, outputs)),
+        curves: table.entry("curves").is_some_and(|entry| read_curves(&entry, kind)),
         branches: table.entry("branches").and_then(|entry| entry.truth()).unwrap_or(true),
         width_mm: size("width", (Dimension::Length, MILLIMETRE), Size::Width),
         height_mm: size("height", (Dimension::Length, MILLIMETRE), Size::Height),
         dpi: size("dpi", (Dimension::Number, 1.0), Size::Resolution),
         marker_mm: size("marker_size", (Dimension::Length, MILLIMETRE), Size::Marker),
+        hide: table.entry("hide").map(|it| read_hide(&it, kind)).unwrap_or_default(),
         legend: table.entry("legend").and_then(|entry| entry.truth()).unwrap_or(true),
         data: table.entry("data").and_then(|entry| entry.truth()).unwrap_or(false),
         svg_text: table.entry("svg_text").and_then(|entry| entry.truth()).unwrap_or(false),
@@ -189,6 +191,23 @@ fn read_of(of: &Entry<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output]) ->
         kind.can_show(outputs).into_iter().map(|name| (name, name)).collect();
     let known = |entry: &Entry<'_, '_>| entry.one_of("output for this kind of figure", &names);
     list.iter().filter_map(known).map(str::to_owned).collect()
+}
+
+/// Whether curves of special points lie over a map.
+fn read_curves(entry: &Entry<'_, '_>, kind: Option<DrawingKind>) -> bool {
+    let has_curves = entry.truth().unwrap_or(false);
+    if let (true, Some(kind)) = (has_curves, kind.filter(|kind| *kind != DrawingKind::Map)) {
+        entry.fault(format!("true goes with a map, not with a figure of the kind {}", kind.name()));
+    }
+    has_curves
+}
+
+/// The marks that are left out.
+fn read_hide(entry: &Entry<'_, '_>, kind: Option<DrawingKind>) -> Vec<String> {
+    let marks = kind.map_or(&[][..], |kind| kind.keys().marks);
+    let names: Vec<(&str, &str)> = marks.iter().map(|name| (*name, *name)).collect();
+    let known = |entry: &Entry<'_, '_>| entry.one_of("mark of this kind of figure", &names);
+    entry.list().iter().filter_map(known).map(str::to_owned).collect()
 }
 
 /// Which of the sweeps is shown; only maps show a difference.

@@ -303,6 +303,9 @@ fn write_drawing(document: &mut Document, drawing: &Drawing) {
     if let Some(name) = &drawing.colour_by {
         document.put("colour_by", text(name));
     }
+    if drawing.curves {
+        document.put("curves", drawing.curves);
+    }
     document.put("branches", drawing.branches);
     let sizes = [
         ("width", drawing.width_mm),
@@ -316,6 +319,9 @@ fn write_drawing(document: &mut Document, drawing: &Drawing) {
     }
     if let Some(dpi) = drawing.dpi {
         document.put("dpi", number(dpi));
+    }
+    if !drawing.hide.is_empty() {
+        document.put("hide", list(drawing.hide.iter().map(|name| text(name))));
     }
     document.put("legend", drawing.legend);
     document.put("data", drawing.data);

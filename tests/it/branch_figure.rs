@@ -166,3 +166,24 @@ fn curves_lie_over_two_parameters() {
     let request = drawing("curves-doubled", DrawingKind::Curves);
     draw(&doubled, &request, &into(&folder("branches"), &ALL)).expect("a figure");
 }
+
+#[test]
+fn curves_lie_over_a_map_of_their_parameters() {
+    let map = |curves: bool| {
+        let [x, y] = ["omega", "p_d"].map(|name| Some(name.to_owned()));
+        let of = vec!["progression_speed".to_owned()];
+        Drawing { of, x, y, curves, ..drawing("over", DrawingKind::Map) }
+    };
+    let swept = swept();
+    let (plain, with_curves) = (svg(&swept, &map(false)), svg(&swept, &map(true)));
+    assert!(with_curves.len() > plain.len() + 1000);
+    let notes = |dataset: &Dataset| {
+        let place = folder("branches");
+        draw(dataset, &map(true), &into(&place, &[])).expect("a figure").notes
+    };
+    assert!(notes(&swept).is_empty());
+    let mut without = swept.clone();
+    without.variables.retain(|name, _| !name.starts_with("curve"));
+    let told = "there are no curves in omega and p_d; `capsulemap continue` finds them";
+    assert_eq!(notes(&without), [told]);
+}

@@ -8,7 +8,7 @@ use capsulemap::study::{
     ColourMap, Colouring, Drawing, DrawingKind, QuantitySettings, ScaleChoice, Settings, Sweep,
 };
 
-use super::figure::fixtures::{Fixture, OUTCOMES, steps};
+use super::figure::fixtures::{Fixture, OUTCOMES, steps, with_history};
 use super::figure::{drawing, folder, into};
 
 /// A figure with its text as text, and the data behind it.
@@ -357,4 +357,37 @@ fn colours_have_the_range_and_the_centre_that_are_set() {
     let different = |a: usize| (0..a).all(|b| found[a] != found[b]);
     assert!((0..found.len()).all(different));
     assert!(labels(&found[3]).concat().contains("15, 25 mm/s"));
+}
+
+#[test]
+fn marks_that_are_hidden_are_neither_drawn_nor_explained() {
+    let fixture = Fixture::default().real("omega", &[], |_| 20.0);
+    let dataset = with_history(fixture, &[], 2.0, 300).0;
+    let portrait = |hide: &[&str]| {
+        let hide = hide.iter().map(|it| (*it).to_owned()).collect();
+        Drawing { hide, ..drawing("p", DrawingKind::PhasePortrait) }
+    };
+    let (all, csv) = drawn(&dataset, &portrait(&[]));
+    assert!(csv.contains("\n1,impact,") && csv.contains("\n1,stroboscopic,"));
+    for (mark, words) in
+        [("impacts", "impact"), ("stroboscopic", "stroboscopic"), ("contact", "contact")]
+    {
+        assert!(labels(&all).contains(&words.to_owned()), "{mark}");
+        let (svg, csv) = drawn(&dataset, &portrait(&[mark]));
+        assert!(!labels(&svg).contains(&words.to_owned()), "{mark}");
+        assert!(!csv.contains(&format!("\n1,{words},")), "{mark}");
+    }
+    let said = refused(&dataset, &portrait(&["saddles"]));
+    assert!(
+        said.contains("`hide`: a phase-portrait has no mark saddles (it has: strobo"),
+        "{said}"
+    );
+    // Without fronts and optima the motions alone are left of a trade-off.
+    let dataset = Fixture(speeds([1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3]))
+        .real("work_positive", &["omega"], |at| at[0] as f64 + 1.0)
+        .0;
+    let hide = ["fronts", "optima"].map(str::to_owned).to_vec();
+    let request = Drawing { hide, ..drawing("t", DrawingKind::TradeOff) };
+    let words = labels(&drawn(&dataset, &request).0).concat();
+    assert!(!words.contains("Pareto") && !words.contains("knee"), "{words}");
 }

@@ -60,11 +60,13 @@ impl Random {
             sweep: self.is_so().then(|| self.one(&[Sweep::Upward, Sweep::Downward])),
             colour_by: (kind.keys().coloured && self.is_so())
                 .then(|| self.one(&COLOURED_BY).to_owned()),
+            curves: kind == DrawingKind::Map && self.is_so(),
             branches: self.is_so(),
             width_mm: self.is_so().then(|| self.uniform(40.0, 200.0)),
             height_mm: self.is_so().then(|| self.uniform(40.0, 200.0)),
             dpi: self.is_so().then(|| self.uniform(50.0, 2400.0)),
             marker_mm: self.is_so().then(|| self.uniform(0.02, 5.0)),
+            hide: self.some(kind.keys().marks).into_iter().map(str::to_owned).collect(),
             legend: self.is_so(),
             data: self.is_so(),
             svg_text: self.is_so(),

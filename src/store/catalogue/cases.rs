@@ -67,6 +67,9 @@ entries! {
     IMPACT_Y2 "impact_y2" "m/s" CaseRow(IMPACT_POINT.name), Real,
         shown("Impact velocity", "*y*_{2}", "m/s", 1.0),
         "velocity of the capsule at the impact";
+    IMPACT_VELOCITY "impact_velocity" "m/s" CaseRow(IMPACT_POINT.name), Real,
+        shown("Impact velocity", "*y*_{1} − *y*_{2}", "m/s", 1.0),
+        "velocity of the mass relative to the stop at the impact";
     HISTORY_R "history_r" "m" CaseRow(HISTORY_TIME.name), Real,
         shown("", "*x*_{1} − *x*_{2}", "mm", 1e3),
         "relative displacement x1 - x2";
