@@ -1,5 +1,28 @@
 //! A bifurcation and basin mapper for the vibro-impact capsule, on an engine for any switched oscillator.
 //!
+//! # The capsule
+//!
+//! ```
+//! use capsulemap::capsule::{Output, Parameter, Parameters, State, settle};
+//! use capsulemap::orbit::{Outcome, Protocol};
+//!
+//! // What is not named is as in Table 1 of the paper; all values are in SI units.
+//! let parameters = Parameters::with(&[
+//!     (Parameter::Omega, 77.91),
+//!     (Parameter::Pd, 4.0),
+//!     (Parameter::K2, 2.42e3),
+//!     (Parameter::Delta, 3.5e-3),
+//! ]);
+//! let orbit = settle(&parameters, 0.0, State::default(), &Protocol::default());
+//! assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
+//! let speed = orbit.outputs[Output::ProgressionSpeed];
+//! // The advance of a cycle is the speed times the period of the drive.
+//! let advance = orbit.outputs[Output::ProgressionPerCycle];
+//! assert!((advance - speed * parameters.drive_period()).abs() < 1e-15);
+//! // A periodic orbit is closed: its multipliers lie inside the unit circle, its energies balance.
+//! assert!(orbit.outputs[Output::EnergyResidual].abs() < 1e-9);
+//! ```
+//!
 //! # Your own oscillator
 //!
 //! The engine (`lane`, `flow`, `orbit`, `branch`, `attractor`) knows no capsule. An oscillator of your own is a

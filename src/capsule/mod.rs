@@ -1,6 +1,7 @@
 //! The vibro-impact capsule: its parameters, forces and modes, and what its motion costs and yields.
 
 pub mod account;
+mod arc;
 pub mod branch;
 mod case;
 pub mod filippov;
@@ -22,6 +23,7 @@ pub mod state;
 pub mod system;
 
 pub use account::{Account, Energies, Impact};
+pub use arc::{ArcPoint, arc};
 pub use case::Case;
 pub use drive::Drive;
 pub use failure::{Failure, REASONS, Section};

@@ -1,13 +1,18 @@
 //! What the command line sets of a figure: its size, and how it shows quantities.
 
+use std::collections::BTreeMap;
+
 use clap::Args;
 
 use super::arguments::plain_or_quantity;
 use crate::capsule::Dimension;
-use crate::study::appearance::dimension_of;
 use crate::study::document::unknown;
+use crate::study::drawing::check_text;
 use crate::study::quantity::parse_in;
 use crate::study::{Drawing, Setting, Size};
+
+/// The dimension of the quantity of this name, or what is wrong with the name.
+pub type DimensionOf<'a> = &'a dyn Fn(&str) -> Result<Dimension, String>;
 
 /// Options that set how a figure looks.
 #[derive(Debug, Args)]
@@ -29,6 +34,9 @@ pub struct Appearance {
     /// events, special-points, section-points, saddles, impact-surface, fronts, optima.
     #[arg(long, value_delimiter = ',', requires = "kind")]
     hide: Vec<String>,
+    /// Words that stand in the figure where the quantities along both axes have these values.
+    #[arg(long, value_name = "WORDS: NAME=VALUE, NAME=VALUE", requires = "kind")]
+    text: Vec<String>,
     /// Leave out what the marks mean; what the figure leaves out is still said.
     #[arg(long, requires = "kind")]
     no_legend: bool,
@@ -67,7 +75,11 @@ pub struct Appearance {
 
 impl Appearance {
     /// The drawing as these options set it; all faults otherwise.
-    pub fn set(&self, drawing: Drawing) -> Result<Drawing, Vec<String>> {
+    pub fn set(
+        &self,
+        drawing: Drawing,
+        dimension_of: DimensionOf<'_>,
+    ) -> Result<Drawing, Vec<String>> {
         let mut faults = Vec::new();
         let Appearance { dpi, data, svg_text, .. } = *self;
         let marks = drawing.kind.keys().marks;
@@ -92,9 +104,15 @@ impl Appearance {
         }
         let checked = self.dpi.map_or(Ok(()), |dpi| Size::Resolution.check(dpi));
         faults.extend(checked.err().map(|fault| format!("--dpi: {fault}")));
+        for text in &self.text {
+            match placed(text, dimension_of) {
+                Ok((words, at)) => drop(drawing.texts.insert(words, at)),
+                Err(fault) => faults.push(format!("--text {text}: {fault}")),
+            }
+        }
         for (key, setting) in Setting::NAMES {
             for text in self.of(setting) {
-                let put = put(&mut drawing, setting, text);
+                let put = put(&mut drawing, (setting, text), dimension_of);
                 let option = key.replace('_', "-");
                 faults.extend(put.err().map(|fault| format!("--{option} {text}: {fault}")));
             }
@@ -123,8 +141,28 @@ fn millimetres(text: &str) -> Result<f64, String> {
     plain.map_or_else(|| parse_in(text, Dimension::Length, 1e-3), Ok)
 }
 
+/// The words of "WORDS: NAME=VALUE, NAME=VALUE", and where they stand.
+fn placed(
+    text: &str,
+    dimension_of: DimensionOf<'_>,
+) -> Result<(String, BTreeMap<String, f64>), String> {
+    let (words, place) = text.rsplit_once(':').ok_or("expected WORDS: NAME=VALUE, NAME=VALUE")?;
+    let mut at = BTreeMap::new();
+    for part in place.split(',') {
+        let (name, value) = part.split_once('=').ok_or("expected NAME=VALUE after the words")?;
+        let name = name.trim();
+        at.insert(name.to_owned(), plain_or_quantity(value, dimension_of(name)?)?);
+    }
+    check_text(words, &at)?;
+    Ok((words.trim().to_owned(), at))
+}
+
 /// Sets what "NAME=VALUE" says.
-fn put(drawing: &mut Drawing, setting: Setting, text: &str) -> Result<(), String> {
+fn put(
+    drawing: &mut Drawing,
+    (setting, text): (Setting, &str),
+    dimension_of: DimensionOf<'_>,
+) -> Result<(), String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
     let dimension = dimension_of(name.trim())?;
     let parts: Vec<String> = match setting.is_list() {

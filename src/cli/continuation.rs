@@ -20,7 +20,7 @@ use crate::store::{self, add_branches, folder};
 const EXAMPLES: &str = "\
 Examples:
   capsulemap continue studies/hysteresis.toml
-  capsulemap continue branches.toml --output /data/branches.h5 --threads 2
+  capsulemap continue STUDY.toml --output /data/branches.h5 --threads 2
   capsulemap sweep STUDY.toml && capsulemap continue STUDY.toml --formats pdf";
 
 /// Continue periodic orbits in parameters.

@@ -42,19 +42,30 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
     let whole = probe.seconds.map(scaled).map_or("not known".to_owned(), estimated);
     let threads = counted(count_threads(machine), "thread");
     let more = if has_attractors(study) { ", and more to search for attractors" } else { "" };
+    let beside = match (has_attractors(study), study.branches.is_empty()) {
+        (true, true) => ", and more for attractors",
+        (false, false) => ", and more for branches",
+        (true, false) => ", and more for attractors and branches",
+        (false, true) => "",
+    };
     let figures = figures(study).map_or(String::new(), |it| format!(", {} for a figure", size(it)));
     format!(
         "{}\n  cases  {cases} in {all}\n{done}  time   {whole} with {threads}{more}\n  \
-         room   {} for the blocks, and {} while all are joined\n  \
+         room   {} for the blocks until they are joined, {} for the file{beside}\n  \
          memory about {computing} while cases are computed, {joining} while they are joined{figures}\n  \
          estimated from {} in {}, computed in {}; nothing was written\n",
         output.display(),
-        size(probe.bytes * left),
-        size(probe.bytes),
+        size_or_not(probe.bytes * left),
+        size_or_not(probe.file_bytes),
         counted(probe.cases, "case"),
         counted(probe.blocks, "block"),
         time(probe.time.as_secs_f64())
     )
+}
+
+/// A size, where it is known.
+fn size_or_not(bytes: f64) -> String {
+    if bytes.is_finite() { size(bytes) } else { "size not known".to_owned() }
 }
 
 /// Threads that compute.

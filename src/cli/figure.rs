@@ -9,16 +9,19 @@ use super::appearance::Appearance;
 use super::arguments::{named, plain_or_quantity};
 use super::drawing::{FormatChoice, draw_each, draw_from, formats};
 use super::failure::Failure;
+use super::terminal::notify;
 use crate::campaign::study_of;
+use crate::capsule::Dimension;
 use crate::figure::Place;
-use crate::store::{self, Archive, Dataset};
+use crate::store::{self, Archive, Dataset, StoreError};
+use crate::study::appearance::dimension_of;
 use crate::study::document::unknown;
 use crate::study::{Coordinate, Drawing, DrawingKind, Held, Sweep, check_panels};
 
 const EXAMPLES: &str = "\
 Examples:
   capsulemap figure results/overview/overview.h5
-  capsulemap figure FILE.h5 --kind map --of progression_speed --x omega --y p_d --formats pdf
+  capsulemap figure FILE.h5 --kind map --of period --x omega --formats pdf
   capsulemap figure FILE.h5 --kind bifurcation --at \"p_d=4 N\" --name at-4-newton";
 
 /// Draw the figures that the study asks for, or one of your own.
@@ -69,6 +72,9 @@ pub struct Figure {
     /// Folder to write to; that of the file of results by default.
     #[arg(long)]
     folder: Option<PathBuf>,
+    /// Draw from a file that another program has changed, as xarray does where it adds variables: nothing tells damage there.
+    #[arg(long)]
+    unchecked: bool,
     /// Replace files in the place of figures that this program did not write, or that were changed since.
     #[arg(long)]
     overwrite: bool,
@@ -80,7 +86,7 @@ pub struct Figure {
 impl Figure {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let archive = store::open(&self.file).map_err(Failure::request)?;
+        let archive = self.archive()?;
         let here = self.file.parent().unwrap_or(Path::new("."));
         let folder = self.folder.as_deref().unwrap_or(here);
         let formats = formats(&self.formats);
@@ -89,6 +95,26 @@ impl Figure {
             Some(kind) => draw_each(&archive, &[self.drawing(kind, &archive)?], &place),
             None => draw_from(&archive, &studied(&archive, &self.file)?, &place),
         }
+    }
+
+    /// The file of results.
+    fn archive(&self) -> Result<Archive, Failure> {
+        if !self.unchecked {
+            return store::open(&self.file).map_err(|error| match error {
+                StoreError::Foreign { .. } | StoreError::Damaged { .. } => Failure::request(format!(
+                    "{error}; if a program of yours has added to it, `--unchecked` draws from it all the same"
+                )),
+                error => Failure::request(error),
+            });
+        }
+        let (archive, is_checked) = store::open_changed(&self.file).map_err(Failure::request)?;
+        if !is_checked {
+            let path = self.file.display();
+            notify(&format!(
+                "{path}: another program has changed it; what is drawn is not checked"
+            ));
+        }
+        Ok(archive)
     }
 
     fn drawing(&self, kind: DrawingKind, archive: &Archive) -> Result<Drawing, Failure> {
@@ -108,7 +134,9 @@ impl Figure {
             branches: !self.no_branches,
             ..Drawing::new(name, kind)
         };
-        self.appearance.set(drawing).map_err(|faults| Failure::requests(&faults))
+        self.appearance
+            .set(drawing, &|name| dimension(archive, name))
+            .map_err(|faults| Failure::requests(&faults))
     }
 
     /// The kind and what is drawn, different from the names of the figures of the study.
@@ -175,6 +203,15 @@ impl Figure {
         let at = at.map(|(name, values)| (name, values[0])).collect();
         if faults.is_empty() { Ok((at, panels)) } else { Err(Failure::requests(&faults)) }
     }
+}
+
+/// The dimension of a quantity of figures, or of a variable of the file.
+fn dimension(archive: &Archive, name: &str) -> Result<Dimension, String> {
+    let of_variable = || {
+        let unit = archive.unit(name)?;
+        Some(Dimension::ALL.into_iter().find(|it| it.unit() == unit).unwrap_or(Dimension::Number))
+    };
+    dimension_of(name).or_else(|fault| of_variable().ok_or(fault))
 }
 
 /// The figures that the study in the file asks for.

@@ -15,8 +15,8 @@ use crate::store::{self, Dataset, Values, Variable};
 const EXAMPLES: &str = "\
 Examples:
   capsulemap inspect results/overview/overview.h5
-  capsulemap inspect results/overview/overview.h5 --json | jq .variables.progression_speed
-  capsulemap inspect results/overview/overview.h5 --study > again.toml";
+  capsulemap inspect FILE.h5 --json | jq .variables.progression_speed
+  capsulemap inspect FILE.h5 --study > again.toml";
 
 /// Say what is in a file of results.
 #[derive(Debug, Args)]

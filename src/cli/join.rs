@@ -19,7 +19,7 @@ Examples:
   capsulemap join STUDY.toml
   capsulemap join STUDY.toml --partial
 
-`sweep` joins by itself unless it was one task of several. With --partial the file and the figures go to a
+`sweep` joins by itself unless it was one task of several. With --partial the file and the figures go to a \
 folder `partial` beside the blocks; cases that are not done have the outcome `missing`.";
 
 /// Join the blocks that the tasks of a sweep have computed.

@@ -40,19 +40,20 @@ use crate::store::provenance;
 
 const EXAMPLES: &str = "\
 Examples:
-  capsulemap simulate --omega \"77.91 rad/s\" --p-d \"4 N\" --k2 \"2.42 kN/m\" --delta \"3.5 mm\"
+  capsulemap simulate --omega \"77.91 rad/s\" --p-d \"4 N\" --delta \"3.5 mm\"
   capsulemap sweep studies/overview.toml
   capsulemap status studies/overview.toml
   capsulemap continue branches.toml
   capsulemap inspect results/overview/overview.h5
-  capsulemap figure results/overview/overview.h5 --kind map --of work_positive
+  capsulemap figure FILE.h5 --kind map --of work_positive
 
-Exit codes: 0 done; 2 a mistake in what was asked; 3 a fault of the machine (disk, memory); 130 stopped by
+Exit codes: 0 done; 2 a mistake in what was asked; 3 a fault of the machine (disk, memory); 130 stopped by \
 Ctrl-C, 143 by a scheduler or `kill`: what is done is kept, and the same command resumes.";
 
 const COMPLETIONS_EXAMPLES: &str = "\
 Examples:
-  capsulemap completions bash > ~/.local/share/bash-completion/completions/capsulemap
+  capsulemap completions bash \\
+    > ~/.local/share/bash-completion/completions/capsulemap
   capsulemap completions zsh > ~/.zfunc/_capsulemap
   capsulemap completions fish > ~/.config/fish/completions/capsulemap.fish";
 

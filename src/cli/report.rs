@@ -16,8 +16,8 @@ Examples:
   capsulemap report results/overview/overview.h5
   capsulemap report FILE.h5 --of work_positive --output for-a-colleague.html
 
-The page has the optima with their motions, the figures of the study, the study, where the results come from and how to
-compute them again. It needs no network and no other file. Motions between the cases are those that `capsulemap tradeoff
+The page has the optima with their motions, the figures of the study, the study, where the results come from and how to \
+compute them again. It needs no network and no other file. Motions between the cases are those that `capsulemap tradeoff \
 --refine` has found.";
 
 /// Write what a file of results says as one HTML page.

@@ -22,8 +22,8 @@ use crate::study::document::unknown;
 
 const EXAMPLES: &str = "\
 Examples:
-  capsulemap simulate --omega \"20.73 rad/s\" --p-d \"4 N\" --k2 \"18.96 kN/m\" --delta \"1.5 mm\" --json
-  capsulemap simulate --set mu_s=0.4 --set mu_d=0.2 --start r=-2.5e-3,y2=0.1 --cycles 50
+  capsulemap simulate --omega \"20.73 rad/s\" --k2 \"18.96 kN/m\" --json
+  capsulemap simulate --set mu_s=0.4 --start r=-2.5e-3,y2=0.1 --cycles 50
   capsulemap simulate --friction-switching as-printed
   capsulemap simulate --study studies/overview.toml --case 1234
 

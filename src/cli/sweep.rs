@@ -25,9 +25,10 @@ Examples:
   capsulemap sweep studies/overview.toml
   capsulemap sweep STUDY.toml --dry-run
   capsulemap sweep STUDY.toml --output /data/NAME.h5 --threads 8
-  capsulemap sweep STUDY.toml --task 3/8      # on each of 8 machines; then: capsulemap join STUDY.toml
+  capsulemap sweep STUDY.toml --task 3/8   # the third of 8 machines
+  capsulemap join STUDY.toml               # once all 8 are done
 
-A run that was interrupted is resumed by the same command. Without --task, a job of a Slurm array
+A run that was interrupted is resumed by the same command. Without --task, a job of a Slurm array \
 takes its part by itself; scripts/slurm has the array script.";
 
 /// More values on an axis than this are alike to every figure.

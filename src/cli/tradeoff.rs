@@ -24,14 +24,14 @@ const EXAMPLES: &str = "\
 Examples:
   capsulemap tradeoff results/overview/overview.h5
   capsulemap tradeoff FILE.h5 --of work_positive --direction forward --json
-  capsulemap tradeoff FILE.h5 --where \"peak_contact_force < 30 N and grazing_margin > 0.1 mm\" --top 20
+  capsulemap tradeoff FILE.h5 --where \"peak_contact_force < 30 N\" --top 20
   capsulemap tradeoff FILE.h5 --refine --json
   capsulemap tradeoff FILE.h5 --refine --tolerances \"k2 = 5 %, mu_s = 10 %\"
   capsulemap tradeoff FILE.h5 --budget \"20 mW\" --speed \"5 mm/s\" --csv
 
-The front is of all cases of the file, each with the attractor that it has ended on. Motions that are chaotic or
-quasi-periodic take part by their means. With --refine, periodic motions are followed from the cases to where speed is
-stationary for its price, and from these along the front; each says what holds it. Conditions then bound the search:
+The front is of all cases of the file, each with the attractor that it has ended on. Motions that are chaotic or \
+quasi-periodic take part by their means. With --refine, periodic motions are followed from the cases to where speed is \
+stationary for its price, and from these along the front; each says what holds it. Conditions then bound the search: \
 parameters, and up to 3 outputs that change smoothly, which may reach their limits.";
 
 /// Find the fastest motions for the least energy.

@@ -16,9 +16,9 @@ use crate::lane::Instructions;
 const EXAMPLES: &str = "\
 Examples:
   capsulemap verify results/NAME/NAME.h5
-  capsulemap verify results/NAME/NAME.h5 --cases 5000 --seed 7 --instructions scalar
+  capsulemap verify FILE.h5 --cases 5000 --seed 7 --instructions scalar
 
-What a case has settled to is compared in every number; attractors are numbered by all cases together, and
+What a case has settled to is compared in every number; attractors are numbered by all cases together, and \
 are not looked at. Where cases inherit their start along an axis, whole lines of them are computed.";
 
 /// So many differences are shown.

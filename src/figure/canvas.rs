@@ -105,6 +105,8 @@ pub struct Canvas {
     pub unfit: Option<String>,
     /// What is drawn, if it is to be told.
     pub data: Option<Data>,
+    /// What of the request is left out, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// A finished page.
@@ -138,7 +140,8 @@ impl Canvas {
     pub fn new(width: f64, height: f64) -> Canvas {
         {
             let (missing, fault, unfit, data) = (None, None, None, None);
-            Canvas { width, height, body: String::new(), clips: 0, missing, fault, unfit, data }
+            let (body, notes) = (String::new(), Vec::new());
+            Canvas { width, height, body, clips: 0, missing, fault, unfit, data, notes }
         }
     }
 
@@ -317,7 +320,7 @@ impl Canvas {
             escape(about),
             self.body
         );
-        let (about, notes) = (about.to_string(), Vec::new());
+        let (about, notes) = (about.to_string(), self.notes);
         let (missing, fault, unfit) = (self.missing, self.fault, self.unfit);
         Drawn { about, svg, missing, fault, unfit, data: self.data, notes }
     }

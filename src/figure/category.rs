@@ -46,6 +46,8 @@ pub struct Kinds {
     heading: Text,
     /// The kind of each case.
     of_case: Vec<u16>,
+    /// Whether the legend lists each kind.
+    listed: Vec<bool>,
 }
 
 impl Kinds {
@@ -96,8 +98,22 @@ impl Kinds {
         let place = |shown: u16| order.iter().position(|&it| it == usize::from(shown)).unwrap_or(0);
         let places: Vec<u16> = (0..present.len() as u16).map(|it| place(it) as u16).collect();
         of_case.iter_mut().for_each(|it| *it = places[usize::from(*it)]);
-        let kinds = order.iter().map(|&it| present[it].1.clone()).collect();
-        Kinds { kinds, heading, of_case }
+        let kinds: Vec<Kind> = order.iter().map(|&it| present[it].1.clone()).collect();
+        let listed = vec![true; kinds.len()];
+        Kinds { kinds, heading, of_case, listed }
+    }
+
+    /// Leaves kinds out of the legend of which no case is seen.
+    pub fn list(&mut self, seen: impl Fn(usize) -> bool) {
+        self.listed.fill(false);
+        for (_, kind) in self.of_case.iter().enumerate().filter(|(case, _)| seen(*case)) {
+            self.listed[usize::from(*kind)] = true;
+        }
+    }
+
+    /// The kinds in the legend.
+    fn in_legend(&self) -> impl Iterator<Item = &Kind> {
+        self.kinds.iter().zip(&self.listed).filter(|(_, listed)| **listed).map(|(kind, _)| kind)
     }
 
     /// What the kinds are of.
@@ -117,7 +133,7 @@ impl Kinds {
 
     /// Room that the legend takes beside a frame [pt].
     pub fn room(&self) -> f64 {
-        let widths = self.kinds.iter().map(|kind| Text::plain(&kind.name).width(SMALL_SIZE) + MARK);
+        let widths = self.in_legend().map(|kind| Text::plain(&kind.name).width(SMALL_SIZE) + MARK);
         LEGEND_GAP + widths.fold(self.heading.width(SMALL_SIZE), f64::max) + 2.0
     }
 
@@ -126,7 +142,7 @@ impl Kinds {
         let left = frame.right + LEGEND_GAP;
         let mut baseline = frame.top + 0.7 * SMALL_SIZE;
         canvas.text(&self.heading, (left, baseline), SMALL_SIZE, Anchor::Start);
-        for kind in &self.kinds {
+        for kind in self.in_legend() {
             baseline += LINE;
             let mark = kind.colour.map_or(Mark::Filled(Fill::NO_VALUE), Mark::Patch);
             draw_mark(canvas, mark, (left - 1.0, baseline - 0.3 * SMALL_SIZE));

@@ -54,6 +54,17 @@ impl Cells {
         [begins, self.ends.get(cell).copied().unwrap_or(1.0)]
     }
 
+    /// Whether each place in the results has a part of its cell within these limits, if there are any.
+    pub fn within(&self, limits: Option<[f64; 2]>) -> Vec<bool> {
+        let shares = limits.map(|limits| limits.map(|end| self.scale.share(end)));
+        let mut within = vec![true; self.count()];
+        for cell in 0..self.count() {
+            let [begins, ends] = self.range(cell);
+            within[self.place(cell)] = shares.is_none_or(|[low, high]| begins < high && low < ends);
+        }
+        within
+    }
+
     /// The place in the results of the cell at `share` of another axis, or the nearest to it.
     pub fn under(&self, axis: &Scale, share: f64) -> usize {
         self.at(self.scale.share(axis.value(share)))

@@ -125,7 +125,7 @@ pub fn with_paint(
             Mark::Filled(_) => (Mark::Disc(UNDECIDED_DOT, 1.6), words),
             mark => (mark, words),
         };
-        first.header.legend.extend(paint.legend().into_iter().map(mark));
+        first.header.legend.extend(paint.legend(|_| true).into_iter().map(mark));
     }
     rows
 }

@@ -5,7 +5,7 @@ use super::canvas::{Canvas, Dash, Drawn, Stroke};
 use super::error::FigureError;
 use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
-use super::motion::{Motion, sources};
+use super::motion::{Motion, sources, sources_of_arcs};
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
 use super::scale::Scale;
@@ -16,8 +16,8 @@ use super::text::Text;
 use super::view::View;
 use crate::capsule::Parameter;
 use crate::store::catalogue::{
-    Entry, HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_TIME, HISTORY_X1,
-    HISTORY_X2, HISTORY_Y1, HISTORY_Y2, RELATIVE_VELOCITY, TIME, VELOCITIES,
+    Entry, HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_X1, HISTORY_X2,
+    HISTORY_Y1, HISTORY_Y2, RELATIVE_VELOCITY, TIME, VELOCITIES,
 };
 use crate::study::Drawing;
 
@@ -73,7 +73,7 @@ fn reads(drawing: &Drawing) -> Names {
     let constants = [Parameter::Omega, Parameter::Delta].map(Entry::of_parameter);
     let shown: Vec<Entry> = shown.flat_map(variables).copied().collect();
     let sources: Vec<Entry> = shown.iter().flat_map(|entry| sources(entry.name)).collect();
-    Names::of(shown).and(sources).and(constants)
+    Names::of(shown).and(sources).and(sources_of_arcs()).and(constants)
 }
 
 /// Draws the history that `view` asks for.
@@ -154,26 +154,19 @@ fn curves_of(view: &View<'_>, output: &str) -> Result<Vec<(Entry, Stroke)>, Figu
     Ok(variables.iter().map(|entry| (*entry, colour(entry))).collect())
 }
 
-/// Time of each sample [s] and its cycle, for one case.
-fn times(view: &View<'_>, case: usize, free: &[&str]) -> Result<Vec<(f64, f64)>, FigureError> {
-    let cycles = view.coordinate_values(HISTORY_TIME.name);
-    if cycles.is_empty() {
-        return Err(view.without_histories());
-    }
+fn cell(view: &View<'_>, output: &str, case: usize, free: &[&str]) -> Result<Cell, FigureError> {
+    let motion = Motion::drawn(view, free, case);
+    let cycles = motion.cycles()?;
     let omega = view.parameter(Parameter::Omega.symbol(), free)?;
     let omega = omega.iter().nth(case).copied().unwrap_or(f64::NAN);
-    Ok(cycles.iter().map(|cycle| (cycle * std::f64::consts::TAU / omega, *cycle)).collect())
-}
-
-fn cell(view: &View<'_>, output: &str, case: usize, free: &[&str]) -> Result<Cell, FigureError> {
-    let times = times(view, case, free)?;
     let [first, last] = view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     let shown = |cycle: f64| (first - 1e-9..=last + 1e-9).contains(&cycle);
     let mut curves = Vec::new();
     for (variable, stroke) in curves_of(view, output)? {
-        let samples = Motion::new(view, free, case).shown(variable.name)?;
-        let both = times.iter().zip(samples).filter(|((_, cycle), _)| shown(*cycle));
-        let points: Vec<_> = both.map(|((time, _), value)| (*time, value)).collect();
+        let both = cycles.iter().zip(motion.shown(variable.name)?);
+        let both = both.filter(|(cycle, _)| shown(**cycle));
+        let points: Vec<_> =
+            both.map(|(cycle, value)| (cycle * std::f64::consts::TAU / omega, value)).collect();
         if points.is_empty() {
             let why = format!("no sample of the history lies in cycles {first} to {last}");
             return Err(view.unfit(why));

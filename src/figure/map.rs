@@ -52,9 +52,13 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let rows = view.panels();
     let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
     let views: Vec<View<'_>> = rows.into_iter().flatten().collect();
-    let paint = paint((view, &views), &output, (&plane.free(), plane.count()))?;
+    let mut paint = paint((view, &views), &output, (&plane.free(), plane.count()))?;
     let levels = levels(view, &output, &paint);
-    let legend = paint.legend().into_iter().chain(told(&views, &plane)?).chain(plane.legend());
+    let seen = plane.seen(view);
+    let is_seen = |case: usize| seen[case % plane.count()];
+    paint.list(is_seen);
+    let legend =
+        paint.legend(is_seen).into_iter().chain(told(&views, &plane)?).chain(plane.legend());
     let legend = legend.chain(contours(view, &output, &levels));
     let over = match view.drawing.curves {
         true => curves::curves(view, &names.map(str::to_owned)),

@@ -1,11 +1,14 @@
 //! The page of a figure: panels in rows and columns, with exactly the room their labels need.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::axis::{Along, Axis, AxisRequest};
 use super::canvas::{Anchor, Canvas};
 use super::data::Data;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
 use super::panel::{Panel, Pointing, tick_room};
+use super::quantity::Quantity;
 use super::style::{
     BORDER, LABEL_GAP, LABEL_SIZE, ONE_COLUMN, PANEL_GAP, POINTS_PER_MM, SMALL_SIZE, TITLE_SIZE,
 };
@@ -134,7 +137,8 @@ impl<'a> PageRequest<'a> {
         let row = |(row, frames): (Vec<PanelRequest>, Vec<(Rect, f64)>)| {
             row.into_iter().zip(frames).map(&mut place).collect()
         };
-        let panels: Vec<Vec<Panel>> = rows.into_iter().zip(frames).map(row).collect();
+        let mut panels: Vec<Vec<Panel>> = rows.into_iter().zip(frames).map(row).collect();
+        self.keep_texts_inside(&mut canvas, &mut panels);
         if self.drawing.data {
             let mut data = Data::default();
             for Panel { x, y, .. } in panels.iter().flatten() {
@@ -143,6 +147,24 @@ impl<'a> PageRequest<'a> {
             canvas.data = Some(data);
         }
         (canvas, panels)
+    }
+
+    /// Leaves out words whose place is in no panel, and says so.
+    fn keep_texts_inside(&self, canvas: &mut Canvas, panels: &mut [Vec<Panel>]) {
+        let mut shown = BTreeSet::new();
+        for panel in panels.iter_mut().flatten() {
+            let mut texts = std::mem::take(&mut panel.texts);
+            texts.retain(|(_, (x, y))| panel.holds(*x, *y));
+            shown.extend(texts.iter().map(|(words, _)| words.content()));
+            panel.texts = texts;
+        }
+        for words in self.drawing.texts.keys() {
+            if !shown.contains(&Text::tex(words).content()) {
+                canvas.notes.push(format!(
+                    "the words \"{words}\" stand outside its panels and are left out"
+                ));
+            }
+        }
     }
 
     /// Finds a place for everything.
@@ -227,11 +249,22 @@ impl<'a> PageRequest<'a> {
         }
     }
 
+    /// The words that stand in a panel with these quantities, with their places.
+    fn texts(&self, x: &Quantity, y: &Quantity) -> Vec<(Text, (f64, f64))> {
+        let place = |(words, at): (&String, &BTreeMap<String, f64>)| {
+            let value = |of: &Quantity| Some(at.get(&of.key)? * of.factor);
+            Some((Text::tex(words), (value(x)?, value(y)?)))
+        };
+        self.drawing.texts.iter().filter_map(place).collect()
+    }
+
     fn place(&self, request: PanelRequest, frame: Rect, label_distance: f64) -> Panel {
         let x = Axis::new(&request.x, Along::Across, frame.width());
         let y = Axis::new(&request.y, Along::Up, frame.height());
+        let texts = self.texts(&request.x.quantity, &request.y.quantity);
         let PanelRequest { header, .. } = request;
-        Panel { number: 0, frame, x, y, label_distance, pointing: self.pointing, header }
+        let pointing = self.pointing;
+        Panel { number: 0, frame, x, y, label_distance, pointing, header, texts }
     }
 }
 

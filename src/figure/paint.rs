@@ -128,20 +128,29 @@ impl Paint {
         }
     }
 
-    /// The entries that the colour bar does not explain.
-    pub fn legend(&self) -> Vec<(Mark, Text)> {
+    /// Leaves kinds out of their list of which no case is seen.
+    pub fn list(&mut self, seen: impl Fn(usize) -> bool) {
+        if let Paint::Kinds(kinds) = self {
+            kinds.list(seen);
+        }
+    }
+
+    /// The entries that the colour bar does not explain, for the cases that are seen.
+    pub fn legend(&self, seen: impl Fn(usize) -> bool) -> Vec<(Mark, Text)> {
         let Paint::Numbers(colours, values, inferred) = self else { return Vec::new() };
+        let cases = values.iter().zip(inferred).enumerate().filter(|(case, _)| seen(*case));
+        let cases: Vec<(&f64, &bool)> = cases.map(|(_, it)| it).collect();
         let mut legend = Vec::new();
-        if values.iter().any(|value| value.is_infinite()) {
+        if cases.iter().any(|(value, _)| value.is_infinite()) {
             legend.push((Mark::Patch(INFINITE), Text::plain("infinite")));
         }
-        let mut without = values.iter().zip(inferred).filter(|(value, _)| value.is_nan());
-        if without.clone().any(|(_, inferred)| *inferred) {
+        let mut without = cases.iter().filter(|(value, _)| value.is_nan());
+        if without.clone().any(|(_, inferred)| **inferred) {
             legend.push((Mark::Patch(INFERRED), Text::plain("not computed")));
         }
-        let has_none = without.any(|(_, inferred)| !inferred);
+        let has_none = without.any(|(_, inferred)| !**inferred);
         let has_no_place =
-            |colours: &Colours| values.iter().any(|it| it.is_finite() && !colours.has(*it));
+            |colours: &Colours| cases.iter().any(|(it, _)| it.is_finite() && !colours.has(**it));
         let words = match (has_none, colours.as_ref().is_some_and(has_no_place)) {
             (true, true) => "no value, or not above zero",
             (false, true) => "not above zero",

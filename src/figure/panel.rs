@@ -1,5 +1,7 @@
 //! A panel: a frame with ticks, numbers and labels, and what stands above it.
 
+use plotters::style::WHITE;
+
 use super::axis::Axis;
 use super::canvas::{Anchor, Canvas, Reading, Stroke};
 use super::data::Value;
@@ -37,6 +39,8 @@ pub struct Panel {
     pub pointing: Pointing,
     /// What stands above it.
     pub header: Header,
+    /// Words that stand in it, with their places in the units of its axes.
+    pub texts: Vec<(Text, (f64, f64))>,
 }
 
 impl Panel {
@@ -113,11 +117,25 @@ impl Panel {
             let text = Text::plain("no finite values");
             canvas.label(&text, centre, SMALL_SIZE, Anchor::Middle, Reading::Across, FAINT_INK);
         }
+        for (words, (x, y)) in &self.texts {
+            self.draw_words(canvas, words, self.place(*x, *y));
+        }
         self.draw_ticks(canvas);
         canvas.frame(self.frame, Stroke::solid(INK, FRAME_WIDTH));
         self.draw_numbers(canvas);
         self.draw_labels(canvas);
         self.header.draw(canvas, self.frame);
+    }
+
+    /// Words around a place, moved into the frame, on white, so that they can be read over any colour.
+    fn draw_words(&self, canvas: &mut Canvas, words: &Text, (x, y): Point) {
+        let [across, up] = [words.width(SMALL_SIZE) / 2.0 + 1.5, 0.58 * SMALL_SIZE];
+        let Rect { left, right, top, bottom } = self.frame;
+        let x = x.min(right - across - MAJOR_LENGTH).max(left + across + MAJOR_LENGTH);
+        let y = y.min(bottom - up - MAJOR_LENGTH).max(top + up + MAJOR_LENGTH);
+        canvas
+            .fill(Rect { left: x - across, top: y - up, right: x + across, bottom: y + up }, WHITE);
+        canvas.text(words, (x, y + 0.27 * SMALL_SIZE), SMALL_SIZE, Anchor::Middle);
     }
 
     fn draw_ticks(&self, canvas: &mut Canvas) {

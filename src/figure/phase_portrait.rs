@@ -7,7 +7,7 @@ use super::geometry::Rect;
 use super::header::{Header, Mark};
 use super::history::case_axis;
 use super::kind::{Kind, Names, Needs};
-use super::motion::{Motion, sources};
+use super::motion::{Motion, sources, sources_of_arcs};
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
 use super::style::{
@@ -52,6 +52,7 @@ fn reads(drawing: &Drawing) -> Names {
         .and([SECTION_R, SECTION_Y1, SECTION_Y2, IMPACT_Y1, IMPACT_Y2])
         .and([Entry::of_parameter(Parameter::Delta)])
         .and(named)
+        .and(sources_of_arcs())
         .and_named(drawing.of.clone())
 }
 
@@ -120,7 +121,7 @@ fn portrait(
     names: [&str; 2],
     (free, case): (&[&str], usize),
 ) -> Result<Portrait, FigureError> {
-    let motion = Motion::new(view, free, case);
+    let motion = Motion::drawn(view, free, case);
     let [first, last] = view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     let samples = motion.shown(names[0])?.into_iter().zip(motion.shown(names[1])?);
     let orbit: Vec<_> = motion

@@ -48,6 +48,13 @@ impl<'a> Plane<'a> {
         self.x.count() * self.y.count()
     }
 
+    /// Whether a part of the cell of each case over the free axes lies within the limits that are set.
+    pub fn seen(&self, view: &View<'_>) -> Vec<bool> {
+        let within = |cells: &Cells, name: &str| cells.within(view.quantity(name).limits());
+        let (x, y) = (within(&self.x, self.x_name), within(&self.y, self.y_name));
+        y.iter().flat_map(|row| x.iter().map(move |column| *row && *column)).collect()
+    }
+
     /// Fills the cells over a panel, each as `fill` says for its case over the free axes, and marks the values of uneven
     /// axes at the upper and the right side of the frame.
     pub fn draw(&self, canvas: &mut Canvas, panel: &Panel, fill: impl Fn(usize) -> Fill) {

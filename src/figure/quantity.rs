@@ -29,6 +29,8 @@ fn rounding(unit: &str) -> f64 {
 /// A quantity as figures show it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
+    /// By what it is called in files and requests.
+    pub key: String,
     /// Its name as text.
     name: Text,
     /// Its symbol, with markup; empty if it has none.
@@ -61,6 +63,7 @@ impl Quantity {
         let is_ratio = is_result && unit == "1";
         match catalogue::named(name).and_then(|entry| entry.shown) {
             Some(Shown { label, symbol, unit, factor }) => Quantity {
+                key: name.to_owned(),
                 name: Text::plain(label),
                 symbol: symbol.to_string(),
                 unit: unit.to_string(),
@@ -80,6 +83,7 @@ impl Quantity {
         let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
         let unit = stored.map_or("1", |variable| variable.unit.as_str());
         Quantity {
+            key: name.to_owned(),
             name: Text::plain(&(first + letters.as_str())),
             symbol: String::new(),
             unit: if unit == "1" { String::new() } else { raised(unit) },
@@ -144,7 +148,7 @@ impl Quantity {
 
     /// A scale in the unit shown, as the request sets it.
     pub fn fitted(&self, scale: Scale) -> Scale {
-        let limits = self.chosen.limits().map(|limits| limits.map(|end| end * self.factor));
+        let limits = self.limits();
         let [low, high] = limits.unwrap_or([scale.low, scale.high]);
         let scale = Scale { low, high, ..scale };
         match self.chosen.scale() {
@@ -165,8 +169,12 @@ impl Quantity {
 
     /// Whether a value, in the unit shown, lies within the limits that are set, if any are.
     pub fn is_within(&self, value: f64) -> bool {
-        let limits = self.chosen.limits().map(|limits| limits.map(|end| end * self.factor));
-        limits.is_none_or(|[low, high]| (low..=high).contains(&value))
+        self.limits().is_none_or(|[low, high]| (low..=high).contains(&value))
+    }
+
+    /// The limits that are set, in the unit shown.
+    pub fn limits(&self) -> Option<[f64; 2]> {
+        self.chosen.limits().map(|limits| limits.map(|end| end * self.factor))
     }
 
     /// Notes how many of `values` have no place on a scale.

@@ -162,7 +162,7 @@ fn spectrum(
     output: &str,
     (free, case): (&[&str], usize),
 ) -> Result<Spectrum, FigureError> {
-    let motion = Motion::new(view, free, case);
+    let motion = Motion::sampled(view, free, case);
     let times = motion.cycles()?;
     let values = motion.shown(output)?;
     let step = times.get(1).map_or(f64::NAN, |second| second - times[0]);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::Duration;
 
-use hdf5::types::{TypeDescriptor, VarLenUnicode};
+use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset as Array, File, Hyperslab, Location, SliceOrIndex};
 use ndarray::{ArrayD, IxDyn};
 
@@ -19,6 +19,8 @@ use super::{Dataset, StoreError, Values, Variable};
 /// How often a file is tried that is locked, and the time between two tries.
 const LOCK_TRIES: u32 = 100;
 const LOCK_PAUSE: Duration = Duration::from_millis(100);
+/// Texts of a fixed length are no longer than this [bytes].
+const LONGEST_TEXT: usize = 1024;
 
 /// An open file of results, of which each variable can be read by itself.
 #[derive(Debug)]
@@ -74,6 +76,11 @@ impl Archive {
     /// Name and dimensions of every variable.
     pub fn variables(&self) -> impl Iterator<Item = (&str, &[String])> {
         self.labels.iter().map(|(name, label)| (name.as_str(), label.dimensions.as_slice()))
+    }
+
+    /// The unit of a variable; none if there is none of this name.
+    pub fn unit(&self, name: &str) -> Option<&str> {
+        self.labels.get(name).map(|label| label.unit.as_str())
     }
 
     /// A variable without its numbers; none if there is none of this name.
@@ -219,10 +226,16 @@ fn found(array: &Array, file: &File, name: &str) -> hdf5::Result<Found> {
     if is_words && array.ndim() == 0 {
         return Ok(Found::Text(text(array.read_scalar::<VarLenUnicode>()?)?));
     }
-    let labels = [words(array, UNITS)?, words(array, LONG_NAME)?];
+    // Another program may have added a variable without them.
+    let label = |name: &str, without: &str| match has(array, name)? {
+        true => words(array, name),
+        false => Ok(without.to_owned()),
+    };
+    let labels = [label(UNITS, "1")?, label(LONG_NAME, name)?];
     let mut variable =
         Variable::labelled(Vec::new(), labels, nothing(array)?).with_flags(flags(array, file)?);
-    if has(array, DIMENSION_ID)? {
+    // netCDF-4 numbers the first dimension of other variables, too, that are no scale of one.
+    if has(array, DIMENSION_ID)? && has(array, CLASS)? {
         variable.values = match is_words {
             true => codes(array, &variable.flags)?,
             false => values(array)?,
@@ -317,8 +330,18 @@ fn has(place: &Location, name: &str) -> hdf5::Result<bool> {
     Ok(place.attr_names()?.iter().any(|present| present == name))
 }
 
+/// An attribute as text; netCDF-4 writes texts of a fixed length, too.
 fn words(place: &Location, name: &str) -> hdf5::Result<String> {
-    text(place.attr(name)?.read_scalar::<VarLenUnicode>()?)
+    let attribute = place.attr(name)?;
+    match attribute.dtype()?.to_descriptor()? {
+        TypeDescriptor::FixedAscii(length) if length <= LONGEST_TEXT => {
+            Ok(attribute.read_scalar::<FixedAscii<LONGEST_TEXT>>()?.to_string())
+        }
+        TypeDescriptor::FixedUnicode(length) if length <= LONGEST_TEXT => {
+            Ok(attribute.read_scalar::<FixedUnicode<LONGEST_TEXT>>()?.to_string())
+        }
+        _ => text(attribute.read_scalar::<VarLenUnicode>()?),
+    }
 }
 
 /// A damaged file may hold any bytes, so they are checked to be text.

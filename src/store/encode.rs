@@ -201,6 +201,13 @@ fn put_flag_values<T: H5Type>(
     Ok(())
 }
 
+/// Bytes of the numbers of a variable where it is too small to be compressed, else none.
+pub fn plain_bytes(variable: &Variable) -> usize {
+    let numbers: usize = variable.values.shape().iter().product();
+    let bytes = numbers * Element::of(variable, variable.values.range()).bytes();
+    if bytes >= COMPRESSED_FROM_BYTES { 0 } else { bytes }
+}
+
 /// The type of a variable's numbers in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Element {

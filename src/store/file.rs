@@ -88,6 +88,25 @@ pub fn read(path: &Path) -> Result<Dataset, StoreError> {
 
 /// The file of results at `path`, once every byte has been checked.
 pub fn open(path: &Path) -> Result<Archive, StoreError> {
+    match checksum_of(path)? {
+        Checksum::Valid => Archive::decode(path),
+        Checksum::Invalid => Err(StoreError::Damaged { path: path.to_owned() }),
+        Checksum::Absent => {
+            let why = "the checksum at its end is missing: it was cut short, or another program wrote or \
+                       changed it";
+            Err(StoreError::Foreign { path: path.to_owned(), why: why.to_owned() })
+        }
+    }
+}
+
+/// The same, and whether every byte has been checked, which cannot be done of a file that another program has changed.
+pub fn open_changed(path: &Path) -> Result<(Archive, bool), StoreError> {
+    let is_checked = checksum_of(path)? == Checksum::Valid;
+    Archive::decode(path).map(|archive| (archive, is_checked))
+}
+
+/// What the checksum of the HDF5 file at `path` tells.
+fn checksum_of(path: &Path) -> Result<Checksum, StoreError> {
     let failed = |said| StoreError::system(path, "opening the file", said);
     // A pipe would be waited for.
     let metadata = std::fs::metadata(path).map_err(failed)?;
@@ -104,15 +123,7 @@ pub fn open(path: &Path) -> Result<Archive, StoreError> {
         return Err(StoreError::Foreign { path: path.to_owned(), why });
     }
     file.rewind().map_err(failed)?;
-    match checksum::check(file).map_err(failed)? {
-        Checksum::Valid => Archive::decode(path),
-        Checksum::Invalid => Err(StoreError::Damaged { path: path.to_owned() }),
-        Checksum::Absent => {
-            let why = "the checksum at its end is missing: it was cut short, or another program wrote or \
-                       changed it";
-            Err(StoreError::Foreign { path: path.to_owned(), why: why.to_owned() })
-        }
-    }
+    checksum::check(file).map_err(failed)
 }
 
 /// The folder of a file.

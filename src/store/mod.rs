@@ -24,6 +24,7 @@ mod slab;
 pub mod provenance;
 mod scale;
 pub mod schema;
+mod size;
 mod candidates;
 mod case_table;
 mod checksum;
@@ -42,10 +43,11 @@ pub use decode::Archive;
 pub use difference::difference;
 pub use error::{StoreError, Unread};
 pub use file::{
-    create_folder, discard_abandoned, discard_unfinished, folder, hold, open, put, read,
-    try_to_begin, write,
+    create_folder, discard_abandoned, discard_unfinished, folder, hold, open, open_changed, put,
+    read, try_to_begin, write,
 };
 pub use join::{Blocks, FailedCase, write_beside_cases};
 pub use line_file::{LineFile, read_lines};
 pub use schema::{dataset, frame, numbers_of_case};
+pub use size::{file_bytes, refined_file_bytes};
 pub use slab::MOST_NUMBERS;

@@ -25,6 +25,8 @@ pub const FLAG_MEANINGS: &str = "flag_meanings";
 /// Attribute: the number that stands for "missing".
 pub const FILL_VALUE: &str = "_FillValue";
 
+/// Attribute of a coordinate: that it is the scale of a dimension.
+pub const CLASS: &str = "CLASS";
 /// Attribute of a coordinate: its position among the dimensions, as netCDF-4 numbers them.
 pub const DIMENSION_ID: &str = "_Netcdf4Dimid";
 /// Attribute of a variable: the positions of its dimensions, as netCDF-4 lists them.

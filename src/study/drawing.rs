@@ -223,6 +223,20 @@ impl Size {
 /// Where axes are held, and those that are held at several values in the order of the study (SI).
 pub type Held = (BTreeMap<String, f64>, Vec<(String, Vec<f64>)>);
 
+/// Words with the values of the two quantities along axes where they stand (SI).
+pub type Texts = BTreeMap<String, BTreeMap<String, f64>>;
+
+/// Fails where words of a figure are none, or do not stand at values of two quantities.
+pub fn check_text(words: &str, at: &BTreeMap<String, f64>) -> Result<(), String> {
+    match (words.trim().is_empty(), at.len()) {
+        (true, _) => Err("expected words that stand in the figure, found none".to_owned()),
+        (false, 2) => Ok(()),
+        (false, count) => {
+            Err(format!("expected values of the two quantities along its axes, found {count}"))
+        }
+    }
+}
+
 /// One figure to draw.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
@@ -264,6 +278,8 @@ pub struct Drawing {
     pub marker_mm: Option<f64>,
     /// Marks that it leaves out, with what the legend says of them.
     pub hide: Vec<String>,
+    /// Words that stand in it, each where the two quantities of a panel have these values (SI).
+    pub texts: Texts,
     /// Whether it says what its marks mean; what it leaves out is said in any case.
     pub legend: bool,
     /// Whether the data behind it are written as CSV beside it.
@@ -296,6 +312,7 @@ impl Drawing {
             dpi: None,
             marker_mm: None,
             hide: Vec::new(),
+            texts: Texts::new(),
             legend: true,
             data: false,
             svg_text: false,

@@ -7,7 +7,7 @@ use crate::capsule::{Dimension, Output, Parameter};
 use super::appearance::{Setting, Settings, dimension_of};
 use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
-use super::drawing::{COLOURED_BY, Held, Size, Sweep, check_panels};
+use super::drawing::{COLOURED_BY, Held, Size, Sweep, Texts, check_panels, check_text};
 use super::{
     Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine, parse_quantity,
 };
@@ -105,6 +105,7 @@ fn read_drawing(
         dpi: size("dpi", (Dimension::Number, 1.0), Size::Resolution),
         marker_mm: size("marker_size", (Dimension::Length, MILLIMETRE), Size::Marker),
         hide: table.entry("hide").map(|it| read_hide(&it, kind)).unwrap_or_default(),
+        texts: table.table("texts").map(|it| read_texts(&it)).unwrap_or_default(),
         legend: table.entry("legend").and_then(|entry| entry.truth()).unwrap_or(true),
         data: table.entry("data").and_then(|entry| entry.truth()).unwrap_or(false),
         svg_text: table.entry("svg_text").and_then(|entry| entry.truth()).unwrap_or(false),
@@ -208,6 +209,27 @@ fn read_hide(entry: &Entry<'_, '_>, kind: Option<DrawingKind>) -> Vec<String> {
     let names: Vec<(&str, &str)> = marks.iter().map(|name| (*name, *name)).collect();
     let known = |entry: &Entry<'_, '_>| entry.one_of("mark of this kind of figure", &names);
     entry.list().iter().filter_map(known).map(str::to_owned).collect()
+}
+
+/// The words that stand in a figure, each with its place.
+fn read_texts(table: &Table<'_, '_>) -> Texts {
+    let mut texts = Texts::new();
+    for (words, entry) in table.entries() {
+        let Some(place) = entry.table() else { continue };
+        let mut at = BTreeMap::new();
+        for (name, entry) in place.entries() {
+            match dimension_of(&name) {
+                Ok(dimension) => at.extend(entry.quantity(dimension).map(|value| (name, value))),
+                Err(fault) => entry.fault(fault),
+            }
+        }
+        // What is wrong with a value has been told.
+        let whole = at.len() == place.entries().len();
+        let fault = check_text(&words, &at).err().filter(|_| whole);
+        fault.into_iter().for_each(|fault| entry.fault(fault));
+        texts.insert(words, at);
+    }
+    texts
 }
 
 /// Which of the sweeps is shown; only maps show a difference.

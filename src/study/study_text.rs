@@ -323,6 +323,15 @@ fn write_drawing(document: &mut Document, drawing: &Drawing) {
     if !drawing.hide.is_empty() {
         document.put("hide", list(drawing.hide.iter().map(|name| text(name))));
     }
+    if !drawing.texts.is_empty() {
+        let place = |(name, value): (&String, &f64)| {
+            let dimension = dimension_of(name).unwrap_or(Dimension::Number);
+            (text(name), quantity(*value, dimension))
+        };
+        let words =
+            drawing.texts.iter().map(|(words, at)| (text(words), inline(at.iter().map(place))));
+        document.put("texts", inline(words));
+    }
     document.put("legend", drawing.legend);
     document.put("data", drawing.data);
     document.put("svg_text", drawing.svg_text);

@@ -8,7 +8,19 @@ use serde_json::Value;
 
 use super::program::{FIG5, Ran, WorkDir};
 
-const COMMANDS: [&str; 6] = ["simulate", "sweep", "continue", "figure", "inspect", "completions"];
+const COMMANDS: [&str; 11] = [
+    "simulate",
+    "sweep",
+    "join",
+    "status",
+    "verify",
+    "continue",
+    "figure",
+    "tradeoff",
+    "report",
+    "inspect",
+    "completions",
+];
 
 fn simulate(more: &[&str]) -> Ran {
     let mut arguments = vec!["simulate", "--json"];
@@ -274,6 +286,29 @@ fn every_command_explains_itself_by_examples() {
     }
     dir.run(&["swep"]).refused(&["sweep"]);
     dir.run(&[]).refused(&["Usage"]);
+}
+
+/// Words that were broken into lines in the source and again on the screen have short lines between long ones.
+#[test]
+fn help_is_wrapped_once() {
+    let dir = WorkDir::new();
+    for command in COMMANDS.iter().map(|it| vec![*it, "--help"]).chain([vec!["--help"]]) {
+        for columns in [60, 80, 100] {
+            let asked = dir.command(&command).env("COLUMNS", columns.to_string()).output();
+            let ran = Ran::from(asked.expect("the program starts")).done();
+            let (_, last) = ran.out.split_once("Examples:\n").expect("it has examples");
+            let (examples, words) = last.split_once("\n\n").unwrap_or((last, ""));
+            let split = |line: &str| {
+                !["  capsulemap", "  watch", "    "].iter().any(|it| line.starts_with(it))
+            };
+            assert!(columns == 60 || !examples.lines().any(split), "{command:?}: {examples}");
+            for (line, next) in words.lines().zip(words.lines().skip(1)) {
+                let word = next.split(' ').next().unwrap_or("");
+                let fits = line.len() + 1 + word.len() <= columns;
+                assert!(line.is_empty() || next.is_empty() || !fits, "{columns}: {line} / {next}");
+            }
+        }
+    }
 }
 
 #[test]

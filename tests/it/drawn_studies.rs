@@ -293,7 +293,10 @@ fn what_does_not_go_with_draws_is_reported_before_the_run() {
         &format!("{draws}{axis}values = [\"1 mm\"]\n"),
         &["axes[1].from: missing", "axes[1].to: missing", "axes[1].values: does not go"],
     );
-    said(&format!("{draws}{axis}{}", range.replace('1', "0")), &["axes[1].to: \"0 mm\" is the same"]);
+    said(
+        &format!("{draws}{axis}{}", range.replace('1', "0")),
+        &["axes[1].to: \"0 mm\" is the same"],
+    );
     said(
         &format!("{FIG5}[draws]\nkind = \"unifrom\"\ncount = 0\nseed = -1\nsed = 1\n{axis}{range}"),
         &[

@@ -2,6 +2,11 @@
 
 use std::fs;
 
+use capsulemap::figure::{Format, draw};
+use capsulemap::study::{Drawing, DrawingKind, QuantitySettings};
+
+use super::figure::fixtures::plane;
+use super::figure::{folder, into};
 use super::program::WorkDir;
 
 /// What a study must say of the capsule.
@@ -20,7 +25,8 @@ fn a_study_and_the_command_line_set_the_same() {
         "[[figures]]\nname = \"own\"\nkind = \"bifurcation\"\nof = [\"progression_speed\"]\nwidth = \"3 in\"\n\
          height = \"60 mm\"\nmarker_size = \"2 pt\"\ndpi = 100\nlegend = false\ndata = true\nsvg_text = true\n\
          limits = { omega = [\"19 rad/s\", \"31 rad/s\"] }\nscale = { progression_speed = \"symlog 0.1 mm/s\" }\n\
-         unit = { omega = \"Hz\" }\nlabel = { omega = \"Drive $f$\" }\ndecimals = { omega = 2 }\n",
+         unit = { omega = \"Hz\" }\nlabel = { omega = \"Drive $f$\" }\ndecimals = { omega = 2 }\n\
+         texts = { \"near $k_2$\" = { omega = \"22 rad/s\", progression_speed = \"0.5 mm/s\" } }\n",
     );
     dir.put("s.toml", text);
     dir.run(&["sweep", "s.toml", "--output", "s.h5", "--formats", "svg"]).done();
@@ -37,11 +43,38 @@ fn a_study_and_the_command_line_set_the_same() {
         "progression_speed=symlog 0.1 mm/s",
         "--label",
         "omega=Drive $f$",
+        "--text",
+        "near $k_2$: omega=22, progression_speed=0.5 mm/s",
     ];
     let all: Vec<&str> = options.split_whitespace().chain(own).collect();
     dir.run(&all).done();
     let after = files.map(|name| fs::read(dir.path(name)).expect(name));
     assert!(before == after, "the command line sets other things");
+    let svg = String::from_utf8_lossy(&before[0]);
+    assert!(svg.contains(">near </tspan>") || svg.contains(">near "), "its words are missing");
+    // Words have a place in the figure, or the figure says that they have none.
+    let texts = ["a: omega=22 rad/s, progression_speed=1 km/s", "b: omega=22 rad/s, period=1"];
+    let lost = [&all[..], &["--text", texts[0], "--text", texts[1], "--overwrite"]].concat();
+    let said = dir.run(&lost).done().err;
+    for words in ["a", "b"] {
+        let note = format!("the words \"{words}\" stand outside its panels and are left out");
+        assert!(said.contains(&note), "{said}");
+    }
+    let texts = [
+        "a: omega=1",
+        "omega=1, period=2",
+        " : omega=1, period=2",
+        "a: omga=1, period=1",
+        "a: omega=1 N, period=1",
+    ];
+    let texts: Vec<&str> = texts.into_iter().flat_map(|it| ["--text", it]).collect();
+    dir.run(&[&["figure", "s.h5", "--kind", "bifurcation"], &texts[..]].concat()).refused(&[
+        "--text a: omega=1: expected values of the two quantities along its axes, found 1",
+        "--text omega=1, period=2: expected WORDS: NAME=VALUE, NAME=VALUE",
+        "--text  : omega=1, period=2: expected words that stand in the figure, found none",
+        "--text a: omga=1, period=1: unknown quantity \"omga\"; did you mean \"omega\"?",
+        "--text a: omega=1 N, period=1: \"1 N\" is a force",
+    ]);
     // All that is wrong at once, with what is allowed.
     let wrong = "figure s.h5 --kind map --limits omega=3,2 --limits omga=1,2 --scale omega=loga --unit omega=m --decimals \
         omega=-1 --colour-map omega=jet --height 5km --centre progression_speed=1N --contours progression_speed=x";
@@ -99,4 +132,24 @@ fn files_say_where_they_come_from() {
     let figure = ["figure", "s.h5", "--kind", "bifurcation", "--name", "it", "--data"];
     dir.run(&figure).refused(&["it.csv"]);
     assert_eq!(fs::read(dir.path("it.csv")).expect("kept"), b"my notes\n");
+}
+
+#[test]
+fn the_legend_of_a_map_lists_the_kinds_within_its_limits() {
+    let dataset = plane(40, 30);
+    let drawn = |limits: Option<[f64; 2]>| {
+        let of_axis = QuantitySettings { limits, ..QuantitySettings::default() };
+        let settings = [("omega".to_owned(), of_axis)].into();
+        let of = vec!["period".to_owned()];
+        let map = Drawing { of, settings, svg_text: true, ..Drawing::new("m", DrawingKind::Map) };
+        let files = draw(&dataset, &map, &into(&folder("kinds"), &[Format::Svg])).expect("drawn");
+        fs::read_to_string(&files.paths[0]).expect("a file")
+    };
+    let listed = |svg: &str, name: &str| svg.contains(&format!(">{name}</tspan>"));
+    let (all, part) = (drawn(None), drawn(Some([20.0, 40.0])));
+    for name in ["failed", "chaotic", "quasi-periodic", "1"] {
+        assert!(listed(&all, name), "{name}");
+    }
+    // The cases that failed have frequencies above 105 rad/s.
+    assert!(!listed(&part, "failed") && listed(&part, "1"));
 }

@@ -1,6 +1,7 @@
 //! Histories and phase portraits: what they derive from the stored motion, and a panel for each case.
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::fs;
 
 use capsulemap::figure::{Format, draw};
@@ -103,11 +104,13 @@ fn portraits_of_several_cases_are_panels_with_the_coordinates_that_are_asked_for
     for panel in 1..=3 {
         let of = |found: &Series, name: &str| found[&(panel, name.to_owned())].clone();
         let (first, second) = (of(&usual, "motion"), of(&other, "motion"));
-        assert_eq!(first.len(), 101);
+        // The samples in their order, with what is computed between them.
+        assert!(first.len() > 8 * 100 && first.len() == second.len());
+        let mut both = first.iter().zip(&second);
         for at in 0..101 {
             let case = (panel - 1) * 101 + at;
-            assert!(near(first[at], (1e3 * r[case], y1[case] - y2[case])), "{panel} {at}");
-            assert!(near(second[at], (y2[case], 1e3 * r[case])), "{panel} {at}");
+            let (x, y) = ((1e3 * r[case], y1[case] - y2[case]), (y2[case], 1e3 * r[case]));
+            assert!(both.any(|(a, b)| near(*a, x) && near(*b, y)), "{panel} {at}");
         }
         // A history begins on the section, and the impacts lie at the gap.
         assert!(of(&usual, "stroboscopic").iter().any(|it| near(*it, first[0])), "{panel}");
@@ -132,7 +135,7 @@ fn a_spectrum_has_the_amplitudes_of_the_sinusoids_that_make_a_motion() {
         series(&fs::read_to_string(&files.paths[1]).expect("a file"))
     };
     let lines = drawn("history_r")[&(1, "history_r".to_owned())].clone();
-    let drive = 20.0 / std::f64::consts::TAU;
+    let drive = 20.0 / TAU;
     for (at, (frequency, amplitude)) in lines.iter().enumerate() {
         // Six lines to a multiple of the drive; the window has half of an amplitude on both sides.
         assert!((frequency - (at + 1) as f64 / 6.0 * drive).abs() < 1e-9 * frequency);
@@ -152,4 +155,40 @@ fn a_spectrum_has_the_amplitudes_of_the_sinusoids_that_make_a_motion() {
     let request = Drawing::new("s", DrawingKind::Spectrum);
     let said = draw(&short, &request, &into(&folder, &[])).expect_err("a fault").to_string();
     assert!(said.contains("a spectrum needs the history of a whole cycle"), "{said}");
+}
+
+#[test]
+fn between_samples_the_motion_is_computed_and_not_joined_by_lines() {
+    let dir = WorkDir::new();
+    let variables = ["history_r", "history_y1", "history_y2"].map(str::to_owned);
+    let swept = |name: &str, samples: usize| {
+        let start = "[start]\ny2 = \"0.05 m/s\"\n";
+        let history =
+            format!("[history]\nfrom = \"start\"\ncycles = 2\nsamples_per_cycle = {samples}\n");
+        dir.put("s.toml", format!("{FIG5}{start}{history}"));
+        let file = format!("{name}.h5");
+        dir.run(&["sweep", "s.toml", "--output", &file, "--no-figures"]).done();
+        store::read(&dir.path(&file)).expect("a result")
+    };
+    let (coarse, fine) = (swept("coarse", 40), swept("fine", 8 * 40));
+    let request =
+        Drawing { of: variables.to_vec(), data: true, ..Drawing::new("h", DrawingKind::History) };
+    let files = draw(&coarse, &request, &into(dir.folder(), &[Format::Svg])).expect("drawn");
+    let drawn = series(&fs::read_to_string(&files.paths[1]).expect("a file"));
+    for (panel, name) in variables.into_iter().enumerate() {
+        let points = &drawn[&(panel + 1, name.clone())];
+        let factor = if name == "history_r" { 1e3 } else { 1.0 };
+        let exact = fine.variable(&name).expect("a history").values.to_real();
+        let size = exact.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+        assert!(points.is_sorted_by(|a, b| a.0 <= b.0));
+        // There are events besides the even times.
+        assert!(points.len() > 2 * 8 * 40 + 4, "{name}: {}", points.len());
+        for (at, exact) in exact.iter().enumerate() {
+            let time = at as f64 / 320.0 * TAU / 77.91;
+            let near: Vec<f64> =
+                points.iter().filter(|it| (it.0 - time).abs() < 1e-9).map(|it| it.1).collect();
+            let meets = near.iter().any(|it| (it / factor - exact).abs() < 1e-8 * size);
+            assert!(meets, "{name} {time}: {near:?} {exact}");
+        }
+    }
 }

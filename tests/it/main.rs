@@ -84,6 +84,7 @@ mod run;
 mod second_method;
 mod sensitivities;
 mod series_terms;
+mod sizes;
 mod slurm;
 mod store;
 mod stribeck_scan;

@@ -177,3 +177,35 @@ assert len(table) == runs.progression_speed.size
     let done = done.expect("python runs");
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
 }
+
+#[test]
+fn what_xarray_adds_to_a_file_is_drawn_on_request() {
+    let Some(python) = python() else { return };
+    let dir = WorkDir::new();
+    dir.put("hysteresis.toml", CHAOS);
+    dir.run(&["sweep", "hysteresis.toml", "--no-figures"]).done();
+    let readme = fs::read_to_string("studies/README.md").expect("it is there");
+    let mut blocks = readme.split("```python\n").skip(1).filter_map(|it| it.split("```").next());
+    let script = blocks.find(|it| it.contains("speed_per_power")).expect("it is there");
+    let done = Command::new(&python).args(["-c", script]).current_dir(dir.folder()).output();
+    let done = done.expect("python runs");
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let kind = ["--kind", "bifurcation", "--of", "speed_per_power", "--formats", "svg", "--data"];
+    let figure = [&["figure", "own.h5"], &kind[..]].concat();
+    dir.run(&figure).refused(&["own.h5", "the checksum at its end is missing", "--unchecked"]);
+    let set = ["--unchecked", "--svg-text", "--limits", "speed_per_power=-2,2", "--decimals"];
+    let ran = dir.run(&[&figure[..], &set, &["speed_per_power=3"]].concat()).done();
+    assert!(ran.err.contains("another program has changed it"), "{}", ran.err);
+    let file = |end: &str| {
+        fs::read_to_string(dir.path(&format!("bifurcation-speed_per_power.{end}"))).expect(end)
+    };
+    let (svg, csv) = (file("svg"), file("csv"));
+    assert!(svg.contains("Speed per power") && svg.contains("2.000"), "{svg}");
+    assert!(csv.lines().filter(|it| it.starts_with('1')).count() > 10, "{csv}");
+    // No other command takes it.
+    for command in ["verify", "tradeoff", "report", "inspect"] {
+        dir.run(&[command, "own.h5"]).refused(&["the checksum at its end is missing"]);
+    }
+    dir.run(&[&figure[..], &["--unchecked", "--limits", "speed_per_powr=1,2"]].concat())
+        .refused(&["unknown quantity \"speed_per_powr\""]);
+}

@@ -6,7 +6,7 @@ use capsulemap::capsule::{Allowed, Parameter};
 use capsulemap::study::appearance::NATURAL;
 use capsulemap::study::{
     COLOURED_BY, CaseSet, ColourMap, Colouring, Continuation, Coordinate, Drawing, DrawingKind,
-    QuantitySettings, ScaleChoice, Settings, Study, Sweep,
+    QuantitySettings, ScaleChoice, Settings, Study, Sweep, Texts,
 };
 
 use super::written_studies::Random;
@@ -67,11 +67,24 @@ impl Random {
             dpi: self.is_so().then(|| self.uniform(50.0, 2400.0)),
             marker_mm: self.is_so().then(|| self.uniform(0.02, 5.0)),
             hide: self.some(kind.keys().marks).into_iter().map(str::to_owned).collect(),
+            texts: self.texts(),
             legend: self.is_so(),
             data: self.is_so(),
             svg_text: self.is_so(),
             settings: self.settings(),
         }
+    }
+
+    fn texts(&mut self) -> Texts {
+        let names = ["omega", "delta", "progression_speed", "period", "k2"];
+        let place = |it: &mut Random| {
+            let first = it.below(4);
+            let second = first + 1 + it.below(4 - first);
+            [first, second].map(|at| (names[at].to_owned(), it.number(Allowed::Finite)))
+        };
+        (0..self.below(3))
+            .map(|_| (format!("k{}", self.text(&['$', '_'])), place(self).into()))
+            .collect()
     }
 
     fn settings(&mut self) -> Settings {

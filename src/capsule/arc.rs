@@ -1,0 +1,113 @@
+//! A short part of a motion, computed from where it begins.
+
+use crate::flow::{Event as _, Stroboscopic};
+use crate::lane::series;
+
+use super::case::Case;
+use super::failure::Failure;
+use super::filippov::Capsule;
+use super::locomotion::Locomotion;
+use super::parameter::Parameter;
+use super::parameters::Parameters;
+use super::printed::PrintedCapsule;
+use super::resistance::Switching;
+use super::state::{EventKind, State};
+
+/// A point of an arc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ArcPoint {
+    /// Time since the arc began [s].
+    pub time: f64,
+    /// Positions and velocities [m, m/s].
+    pub state: State<f64>,
+    /// Force of the drive [N].
+    pub drive: f64,
+}
+
+/// The motion from `start`, while the phase of the drive goes from the first of `phases` to the second [rad], by less than
+/// a cycle: at `count` even times, the last of which is its end, and at every event between, in the order of time.
+pub fn arc(
+    parameters: &Parameters,
+    start: State<f64>,
+    phases: [f64; 2],
+    count: u32,
+    tolerance: f64,
+) -> Result<Vec<ArcPoint>, Failure> {
+    let [start_phase, section_phase] = phases;
+    let case = Case { parameters: parameters.clone(), start, start_phase, section_phase };
+    match parameters.switching {
+        Switching::Filippov => {
+            arc_on(&Capsule::single(parameters, section_phase), &case, count, tolerance)
+        }
+        Switching::AsPrinted => {
+            arc_on(&PrintedCapsule::single(parameters, section_phase), &case, count, tolerance)
+        }
+    }
+}
+
+fn arc_on<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
+    system: &S,
+    case: &Case,
+    count: u32,
+    tolerance: f64,
+) -> Result<Vec<ArcPoint>, Failure> {
+    let begins = case.start_time();
+    let between = (case.parameters.drive_period() - begins) / f64::from(count);
+    let p_d = case.parameters[Parameter::Pd];
+    let mut points = Vec::new();
+    let mut next = 1;
+    let mut trajectory = case.trajectory(system, tolerance);
+    trajectory.cycle(|step| {
+        let jet = system.jet(&step.jet);
+        let mut put = |h: f64| {
+            let time = step.start + h - begins;
+            let drive = p_d * series::value(&jet.cos, h);
+            points.push(ArcPoint { time, state: jet.state(h), drive });
+        };
+        // The last of the even times is the end, whatever rounding makes of it.
+        while next < count && begins + f64::from(next) * between <= step.start + step.length {
+            put((begins + f64::from(next) * between - step.start).max(0.0));
+            next += 1;
+        }
+        if EventKind::from_code(step.event).is_some() {
+            put(step.length);
+        }
+    })?;
+    let phase = case.section_phase;
+    let end = ArcPoint {
+        time: case.parameters.drive_period() - begins,
+        state: trajectory.state(),
+        drive: p_d * phase.cos(),
+    };
+    points.push(end);
+    Ok(points)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::capsule::simulate;
+
+    #[test]
+    fn arcs_follow_each_other_as_one_motion() {
+        let parameters = Parameters::default();
+        let simulation = simulate(&parameters, 0.3, State::default(), 3, 1e-12);
+        let parts = 40;
+        let (mut state, mut events) = (State::default(), 0);
+        for part in 0..3 * parts {
+            let phases = [part, part + 1].map(|it| 0.3 + TAU * f64::from(it) / f64::from(parts));
+            let points = arc(&parameters, state, phases, 5, 1e-12).expect("it can be followed");
+            assert!(points.is_sorted_by(|a, b| a.time <= b.time));
+            events += points.len() - 5;
+            state = points[points.len() - 1].state;
+        }
+        let end = simulation.section[3];
+        assert!((state.r - end.r).abs() < 1e-11 && (state.x2 - end.x2).abs() < 1e-11);
+        assert!((state.y1 - end.y1).abs() < 1e-9 && (state.y2 - end.y2).abs() < 1e-9);
+        // An event at the end of an arc may be met there, or at the beginning of the next.
+        assert!(events.abs_diff(simulation.events.len()) <= 1, "{events}");
+        assert!(simulation.events.len() > 8);
+    }
+}

@@ -1,0 +1,94 @@
+//! Sizes of files of results as a dry run estimates them, against those of files that are written.
+
+use std::sync::Mutex;
+
+use capsulemap::run::{self, Machine, Record};
+use capsulemap::store::{self, file_bytes, refined_file_bytes};
+use capsulemap::study::Study;
+
+use super::program::WorkDir;
+
+const PARAMETERS: &str = "[parameters]\nk2 = \"18.96 kN/m\"\ndelta = \"1.5 mm\"\n[protocol]\nmax_cycles = 60\n\
+    exponent_cycles = 0\n";
+
+/// Two axes with so many values.
+fn axes([slow, fast]: [usize; 2]) -> String {
+    format!(
+        "[[axes]]\nname = \"p_d\"\nfrom = \"2 N\"\nto = \"6 N\"\npoints = {slow}\n\
+         [[axes]]\nname = \"omega\"\nfrom = \"18 rad/s\"\nto = \"80 rad/s\"\npoints = {fast}\n"
+    )
+}
+
+fn parsed(text: &str) -> Study {
+    Study::parse("study.toml", text).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn computed(study: &Study) -> Vec<Record> {
+    let records = Mutex::new(Vec::new());
+    let keep = |record| records.lock().expect("a lock").push(record);
+    run::run(study, Machine::default(), keep).expect("the study runs");
+    let mut records = records.into_inner().expect("a lock");
+    records.sort_by_key(|record: &Record| record.index);
+    records
+}
+
+/// The size that the records of a study have in a file.
+fn written(study: &Study, records: &[Record]) -> f64 {
+    let dir = WorkDir::new();
+    let path = dir.path("s.h5");
+    store::write(&store::dataset(study, records), &path).expect("it can be written");
+    std::fs::metadata(path).expect("a file").len() as f64
+}
+
+#[test]
+fn a_sample_of_the_cases_tells_the_size_of_the_file() {
+    for points in ["", "points = 1\nimpact_points = 0\n"] {
+        let study = parsed(&format!("{PARAMETERS}{points}{}", axes([40, 100])));
+        let records = computed(&study);
+        let exact = written(&study, &records);
+        // The checksum at its end is the only difference.
+        let whole = file_bytes(&study, &records).expect("a size");
+        assert!((whole - exact).abs() <= 64.0, "{whole} {exact}");
+        let sample: Vec<Record> = records.iter().step_by(7).cloned().collect();
+        let estimate = file_bytes(&study, &sample).expect("a size");
+        assert!((estimate / exact - 1.0).abs() < 0.1, "{estimate} {exact}");
+    }
+}
+
+#[test]
+fn a_tile_tells_the_size_of_the_file_of_a_refined_map() {
+    let refine = "[map]\nrefine = { progression_speed = \"1 m/s\" }\n";
+    let study = parsed(&format!("{PARAMETERS}points = 1\n{refine}{}", axes([65, 65])));
+    // Of its cases those on a coarser grid, as a refinement has them that finds nothing between.
+    let records: Vec<Record> = computed(&study).into_iter().step_by(4).collect();
+    let exact = written(&study, &records);
+    let tiles = [((0..study.cases()).collect(), records.clone())];
+    let computed = records.len() as f64 / study.cases() as f64;
+    let estimate = refined_file_bytes(&study, &tiles, computed).expect("a size");
+    assert!((estimate / exact - 1.0).abs() < 0.1, "{estimate} {exact}");
+}
+
+/// The number before "for the file" in what a dry run says [bytes].
+fn said(out: &str) -> f64 {
+    let (before, _) = out.split_once(" for the file").unwrap_or_else(|| panic!("{out}"));
+    let words: Vec<&str> = before.split_whitespace().rev().take(2).collect();
+    let factor = match words[0] {
+        "kB" => 1e3,
+        "MB" => 1e6,
+        other => panic!("{other}: {out}"),
+    };
+    factor * words[1].parse::<f64>().unwrap_or_else(|_| panic!("{out}"))
+}
+
+#[test]
+fn a_dry_run_tells_the_size_of_the_file_that_the_run_writes() {
+    let dir = WorkDir::new();
+    let inherit = "[start]\ninherit = \"omega\"\n";
+    for (start, count) in [("", [3, 60]), (inherit, [3, 60]), ("", [1, 1])] {
+        dir.put("s.toml", format!("{PARAMETERS}{start}{}", axes(count)));
+        let said = said(&dir.run(&["sweep", "s.toml", "--output", "s.h5", "--dry-run"]).done().out);
+        dir.run(&["sweep", "s.toml", "--output", "s.h5", "--overwrite"]).done();
+        let size = std::fs::metadata(dir.path("s.h5")).expect("a file").len() as f64;
+        assert!((said / size - 1.0).abs() < 0.1, "{said} {size} {count:?} {start}");
+    }
+}
