@@ -16,7 +16,7 @@ use crate::study::Coordinate;
 const STATES: [Entry; 4] = [HISTORY_R, HISTORY_Y1, HISTORY_X2, HISTORY_Y2];
 /// Points of a motion that is computed again between its samples, and those between two of them, at most.
 const MOST_POINTS: usize = 8000;
-const MOST_BETWEEN: usize = 8;
+const MOST_BETWEEN: usize = 32;
 /// Relative local tolerance of the motion between samples, which is only drawn.
 const TOLERANCE: f64 = 1e-10;
 /// By how much of the largest the motion from a sample may miss the next.
