@@ -108,7 +108,8 @@ pub fn verify(
     if let Some([theirs, ours]) = &other_program {
         reports.send(Event::OtherProgram { theirs, ours })?;
     }
-    let chains = draw(&study, sample);
+    let is_kept = computed(&study, &archive)?;
+    let chains = draw(&study, sample, |case| is_kept.is_empty() || is_kept[case]);
     let all = chains.iter().map(|&chain| study.chain(chain).count()).sum();
     reports.send(Event::Begun(Stage::Repeating, all))?;
     let mut verified = Verified { other_program, ..Verified::default() };
@@ -129,18 +130,30 @@ fn other_program(archive: &Archive) -> Option<[String; 2]> {
     (!provenance::is_ours(theirs)).then(|| [theirs, &ours].map(provenance::program))
 }
 
-/// Chains drawn at random that have as many cases as the sample, or all.
-fn draw(study: &Study, Sample { cases, seed }: Sample) -> Vec<usize> {
-    let mut random = fastrand::Rng::with_seed(seed);
-    let mut chains = BTreeSet::new();
+/// Whether each case of a refined study has been computed; nothing where all have.
+fn computed(study: &Study, archive: &Archive) -> Result<Vec<bool>, CampaignError> {
+    if study.refine.is_none() {
+        return Ok(Vec::new());
+    }
+    let outcomes = archive.variable(OUTCOME.name)?.map(|it| it.values.to_real());
+    Ok(outcomes.iter().flatten().map(|code| *code >= 0.0).collect())
+}
+
+/// Chains drawn at random that have as many cases as the sample, or all of which cases are kept.
+fn draw(study: &Study, sample: Sample, is_kept: impl Fn(usize) -> bool) -> Vec<usize> {
+    let mut random = fastrand::Rng::with_seed(sample.seed);
+    let (mut chains, mut tried) = (Vec::new(), BTreeSet::new());
     let mut drawn = 0;
-    while drawn < cases && chains.len() < study.chains() {
+    while drawn < sample.cases && tried.len() < study.chains() {
         let chain = random.usize(..study.chains());
-        if chains.insert(chain) {
-            drawn += study.chain(chain).count();
+        if tried.insert(chain) {
+            let cases = study.chain(chain).filter(|case| is_kept(*case)).count();
+            drawn += cases;
+            chains.extend((cases > 0).then_some(chain));
         }
     }
-    chains.into_iter().collect()
+    chains.sort_unstable();
+    chains
 }
 
 /// Chains that are computed at a time.

@@ -42,7 +42,7 @@ outputs! {
     WorkActuator "work_actuator" "J" "work per cycle of a drive that acts between mass and capsule";
     FrictionLoss "friction_loss" "J" "energy lost to the resistance of the ground per cycle";
     DamperLoss "damper_loss" "J" "energy lost in the damper per cycle";
-    EnergyResidual "energy_residual" "1" "work_net less both losses, relative to work_absolute";
+    EnergyResidual "energy_residual" "1" "work_net less both losses, over work_absolute or the losses, whichever is more";
     MomentumResidual "momentum_residual" "1" "mean friction force, relative to the drive and break-away forces";
     CostOfTransport "cost_of_transport" "1" "work_positive over weight times progression";
     Power "power" "W" "work_positive over time";

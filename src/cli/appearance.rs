@@ -30,7 +30,7 @@ pub struct Appearance {
     /// Dots per inch of a PNG file; 600 by default.
     #[arg(long, requires = "kind")]
     dpi: Option<f64>,
-    /// Marks to leave out, as the help of the kind of figure has them: gap, stroboscopic, impacts, contact, drive, coexistence,
+    /// Marks to leave out, of those that the kind of figure has: gap, stroboscopic, impacts, contact, drive, coexistence,
     /// events, special-points, section-points, saddles, impact-surface, fronts, optima.
     #[arg(long, value_delimiter = ',', requires = "kind")]
     hide: Vec<String>,
@@ -49,7 +49,7 @@ pub struct Appearance {
     /// Ends of an axis, or of colours, by the quantity that they show.
     #[arg(long, value_name = "NAME=LOW,HIGH", requires = "kind", allow_hyphen_values = true)]
     limits: Vec<String>,
-    /// How values are spread: linear, log, or symlog with the width of its linear part if it is set.
+    /// How values are spread: linear, log, or symlog with a width w, about which asinh(v/w) turns from linear to logarithmic.
     #[arg(long, value_name = "NAME=SCALE", requires = "kind")]
     scale: Vec<String>,
     /// Unit of a quantity, as Hz, deg or, for frequencies, sqrt(k1/m1).

@@ -117,7 +117,9 @@ impl BlockProgress {
         let blocks = format!("{}/{}", count(state.blocks), count(self.total[0]));
         let cases = format!("{}/{}", count(done), count(self.total[1]));
         let [now, average] = [now, average].map(rate);
-        format!("{blocks} blocks, {cases} cases, {now}/s now, {average}/s on average, {left}")
+        format!(
+            "{blocks} blocks kept, {cases} cases computed, {now}/s now, {average}/s on average, {left}"
+        )
     }
 
     /// Blocks that are done.

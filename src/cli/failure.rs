@@ -78,10 +78,10 @@ fn advice(error: &CampaignError) -> String {
             "; name another --output, or replace it with --overwrite"
         }
         CampaignError::OtherBranches { .. } => {
-            "; name another --output, or give them up with --overwrite"
+            "; name another --output, or delete them with --overwrite"
         }
         CampaignError::Store(StoreError::Changed { .. }) => {
-            " (another place by --output, giving up by --overwrite)"
+            " (name another --output, or delete them with --overwrite)"
         }
         CampaignError::Store(StoreError::Occupied { .. }) => " by --output",
         CampaignError::OtherSearches { .. } => "; remove it, or begin anew with --overwrite",

@@ -72,7 +72,7 @@ pub struct Figure {
     /// Folder to write to; that of the file of results by default.
     #[arg(long)]
     folder: Option<PathBuf>,
-    /// Draw from a file that another program has changed, as xarray does where it adds variables: nothing tells damage there.
+    /// Draw from a file that another program has changed, as xarray does where it adds variables; damage is not detected then.
     #[arg(long)]
     unchecked: bool,
     /// Replace files in the place of figures that this program did not write, or that were changed since.

@@ -184,21 +184,26 @@ pub fn table(answer: &Answer) -> String {
     let (speed, slow) = answer.at_rest;
     let against = match answer.direction {
         Direction::Either => "",
-        _ => ", or in the other direction",
+        _ => " or in the other direction",
     };
-    let _ = writeln!(text, "\n{} move no faster than {speed:.1e} m/s{against}", count(slow));
+    let _ = writeln!(
+        text,
+        "\n{} left out at rest (no faster than {speed:.1e} m/s){against}",
+        count(slow)
+    );
     if let Some(Gain { searches, found, hypervolumes: [of_cases, whole], .. }) = answer.refined {
         let gain = 100.0 * (whole / of_cases - 1.0);
+        let grows = match gain.is_finite() {
+            true => format!("; the area that the front dominates grows by {gain:.3} %"),
+            false => String::new(),
+        };
         let found = counted(found, "motion");
         let searches = if searches == 1 {
             "1 search".to_owned()
         } else {
             format!("{} searches", count(searches))
         };
-        let _ = writeln!(
-            text,
-            "{searches} between the cases led to {found}; the area that the front dominates grows by {gain:.3} %"
-        );
+        let _ = writeln!(text, "{searches} between the cases led to {found}{grows}");
     }
     let _ = writeln!(
         text,
@@ -267,7 +272,7 @@ fn write_row(text: &mut String, answer: &Answer, what: &str, row: &Row) {
     let robust = row.robustness.map_or(String::new(), |it| {
         let (kept, speed) = (100.0 * it.kept, 1e3 * it.speed);
         format!(
-            "; under tolerances 95 % move {} by {speed:.4} mm/s or more, 95 % take {:.4e} {} or less, {kept:.1} % keep it",
+            "; under tolerances 95 % of the draws reach {speed:.4} mm/s or more {}, 95 % take {:.4e} {} or less, {kept:.1} % keep the period",
             answer.direction.adverb(),
             it.price,
             answer.of.unit()
@@ -293,7 +298,7 @@ fn write_row(text: &mut String, answer: &Answer, what: &str, row: &Row) {
         place.join(", "),
         match row.case {
             Some(case) => format!("case {case}"),
-            None => format!("between cases, held by: {}", row.slopes.held_by.join(", ")),
+            None => format!("between cases, active constraint: {}", row.slopes.held_by.join(", ")),
         }
     );
 }

@@ -58,7 +58,7 @@ impl Report {
             Err(said) if said.kind() == std::io::ErrorKind::NotFound => Ok(()),
             Ok(bytes) if self.overwrite || is_ours(&bytes) => Ok(()),
             _ => Err(Failure::request(format!(
-                "{}: is there and is no report; name another --output, or replace it with --overwrite",
+                "{}: exists and is no report of this program; name another --output, or replace it with --overwrite",
                 page.display()
             ))),
         }

@@ -103,7 +103,9 @@ impl Simulate {
         let drag = parameters.drag();
         if drag.static_limit < drag.at_onset {
             let force = parameters.break_away();
-            notify(&format!("note: mu_s is below the friction at onset; rest ends at {force} N"));
+            notify(&format!(
+                "note: mu_s below 2 mu_d has no effect; the capsule breaks away at 2 mu_d (m1 + m2) g = {force} N"
+            ));
         }
         let simulation = simulate_case(&case, self.cycles, protocol.tolerance);
         let orbit = settle_case(&case, &protocol);
@@ -318,7 +320,7 @@ fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> S
     if let Some(failure) = simulation.failure {
         let _ = writeln!(text, "failed: {failure}");
     }
-    let _ = writeln!(text, "\nsettles to: {}, after {} cycles", verdict(orbit), orbit.cycles);
+    let _ = writeln!(text, "\noutcome: {}, after {} cycles", verdict(orbit), orbit.cycles);
     if let Some(failure) = orbit.failure {
         let _ = writeln!(text, "  {failure}");
         return text;
@@ -348,7 +350,7 @@ fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
     let rests = orbit.section.first().is_some_and(|&[_, _, y2]| y2 == 0.0);
     if orbit.outcome == Outcome::Periodic && rests && parameters.break_away() > 0.0 {
         remarks.push(
-            "the capsule rests at the section: its multiplier 0 is that of pushes after which it rests again"
+            "the capsule sticks at the section: its multiplier 0 is that of disturbances after which it sticks again"
                 .to_owned(),
         );
     }
@@ -380,7 +382,7 @@ fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
             ));
         }
         Outcome::Undecided => remarks.push(
-            "undecided: whether neighbours part does not show in the cycles given (--max-cycles)"
+            "undecided: too few cycles to tell whether neighbouring motions separate (--max-cycles)"
                 .to_owned(),
         ),
         Outcome::Periodic | Outcome::Chaotic | Outcome::Failed => {}

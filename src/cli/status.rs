@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::readable::{count, counted, estimated, rate, size, time};
 use super::summary::outcomes;
 use super::terminal::print;
-use crate::campaign::{BlockStatus, Campaign, block_path, output_path, read_study};
+use crate::campaign::{BlockStatus, Campaign, CampaignError, block_path, output_path, read_study};
 use crate::store::Archive;
 use crate::store::provenance::CREATED;
 use crate::study::Study;
@@ -41,7 +41,13 @@ impl Status {
             let arguments = study_arguments(&self.study, self.output.as_deref());
             text.push_str(&unfinished(&study, blocks, &arguments));
         }
-        let file = status.file.map_err(Failure::from);
+        let file = status.file.map_err(|error| match error {
+            // Nothing is replaced by looking at it.
+            CampaignError::OtherResults { .. } => {
+                Failure::request(format!("{error}; name another --output"))
+            }
+            error => Failure::from(error),
+        });
         if let Ok(Some(kept)) = &file {
             text.push_str(&whole(&output, &kept.archive));
         }

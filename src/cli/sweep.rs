@@ -57,7 +57,7 @@ pub struct Sweep {
     /// Results do not depend on them.
     #[arg(long, value_parser = named(&Instructions::NAMES))]
     instructions: Option<Instructions>,
-    /// Replace a file of results that another study left under that name, and give up its blocks; replace files in
+    /// Replace a file of results that another study left under that name, and delete its blocks; replace files in
     /// the place of figures, too.
     #[arg(long)]
     overwrite: bool,

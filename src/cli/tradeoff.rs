@@ -30,9 +30,9 @@ Examples:
   capsulemap tradeoff FILE.h5 --budget \"20 mW\" --speed \"5 mm/s\" --csv
 
 The front is of all cases of the file, each with the attractor that it has ended on. Motions that are chaotic or \
-quasi-periodic take part by their means. With --refine, periodic motions are followed from the cases to where speed is \
-stationary for its price, and from these along the front; each says what holds it. Conditions then bound the search: \
-parameters, and up to 3 outputs that change smoothly, which may reach their limits.";
+quasi-periodic take part by their means. The cost is the output --of. With --refine, periodic motions are followed from the cases \
+to where the speed is stationary at its cost, and from these along the front; each is told with its active constraint. \
+Conditions then bound the search: parameters, and up to 3 outputs that change smoothly.";
 
 /// Find the fastest motions for the least energy.
 #[derive(Debug, Args)]
@@ -46,7 +46,7 @@ pub struct Tradeoff {
     /// Motions to compare; `either` compares magnitudes of speeds.
     #[arg(long, value_parser = named(&Direction::NAMES), default_value = "either")]
     direction: Direction,
-    /// Conditions on what there is one number of for each case, joined by `and`; signs < <= > >= = !=.
+    /// Conditions on parameters and outputs that are one number for each case, joined by `and`; signs < <= > >= = !=.
     #[arg(long = "where", value_name = "CONDITIONS")]
     conditions: Option<String>,
     /// Speed up to which a motion counts as at rest; a millionth of the fastest by default.
@@ -61,22 +61,22 @@ pub struct Tradeoff {
     /// Search for better motions between the cases, over the parameters that vary, within their ranges (at most 6).
     #[arg(long)]
     refine: bool,
-    /// Tolerances of parameters, as "k2 = 5 %, mu_s = 10 %": of the optima and the front it is told which speed and price 5 % of
-    /// the draws miss, and how many keep the motion.
+    /// Tolerances of parameters, as "k2 = 5 %, mu_s = 10 %": tells for the optima and the front the speed that 95 of 100 draws
+    /// reach, the cost that 95 of 100 do not exceed, and the share that keeps the period.
     #[arg(long, value_name = "TOLERANCES")]
     tolerances: Option<String>,
     /// How many sets of parameters are drawn within the tolerances.
     #[arg(long, value_name = "NUMBER", default_value_t = 200, requires = "tolerances",
         value_parser = clap::value_parser!(u32).range(1..))]
     draws: u32,
-    /// Of the optima, tell how far each parameter may fall and rise, by a half at most, before the motion ends or loses its
+    /// For the optima, tell how far each parameter may fall and rise, by a half at most, before the motion ends or loses its
     /// stability, and where its events change on the way.
     #[arg(long)]
     margins: bool,
-    /// Number by which tolerances are drawn, and cases that the search begins with beside the best ones.
+    /// Seed of the random draws: of tolerances, and of the cases that a search begins with besides the best ones.
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
-    /// Give up the searches that are kept beside the file, and begin anew.
+    /// Delete the searches that are kept beside the file, and begin anew.
     #[arg(long, requires = "refine")]
     overwrite: bool,
     /// Worker threads; one per core by default.
@@ -194,7 +194,11 @@ impl Tradeoff {
             let symbols = || Parameter::ALL.iter().map(|it| it.symbol());
             match (Parameter::named(name.trim()), quantity(value, Dimension::Number.unit())) {
                 (None, _) => faults.push(fault(unknown("parameter", name.trim(), symbols()))),
-                (_, Err(message)) => faults.push(fault(message)),
+                (_, Err(message)) => {
+                    faults.push(fault(format!(
+                        "{message}, relative to the parameter, as 5 % or 0.05"
+                    )));
+                }
                 (Some(parameter), Ok(_)) if each.iter().any(|it| it.0 == parameter) => {
                     faults.push(fault(format!("{} is given twice", parameter.symbol())));
                 }

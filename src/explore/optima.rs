@@ -124,8 +124,8 @@ fn write_table(page: &mut Page, named: &[(String, Row)], of: Output) {
     rows.push(line("case", named, |row| {
         row.case.map_or("between cases".to_owned(), |it| it.to_string())
     }));
-    rows.push(line("held by", named, |row| row.slopes.held_by.join(", ")));
-    rows.push(line("relative slope left", named, |row| {
+    rows.push(line("active constraint", named, |row| row.slopes.held_by.join(", ")));
+    rows.push(line("relative gradient left", named, |row| {
         row.slopes.stationarity.map_or(String::new(), |it| format!("{it:.1e}"))
     }));
     let names = named.iter().map(|(name, _)| name.clone());

@@ -62,7 +62,9 @@ fn reads(_: &Drawing) -> Names {
 /// Draws the basins that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     if view.dataset.variable(ATTRACTOR.name).is_none() {
-        return Err(view.unfit("the results tell no attractors, as no axis is a start"));
+        return Err(view.unfit(
+            "the results tell no attractors; it needs two axes of start_r, start_y1, start_y2",
+        ));
     }
     let plane = Plane::of(view, "a figure of basins")?;
     let of_starts = starts().map(|entry| entry.name);

@@ -82,7 +82,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     match Attractors::along(view, x_name)? {
         Some(attractors) => return attractor_diagram::draw(view, x_name, &attractors),
         None if by == Some(ATTRACTOR.name) => {
-            let why = "`colour_by`: the results tell no attractors, as no axis is a start";
+            let why = "`colour_by`: the results tell no attractors";
             return Err(view.unfit(why));
         }
         None => {}

@@ -85,7 +85,7 @@ impl fmt::Display for FigureError {
             FigureError::Write { figure, source } => write!(f, "figure `{figure}`: {source}"),
             FigureError::Occupied { figure, path } => write!(
                 f,
-                "figure `{figure}`: {}: is there, and is no figure that capsulemap drew or was changed since; it is kept",
+                "figure `{figure}`: {}: exists, and capsulemap did not draw it or it was changed since; it is not replaced",
                 path.display()
             ),
         }

@@ -127,8 +127,8 @@ pub fn case_axis<'a>(view: &View<'a>) -> Result<Option<&'a str>, FigureError> {
     let count = view.coordinate_values(name).len();
     if count > MOST_CASES {
         return Err(view.unfit(format!(
-            "axis `{name}` has {count} values, more than the {MOST_CASES} panels that there is \
-             room for: hold it at one of them with `at`"
+            "axis `{name}` has more values than the {MOST_CASES} panels that there is room for: hold it \
+             at one of them with `at`"
         )));
     }
     Ok(Some(name))

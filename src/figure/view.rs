@@ -108,7 +108,7 @@ impl<'a> View<'a> {
         let index = self.coordinate_values(DIRECTION.name).iter().position(|it| Some(*it) == code);
         index.ok_or_else(|| {
             let wanted = direction.name();
-            self.unfit(format!("`sweep`: the starts of these results were not inherited {wanted}"))
+            self.unfit(format!("`sweep`: these results have no sweep {wanted}"))
         })
     }
 

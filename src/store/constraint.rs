@@ -98,7 +98,11 @@ fn condition(table: &CaseTable<'_>, text: &str) -> Result<Condition, Unread> {
     let (name, limit) = (text[..at].trim(), text[at + length..].trim());
     let Some(column) = table.column(name)? else {
         let names = table.names();
-        return Err(fault(unknown("number of a case", name, names.iter().map(String::as_str))));
+        return Err(fault(unknown(
+            "output or parameter of a case",
+            name,
+            names.iter().map(String::as_str),
+        )));
     };
     let (text, name) = (text.to_owned(), name.to_owned());
     if !column.flags.is_empty() {

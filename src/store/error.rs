@@ -163,7 +163,7 @@ impl fmt::Display for StoreError {
                 write!(
                     f,
                     "they are kept, and not mixed with others: go back to the study and program that they \
-                     belong to (the study is in {}), choose another place, or give them up",
+                     belong to (the study is in {}), choose another place, or delete them",
                     folder.join("begun.toml").display()
                 )
             }

@@ -35,13 +35,15 @@ pub(super) fn read_drawings(
         if let (Some(Refine::Outputs(_)), Some(kind)) = (refine, table.entry("kind"))
             && !matches!(drawing.kind, DrawingKind::Map | DrawingKind::Curves)
         {
-            kind.fault("most cases of a refined map are inferred, and only a map shows those");
+            kind.fault(
+                "most cases of a refined map are inferred, which only maps and curves allow for",
+            );
         }
         let alike = |other: &Drawing| other.name.eq_ignore_ascii_case(&drawing.name);
         if let Some(name) = table.entry("name").filter(|_| drawings.iter().any(alike)) {
             // Not even in capitals: some disks take such names for one.
             name.fault(format!(
-                "a second figure \"{}\"; names differ in more than capitals",
+                "the name \"{}\" is used twice; names must differ in more than capitals",
                 drawing.name
             ));
         }

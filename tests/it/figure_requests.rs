@@ -53,7 +53,7 @@ fn a_study_and_the_command_line_set_the_same() {
     let svg = String::from_utf8_lossy(&before[0]);
     assert!(svg.contains(">near </tspan>") || svg.contains(">near "), "its words are missing");
     // Words have a place in the figure, or the figure says that they have none.
-    let texts = ["a: omega=22 rad/s, progression_speed=1 km/s", "b: omega=22 rad/s, period=1"];
+    let texts = ["a: omega=22 rad/s, progression_speed=100 m/s", "b: omega=22 rad/s, period=1"];
     let lost = [&all[..], &["--text", texts[0], "--text", texts[1], "--overwrite"]].concat();
     let said = dir.run(&lost).done().err;
     for words in ["a", "b"] {

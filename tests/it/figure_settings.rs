@@ -238,10 +238,7 @@ fn a_map_shows_either_sweep_and_their_difference() {
     let mut upward_only = upward_only.0;
     upward_only.coordinates.retain(|(name, _)| name != "direction");
     let said = refused(&upward_only, &map("period", Sweep::Downward));
-    assert!(
-        said.contains("`sweep`: the starts of these results were not inherited downward"),
-        "{said}"
-    );
+    assert!(said.contains("`sweep`: these results have no sweep downward"), "{said}");
     let wrong = Drawing { sweep: Some(Sweep::Difference), ..diagram(&[]) };
     assert!(refused(&dataset, &wrong).contains("only a map shows the difference"));
 }

@@ -142,7 +142,7 @@ fn a_figure_replaces_no_file_but_its_own() {
     dir.put("speed.svg", "drawn by hand");
     for command in ["sweep", "continue"] {
         let ran = dir.run(&[command, "s.toml", "--output", "s.h5", "--formats", "png,svg"]);
-        ran.refused(&["speed.svg: is there, and is no figure that capsulemap drew", "--overwrite"]);
+        ran.refused(&["speed.svg: exists, and capsulemap did not draw it", "--overwrite"]);
     }
     assert_eq!(dir.files(), ["s.toml", "speed.svg"], "it is refused before anything is computed");
     sweep(&dir, "s.h5", &["--overwrite"]).done();

@@ -116,7 +116,7 @@ fn what_is_asked_wrongly_is_refused_with_all_faults() {
     folder
         .run(&["tradeoff", file, "--where", "speed < 3 and p_d > 3 mm and outcome = foo and p_d"])
         .refused(&[
-            "unknown number of a case \"speed\"",
+            "unknown output or parameter of a case \"speed\"",
             "\"p_d > 3 mm\": \"3 mm\" is a length; expected a force",
             "unknown category \"foo\"",
             "\"p_d\": expected a name, one of < <= > >= = !=, and a value",

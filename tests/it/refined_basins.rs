@@ -100,7 +100,9 @@ fn a_refined_basin_is_the_full_one_for_less() {
     assert!(picture.contains("the others inferred") && picture.contains("saddles on the boundary"));
     let picture = std::fs::read_to_string(folder.path("results/refined/settling.svg"));
     assert!(picture.expect("a picture").contains("inferred, not followed"));
-    folder.run(&["verify", "results/refined/refined.h5", "--cases", "300"]).done();
+    // Inferred starts are not drawn.
+    let said = folder.run(&["verify", "results/refined/refined.h5", "--cases", "300"]).done().out;
+    assert!(said.contains("300 cases"), "{said}");
     let shown = folder.run(&["inspect", "results/refined/refined.h5"]).done().out;
     assert!(
         shown.contains("saddles on the boundaries") && shown.contains(" 1  period "),

@@ -123,7 +123,10 @@ fn what_cannot_be_refined_is_refused() {
     assert!(one("true").contains("expected a table"));
     assert!(faults(&study("[map]\n")).contains("map.refine: missing"));
     let front = "[[figures]]\nname = \"front\"\nkind = \"trade-off\"\n";
-    assert!(faults(&study(&format!("{front}{REFINE}"))).contains("only a map shows those"));
+    assert!(
+        faults(&study(&format!("{front}{REFINE}")))
+            .contains("which only maps and curves allow for")
+    );
 }
 
 #[test]

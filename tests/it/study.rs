@@ -265,7 +265,7 @@ fn names_of_figures_are_checked_before_the_run() {
     let long = format!("'{}'", "x".repeat(201));
     assert_said(&named(&long), &["line 9: figures[1].name: "]);
     let twice = named("'speed'") + "[[figures]]\nname = 'Speed'\nkind = \"map\"\n";
-    assert_said(&twice, &["line 13: figures[2].name: a second figure \"Speed\""]);
+    assert_said(&twice, &["line 13: figures[2].name: the name \"Speed\" is used twice"]);
     assert_said(
         &figures("[[figures]]\n"),
         &["line 8: figures[1].name: missing", "line 8: figures[1].kind: missing"],

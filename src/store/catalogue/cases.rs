@@ -47,7 +47,7 @@ entries! {
     NEUTRAL_Y2 "neutral_y2" "1" Case, Real, None,
         "part of y2 in the direction of the family of a neutral orbit";
     ATTRACTOR "attractor" "1" Case, Whole, None,
-        "attractor of the case, numbered along the axis of parameters, -1 for none";
+        "attractor that the case ends on, by its number, -1 for none";
 
     SECTION_R "section_r" "m" CaseRow(POINT.name), Real,
         shown("Stroboscopic", "*x*_{1} − *x*_{2}", "mm", 1e3),

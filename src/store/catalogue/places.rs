@@ -100,14 +100,14 @@ impl Place {
     /// The column called after another variable, with what it is here.
     fn here(self, entry: Entry) -> Entry {
         let place = match self {
-            Place::Attractor => " of the attractor",
-            Place::Event => " at the event",
-            Place::Request => " at the first orbit",
-            Place::Branch => " on the branch",
-            Place::Special => " at the special point",
-            Place::Curve => " on the curve",
+            Place::Attractor => "attractor",
+            Place::Event => "event",
+            Place::Request => "first orbit",
+            Place::Branch => "branch",
+            Place::Special => "special point",
+            Place::Curve => "curve",
         };
-        self.column(entry, format!("{}{place}", entry.meaning).leak())
+        self.column(entry, format!("{place}: {}", entry.meaning).leak())
     }
 
     /// All columns called after other variables.

@@ -14,7 +14,7 @@ entries! {
     ATTRACTOR_PERIOD "attractor_period" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
         "period of the attractor in drive cycles, 0 unless periodic";
     ATTRACTOR_CERTIFICATE "attractor_certificate" "1" Table(ATTRACTOR_INDEX.name), Category(proofs), None,
-        "how the period of the attractor was proven";
+        "how the period of the attractor was verified";
     ATTRACTOR_CASE "attractor_case" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
         "first case of the attractor, counted from 0 with the last axis fastest, which the table tells of";
     ATTRACTOR_CASES "attractor_cases" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
