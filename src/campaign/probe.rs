@@ -13,12 +13,14 @@ use super::error::CampaignError;
 use super::report::{Event, Report, Reports};
 
 /// Records whose size is measured.
-const WEIGHED: usize = 2048;
+const WEIGHED: usize = 4096;
+/// Records are kept in runs of so many neighbours, as equal numbers beside each other are compressed.
+const RUN: usize = 128;
 /// Numbers in the tiles of a refined study whose size in the file is measured, at most.
 const NUMBERS: usize = 4_000_000;
 /// Parts of the axis along which starts are inherited, the cases of each, and the time after which none is begun.
 const PARTS: usize = 8;
-const PART: usize = 12;
+const PART: usize = 64;
 const SPREAD: Duration = Duration::from_secs(5);
 
 /// What a probe has found.
@@ -120,21 +122,22 @@ fn spread_cases(study: &Study, machine: Machine) -> Result<Vec<Record>, Campaign
     };
     let values = &grid.axes[inherit.axis].values;
     let length = PART.min(values.len());
+    let parts = if length < values.len() { PARTS } else { 1 };
     let begun = Instant::now();
     let mut records: Vec<Record> = Vec::new();
-    for number in 0..PARTS {
+    for number in 0..parts {
         if begun.elapsed() > SPREAD {
             break;
         }
-        let first = (number * (values.len() - length)) / (PARTS - 1);
+        let first = number * (values.len() - length) / (PARTS - 1);
         let mut grid = grid.clone();
         grid.axes[inherit.axis].values = values[first..first + length].to_vec();
         let part = Study { case_set: CaseSet::Grid(grid), ..study.clone() };
         let shape = part.shape();
         let spacing: usize = shape[inherit.axis + 1..].iter().product();
-        let count = (WEIGHED / PARTS / length).max(1);
+        let count = (WEIGHED / parts / length).max(1);
         let chains = spread(part.chains());
-        let chains = &chains[..chains.len().min(3 * count)];
+        let chains = &chains[..chains.len().min(2 * count)];
         for record in run_sample(&part, machine, chains, || ())? {
             let place = record.index / spacing % length;
             let direction = inherit.directions[record.index % inherit.directions.len()];
@@ -158,15 +161,15 @@ impl Found {
             self.forecast.add(block, cases, (1, record.orbit.cycles));
         }
         self.blocks.insert(block);
-        if self.met.is_multiple_of(self.every) {
+        let is_kept = |every: usize, index: usize| (index / RUN).is_multiple_of(every);
+        if is_kept(self.every, record.index) {
             self.records.push(record.clone());
         }
         self.met += 1;
         // The first cases of all chains are not like the others.
         if self.records.len() > 2 * WEIGHED {
-            let mut kept = 0..;
-            self.records.retain(|_| kept.next().is_some_and(|it: usize| it.is_multiple_of(2)));
             self.every *= 2;
+            self.records.retain(|record| is_kept(self.every, record.index));
         }
     }
 

@@ -18,9 +18,9 @@ use super::{Dataset, StoreError, Values, Variable, scale};
 /// Chunks stay below HDF5's default cache, so that reading a slice unpacks each chunk once.
 const CHUNK_BYTES: usize = 1 << 19;
 /// Below this size the overhead of chunks outweighs what compression saves.
-const COMPRESSED_FROM_BYTES: usize = 1 << 14;
+pub const COMPRESSED_FROM_BYTES: usize = 1 << 14;
 /// Level of zlib: beyond it files hardly shrink and writing takes several times longer.
-const COMPRESSION: u8 = 4;
+pub const COMPRESSION: u8 = 4;
 /// Memory is claimed in steps of this size while the file grows.
 const GROWTH_BYTES: usize = 1 << 20;
 
@@ -199,13 +199,6 @@ fn put_flag_values<T: H5Type>(
     let values: Vec<T> = values.iter().map(|value| narrow(*value)).collect();
     array.new_attr_builder().with_data(ArrayView1::from(&values)).create(FLAG_VALUES)?;
     Ok(())
-}
-
-/// Bytes of the numbers of a variable where it is too small to be compressed, else none.
-pub fn plain_bytes(variable: &Variable) -> usize {
-    let numbers: usize = variable.values.shape().iter().product();
-    let bytes = numbers * Element::of(variable, variable.values.range()).bytes();
-    if bytes >= COMPRESSED_FROM_BYTES { 0 } else { bytes }
 }
 
 /// The type of a variable's numbers in the file.

@@ -1,18 +1,26 @@
 //! How large the file of results will be, by a sample of its cases.
 
+use std::io::Write;
 use std::path::Path;
+
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
 
 use crate::run::Record;
 use crate::study::Study;
 
 use super::catalogue::CASE;
+use super::encode::{self, COMPRESSED_FROM_BYTES, COMPRESSION, Element};
 use super::slab::{Filling, Slab};
-use super::{Dataset, StoreError, Values, Variable, encode, schema};
+use super::{Dataset, StoreError, Values, Variable, schema};
 
-/// Some cases of a study with their records.
+/// Cases with which every real variable is compressed.
+const COMPRESSED_CASES: usize = COMPRESSED_FROM_BYTES / size_of::<f64>();
+
+/// Some cases of a study.
 struct Sample<'a> {
     study: &'a Study,
-    /// How many cases it has.
+    /// How many they are.
     cases: usize,
     /// Those that have been computed, each with its place among all.
     records: Vec<Record>,
@@ -26,8 +34,8 @@ pub fn file_bytes(study: &Study, records: &[Record]) -> Result<f64, StoreError> 
         return bytes(&schema::dataset(study, records));
     }
     let (cases, places) = (records.len(), (0..records.len()).collect());
-    let [frame, of_cases] = Sample { study, cases, records: records.to_vec(), places }.bytes()?;
-    Ok(frame + of_cases / cases as f64 * study.cases() as f64)
+    let sample = Sample { study, cases, records: records.to_vec(), places };
+    sample.file_bytes(study.cases() as f64 / cases as f64)
 }
 
 /// Bytes of the file of results of a refined study without its attractors, estimated from some `tiles`: the indices of
@@ -46,21 +54,30 @@ pub fn refined_file_bytes(
         sample.records.extend_from_slice(records);
         sample.cases += cases.len();
     }
-    let [frame, of_cases] = sample.bytes()?;
-    Ok(frame + of_cases / sample.records.len() as f64 * computed * study.cases() as f64)
+    let records = sample.records.len() as f64;
+    sample.file_bytes(computed * study.cases() as f64 / records)
 }
 
 impl Sample<'_> {
-    /// Bytes of the file apart from its cases, and of the cases of the sample.
-    fn bytes(&self) -> Result<[f64; 2], StoreError> {
-        let without = Sample { cases: 0, records: Vec::new(), places: Vec::new(), ..*self };
-        let without = bytes(&without.dataset())?;
-        let dataset = self.dataset();
-        // Compressed arrays take room even where all their numbers are the same.
-        let blank = bytes(&blank(&dataset))?;
-        let plain: usize = dataset.variables.values().map(encode::plain_bytes).sum();
-        let of_cases = bytes(&dataset)? - blank + plain as f64;
-        Ok([without.max(blank - plain as f64), of_cases])
+    /// Bytes of the file, whose compressed numbers take so many times the bytes of those of the sample.
+    fn file_bytes(&self, factor: f64) -> Result<f64, StoreError> {
+        let cases = self.study.cases();
+        let blank = |cases| Sample { cases, records: Vec::new(), places: Vec::new(), ..*self };
+        let without = bytes(&blank(0).dataset())?;
+        // An array that is compressed takes room even where all its numbers are the same.
+        let same = blank(cases.min(COMPRESSED_CASES)).dataset();
+        let beside = bytes(&same)? - without;
+        let coordinates = same.coordinates.iter().filter(|(name, _)| name == CASE);
+        let plain = coordinates.map(|(_, it)| it).chain(same.variables.values()).map(plain_bytes);
+        let beside = (beside - plain.sum::<usize>() as f64).max(0.0);
+        let mut numbers = 0.0;
+        for variable in self.dataset().variables.values() {
+            let per_case = byte_count(variable) as f64 / self.cases as f64;
+            let all = per_case * cases as f64;
+            let is_plain = all < COMPRESSED_FROM_BYTES as f64;
+            numbers += if is_plain { all } else { factor * compressed_bytes(variable) as f64 };
+        }
+        Ok(without + beside + numbers)
     }
 
     /// The dataset of the study, with these of its cases only, along one dimension.
@@ -87,19 +104,36 @@ impl Sample<'_> {
     }
 }
 
-/// The same variables with the same number everywhere in each.
-fn blank(dataset: &Dataset) -> Dataset {
-    let mut blank = dataset.clone();
-    for variable in blank.variables.values_mut() {
-        match &mut variable.values {
-            Values::Real(all) => all.fill(f64::NAN),
-            Values::Integer(all) => all.fill(0),
-        }
-    }
-    blank
-}
-
 /// Bytes of a dataset in a file.
 fn bytes(dataset: &Dataset) -> Result<f64, StoreError> {
     Ok(encode::image(dataset, Path::new("a sample of the file"))?.len() as f64)
+}
+
+/// Bytes of the numbers of a variable.
+fn byte_count(variable: &Variable) -> usize {
+    element(variable).bytes() * variable.values.shape().iter().product::<usize>()
+}
+
+/// The same where it is too small to be compressed, else none.
+fn plain_bytes(variable: &Variable) -> usize {
+    Some(byte_count(variable)).filter(|bytes| *bytes < COMPRESSED_FROM_BYTES).unwrap_or(0)
+}
+
+fn element(variable: &Variable) -> Element {
+    Element::of(variable, variable.values.range())
+}
+
+/// Bytes of the numbers of a variable as HDF5 compresses them: first the lowest byte of each, then the next.
+fn compressed_bytes(variable: &Variable) -> usize {
+    let width = element(variable).bytes();
+    let numbers: Vec<[u8; 8]> = match &variable.values {
+        Values::Real(all) => all.iter().map(|number| number.to_le_bytes()).collect(),
+        Values::Integer(all) => all.iter().map(|number| number.to_le_bytes()).collect(),
+    };
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(u32::from(COMPRESSION)));
+    for byte in 0..width {
+        let bytes: Vec<u8> = numbers.iter().map(|number| number[byte]).collect();
+        encoder.write_all(&bytes).expect("memory takes all");
+    }
+    encoder.finish().expect("memory takes all").len()
 }

@@ -67,7 +67,7 @@ fn the_summary_says_what_the_numbers_do_not() {
         "{text}"
     );
     let text = said(&["--p-d", "0.5 N"]);
-    assert!(text.contains("the capsule rests at the section"), "{text}");
+    assert!(text.contains("the capsule sticks at the section"), "{text}");
     let coasting =
         ["--resistance", "medium", "--set", "c1=0.01", "--p-d", "0", "--start", "y2=0.5"];
     let text = said(&[&coasting[..], &["--max-cycles", "200"]].concat());

@@ -84,11 +84,14 @@ fn said(out: &str) -> f64 {
 fn a_dry_run_tells_the_size_of_the_file_that_the_run_writes() {
     let dir = WorkDir::new();
     let inherit = "[start]\ninherit = \"omega\"\n";
-    for (start, count) in [("", [3, 60]), (inherit, [3, 60]), ("", [1, 1])] {
-        dir.put("s.toml", format!("{PARAMETERS}{start}{}", axes(count)));
-        let said = said(&dir.run(&["sweep", "s.toml", "--output", "s.h5", "--dry-run"]).done().out);
-        dir.run(&["sweep", "s.toml", "--output", "s.h5", "--overwrite"]).done();
-        let size = std::fs::metadata(dir.path("s.h5")).expect("a file").len() as f64;
+    let studies = [("a", "", [3, 60]), ("b", inherit, [3, 60]), ("c", "", [2, 2])];
+    for (name, start, count) in studies {
+        let [study, file] = ["toml", "h5"].map(|end| format!("{name}.{end}"));
+        dir.put(&study, format!("{PARAMETERS}{start}{}", axes(count)));
+        let sweep = ["sweep", &study, "--output", &file];
+        let said = said(&dir.run(&[&sweep[..], &["--dry-run"]].concat()).done().out);
+        dir.run(&sweep).done();
+        let size = std::fs::metadata(dir.path(&file)).expect("a file").len() as f64;
         assert!((said / size - 1.0).abs() < 0.1, "{said} {size} {count:?} {start}");
     }
 }
