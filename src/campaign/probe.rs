@@ -20,7 +20,7 @@ const RUN: usize = 128;
 const NUMBERS: usize = 4_000_000;
 /// Parts of the axis along which starts are inherited, the cases of each, and the time after which none is begun.
 const PARTS: usize = 8;
-const PART: usize = 64;
+const PART: usize = 16;
 const SPREAD: Duration = Duration::from_secs(5);
 
 /// What a probe has found.
