@@ -64,7 +64,7 @@ fi
         plane speed plane/speed.png
     kind basin "Which attractor each start leads to." three-ways basin three-ways/basin.png
     kind settling "For how many cycles each start is followed until its attractor is decided." fractal settling fractal/settling.png
-    kind shares "Shares of the starts that lead to each attractor along a parameter, and the room of each basin." \
+    kind shares "Shares of the starts that lead to each attractor along a parameter, and the integrity factor of each basin." \
         erosion shares erosion/shares.png
     kind section "The stroboscopic section points of a motion, and its impacts." chaos section chaos/section.png
     kind history "Displacements, velocities and forces over time." fig6 fig6 paper/fig6.png
@@ -76,10 +76,11 @@ fi
     kind trade-off-maps "The fastest motion of each cell over two axes, what it costs, and where the fronts lie." \
         best best-maps paper/best-maps.png
     printf '## What can be set\n\nThe same options are keys of `[[figures]]` in a study; [studies/README.md](../studies/README.md) lists them.\n\n'
-    setting "Limits, units, colours and contours" "Speeds beyond the limits have the colour of their end, and the bar says so by an arrow." \
+    setting "Limits, units, colours, contours and words" "Speeds beyond the limits have the colour of their end, and the bar says so by an arrow." \
         limits results/overview/overview.h5 --kind map --of progression_speed --x omega --y p_d \
         --limits "progression_speed=-5 mm/s,10 mm/s" --unit omega=Hz --contours progression_speed=0 \
-        --colour-map progression_speed=purple-orange --width "86 mm" --height "65 mm"
+        --colour-map progression_speed=purple-orange --width "86 mm" --height "65 mm" \
+        --text "forward: omega=92, p_d=2.7" --text "backward: omega=64, p_d=3.2" --text "at rest: omega=45, p_d=2"
     setting "Colours by another quantity" "Points have the colours of their periods, and frequencies are relative to the natural one." \
         periods results/hysteresis/hysteresis.h5 --kind bifurcation --of section_r,progression_speed --colour-by period \
         --unit "omega=sqrt(k1/m1)" --marker-size "0.4 mm"
