@@ -152,7 +152,7 @@ fn a_figure_replaces_no_file_but_its_own() {
     dir.run(&figure).done();
     // A figure that was finished by hand is not drawn over.
     dir.put("speed.svg", drawn.replacen("<desc>", "<desc>as in my thesis: ", 1));
-    dir.run(&figure).refused(&["speed.svg", "or was changed since; it is kept"]);
+    dir.run(&figure).refused(&["speed.svg", "or it was changed since; it is not replaced"]);
     dir.run(&[&figure[..], &["--overwrite"]].concat()).done();
     assert_eq!(fs::read_to_string(dir.path("speed.svg")).expect("a figure"), drawn);
 }
@@ -161,10 +161,10 @@ fn a_figure_replaces_no_file_but_its_own() {
 fn links_and_folders_in_the_place_of_a_figure_are_seen_at_the_start() {
     let dir = place();
     symlink("nothing.svg", dir.path("speed.svg")).expect("a link");
-    sweep(&dir, "s.h5", &[]).refused(&["speed.svg: is there"]);
+    sweep(&dir, "s.h5", &[]).refused(&["speed.svg: exists"]);
     fs::remove_file(dir.path("speed.svg")).expect("it is removed");
     fs::create_dir(dir.path("speed.svg")).expect("a folder");
-    sweep(&dir, "s.h5", &[]).refused(&["speed.svg: is there"]);
+    sweep(&dir, "s.h5", &[]).refused(&["speed.svg: exists"]);
     assert_eq!(dir.files(), ["s.toml", "speed.svg"]);
 }
 
