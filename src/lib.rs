@@ -161,6 +161,8 @@ pub mod orbit;
 pub mod branch;
 pub mod attractor;
 pub mod capsule;
+#[cfg(feature = "cli")]
+pub mod experiment;
 pub mod study;
 pub mod run;
 pub mod tradeoff;

@@ -35,13 +35,17 @@ pub enum Dimension {
     Rate,
     /// Time [s].
     Time,
+    /// Electric current [A].
+    Current,
+    /// Force per electric current [N/A].
+    ForcePerCurrent,
     /// A plain number.
     Number,
 }
 
 impl Dimension {
     /// All of them.
-    pub const ALL: [Dimension; 16] = [
+    pub const ALL: [Dimension; 18] = [
         Dimension::Mass,
         Dimension::Stiffness,
         Dimension::Damping,
@@ -57,6 +61,8 @@ impl Dimension {
         Dimension::EnergyPerLength,
         Dimension::Rate,
         Dimension::Time,
+        Dimension::Current,
+        Dimension::ForcePerCurrent,
         Dimension::Number,
     ];
 
@@ -78,6 +84,8 @@ impl Dimension {
             Dimension::EnergyPerLength => "J/m",
             Dimension::Rate => "1/s",
             Dimension::Time => "s",
+            Dimension::Current => "A",
+            Dimension::ForcePerCurrent => "N/A",
             Dimension::Number => "1",
         }
     }

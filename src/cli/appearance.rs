@@ -6,9 +6,9 @@ use clap::Args;
 
 use super::arguments::plain_or_quantity;
 use crate::capsule::Dimension;
+use crate::capsule::quantity::parse_in;
 use crate::study::document::unknown;
 use crate::study::drawing::check_text;
-use crate::study::quantity::parse_in;
 use crate::study::{Drawing, Setting, Size};
 
 /// The dimension of the quantity of this name, or what is wrong with the name.

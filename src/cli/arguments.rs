@@ -6,11 +6,11 @@ use std::path::Path;
 
 use super::failure::Failure;
 use crate::campaign::quoted;
+use crate::capsule::parse_quantity;
 use crate::capsule::{Dimension, Output};
 use crate::lane::Instructions;
 use crate::run::Machine;
 use crate::study::document::unknown;
-use crate::study::parse_quantity;
 
 /// What to run on, as far as this machine has it.
 pub fn machine(

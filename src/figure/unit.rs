@@ -1,8 +1,8 @@
 //! The units of quantities, as figures show them.
 
 use crate::capsule::Dimension;
+use crate::capsule::quantity::unit;
 use crate::study::appearance::{NATURAL, dimension_of};
-use crate::study::quantity::unit;
 
 /// A unit as a figure shows it.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,8 @@
 //! Conditions on the numbers of cases, as a person writes them: `peak_contact_force < 30 N and outcome = periodic`.
 
 use crate::capsule::Dimension;
+use crate::capsule::parse_quantity;
 use crate::study::document::unknown;
-use crate::study::parse_quantity;
 
 use super::case_table::{CaseTable, Column};
 use super::{StoreError, Unread};

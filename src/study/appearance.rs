@@ -6,7 +6,7 @@ use crate::capsule::{Dimension, Output};
 
 use super::Coordinate;
 use super::document::unknown;
-use super::quantity::{expectation, unit};
+use crate::capsule::quantity::{expectation, unit};
 
 /// What figures show besides coordinates and outputs, with its dimension.
 const OTHERS: [(&str, Dimension); 25] = [

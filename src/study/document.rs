@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::capsule::{Allowed, Dimension};
 
-use super::quantity::{expectation, parse_in};
+use crate::capsule::quantity::{expectation, parse_in};
 
 /// Characters of a line that are shown at most.
 const LONGEST_SHOWN: usize = 80;

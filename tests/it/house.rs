@@ -6,13 +6,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 14] = [
+const FLOORS: [&str; 15] = [
     "lane",
     "flow",
     "orbit",
     "branch",
     "attractor",
     "capsule",
+    "experiment",
     "study",
     "run",
     "tradeoff",

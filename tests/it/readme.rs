@@ -5,7 +5,7 @@ use std::process::Command;
 
 use capsulemap::capsule::Parameter;
 use capsulemap::store;
-use capsulemap::study::{DrawingKind, Study, parse_quantity};
+use capsulemap::study::{DrawingKind, Study};
 
 const README: &str = include_str!("../../README.md");
 

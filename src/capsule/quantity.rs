@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::capsule::Dimension;
+use super::parameter::Dimension;
 
 /// The units of a dimension with their size in SI, the commonest first.
 fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {
@@ -36,7 +36,9 @@ fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {
         Dimension::Power => &[("W", 1.0), ("mW", 1e-3), ("uW", 1e-6)],
         Dimension::EnergyPerLength => &[("J/m", 1.0), ("mJ/m", 1e-3), ("mJ/mm", 1.0)],
         Dimension::Rate => &[("1/s", 1.0)],
-        Dimension::Time => &[("s", 1.0), ("ms", 1e-3), ("min", 60.0)],
+        Dimension::Time => &[("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("min", 60.0)],
+        Dimension::Current => &[("A", 1.0), ("mA", 1e-3)],
+        Dimension::ForcePerCurrent => &[("N/A", 1.0)],
         Dimension::Number => &[("", 1.0), ("%", 1e-2)],
     }
 }
@@ -59,6 +61,8 @@ fn name(dimension: Dimension) -> &'static str {
         Dimension::EnergyPerLength => "an energy per length",
         Dimension::Rate => "a rate",
         Dimension::Time => "a time",
+        Dimension::Current => "an electric current",
+        Dimension::ForcePerCurrent => "a force per current",
         Dimension::Number => "a plain number",
     }
 }
