@@ -173,7 +173,6 @@ fn certified_values_are_found_from_both_starts() {
             if of_values < DIGITS || of_errors < wanted_of_errors {
                 faults.push(format!("{name}: digits {of_values:.1} {of_errors:.1} {of_sum:.1}"));
             }
-
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));

@@ -1,0 +1,154 @@
+//! Straight lines through measured points, with standard errors, and whether the points lie on one.
+
+use super::estimate::{Estimate, chance_of_ratio};
+
+/// A curvature that chance alone would give with a lower probability than this is told.
+const CURVED: f64 = 0.01;
+
+/// The line `y = intercept + slope x` with the least squares of the residuals in y.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// Its slope.
+    pub slope: Estimate,
+    /// Its value at x = 0.
+    pub intercept: Estimate,
+    /// What is left of each point, y less the line.
+    pub residuals: Vec<f64>,
+    /// The standard deviation of the residuals.
+    pub scatter: f64,
+    /// A parabola that describes the points better, if one does.
+    pub curvature: Option<Curvature>,
+}
+
+/// A parabola through points that do not lie on a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Curvature {
+    /// The probability that points on a line scatter so.
+    pub chance: f64,
+    /// The slopes of the parabola at the least and at the greatest x.
+    pub slopes: [f64; 2],
+}
+
+/// The line through at least three points that differ in x; none where they do not.
+///
+/// # Method
+///
+/// Least squares of the residuals in y, which are taken to be independent and of equal scatter, x as exact. The curvature
+/// is tested by the F test of a quadratic term.
+pub fn line(x: &[f64], y: &[f64]) -> Option<Line> {
+    let count = x.len();
+    if count < 3 {
+        return None;
+    }
+    let mean = |it: &[f64]| it.iter().sum::<f64>() / count as f64;
+    let (x_mean, y_mean) = (mean(x), mean(y));
+    let u: Vec<f64> = x.iter().map(|it| it - x_mean).collect();
+    let square: f64 = u.iter().map(|it| it * it).sum();
+    let extent = x.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+    if square <= (1e-12 * extent).powi(2) {
+        return None;
+    }
+    let slope = u.iter().zip(y).map(|(u, y)| u * (y - y_mean)).sum::<f64>() / square;
+    let residuals: Vec<f64> = u.iter().zip(y).map(|(u, y)| y - y_mean - slope * u).collect();
+    let left: f64 = residuals.iter().map(|it| it * it).sum();
+    let freedom = count - 2;
+    let scatter = (left / freedom as f64).sqrt();
+    let intercept_error = scatter * (1.0 / count as f64 + x_mean * x_mean / square).sqrt();
+    Some(Line {
+        slope: Estimate::of_student(slope, scatter / square.sqrt(), freedom),
+        intercept: Estimate::of_student(y_mean - slope * x_mean, intercept_error, freedom),
+        curvature: curvature(&u, &residuals, slope, square),
+        residuals,
+        scatter,
+    })
+}
+
+/// The parabola through points whose line leaves these residuals, if it is needed; `u` is x less its mean.
+fn curvature(u: &[f64], residuals: &[f64], slope: f64, square: f64) -> Option<Curvature> {
+    let count = u.len() as f64;
+    let freedom = u.len().checked_sub(3).filter(|&it| it > 0)?;
+    // The parabola that is orthogonal to the lines.
+    let skew = u.iter().map(|it| it * it * it).sum::<f64>() / square;
+    let parabola: Vec<f64> = u.iter().map(|it| it * it - skew * it - square / count).collect();
+    let its_square: f64 = parabola.iter().map(|it| it * it).sum();
+    if its_square <= (1e-12 * square).powi(2) {
+        return None;
+    }
+    let height = parabola.iter().zip(residuals).map(|(p, r)| p * r).sum::<f64>() / its_square;
+    let explained = height * height * its_square;
+    let left = residuals.iter().map(|it| it * it).sum::<f64>() - explained;
+    let chance = chance_of_ratio(explained / (left.max(0.0) / freedom as f64), [1, freedom]);
+    let slope_at = |u: f64| slope + height * (2.0 * u - skew);
+    let ends = [f64::min, f64::max].map(|end| u.iter().copied().reduce(end).unwrap_or(0.0));
+    (chance < CURVED).then(|| Curvature { chance, slopes: ends.map(slope_at) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn norris_is_that_of_nist() {
+        // NIST StRD, linear regression, data set Norris.
+        let data = [
+            (0.1, 0.2),
+            (338.8, 337.4),
+            (118.1, 118.2),
+            (888.0, 884.6),
+            (9.2, 10.1),
+            (228.1, 226.5),
+            (668.5, 666.3),
+            (998.5, 996.3),
+            (449.1, 448.6),
+            (778.9, 777.0),
+            (559.2, 558.2),
+            (0.3, 0.4),
+            (0.1, 0.6),
+            (778.1, 775.5),
+            (668.8, 666.9),
+            (339.3, 338.0),
+            (448.9, 447.5),
+            (10.8, 11.6),
+            (557.7, 556.0),
+            (228.3, 228.1),
+            (998.0, 995.8),
+            (888.8, 887.6),
+            (119.6, 120.2),
+            (0.3, 0.3),
+            (0.6, 0.3),
+            (557.6, 556.8),
+            (339.3, 339.1),
+            (888.0, 887.2),
+            (998.5, 999.0),
+            (778.9, 779.0),
+            (10.2, 11.1),
+            (117.6, 118.3),
+            (228.9, 229.2),
+            (668.4, 669.1),
+            (449.2, 448.9),
+            (0.2, 0.5),
+        ];
+        let (y, x): (Vec<f64>, Vec<f64>) = data.into_iter().unzip();
+        let line = line(&x, &y).expect("a line");
+        let near = |found: f64, certified: f64| (found / certified - 1.0).abs() < 1e-10;
+        assert!(near(line.slope.value, 1.002_116_818_020_45));
+        assert!(near(line.slope.standard_error, 0.429_796_848_199_937e-3));
+        assert!(near(line.intercept.value, -0.262_323_073_774_029));
+        assert!(near(line.intercept.standard_error, 0.232_818_234_301_152));
+        assert!(near(line.scatter, 0.884_796_396_144_373));
+        assert_eq!(line.curvature, None);
+    }
+
+    #[test]
+    fn a_parabola_is_told_with_its_slopes() {
+        let x: Vec<f64> = (0..20).map(|i| 0.1 * f64::from(i)).collect();
+        let noise = |i: usize| 1e-3 * ((7 * i) as f64).sin();
+        let y: Vec<f64> =
+            x.iter().enumerate().map(|(i, x)| 1.0 + 2.0 * x + 0.1 * x * x + noise(i)).collect();
+        let curvature = line(&x, &y).and_then(|it| it.curvature).expect("curved");
+        assert!(curvature.chance < 1e-6);
+        assert!((curvature.slopes[0] - 2.0).abs() < 5e-3);
+        assert!((curvature.slopes[1] - 2.38).abs() < 5e-3);
+        assert_eq!(line(&[1.0, 1.0, 1.0], &[1.0, 2.0, 3.0]), None);
+    }
+}
