@@ -7,6 +7,7 @@ pub mod least_squares;
 pub mod line;
 pub mod profile;
 pub mod recording;
+pub mod sampled;
 pub mod smoothing;
 
 pub use estimate::Estimate;
@@ -14,4 +15,5 @@ pub use free_vibration::{FreeVibration, free_vibration};
 pub use friction::{Coasting, CoastingTests, coasting, static_friction};
 pub use profile::{Profile, Verdict};
 pub use recording::{Column, Presence, Recording, RecordingFaults, Sampling};
+pub use sampled::{Direction, Samples, Signal, Started, sampled};
 pub use smoothing::{Unsuitable, Window, smoothed};

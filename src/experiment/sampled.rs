@@ -1,0 +1,316 @@
+//! A simulated motion at given times, as sensors would see it, with exact derivatives in parameters and in the start.
+
+use crate::capsule::drive::reduced;
+use crate::capsule::{
+    AsPrinted, Dimension, Filippov, Jet, Locomotion, Parameter, Parameters, Reading, State,
+    Switching,
+};
+use crate::flow::{Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, cycle};
+use crate::lane::{Dual, Lane, series};
+
+/// Directions that are differentiated at a time.
+const AT_ONCE: usize = 4;
+/// A number with derivatives.
+type Number = Dual<f64, AT_ONCE>;
+
+/// What a sensor sees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Signal {
+    /// Displacement of the mass [m].
+    X1,
+    /// Displacement of the capsule [m].
+    X2,
+    /// Relative displacement [m].
+    R,
+    /// Velocity of the mass [m/s].
+    Y1,
+    /// Velocity of the capsule [m/s].
+    Y2,
+    /// Acceleration of the mass [m/s^2].
+    A1,
+    /// Force of the drive [N].
+    Drive,
+}
+
+impl Signal {
+    /// All of them.
+    pub const ALL: [Signal; 7] =
+        [Signal::X1, Signal::X2, Signal::R, Signal::Y1, Signal::Y2, Signal::A1, Signal::Drive];
+
+    /// Its name in recordings.
+    pub fn name(self) -> &'static str {
+        match self {
+            Signal::X1 => "x1",
+            Signal::X2 => "x2",
+            Signal::R => "r",
+            Signal::Y1 => "y1",
+            Signal::Y2 => "y2",
+            Signal::A1 => "a1",
+            Signal::Drive => "drive",
+        }
+    }
+
+    /// What it measures.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Signal::X1 | Signal::X2 | Signal::R => Dimension::Length,
+            Signal::Y1 | Signal::Y2 => Dimension::Velocity,
+            Signal::A1 => Dimension::Acceleration,
+            Signal::Drive => Dimension::Force,
+        }
+    }
+
+    /// What it is, in a phrase.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Signal::X1 => "displacement of the mass",
+            Signal::X2 => "displacement of the capsule",
+            Signal::R => "relative displacement",
+            Signal::Y1 => "velocity of the mass",
+            Signal::Y2 => "velocity of the capsule",
+            Signal::A1 => "acceleration of the mass",
+            Signal::Drive => "force of the drive",
+        }
+    }
+
+    /// Its value in the series of a step, `h` after its beginning.
+    fn read<L: Lane>(self, jet: &Jet<L>, h: L, p_d: L) -> L {
+        let at = |it| series::value(it, h);
+        match self {
+            Signal::X1 => at(&jet.r) + at(&jet.x2),
+            Signal::X2 => at(&jet.x2),
+            Signal::R => at(&jet.r),
+            Signal::Y1 => at(&jet.y1),
+            Signal::Y2 => at(&jet.y2),
+            Signal::A1 => series::value_and_slope(&jet.y1, h).1,
+            Signal::Drive => p_d * at(&jet.cos),
+        }
+    }
+}
+
+/// What a motion can be differentiated in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Direction {
+    /// A parameter of the model.
+    Parameter(Parameter),
+    /// The relative displacement at the start.
+    StartR,
+    /// The velocity of the mass at the start.
+    StartY1,
+    /// The displacement of the capsule at the start.
+    StartX2,
+    /// The velocity of the capsule at the start.
+    StartY2,
+    /// The phase of the drive at the start.
+    StartPhase,
+}
+
+/// A motion from its start.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Started {
+    /// The parameters.
+    pub parameters: Parameters,
+    /// Where it starts.
+    pub start: State<f64>,
+    /// Phase of the drive at the start [rad].
+    pub phase: f64,
+}
+
+impl Started {
+    /// The same with another value in one direction.
+    pub fn with(&self, direction: Direction, value: f64) -> Started {
+        let mut other = self.clone();
+        match direction {
+            Direction::Parameter(parameter) => other.parameters[parameter] = value,
+            Direction::StartR => other.start.r = value,
+            Direction::StartY1 => other.start.y1 = value,
+            Direction::StartX2 => other.start.x2 = value,
+            Direction::StartY2 => other.start.y2 = value,
+            Direction::StartPhase => other.phase = value,
+        }
+        other
+    }
+
+    /// Its value in a direction.
+    pub fn value(&self, direction: Direction) -> f64 {
+        match direction {
+            Direction::Parameter(parameter) => self.parameters[parameter],
+            Direction::StartR => self.start.r,
+            Direction::StartY1 => self.start.y1,
+            Direction::StartX2 => self.start.x2,
+            Direction::StartY2 => self.start.y2,
+            Direction::StartPhase => self.phase,
+        }
+    }
+}
+
+/// Signals at given times, with their slopes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Samples {
+    /// The values, by signal and time (SI).
+    pub values: Vec<Vec<f64>>,
+    /// Their derivatives, by signal, time and direction (SI).
+    pub slopes: Vec<Vec<Vec<f64>>>,
+}
+
+/// The `signals` of a motion at `times` since its start [s], which increase from zero or later, and their derivatives in
+/// `directions`.
+///
+/// # Method
+///
+/// The motion is followed in numbers with derivatives, four directions at a time, event times included, so that the jumps
+/// that impact, slip and stick put into the linearised flow are in them. A sample is read from the series of the step
+/// that it lies in, at a time since its beginning that depends on the directions as that beginning does.
+///
+/// # Guarantees
+///
+/// Errors of the order of `tolerance`, in the derivatives too, relative to their sizes.
+///
+/// # Breaks
+///
+/// Fails where the motion cannot be followed. Where an event falls on another or a surface is only touched, the
+/// derivatives are those of the side that the motion takes.
+pub fn sampled(
+    motion: &Started,
+    times: &[f64],
+    signals: &[Signal],
+    directions: &[Direction],
+    tolerance: f64,
+) -> Result<Samples, Reason> {
+    let of_reading = match motion.parameters.switching {
+        Switching::Filippov => sampled_as::<Filippov>,
+        Switching::AsPrinted => sampled_as::<AsPrinted>,
+    };
+    of_reading(motion, times, signals, directions, tolerance)
+}
+
+fn sampled_as<R: Reading>(
+    motion: &Started,
+    times: &[f64],
+    signals: &[Signal],
+    directions: &[Direction],
+    tolerance: f64,
+) -> Result<Samples, Reason> {
+    if directions.is_empty() {
+        let values = followed::<R, f64>(motion, |it| motion.value(it), times, signals, tolerance)?;
+        return Ok(Samples { values, slopes: Vec::new() });
+    }
+    let mut samples =
+        Samples { values: Vec::new(), slopes: vec![vec![Vec::new(); times.len()]; signals.len()] };
+    for some in directions.chunks(AT_ONCE) {
+        let of = |direction: Direction| -> Number {
+            let value = motion.value(direction);
+            match some.iter().position(|it| *it == direction) {
+                Some(place) => Dual::variable(value, place),
+                None => Dual::constant(value),
+            }
+        };
+        let values = followed::<R, Number>(motion, of, times, signals, tolerance)?;
+        for (slopes, values) in samples.slopes.iter_mut().zip(&values) {
+            for (slopes, value) in slopes.iter_mut().zip(values) {
+                slopes.extend(&value.gradient[..some.len()]);
+            }
+        }
+        if samples.values.is_empty() {
+            let plain = |it: &Vec<Number>| it.iter().map(|value| value.value).collect();
+            samples.values = values.iter().map(plain).collect();
+        }
+    }
+    Ok(samples)
+}
+
+/// The signals in numbers of one kind, by signal and time.
+fn followed<R: Reading, L: Lane>(
+    motion: &Started,
+    of: impl Fn(Direction) -> L,
+    times: &[f64],
+    signals: &[Signal],
+    tolerance: f64,
+) -> Result<Vec<Vec<L>>, Reason> {
+    let parameter = |it: Parameter| of(Direction::Parameter(it));
+    let law = motion.parameters.resistance;
+    let system = R::capsule::<L>(parameter, law, 0.0);
+    let start = State {
+        r: of(Direction::StartR),
+        y1: of(Direction::StartY1),
+        x2: of(Direction::StartX2),
+        y2: of(Direction::StartY2),
+    };
+    // The phase within a turn, with the derivative of the phase itself.
+    let turns = L::splat(reduced(motion.phase) - motion.phase);
+    let begins = (of(Direction::StartPhase) + turns) / parameter(Parameter::Omega);
+    let mut sampler = Sampler {
+        times,
+        signals,
+        p_d: parameter(Parameter::Pd),
+        began: -begins,
+        values: vec![Vec::with_capacity(times.len()); signals.len()],
+        next: 0,
+    };
+    let mut course = Motion::new(&system, begins, start);
+    let mut step = Step::default();
+    while sampler.next < times.len() {
+        let limits = (STEPS_PER_CYCLE, tolerance);
+        let duration = cycle(&system, &mut course, &mut step, limits, |step| {
+            sampler.see::<R>(&system, step);
+        })?;
+        sampler.began = sampler.began + duration;
+    }
+    Ok(sampler.values)
+}
+
+struct Sampler<'a, L> {
+    times: &'a [f64],
+    signals: &'a [Signal],
+    p_d: L,
+    /// When the cycle began, since the start of the motion [s].
+    began: L,
+    values: Vec<Vec<L>>,
+    next: usize,
+}
+
+impl<L: Lane> Sampler<'_, L> {
+    /// Reads the samples that lie in a step.
+    fn see<R: Reading>(&mut self, system: &R::In<L>, step: &Step<L, R::In<L>>)
+    where
+        R::In<L>: Stroboscopic<L, 3> + Switched<L> + Locomotion<L>,
+    {
+        let jet = system.jet(&step.jet);
+        while let Some(&time) = self.times.get(self.next) {
+            let since = L::splat(time) - (self.began + step.start);
+            if step.length.lane(0) < since.lane(0) {
+                return;
+            }
+            // A sample that rounding puts just before its step lies at its beginning.
+            for (signal, values) in self.signals.iter().zip(&mut self.values) {
+                values.push(signal.read(jet, since, self.p_d));
+            }
+            self.next += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::capsule::simulate;
+
+    #[test]
+    fn samples_are_those_of_the_simulation() {
+        let parameters = Parameters::default();
+        let simulation = simulate(&parameters, 0.4, State::default(), 6, 1e-13);
+        let times: Vec<f64> = simulation.section.iter().map(|it| it.t).collect();
+        let motion = Started { parameters, start: State::default(), phase: 0.4 };
+        let signals = [Signal::R, Signal::X2, Signal::Y1, Signal::Y2];
+        let plain = sampled(&motion, &times, &signals, &[], 1e-13).expect("followed");
+        let directions = [Direction::Parameter(Parameter::K2), Direction::StartPhase];
+        let with = sampled(&motion, &times, &signals, &directions, 1e-13).expect("followed");
+        for (i, sample) in simulation.section.iter().enumerate() {
+            let expected = [sample.r, sample.x2, sample.y1, sample.y2];
+            for (signal, expected) in expected.iter().enumerate() {
+                assert!((plain.values[signal][i] - expected).abs() < 1e-10, "{signal} {i}");
+                assert!((with.values[signal][i] - expected).abs() < 1e-10, "{signal} {i}");
+            }
+        }
+    }
+}
