@@ -103,12 +103,19 @@ pub struct Search {
     pub loss: Loss,
     /// Evaluations of the model per parameter at most.
     pub patience: usize,
+    /// The search ends where a step changes the sum of squares or the parameters by less than this share.
+    pub tolerance: f64,
 }
 
 impl Search {
     /// Without bounds, by squares.
     pub fn free(parameters: usize) -> Search {
-        Search { bounds: vec![Bounds::NONE; parameters], loss: Loss::Squares, patience: 1000 }
+        Search {
+            bounds: vec![Bounds::NONE; parameters],
+            loss: Loss::Squares,
+            patience: 1000,
+            tolerance: 1e-15,
+        }
     }
 }
 
@@ -173,7 +180,7 @@ pub fn fit_once(
     let method = LevenbergMarquardt::new()
         .with_stepbound(first_step)
         .with_patience(search.patience)
-        .with_tol(1e-15);
+        .with_tol(search.tolerance);
     let (problem, report) = method.minimize(problem);
     let termination = match report.termination {
         TerminationReason::LostPatience => Termination::OutOfEvaluations,

@@ -1,0 +1,238 @@
+//! A recording beside the simulation of the same case: aligned in phase, with what differs.
+
+use std::f64::consts::TAU;
+
+use super::drive_phase::{Harmonic, harmonic};
+use super::estimate::Estimate;
+use super::line::line;
+use super::motion_fit::{Effort, Free, Recorded, fit_motion};
+use super::recording::{Recording, Sampling};
+use super::sampled::{Signal, Started, sampled};
+use super::spikes::spikes;
+use crate::capsule::{Case, Output, Parameter, Parameters, State, settle_case};
+use crate::orbit::{Outcome, Protocol};
+
+/// Relative local error of the steps of the simulation.
+const TOLERANCE: f64 = 1e-12;
+/// Phases that are tried where the drive is not recorded.
+const PHASES: usize = 72;
+
+/// How a recording and a simulation differ in one signal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// Which signal.
+    pub signal: Signal,
+    /// As recorded [SI].
+    pub recorded: Vec<f64>,
+    /// As simulated, at the same times [SI].
+    pub simulated: Vec<f64>,
+    /// Root mean square of the difference over the standard deviation of the record; x2 without its mean advance.
+    pub error: f64,
+}
+
+/// A recording beside a simulation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Times since the first sample [s].
+    pub times: Vec<f64>,
+    /// How the record is sampled.
+    pub sampling: Sampling,
+    /// The drive as recorded; none where it is not.
+    pub drive: Option<Harmonic>,
+    /// Phase of the drive at the first sample [rad].
+    pub phase: f64,
+    /// Cycles of the drive in the record.
+    pub cycles: f64,
+    /// Progression speed as recorded, where x2 is [m/s].
+    pub recorded_speed: Option<Estimate>,
+    /// Progression speed as simulated [m/s].
+    pub simulated_speed: f64,
+    /// What the simulation settles to, and its period [cycles].
+    pub outcome: (Outcome, u64),
+    /// Spikes of the acceleration per cycle, as recorded and as simulated and sampled alike, where it is recorded.
+    pub spikes: Option<[f64; 2]>,
+    /// Impacts per cycle of the simulation.
+    pub impacts: f64,
+    /// The signals that were recorded.
+    pub differences: Vec<Difference>,
+    /// The simulated motion.
+    pub motion: Started,
+}
+
+/// The signals of a recording, which may have any of them, over the time from its first sample.
+///
+/// Fails where it has none of r, x1, x2, a1.
+pub fn signals_of(recording: &Recording) -> Result<(Vec<f64>, Vec<(Signal, Vec<f64>)>), String> {
+    let times = recording.required("t");
+    let times: Vec<f64> = times.iter().map(|time| time - times[0]).collect();
+    let measured = [Signal::X2, Signal::R, Signal::X1, Signal::Y1, Signal::Y2, Signal::A1];
+    let found: Vec<(Signal, Vec<f64>)> = measured
+        .into_iter()
+        .filter_map(|signal| Some((signal, recording.column(signal.name())?.to_vec())))
+        .collect();
+    if found.is_empty() {
+        let names = measured.map(Signal::name).join(", ");
+        return Err(format!("has no signal of the motion; expected one of {names}"));
+    }
+    Ok((times, found))
+}
+
+/// The recording beside what the capsule with these parameters settles to from rest.
+///
+/// # Method
+///
+/// The phase is that of the recorded drive (force, or current, which is in phase with it); where neither is recorded it is the
+/// phase that makes the differences least. The simulation begins on its attractor at that phase, and x2 at the record's mean
+/// over the first cycle.
+pub fn compare(recording: &Recording, parameters: &Parameters) -> Result<Comparison, String> {
+    let (times, signals) = signals_of(recording)?;
+    let driven = recording.column("drive").or(recording.column("current"));
+    let drive = driven.map(|values| harmonic(&times, values)).transpose()?;
+    let compared = |phase: f64| beside(recording, (&times, &signals), parameters, phase);
+    let mut best = match &drive {
+        Some(drive) => compared(drive.phase.value)?,
+        None => {
+            let phases = (0..PHASES).map(|i| TAU * i as f64 / PHASES as f64);
+            let found = phases.map(compared).collect::<Result<Vec<_>, _>>()?;
+            let error =
+                |it: &Comparison| it.differences.iter().map(|it| it.error * it.error).sum::<f64>();
+            let least = |a: &Comparison, b: &Comparison| error(a).total_cmp(&error(b));
+            found.into_iter().min_by(least).ok_or("no phase can be compared")?
+        }
+    };
+    best.drive = drive;
+    Ok(best)
+}
+
+fn beside(
+    recording: &Recording,
+    (times, signals): (&[f64], &[(Signal, Vec<f64>)]),
+    parameters: &Parameters,
+    phase: f64,
+) -> Result<Comparison, String> {
+    let case = Case::at_section(parameters.clone(), State::default(), phase);
+    let orbit = settle_case(&case, &Protocol::default());
+    let motion =
+        Started { parameters: parameters.clone(), start: State { x2: 0.0, ..orbit.end }, phase };
+    let names: Vec<Signal> = signals.iter().map(|it| it.0).collect();
+    let lost = |why| format!("the simulation cannot be followed: {why:?}");
+    let samples = sampled(&motion, times, &names, &[], TOLERANCE).map_err(lost)?;
+    let period = parameters.drive_period();
+    let first = times.iter().take_while(|time| **time < period).count().max(1);
+    let speed = orbit.outputs[Output::ProgressionSpeed];
+    let mut differences = Vec::new();
+    for ((signal, recorded), mut simulated) in signals.iter().cloned().zip(samples.values) {
+        let moves_on = matches!(signal, Signal::X1 | Signal::X2);
+        if moves_on {
+            let mean = |values: &[f64]| values[..first].iter().sum::<f64>() / first as f64;
+            let offset = mean(&recorded) - mean(&simulated);
+            simulated.iter_mut().for_each(|value| *value += offset);
+        }
+        let advance = if moves_on { speed } else { 0.0 };
+        let error = error(times, &recorded, &simulated, advance);
+        differences.push(Difference { signal, recorded, simulated, error });
+    }
+    let of = |signal: Signal| differences.iter().find(|it| it.signal == signal);
+    let cycles = times[times.len() - 1] / period;
+    let spikes = of(Signal::A1).map(|it| {
+        [&it.recorded, &it.simulated].map(|values| spikes(times, values).len() as f64 / cycles)
+    });
+    Ok(Comparison {
+        times: times.to_vec(),
+        sampling: recording.sampling(),
+        drive: None,
+        phase,
+        cycles,
+        recorded_speed: of(Signal::X2).and_then(|it| speed_of(times, &it.recorded, period)),
+        simulated_speed: speed,
+        outcome: (orbit.outcome, orbit.period),
+        spikes,
+        impacts: orbit.outputs[Output::ImpactsPerCycle],
+        differences,
+        motion,
+    })
+}
+
+/// The root mean square of the differences over the standard deviation of the record, without the advance.
+fn error(times: &[f64], recorded: &[f64], simulated: &[f64], advance: f64) -> f64 {
+    let count = times.len() as f64;
+    let level: Vec<f64> =
+        times.iter().zip(recorded).map(|(t, value)| value - advance * t).collect();
+    let mean = level.iter().sum::<f64>() / count;
+    let variance = level.iter().map(|it| (it - mean) * (it - mean)).sum::<f64>() / count;
+    let square =
+        recorded.iter().zip(simulated).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() / count;
+    (square / variance).sqrt()
+}
+
+/// The slope of the means of x2 over whole cycles of the drive; none for fewer than three.
+fn speed_of(times: &[f64], x2: &[f64], period: f64) -> Option<Estimate> {
+    let cycle = |time: f64| (time / period).floor();
+    let whole = cycle(times[times.len() - 1]);
+    let (mut at, mut means) = (Vec::new(), Vec::new());
+    let mut from = 0;
+    while from < times.len() && cycle(times[from]) < whole {
+        let count =
+            times[from..].iter().take_while(|time| cycle(**time) == cycle(times[from])).count();
+        let mean = |values: &[f64]| values[from..from + count].iter().sum::<f64>() / count as f64;
+        at.push(mean(times));
+        means.push(mean(x2));
+        from += count;
+    }
+    line(&at, &means).map(|it| it.slope)
+}
+
+/// What parameters would have to be for the simulation to describe a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Explanation {
+    /// The parameters that were free, with their values and intervals (SI).
+    pub changed: Vec<(Parameter, Estimate)>,
+    /// Standard deviation of the residuals in units of the noise, without and with the change.
+    pub misfit: [f64; 2],
+    /// Impacts per cycle with the change.
+    pub impacts: f64,
+    /// Progression speed with the change [m/s].
+    pub speed: f64,
+}
+
+/// Cycles of a record that explanations are fitted to.
+const EXPLAINED_CYCLES: f64 = 3.0;
+
+/// What other values of some parameters would bring the simulation nearest to the recording, each set in `choices` by itself.
+///
+/// The paper's section 4 argues that discrepancies come from the stiffness of the stop or from friction: fits in which they
+/// alone are free show how much of the misfit each explains.
+pub fn explain(
+    comparison: &Comparison,
+    choices: &[Vec<Free>],
+    effort: &Effort,
+) -> Result<Vec<Explanation>, String> {
+    let parameters = &comparison.motion.parameters;
+    let span = EXPLAINED_CYCLES * parameters.drive_period();
+    let count = comparison.times.iter().take_while(|time| **time <= span).count();
+    let cut = |it: &Difference| (it.signal, it.recorded[..count].to_vec());
+    let recorded = Recorded {
+        parameters: parameters.clone(),
+        times: comparison.times[..count].to_vec(),
+        phase: comparison.phase,
+        signals: comparison.differences.iter().map(cut).collect(),
+    };
+    let without =
+        fit_motion(std::slice::from_ref(&recorded), &[], &Effort { starts: 1, ..*effort })?;
+    let explanation = |free: &Vec<Free>| {
+        let fit = fit_motion(std::slice::from_ref(&recorded), free, effort)?;
+        let mut changed = parameters.clone();
+        for fitted in &fit.fitted {
+            changed[fitted.parameter] = fitted.estimate.value;
+        }
+        let case = Case::at_section(changed, State::default(), comparison.phase);
+        let orbit = settle_case(&case, &Protocol::default());
+        Ok(Explanation {
+            changed: fit.fitted.iter().map(|it| (it.parameter, it.estimate)).collect(),
+            misfit: [without.misfit, fit.misfit],
+            impacts: orbit.outputs[Output::ImpactsPerCycle],
+            speed: orbit.outputs[Output::ProgressionSpeed],
+        })
+    };
+    choices.iter().map(explanation).collect()
+}

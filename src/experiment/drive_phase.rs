@@ -1,0 +1,136 @@
+//! Frequency and phase of the drive, from a record of its force or of the motor's current.
+
+use std::f64::consts::TAU;
+
+use super::estimate::Estimate;
+use super::least_squares::{Residuals, Search, fit};
+
+/// Frequencies that are tried, per resolvable difference of frequencies.
+const PER_LINE: f64 = 4.0;
+
+/// A harmonic `mean + amplitude cos(omega t + phase)`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Harmonic {
+    /// Frequency [rad/s].
+    pub omega: Estimate,
+    /// Phase at t = 0 [rad], within -pi..pi.
+    pub phase: Estimate,
+    /// Amplitude, in the unit of the record.
+    pub amplitude: Estimate,
+    /// Mean, in the unit of the record.
+    pub mean: f64,
+    /// Standard deviation of what is left of the record.
+    pub scatter: f64,
+}
+
+/// The harmonic that a record is nearest to.
+///
+/// # Method
+///
+/// For each frequency of a grid, from one cycle in the record to a quarter of the median sampling rate, the power of the
+/// harmonic is computed from the samples at their own times; from the strongest, all constants are fitted by least squares.
+///
+/// # Breaks
+///
+/// An error says so where the record has fewer than sixteen samples, no variation, or less than a cycle and a half.
+pub fn harmonic(times: &[f64], values: &[f64]) -> Result<Harmonic, String> {
+    let count = times.len();
+    if count < 16 {
+        return Err(format!("{count} samples; at least 16 are needed to find the drive"));
+    }
+    let span = times[count - 1] - times[0];
+    let mean = values.iter().sum::<f64>() / count as f64;
+    let line = TAU / span;
+    let fastest = 0.25 * TAU * count as f64 / span;
+    let steps = (PER_LINE * fastest / line) as usize;
+    let power = |omega: f64| {
+        let (mut cos, mut sin) = (0.0, 0.0);
+        for (time, value) in times.iter().zip(values) {
+            let (s, c) = (omega * (time - times[0])).sin_cos();
+            cos += (value - mean) * c;
+            sin += (value - mean) * s;
+        }
+        cos * cos + sin * sin
+    };
+    let grid = (PER_LINE as usize..=steps).map(|i| line * i as f64 / PER_LINE);
+    let strongest = grid.map(|omega| (power(omega), omega)).max_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((_, omega)) = strongest.filter(|(power, _)| *power > 0.0) else {
+        return Err("the record does not vary, so no drive is found".to_owned());
+    };
+    let model = |p: &[f64]| {
+        let rows = times.iter().zip(values).map(|(time, value)| {
+            let (sin, cos) = (p[0] * (time - times[0])).sin_cos();
+            let by_omega = (time - times[0]) * (p[2] * cos - p[1] * sin);
+            (p[3] + p[1] * cos + p[2] * sin - value, vec![by_omega, cos, sin, 1.0])
+        });
+        let (values, slopes) = rows.unzip();
+        Some(Residuals { values, slopes })
+    };
+    let fit = fit(&model, &[omega, 0.0, 0.0, mean], &Search::free(4))
+        .ok_or("the drive cannot be fitted")?;
+    let [omega, a, b, mean] = [0, 1, 2, 3].map(|i| fit.parameters[i]);
+    if omega * span < 1.5 * TAU {
+        return Err("the record has less than a cycle and a half of the drive".to_owned());
+    }
+    // a cos + b sin = A cos(x + p), with A cos p = a and A sin p = -b; the slopes of p in (omega, a, b) at t = 0.
+    let square = a * a + b * b;
+    let by = [-times[0], b / square, -a / square];
+    let amplitude = square.sqrt();
+    let freedom = fit.degrees_of_freedom;
+    let deviation = fit.residual_deviation();
+    let error = |by: &[f64; 3]| {
+        let row =
+            |i: usize| (0..3).map(|j| by[i] * fit.unit_covariance[(i, j)] * by[j]).sum::<f64>();
+        deviation * (0..3).map(row).sum::<f64>().max(0.0).sqrt()
+    };
+    let phase = (-b).atan2(a) - omega * times[0];
+    let phase = phase - TAU * (phase / TAU).round();
+    Ok(Harmonic {
+        omega: Estimate::of_student(omega, fit.standard_error(0), freedom),
+        phase: Estimate::of_student(phase, error(&by), freedom),
+        amplitude: Estimate::of_student(
+            amplitude,
+            error(&[0.0, a / amplitude, b / amplitude]),
+            freedom,
+        ),
+        mean,
+        scatter: deviation,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_harmonic_is_found_on_uneven_times() {
+        for (omega, phase) in [(77.91, 0.3), (20.73, -2.9), (10.0, 3.1), (120.0, 1.0)] {
+            let times: Vec<f64> = (0..1500)
+                .map(|i| 0.2 + 1e-3 * (f64::from(i) + 0.3 * f64::from(i * i % 7) / 7.0))
+                .collect();
+            let noise = |i: usize| 0.05 * ((i * i * 31 % 101) as f64 / 50.0 - 1.0);
+            let values: Vec<f64> = times
+                .iter()
+                .enumerate()
+                .map(|(i, t)| 0.4 + 4.0 * (omega * t + phase).cos() + noise(i))
+                .collect();
+            let found = harmonic(&times, &values).expect("a harmonic");
+            assert!(
+                (found.omega.value - omega).abs() < 5.0 * found.omega.standard_error,
+                "{found:?}"
+            );
+            assert!(
+                (found.phase.value - phase).abs() < 5.0 * found.phase.standard_error,
+                "{found:?}"
+            );
+            assert!((found.amplitude.value - 4.0).abs() < 0.02, "{found:?}");
+            assert!(
+                found.phase.standard_error < 0.01 && found.omega.standard_error < 0.02,
+                "{found:?}"
+            );
+        }
+        let times: Vec<f64> = (0..100).map(f64::from).collect();
+        assert!(harmonic(&times, &[1.0; 100]).is_err());
+        assert!(harmonic(&times[..9], &[1.0; 9]).is_err());
+    }
+}

@@ -1,0 +1,350 @@
+//! Fits chosen parameters to recorded histories of the motion, several recordings at once.
+
+use std::thread;
+
+use super::estimate::Estimate;
+use super::free_vibration::noise;
+use super::least_squares::{Bounds, Fit, Loss, Residuals, Search, fit_once};
+use super::profile::{Verdict, profile};
+use super::sampled::{Direction, Signal, Started, sampled};
+use super::smoothing::{Window, smoothed};
+use crate::capsule::{Parameter, Parameters, State};
+
+/// Relative local error of the steps of the simulation.
+const TOLERANCE: f64 = 1e-11;
+/// A velocity of the capsule this many standard errors from zero at the start is a motion.
+const MOVES: f64 = 5.0;
+/// Standard deviations within which the start is looked for about its estimate from the record.
+const REACH: f64 = 60.0;
+/// A search ends where the sum of squares changes by less than this share.
+const CONVERGED: f64 = 1e-9;
+/// Evaluations of the model per parameter and start.
+const PATIENCE: usize = 20;
+
+/// A recorded history.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recorded {
+    /// Parameters as they were set; those that are fitted are replaced.
+    pub parameters: Parameters,
+    /// Times since the first sample [s], the first of which is zero.
+    pub times: Vec<f64>,
+    /// The phase of the drive at the first sample [rad].
+    pub phase: f64,
+    /// What was recorded, with its values at those times [SI].
+    pub signals: Vec<(Signal, Vec<f64>)>,
+}
+
+/// A parameter to be fitted, and where it is looked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Free {
+    /// Which.
+    pub parameter: Parameter,
+    /// From where to where (SI).
+    pub bounds: Bounds,
+}
+
+/// A parameter as fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fitted {
+    /// Which.
+    pub parameter: Parameter,
+    /// Its value, standard error and interval by the profile likelihood, within its bounds (SI).
+    pub estimate: Estimate,
+    /// What the data say of it.
+    pub verdict: Verdict,
+}
+
+/// The outcome of a fit to motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionFit {
+    /// The fitted parameters.
+    pub fitted: Vec<Fitted>,
+    /// The fitted motion of each recording.
+    pub motions: Vec<Started>,
+    /// The correlation of the fitted parameters with each other; NaN where one is not determined.
+    pub correlations: Vec<Vec<f64>>,
+    /// Standard deviation of the residuals in units of the noise of the records: one where the model describes them.
+    pub misfit: f64,
+    /// Samples that were used.
+    pub samples: usize,
+    /// How many of the starts of the search ended in this minimum, and how many there were.
+    pub starts: [usize; 2],
+}
+
+/// How a fit to motion is searched for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// How residuals are weighed.
+    pub loss: Loss,
+    /// Starts within the bounds, the first at the values that the recordings have.
+    pub starts: usize,
+    /// Threads to use.
+    pub threads: usize,
+}
+
+/// A recording with what is unknown of its start.
+struct Course<'r> {
+    recorded: &'r Recorded,
+    /// The start as estimated from the record.
+    guess: Started,
+    unknown: Vec<(Direction, Bounds)>,
+    /// Standard deviation of the noise of each signal.
+    noise: Vec<f64>,
+}
+
+/// The parameters within their bounds that bring the simulation nearest to the `recordings`.
+///
+/// # Method
+///
+/// Least squares of all samples, each divided by the noise of its signal (from third differences of the record). Unknowns
+/// besides the parameters are the start of each recording: r, y1, x2 and, where the capsule moves at the first sample, y2;
+/// each is looked for about its estimate from the smoothed record. The derivatives are exact, through every impact, slip
+/// and stick ([`sampled`]). The search begins at several starts: the values at hand, and points of a Halton sequence within the
+/// bounds. Intervals are those of the profile likelihood, with the scatter estimated from the residuals.
+///
+/// # Assumes
+///
+/// Independent noise, exact times and an exact phase of the drive.
+///
+/// # Breaks
+///
+/// An error says so where a recording lacks what the start needs, or where no motion can be followed.
+pub fn fit_motion(
+    recordings: &[Recorded],
+    free: &[Free],
+    effort: &Effort,
+) -> Result<MotionFit, String> {
+    let courses: Vec<Course<'_>> = recordings.iter().map(Course::new).collect::<Result<_, _>>()?;
+    let mut search = Search {
+        bounds: free.iter().map(|it| it.bounds).collect(),
+        loss: effort.loss,
+        patience: PATIENCE,
+        tolerance: CONVERGED,
+    };
+    search.bounds.extend(courses.iter().flat_map(|it| it.unknown.iter().map(|it| it.1)));
+    let model = |unknowns: &[f64]| residuals(&courses, free, unknowns);
+    let starts = starts(&courses, free, effort.starts);
+    let fits = in_threads(&starts, effort.threads, |start| fit_once(&model, start, &search, 1.0));
+    let found: Vec<Fit> =
+        fits.into_iter().flatten().filter(|it| it.sum_of_squares.is_finite()).collect();
+    let least = |a: &&Fit, b: &&Fit| a.sum_of_squares.total_cmp(&b.sum_of_squares);
+    let best =
+        found.iter().min_by(least).ok_or("the simulation cannot be followed from any start")?;
+    let same = |it: &&Fit| it.sum_of_squares <= best.sum_of_squares * (1.0 + 1e-4);
+    let which: Vec<usize> = (0..free.len()).collect();
+    let profiles =
+        in_threads(&which, effort.threads, |&which| profile(&model, best, &search, which));
+    let fitted = free.iter().zip(profiles).enumerate().map(|(i, (free, profile))| Fitted {
+        parameter: free.parameter,
+        estimate: Estimate {
+            value: best.parameters[i],
+            standard_error: best.standard_error(i),
+            interval: profile.interval,
+        },
+        verdict: profile.verdict(),
+    });
+    let covariance = &best.unit_covariance;
+    let correlation =
+        |i: usize, j: usize| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+    let row = |i: usize| (0..free.len()).map(|j| correlation(i, j)).collect();
+    Ok(MotionFit {
+        fitted: fitted.collect(),
+        motions: motions(&courses, free, &best.parameters),
+        correlations: (0..free.len()).map(row).collect(),
+        misfit: best.residual_deviation(),
+        samples: best.degrees_of_freedom + best.parameters.len(),
+        starts: [found.iter().filter(same).count(), starts.len()],
+    })
+}
+
+impl<'r> Course<'r> {
+    fn new(recorded: &'r Recorded) -> Result<Self, String> {
+        let noise: Vec<f64> = recorded
+            .signals
+            .iter()
+            .map(|(_, values)| {
+                let size = values.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+                noise(values).max(1e-9 * size).max(f64::MIN_POSITIVE)
+            })
+            .collect();
+        let begin = |signal: Signal| begin(recorded, &noise, signal);
+        let x2 = begin(Signal::X2);
+        let r = match (begin(Signal::R), begin(Signal::X1), x2) {
+            (Some(r), ..) => r,
+            (None, Some(x1), Some(x2)) => x1.less(x2),
+            _ => {
+                return Err(
+                    "neither r, nor x1 and x2, is recorded: the start is unknown".to_owned()
+                );
+            }
+        };
+        // A capsule whose displacement is not recorded may be anywhere, and is taken to rest.
+        let x2 = x2.unwrap_or_default();
+        let moves = x2.velocity.abs() > MOVES * x2.velocity_error && x2.velocity_error > 0.0;
+        let y2 = if moves { x2.velocity } else { 0.0 };
+        let start = State { r: r.value, y1: r.velocity + y2, x2: x2.value, y2 };
+        let about = |value: f64, error: f64| Bounds {
+            least: value - REACH * error,
+            greatest: value + REACH * error,
+        };
+        let y1_error = r.velocity_error.hypot(x2.velocity_error);
+        let mut unknown = vec![
+            (Direction::StartR, about(r.value, r.error)),
+            (Direction::StartY1, about(start.y1, y1_error)),
+        ];
+        if x2.error > 0.0 {
+            unknown.push((Direction::StartX2, about(x2.value, x2.error)));
+        }
+        if moves {
+            unknown.push((Direction::StartY2, about(y2, x2.velocity_error)));
+        }
+        let guess =
+            Started { parameters: recorded.parameters.clone(), start, phase: recorded.phase };
+        Ok(Course { recorded, guess, unknown, noise })
+    }
+}
+
+/// A signal at the first sample of a record, with its rate and the standard errors of both.
+#[derive(Debug, Clone, Copy, Default)]
+struct Beginning {
+    value: f64,
+    error: f64,
+    velocity: f64,
+    velocity_error: f64,
+}
+
+impl Beginning {
+    fn less(self, other: Beginning) -> Beginning {
+        Beginning {
+            value: self.value - other.value,
+            error: self.error.hypot(other.error),
+            velocity: self.velocity - other.velocity,
+            velocity_error: self.velocity_error.hypot(other.velocity_error),
+        }
+    }
+}
+
+/// A signal's beginning, by a parabola through its first samples; none where it is not recorded.
+fn begin(recorded: &Recorded, noise: &[f64], signal: Signal) -> Option<Beginning> {
+    let place = recorded.signals.iter().position(|(its, _)| *its == signal)?;
+    let values = &recorded.signals[place].1;
+    let samples = 7.min((values.len() - 1) | 1);
+    let window = Window { samples, order: 2.min(samples - 1) };
+    let read = |derivative| smoothed(&recorded.times, values, window, derivative).ok();
+    let span = recorded.times[samples - 1] - recorded.times[0];
+    let error = noise[place];
+    // The standard errors of a parabola through seven even samples at its end are 0.87 and about 4.7 over the span.
+    Some(Beginning {
+        value: read(0)?[0],
+        error,
+        velocity: read(1)?[0],
+        velocity_error: 4.7 * error / span,
+    })
+}
+
+/// The motions of all recordings at these unknowns: the parameters, then what is unknown of each start.
+fn motions(courses: &[Course<'_>], free: &[Free], unknowns: &[f64]) -> Vec<Started> {
+    let (values, mut rest) = unknowns.split_at(free.len());
+    courses
+        .iter()
+        .map(|course| {
+            let mut motion = course.guess.clone();
+            for (free, value) in free.iter().zip(values) {
+                motion.parameters[free.parameter] = *value;
+            }
+            for (direction, _) in &course.unknown {
+                motion = motion.with(*direction, rest[0]);
+                rest = &rest[1..];
+            }
+            motion
+        })
+        .collect()
+}
+
+/// All residuals at these unknowns, with their slopes.
+fn residuals(courses: &[Course<'_>], free: &[Free], unknowns: &[f64]) -> Option<Residuals> {
+    let mut all = Residuals { values: Vec::new(), slopes: Vec::new() };
+    let mut before = free.len();
+    for (course, motion) in courses.iter().zip(motions(courses, free, unknowns)) {
+        if !motion.parameters.faults().is_empty() {
+            return None;
+        }
+        let of_parameters = free.iter().map(|it| Direction::Parameter(it.parameter));
+        let of_start = course.unknown.iter().map(|it| it.0);
+        let directions: Vec<Direction> = of_parameters.chain(of_start).collect();
+        let Recorded { times, signals, .. } = course.recorded;
+        let names: Vec<Signal> = signals.iter().map(|it| it.0).collect();
+        let found = sampled(&motion, times, &names, &directions, TOLERANCE).ok()?;
+        for (i, (_, recorded)) in signals.iter().enumerate() {
+            let unit = 1.0 / course.noise[i];
+            for (k, recorded) in recorded.iter().enumerate() {
+                all.values.push((found.values[i][k] - recorded) * unit);
+                let mut row = vec![0.0; unknowns.len()];
+                for (j, slope) in found.slopes[i][k].iter().enumerate() {
+                    let place = if j < free.len() { j } else { before + j - free.len() };
+                    row[place] = slope * unit;
+                }
+                all.slopes.push(row);
+            }
+        }
+        before += course.unknown.len();
+    }
+    Some(all)
+}
+
+/// Where the search begins: the values of the first recording, then points of a Halton sequence within the bounds.
+fn starts(courses: &[Course<'_>], free: &[Free], count: usize) -> Vec<Vec<f64>> {
+    const PRIMES: [u32; 14] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43];
+    let of_starts: Vec<f64> = courses
+        .iter()
+        .flat_map(|course| {
+            course.unknown.iter().map(|(direction, _)| course.guess.value(*direction))
+        })
+        .collect();
+    let start = |index: usize| {
+        let value = |(i, free): (usize, &Free)| {
+            let Bounds { least, greatest } = free.bounds;
+            match index {
+                0 => courses[0].guess.parameters[free.parameter].clamp(least, greatest),
+                _ => {
+                    least
+                        + (greatest - least)
+                            * radical_inverse(index as u32, PRIMES[i % PRIMES.len()])
+                }
+            }
+        };
+        let parameters = free.iter().enumerate().map(value);
+        parameters.chain(of_starts.iter().copied()).collect()
+    };
+    (0..count.max(1)).map(start).collect()
+}
+
+/// The digits of `index` in a base, mirrored at the point.
+fn radical_inverse(mut index: u32, base: u32) -> f64 {
+    let (mut value, mut unit) = (0.0, 1.0);
+    while index > 0 {
+        unit /= f64::from(base);
+        value += unit * f64::from(index % base);
+        index /= base;
+    }
+    value
+}
+
+/// A function of each of some things, in their order, by so many threads.
+fn in_threads<T: Sync, R: Send>(
+    things: &[T],
+    threads: usize,
+    function: impl Fn(&T) -> R + Sync,
+) -> Vec<R> {
+    let each = things.len().div_ceil(threads.max(1)).max(1);
+    let function = &function;
+    thread::scope(|scope| {
+        let parts: Vec<_> = things
+            .chunks(each)
+            .map(|part| scope.spawn(move || part.iter().map(function).collect::<Vec<R>>()))
+            .collect();
+        let join =
+            |part: thread::ScopedJoinHandle<'_, Vec<R>>| part.join().expect("no thread panics");
+        parts.into_iter().flat_map(join).collect()
+    })
+}
