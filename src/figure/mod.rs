@@ -38,6 +38,7 @@ mod paint;
 mod panel;
 mod phase_portrait;
 mod plane;
+pub mod plot;
 mod quantity;
 mod raster;
 mod registry;

@@ -29,6 +29,12 @@ impl Origin {
         }
     }
 
+    /// That of a figure of recordings: it tells no time of its own, so that the same recordings give the same bytes.
+    pub fn of_recordings() -> Origin {
+        let program = concat!("capsulemap ", env!("CARGO_PKG_VERSION")).to_owned();
+        Origin { program, study: None, time: provenance::fixed_time() }
+    }
+
     /// The time as a PDF holds it.
     pub fn of_pdf(&self) -> Option<DateTime> {
         let mut parts = self.time.as_deref()?.split(['-', 'T', ':', 'Z']).map(str::parse::<u16>);

@@ -77,6 +77,21 @@ impl Quantity {
         }
     }
 
+    /// A quantity that no file of results holds, by its label with its unit, as "Time (s)".
+    pub fn labelled(label: &str) -> Quantity {
+        Quantity {
+            key: label.to_owned(),
+            name: Text::tex(label),
+            symbol: String::new(),
+            unit: String::new(),
+            factor: 1.0,
+            whole: false,
+            noise: 0.0,
+            is_ratio: false,
+            chosen: Rc::default(),
+        }
+    }
+
     fn as_stored(name: &str, stored: Option<&Variable>) -> Quantity {
         let words = stored.map_or("", |variable| variable.long_name.as_str());
         let mut letters = if words.is_empty() { name } else { words }.chars();
