@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::store::catalogue::STUDY_TEXT;
 use crate::store::{self, Archive};
-use crate::study::Study;
+use crate::study::{Study, include};
 
 use super::error::CampaignError;
 
@@ -13,9 +13,17 @@ const HDF5: &[u8] = b"\x89HDF";
 
 /// The study in the file at `path`.
 ///
-/// Fails if the file cannot be read or is no text, and with all faults of the study at once.
+/// A parameter file that it includes is looked for beside it; the text of the study then has its values.
+///
+/// Fails if a file cannot be read or is no text, and with all faults of the study at once.
 pub fn read_study(path: &Path) -> Result<Study, CampaignError> {
-    Ok(Study::parse(&path.display().to_string(), &text(path)?)?)
+    let name = path.display().to_string();
+    let own = text(path)?;
+    let Some(file) = include::included(&own) else { return Ok(Study::parse(&name, &own)?) };
+    let values = text(&store::folder(path).join(&file))?;
+    let failed = |fault| CampaignError::Path { path: path.to_owned(), fault };
+    let whole = include::include(&own, &file, &values).map_err(failed)?;
+    Ok(Study::parse(&name, &whole.text).map_err(|faults| whole.as_written(faults))?)
 }
 
 /// The study in the file at `path`, which may be a file of results, too.

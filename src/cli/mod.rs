@@ -5,11 +5,16 @@ mod arguments;
 mod attractor_list;
 mod block_progress;
 mod branch_summary;
+mod compare;
 mod continuation;
 mod drawing;
 mod dry_run;
+mod experiment_figures;
 mod failure;
 mod figure;
+mod files;
+mod fit;
+mod identify;
 mod inspect;
 mod join;
 mod optima_text;
@@ -22,6 +27,7 @@ mod slurm;
 mod status;
 mod stop;
 mod summary;
+mod synthesize;
 mod sweep;
 mod terminal;
 mod tradeoff;
@@ -88,6 +94,14 @@ enum Command {
     Report(report::Report),
     /// Say what is in a file of results.
     Inspect(inspect::Inspect),
+    /// Find constants of a rig from recordings of simple tests.
+    Identify(identify::Identify),
+    /// Fit parameters to recorded histories of the motion.
+    Fit(fit::Fit),
+    /// Compare a recording with the simulation of the same case.
+    Compare(compare::Compare),
+    /// Make recordings of a rig from a simulation, with noise and sampling as stated.
+    Synthesize(synthesize::Synthesize),
     /// Print the completions of a shell.
     #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
@@ -114,6 +128,10 @@ pub fn main() -> ExitCode {
         Command::Tradeoff(tradeoff) => tradeoff.run(),
         Command::Report(report) => report.run(),
         Command::Inspect(inspect) => inspect.run(),
+        Command::Identify(identify) => identify.run(),
+        Command::Fit(fit) => fit.run(),
+        Command::Compare(compare) => compare.run(),
+        Command::Synthesize(synthesize) => synthesize.run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "capsulemap", &mut script);

@@ -49,7 +49,7 @@ pub struct Comparison {
     pub simulated_speed: f64,
     /// What the simulation settles to, and its period [cycles].
     pub outcome: (Outcome, u64),
-    /// Spikes of the acceleration per cycle, as recorded and as simulated and sampled alike, where it is recorded.
+    /// Spikes of the acceleration per cycle, over the whole cycles, as recorded and as simulated and sampled alike, where it is recorded.
     pub spikes: Option<[f64; 2]>,
     /// Impacts per cycle of the simulation.
     pub impacts: f64,
@@ -59,10 +59,13 @@ pub struct Comparison {
     pub motion: Started,
 }
 
+/// A signal that was measured, with its values [SI].
+pub type Measured = (Signal, Vec<f64>);
+
 /// The signals of a recording, which may have any of them, over the time from its first sample.
 ///
 /// Fails where it has none of r, x1, x2, a1.
-pub fn signals_of(recording: &Recording) -> Result<(Vec<f64>, Vec<(Signal, Vec<f64>)>), String> {
+pub fn signals_of(recording: &Recording) -> Result<(Vec<f64>, Vec<Measured>), String> {
     let times = recording.required("t");
     let times: Vec<f64> = times.iter().map(|time| time - times[0]).collect();
     let measured = [Signal::X2, Signal::R, Signal::X1, Signal::Y1, Signal::Y2, Signal::A1];
@@ -135,7 +138,12 @@ fn beside(
     let of = |signal: Signal| differences.iter().find(|it| it.signal == signal);
     let cycles = times[times.len() - 1] / period;
     let spikes = of(Signal::A1).map(|it| {
-        [&it.recorded, &it.simulated].map(|values| spikes(times, values).len() as f64 / cycles)
+        let whole = cycles.floor().max(1.0);
+        let counted = |values: &Vec<f64>| {
+            let within = spikes(times, values).into_iter().filter(|it| it.time < whole * period);
+            within.count() as f64 / whole
+        };
+        [counted(&it.recorded), counted(&it.simulated)]
     });
     Ok(Comparison {
         times: times.to_vec(),

@@ -12,8 +12,8 @@ use crate::capsule::{Parameter, Parameters, State};
 
 /// Relative local error of the steps of the simulation.
 const TOLERANCE: f64 = 1e-11;
-/// A velocity of the capsule this many standard errors from zero at the start is a motion.
-const MOVES: f64 = 5.0;
+/// A capsule that is taken to rest may add so many variances of the residuals to the sum of squares.
+const MOVES: f64 = 4.0;
 /// Standard deviations within which the start is looked for about its estimate from the record.
 const REACH: f64 = 60.0;
 /// A search ends where the sum of squares changes by less than this share.
@@ -97,7 +97,7 @@ struct Course<'r> {
 /// # Method
 ///
 /// Least squares of all samples, each divided by the noise of its signal (from third differences of the record). Unknowns
-/// besides the parameters are the start of each recording: r, y1, x2 and, where the capsule moves at the first sample, y2;
+/// besides the parameters are the start of each recording: r, y1, x2 and y2, unless a capsule at rest describes it as well;
 /// each is looked for about its estimate from the smoothed record. The derivatives are exact, through every impact, slip
 /// and stick ([`sampled`]). The search begins at several starts: the values at hand, and points of a Halton sequence within the
 /// bounds. Intervals are those of the profile likelihood, with the scatter estimated from the residuals.
@@ -114,23 +114,32 @@ pub fn fit_motion(
     free: &[Free],
     effort: &Effort,
 ) -> Result<MotionFit, String> {
-    let courses: Vec<Course<'_>> = recordings.iter().map(Course::new).collect::<Result<_, _>>()?;
-    let mut search = Search {
-        bounds: free.iter().map(|it| it.bounds).collect(),
-        loss: effort.loss,
-        patience: PATIENCE,
-        tolerance: CONVERGED,
-    };
-    search.bounds.extend(courses.iter().flat_map(|it| it.unknown.iter().map(|it| it.1)));
-    let model = |unknowns: &[f64]| residuals(&courses, free, unknowns);
+    let mut courses: Vec<Course<'_>> =
+        recordings.iter().map(Course::new).collect::<Result<_, _>>()?;
     let starts = starts(&courses, free, effort.starts);
+    let search = search(&courses, free, effort);
+    let model = |unknowns: &[f64]| residuals(&courses, free, unknowns);
     let fits = in_threads(&starts, effort.threads, |start| fit_once(&model, start, &search, 1.0));
     let found: Vec<Fit> =
         fits.into_iter().flatten().filter(|it| it.sum_of_squares.is_finite()).collect();
     let least = |a: &&Fit, b: &&Fit| a.sum_of_squares.total_cmp(&b.sum_of_squares);
     let best =
         found.iter().min_by(least).ok_or("the simulation cannot be followed from any start")?;
-    let same = |it: &&Fit| it.sum_of_squares <= best.sum_of_squares * (1.0 + 1e-4);
+    let same =
+        found.iter().filter(|it| it.sum_of_squares <= best.sum_of_squares * (1.0 + 1e-4)).count();
+    let best = at_rest(&mut courses, free, effort, best.clone());
+    Ok(outcome(&courses, free, effort, (&best, [same, starts.len()])))
+}
+
+/// What the best fit says: intervals, correlations and motions.
+fn outcome(
+    courses: &[Course<'_>],
+    free: &[Free],
+    effort: &Effort,
+    (best, starts): (&Fit, [usize; 2]),
+) -> MotionFit {
+    let search = search(courses, free, effort);
+    let model = |unknowns: &[f64]| residuals(courses, free, unknowns);
     let which: Vec<usize> = (0..free.len()).collect();
     let profiles =
         in_threads(&which, effort.threads, |&which| profile(&model, best, &search, which));
@@ -147,14 +156,52 @@ pub fn fit_motion(
     let correlation =
         |i: usize, j: usize| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
     let row = |i: usize| (0..free.len()).map(|j| correlation(i, j)).collect();
-    Ok(MotionFit {
+    MotionFit {
         fitted: fitted.collect(),
-        motions: motions(&courses, free, &best.parameters),
+        motions: motions(courses, free, &best.parameters),
         correlations: (0..free.len()).map(row).collect(),
         misfit: best.residual_deviation(),
         samples: best.degrees_of_freedom + best.parameters.len(),
-        starts: [found.iter().filter(same).count(), starts.len()],
-    })
+        starts,
+    }
+}
+
+fn search(courses: &[Course<'_>], free: &[Free], effort: &Effort) -> Search {
+    let of_starts = courses.iter().flat_map(|it| it.unknown.iter().map(|it| it.1));
+    Search {
+        bounds: free.iter().map(|it| it.bounds).chain(of_starts).collect(),
+        loss: effort.loss,
+        patience: PATIENCE,
+        tolerance: CONVERGED,
+    }
+}
+
+/// Takes the capsule to rest at the start of each recording that is described as well so; returns the fit that is left.
+///
+/// A capsule that rests has no velocity to be fitted, and one that is left free would stand for it in the errors of others.
+fn at_rest(courses: &mut [Course<'_>], free: &[Free], effort: &Effort, mut best: Fit) -> Fit {
+    for index in 0..courses.len() {
+        let before: usize = courses[..index].iter().map(|it| it.unknown.len()).sum();
+        let place = courses[index].unknown.iter().position(|it| it.0 == Direction::StartY2);
+        let Some(place) = place else { continue };
+        let moving = courses[index].unknown.remove(place);
+        let guess = courses[index].guess.clone();
+        courses[index].guess.start.y2 = 0.0;
+        let mut start = best.parameters.clone();
+        start.remove(free.len() + before + place);
+        let search = search(courses, free, effort);
+        let model = |unknowns: &[f64]| residuals(courses, free, unknowns);
+        let rests = fit_once(&model, &start, &search, 1.0);
+        let allowed = best.sum_of_squares * (1.0 + MOVES / best.degrees_of_freedom as f64);
+        match rests.filter(|it| it.sum_of_squares <= allowed) {
+            Some(rests) => best = rests,
+            None => {
+                courses[index].unknown.insert(place, moving);
+                courses[index].guess = guess;
+            }
+        }
+    }
+    best
 }
 
 impl<'r> Course<'r> {
@@ -180,8 +227,7 @@ impl<'r> Course<'r> {
         };
         // A capsule whose displacement is not recorded may be anywhere, and is taken to rest.
         let x2 = x2.unwrap_or_default();
-        let moves = x2.velocity.abs() > MOVES * x2.velocity_error && x2.velocity_error > 0.0;
-        let y2 = if moves { x2.velocity } else { 0.0 };
+        let y2 = x2.velocity;
         let start = State { r: r.value, y1: r.velocity + y2, x2: x2.value, y2 };
         let about = |value: f64, error: f64| Bounds {
             least: value - REACH * error,
@@ -194,8 +240,6 @@ impl<'r> Course<'r> {
         ];
         if x2.error > 0.0 {
             unknown.push((Direction::StartX2, about(x2.value, x2.error)));
-        }
-        if moves {
             unknown.push((Direction::StartY2, about(y2, x2.velocity_error)));
         }
         let guess =

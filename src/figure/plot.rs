@@ -32,6 +32,8 @@ pub enum Look {
     Record,
     /// What a model gives: a vermilion curve.
     Model,
+    /// A simulated signal over a recorded one: a dashed vermilion curve, through which the other is seen.
+    Simulated,
     /// What another model gives: a dashed green curve.
     Other,
     /// A level to compare with: a thin grey line.
@@ -42,7 +44,7 @@ impl Look {
     fn colour(self) -> RGBColor {
         match self {
             Look::Measured | Look::Record => BLUE,
-            Look::Model => VERMILION,
+            Look::Model | Look::Simulated => VERMILION,
             Look::Other => GREEN,
             Look::Reference => FAINT_INK,
         }
@@ -50,7 +52,8 @@ impl Look {
 
     fn stroke(self) -> Stroke {
         match self {
-            Look::Other => Stroke::dashed(self.colour(), CURVE_WIDTH),
+            Look::Record => Stroke::solid(self.colour(), 1.4 * CURVE_WIDTH),
+            Look::Other | Look::Simulated => Stroke::dashed(self.colour(), CURVE_WIDTH),
             Look::Reference => Stroke::solid(self.colour(), REFERENCE_WIDTH),
             _ => Stroke::solid(self.colour(), CURVE_WIDTH),
         }

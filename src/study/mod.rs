@@ -12,6 +12,7 @@ pub mod drawing;
 mod drawing_file;
 pub mod draws;
 pub mod grid;
+pub mod include;
 pub(crate) mod layout;
 mod refine_file;
 pub mod refinement;

@@ -1,0 +1,68 @@
+//! Reads the files of an experiment and writes new ones, of which none replaces a file that is there.
+
+use std::fs;
+use std::path::Path;
+
+use super::failure::Failure;
+use crate::capsule::{Dimension, parse_quantity};
+use crate::experiment::{Column, Presence, Recording, Signal};
+use crate::store;
+
+/// Rows that a recording of a motion must have.
+const LEAST_ROWS: usize = 16;
+
+/// The text of a file.
+pub fn text(path: &Path) -> Result<String, Failure> {
+    let shown = path.display();
+    let bytes = fs::read(path)
+        .map_err(|error| Failure::request(format!("{shown}: cannot be read: {error}")))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = valid.iter().filter(|byte| **byte == b'\n').count() + 1;
+        Failure::request(format!("{shown}: line {line}: is not text in UTF-8"))
+    })
+}
+
+/// The recording in a file, with the columns that are known.
+pub fn recording(path: &Path, known: &[Column], least: usize) -> Result<Recording, Failure> {
+    let name = path.display().to_string();
+    Recording::read(&name, &text(path)?, known, least).map_err(Failure::request)
+}
+
+/// The recording of a motion: times, and any of the signals.
+pub fn motion(path: &Path) -> Result<Recording, Failure> {
+    let optional = |name, dimension| Column { name, dimension, presence: Presence::Optional };
+    let times = Column { presence: Presence::Required, ..optional("t", Dimension::Time) };
+    let signals = Signal::ALL.map(|it| optional(it.name(), it.dimension()));
+    let current = optional("current", Dimension::Current);
+    let known: Vec<Column> = [times, current].into_iter().chain(signals).collect();
+    recording(path, &known, LEAST_ROWS)
+}
+
+/// Checks that nothing is in the place of a file to be written, unless it may be replaced.
+pub fn check_free(path: &Path, overwrite: bool) -> Result<(), Failure> {
+    if overwrite || !path.exists() {
+        return Ok(());
+    }
+    let shown = path.display();
+    Err(Failure::request(format!(
+        "{shown}: exists; name another --output, or replace it with --overwrite"
+    )))
+}
+
+/// Writes a file, complete or not at all; its folder is made.
+pub fn put(path: &Path, text: &str) -> Result<(), Failure> {
+    store::create_folder(store::folder(path))
+        .and_then(|()| store::put(path, text.as_bytes()))
+        .map_err(Failure::machine)
+}
+
+/// A quantity that an option was given, with its unit; a plain number where it has none.
+pub fn quantity(option: &str, text: &str, dimension: Dimension) -> Result<f64, String> {
+    let told = |fault: String| format!("{option}: {fault}");
+    let value = parse_quantity(text, dimension).map_err(told)?;
+    match value.is_finite() {
+        true => Ok(value),
+        false => Err(format!("{option}: {text} is not a finite number")),
+    }
+}

@@ -1,0 +1,277 @@
+//! `capsulemap identify`: the constants of a rig from its simple tests.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde_json::json;
+
+use super::experiment_figures::evidence_plot;
+use super::failure::Failure;
+use super::files;
+use super::terminal::print;
+use crate::capsule::{Dimension, Parameter};
+use crate::experiment::identification::{Evidence, parameter_file, remarks};
+use crate::experiment::{Given, Identified, Recording, Test, Verdict, identify};
+use crate::figure::plot::{Plot, draw_plot};
+use crate::figure::{Format, Place};
+
+const EXAMPLES: &str = "\
+Examples:
+  capsulemap identify rig --m1 \"0.11 kg\" --m2 \"0.53 kg\" --output rig/identified.toml
+  capsulemap identify --static-force spring.csv --output spring.toml
+
+FOLDER may hold free-vibration.csv, static-force.csv, pull.csv, coasting.csv and motor.csv; options name other files. A recording \
+is a CSV file whose header has names with units:
+
+  test            columns                  gives             needs
+  free-vibration  t [s], r [mm]            k1, c             --m1
+  static-force    force [N], deflection [mm]  k2
+  pull            pulled_mass [kg]         mu_s              --m1, --m2
+  coasting        v [m/s], d [mm]          mu_d, v_s
+  motor           current [A], force [N]   motor_constant
+
+Intervals hold the true value in 95 of 100 experiments. A study takes the values by include = \"FILE.toml\" at its top.";
+
+/// Find constants of a rig from recordings of simple tests.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Identify {
+    /// A folder with the recordings.
+    folder: Option<PathBuf>,
+    /// Free vibration of the mass on a capsule that is held: k1 and c.
+    #[arg(long, value_name = "CSV")]
+    free_vibration: Option<PathBuf>,
+    /// Deflection of the stop under weights: k2.
+    #[arg(long, value_name = "CSV")]
+    static_force: Option<PathBuf>,
+    /// Masses that just move the rig: mu_s.
+    #[arg(long, value_name = "CSV")]
+    pull: Option<PathBuf>,
+    /// Initial speeds and distances until rest: mu_d and v_s.
+    #[arg(long, value_name = "CSV")]
+    coasting: Option<PathBuf>,
+    /// Force of the motor over its current: the motor constant.
+    #[arg(long, value_name = "CSV")]
+    motor: Option<PathBuf>,
+    /// The internal mass, weighed.
+    #[arg(long, value_name = "MASS")]
+    m1: Option<String>,
+    /// The mass of the capsule, weighed.
+    #[arg(long, value_name = "MASS")]
+    m2: Option<String>,
+    /// Acceleration of gravity.
+    #[arg(long, value_name = "ACCELERATION", default_value = "9.81 m/s2")]
+    g: String,
+    /// The parameter file to write.
+    #[arg(long, value_name = "FILE.toml")]
+    output: Option<PathBuf>,
+    /// A folder for pictures of the fits, with their data.
+    #[arg(long, value_name = "FOLDER")]
+    figures: Option<PathBuf>,
+    /// Replace files that are there.
+    #[arg(long)]
+    overwrite: bool,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What was found in a recording.
+struct Found {
+    test: Test,
+    recording: Recording,
+    identified: Vec<Identified>,
+    evidence: Evidence,
+}
+
+impl Identify {
+    /// Carries the command out.
+    pub fn run(&self) -> Result<(), Failure> {
+        let files = self.files()?;
+        let given = self.given(&files)?;
+        if let Some(output) = &self.output {
+            files::check_free(output, self.overwrite)?;
+        }
+        let mut found = Vec::new();
+        let mut failures = Vec::new();
+        for (test, path) in files {
+            match read(test, &path, &given) {
+                Ok(it) => found.push(it),
+                Err(failure) => failures.push(failure),
+            }
+        }
+        if let Some(failure) = Failure::all(failures) {
+            return Err(failure);
+        }
+        let all: Vec<Identified> = found.iter().flat_map(|it| it.identified.clone()).collect();
+        let mut written = Vec::new();
+        if let Some(folder) = &self.figures {
+            written.extend(self.draw(&found, &given, folder)?);
+        }
+        if let Some(output) = &self.output {
+            files::put(output, &parameter_file(&all, &self.settings(&given)))?;
+            written.push(output.clone());
+        }
+        if self.json {
+            return print(&format!("{:#}\n", as_json(&all)));
+        }
+        let mut text = table(&all);
+        for remark in remarks(&all) {
+            text += &format!("note: {remark}\n");
+        }
+        for path in written {
+            text += &format!("{}\n", path.display());
+        }
+        print(&text)
+    }
+
+    /// The recordings that are named or in the folder.
+    fn files(&self) -> Result<Vec<(Test, PathBuf)>, Failure> {
+        let own =
+            [&self.free_vibration, &self.static_force, &self.pull, &self.coasting, &self.motor];
+        let of = |(test, own): (Test, &Option<PathBuf>)| {
+            let in_folder = self.folder.as_ref().map(|it| it.join(format!("{}.csv", test.name())));
+            Some((test, own.clone().or(in_folder.filter(|it| it.is_file()))?))
+        };
+        let files: Vec<_> = Test::ALL.into_iter().zip(own).filter_map(of).collect();
+        if !files.is_empty() {
+            return Ok(files);
+        }
+        let names = Test::ALL.map(|it| format!("{}.csv", it.name())).join(", ");
+        Err(Failure::request(match &self.folder {
+            Some(folder) => format!("{}: holds none of {names}", folder.display()),
+            None => format!(
+                "no recording is given; expected a folder with some of {names}, or an option for each"
+            ),
+        }))
+    }
+
+    /// Masses and gravity, of which those must be given that a test needs.
+    fn given(&self, files: &[(Test, PathBuf)]) -> Result<Given, Failure> {
+        let mut faults = Vec::new();
+        let mut read =
+            |option: &str, text: Option<&String>, parameter: Parameter, needs: &[Test]| {
+                let test = files.iter().find(|(test, _)| needs.contains(test));
+                match (text, test) {
+                    (Some(text), _) => match files::quantity(option, text, parameter.dimension()) {
+                        Ok(value) if value > 0.0 => return value,
+                        Ok(_) => faults.push(format!("{option}: {text} must be above zero")),
+                        Err(fault) => faults.push(fault),
+                    },
+                    (None, Some((test, path))) => faults.push(
+                        format!(
+                            "{option}: missing; {} needs the {}, as \"{} kg\"",
+                            path.display(),
+                            parameter.meaning(),
+                            if parameter == Parameter::M1 { 0.11 } else { 0.53 },
+                        ) + &format!(" ({} test)", test.name()),
+                    ),
+                    (None, None) => {}
+                }
+                f64::NAN
+            };
+        let m1 = read("--m1", self.m1.as_ref(), Parameter::M1, &[Test::FreeVibration, Test::Pull]);
+        let m2 = read("--m2", self.m2.as_ref(), Parameter::M2, &[Test::Pull]);
+        let g = read("--g", Some(&self.g), Parameter::G, &[]);
+        if faults.is_empty() { Ok(Given { m1, m2, g }) } else { Err(Failure::requests(&faults)) }
+    }
+
+    /// The parameters that were given, for the parameter file.
+    fn settings(&self, given: &Given) -> Vec<(Parameter, f64)> {
+        let all = [(Parameter::M1, given.m1), (Parameter::M2, given.m2), (Parameter::G, given.g)];
+        all.into_iter().filter(|(_, value)| value.is_finite()).collect()
+    }
+
+    fn draw(&self, found: &[Found], given: &Given, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+        let place =
+            Place { folder, formats: &[Format::Png, Format::Pdf], overwrite: self.overwrite };
+        let plots: Vec<Plot> = found
+            .iter()
+            .filter_map(|it| evidence_plot(it.test, &it.recording, &it.evidence, given))
+            .collect();
+        let mut paths = Vec::new();
+        for plot in plots {
+            paths.extend(draw_plot(&plot, &place).map_err(Failure::request)?.paths);
+        }
+        Ok(paths)
+    }
+}
+
+/// Reads a recording and identifies its constants.
+fn read(test: Test, path: &Path, given: &Given) -> Result<Found, Failure> {
+    let recording = files::recording(path, &test.columns(), test.least_rows())?;
+    let (identified, evidence) = identify(test, &recording, given)
+        .map_err(|why| Failure::request(format!("{}: {why}", path.display())))?;
+    Ok(Found { test, recording, identified, evidence })
+}
+
+/// A value in a unit, with as many digits as make sense beside its error.
+pub fn shown(value: f64, error: f64) -> String {
+    if !(error.is_finite() && error > 0.0) {
+        return format!("{value:.5}");
+    }
+    let digits = (1.0 - error.log10()).floor().clamp(0.0, 12.0) as usize;
+    format!("{value:.digits$}")
+}
+
+/// The unit as it stands behind a number; nothing for a plain number.
+pub fn unit(dimension: Dimension) -> String {
+    match dimension {
+        Dimension::Number => String::new(),
+        dimension => format!(" {}", dimension.unit()),
+    }
+}
+
+/// The constants, one per line, with notes below.
+fn table(all: &[Identified]) -> String {
+    let mut text = String::new();
+    for it in all {
+        let error = it.estimate.standard_error;
+        let value = |value: f64| shown(value, error);
+        let unit = unit(it.constant.dimension());
+        text += &format!(
+            "{:<15}{}{unit}, standard error {}, 95 %: {} to {}\n",
+            it.constant.symbol(),
+            value(it.estimate.value),
+            value(error),
+            value(it.estimate.interval[0]),
+            value(it.estimate.interval[1]),
+        );
+        text += &format!("{:<15}{}, {}\n", "", it.method, it.source);
+        if let Some((method, other)) = &it.other {
+            let (value, error) = (
+                shown(other.value, other.standard_error),
+                shown(other.standard_error, other.standard_error),
+            );
+            text += &format!("{:<15}{value}{unit}, standard error {error}, by {method}\n", "");
+        }
+        if it.verdict != Verdict::Determined {
+            text += &format!("{:<15}{}\n", "", it.verdict);
+        }
+        for note in &it.notes {
+            text += &format!("{:<15}warning: {note}\n", "");
+        }
+    }
+    text
+}
+
+fn as_json(all: &[Identified]) -> serde_json::Value {
+    let one = |it: &Identified| {
+        let other = it.other.map(|(method, other)| {
+            json!({ "method": method, "value": other.value, "standard_error": other.standard_error })
+        });
+        json!({
+            "name": it.constant.symbol(),
+            "unit": it.constant.dimension().unit(),
+            "value": it.estimate.value,
+            "standard_error": it.estimate.standard_error,
+            "interval_95": it.estimate.interval,
+            "verdict": it.verdict.to_string(),
+            "method": it.method,
+            "recording": it.source,
+            "other": other,
+            "notes": it.notes,
+        })
+    };
+    json!({ "identified": all.iter().map(one).collect::<Vec<_>>(), "notes": remarks(all) })
+}
