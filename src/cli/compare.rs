@@ -172,13 +172,13 @@ fn explained(comparison: &Comparison, it: &Explanation) -> String {
     let changed: Vec<String> = it
         .changed
         .iter()
-        .map(|(parameter, estimate)| {
+        .map(|(parameter, value)| {
             let old = comparison.motion.parameters[*parameter];
-            let change = 100.0 * (estimate.value / old - 1.0);
+            let change = 100.0 * (value / old - 1.0);
             format!(
                 "{} = {}{} ({change:+.1} %)",
                 parameter.symbol(),
-                shown(estimate.value, estimate.standard_error),
+                shown(*value, 1e-3 * value),
                 unit(parameter.dimension())
             )
         })
@@ -197,9 +197,10 @@ fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Value {
     let differences =
         it.differences.iter().map(|it| json!({ "signal": it.signal.name(), "error": it.error }));
     let explanation = |it: &Explanation| {
-        let changed = it.changed.iter().map(|(parameter, estimate)| {
-            json!({ "name": parameter.symbol(), "value": estimate.value, "interval_95": estimate.interval })
-        });
+        let changed = it
+            .changed
+            .iter()
+            .map(|(parameter, value)| json!({ "name": parameter.symbol(), "value": value }));
         json!({
             "changed": changed.collect::<Vec<_>>(),
             "misfit": it.misfit[1],

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use super::drive_phase::{Harmonic, harmonic};
 use super::estimate::Estimate;
 use super::line::line;
-use super::motion_fit::{Effort, Free, Recorded, fit_motion};
+use super::motion_fit::{Effort, Free, Recorded, best_values};
 use super::recording::{Recording, Sampling};
 use super::sampled::{Signal, Started, sampled};
-use super::spikes::spikes;
+use super::spikes::{Spike, spikes};
 use crate::capsule::{Case, Output, Parameter, Parameters, State, settle_case};
 use crate::orbit::{Outcome, Protocol};
 
@@ -138,12 +138,8 @@ fn beside(
     let of = |signal: Signal| differences.iter().find(|it| it.signal == signal);
     let cycles = times[times.len() - 1] / period;
     let spikes = of(Signal::A1).map(|it| {
-        let whole = cycles.floor().max(1.0);
-        let counted = |values: &Vec<f64>| {
-            let within = spikes(times, values).into_iter().filter(|it| it.time < whole * period);
-            within.count() as f64 / whole
-        };
-        [counted(&it.recorded), counted(&it.simulated)]
+        [&it.recorded, &it.simulated]
+            .map(|values| per_cycle(&spikes(times, values), period, cycles))
     });
     Ok(Comparison {
         times: times.to_vec(),
@@ -173,6 +169,19 @@ fn error(times: &[f64], recorded: &[f64], simulated: &[f64], advance: f64) -> f6
     (square / variance).sqrt()
 }
 
+/// Spikes per cycle, over as many whole cycles as follow the middle of the longest interval without one in the first two.
+///
+/// A window that begins there cuts no spike in half, which one that begins with the record may.
+fn per_cycle(spikes: &[Spike], period: f64, cycles: f64) -> f64 {
+    let early: Vec<f64> =
+        spikes.iter().map(|it| it.time).take_while(|time| *time < 2.0 * period).collect();
+    let longest = early.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+    let begins = longest.map_or(0.0, |pair| 0.5 * (pair[0] + pair[1]));
+    let whole = (cycles - begins / period).floor().max(1.0);
+    let is_within = |it: &&Spike| (begins..begins + whole * period).contains(&it.time);
+    spikes.iter().filter(is_within).count() as f64 / whole
+}
+
 /// The slope of the means of x2 over whole cycles of the drive; none for fewer than three.
 fn speed_of(times: &[f64], x2: &[f64], period: f64) -> Option<Estimate> {
     let cycle = |time: f64| (time / period).floor();
@@ -193,8 +202,8 @@ fn speed_of(times: &[f64], x2: &[f64], period: f64) -> Option<Estimate> {
 /// What parameters would have to be for the simulation to describe a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Explanation {
-    /// The parameters that were free, with their values and intervals (SI).
-    pub changed: Vec<(Parameter, Estimate)>,
+    /// The parameters that were free, with their values (SI).
+    pub changed: Vec<(Parameter, f64)>,
     /// Standard deviation of the residuals in units of the noise, without and with the change.
     pub misfit: [f64; 2],
     /// Impacts per cycle with the change.
@@ -225,19 +234,21 @@ pub fn explain(
         phase: comparison.phase,
         signals: comparison.differences.iter().map(cut).collect(),
     };
-    let without =
-        fit_motion(std::slice::from_ref(&recorded), &[], &Effort { starts: 1, ..*effort })?;
+    let recorded = [recorded];
+    let (_, without) = best_values(&recorded, &[], &Effort { starts: 1, ..*effort })?;
     let explanation = |free: &Vec<Free>| {
-        let fit = fit_motion(std::slice::from_ref(&recorded), free, effort)?;
-        let mut changed = parameters.clone();
-        for fitted in &fit.fitted {
-            changed[fitted.parameter] = fitted.estimate.value;
+        let (values, with) = best_values(&recorded, free, effort)?;
+        let changed: Vec<(Parameter, f64)> =
+            free.iter().map(|it| it.parameter).zip(values).collect();
+        let mut parameters = parameters.clone();
+        for (parameter, value) in &changed {
+            parameters[*parameter] = *value;
         }
-        let case = Case::at_section(changed, State::default(), comparison.phase);
+        let case = Case::at_section(parameters, State::default(), comparison.phase);
         let orbit = settle_case(&case, &Protocol::default());
         Ok(Explanation {
-            changed: fit.fitted.iter().map(|it| (it.parameter, it.estimate)).collect(),
-            misfit: [without.misfit, fit.misfit],
+            changed,
+            misfit: [without, with],
             impacts: orbit.outputs[Output::ImpactsPerCycle],
             speed: orbit.outputs[Output::ProgressionSpeed],
         })

@@ -114,6 +114,58 @@ pub fn fit_motion(
     free: &[Free],
     effort: &Effort,
 ) -> Result<MotionFit, String> {
+    let Best { courses, fit, starts } = best(recordings, free, effort)?;
+    let search = search(&courses, free, effort);
+    let model = |unknowns: &[f64]| residuals(&courses, free, unknowns);
+    let which: Vec<usize> = (0..free.len()).collect();
+    let profiles =
+        in_threads(&which, effort.threads, |&which| profile(&model, &fit, &search, which));
+    let fitted = free.iter().zip(profiles).enumerate().map(|(i, (free, profile))| Fitted {
+        parameter: free.parameter,
+        estimate: Estimate {
+            value: fit.parameters[i],
+            standard_error: fit.standard_error(i),
+            interval: profile.interval,
+        },
+        verdict: profile.verdict(),
+    });
+    let covariance = &fit.unit_covariance;
+    let correlation =
+        |i: usize, j: usize| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+    let row = |i: usize| (0..free.len()).map(|j| correlation(i, j)).collect();
+    Ok(MotionFit {
+        fitted: fitted.collect(),
+        motions: motions(&courses, free, &fit.parameters),
+        correlations: (0..free.len()).map(row).collect(),
+        misfit: fit.residual_deviation(),
+        samples: fit.degrees_of_freedom + fit.parameters.len(),
+        starts,
+    })
+}
+
+/// The best values of the parameters alone, without intervals, and the standard deviation of the residuals in units of the
+/// noise; see [`fit_motion`].
+pub fn best_values(
+    recordings: &[Recorded],
+    free: &[Free],
+    effort: &Effort,
+) -> Result<(Vec<f64>, f64), String> {
+    let Best { fit, .. } = best(recordings, free, effort)?;
+    Ok((fit.parameters[..free.len()].to_vec(), fit.residual_deviation()))
+}
+
+/// The best fit, with what is unknown in it, and how many of the starts led there.
+struct Best<'r> {
+    courses: Vec<Course<'r>>,
+    fit: Fit,
+    starts: [usize; 2],
+}
+
+fn best<'r>(
+    recordings: &'r [Recorded],
+    free: &[Free],
+    effort: &Effort,
+) -> Result<Best<'r>, String> {
     let mut courses: Vec<Course<'_>> =
         recordings.iter().map(Course::new).collect::<Result<_, _>>()?;
     let starts = starts(&courses, free, effort.starts);
@@ -127,43 +179,8 @@ pub fn fit_motion(
         found.iter().min_by(least).ok_or("the simulation cannot be followed from any start")?;
     let same =
         found.iter().filter(|it| it.sum_of_squares <= best.sum_of_squares * (1.0 + 1e-4)).count();
-    let best = at_rest(&mut courses, free, effort, best.clone());
-    Ok(outcome(&courses, free, effort, (&best, [same, starts.len()])))
-}
-
-/// What the best fit says: intervals, correlations and motions.
-fn outcome(
-    courses: &[Course<'_>],
-    free: &[Free],
-    effort: &Effort,
-    (best, starts): (&Fit, [usize; 2]),
-) -> MotionFit {
-    let search = search(courses, free, effort);
-    let model = |unknowns: &[f64]| residuals(courses, free, unknowns);
-    let which: Vec<usize> = (0..free.len()).collect();
-    let profiles =
-        in_threads(&which, effort.threads, |&which| profile(&model, best, &search, which));
-    let fitted = free.iter().zip(profiles).enumerate().map(|(i, (free, profile))| Fitted {
-        parameter: free.parameter,
-        estimate: Estimate {
-            value: best.parameters[i],
-            standard_error: best.standard_error(i),
-            interval: profile.interval,
-        },
-        verdict: profile.verdict(),
-    });
-    let covariance = &best.unit_covariance;
-    let correlation =
-        |i: usize, j: usize| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
-    let row = |i: usize| (0..free.len()).map(|j| correlation(i, j)).collect();
-    MotionFit {
-        fitted: fitted.collect(),
-        motions: motions(courses, free, &best.parameters),
-        correlations: (0..free.len()).map(row).collect(),
-        misfit: best.residual_deviation(),
-        samples: best.degrees_of_freedom + best.parameters.len(),
-        starts,
-    }
+    let fit = at_rest(&mut courses, free, effort, best.clone());
+    Ok(Best { courses, fit, starts: [same, starts.len()] })
 }
 
 fn search(courses: &[Course<'_>], free: &[Free], effort: &Effort) -> Search {

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use capsulemap::capsule::Parameter;
+use capsulemap::capsule::{Parameter, parse_quantity};
 use capsulemap::store;
 use capsulemap::study::{DrawingKind, Study};
 
