@@ -142,7 +142,11 @@ fn told_of(it: &Comparison) -> String {
         (Outcome::Periodic, period) => format!("periodic, period {period}"),
         (other, _) => format!("{}: histories need not agree, only speeds and counts", other.name()),
     };
-    text += &format!("simulation:   {period}\n");
+    let recorded = match it.recorded_period {
+        Some(period) => format!("period {period}"),
+        None => "no period up to 8".to_owned(),
+    };
+    text += &format!("motion:       {recorded} recorded; {period} simulated\n");
     if let Some(speed) = &it.recorded_speed {
         text += &format!(
             "speed:        {} mm/s recorded (standard error {}), {:.4} mm/s simulated\n",
@@ -215,6 +219,7 @@ fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Value {
         "cycles": it.cycles,
         "omega_recorded": it.drive.as_ref().map(|it| it.omega.value),
         "phase": it.phase,
+        "period_recorded": it.recorded_period,
         "outcome": it.outcome.0.name(),
         "period": it.outcome.1,
         "speed_recorded": it.recorded_speed.map(|it| it.value),

@@ -234,6 +234,14 @@ fn table(fit: &MotionFit) -> String {
          here\n",
         fit.misfit, fit.samples
     );
+    if fit
+        .motions
+        .iter()
+        .any(|it| it.parameters.drag().static_limit < it.parameters.drag().at_onset)
+        && fit.fitted.iter().any(|it| it.parameter == Parameter::MuS)
+    {
+        text += "note: mu_s below 2 mu_d has no effect; the capsule breaks away at 2 mu_d\n";
+    }
     if fit.misfit > 1.5 {
         text += "warning: the model does not describe the records to their noise; errors are those of the best fit, not of the truth\n";
     }

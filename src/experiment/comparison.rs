@@ -2,10 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use super::course::Recorded;
 use super::drive_phase::{Harmonic, harmonic};
 use super::estimate::Estimate;
+use super::free_vibration::noise;
 use super::line::line;
-use super::motion_fit::{Effort, Free, Recorded, best_values};
+use super::motion_fit::{Effort, Free, best_values};
 use super::recording::{Recording, Sampling};
 use super::sampled::{Signal, Started, sampled};
 use super::spikes::{Spike, spikes};
@@ -14,6 +16,10 @@ use crate::orbit::{Outcome, Protocol};
 
 /// Relative local error of the steps of the simulation.
 const TOLERANCE: f64 = 1e-12;
+/// The longest period that is looked for in a record [cycles].
+const LONGEST: u64 = 8;
+/// Signals that repeat themselves with the motion, the best first.
+const REPEATING: [Signal; 4] = [Signal::R, Signal::A1, Signal::Y1, Signal::Y2];
 /// Phases that are tried where the drive is not recorded.
 const PHASES: usize = 72;
 
@@ -49,6 +55,8 @@ pub struct Comparison {
     pub simulated_speed: f64,
     /// What the simulation settles to, and its period [cycles].
     pub outcome: (Outcome, u64),
+    /// The period of the record [cycles]; none where no period up to eight is seen, or nothing that repeats is recorded.
+    pub recorded_period: Option<u64>,
     /// Spikes of the acceleration per cycle, over the whole cycles, as recorded and as simulated and sampled alike, where it is recorded.
     pub spikes: Option<[f64; 2]>,
     /// Impacts per cycle of the simulation.
@@ -141,6 +149,7 @@ fn beside(
         [&it.recorded, &it.simulated]
             .map(|values| per_cycle(&spikes(times, values), period, cycles))
     });
+    let repeating = REPEATING.into_iter().find_map(of);
     Ok(Comparison {
         times: times.to_vec(),
         sampling: recording.sampling(),
@@ -150,6 +159,7 @@ fn beside(
         recorded_speed: of(Signal::X2).and_then(|it| speed_of(times, &it.recorded, period)),
         simulated_speed: speed,
         outcome: (orbit.outcome, orbit.period),
+        recorded_period: repeating.and_then(|it| period_of(times, &it.recorded, period)),
         spikes,
         impacts: orbit.outputs[Output::ImpactsPerCycle],
         differences,
@@ -167,6 +177,34 @@ fn error(times: &[f64], recorded: &[f64], simulated: &[f64], advance: f64) -> f6
     let square =
         recorded.iter().zip(simulated).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() / count;
     (square / variance).sqrt()
+}
+
+/// The fewest cycles after which a record repeats itself, up to [`LONGEST`]; none where it does not, or is too short.
+///
+/// Method: the record is compared with itself so many cycles later, by interpolation between samples. It repeats where the root
+/// mean square of the difference is below three times what the noise alone gives, or a fiftieth of the record's standard
+/// deviation.
+fn period_of(times: &[f64], values: &[f64], cycle: f64) -> Option<u64> {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let deviation =
+        (values.iter().map(|it| (it - mean).powi(2)).sum::<f64>() / values.len() as f64).sqrt();
+    let allowed = (3.0 * std::f64::consts::SQRT_2 * noise(values)).max(0.02 * deviation);
+    let later = |time: f64| {
+        let after = times.partition_point(|it| *it < time).max(1);
+        let (a, b) = (after - 1, after);
+        let share = (time - times[a]) / (times[b] - times[a]);
+        values[a] + share * (values[b] - values[a])
+    };
+    (1..=LONGEST).find(|&count| {
+        let shift = count as f64 * cycle;
+        let last = times[times.len() - 1];
+        let pairs = times.iter().zip(values).filter(|(time, _)| **time + shift <= last);
+        let squares: Vec<f64> =
+            pairs.map(|(time, value)| (later(time + shift) - value).powi(2)).collect();
+        // A comparison over less than a cycle would say nothing.
+        let is_long = last - shift >= cycle;
+        is_long && (squares.iter().sum::<f64>() / squares.len() as f64).sqrt() < allowed
+    })
 }
 
 /// Spikes per cycle, over as many whole cycles as follow the middle of the longest interval without one in the first two.
@@ -254,4 +292,27 @@ pub fn explain(
         })
     };
     choices.iter().map(explanation).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn periods_of_records_are_found() {
+        let times: Vec<f64> = (0..2000).map(|i| 1e-3 * f64::from(i)).collect();
+        let noise = |i: usize| 0.01 * ((i * i * 31 % 101) as f64 / 50.0 - 1.0);
+        let record = |of: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            times.iter().enumerate().map(|(i, t)| of(*t) + noise(i)).collect()
+        };
+        let cycle = 0.11;
+        let wave = |t: f64| (TAU * t / cycle).cos();
+        assert_eq!(period_of(&times, &record(&wave), cycle), Some(1));
+        let third = |t: f64| wave(t) + 0.2 * (TAU * t / (3.0 * cycle)).sin();
+        assert_eq!(period_of(&times, &record(&third), cycle), Some(3));
+        let never = |t: f64| {
+            wave(t) + 0.3 * (TAU * t / (2f64.sqrt() * cycle)).sin() + 0.3 * (5.0 * t * t).sin()
+        };
+        assert_eq!(period_of(&times, &record(&never), cycle), None);
+    }
 }

@@ -1,4 +1,4 @@
-//! Stiffness and damping from the free vibration of the mass, in two ways.
+//! Stiffness and damping from the free vibration of the mass, in two methods.
 
 use super::estimate::Estimate;
 use super::least_squares::{Residuals, Search, fit};
@@ -28,7 +28,7 @@ pub struct FreeVibration {
     pub begins: f64,
     /// Amplitudes of cos and sin of the fitted decay from there [m].
     pub amplitudes: [f64; 2],
-    /// Turning points that the first way uses.
+    /// Turning points that the first method uses.
     pub turns: usize,
 }
 
@@ -40,7 +40,7 @@ impl FreeVibration {
         decay(m1, &parameters, time - self.begins).0
     }
 
-    /// How far the two ways differ in stiffness and in damping, in standard errors of the first.
+    /// How far the two methods differ in stiffness and in damping, in standard errors of the first.
     pub fn disagreement(&self) -> [f64; 2] {
         [0, 1].map(|i| {
             let (first, second) = (self.by_decrement[i], self.by_decay[i]);
@@ -54,9 +54,9 @@ impl FreeVibration {
 ///
 /// # Method
 ///
-/// The first way is the paper's: with half a period D between turning points whose heights fall by the factor q,
+/// The first method is the paper's: with half a period D between turning points whose heights fall by the factor q,
 /// `gamma = -ln(q)/D`, `omega_d = pi/D`, `k1 = m1 (omega_d^2 + gamma^2)`, `c = 2 m1 gamma`. D and q come from straight
-/// lines through the times and the logarithms of the heights of the turning points of the smoothed record. The second way
+/// lines through the times and the logarithms of the heights of the turning points of the smoothed record. The second method
 /// is the least squares of `r = rest + exp(-gamma t) (a cos(omega_d t) + b sin(omega_d t))` on every sample after the
 /// mass has first passed its rest position; it uses all of the decay and is the better one.
 ///

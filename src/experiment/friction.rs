@@ -22,7 +22,7 @@ pub struct CoastingTests<'a> {
     pub g: f64,
 }
 
-/// The dynamic friction coefficient and the Stribeck velocity by one way.
+/// The dynamic friction coefficient and the Stribeck velocity by one method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stribeck {
     /// The dynamic friction coefficient.
@@ -40,7 +40,7 @@ pub struct Stribeck {
 pub struct Coasting {
     /// `v^2/(2 g d)` of each test, Eq. (2) of the paper.
     pub coefficients: Vec<f64>,
-    /// By the law at the initial speeds, through those coefficients: the paper's way.
+    /// By the law at the initial speeds, through those coefficients: the paper's method.
     pub by_initial_speed: Stribeck,
     /// By the distances of a capsule that slows down under the law: without the first one's bias.
     pub by_coast_down: Stribeck,
@@ -51,13 +51,13 @@ const MU_D: Bounds = Bounds { least: 1e-4, greatest: 5.0 };
 /// The same of the Stribeck velocity [m/s].
 const V_S: Bounds = Bounds { least: 1e-4, greatest: 100.0 };
 
-/// The Coulomb-Stribeck law `mu_d (1 + exp(-|v|/v_s))` from coasting tests, in two ways.
+/// The Coulomb-Stribeck law `mu_d (1 + exp(-|v|/v_s))` from coasting tests, in two methods.
 ///
 /// # Method
 ///
 /// Eq. (2) of the paper, `mu_d (m1 + m2) g d = (m1 + m2) v^2/2`, gives a coefficient for each test, as if friction did not
-/// depend on speed. The first way fits the law at the initial speeds to these coefficients. As a capsule that slows down
-/// meets more friction than at its initial speed, that is biased. The second way fits the distance that it slides,
+/// depend on speed. The first method fits the law at the initial speeds to these coefficients. As a capsule that slows down
+/// meets more friction than at its initial speed, that is biased. The second method fits the distance that it slides,
 /// `d = v_s^2/(mu_d g) G(v/v_s)` with `G(z)` the integral of `u/(1 + exp(-u))` from 0 to z. Both fit logarithms, so errors of speed and distance
 /// are taken to be relative and equal. The intervals are those of the profile likelihood.
 ///
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_tests_give_the_law_and_the_papers_way_is_biased() {
+    fn exact_tests_give_the_law_and_the_method_of_the_paper_is_biased() {
         let speeds = [0.1, 0.2, 0.4, 0.6, 0.9, 1.3];
         let distances = speeds.map(|v| coast_down(v, 0.33, 0.3, 9.81).0);
         let tests = CoastingTests { speeds: &speeds, distances: &distances, g: 9.81 };

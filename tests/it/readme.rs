@@ -79,6 +79,30 @@ fn the_case_of_the_readme_is_the_one_of_fig_6() {
     assert_eq!(format!("{:.6}", speed * 1e3), "0.255748");
 }
 
+#[test]
+fn the_experiment_of_the_readme_finds_its_rig() {
+    let folder = clone();
+    let said: Vec<String> = blocks("bash")[0]
+        .lines()
+        .map(|line| {
+            let words = split(line);
+            let words: Vec<&str> = words.iter().skip(1).map(String::as_str).collect();
+            capsulemap(&words, folder.path())
+        })
+        .collect();
+    assert_eq!(said.len(), 4);
+    assert!(said[1].contains("k2 ") && said[1].contains("v_s "), "{}", said[1]);
+    assert!(said[2].contains("mu_s  not determined by these data"), "{}", said[2]);
+    assert!(
+        said[3].contains("1.00 spikes of a1 per cycle recorded, 1.00 simulated"),
+        "{}",
+        said[3]
+    );
+    for picture in ["comparison.png", "comparison.pdf", "comparison.csv", "figures/coasting.png"] {
+        assert!(folder.path().join("rig").join(picture).is_file(), "{picture}");
+    }
+}
+
 /// A command line as a shell would split it, quotes being all that it has.
 fn split(line: &str) -> Vec<String> {
     let parts = line.split('"').enumerate();

@@ -1,0 +1,296 @@
+//! Reads recordings from CSV, and finds every fault with its line.
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+use super::recording::{Column, Presence, Recording, RecordingFaults};
+use crate::capsule::Dimension;
+use crate::capsule::quantity::{expectation, unit};
+
+impl Recording {
+    /// Reads the columns that are `known` from the text of a file; other columns are left out. Where `known` has a
+    /// column of times, they must increase. Lines that begin with `#` are comments.
+    ///
+    /// Fails with all faults at once: a column that is missing, is given twice or has another unit than its dimension
+    /// allows, a cell that is not a finite number, a row of another length, times that do not increase, fewer than `least`
+    /// rows.
+    pub fn read(
+        source: &str,
+        text: &str,
+        known: &[Column],
+        least: usize,
+    ) -> Result<Recording, RecordingFaults> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut reading = Reading { faults: Vec::new(), known, text };
+        let recording = reading.recording(source, least);
+        match reading.faults.is_empty() {
+            true => Ok(recording),
+            false => Err(RecordingFaults { source: source.to_owned(), faults: reading.faults }),
+        }
+    }
+}
+
+/// A column of the file: which of the known ones, its place in a row, and the size of its unit.
+struct Found {
+    column: Column,
+    place: usize,
+    size: f64,
+}
+
+struct Reading<'k> {
+    faults: Vec<(Option<u64>, String)>,
+    known: &'k [Column],
+    text: &'k str,
+}
+
+impl Reading<'_> {
+    /// Notes a fault of the row at this byte.
+    fn fault(&mut self, at: u64, message: String) {
+        self.faults.push((Some(self.line(at)), message));
+    }
+
+    /// The line of the row at this byte, before which the reader may have left out lines.
+    fn line(&self, at: u64) -> u64 {
+        let (before, after) = self.text.split_at(at as usize);
+        let is_left_out = |line: &&str| line.trim().is_empty() || line.starts_with('#');
+        let left_out = after.lines().take_while(is_left_out).count();
+        (before.matches('\n').count() + left_out + 1) as u64
+    }
+
+    fn recording(&mut self, source: &str, least: usize) -> Recording {
+        let text = self.text;
+        let mut reader = ReaderBuilder::new()
+            .delimiter(delimiter(text))
+            .comment(Some(b'#'))
+            .flexible(true)
+            .trim(Trim::All)
+            .has_headers(false)
+            .from_reader(text.as_bytes());
+        let mut records = reader.records().map_while(Result::ok);
+        let header = records.next().unwrap_or_default();
+        let found = self.header(&header);
+        let mut columns: Vec<_> = found.iter().map(|it| (it.column, Vec::new())).collect();
+        let mut places = Vec::new();
+        for record in records {
+            let at = place_of(&record);
+            places.push(at);
+            if record.len() != header.len() {
+                self.fault(at, row_length(&record, header.len()));
+                continue;
+            }
+            for (found, (_, values)) in found.iter().zip(&mut columns) {
+                match number(&record[found.place]) {
+                    Ok(value) => values.push(value * found.size),
+                    Err(why) => self.fault(at, format!("{}: {why}", found.column.name)),
+                }
+            }
+        }
+        let recording = Recording { source: source.to_owned(), columns, rows: places.len() };
+        if self.faults.is_empty() {
+            self.rows(&recording, &places, least);
+        }
+        recording
+    }
+
+    /// The known columns of a header.
+    fn header(&mut self, header: &StringRecord) -> Vec<Found> {
+        let at = place_of(header);
+        let mut all: Vec<Found> = Vec::new();
+        for (place, cell) in header.iter().enumerate() {
+            let (name, its_unit) = name_and_unit(cell);
+            let Some(&column) = self.known.iter().find(|column| column.name == name) else {
+                continue;
+            };
+            if all.iter().any(|found| found.column == column) {
+                self.fault(at, format!("the column {name} stands twice"));
+            }
+            match unit(its_unit, column.dimension) {
+                Some((_, size)) => all.push(Found { column, place, size }),
+                None => {
+                    let expected = expectation(column.dimension);
+                    self.fault(
+                        at,
+                        format!("\"{cell}\": expected {expected}, as {}", example(column)),
+                    );
+                    all.push(Found { column, place, size: 1.0 });
+                }
+            }
+        }
+        for column in self.known {
+            let is_there = all.iter().any(|found| found.column == *column);
+            if !is_there && column.presence == Presence::Required {
+                let columns: Vec<&str> = header.iter().collect();
+                let (name, example) = (column.name, example(*column));
+                let found = match columns.as_slice() {
+                    [] => "the file is empty".to_owned(),
+                    columns => format!("the columns are {}", columns.join(", ")),
+                };
+                self.fault(at, format!("no column {name}; expected {example}; {found}"));
+            }
+        }
+        all
+    }
+
+    /// What is asked of all rows together.
+    fn rows(&mut self, recording: &Recording, places: &[u64], least: usize) {
+        if recording.rows() < least {
+            let message =
+                format!("{} rows of numbers; at least {least} are needed", recording.rows());
+            self.faults.push((None, message));
+        }
+        let Some(times) = recording.column("t") else { return };
+        for (i, pair) in times.windows(2).enumerate() {
+            if pair[1] <= pair[0] {
+                let before = self.line(places[i]);
+                let message = format!(
+                    "t = {} s does not come after {} s in line {before}; times must increase",
+                    pair[1], pair[0]
+                );
+                self.fault(places[i + 1], message);
+            }
+        }
+    }
+}
+
+/// The byte at which the reader began to look for a row.
+fn place_of(record: &StringRecord) -> u64 {
+    record.position().map_or(0, csv::Position::byte)
+}
+
+/// What separates the cells of the first line that is no comment: the commonest of semicolon, tab and comma, in this order
+/// where they are equally many.
+fn delimiter(text: &str) -> u8 {
+    let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty());
+    let count = |it: &u8| header.map_or(0, |line| line.bytes().filter(|byte| byte == it).count());
+    [b',', b'\t', b';'].into_iter().max_by_key(count).unwrap_or(b',')
+}
+
+/// The name and the unit of a column, written "name [unit]", "name (unit)", "name in unit" or "name / unit".
+fn name_and_unit(cell: &str) -> (&str, &str) {
+    for (open, close) in [(" [", "]"), ("[", "]"), (" (", ")"), ("(", ")"), (" in ", ""), ("/", "")]
+    {
+        if let Some((name, rest)) = cell.split_once(open)
+            && let Some(unit) = rest.trim_end().strip_suffix(close)
+        {
+            return (name.trim(), unit.trim());
+        }
+    }
+    (cell, "")
+}
+
+/// How a column may stand in a header.
+fn example(column: Column) -> String {
+    match column.dimension {
+        Dimension::Number => format!("\"{}\"", column.name),
+        dimension => format!("\"{} [{}]\"", column.name, dimension.unit()),
+    }
+}
+
+/// Why a row cannot be read that has another number of cells than the header.
+fn row_length(record: &StringRecord, expected: usize) -> String {
+    let hint = match record.len() > expected {
+        true => "; a number has a decimal point, not a comma",
+        false => "",
+    };
+    format!("{} cells, but the header has {expected}{hint}", record.len())
+}
+
+/// The finite number in a cell.
+fn number(cell: &str) -> Result<f64, String> {
+    match cell.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err(format!(
+            "\"{cell}\" is not a finite number; a row that lacks a value must be left out"
+        )),
+        Err(_) if cell.is_empty() => {
+            Err("has no value; a row that lacks a value must be left out".to_owned())
+        }
+        Err(_) if cell.replace(',', ".").parse::<f64>().is_ok() => {
+            Err(format!("\"{cell}\" has a decimal comma; expected a decimal point"))
+        }
+        Err(_) => Err(format!("\"{cell}\" is not a number")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const KNOWN: [Column; 3] = [
+        Column { name: "t", dimension: Dimension::Time, presence: Presence::Required },
+        Column { name: "x2", dimension: Dimension::Length, presence: Presence::Required },
+        Column { name: "r", dimension: Dimension::Length, presence: Presence::Optional },
+    ];
+
+    fn read(text: &str) -> Result<Recording, RecordingFaults> {
+        Recording::read("rig.csv", text, &KNOWN, 2)
+    }
+
+    #[test]
+    fn columns_are_read_in_their_units() {
+        for text in [
+            "# rig 3\nt [ms],note,x2 [mm]\n0,1,2.5\n1,2,3.5\n",
+            "t (ms);note;x2 (mm)\n0;1;2.5\n1;2;3.5\n",
+            "\u{feff}t/ms\tnote\tx2 / mm\r\n0\t1\t2.5\r\n1\t2\t3.5\r\n",
+            "x2 in mm, t in ms\n 2.5, 0\n\n3.5, 1",
+        ] {
+            let recording = read(text).expect(text);
+            assert_eq!(recording.required("x2"), [2.5 * 1e-3, 3.5 * 1e-3], "{text}");
+            assert_eq!(recording.required("t"), [0.0, 1e-3], "{text}");
+            assert_eq!(recording.column("r"), None);
+        }
+    }
+
+    #[test]
+    fn faults_have_their_lines() {
+        for (text, line, message) in [
+            ("t [s],x2 [V]\n0,1\n1,2\n", Some(1), "\"x2 [V]\": expected a length in m, mm"),
+            ("t [s],x2\n0,1\n1,2\n", Some(1), "\"x2\": expected a length in m"),
+            (
+                "t [s],r [m]\n0,1\n1,2\n",
+                Some(1),
+                "no column x2; expected \"x2 [m]\"; the columns are t [s], r [m]",
+            ),
+            ("t [s],x2 [m]\n0,1\n1,NaN\n", Some(3), "x2: \"NaN\" is not a finite number"),
+            ("t [s],x2 [m]\n0,1\n# pause\n1,\n", Some(4), "x2: has no value"),
+            ("t [s],x2 [m]\n0,1\n0.5,one\n", Some(3), "x2: \"one\" is not a number"),
+            ("t [s];x2 [m]\n0;1\n0,5;2\n", Some(3), "t: \"0,5\" has a decimal comma"),
+            (
+                "t [s],x2 [m]\n0,1\n0,5,2\n",
+                Some(3),
+                "3 cells, but the header has 2; a number has a decimal point",
+            ),
+            ("t [s],x2 [m]\n0,1\n1\n", Some(3), "1 cells, but the header has 2"),
+            ("t [s],x2 [m]\n0,1\n0,2\n", Some(3), "t = 0 s does not come after 0 s in line 2"),
+            ("t [s],x2 [m]\n0,1\n", None, "1 rows of numbers; at least 2 are needed"),
+            ("t [s],t [s],x2 [m]\n0,0,1\n1,1,2\n", Some(1), "the column t stands twice"),
+            ("", Some(1), "no column t; expected \"t [s]\"; the file is empty"),
+        ] {
+            let faults = read(text).expect_err(text);
+            let is_told =
+                |(its, told): &(Option<u64>, String)| *its == line && told.starts_with(message);
+            assert!(faults.faults.iter().any(is_told), "{text}: {faults}");
+        }
+    }
+
+    #[test]
+    fn all_faults_are_told_at_once() {
+        let faults = read("t [s],x2 [V]\nx,1\n1,y\n").expect_err("faults");
+        assert_eq!(faults.faults.len(), 3, "{faults}");
+        assert!(faults.to_string().starts_with("rig.csv: 3 faults\n  line 1: \"x2 [V]\""));
+    }
+
+    #[test]
+    fn gaps_and_uneven_times_are_told() {
+        let text = |times: &[f64]| {
+            let rows: Vec<String> = times.iter().map(|t| format!("{t},0")).collect();
+            format!("t [s],x2 [m]\n{}\n", rows.join("\n"))
+        };
+        let sampling = |times: &[f64]| read(&text(times)).expect("readable").sampling();
+        let even = sampling(&[0.0, 0.1, 0.2, 0.3]);
+        assert!(even.is_even && even.gaps.is_empty() && (even.interval - 0.1).abs() < 1e-12);
+        let gap = sampling(&[0.0, 0.1, 0.2, 0.5, 0.6]);
+        assert!(gap.is_even && gap.gaps.len() == 1, "{gap}");
+        assert!(gap.to_string().contains("a gap of 0.3000 s at t = 0.200000 s"), "{gap}");
+        assert!(!sampling(&[0.0, 0.1, 0.22, 0.3]).is_even);
+    }
+}
