@@ -14,7 +14,7 @@ use super::synthesize::case_of;
 use super::terminal::print;
 use crate::capsule::Parameter;
 use crate::experiment::least_squares::Loss;
-use crate::experiment::{Comparison, Effort, Explanation, Free, compare, explain};
+use crate::experiment::{Comparison, Effort, Explanation, Free, Weights, compare, explain};
 use crate::figure::plot::draw_plot;
 use crate::figure::{Format, Place};
 use crate::orbit::Outcome;
@@ -74,7 +74,8 @@ impl Compare {
         let name = self.recording.display();
         let told = |why: String| Failure::request(format!("{name}: {why}"));
         let comparison = compare(&recording, &case.parameters).map_err(told)?;
-        let effort = Effort { loss: Loss::Squares, starts: 5, threads: threads() };
+        let effort =
+            Effort { loss: Loss::Squares, weights: Weights::Spread, starts: 8, threads: threads() };
         let explanations = explain(&comparison, &choices, &effort).map_err(told)?;
         let mut paths = Vec::new();
         if let Some(output) = &self.output {
@@ -155,13 +156,17 @@ fn told_of(it: &Comparison) -> String {
             it.simulated_speed * 1e3
         );
     }
-    text += &match it.spikes {
-        Some([recorded, simulated]) => format!(
-            "impacts:      {recorded:.2} spikes of a1 per cycle recorded, {simulated:.2} simulated; {} impacts per cycle simulated\n",
+    text += &match it.recorded_impacts {
+        Some(recorded) => format!(
+            "impacts:      {recorded:.2} per cycle recorded (r reaches delta), {} simulated\n",
             it.impacts
         ),
-        None => format!("impacts:      {} per cycle simulated; a1 is not recorded\n", it.impacts),
+        None => format!("impacts:      {} per cycle simulated; r is not recorded\n", it.impacts),
     };
+    if let Some([recorded, simulated]) = it.spikes {
+        text +=
+            &format!("spikes of a1: {recorded:.2} per cycle recorded, {simulated:.2} simulated\n");
+    }
     for difference in &it.differences {
         text += &format!(
             "error of {:<5}{:.2} %\n",
@@ -188,10 +193,10 @@ fn explained(comparison: &Comparison, it: &Explanation) -> String {
         })
         .collect();
     format!(
-        "with {}: misfit {:.1} in units of the noise, {:.1} without; {} impacts per cycle, {:.4} mm/s\n",
+        "with {}: error {:.1} % over the first cycles, {:.1} % without; {} impacts per cycle, {:.4} mm/s\n",
         changed.join(", "),
-        it.misfit[1],
-        it.misfit[0],
+        100.0 * it.misfit[1],
+        100.0 * it.misfit[0],
         it.impacts,
         it.speed * 1e3
     )
@@ -207,8 +212,8 @@ fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Value {
             .map(|(parameter, value)| json!({ "name": parameter.symbol(), "value": value }));
         json!({
             "changed": changed.collect::<Vec<_>>(),
-            "misfit": it.misfit[1],
-            "misfit_without": it.misfit[0],
+            "error": it.misfit[1],
+            "error_without": it.misfit[0],
             "impacts_per_cycle": it.impacts,
             "progression_speed": it.speed,
         })
@@ -227,6 +232,7 @@ fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Value {
         "speed_simulated": it.simulated_speed,
         "spikes_per_cycle": it.spikes,
         "impacts_per_cycle": it.impacts,
+        "impacts_per_cycle_recorded": it.recorded_impacts,
         "errors": differences.collect::<Vec<_>>(),
         "explanations": explanations.iter().map(explanation).collect::<Vec<_>>(),
     })

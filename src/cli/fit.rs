@@ -15,8 +15,8 @@ use crate::experiment::comparison::signals_of;
 use crate::experiment::identification::parameter_file;
 use crate::experiment::least_squares::{Bounds, Loss};
 use crate::experiment::{
-    Constant, Effort, Free, Identified, MotionFit, Recorded, Recording, Verdict, fit_motion,
-    harmonic,
+    Constant, Effort, Free, Identified, MotionFit, Recorded, Recording, Verdict, Weights,
+    fit_motion, harmonic,
 };
 use crate::study::document::unknown;
 
@@ -89,7 +89,12 @@ impl Fit {
         let recorded: Vec<Recorded> =
             (0..self.recordings.len()).map(|i| self.recorded(i)).collect::<Result<_, _>>()?;
         let loss = if self.robust { Loss::SoftL1(ROBUST) } else { Loss::Squares };
-        let effort = Effort { loss, starts: self.starts as usize, threads: threads() };
+        let effort = Effort {
+            loss,
+            weights: Weights::Noise,
+            starts: self.starts as usize,
+            threads: threads(),
+        };
         let fit = fit_motion(&recorded, &free, &effort).map_err(Failure::request)?;
         if let Some(output) = &self.output {
             files::put(output, &parameter_file(&self.identified(&fit), &[]))?;

@@ -10,7 +10,7 @@ use super::line::line;
 use super::motion_fit::{Effort, Free, best_values};
 use super::recording::{Recording, Sampling};
 use super::sampled::{Signal, Started, sampled};
-use super::spikes::{Spike, spikes};
+use super::spikes::{Spike, contacts, spikes};
 use crate::capsule::{Case, Output, Parameter, Parameters, State, settle_case};
 use crate::orbit::{Outcome, Protocol};
 
@@ -59,6 +59,8 @@ pub struct Comparison {
     pub recorded_period: Option<u64>,
     /// Spikes of the acceleration per cycle, over the whole cycles, as recorded and as simulated and sampled alike, where it is recorded.
     pub spikes: Option<[f64; 2]>,
+    /// Impacts per cycle as recorded: where r, smoothed, rises through delta; none where r is not recorded.
+    pub recorded_impacts: Option<f64>,
     /// Impacts per cycle of the simulation.
     pub impacts: f64,
     /// The signals that were recorded.
@@ -147,7 +149,7 @@ fn beside(
     let cycles = times[times.len() - 1] / period;
     let spikes = of(Signal::A1).map(|it| {
         [&it.recorded, &it.simulated]
-            .map(|values| per_cycle(&spikes(times, values), period, cycles))
+            .map(|values| per_cycle(&times_of(&spikes(times, values)), period, cycles))
     });
     let repeating = REPEATING.into_iter().find_map(of);
     Ok(Comparison {
@@ -161,6 +163,9 @@ fn beside(
         outcome: (orbit.outcome, orbit.period),
         recorded_period: repeating.and_then(|it| period_of(times, &it.recorded, period)),
         spikes,
+        recorded_impacts: of(Signal::R).map(|it| {
+            per_cycle(&contacts(times, &it.recorded, parameters[Parameter::Delta]), period, cycles)
+        }),
         impacts: orbit.outputs[Output::ImpactsPerCycle],
         differences,
         motion,
@@ -207,17 +212,20 @@ fn period_of(times: &[f64], values: &[f64], cycle: f64) -> Option<u64> {
     })
 }
 
-/// Spikes per cycle, over as many whole cycles as follow the middle of the longest interval without one in the first two.
+fn times_of(spikes: &[Spike]) -> Vec<f64> {
+    spikes.iter().map(|it| it.time).collect()
+}
+
+/// Events per cycle, over as many whole cycles as follow the middle of the longest interval without one in the first two.
 ///
-/// A window that begins there cuts no spike in half, which one that begins with the record may.
-fn per_cycle(spikes: &[Spike], period: f64, cycles: f64) -> f64 {
-    let early: Vec<f64> =
-        spikes.iter().map(|it| it.time).take_while(|time| *time < 2.0 * period).collect();
+/// A window that begins there cuts none in half, which one that begins with the record may.
+fn per_cycle(events: &[f64], period: f64, cycles: f64) -> f64 {
+    let early: Vec<f64> = events.iter().copied().take_while(|time| *time < 2.0 * period).collect();
     let longest = early.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
     let begins = longest.map_or(0.0, |pair| 0.5 * (pair[0] + pair[1]));
     let whole = (cycles - begins / period).floor().max(1.0);
-    let is_within = |it: &&Spike| (begins..begins + whole * period).contains(&it.time);
-    spikes.iter().filter(is_within).count() as f64 / whole
+    let is_within = |time: &&f64| (begins..begins + whole * period).contains(*time);
+    events.iter().filter(is_within).count() as f64 / whole
 }
 
 /// The slope of the means of x2 over whole cycles of the drive; none for fewer than three.
@@ -242,7 +250,7 @@ fn speed_of(times: &[f64], x2: &[f64], period: f64) -> Option<Estimate> {
 pub struct Explanation {
     /// The parameters that were free, with their values (SI).
     pub changed: Vec<(Parameter, f64)>,
-    /// Standard deviation of the residuals in units of the noise, without and with the change.
+    /// Root mean square of the residuals over the spread of each signal, without and with the change.
     pub misfit: [f64; 2],
     /// Impacts per cycle with the change.
     pub impacts: f64,

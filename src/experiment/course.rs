@@ -2,6 +2,7 @@
 
 use super::free_vibration::noise;
 use super::least_squares::Bounds;
+use super::line::line;
 use super::sampled::{Direction, Signal, Started};
 use super::smoothing::{Window, smoothed};
 use crate::capsule::{Parameters, State};
@@ -22,6 +23,17 @@ pub struct Recorded {
     pub signals: Vec<(Signal, Vec<f64>)>,
 }
 
+/// What the residuals of a signal are divided by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Weights {
+    /// The noise of the record, from its third differences: right where the model describes the record.
+    #[default]
+    Noise,
+    /// The standard deviation of the record about a line: where the model describes it roughly, no signal then counts more
+    /// because it is measured better.
+    Spread,
+}
+
 /// A recording with what is unknown of its start.
 pub struct Course<'r> {
     /// The recording.
@@ -30,15 +42,15 @@ pub struct Course<'r> {
     pub guess: Started,
     /// What is unknown of the start, and where it is looked for.
     pub unknown: Vec<(Direction, Bounds)>,
-    /// Standard deviation of the noise of each signal.
-    pub noise: Vec<f64>,
+    /// What the residuals of each signal are divided by.
+    pub units: Vec<f64>,
 }
 
 impl<'r> Course<'r> {
     /// The start as the first samples have it.
     ///
     /// Fails where neither r, nor x1 and x2, is recorded.
-    pub fn new(recorded: &'r Recorded) -> Result<Self, String> {
+    pub fn new(recorded: &'r Recorded, weights: Weights) -> Result<Self, String> {
         let noise: Vec<f64> = recorded
             .signals
             .iter()
@@ -47,6 +59,12 @@ impl<'r> Course<'r> {
                 noise(values).max(1e-9 * size).max(f64::MIN_POSITIVE)
             })
             .collect();
+        let units = match weights {
+            Weights::Noise => noise.clone(),
+            Weights::Spread => {
+                recorded.signals.iter().map(|it| spread(&recorded.times, &it.1)).collect()
+            }
+        };
         let begin = |signal: Signal| begin(recorded, &noise, signal);
         let x2 = begin(Signal::X2);
         let r = match (begin(Signal::R), begin(Signal::X1), x2) {
@@ -77,7 +95,7 @@ impl<'r> Course<'r> {
         }
         let guess =
             Started { parameters: recorded.parameters.clone(), start, phase: recorded.phase };
-        Ok(Course { recorded, guess, unknown, noise })
+        Ok(Course { recorded, guess, unknown, units })
     }
 }
 
@@ -117,4 +135,10 @@ fn begin(recorded: &Recorded, noise: &[f64], signal: Signal) -> Option<Beginning
         velocity: read(1)?[0],
         velocity_error: 4.7 * error / span,
     })
+}
+
+/// The standard deviation of a record about its line.
+fn spread(times: &[f64], values: &[f64]) -> f64 {
+    let about_line = line(times, values).map_or(0.0, |it| it.scatter);
+    about_line.max(f64::MIN_POSITIVE)
 }

@@ -19,7 +19,7 @@ pub mod spikes;
 pub mod synthesis;
 
 pub use comparison::{Comparison, Explanation, compare, explain};
-pub use course::Recorded;
+pub use course::{Recorded, Weights};
 pub use drive_phase::{Harmonic, harmonic};
 pub use estimate::Estimate;
 pub use free_vibration::{FreeVibration, free_vibration};

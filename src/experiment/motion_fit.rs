@@ -2,7 +2,7 @@
 
 use std::thread;
 
-use super::course::{Course, Recorded};
+use super::course::{Course, Recorded, Weights};
 use super::estimate::Estimate;
 use super::least_squares::{Bounds, Fit, Loss, Residuals, Search, fit_once};
 use super::profile::{Verdict, profile};
@@ -60,6 +60,8 @@ pub struct MotionFit {
 pub struct Effort {
     /// How residuals are weighed.
     pub loss: Loss,
+    /// What they are divided by.
+    pub weights: Weights,
     /// Starts within the bounds, the first at the values that the recordings have.
     pub starts: usize,
     /// Threads to use.
@@ -70,7 +72,8 @@ pub struct Effort {
 ///
 /// # Method
 ///
-/// Least squares of all samples, each divided by the noise of its signal (from third differences of the record). Unknowns
+/// Least squares of all samples, each divided by the noise of its signal: first that of third differences of the record, then that
+/// of the residuals. Unknowns
 /// besides the parameters are the start of each recording: r, y1, x2 and y2, unless a capsule at rest describes it as well;
 /// each is looked for about its estimate from the smoothed record. The derivatives are exact, through every impact, slip
 /// and stick ([`sampled`]). The search begins at several starts: the values at hand, and points of a Halton sequence within the
@@ -88,7 +91,7 @@ pub fn fit_motion(
     free: &[Free],
     effort: &Effort,
 ) -> Result<MotionFit, String> {
-    let Best { courses, fit, starts } = best(recordings, free, effort)?;
+    let Best { courses, fit, misfit, starts } = best(recordings, free, effort)?;
     let search = search(&courses, free, effort);
     let model = |unknowns: &[f64]| residuals(&courses, free, unknowns);
     let which: Vec<usize> = (0..free.len()).collect();
@@ -111,7 +114,7 @@ pub fn fit_motion(
         fitted: fitted.collect(),
         motions: motions(&courses, free, &fit.parameters),
         correlations: (0..free.len()).map(row).collect(),
-        misfit: fit.residual_deviation(),
+        misfit,
         samples: fit.degrees_of_freedom + fit.parameters.len(),
         starts,
     })
@@ -124,14 +127,16 @@ pub fn best_values(
     free: &[Free],
     effort: &Effort,
 ) -> Result<(Vec<f64>, f64), String> {
-    let Best { fit, .. } = best(recordings, free, effort)?;
-    Ok((fit.parameters[..free.len()].to_vec(), fit.residual_deviation()))
+    let Best { fit, misfit, .. } = best(recordings, free, effort)?;
+    Ok((fit.parameters[..free.len()].to_vec(), misfit))
 }
 
 /// The best fit, with what is unknown in it, and how many of the starts led there.
 struct Best<'r> {
     courses: Vec<Course<'r>>,
     fit: Fit,
+    /// Standard deviation of its residuals, before they were weighed anew.
+    misfit: f64,
     starts: [usize; 2],
 }
 
@@ -141,7 +146,7 @@ fn best<'r>(
     effort: &Effort,
 ) -> Result<Best<'r>, String> {
     let mut courses: Vec<Course<'_>> =
-        recordings.iter().map(Course::new).collect::<Result<_, _>>()?;
+        recordings.iter().map(|it| Course::new(it, effort.weights)).collect::<Result<_, _>>()?;
     let starts = starts(&courses, free, effort.starts);
     let search = search(&courses, free, effort);
     let model = |unknowns: &[f64]| residuals(&courses, free, unknowns);
@@ -154,7 +159,33 @@ fn best<'r>(
     let same =
         found.iter().filter(|it| it.sum_of_squares <= best.sum_of_squares * (1.0 + 1e-4)).count();
     let fit = at_rest(&mut courses, free, effort, best.clone());
-    Ok(Best { courses, fit, starts: [same, starts.len()] })
+    let misfit = fit.residual_deviation();
+    let fit = match effort.weights {
+        Weights::Noise => weighed_anew(&mut courses, free, effort, fit),
+        Weights::Spread => fit,
+    };
+    Ok(Best { courses, fit, misfit, starts: [same, starts.len()] })
+}
+
+/// Divides the residuals of each signal by what they are, rather than by an estimate of its noise, and fits again.
+///
+/// A signal with sharp features has larger third differences than its noise alone; with one scatter for all signals the intervals of
+/// what it determines would be too wide, and others too narrow.
+fn weighed_anew(courses: &mut [Course<'_>], free: &[Free], effort: &Effort, best: Fit) -> Fit {
+    let Some(found) = residuals(courses, free, &best.parameters) else { return best };
+    let mut rest = found.values.as_slice();
+    for course in courses.iter_mut() {
+        let count = course.recorded.times.len();
+        for unit in &mut course.units {
+            let (own, others) = rest.split_at(count);
+            let scatter = (own.iter().map(|it| it * it).sum::<f64>() / count as f64).sqrt();
+            *unit *= scatter.max(1e-3);
+            rest = others;
+        }
+    }
+    let search = search(courses, free, effort);
+    let model = |unknowns: &[f64]| residuals(courses, free, unknowns);
+    fit_once(&model, &best.parameters, &search, 1.0).unwrap_or(best)
 }
 
 fn search(courses: &[Course<'_>], free: &[Free], effort: &Effort) -> Search {
@@ -229,7 +260,7 @@ fn residuals(courses: &[Course<'_>], free: &[Free], unknowns: &[f64]) -> Option<
         let names: Vec<Signal> = signals.iter().map(|it| it.0).collect();
         let found = sampled(&motion, times, &names, &directions, TOLERANCE).ok()?;
         for (i, (_, recorded)) in signals.iter().enumerate() {
-            let unit = 1.0 / course.noise[i];
+            let unit = 1.0 / course.units[i];
             for (k, recorded) in recorded.iter().enumerate() {
                 all.values.push((found.values[i][k] - recorded) * unit);
                 let mut row = vec![0.0; unknowns.len()];

@@ -1,7 +1,8 @@
-//! Impacts as spikes of the accelerometer on the mass.
+//! Impacts of a record: spikes of the accelerometer on the mass, and where the relative displacement reaches the gap.
 
 use super::free_vibration::noise;
 use super::recording::median;
+use super::smoothing::{Window, smoothed};
 
 /// A spike stands out by this many standard deviations of the noise at least.
 const CLEAR: f64 = 8.0;
@@ -63,6 +64,30 @@ fn prominence(height: &[f64], top: usize) -> f64 {
     let before = lowest(&mut height[..top].iter().rev());
     let after = lowest(&mut height[top + 1..].iter());
     height[top] - before.max(after)
+}
+
+/// The times at which the relative displacement `r` rises through the gap `delta` and stays beyond it by three standard
+/// deviations of its noise for a moment [s].
+///
+/// A record that only touches the stop within its noise shows no impact; one that leaves the stop within its noise shows one for two.
+pub fn contacts(times: &[f64], r: &[f64], delta: f64) -> Vec<f64> {
+    let window = Window { samples: 5, order: 2 };
+    let Ok(smooth) = smoothed(times, r, window, 0) else { return Vec::new() };
+    // A parabola through five points keeps 0.7 of the deviation of the noise.
+    let clear = 3.0 * 0.7 * noise(r);
+    let (mut is_closed, mut rises) = (smooth[0] > delta, None);
+    let mut found = Vec::new();
+    for (i, value) in smooth.iter().enumerate().skip(1) {
+        if smooth[i - 1] < delta && *value >= delta {
+            rises = Some(times[i]);
+        }
+        if !is_closed && *value > delta + clear {
+            is_closed = true;
+            found.extend(rises);
+        }
+        is_closed &= *value > delta - clear;
+    }
+    found
 }
 
 #[cfg(test)]

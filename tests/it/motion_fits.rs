@@ -3,7 +3,7 @@
 use capsulemap::capsule::{Case, Parameter, Parameters, State, settle_case};
 use capsulemap::experiment::least_squares::{Bounds, Loss};
 use capsulemap::experiment::{
-    Effort, Free, MotionFit, Recorded, Signal, Started, Verdict, fit_motion, sampled,
+    Effort, Free, MotionFit, Recorded, Signal, Started, Verdict, Weights, fit_motion, sampled,
 };
 use capsulemap::orbit::Protocol;
 
@@ -51,7 +51,8 @@ fn free(which: &[(Parameter, f64, f64)]) -> Vec<Free> {
     which.iter().map(of).collect()
 }
 
-const EFFORT: Effort = Effort { loss: Loss::Squares, starts: 1, threads: 1 };
+const EFFORT: Effort =
+    Effort { loss: Loss::Squares, weights: Weights::Noise, starts: 1, threads: 1 };
 
 /// The record fitted from values that are a tenth wrong.
 fn fitted(seed: u64) -> MotionFit {
@@ -66,7 +67,9 @@ fn fitted(seed: u64) -> MotionFit {
 /// Of seeds, how many intervals of each parameter hold the truth.
 fn held(seeds: u64) -> Vec<usize> {
     let mut held = vec![0; FREE.len()];
-    for seed in 0..seeds {
+    let first =
+        std::env::var("CAPSULEMAP_FIRST_SEED").map_or(0, |it| it.parse().expect("a number"));
+    for seed in first..first + seeds {
         let fit = fitted(seed);
         for (count, fitted) in held.iter_mut().zip(&fit.fitted) {
             let truth = Parameters::default()[fitted.parameter];
