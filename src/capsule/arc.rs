@@ -69,8 +69,17 @@ fn arc_on<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
             put((begins + f64::from(next) * between - step.start).max(0.0));
             next += 1;
         }
-        if EventKind::from_code(step.event).is_some() {
-            put(step.length);
+        let Some(event) = EventKind::from_code(step.event) else { return };
+        put(step.length);
+        // The series ends within rounding of zero, on either side: just before it rests or turns round, the capsule
+        // still slides, and friction is that of sliding.
+        if matches!(event, EventKind::Stick | EventKind::Reversal) {
+            let at_end = points.len() - 1;
+            points[at_end].state.y2 = system.direction(&step.mode) * f64::MIN_POSITIVE;
+            if event == EventKind::Stick {
+                let state = State { y2: 0.0, ..points[at_end].state };
+                points.push(ArcPoint { state, ..points[at_end] });
+            }
         }
     })?;
     let phase = case.section_phase;
@@ -100,7 +109,8 @@ mod tests {
             let phases = [part, part + 1].map(|it| 0.3 + TAU * f64::from(it) / f64::from(parts));
             let points = arc(&parameters, state, phases, 5, 1e-12).expect("it can be followed");
             assert!(points.is_sorted_by(|a, b| a.time <= b.time));
-            events += points.len() - 5;
+            events +=
+                points.len() - 5 - points.windows(2).filter(|it| it[0].time == it[1].time).count();
             state = points[points.len() - 1].state;
         }
         let end = simulation.section[3];

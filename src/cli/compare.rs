@@ -22,7 +22,7 @@ use crate::orbit::Outcome;
 const EXAMPLES: &str = "\
 Examples:
   capsulemap compare rig/motion.csv studies/fig5.toml --output rig/comparison
-  capsulemap compare rig/motion.csv studies/fig6.toml --explain \"k2=5 kN/m..30 kN/m\" --explain mu_d=0.1..0.4
+  capsulemap compare rig/motion.csv studies/fig6.toml --explain \"k2=5 kN/m..30 kN/m\" --explain mu_s=0.2..0.8,mu_d=0.1..0.4
 
 A recording is a CSV file with a column t and any of x2, r, x1, y1, y2, a1, drive, current, with their units. drive or current \
 give the phase; without them the phase with the least differences is taken. The simulation starts on what the case settles to. \
@@ -178,10 +178,15 @@ fn told_of(it: &Comparison) -> String {
 }
 
 fn explained(comparison: &Comparison, it: &Explanation) -> String {
+    let of = |parameter| it.changed.iter().find(|it| it.0 == parameter).map(|it| it.1);
+    let mu_d = of(Parameter::MuD).unwrap_or(comparison.motion.parameters[Parameter::MuD]);
     let changed: Vec<String> = it
         .changed
         .iter()
         .map(|(parameter, value)| {
+            if *parameter == Parameter::MuS && *value < 2.0 * mu_d {
+                return "mu_s below 2 mu_d, where it has no effect".to_owned();
+            }
             let old = comparison.motion.parameters[*parameter];
             let change = 100.0 * (value / old - 1.0);
             format!(

@@ -43,7 +43,7 @@ pub struct Figure {
     #[arg(long, requires = "kind")]
     y: Option<String>,
     /// Where another axis is held, within its range; the nearest value is taken, and named. A map has a panel for each of
-    /// several values.
+    /// several values, as "delta=1 mm,2 mm".
     #[arg(long, value_name = "AXIS=VALUE", requires = "kind")]
     at: Vec<String>,
     /// Which cases of sweeps in both directions are shown; a map shows their difference, too.
@@ -181,9 +181,11 @@ impl Figure {
                 faults.push(format!("--at: {}", unknown("axis of these results", name, names)));
                 continue;
             };
-            match plain_or_quantity(value, axis.dimension()) {
-                Err(message) => faults.push(format!("--at {name}: {message}")),
-                Ok(value) => held.entry(name.to_owned()).or_default().push(value),
+            for value in value.split(',') {
+                match plain_or_quantity(value, axis.dimension()) {
+                    Err(message) => faults.push(format!("--at {name}: {message}")),
+                    Ok(value) => held.entry(name.to_owned()).or_default().push(value),
+                }
             }
         }
         let several = |name: &str| held.get(name).filter(|values| values.len() > 1);
@@ -194,7 +196,9 @@ impl Figure {
             .filter_map(|(name, _)| Some((name.clone(), several(name)?.clone())))
             .collect();
         if !kind.keys().panels {
-            faults.extend(panels.iter().map(|it| format!("--at {}: is given twice", it.0)));
+            faults.extend(panels.iter().map(|it| {
+                format!("--at {}: has {} values; a {} takes one", it.0, it.1.len(), kind.name())
+            }));
         }
         if !panels.is_empty() {
             faults.extend(check_panels(&panels).err().map(|fault| format!("--at: {fault}")));

@@ -216,11 +216,11 @@ fn times_of(spikes: &[Spike]) -> Vec<f64> {
     spikes.iter().map(|it| it.time).collect()
 }
 
-/// Events per cycle, over as many whole cycles as follow the middle of the longest interval without one in the first two.
+/// Events per cycle, over as many whole cycles as follow the middle of the longest interval without one in the first three.
 ///
 /// A window that begins there cuts none in half, which one that begins with the record may.
 fn per_cycle(events: &[f64], period: f64, cycles: f64) -> f64 {
-    let early: Vec<f64> = events.iter().copied().take_while(|time| *time < 2.0 * period).collect();
+    let early: Vec<f64> = events.iter().copied().take_while(|time| *time < 3.0 * period).collect();
     let longest = early.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
     let begins = longest.map_or(0.0, |pair| 0.5 * (pair[0] + pair[1]));
     let whole = (cycles - begins / period).floor().max(1.0);

@@ -1,12 +1,17 @@
 //! A bifurcation diagram by attractors: each in its colour, windows of coexistence shaded, events marked.
 
+use std::collections::BTreeSet;
+
 use super::attractors::{Attractors, Look};
 use super::axis::AxisRequest;
 use super::branch_lines::BranchLines;
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::cloud::{self, Dot};
-use super::diagram::{explain, has_points, paint, request, span, with_branch_lines, with_paint};
+use super::diagram::{
+    Shown, explain, has_points, nothing_within, paint, request, seen, span, told,
+    with_branch_lines, with_paint,
+};
 use super::error::FigureError;
 use super::event_marks::EventMarks;
 use super::geometry::{Point, Rect};
@@ -15,7 +20,7 @@ use super::page::PageRequest;
 use super::paint::Paint;
 use super::panel::Panel;
 use super::scale::Scale;
-use super::style::{ATTRACTORS, COEXISTENCE, FAINT_INK, MINOR_WIDTH, UNDECIDED_DOT};
+use super::style::{COEXISTENCE, FAINT_INK, MINOR_WIDTH, UNDECIDED_DOT};
 use super::symbol::Symbol;
 use super::text::Text;
 use super::track::elsewhere;
@@ -31,8 +36,6 @@ const EXPONENT: Entry = Entry::of_output(Output::LyapunovExponent);
 const SPEED: Entry = Entry::of_output(Output::ProgressionSpeed);
 /// Symbols of one kind nearer than this would hide each other [pt].
 const SYMBOL_SPACING: f64 = 2.6;
-/// So many attractors are named in the legend.
-const NAMED: usize = 3;
 
 /// Draws the diagram that `view` asks for over `x_name`, along which `attractors` are known.
 pub fn draw(
@@ -45,7 +48,7 @@ pub fn draw(
     let values: Vec<f64> =
         view.axis_values(x_name)?.iter().map(|value| value * quantity.factor).collect();
     let looks = looks(attractors);
-    let paint = paint(view, &attractors.free, values.len())?;
+    let mut paint = paint(view, &attractors.free, values.len())?;
     let clouds = outputs
         .iter()
         .map(|output| points(view, output, &values, (attractors, paint.as_ref()), &looks))
@@ -63,28 +66,42 @@ pub fn draw(
     // Other limits may be set than those of the values.
     let Scale { low, high, .. } = abscissa.scale;
     windows.retain(|[from, to]| *from < high && *to > low && view.shows("coexistence"));
-    let left_out = elsewhere(view, &[x_name]);
-    let note = view.note(&attractors.free, &left_out);
-    let mut page = request(view, &outputs, (&clouds, &lines), abscissa, note);
-    if let Some(first) = page.rows.first_mut().and_then(|row| row.first_mut()) {
-        first.header.legend = legend((attractors, paint.is_some()), &marks, !windows.is_empty());
+    let is_seen = seen(&abscissa, &values, attractors.per_value);
+    if let Some(paint) = &mut paint {
+        paint.list(&is_seen);
     }
-    page.rows = with_paint(with_branch_lines(page.rows, &clouds, &lines), paint.as_ref());
+    let left_out = elsewhere(view, &[x_name]).or(nothing_within(&abscissa, &values, &reached));
+    let note = view.note(&attractors.free, &left_out);
+    let symbols: Vec<Vec<(Symbol, f64, f64)>> =
+        outputs.iter().map(|output| marks.on(view, output)).collect();
+    let mut page = request(
+        view,
+        &outputs,
+        &Shown { clouds: &clouds, lines: &lines, symbols: &symbols },
+        abscissa,
+        note,
+    );
+    if let Some(first) = page.rows.first_mut().and_then(|row| row.first_mut()) {
+        first.header.legend =
+            legend((&attractors.seen(&is_seen), paint.is_some()), &marks, !windows.is_empty());
+    }
+    page.rows =
+        with_paint(with_branch_lines(page.rows, &clouds, &lines), (paint.as_ref(), &is_seen));
     let room = |height: f64| paint.as_ref().map_or(0.0, |it| it.room(height));
     let (mut canvas, panels) = PageRequest { right_room: &room, ..page }.lay_out();
-    let shown = clouds.iter().zip(&lines).zip(&outputs);
-    for (panel, ((cloud, lines), output)) in panels.iter().flatten().zip(shown) {
+    let shown = clouds.iter().zip(&lines).zip(outputs.iter().zip(&symbols));
+    for (panel, ((cloud, lines), (output, symbols))) in panels.iter().flatten().zip(shown) {
         shade(&mut canvas, panel, &windows);
         mark_zero(&mut canvas, panel, output, view);
         // Points stand out on both sides of the lines through them.
         let wider = if lines.is_empty() { 1.0 } else { 1.4 };
-        let radius = wider * view.radius(cloud.iter().map(Vec::len).sum());
+        let radius = wider * view.radius(cloud::count(panel, cloud));
         for (dots, look) in cloud.iter().zip(&looks) {
             let share = if *look == Look::Undecided { 0.6 } else { 1.0 };
             cloud::draw(&mut canvas, panel, dots, radius * share);
-            panel.record(&mut canvas, &look.name(), dots.iter().map(|dot| dot.at));
+            panel.record_values(&mut canvas, &look.name(), told(dots, paint.as_ref()));
         }
-        draw_symbols(&mut canvas, panel, &marks.on(view, output));
+        draw_symbols(&mut canvas, panel, symbols);
         lines.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
     }
@@ -145,7 +162,12 @@ fn points(
         let own = paint.map(|it| it.colour(case).unwrap_or(UNDECIDED_DOT));
         let (x, colour) =
             (x_values[case / attractors.per_value], own.unwrap_or(looks[cloud].colour()));
-        clouds[cloud].extend(finite.into_iter().map(|y| Dot { at: (x, y), colour, crowding }));
+        clouds[cloud].extend(finite.into_iter().map(|y| Dot {
+            at: (x, y),
+            colour,
+            crowding,
+            case,
+        }));
     }
     Ok(clouds)
 }
@@ -192,22 +214,25 @@ fn mark_zero(canvas: &mut Canvas, panel: &Panel, output: &str, view: &View<'_>) 
 }
 
 fn legend(
-    (attractors, has_own_colours): (&Attractors<'_>, bool),
+    (looks, has_own_colours): (&BTreeSet<Look>, bool),
     marks: &EventMarks,
     shaded: bool,
 ) -> Vec<header::Entry> {
     let mut legend = Vec::new();
-    let count = if has_own_colours { 0 } else { attractors.own.len() };
-    if (2..=NAMED).contains(&count) {
-        let disc = |place: usize| Mark::Disc(Look::Own(place).colour(), 1.8);
-        let name = |place: usize| Text::plain(&format!("attractor {}", place + 1));
-        legend.extend((0..count).map(|place| (disc(place), name(place))));
-    } else if count > NAMED {
-        let discs = Mark::Discs(&ATTRACTORS[..NAMED], 1.8);
-        legend.push((discs, Text::plain("attractors, each in its colour")));
+    let is_own = |look: &&Look| matches!(look, Look::Own(_)) && !has_own_colours;
+    let own: Vec<Look> = looks.iter().filter(is_own).copied().collect();
+    match own.as_slice() {
+        [] | [_] => {}
+        [a, b, c, _, ..] => {
+            let discs = Mark::Discs([a, b, c].map(|look| look.colour()), 1.8);
+            legend.push((discs, Text::plain("attractors, each in its colour")));
+        }
+        few => legend.extend(
+            few.iter().map(|look| (Mark::Disc(look.colour(), 1.8), Text::plain(&look.name()))),
+        ),
     }
     for (look, words) in [(Look::Other, "further attractors"), (Look::Undecided, "undecided")] {
-        if attractors.has(look) && !has_own_colours {
+        if looks.contains(&look) && !has_own_colours {
             legend.push((Mark::Disc(look.colour(), 1.4), Text::plain(words)));
         }
     }

@@ -1,6 +1,6 @@
 //! The attractors of a diagram: which case shows which, in what colour, and where several coexist.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use plotters::style::RGBColor;
 
@@ -112,9 +112,12 @@ impl<'a> Attractors<'a> {
         (0..self.values).map(|at| exist(at) > 1).collect()
     }
 
-    /// Whether any case has a look.
-    pub fn has(&self, look: Look) -> bool {
-        (0..self.numbers.len()).any(|case| self.look(case) == Some(look))
+    /// The looks of the cases that are seen.
+    pub fn seen(&self, is_seen: impl Fn(usize) -> bool) -> BTreeSet<Look> {
+        (0..self.numbers.len())
+            .filter(|case| is_seen(*case))
+            .filter_map(|case| self.look(case))
+            .collect()
     }
 }
 

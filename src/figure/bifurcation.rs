@@ -8,7 +8,10 @@ use super::axis::AxisRequest;
 use super::branch_lines::{BranchLines, faded};
 use super::canvas::Drawn;
 use super::cloud::{self, Dot};
-use super::diagram::{explain, has_points, paint, request, span, with_branch_lines, with_paint};
+use super::diagram::{
+    Shown, explain, has_points, nothing_within, paint, request, seen, span, told,
+    with_branch_lines, with_paint,
+};
 use super::error::FigureError;
 use super::header::Mark;
 use super::kind::{Kind, Names, Needs};
@@ -80,7 +83,11 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let x_name = abscissa(view)?;
     let by = view.drawing.colour_by.as_deref();
     match Attractors::along(view, x_name)? {
-        Some(attractors) => return attractor_diagram::draw(view, x_name, &attractors),
+        // By direction, both sweeps are drawn, where they find the same attractor too.
+        Some(attractors) if by != Some(DIRECTION.name) => {
+            return attractor_diagram::draw(view, x_name, &attractors);
+        }
+        Some(_) => {}
         None if by == Some(ATTRACTOR.name) => {
             let why = "`colour_by`: the results tell no attractors";
             return Err(view.unfit(why));
@@ -105,7 +112,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         branches.iter_mut().for_each(Branch::step_back);
     }
     // Directions have colours of their own.
-    let paint = match by == Some(DIRECTION.name) && free.len() > 1 {
+    let mut paint = match by == Some(DIRECTION.name) && free.len() > 1 {
         true => None,
         false => paint(view, &free, values.len())?,
     };
@@ -115,13 +122,28 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         .collect::<Result<Vec<_>, _>>()?;
     let reached: Vec<f64> = lines.iter().flat_map(BranchLines::places).map(|at| at.0).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
-    let left_out = track::elsewhere(view, &[x_name]);
+    let is_seen = seen(
+        &abscissa,
+        &values,
+        free[1..].iter().map(|it| view.coordinate_values(it).len()).product(),
+    );
+    if let Some(paint) = &mut paint {
+        paint.list(&is_seen);
+    }
+    let left_out =
+        track::elsewhere(view, &[x_name]).or(nothing_within(&abscissa, &values, &reached));
     let note = view.note(&free, &left_out);
-    let page = request(view, &outputs, (&clouds, &lines), abscissa, note);
+    let page = request(
+        view,
+        &outputs,
+        &Shown { clouds: &clouds, lines: &lines, symbols: &[] },
+        abscissa,
+        note,
+    );
     // Without cases there are only the lines of branches to explain.
     let shown = if values.is_empty() || paint.is_some() { &[][..] } else { &branches[..] };
     let rows = with_legend(page.rows, shown);
-    let rows = with_paint(with_branch_lines(rows, &clouds, &lines), paint.as_ref());
+    let rows = with_paint(with_branch_lines(rows, &clouds, &lines), (paint.as_ref(), &is_seen));
     let room = |height: f64| paint.as_ref().map_or(0.0, |it| it.room(height));
     let (mut canvas, panels) = PageRequest { rows, right_room: &room, ..page }.lay_out();
     let shown = clouds.iter().zip(&lines).zip(&outputs);
@@ -129,11 +151,11 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         if !has_points(view, output) {
             panel.mark_zero(&mut canvas);
         }
-        let radius = view.radius(cloud.iter().map(Vec::len).sum());
+        let radius = view.radius(cloud::count(panel, cloud));
         for (dots, branch) in cloud.iter().zip(&branches) {
             cloud::draw(&mut canvas, panel, dots, radius * branch.size);
             let name = if branch.name.is_empty() { "cases" } else { &branch.name };
-            panel.record(&mut canvas, name, dots.iter().map(|dot| dot.at));
+            panel.record_values(&mut canvas, name, told(dots, paint.as_ref()));
         }
         lines.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
@@ -192,7 +214,7 @@ fn points(
             let crowding = (finite.len() * x_values.len()) as f64;
             let own = paint.map(|it| it.colour(case).unwrap_or(UNDECIDED_DOT));
             let colour = own.unwrap_or(branch.colour);
-            let dot = |y| Dot { at: (*x, y), colour, crowding };
+            let dot = |y| Dot { at: (*x, y), colour, crowding, case };
             dots.extend(finite.into_iter().map(dot));
         }
         dots

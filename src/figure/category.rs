@@ -137,6 +137,11 @@ impl Kinds {
         LEGEND_GAP + widths.fold(self.heading.width(SMALL_SIZE), f64::max) + 2.0
     }
 
+    /// Height of the legend [pt].
+    pub fn height(&self) -> f64 {
+        SMALL_SIZE + self.in_legend().count() as f64 * LINE
+    }
+
     /// Draws the legend beside `frame`.
     pub fn draw_legend(&self, canvas: &mut Canvas, frame: Rect) {
         let left = frame.right + LEGEND_GAP;

@@ -16,6 +16,13 @@ pub struct Dot {
     pub colour: RGBColor,
     /// Dots that the panel would hold if all of it were as crowded as here.
     pub crowding: f64,
+    /// The case that it shows, where the data behind a figure tell what its colour means.
+    pub case: usize,
+}
+
+/// How many points of all sorts lie inside the frame of a panel.
+pub fn count(panel: &Panel, dots: &[Vec<Dot>]) -> usize {
+    dots.iter().flatten().filter(|dot| panel.holds(dot.at.0, dot.at.1)).count()
 }
 
 /// The radius at which `count` points can be distinguished [pt].

@@ -4,6 +4,7 @@ use super::axis::AxisRequest;
 use super::branch_lines::BranchLines;
 use super::canvas::Canvas;
 use super::cloud::Dot;
+use super::data::Value;
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
@@ -12,6 +13,7 @@ use super::paint::Paint;
 use super::panel::{Panel, Pointing};
 use super::scale::{Scale, Spacing, finite_range};
 use super::style::{ONE_COLUMN, UNDECIDED_DOT};
+use super::symbol::Symbol;
 use super::text::Text;
 use super::view::View;
 use crate::store::catalogue::{ATTRACTOR, Place};
@@ -20,6 +22,19 @@ use crate::store::catalogue::{ATTRACTOR, Place};
 const SECTION_HEIGHT: f64 = 125.0;
 /// Height of the frames of outputs with one value per case [pt].
 const OUTPUT_HEIGHT: f64 = 80.0;
+
+/// A symbol with its place, in the units of the axes.
+pub type Placed = (Symbol, f64, f64);
+
+/// What a diagram shows, by output.
+pub struct Shown<'a> {
+    /// The points, by sort.
+    pub clouds: &'a [Vec<Vec<Dot>>],
+    /// The lines of branches.
+    pub lines: &'a [BranchLines],
+    /// The symbols of events; empty where there are none.
+    pub symbols: &'a [Vec<Placed>],
+}
 
 /// The abscissa, with room for points that stand at its ends, and as far as orbits were continued.
 pub fn span(values: &[f64], reached: &[f64]) -> Scale {
@@ -56,15 +71,18 @@ pub fn has_points(view: &View<'_>, output: &str) -> bool {
 pub fn request<'a>(
     view: &View<'a>,
     outputs: &[String],
-    (clouds, lines): (&[Vec<Vec<Dot>>], &[BranchLines]),
+    shown: &Shown<'_>,
     abscissa: AxisRequest,
     header: Option<Text>,
 ) -> PageRequest<'a> {
+    let Shown { clouds, lines, symbols } = *shown;
     let mut rows = Vec::new();
     let mut heights = Vec::new();
     for (index, (output, cloud)) in outputs.iter().zip(clouds).enumerate() {
         let dots = cloud.iter().flatten().map(|dot| dot.at.1);
-        let values: Vec<f64> = dots.chain(lines[index].places().map(|at| at.1)).collect();
+        let of_symbols = symbols.get(index).into_iter().flatten().map(|it| it.2);
+        let values: Vec<f64> =
+            dots.chain(lines[index].places().map(|at| at.1)).chain(of_symbols).collect();
         let y = AxisRequest::around(view.quantity(output), &values, 0.06);
         let last = index + 1 == outputs.len();
         let x = AxisRequest { labelled: last, numbered: last, ..abscissa.clone() };
@@ -114,10 +132,36 @@ pub fn paint(view: &View<'_>, free: &[&str], values: usize) -> Result<Option<Pai
     Paint::of((view, std::slice::from_ref(view)), by, (free, cases)).map(Some)
 }
 
+/// Which cases lie within the limits of the abscissa, of which each of its `values` has so many.
+pub fn seen(
+    abscissa: &AxisRequest,
+    values: &[f64],
+    per_value: usize,
+) -> impl Fn(usize) -> bool + use<> {
+    let within: Vec<bool> = values.iter().map(|x| abscissa.scale.holds(*x)).collect();
+    move |case| within.get(case / per_value.max(1)).copied().unwrap_or(false)
+}
+
+/// A note where no case and no orbit lies within the limits of the abscissa.
+pub fn nothing_within(abscissa: &AxisRequest, values: &[f64], reached: &[f64]) -> Option<String> {
+    let mut all = values.iter().chain(reached).peekable();
+    let is_any = all.peek().is_some();
+    let is_empty = is_any && !all.any(|x| abscissa.scale.holds(*x));
+    is_empty.then(|| format!("no case lies within the limits of {}", abscissa.quantity.key))
+}
+
+/// The points of a diagram with what their colours tell, for the data behind it.
+pub fn told<'a>(
+    dots: &'a [Dot],
+    paint: Option<&'a Paint>,
+) -> impl Iterator<Item = ((f64, f64), Value)> + 'a {
+    dots.iter().map(move |dot| (dot.at, paint.map_or(Value::None, |it| it.value(dot.case))))
+}
+
 /// The rows with what colours do not explain in the first legend.
 pub fn with_paint(
     mut rows: Vec<Vec<PanelRequest>>,
-    paint: Option<&Paint>,
+    (paint, is_seen): (Option<&Paint>, &dyn Fn(usize) -> bool),
 ) -> Vec<Vec<PanelRequest>> {
     let first = rows.first_mut().and_then(|row| row.first_mut());
     if let (Some(first), Some(paint)) = (first, paint) {
@@ -125,7 +169,7 @@ pub fn with_paint(
             Mark::Filled(_) => (Mark::Disc(UNDECIDED_DOT, 1.6), words),
             mark => (mark, words),
         };
-        first.header.legend.extend(paint.legend(|_| true).into_iter().map(mark));
+        first.header.legend.extend(paint.legend(is_seen).into_iter().map(mark));
     }
     rows
 }

@@ -25,7 +25,7 @@ pub enum Mark {
     /// The symbol of a special point.
     Symbol(Symbol),
     /// Discs of several colours.
-    Discs(&'static [RGBColor], f64),
+    Discs([RGBColor; 3], f64),
     /// No mark: the text continues that of the entry before.
     Nothing,
 }

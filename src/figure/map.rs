@@ -53,9 +53,9 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
     let views: Vec<View<'_>> = rows.into_iter().flatten().collect();
     let mut paint = paint((view, &views), &output, (&plane.free(), plane.count()))?;
-    let levels = levels(view, &output, &paint);
     let seen = plane.seen(view);
     let is_seen = |case: usize| seen[case % plane.count()];
+    let (levels, no_line) = levels(view, &output, &paint, is_seen);
     paint.list(is_seen);
     let legend =
         paint.legend(is_seen).into_iter().chain(told(&views, &plane)?).chain(plane.legend());
@@ -65,7 +65,10 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         false => Vec::new(),
     };
     let legend = legend.chain(curves::legend(&over));
-    let page = page(view, (&plane, &views, &lengths), legend.collect());
+    let mut page = page(view, (&plane, &views, &lengths), legend.collect());
+    // A list of kinds that is longer than the frames makes them higher.
+    let least = paint.least_height() / page.heights.len() as f64;
+    page.heights.iter_mut().for_each(|height| *height = height.max(least));
     let room = |height: f64| paint.room(height);
     let (mut canvas, panels) = PageRequest { right_room: &room, ..page }.lay_out();
     let all: Vec<&Panel> = panels.iter().flatten().collect();
@@ -88,7 +91,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let [x, y] = names;
     let without = (view.drawing.curves && over.is_empty())
         .then(|| format!("there are no curves in {x} and {y}; `capsulemap continue` finds them"));
-    Ok(canvas.finish(&view.about(&[output], &names)).noting(without))
+    Ok(canvas.finish(&view.about(&[output], &names)).noting(without).noting(no_line))
 }
 
 /// The colours of the cases of all panels.
@@ -109,15 +112,24 @@ fn paint(
     }
 }
 
-/// The values at which there are contour lines, in the unit shown.
-fn levels(view: &View<'_>, output: &str, paint: &Paint) -> Vec<f64> {
+/// The values at which there are contour lines among the cases that are seen, in the unit shown, and a note on those at which
+/// there are none.
+fn levels(
+    view: &View<'_>,
+    output: &str,
+    paint: &Paint,
+    is_seen: impl Fn(usize) -> bool,
+) -> (Vec<f64>, Option<String>) {
     let quantity = view.quantity(output);
-    match paint {
-        Paint::Numbers(..) => {
-            quantity.chosen.contours().iter().map(|it| it * quantity.factor).collect()
-        }
-        Paint::Kinds(_) => Vec::new(),
-    }
+    let Paint::Numbers(_, values, _) = paint else { return (Vec::new(), None) };
+    let asked = quantity.chosen.contours().iter().map(|it| it * quantity.factor);
+    let seen = || values.iter().enumerate().filter(|(case, _)| is_seen(*case)).map(|it| *it.1);
+    let is_crossed = |level: &f64| seen().any(|it| it <= *level) && seen().any(|it| it >= *level);
+    let (levels, without): (Vec<f64>, Vec<f64>) = asked.partition(is_crossed);
+    let numbers: Vec<String> = without.iter().map(ToString::to_string).collect();
+    let unit = quantity.unit().content();
+    let note = format!("no contour at {} {unit}: all values lie on one side", numbers.join(", "));
+    (levels, (!without.is_empty()).then_some(note))
 }
 
 /// What the contour lines mean.

@@ -77,6 +77,7 @@ use crate::study::{Drawing, DrawingKind, Size, Sweep};
 use canvas::Drawn;
 use origin::Origin;
 use output::Figure;
+use text::Text;
 use view::View;
 
 /// What must be in a file of results before a figure of this kind can be drawn from it.
@@ -180,6 +181,12 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
     let is_stem = !name.is_empty() && !name.starts_with('.') && !name.contains(['/', '\\', '\0']);
     if !is_stem {
         return Err(view.unfit("the name of a figure must be the stem of a file name"));
+    }
+    let drawing = view.drawing;
+    let labels = drawing.settings.values().filter_map(|it| it.label.as_ref());
+    let words = drawing.title.iter().chain(drawing.texts.keys()).chain(labels);
+    if let Some(fault) = words.into_iter().find_map(|it| Text::tex_fault(it)) {
+        return Err(view.unfit(fault));
     }
     let (kind, of) = (view.drawing.kind, &view.drawing.of);
     let most = kind.keys().most;

@@ -15,7 +15,7 @@ use crate::study::Coordinate;
 /// The variables of a state.
 const STATES: [Entry; 4] = [HISTORY_R, HISTORY_Y1, HISTORY_X2, HISTORY_Y2];
 /// Points of a motion that is computed again between its samples, and those between two of them, at most.
-const MOST_POINTS: usize = 8000;
+const MOST_POINTS: usize = 64_000;
 const MOST_BETWEEN: usize = 32;
 /// Relative local tolerance of the motion between samples, which is only drawn.
 const TOLERANCE: f64 = 1e-10;

@@ -119,6 +119,14 @@ impl Paint {
         }
     }
 
+    /// Height that the list of kinds needs beside frames [pt]; a bar needs none.
+    pub fn least_height(&self) -> f64 {
+        match self {
+            Paint::Numbers(..) => 0.0,
+            Paint::Kinds(kinds) => kinds.height(),
+        }
+    }
+
     /// Draws the bar or the list of kinds beside a frame.
     pub fn explain(&self, canvas: &mut Canvas, frame: Rect) {
         match self {

@@ -126,6 +126,30 @@ impl Text {
         text
     }
 
+    /// What is wrong with symbols between dollar signs, if anything is.
+    pub fn tex_fault(source: &str) -> Option<String> {
+        let parts: Vec<&str> = source.split('$').collect();
+        if parts.len().is_multiple_of(2) {
+            return Some(format!("\"{source}\" has a dollar sign without a second one"));
+        }
+        let symbols = parts.iter().skip(1).step_by(2);
+        let commands = symbols.flat_map(|part| part.split('\\').skip(1));
+        let is_known = |rest: &str| {
+            SYMBOLS.iter().any(|(name, _)| {
+                let after = rest.strip_prefix(name).and_then(|rest| rest.chars().next());
+                rest.starts_with(name) && !after.is_some_and(char::is_alphabetic)
+            })
+        };
+        let unknown = commands.into_iter().find(|rest| !is_known(rest))?;
+        let end = unknown.find(|it: char| !it.is_alphabetic()).unwrap_or(unknown.len());
+        let known: Vec<String> = SYMBOLS.iter().map(|(name, _)| format!("\\{name}")).collect();
+        let name = &unknown[..end];
+        Some(format!(
+            "\"{source}\" has the unknown \\{name}; known are _, ^, {{}} and {}",
+            known.join(" ")
+        ))
+    }
+
     /// Adds what stands between dollar signs.
     fn push_symbols(&mut self, source: &str) {
         let mut rest = source;

@@ -114,7 +114,7 @@ impl TradeOff<'_, '_> {
             let own = |paint: &Paint| paint.colour(case.case).unwrap_or(UNDECIDED_DOT);
             let colour = self.paint.as_ref().map_or(BLUE, own);
             let colour = if motions.is_periodic(case) { colour } else { FAINT_INK };
-            Dot { at: self.place((case.price, case.speed)), colour, crowding }
+            Dot { at: self.place((case.price, case.speed)), colour, crowding, case: 0 }
         };
         let (periodic, others): (Vec<&Candidate>, Vec<&Candidate>) =
             motions.cases().iter().partition(|case| motions.is_periodic(case));
