@@ -120,4 +120,27 @@ mod tests {
         assert!(events.abs_diff(simulation.events.len()) <= 1, "{events}");
         assert!(simulation.events.len() > 8);
     }
+
+    #[test]
+    fn friction_where_sliding_ends_is_that_of_sliding() {
+        let parameters = Parameters::default();
+        let (mut state, mut ends) = (State::default(), 0);
+        for part in 0..400 {
+            let phases = [part, part + 1].map(|it| TAU * f64::from(it) / 40.0);
+            let points = arc(&parameters, state, phases, 5, 1e-12).expect("it can be followed");
+            for pair in points.windows(2) {
+                let [before, here] = [pair[0].state.y2, pair[1].state.y2];
+                let friction = parameters.forces(&pair[1].state).friction;
+                // What is left of a velocity that is zero but for rounding has the sign of the sliding that ends.
+                if here.abs() == f64::MIN_POSITIVE {
+                    ends += 1;
+                    assert!(before * here >= 0.0 && friction * here > 0.0, "{before} {here}");
+                } else {
+                    assert!(here == 0.0 || here.abs() > 1e-13, "{here}");
+                }
+            }
+            state = points[points.len() - 1].state;
+        }
+        assert!(ends > 10, "{ends}");
+    }
 }

@@ -38,6 +38,7 @@ mod experiments;
 mod exponents;
 mod far_starts;
 mod figure;
+mod figure_contents;
 mod figure_requests;
 mod figure_settings;
 mod folds_of_fronts;
