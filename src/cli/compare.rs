@@ -12,12 +12,13 @@ use super::fit::{threads, varied};
 use super::identify::{shown, unit};
 use super::synthesize::case_of;
 use super::terminal::print;
-use crate::capsule::Parameter;
+use crate::capsule::{Output, Parameter};
 use crate::experiment::least_squares::Loss;
 use crate::experiment::{Comparison, Effort, Explanation, Free, Weights, compare, explain};
 use crate::figure::plot::draw_plot;
 use crate::figure::{Format, Place};
 use crate::orbit::Outcome;
+use crate::store::catalogue::{CYCLES, OUTCOME, PERIOD};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -219,24 +220,24 @@ fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Value {
             "changed": changed.collect::<Vec<_>>(),
             "error": it.misfit[1],
             "error_without": it.misfit[0],
-            "impacts_per_cycle": it.impacts,
-            "progression_speed": it.speed,
+            Output::ImpactsPerCycle.name(): it.impacts,
+            Output::ProgressionSpeed.name(): it.speed,
         })
     };
     json!({
         "samples": it.sampling.count,
         "gaps": it.sampling.gaps,
-        "cycles": it.cycles,
+        CYCLES.name: it.cycles,
         "omega_recorded": it.drive.as_ref().map(|it| it.omega.value),
         "phase": it.phase,
         "period_recorded": it.recorded_period,
-        "outcome": it.outcome.0.name(),
-        "period": it.outcome.1,
+        OUTCOME.name: it.outcome.0.name(),
+        PERIOD.name: it.outcome.1,
         "speed_recorded": it.recorded_speed.map(|it| it.value),
         "speed_recorded_error": it.recorded_speed.map(|it| it.standard_error),
         "speed_simulated": it.simulated_speed,
         "spikes_per_cycle": it.spikes,
-        "impacts_per_cycle": it.impacts,
+        Output::ImpactsPerCycle.name(): it.impacts,
         "impacts_per_cycle_recorded": it.recorded_impacts,
         "errors": differences.collect::<Vec<_>>(),
         "explanations": explanations.iter().map(explanation).collect::<Vec<_>>(),

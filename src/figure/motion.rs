@@ -14,8 +14,10 @@ use crate::study::Coordinate;
 
 /// The variables of a state.
 const STATES: [Entry; 4] = [HISTORY_R, HISTORY_Y1, HISTORY_X2, HISTORY_Y2];
-/// Points of a motion that is computed again between its samples, and those between two of them, at most.
+/// Points of a motion that is computed again between its samples, at most: in all, in a cycle of the drive, and from a
+/// sample to the next.
 const MOST_POINTS: usize = 64_000;
+const MOST_IN_A_CYCLE: f64 = 3200.0;
 const MOST_BETWEEN: usize = 32;
 /// Relative local tolerance of the motion between samples, which is only drawn.
 const TOLERANCE: f64 = 1e-10;
@@ -175,7 +177,9 @@ impl<'v, 'a> Motion<'v, 'a> {
         let [first, last] = self.view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
         let is_shown = |cycle: f64| (first - 1e-9..=last + 1e-9).contains(&cycle);
         let shown = cycles.iter().filter(|cycle| is_shown(**cycle)).count();
-        let count = (MOST_POINTS / shown.max(1)).min(MOST_BETWEEN) as u32;
+        let step = cycles.get(1)? - cycles[0];
+        let wanted = (MOST_IN_A_CYCLE * step) as usize;
+        let count = (MOST_POINTS / shown.max(1)).min(MOST_BETWEEN).min(wanted) as u32;
         if count < 2 {
             return None;
         }

@@ -34,7 +34,7 @@ const OTHERS: [(&str, &[&str], &str); 16] = [
         SET,
         "what the keys of quantities may name, which a test here compares",
     ),
-    ("src/study/quantity.rs", &["g"], "the gram"),
+    ("src/capsule/quantity.rs", &["g"], "the gram"),
     ("src/figure/text.rs", &["delta", "omega"], "names of symbols in TeX"),
     ("src/cli/simulate.rs", OPTIONS, "options of a command"),
     ("src/cli/phases.rs", &["start_phase", "section_phase"], "options of a command"),
