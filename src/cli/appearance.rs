@@ -19,16 +19,16 @@ pub type DimensionOf<'a> = &'a dyn Fn(&str) -> Result<Dimension, String>;
 #[command(next_help_heading = "Appearance")]
 pub struct Appearance {
     /// Width, in mm unless another unit is named, such as "3.4 in" or "246 pt".
-    #[arg(long, requires = "kind")]
+    #[arg(long, requires = "kind", allow_hyphen_values = true)]
     width: Option<String>,
     /// Height, likewise.
-    #[arg(long, requires = "kind")]
+    #[arg(long, requires = "kind", allow_hyphen_values = true)]
     height: Option<String>,
     /// Diameter of the points of cases, likewise.
-    #[arg(long, requires = "kind")]
+    #[arg(long, requires = "kind", allow_hyphen_values = true)]
     marker_size: Option<String>,
     /// Dots per inch of a PNG file; 600 by default.
-    #[arg(long, requires = "kind")]
+    #[arg(long, requires = "kind", allow_negative_numbers = true)]
     dpi: Option<f64>,
     /// Marks to leave out, of those that the kind of figure has: gap, stroboscopic, impacts, contact, drive, coexistence,
     /// events, special-points, section-points, saddles, impact-surface, fronts, optima.

@@ -11,12 +11,12 @@ use super::drawing::{FormatChoice, draw_each, draw_from, formats};
 use super::failure::Failure;
 use super::terminal::notify;
 use crate::campaign::study_of;
-use crate::capsule::Dimension;
+use crate::capsule::{Dimension, Output};
 use crate::figure::Place;
 use crate::store::{self, Archive, Dataset, StoreError};
 use crate::study::appearance::dimension_of;
 use crate::study::document::unknown;
-use crate::study::{Coordinate, Drawing, DrawingKind, Held, Sweep, check_panels};
+use crate::study::{COLOURED_BY, Coordinate, Drawing, DrawingKind, Held, Sweep, check_panels};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -42,8 +42,8 @@ pub struct Figure {
     /// Axis along the ordinate of a map.
     #[arg(long, requires = "kind")]
     y: Option<String>,
-    /// Where another axis is held, within its range; the nearest value is taken, and named. A map has a panel for each of
-    /// several values, as "delta=1 mm,2 mm".
+    /// Where another axis is held, within its range; the nearest value is taken, and named. Maps, histories, phase portraits and
+    /// spectra have a panel for each of several values, as "delta=1 mm,2 mm".
     #[arg(long, value_name = "AXIS=VALUE", requires = "kind")]
     at: Vec<String>,
     /// Which cases of sweeps in both directions are shown; a map shows their difference, too.
@@ -119,6 +119,7 @@ impl Figure {
 
     fn drawing(&self, kind: DrawingKind, archive: &Archive) -> Result<Drawing, Failure> {
         let (at, panels) = self.held(kind, archive.frame())?;
+        self.check_colour_by(archive)?;
         let name = self.name.clone().unwrap_or_else(|| self.free_name(kind, archive));
         let drawing = Drawing {
             title: self.title.clone(),
@@ -137,6 +138,21 @@ impl Figure {
         self.appearance
             .set(drawing, &|name| dimension(archive, name))
             .map_err(|faults| Failure::requests(&faults))
+    }
+
+    /// Checks that the file has what tells the colours of points.
+    fn check_colour_by(&self, archive: &Archive) -> Result<(), Failure> {
+        let Some(name) = self.colour_by.as_deref() else { return Ok(()) };
+        if COLOURED_BY.contains(&name) || archive.unit(name).is_some() {
+            return Ok(());
+        }
+        let axes = archive.frame().coordinates.iter().map(|(name, _)| name.as_str());
+        let axes = axes.filter(|name| Coordinate::all().any(|it| it.name() == *name));
+        let outputs = Output::ALL.iter().map(|it| it.name());
+        let outputs = outputs.filter(|name| archive.unit(name).is_some());
+        let known = COLOURED_BY.into_iter().chain(axes).chain(outputs);
+        let fault = unknown("output, axis or kind", name, known);
+        Err(Failure::request(format!("--colour-by: {fault}")))
     }
 
     /// The kind and what is drawn, different from the names of the figures of the study.
@@ -196,8 +212,12 @@ impl Figure {
             .filter_map(|(name, _)| Some((name.clone(), several(name)?.clone())))
             .collect();
         if !kind.keys().panels {
+            let kinds = DrawingKind::with_panels();
             faults.extend(panels.iter().map(|it| {
-                format!("--at {}: has {} values; a {} takes one", it.0, it.1.len(), kind.name())
+                let (name, count, kind) = (&it.0, it.1.len(), kind.name());
+                format!(
+                    "--at {name}: has {count} values; a {kind} takes one, several are for {kinds}"
+                )
             }));
         }
         if !panels.is_empty() {

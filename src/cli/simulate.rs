@@ -42,13 +42,13 @@ pub struct Simulate {
     #[arg(long, requires = "study")]
     case: Option<usize>,
     /// Frequency of the drive, as "77.91 rad/s" or "12.4 Hz".
-    #[arg(long, value_name = "QUANTITY", allow_negative_numbers = true)]
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     omega: Option<String>,
     /// Amplitude of the drive, as "4 N".
-    #[arg(long, value_name = "QUANTITY", allow_negative_numbers = true)]
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     p_d: Option<String>,
     /// Stiffness of the stop, as "2.42 kN/m".
-    #[arg(long, value_name = "QUANTITY", allow_negative_numbers = true)]
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     k2: Option<String>,
     /// Gap between mass and stop, as "3.5 mm".
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]

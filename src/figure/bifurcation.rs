@@ -177,7 +177,7 @@ fn branches(view: &View<'_>, x_name: &str) -> Vec<Branch> {
         let code = codes[index] as i64;
         let flag = flags.iter().find(|(value, _)| *value == code);
         let name = flag.map_or(format!("direction {code}"), |(_, name)| name.clone());
-        let name = view.direction_name(&name, Some(x_name));
+        let name = view.direction_name(&name, x_name);
         Branch { index, name, colour, size }
     };
     looks.into_iter().enumerate().take(count).map(branch).collect()

@@ -4,7 +4,11 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 
 use super::unit::ShownUnit;
+use crate::store::catalogue::{ATTRACTOR, DIRECTION, Entry, OUTCOME, PERIOD};
 use crate::study::{Colouring, QuantitySettings, ScaleChoice, Setting};
+
+/// Quantities whose values are kinds, each with its colour.
+const KINDS: [Entry; 4] = [OUTCOME, PERIOD, ATTRACTOR, DIRECTION];
 
 /// What is set of a quantity.
 #[derive(Debug, Default, PartialEq)]
@@ -90,7 +94,11 @@ impl Chosen {
             is_set && !self.used.borrow().contains(setting)
         };
         let unused = Setting::NAMES.into_iter().filter(|(_, setting)| is_unused(setting));
-        let unused = unused.map(|(key, _)| format!("`{key}` of {name} has no effect here"));
+        let reason = match KINDS.iter().any(|kind| kind.name == name) {
+            true => ": kinds have fixed colours, and those that occur are shown",
+            false => "",
+        };
+        let unused = unused.map(|(key, _)| format!("`{key}` of {name} has no effect here{reason}"));
         let count = self.without_place.get();
         let left_out = (count > 0).then(|| {
             format!("{count} values of {name} are not above zero and have no place on its logarithmic scale")

@@ -27,17 +27,17 @@ struct Row {
 /// What the panels of a figure show.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Data {
-    /// What the axes of each panel show.
-    panels: Vec<[String; 2]>,
+    /// The heading of each panel, empty where there is none, and what its axes show.
+    panels: Vec<(String, [String; 2])>,
     /// The names of what is drawn.
     series: Vec<String>,
     rows: Vec<Row>,
 }
 
 impl Data {
-    /// Adds a panel with what its axes show.
-    pub fn add_panel(&mut self, axes: [String; 2]) {
-        self.panels.push(axes);
+    /// Adds a panel with its heading and what its axes show.
+    pub fn add_panel(&mut self, heading: &str, axes: [String; 2]) {
+        self.panels.push((heading.replace('\u{a0}', " "), axes));
     }
 
     /// Adds the rows of a series on a panel.
@@ -61,9 +61,11 @@ impl Data {
         let on_line = |words: &str| words.replace(['\n', '\r'], " ");
         // Writing to a String cannot fail.
         let _ = writeln!(text, "# {}", on_line(about));
-        for (number, [x, y]) in self.panels.iter().enumerate() {
-            let _ =
-                writeln!(text, "# panel {}: x is {}, y is {}", number + 1, on_line(x), on_line(y));
+        for (number, (heading, [x, y])) in self.panels.iter().enumerate() {
+            let number = number + 1;
+            let heading = if heading.is_empty() { heading } else { &format!(" ({heading})") };
+            let [heading, x, y] = [heading, x, y].map(|it| on_line(it));
+            let _ = writeln!(text, "# panel {number}{heading}: x is {x}, y is {y}");
         }
         text.push_str("panel,series,x,y,value\n");
         for Row { panel, series, at: (x, y), value } in &self.rows {

@@ -2,6 +2,7 @@
 
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Dash, Drawn, Stroke};
+use super::case_panels::{CasePanel, case_panels};
 use super::error::FigureError;
 use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
@@ -36,8 +37,6 @@ const SHOWN: [(Entry, &[Entry]); 10] = [
     (HISTORY_CONTACT, &[HISTORY_CONTACT]),
     (HISTORY_FRICTION, &[HISTORY_FRICTION]),
 ];
-/// Cases that one page has room for.
-const MOST_CASES: usize = 12;
 /// Height of a frame [pt].
 const HEIGHT: f64 = 82.0;
 /// The line at the gap between mass and plate.
@@ -78,60 +77,32 @@ fn reads(drawing: &Drawing) -> Names {
 
 /// Draws the history that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let axis = case_axis(view)?;
-    let free: Vec<&str> = axis.into_iter().collect();
-    let values = axis.map_or(Ok(vec![f64::NAN]), |name| view.axis_values(name))?;
-    let outputs: Vec<String> = match (view.drawing.of.is_empty(), axis) {
+    let cases = case_panels(view)?;
+    let outputs: Vec<String> = match (view.drawing.of.is_empty(), cases.len()) {
         (false, _) => view.drawing.of.clone(),
-        (true, None) => PANELS.map(|entry| entry.name.to_owned()).to_vec(),
-        (true, Some(_)) => vec![PANELS[0].name.to_owned()],
+        (true, 1) => PANELS.map(|entry| entry.name.to_owned()).to_vec(),
+        (true, _) => vec![PANELS[0].name.to_owned()],
     };
     let mut cells = Vec::new();
     for output in &outputs {
-        for case in 0..values.len() {
-            cells.push(cell(view, output, case, &free)?);
+        for place in 0..cases.len() {
+            cells.push(cell(&cases, output, place)?);
         }
     }
     // Several quantities of one case stand below each other; several cases beside each other.
-    let columns = match (values.len(), outputs.len()) {
+    let columns = match (cases.len(), outputs.len()) {
         (1, _) => 1,
         (2 | 4, 1) => 2,
         (cases, 1) => cases.min(3),
         (cases, _) => cases.min(4),
     };
-    let others = view.held_note(&free).filter(|note| !note.is_empty());
-    let notes = (0..values.len()).map(|index| {
-        let own = axis.map(|name| view.value_note(name, index));
-        let both = own.into_iter().chain(others.clone());
-        both.reduce(|note, next| note.then(Text::plain(", ")).then(next))
-    });
-    let notes: Vec<Option<Text>> = notes.collect();
-    let page = request(view, &cells, columns, values.len(), &notes);
+    let notes: Vec<Option<Text>> = cases.iter().map(CasePanel::note).collect();
+    let page = request(view, &cells, columns, cases.len(), &notes);
     let (mut canvas, panels) = page.lay_out();
     for (panel, cell) in panels.iter().flatten().zip(&cells) {
         draw_cell(&mut canvas, panel, cell);
     }
-    Ok(canvas.finish(&view.about(&outputs, &free)))
-}
-
-/// The axis whose every value gets a panel.
-pub fn case_axis<'a>(view: &View<'a>) -> Result<Option<&'a str>, FigureError> {
-    let free = view.free_axes();
-    let wanted = view.drawing.x.as_deref();
-    let long = |name: &&str| view.coordinate_values(name).len() > 1;
-    let axis = match wanted {
-        Some(name) => free.iter().copied().find(|axis| *axis == name),
-        None => free.iter().copied().find(long),
-    };
-    let Some(name) = axis else { return Ok(None) };
-    let count = view.coordinate_values(name).len();
-    if count > MOST_CASES {
-        return Err(view.unfit(format!(
-            "axis `{name}` has more values than the {MOST_CASES} panels that there is room for: hold it \
-             at one of them with `at`"
-        )));
-    }
-    Ok(Some(name))
+    Ok(canvas.finish(&view.about(&outputs, &cases[0].free())))
 }
 
 /// The variables of an output; none where a history cannot show it.
@@ -154,7 +125,10 @@ fn curves_of(view: &View<'_>, output: &str) -> Result<Vec<(Entry, Stroke)>, Figu
     Ok(variables.iter().map(|entry| (*entry, colour(entry))).collect())
 }
 
-fn cell(view: &View<'_>, output: &str, case: usize, free: &[&str]) -> Result<Cell, FigureError> {
+/// A quantity of one of `cases`, by its place among them.
+fn cell(cases: &[CasePanel<'_>], output: &str, place: usize) -> Result<Cell, FigureError> {
+    let (view, case) = (&cases[place].view, cases[place].case);
+    let free: &[&str] = &cases[place].free();
     let motion = Motion::drawn(view, free, case);
     let cycles = motion.cycles()?;
     let omega = view.parameter(Parameter::Omega.symbol(), free)?;
@@ -180,7 +154,7 @@ fn cell(view: &View<'_>, output: &str, case: usize, free: &[&str]) -> Result<Cel
     };
     let factor = view.quantity(delta).factor;
     let gap = gaps.and_then(|gaps| gaps.iter().nth(case).map(|gap| gap * factor));
-    Ok(Cell { output: output.to_string(), case, curves, gap })
+    Ok(Cell { output: output.to_string(), case: place, curves, gap })
 }
 
 /// The ordinates of the cells that show `output`: the same for all unless one would be lost in it.

@@ -13,7 +13,7 @@ use super::outcome::{self, Outcomes};
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::paint::Paint;
 use super::panel::{Panel, Pointing};
-use super::plane::{CONTOUR, Plane};
+use super::plane::{Plane, contour};
 use super::raster::Fill;
 use super::style::{ONE_COLUMN, TWO_COLUMNS};
 use super::text::Text;
@@ -133,13 +133,14 @@ fn levels(
 }
 
 /// What the contour lines mean.
-fn contours(view: &View<'_>, output: &str, levels: &[f64]) -> Option<(Mark, Text)> {
+fn contours(view: &View<'_>, output: &str, levels: &[f64]) -> Vec<(Mark, Text)> {
     let quantity = view.quantity(output);
-    let numbers: Vec<String> = levels.iter().map(|level| short(*level)).collect();
     let unit = Text::plain("\u{a0}").then(quantity.unit());
     let unit = if quantity.unit().is_empty() { Text::default() } else { unit };
-    let words = Text::markup(&numbers.join(", ")).then(unit);
-    (!levels.is_empty()).then_some((Mark::Line(CONTOUR), words))
+    let entry = |(place, level): (usize, &f64)| {
+        (Mark::Line(contour(place)), Text::markup(&short(*level)).then(unit.clone()))
+    };
+    levels.iter().enumerate().map(entry).collect()
 }
 
 /// What is inferred of the cases of all panels.

@@ -9,6 +9,7 @@ mod canvas;
 mod category;
 mod chosen;
 mod cells;
+mod case_panels;
 mod cloud;
 mod colour;
 mod contour;

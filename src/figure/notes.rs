@@ -42,15 +42,28 @@ impl View<'_> {
         format!("{}{over}{at}", outputs.join(", "))
     }
 
-    /// Where the axes other than `free` are held, as "name = value unit".
+    /// Where the axes other than `free` are held, as "name = value unit" in the units of the figure.
     pub fn held_record(&self, free: &[&str]) -> String {
-        let mut notes = Vec::new();
-        for name in self.axes().into_iter().filter(|name| !free.contains(name)) {
-            if let Some(value) = self.coordinate_values(name).get(self.held_index(name)) {
-                notes.push(format!("{name} = {value}{}", self.unit(name)));
-            }
-        }
+        let ours = self.axes().into_iter().filter(|name| !free.contains(name));
+        let notes: Vec<String> = ours.map(|name| self.held_values(name)).collect();
         notes.join(", ")
+    }
+
+    /// Where an axis is held, as "name = value unit", with several values where panels differ in it.
+    fn held_values(&self, name: &str) -> String {
+        let (values, quantity) = (self.coordinate_values(name), self.quantity(name));
+        let several = self.panelled.iter().find(|it| it.0 == name).map(|it| it.1.clone());
+        let held = several.unwrap_or_else(|| vec![self.held_index(name)]);
+        let flags = self.dataset.coordinate(name).map_or(&[][..], |it| &it.flags);
+        let value = |index: usize| {
+            let value = values.get(index).copied().unwrap_or(f64::NAN);
+            let named = flags.iter().find(|(code, _)| *code as f64 == value);
+            named.map_or_else(|| significant(value * quantity.factor), |it| it.1.clone())
+        };
+        let values: Vec<String> = held.into_iter().map(value).collect();
+        let unit = quantity.unit().content();
+        let unit = if unit.is_empty() { unit } else { format!(" {unit}") };
+        format!("{name} = {}{unit}", values.join(" and "))
     }
 
     /// The part of the study that a figure shows, for those of its axes that have several values
@@ -73,10 +86,20 @@ impl View<'_> {
         parts.reduce(|note, next| note.then(Text::plain("; ")).then(next))
     }
 
-    /// The name of a direction in which starts were inherited, with the axis that it goes along unless that is `x`.
-    pub fn direction_name(&self, name: &str, x: Option<&str>) -> String {
+    /// The name of a direction in which starts were inherited, with the symbol of the axis that it goes along.
+    fn direction_text(&self, name: &str) -> Text {
         match self.dataset.attributes.get(INHERITED_ALONG) {
-            Some(axis) if x != Some(axis.as_str()) => format!("{name} in {axis}"),
+            Some(axis) => {
+                Text::plain(&format!("{name} in\u{a0}")).then(self.quantity(axis).short_name())
+            }
+            None => Text::plain(name),
+        }
+    }
+
+    /// The name of a direction in which starts were inherited, with the axis that it goes along unless that is `x`.
+    pub fn direction_name(&self, name: &str, x: &str) -> String {
+        match self.dataset.attributes.get(INHERITED_ALONG) {
+            Some(axis) if x != axis.as_str() => format!("{name} in {axis}"),
             _ => name.to_owned(),
         }
     }
@@ -86,11 +109,15 @@ impl View<'_> {
         let value = self.coordinate_values(axis).get(index).copied().unwrap_or(f64::NAN);
         let flags = self.dataset.coordinate(axis).map_or(&[][..], |it| &it.flags);
         match flags.iter().find(|(code, _)| *code as f64 == value) {
-            Some((_, name)) if axis == DIRECTION.name => {
-                Text::plain(&self.direction_name(name, None))
-            }
+            Some((_, name)) if axis == DIRECTION.name => self.direction_text(name),
             Some((_, name)) => Text::plain(name),
             None => self.quantity(axis).note(value),
         }
     }
+}
+
+/// A number in the unit of a figure, without the last digits, which converting it leaves.
+fn significant(number: f64) -> String {
+    let digits = format!("{number:.13e}").parse::<f64>().unwrap_or(number);
+    digits.to_string()
 }

@@ -141,8 +141,9 @@ impl<'a> PageRequest<'a> {
         self.keep_texts_inside(&mut canvas, &mut panels);
         if self.drawing.data {
             let mut data = Data::default();
-            for Panel { x, y, .. } in panels.iter().flatten() {
-                data.add_panel([x.name.clone(), y.name.clone()]);
+            for Panel { x, y, header, .. } in panels.iter().flatten() {
+                let heading = header.note.as_ref().map(Text::content).unwrap_or_default();
+                data.add_panel(&heading, [x.name.clone(), y.name.clone()]);
             }
             canvas.data = Some(data);
         }

@@ -2,10 +2,10 @@
 
 use super::axis::AxisRequest;
 use super::canvas::{Canvas, Drawn, Stroke};
+use super::case_panels::{CasePanel, case_panels};
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
-use super::history::case_axis;
 use super::kind::{Kind, Names, Needs};
 use super::motion::{Motion, sources, sources_of_arcs};
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
@@ -63,23 +63,23 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         [x, y] => [x, y],
         _ => return Err(view.unfit("`of` names the coordinates of both axes of a phase portrait")),
     };
-    let axis = case_axis(view)?;
-    let free: Vec<&str> = axis.into_iter().collect();
-    let count = axis.map_or(1, |name| view.coordinate_values(name).len());
-    let portraits = (0..count).map(|case| portrait(view, names, (&free, case)));
+    let cases = case_panels(view)?;
+    let count = cases.len();
+    let portraits = cases.iter().map(|panel| portrait(panel, names));
     let portraits = portraits.collect::<Result<Vec<Portrait>, FigureError>>()?;
     let columns = match count {
         1 => 1,
         2 | 4 => 2,
         _ => 3,
     };
+    // What the marks mean stands above the panels of the first row, a part of it above each.
+    let legend = legend(view, &portraits);
+    let part = legend.len().div_ceil(columns).max(1);
+    let legend: Vec<Vec<(Mark, Text)>> = legend.chunks(part).map(<[_]>::to_vec).collect();
     let request = |(case, portrait): (usize, &Portrait)| {
         let all = || portrait.orbit.iter().chain(&portrait.sections).chain(&portrait.impacts);
         let x: Vec<f64> = all().map(|point| point.0).chain(portrait.gap[0]).collect();
         let y: Vec<f64> = all().map(|point| point.1).chain(portrait.gap[1]).collect();
-        let own = axis.map(|name| view.value_note(name, case));
-        let note = own.into_iter().chain(view.held_note(&free).filter(|note| !note.is_empty()));
-        let note = note.reduce(|note, next| note.then(Text::plain(", ")).then(next));
         let x = AxisRequest::around(view.quantity(names[0]), &x, 0.06);
         let y = AxisRequest::around(view.quantity(names[1]), &y, 0.06);
         PanelRequest {
@@ -87,8 +87,8 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             y: AxisRequest { labelled: case.is_multiple_of(columns), ..y },
             header: Header {
                 letter: letter(case, count),
-                note,
-                legend: if case == 0 { legend(portrait) } else { Vec::new() },
+                note: cases[case].note(),
+                legend: legend.get(case).cloned().unwrap_or_default(),
             },
         }
     };
@@ -112,15 +112,13 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     for (panel, portrait) in panels.iter().flatten().zip(&portraits) {
         draw_portrait(&mut canvas, panel, portrait);
     }
-    Ok(canvas.finish(&view.about(&names.map(str::to_owned), &free)))
+    Ok(canvas.finish(&view.about(&names.map(str::to_owned), &cases[0].free())))
 }
 
 /// One coordinate over another, for a case.
-fn portrait(
-    view: &View<'_>,
-    names: [&str; 2],
-    (free, case): (&[&str], usize),
-) -> Result<Portrait, FigureError> {
+fn portrait(panel: &CasePanel<'_>, names: [&str; 2]) -> Result<Portrait, FigureError> {
+    let (view, case) = (&panel.view, panel.case);
+    let free: &[&str] = &panel.free();
     let motion = Motion::drawn(view, free, case);
     let [first, last] = view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     let samples = motion.shown(names[0])?.into_iter().zip(motion.shown(names[1])?);
@@ -189,16 +187,19 @@ fn portrait(
     Ok(Portrait { orbit, sections, impacts, gap: [reached(0), reached(1)] })
 }
 
-fn legend(portrait: &Portrait) -> Vec<(Mark, Text)> {
+/// What the marks mean that any of `portraits` has.
+fn legend(view: &View<'_>, portraits: &[Portrait]) -> Vec<(Mark, Text)> {
     let mut legend = Vec::new();
-    if !portrait.sections.is_empty() {
+    if portraits.iter().any(|it| !it.sections.is_empty()) {
         legend.push((Mark::Disc(INK, SECTION_RADIUS), Text::plain("stroboscopic")));
     }
-    if !portrait.impacts.is_empty() {
+    if portraits.iter().any(|it| !it.impacts.is_empty()) {
         legend.push((Mark::Ring(VERMILION, IMPACT_RADIUS), Text::plain("impact")));
     }
-    if portrait.gap.iter().any(Option::is_some) {
-        legend.push((Mark::Patch(CONTACT), Text::plain("contact")));
+    if portraits.iter().any(|it| it.gap.iter().any(Option::is_some)) {
+        let delta = view.quantity(Parameter::Delta.symbol()).short_name();
+        let words = Text::plain("contact, from\u{a0}").then(delta);
+        legend.push((Mark::Patch(CONTACT), words));
     }
     legend
 }

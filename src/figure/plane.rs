@@ -17,7 +17,15 @@ use super::view::View;
 const VALUE_MARK: f64 = 3.0;
 
 /// Contour lines.
-pub const CONTOUR: Stroke = Stroke { colour: INK, width: CURVE_WIDTH, dash: Dash::None };
+const CONTOUR: Stroke = Stroke { colour: INK, width: CURVE_WIDTH, dash: Dash::None };
+/// How the lines of contours differ, in the order of their levels.
+const DASHES: [Dash; 6] =
+    [Dash::None, Dash::Usual, Dash::Dotted, Dash::Long, Dash::Mixed, Dash::Short];
+
+/// The line of the contour at a level, by its place among the levels.
+pub fn contour(place: usize) -> Stroke {
+    Stroke { dash: DASHES[place % DASHES.len()], ..CONTOUR }
+}
 
 /// Two axes with their cells.
 pub struct Plane<'a> {
@@ -109,8 +117,8 @@ impl<'a> Plane<'a> {
         panel.record_values(canvas, series, cells.map(cell));
     }
 
-    /// Draws the lines along which the values of the cases over the free axes have these levels; differences up to `noise`
-    /// are none.
+    /// Draws the lines along which the values of the cases over the free axes have these levels, and both edges of where they
+    /// keep one; differences up to `noise` are none.
     pub fn draw_contours(
         &self,
         canvas: &mut Canvas,
@@ -123,16 +131,23 @@ impl<'a> Plane<'a> {
         let y: Vec<f64> = self.y.values().map(|y| panel.place(panel.x.scale.low, y).1).collect();
         let value =
             |column: usize, row: usize| values[self.y.place(row) * columns + self.x.place(column)];
-        for level in levels {
-            let value = |column: usize, row: usize| {
-                let value = value(column, row);
-                if (value - level).abs() <= noise { *level } else { value }
+        for (place, level) in levels.iter().enumerate() {
+            let lines = |kept: f64| {
+                let value = |column: usize, row: usize| {
+                    let value = value(column, row);
+                    if (value - level).abs() <= noise { kept } else { value }
+                };
+                Field { x: &x, y: &y, value: &value }.lines(*level)
             };
-            let lines = Field { x: &x, y: &y, value: &value }.lines(*level);
+            // Values that keep the level count as above it, then as below it.
+            let mut both = lines(*level);
+            let below = lines(level.next_down());
+            let others: Vec<_> = below.into_iter().filter(|it| !both.contains(it)).collect();
+            both.extend(others);
             canvas.clipped(panel.frame, |canvas| {
-                for line in &lines {
+                for line in &both {
                     canvas.line(line, Stroke::solid(PAPER, 2.2 * CONTOUR.width));
-                    canvas.line(line, CONTOUR);
+                    canvas.line(line, contour(place));
                 }
             });
         }

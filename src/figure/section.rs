@@ -19,6 +19,8 @@ use crate::study::Drawing;
 
 /// Height of the frames [pt].
 const HEIGHT: f64 = 165.0;
+/// Width below which sections do not stand beside each other [mm].
+const NARROW: f64 = 120.0;
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
@@ -70,9 +72,19 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     };
     let first =
         PageRequest::of_one(view.drawing, panel((0, &sections[0])), HEIGHT, Pointing::Inward);
+    // In a narrow figure the sections stand below each other.
+    let columns = if view.drawing.width_mm.is_some_and(|it| it < NARROW) { 1 } else { 2 };
+    let mut rows: Vec<Vec<PanelRequest>> = Vec::new();
+    for request in sections.iter().enumerate().map(panel) {
+        match rows.last_mut().filter(|row| row.len() < columns) {
+            Some(row) => row.push(request),
+            None => rows.push(vec![request]),
+        }
+    }
     let page = PageRequest {
         width_mm: if count > 1 { TWO_COLUMNS } else { first.width_mm },
-        rows: vec![sections.iter().enumerate().map(panel).collect()],
+        heights: vec![HEIGHT; rows.len()],
+        rows,
         ..first
     };
     let (mut canvas, panels) = page.lay_out();
@@ -85,7 +97,9 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         panel.finish(&mut canvas);
     }
     let told: Vec<String> = sections.iter().map(Section::told).collect();
-    Ok(canvas.finish(&format!("{}: {}", view.about(&[], &[]), told.join(", "))))
+    let held = view.held_record(&[]);
+    let at = if held.is_empty() { held } else { format!(" at {held}") };
+    Ok(canvas.finish(&format!("section{at}: {}", told.join(", "))))
 }
 
 fn stroboscopic(view: &View<'_>) -> Result<Option<Section>, FigureError> {

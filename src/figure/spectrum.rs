@@ -7,9 +7,9 @@ use rustfft::num_complex::Complex;
 
 use super::axis::AxisRequest;
 use super::canvas::{Drawn, Stroke};
+use super::case_panels::{CasePanel, case_panels};
 use super::error::FigureError;
 use super::header::{Header, Mark};
-use super::history::case_axis;
 use super::kind::{Kind, Names, Needs};
 use super::motion::{Motion, sources};
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
@@ -52,7 +52,6 @@ fn reads(drawing: &Drawing) -> Names {
 /// The spectrum of a quantity of a case, in the units of the figure.
 struct Spectrum {
     output: String,
-    case: usize,
     /// Frequencies with their amplitudes.
     lines: Vec<(f64, f64)>,
     /// The frequency of the drive.
@@ -63,22 +62,22 @@ struct Spectrum {
 
 /// Draws the spectra that `view` asks for: a row for each quantity, a column for each case.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let axis = case_axis(view)?;
-    let free: Vec<&str> = axis.into_iter().collect();
-    let cases = axis.map_or(1, |name| view.coordinate_values(name).len());
+    let cases = case_panels(view)?;
     let outputs = outputs(view.drawing);
     let mut spectra = Vec::new();
     for output in &outputs {
-        for case in 0..cases {
-            spectra.push(spectrum(view, output, (&free, case))?);
+        for panel in &cases {
+            spectra.push(spectrum(panel, output)?);
         }
     }
+    let frequencies = frequencies(&spectra);
+    let notes: Vec<Option<Text>> = cases.iter().map(CasePanel::note).collect();
+    let cases = cases.len();
     let columns = if outputs.len() == 1 { cases.min(3) } else { cases };
     let mut rows: Vec<Vec<PanelRequest>> = Vec::new();
     for (index, spectrum) in spectra.iter().enumerate() {
-        let note = axis.map(|name| view.value_note(name, spectrum.case)).or(view.held_note(&free));
         let is_lowest = index + columns >= spectra.len();
-        let x = AxisRequest::new(view.quantity(SPECTRUM_FREQUENCY.name), spectrum.frequencies());
+        let x = AxisRequest::new(view.quantity(SPECTRUM_FREQUENCY.name), frequencies);
         let y = view.quantity(&spectrum.output).preceded_by("Amplitude of");
         let y = AxisRequest::new(y, spectrum.amplitudes());
         let legend = if index == 0 { legend(view, spectrum) } else { Vec::new() };
@@ -87,7 +86,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             y: AxisRequest { empty: spectrum.lines.is_empty(), ..y },
             header: Header {
                 letter: letter(index, spectra.len()),
-                note: note.filter(|_| index < cases),
+                note: notes.get(index).cloned().flatten(),
                 legend,
             },
         };
@@ -116,7 +115,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         panel.record(&mut canvas, &spectrum.output, spectrum.lines.iter().copied());
         panel.finish(&mut canvas);
     }
-    let about = view.about(&outputs, &free);
+    let about = view.about(&outputs, &[]);
     Ok(canvas.finish(&format!("{about}: amplitudes of the spectrum, with a Hann window")))
 }
 
@@ -135,12 +134,12 @@ impl Spectrum {
         self.lines.iter().map(|line| line.1).fold(0.0, f64::max)
     }
 
-    /// The range of frequencies in which there is something to see.
-    fn frequencies(&self) -> Scale {
+    /// The frequency up to which there is something to see.
+    fn last(&self) -> f64 {
         let least = REACH * self.largest();
         let last = self.lines.iter().rev().find(|line| line.1 >= least).map_or(0.0, |line| line.0);
         let drive = if self.drive.is_finite() { self.drive } else { 0.0 };
-        Scale::around([0.0, last.max(2.0 * drive)], 0.0)
+        last.max(2.0 * drive)
     }
 
     /// The range of amplitudes.
@@ -153,15 +152,18 @@ impl Spectrum {
     }
 }
 
+/// The range of frequencies in which there is something to see in any of `spectra`.
+fn frequencies(spectra: &[Spectrum]) -> Scale {
+    Scale::around([0.0, spectra.iter().map(Spectrum::last).fold(0.0, f64::max)], 0.0)
+}
+
 /// The amplitudes of a quantity over as many whole cycles as its history has.
 ///
 /// Method: the mean is taken off, and from displacements, which go on, their mean advance; a Hann window; amplitudes are those of
 /// sinusoids that fit the cycles, which also show with half their amplitude on both sides.
-fn spectrum(
-    view: &View<'_>,
-    output: &str,
-    (free, case): (&[&str], usize),
-) -> Result<Spectrum, FigureError> {
+fn spectrum(panel: &CasePanel<'_>, output: &str) -> Result<Spectrum, FigureError> {
+    let (view, case) = (&panel.view, panel.case);
+    let free: &[&str] = &panel.free();
     let motion = Motion::sampled(view, free, case);
     let times = motion.cycles()?;
     let values = motion.shown(output)?;
@@ -178,7 +180,6 @@ fn spectrum(
     let drive = omega * view.quantity(SPECTRUM_FREQUENCY.name).factor;
     let found = |lines: Vec<(f64, f64)>| Spectrum {
         output: output.to_owned(),
-        case,
         lines,
         drive,
         cycles: cycles as usize,

@@ -29,6 +29,7 @@ fn is_inner(dimension: &str) -> bool {
 const COLUMNS: usize = 4;
 
 /// The results as one figure sees them.
+#[derive(Clone)]
 pub struct View<'a> {
     /// The results.
     pub dataset: &'a Dataset,

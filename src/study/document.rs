@@ -350,8 +350,24 @@ pub fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str>)
         Some(candidate) => format!("; did you mean \"{candidate}\"?"),
         None => String::new(),
     };
-    format!("unknown {what} \"{name}\"{hint} (allowed: {})", known.join(", "))
+    format!("unknown {what} \"{name}\"{hint} (allowed: {})", listed(name, known))
 }
+
+/// Names in a list; of many, those that are nearest to `name`, and how many others there are.
+fn listed(name: &str, mut known: Vec<&str>) -> String {
+    if known.len() <= MOST_LISTED {
+        return known.join(", ");
+    }
+    let others = known.len() - NEAREST_LISTED;
+    let distance = |candidate: &&str| strsim::damerau_levenshtein(name, candidate);
+    known.sort_by_key(|candidate| (!candidate.contains(name), distance(candidate)));
+    let nearest = known[..NEAREST_LISTED].join(", ");
+    format!("{nearest} and {others} others, which studies/README.md lists")
+}
+
+/// Names that a message lists at most, and how many of a longer list.
+const MOST_LISTED: usize = 40;
+const NEAREST_LISTED: usize = 10;
 
 /// The name among `known` that was probably meant: one that begins with it or has it among its words, else one that differs in few
 /// letters.

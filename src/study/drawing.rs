@@ -109,16 +109,17 @@ macro_rules! kinds {
 
 kinds! {
     /// Displacements and velocities over time.
-    History "history" Keys { others: &[&HISTORIES], most: ANY, marks: &["gap"], ..AXES };
+    History "history" Keys { others: &[&HISTORIES], most: ANY, panels: true, marks: &["gap"], ..AXES };
     /// Relative velocity over relative displacement, or one coordinate over another, with section points and impacts.
     PhasePortrait "phase-portrait" Keys {
         others: &[&COORDINATES],
         most: 2,
+        panels: true,
         marks: &["stroboscopic", "impacts", "contact"],
         ..AXES
     };
     /// Amplitudes of a history over frequency.
-    Spectrum "spectrum" Keys { others: &[&SPECTRA], most: ANY, marks: &["drive"], ..AXES };
+    Spectrum "spectrum" Keys { others: &[&SPECTRA], most: ANY, panels: true, marks: &["drive"], ..AXES };
     /// A section coordinate over an axis, with the progression speed below it.
     Bifurcation "bifurcation"
         Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true, coloured: true, marks: &["coexistence", "events", "special-points"], ..AXES };
@@ -141,6 +142,13 @@ kinds! {
 }
 
 impl DrawingKind {
+    /// The names of the kinds that have a panel for each of several values of an axis.
+    pub fn with_panels() -> String {
+        let kinds = DrawingKind::NAMES.iter().filter(|(_, kind)| kind.keys().panels);
+        let names: Vec<&str> = kinds.map(|(name, _)| *name).collect();
+        names.join(", ")
+    }
+
     /// Its name.
     pub fn name(self) -> &'static str {
         DrawingKind::NAMES[self as usize].0
@@ -255,7 +263,7 @@ pub struct Drawing {
     /// Where the other axes are held, in SI, within their ranges; the nearest grid value is taken, by default the
     /// first.
     pub at: BTreeMap<String, f64>,
-    /// Axes that `at` holds at several values, in SI, each with a row or a column of panels; one or two, for maps.
+    /// Axes that `at` holds at several values, in SI, each with a row or a column of panels; one or two.
     pub panels: Vec<(String, Vec<f64>)>,
     /// Range of cycles shown by a history, counted from its start; all by default.
     pub cycles: Option<[f64; 2]>,

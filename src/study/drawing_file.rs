@@ -282,7 +282,10 @@ fn read_at(table: &Table<'_, '_>, axes: &[Axis], kind: Option<DrawingKind>) -> H
                     entry.list().iter().filter_map(|it| value_of(it, &axes[place])).collect();
                 several.insert(place, values);
                 if kind.is_some_and(|kind| !kind.keys().panels) {
-                    entry.fault("expected one value for this kind of figure; maps take lists");
+                    let kinds = DrawingKind::with_panels();
+                    entry.fault(format!(
+                        "expected one value for this kind of figure; {kinds} take lists"
+                    ));
                 }
                 last = Some(entry);
             }

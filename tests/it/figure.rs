@@ -310,7 +310,7 @@ fn axes_are_held_at_the_nearest_value() {
     };
     assert!(held(1e4) == held(1.01e4));
     assert!(held(1e4) != held(5e4));
-    assert!(held(1e4).contains("progression_speed over omega at k2 = 10000 N/m"));
+    assert!(held(1e4).contains("progression_speed over omega at k2 = 10 kN/m"));
     let asked = |k2: f64| {
         let at = BTreeMap::from([("k2".to_string(), k2)]);
         let of = vec!["progression_speed".to_string()];

@@ -110,13 +110,42 @@ fn figures_show_what_they_say() {
         let ran = work.run(&[&["figure", "sweep.h5"][..], &speed, &["--label", label]].concat());
         ran.refused(&[fault]);
     }
-    let ran = work.run(&[
-        "figure",
-        "sweep.h5",
-        "--kind",
-        "phase-portrait",
-        "--at",
-        "omega=110 rad/s,120 rad/s",
-    ]);
-    ran.refused(&["--at omega: has 2 values; a phase-portrait takes one"]);
+    let ran = work.run(
+        &[&["figure", "sweep.h5"][..], &speed, &["--at", "omega=110 rad/s,120 rad/s"]].concat(),
+    );
+    ran.refused(&["--at omega: has 2 values; a bifurcation takes one, several are for history, "]);
+
+    // Kinds have no limits, and it is said why.
+    let (said, ..) =
+        drawn(&work, "plane.h5", &["--kind", "map", "--of", "period", "--limits", "period=1,4"]);
+    assert!(said.contains("`limits` of period has no effect here: kinds have fixed"), "{said}");
+}
+
+#[test]
+fn chosen_cases_have_a_panel_each() {
+    let work = results();
+    let at = ["--sweep", "upward", "--unit", "omega=Hz", "--at"];
+    let portraits = |at_: &str| {
+        let kind = ["--kind", "phase-portrait"];
+        drawn(&work, "sweep.h5", &[&kind[..], &at, &[at_]].concat()).2
+    };
+    let lines = |data: &str, panel: &str| -> Vec<String> {
+        let ours = data.lines().filter_map(|line| line.strip_prefix(panel));
+        ours.map(str::to_owned).collect()
+    };
+    let (both, first) = (portraits("omega=18 Hz,20 Hz"), portraits("omega=18 Hz"));
+    let second = portraits("omega=20 Hz");
+    assert!(lines(&first, "1,").len() > 1000);
+    assert_eq!(lines(&both, "1,"), lines(&first, "1,"));
+    assert_eq!(lines(&both, "2,"), lines(&second, "1,"));
+    assert_ne!(lines(&first, "1,"), lines(&second, "1,"));
+    // What is held is told in the units of the figure, and by name.
+    let told = both.lines().next().expect("a line");
+    assert!(told.ends_with(" Hz, direction = upward"), "{told}");
+    assert!(both.contains("\n# panel 2 (ω/2π = "), "{both}");
+
+    // Spectra side by side have the same abscissa, and each says which case it is.
+    let spectra = [&["--kind", "spectrum"][..], &at, &["omega=18 Hz,20 Hz"]].concat();
+    let svg = words(&drawn(&work, "sweep.h5", &spectra).1);
+    assert!(svg.matches("ω/2π = ").count() == 2 && svg.contains("upward in ω/2π"), "{svg}");
 }

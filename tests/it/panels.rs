@@ -5,7 +5,7 @@ use std::fs;
 
 use capsulemap::figure::{Format, draw};
 use capsulemap::store::dataset::Dataset;
-use capsulemap::study::{Drawing, DrawingKind};
+use capsulemap::study::{Drawing, DrawingKind, QuantitySettings};
 
 use super::figure::fixtures::{Fixture, OUTCOMES, steps};
 use super::figure::{drawing, folder, into};
@@ -120,4 +120,30 @@ fn panels_that_cannot_be_drawn_are_refused_with_all_that_is_wrong() {
     refused(&format!("kind = \"map\"\nat = {{ {three} }}"), &["panels lie along 2 at most"]);
     let values = "\"1 kN/m\", ".repeat(17);
     refused(&format!("kind = \"map\"\nat = {{ k2 = [{values}] }}"), &["17 panels"]);
+}
+
+#[test]
+fn a_contour_bounds_a_plateau_on_both_sides() {
+    // Speeds of −1 on the left, of exactly 0 in the middle, of 1 mm/s on the right.
+    let speed = |at: usize| match at {
+        0..3 => -1e-3,
+        3..7 => 0.0,
+        _ => 1e-3,
+    };
+    let dataset = Fixture::default()
+        .coordinate("p_d", "N", steps(1.0, 4.0, 4))
+        .coordinate("omega", "rad/s", steps(10.0, 100.0, 10))
+        .real("progression_speed", &["p_d", "omega"], |at| speed(at[1]))
+        .integer("outcome", &["p_d", "omega"], &OUTCOMES, |_| 0)
+        .0;
+    let drawn = |level: f64| {
+        let set = QuantitySettings { contours: vec![level], ..Default::default() };
+        let settings = BTreeMap::from([("progression_speed".to_owned(), set)]);
+        let request = Drawing { settings, ..map("progression_speed", &[], &[]) };
+        images(&dataset, &request).0
+    };
+    // Each line has a light one below it.
+    let lines = |svg: &str| svg.matches("stroke=\"#ffffff\"").count();
+    assert_eq!(lines(&drawn(0.0)) - lines(&drawn(0.5e-3)), 1);
+    assert_eq!(lines(&drawn(0.5e-3)), lines(&drawn(-0.5e-3)));
 }

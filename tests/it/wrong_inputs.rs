@@ -96,6 +96,7 @@ const STUDIES: &[(&str, &[&str])] = &[
 /// Commands, their arguments apart, with what is said of them; ok.toml and ok.h5 are a study and its results.
 #[rustfmt::skip]
 const COMMANDS: &[(&[&str], &[&str])] = &[
+    (&["simulate", "--omega", "-3 Hz"], &["omega (frequency of the drive) = -18.84955592153876 rad/s: must be a finite number above zero"]),
     (&["simulate", "--omega", "5km"], &["--omega: \"5km\" has the unknown unit \"km\"; expected a frequency in rad/s"]),
     (&["simulate", "--set", "mu=1"], &["--set: unknown parameter \"mu\"; did you mean \"mu_s\"? (allowed: m1"]),
     (&["simulate", "--set", "mu_s"], &["--set mu_s: expected NAME=VALUE"]),
@@ -128,6 +129,9 @@ const COMMANDS: &[(&[&str], &[&str])] = &[
     (&["figure", "ok.h5", "--kind", "bifurcation", "--at", "omega=99"], &["`at` holds omega at 99 rad/s, and its axis goes from 20 rad/s to 30 rad/s"]),
     (&["figure", "ok.h5", "--kind", "bifurcation", "--at", "k2=3"], &["--at: unknown axis of these results \"k2\" (allowed: omega)"]),
     (&["figure", "ok.h5", "--kind", "bifurcation", "--width", "3000"], &["--width: 3000 mm is not within 40 to 1000 mm"]),
+    (&["figure", "ok.h5", "--kind", "bifurcation", "--width", "-86"], &["--width: -86 mm is not within 40 to 1000 mm"]),
+    (&["figure", "ok.h5", "--kind", "bifurcation", "--colour-by", "directon"], &["--colour-by: unknown output, axis or kind \"directon\"; did you mean \"direction\"? (allowed: attractor, direction"]),
+    (&["figure", "ok.h5", "--kind", "bifurcation", "--limits", "frequenc=1,2"], &["--limits frequenc=1,2: unknown quantity \"frequenc\" (allowed: spectrum_frequency, ", " others, which studies/README.md lists)"]),
     (&["figure", "ok.h5", "--kind", "bifurcation", "--dpi", "3"], &["--dpi: 3 is not within 50 to 2400"]),
     (&["figure", "ok.h5", "--kind", "bifurcation", "--cycles", "3"], &["--cycles 3: expected two numbers, the lesser first, as 0,5"]),
     (&["figure", "ok.h5", "--of", "power"], &["required arguments were not provided", "--kind <KIND>"]),
