@@ -135,7 +135,7 @@ const DETERMINED: f64 = 1e-10;
 ///
 /// # Method
 ///
-/// Levenberg and Marquardt's with a trust region, from [`FIRST_STEPS`] in turn until two end in the same minimum. A parameter
+/// Levenberg and Marquardt's with a trust region, from several lengths of the first step in turn until two end in the same minimum. A parameter
 /// between bounds is written as `least + (greatest - least) (1 + sin u)/2`.
 ///
 /// # Source
