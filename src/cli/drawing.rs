@@ -5,7 +5,9 @@ use clap::ValueEnum;
 use super::failure::Failure;
 use super::terminal::notify;
 use crate::campaign::{KeptSearches, RefinedMotion, searches_path, study_of};
-use crate::figure::{FigureError, Files, Format, Needs, Place, Shown, draw, needs, variables};
+use crate::figure::{
+    FigureError, Files, Format, Measured, Needs, Place, Shown, draw, needs, variables,
+};
 use crate::store::{Archive, Dataset, has_branches, has_cases};
 use crate::study::{Drawing, DrawingKind};
 
@@ -42,13 +44,13 @@ pub fn draw_from(
     drawings: &[Drawing],
     place: &Place<'_>,
 ) -> Result<(), Failure> {
-    draw_each(archive, &ready(archive.into(), drawings), place)
+    draw_each(archive, (&ready(archive.into(), drawings), None), place)
 }
 
-/// Draws figures, each from no more of the results than it shows.
+/// Draws figures, each from no more of the results than it shows, with measured points if there are any.
 pub fn draw_each(
     archive: &Archive,
-    drawings: &[Drawing],
+    (drawings, measured): (&[Drawing], Option<&Measured>),
     place: &Place<'_>,
 ) -> Result<(), Failure> {
     let mut failures = Vec::new();
@@ -56,7 +58,7 @@ pub fn draw_each(
         let shown = variables(drawing);
         let dataset = archive.labelled(|name| shown.contains(name)).map_err(Failure::machine)?;
         let refined = if drawing.kind.keys().between { refined(archive)? } else { Vec::new() };
-        let shown = Shown { dataset: &dataset, refined: &refined };
+        let shown = Shown { dataset: &dataset, refined: &refined, measured };
         failures.extend(draw_all(shown, std::slice::from_ref(drawing), place).err());
     }
     Failure::all(failures).map_or(Ok(()), Err)

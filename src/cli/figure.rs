@@ -9,11 +9,13 @@ use super::appearance::Appearance;
 use super::arguments::{named, plain_or_quantity};
 use super::drawing::{FormatChoice, draw_each, draw_from, formats};
 use super::failure::Failure;
+use super::files;
 use super::terminal::notify;
 use crate::campaign::study_of;
 use crate::capsule::{Dimension, Output};
-use crate::figure::Place;
-use crate::store::{self, Archive, Dataset, StoreError};
+use crate::experiment::{Column, Presence};
+use crate::figure::{Measured, Place};
+use crate::store::{self, Archive, Dataset, StoreError, catalogue};
 use crate::study::appearance::dimension_of;
 use crate::study::document::unknown;
 use crate::study::{COLOURED_BY, Coordinate, Drawing, DrawingKind, Held, Sweep, check_panels};
@@ -58,6 +60,10 @@ pub struct Figure {
     /// Cycles that a history shows, as 0,5.
     #[arg(long, value_name = "FROM,TO", value_delimiter = ',', requires = "kind")]
     cycles: Vec<f64>,
+    /// Measured points over a bifurcation diagram: a CSV file with a column of its axis and one for each measured output, with
+    /// their units, as "omega [rad/s],progression_speed [mm/s]".
+    #[arg(long, value_name = "FILE.csv", requires = "kind")]
+    points: Option<PathBuf>,
     #[command(flatten)]
     appearance: Appearance,
     /// Draw the curves of special points over a map of their two parameters.
@@ -92,7 +98,12 @@ impl Figure {
         let formats = formats(&self.formats);
         let place = Place { folder, formats: &formats, overwrite: self.overwrite };
         match self.kind {
-            Some(kind) => draw_each(&archive, &[self.drawing(kind, &archive)?], &place),
+            Some(kind) => {
+                let measured = self.points.as_deref().map(|path| measured(path, &archive));
+                let measured = measured.transpose()?;
+                let drawing = self.drawing(kind, &archive)?;
+                draw_each(&archive, (&[drawing], measured.as_ref()), &place)
+            }
             None => draw_from(&archive, &studied(&archive, &self.file)?, &place),
         }
     }
@@ -227,6 +238,21 @@ impl Figure {
         let at = at.map(|(name, values)| (name, values[0])).collect();
         if faults.is_empty() { Ok((at, panels)) } else { Err(Failure::requests(&faults)) }
     }
+}
+
+/// The measured points in a file, of the axes and the variables of the results.
+fn measured(path: &Path, archive: &Archive) -> Result<Measured, Failure> {
+    let axes = archive.frame().coordinates.iter().map(|it| it.0.as_str());
+    let names = axes.chain(archive.variables().map(|it| it.0));
+    let column = |name: &str| {
+        let name = catalogue::named(name)?.name;
+        let dimension = dimension(archive, name).ok()?;
+        Some(Column { name, dimension, presence: Presence::Optional })
+    };
+    let known: Vec<Column> = names.filter_map(column).collect();
+    let recording = files::recording(path, &known, 1)?;
+    let of = |it: &Column| Some((it.name.to_owned(), recording.column(it.name)?.to_vec()));
+    Ok(Measured { columns: known.iter().filter_map(of).collect() })
 }
 
 /// The dimension of a quantity of figures, or of a variable of the file.

@@ -124,7 +124,7 @@ impl Report<'_> {
         let shown = variables(drawing);
         let dataset = self.request.archive.labelled(|name| shown.contains(name))?;
         let refined = if drawing.kind.keys().between { self.kept.motions() } else { Vec::new() };
-        Ok(picture(Shown { dataset: &dataset, refined: &refined }, drawing))
+        Ok(picture(Shown { dataset: &dataset, refined: &refined, measured: None }, drawing))
     }
 
     /// The study, where the results come from, and how to cite and to repeat them.

@@ -16,6 +16,7 @@ use super::error::FigureError;
 use super::event_marks::EventMarks;
 use super::geometry::{Point, Rect};
 use super::header::{self, Mark};
+use super::measured::MeasuredPoints;
 use super::page::PageRequest;
 use super::paint::Paint;
 use super::panel::Panel;
@@ -61,7 +62,9 @@ pub fn draw(
     let mut windows = windows(&values, attractors);
     let lines: Vec<BranchLines> =
         outputs.iter().map(|output| BranchLines::shown(view, x_name, output)).collect();
-    let reached: Vec<f64> = lines.iter().flat_map(BranchLines::places).map(|at| at.0).collect();
+    let measured = MeasuredPoints::over(view, x_name, &outputs)?;
+    let of_branches = lines.iter().flat_map(BranchLines::places).map(|at| at.0);
+    let reached: Vec<f64> = of_branches.chain(measured.abscissae()).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
     // Other limits may be set than those of the values.
     let Scale { low, high, .. } = abscissa.scale;
@@ -77,7 +80,7 @@ pub fn draw(
     let mut page = request(
         view,
         &outputs,
-        &Shown { clouds: &clouds, lines: &lines, symbols: &symbols },
+        &Shown { clouds: &clouds, lines: &lines, symbols: &symbols, measured: &measured },
         abscissa,
         note,
     );
@@ -87,10 +90,13 @@ pub fn draw(
     }
     page.rows =
         with_paint(with_branch_lines(page.rows, &clouds, &lines), (paint.as_ref(), &is_seen));
+    page.rows = measured.with_legend(page.rows, &clouds);
     let room = |height: f64| paint.as_ref().map_or(0.0, |it| it.room(height));
     let (mut canvas, panels) = PageRequest { right_room: &room, ..page }.lay_out();
     let shown = clouds.iter().zip(&lines).zip(outputs.iter().zip(&symbols));
-    for (panel, ((cloud, lines), (output, symbols))) in panels.iter().flatten().zip(shown) {
+    for (index, (panel, ((cloud, lines), (output, symbols)))) in
+        panels.iter().flatten().zip(shown).enumerate()
+    {
         shade(&mut canvas, panel, &windows);
         mark_zero(&mut canvas, panel, output, view);
         // Points stand out on both sides of the lines through them.
@@ -103,10 +109,12 @@ pub fn draw(
         }
         draw_symbols(&mut canvas, panel, symbols);
         lines.draw(&mut canvas, panel);
+        measured.draw(&mut canvas, panel, index);
         panel.finish(&mut canvas);
     }
     explain(&mut canvas, &panels, paint.as_ref());
-    Ok(canvas.finish(&view.about(&outputs, &attractors.free)).noting(left_out))
+    let outside = measured.left_out(&panels);
+    Ok(canvas.finish(&view.about(&outputs, &attractors.free)).noting(left_out).noting(outside))
 }
 
 /// Draws symbols, without those that would hide an earlier one of their kind.

@@ -15,6 +15,7 @@ use super::diagram::{
 use super::error::FigureError;
 use super::header::Mark;
 use super::kind::{Kind, Names, Needs};
+use super::measured::MeasuredPoints;
 use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::paint::Paint;
@@ -120,7 +121,9 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         .iter()
         .map(|output| points(view, output, &values, (&free, paint.as_ref()), &branches))
         .collect::<Result<Vec<_>, _>>()?;
-    let reached: Vec<f64> = lines.iter().flat_map(BranchLines::places).map(|at| at.0).collect();
+    let measured = MeasuredPoints::over(view, x_name, &outputs)?;
+    let of_branches = lines.iter().flat_map(BranchLines::places).map(|at| at.0);
+    let reached: Vec<f64> = of_branches.chain(measured.abscissae()).collect();
     let abscissa = AxisRequest::new(quantity, span(&values, &reached));
     let is_seen = seen(
         &abscissa,
@@ -136,7 +139,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let page = request(
         view,
         &outputs,
-        &Shown { clouds: &clouds, lines: &lines, symbols: &[] },
+        &Shown { clouds: &clouds, lines: &lines, symbols: &[], measured: &measured },
         abscissa,
         note,
     );
@@ -144,10 +147,12 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let shown = if values.is_empty() || paint.is_some() { &[][..] } else { &branches[..] };
     let rows = with_legend(page.rows, shown);
     let rows = with_paint(with_branch_lines(rows, &clouds, &lines), (paint.as_ref(), &is_seen));
+    let rows = measured.with_legend(rows, &clouds);
     let room = |height: f64| paint.as_ref().map_or(0.0, |it| it.room(height));
     let (mut canvas, panels) = PageRequest { rows, right_room: &room, ..page }.lay_out();
     let shown = clouds.iter().zip(&lines).zip(&outputs);
-    for (panel, ((cloud, lines), output)) in panels.iter().flatten().zip(shown) {
+    for (index, (panel, ((cloud, lines), output))) in panels.iter().flatten().zip(shown).enumerate()
+    {
         if !has_points(view, output) {
             panel.mark_zero(&mut canvas);
         }
@@ -158,10 +163,12 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             panel.record_values(&mut canvas, name, told(dots, paint.as_ref()));
         }
         lines.draw(&mut canvas, panel);
+        measured.draw(&mut canvas, panel, index);
         panel.finish(&mut canvas);
     }
     explain(&mut canvas, &panels, paint.as_ref());
-    Ok(canvas.finish(&view.about(&outputs, &free)).noting(left_out))
+    let outside = measured.left_out(&panels);
+    Ok(canvas.finish(&view.about(&outputs, &free)).noting(left_out).noting(outside))
 }
 
 /// The branches of the diagram; one without a name where the starts were not inherited in both directions.

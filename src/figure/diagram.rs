@@ -8,6 +8,7 @@ use super::data::Value;
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
+use super::measured::MeasuredPoints;
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::paint::Paint;
 use super::panel::{Panel, Pointing};
@@ -34,6 +35,8 @@ pub struct Shown<'a> {
     pub lines: &'a [BranchLines],
     /// The symbols of events; empty where there are none.
     pub symbols: &'a [Vec<Placed>],
+    /// The measured points.
+    pub measured: &'a MeasuredPoints,
 }
 
 /// The abscissa, with room for points that stand at its ends, and as far as orbits were continued.
@@ -75,14 +78,17 @@ pub fn request<'a>(
     abscissa: AxisRequest,
     header: Option<Text>,
 ) -> PageRequest<'a> {
-    let Shown { clouds, lines, symbols } = *shown;
+    let Shown { clouds, lines, symbols, measured } = *shown;
     let mut rows = Vec::new();
     let mut heights = Vec::new();
     for (index, (output, cloud)) in outputs.iter().zip(clouds).enumerate() {
         let dots = cloud.iter().flatten().map(|dot| dot.at.1);
         let of_symbols = symbols.get(index).into_iter().flatten().map(|it| it.2);
-        let values: Vec<f64> =
-            dots.chain(lines[index].places().map(|at| at.1)).chain(of_symbols).collect();
+        let values: Vec<f64> = dots
+            .chain(lines[index].places().map(|at| at.1))
+            .chain(of_symbols)
+            .chain(measured.ordinates(index))
+            .collect();
         let y = AxisRequest::around(view.quantity(output), &values, 0.06);
         let last = index + 1 == outputs.len();
         let x = AxisRequest { labelled: last, numbered: last, ..abscissa.clone() };

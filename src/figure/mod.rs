@@ -28,6 +28,7 @@ mod inferred;
 mod kind;
 mod map;
 mod mark;
+mod measured;
 mod motion;
 mod notes;
 mod optima_table;
@@ -68,6 +69,7 @@ use std::path::PathBuf;
 pub use error::FigureError;
 pub use format::Format;
 pub use kind::Needs;
+pub use measured::Measured;
 pub use output::Place;
 pub use shown::Shown;
 
@@ -205,6 +207,9 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
         let marks = marks.join(", ");
         let why = format!("`hide`: a {} has no mark {mark} (it has: {marks})", kind.name());
         return Err(view.unfit(why));
+    }
+    if view.measured.is_some() && kind != DrawingKind::Bifurcation {
+        return Err(view.unfit("measured points stand over a bifurcation diagram"));
     }
     if drawing.curves && kind != DrawingKind::Map {
         return Err(view.unfit("`curves` lie over a map"));

@@ -1,5 +1,6 @@
-//! What figures are drawn from: results, and motions found between their cases.
+//! What figures are drawn from: results, motions found between their cases, and measured points.
 
+use super::measured::Measured;
 use crate::campaign::RefinedMotion;
 use crate::store::dataset::Dataset;
 
@@ -10,10 +11,12 @@ pub struct Shown<'a> {
     pub dataset: &'a Dataset,
     /// Motions that were found between their cases.
     pub refined: &'a [RefinedMotion],
+    /// Points that were measured.
+    pub measured: Option<&'a Measured>,
 }
 
 impl<'a> From<&'a Dataset> for Shown<'a> {
     fn from(dataset: &'a Dataset) -> Self {
-        Shown { dataset, refined: &[] }
+        Shown { dataset, refined: &[], measured: None }
     }
 }

@@ -1,4 +1,4 @@
-//! The symbols of special points and of optima: a shape for the point, a colour for curves of such points.
+//! The symbols of special points, of optima and of measured points: a shape for the point, a colour for curves of such points.
 
 use plotters::style::RGBColor;
 
@@ -6,10 +6,10 @@ use super::canvas::{Canvas, Dash, Stroke};
 use super::geometry::Point;
 use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, GREEN, INK, PAPER, PURPLE, VERMILION};
 
-/// A kind of special point or of optimum as figures show it.
+/// A kind of special point, of optimum or of measured point as figures show it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Symbol {
-    /// Its name in files of results; empty for optima, which are not there.
+    /// Its name in files of results; empty for optima and measured points, which are not there.
     pub name: &'static str,
     /// Its name in legends.
     pub words: &'static str,
@@ -29,6 +29,8 @@ enum Shape {
     Ring,
     /// A ring that hides nothing within.
     Circle,
+    /// A square that hides nothing within.
+    Square,
     Cross,
 }
 
@@ -81,6 +83,9 @@ pub const KNEE: Symbol = optimum("knee", Shape::Diamond);
 /// The motion with the least energy per metre.
 pub const LEAST: Symbol = optimum("least J/m", Shape::Triangle);
 
+/// What was measured, over what is computed.
+pub const MEASURED: Symbol = optimum("measured", Shape::Square);
+
 const fn optimum(words: &'static str, shape: Shape) -> Symbol {
     Symbol { name: "", words, shape, colour: INK, dash: Dash::None }
 }
@@ -120,6 +125,15 @@ impl Symbol {
             Shape::Circle => {
                 canvas.rings(&[at], RADIUS * 1.4, Stroke::solid(PAPER, 2.5 * CURVE_WIDTH));
                 canvas.rings(&[at], RADIUS * 1.4, Stroke::solid(INK, CURVE_WIDTH));
+            }
+            Shape::Square => {
+                let reach = RADIUS;
+                let (x, y) = at;
+                let [a, b, c, d] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+                    .map(|(u, v)| (x + u * reach, y + v * reach));
+                let sides = [(a, b), (b, c), (c, d), (d, a)];
+                canvas.segments(&sides, Stroke::solid(PAPER, 2.5 * CURVE_WIDTH));
+                canvas.segments(&sides, Stroke::solid(INK, CURVE_WIDTH));
             }
             Shape::Cross => {
                 let reach = RADIUS * 0.62;

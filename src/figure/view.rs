@@ -8,6 +8,7 @@ use std::rc::Rc;
 use super::chosen::Chosen;
 use super::cloud;
 use super::error::FigureError;
+use super::measured::Measured;
 use super::quantity::Quantity;
 use super::shown::Shown;
 use super::style::POINTS_PER_MM;
@@ -35,6 +36,8 @@ pub struct View<'a> {
     pub dataset: &'a Dataset,
     /// Motions that were found between their cases.
     pub refined: &'a [RefinedMotion],
+    /// Points that were measured.
+    pub measured: Option<&'a Measured>,
     /// The request.
     pub drawing: &'a Drawing,
     /// Index at which each axis named by `at` is held.
@@ -48,9 +51,9 @@ pub struct View<'a> {
 impl<'a> View<'a> {
     /// Checks the axes that `drawing` names against the results in `shown`.
     pub fn new(shown: Shown<'a>, drawing: &'a Drawing) -> Result<View<'a>, FigureError> {
-        let Shown { dataset, refined } = shown;
+        let Shown { dataset, refined, measured } = shown;
         let (held, panelled, chosen) = (Vec::new(), Vec::new(), Rc::default());
-        let mut view = View { dataset, refined, drawing, held, panelled, chosen };
+        let mut view = View { dataset, refined, measured, drawing, held, panelled, chosen };
         for name in drawing.x.iter().chain(&drawing.y) {
             if !varied(dataset).contains(&name.as_str()) {
                 view.check_axis(name)?;
@@ -118,10 +121,11 @@ impl<'a> View<'a> {
         let index = self.direction(direction)?;
         let others = self.held.iter().filter(|(name, _)| name != DIRECTION.name).cloned();
         let held = others.chain([(DIRECTION.name.to_owned(), index)]).collect();
-        let View { dataset, refined, drawing, .. } = *self;
+        let View { dataset, refined, measured, drawing, .. } = *self;
         Ok(View {
             dataset,
             refined,
+            measured,
             drawing,
             held,
             panelled: Vec::new(),
@@ -141,11 +145,12 @@ impl<'a> View<'a> {
         let at = |row: &Option<(String, usize)>, column: &Option<(String, usize)>| {
             let is_moved = |name: &String| self.panelled.iter().any(|it| it.0 == *name);
             let held = self.held.iter().filter(|(name, _)| !is_moved(name)).cloned();
-            let View { dataset, refined, drawing, .. } = *self;
+            let View { dataset, refined, measured, drawing, .. } = *self;
             let held = held.chain(row.clone()).chain(column.clone()).collect();
             View {
                 dataset,
                 refined,
+                measured,
                 drawing,
                 held,
                 panelled: Vec::new(),

@@ -210,6 +210,41 @@ fn wrong_recordings_are_refused_with_file_and_line_and_nothing_is_written() {
     }
 }
 
+/// Loads and deflections of a spring with the force `k d + cubic d^3`, read with 10 um of noise.
+fn static_test(cubic: f64) -> String {
+    let mut noise = Noise::new(3);
+    let mut text = String::from("force [N],deflection [mm]\n");
+    for i in 0..30 {
+        let d = 1e-3 * f64::from(i) / 10.0;
+        let force = 2420.0 * d + cubic * d * d * d;
+        text += &format!("{force},{}\n", 1e3 * d + noise.normal(0.01));
+    }
+    text
+}
+
+#[test]
+fn a_stiffening_spring_is_told_and_drawn() {
+    let work = WorkDir::new();
+    work.put("straight.csv", static_test(0.0));
+    work.put("stiff.csv", static_test(2e8));
+    for (file, is_linear) in [("straight.csv", true), ("stiff.csv", false)] {
+        let found = json(&work, &["identify", "--static-force", file, "--json"]);
+        let notes = found["identified"][0]["notes"].to_string();
+        let warned = notes.contains("the spring is not linear") && notes.contains("stiffens from");
+        assert_eq!(warned, !is_linear, "{found}");
+    }
+    let ran = work.run(&["identify", "--static-force", "stiff.csv", "--figures", "drawn"]).done();
+    assert!((ran.out + &ran.err).contains("the spring is not linear"));
+    // The points less the line are those of a cubic: below it in the middle, above it at the ends.
+    let data = fs::read_to_string(work.path("drawn/static-force.csv")).expect("drawn");
+    let rows = data.lines().filter(|line| line.starts_with("b,") || line.starts_with("2,"));
+    let left: Vec<f64> =
+        rows.filter_map(|row| row.split(',').nth(3)?.parse().ok()).take(30).collect();
+    assert_eq!(left.len(), 30, "{data}");
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    assert!(mean(&left[12..18]) - mean(&[&left[..3], &left[27..]].concat()) > 0.1, "{left:?}");
+}
+
 /// The recording of the simple test of a seed.
 fn recording(test: Test, seed: u64) -> Recording {
     let tests = simple_tests(&Parameters::default(), &Laboratory::default(), seed);

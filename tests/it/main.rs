@@ -60,6 +60,7 @@ mod killed_calls;
 mod lanes;
 mod margins;
 mod mean_errors;
+mod measured_points;
 mod motion_fits;
 mod mutants;
 mod neutral;
