@@ -10,19 +10,6 @@ use super::symbol::MEASURED;
 use super::text::Text;
 use super::view::View;
 
-/// Points that were measured: a column for each quantity, by its name in files of results, all as long as each other [SI].
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Measured {
-    /// The columns.
-    pub columns: Vec<(String, Vec<f64>)>,
-}
-
-impl Measured {
-    fn column(&self, name: &str) -> Option<&[f64]> {
-        self.columns.iter().find(|it| it.0 == name).map(|it| it.1.as_slice())
-    }
-}
-
 /// The measured points on the panels of a diagram, in the units of their axes.
 pub struct MeasuredPoints {
     panels: Vec<Vec<(f64, f64)>>,

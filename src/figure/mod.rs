@@ -69,9 +69,8 @@ use std::path::PathBuf;
 pub use error::FigureError;
 pub use format::Format;
 pub use kind::Needs;
-pub use measured::Measured;
 pub use output::Place;
-pub use shown::Shown;
+pub use shown::{Measured, Shown};
 
 use crate::capsule::Parameter;
 use crate::store::catalogue::Entry;

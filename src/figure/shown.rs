@@ -1,6 +1,5 @@
 //! What figures are drawn from: results, motions found between their cases, and measured points.
 
-use super::measured::Measured;
 use crate::campaign::RefinedMotion;
 use crate::store::dataset::Dataset;
 
@@ -18,5 +17,19 @@ pub struct Shown<'a> {
 impl<'a> From<&'a Dataset> for Shown<'a> {
     fn from(dataset: &'a Dataset) -> Self {
         Shown { dataset, refined: &[], measured: None }
+    }
+}
+
+/// Points that were measured: a column for each quantity, by its name in files of results, all as long as each other [SI].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Measured {
+    /// The columns.
+    pub columns: Vec<(String, Vec<f64>)>,
+}
+
+impl Measured {
+    /// The column called `name`.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        self.columns.iter().find(|it| it.0 == name).map(|it| it.1.as_slice())
     }
 }
