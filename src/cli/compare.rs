@@ -8,11 +8,12 @@ use serde_json::json;
 use super::experiment_figures::comparison_plot;
 use super::failure::Failure;
 use super::files;
-use super::fit::{threads, varied};
+use super::fit::{threads, told_of_bound, varied};
 use super::identify::{shown, unit};
 use super::synthesize::case_of;
 use super::terminal::print;
 use crate::capsule::{Output, Parameter};
+use crate::experiment::comparison::EXPLAINED_CYCLES;
 use crate::experiment::least_squares::Loss;
 use crate::experiment::{Comparison, Effort, Explanation, Free, Weights, compare, explain};
 use crate::figure::plot::draw_plot;
@@ -101,7 +102,12 @@ impl Compare {
         output: &std::path::Path,
     ) -> Result<Vec<PathBuf>, Failure> {
         let folder = crate::store::folder(output);
-        let Some(name) = output.file_name().map(|it| it.to_string_lossy().into_owned()) else {
+        // An extension that is given all the same is not doubled.
+        let is_format = output
+            .extension()
+            .is_some_and(|it| ["png", "pdf", "csv"].iter().any(|known| it == *known));
+        let stem = if is_format { output.file_stem() } else { output.file_name() };
+        let Some(name) = stem.map(|it| it.to_string_lossy().into_owned()) else {
             return Err(Failure::request(format!(
                 "--output {}: expected a file",
                 output.display()
@@ -151,10 +157,15 @@ fn told_of(it: &Comparison) -> String {
     text += &format!("motion:       {recorded} recorded; {period} simulated\n");
     if let Some(speed) = &it.recorded_speed {
         text += &format!(
-            "speed:        {} mm/s recorded (standard error {}), {:.4} mm/s simulated\n",
+            "speed:        {} mm/s recorded (standard error {}), {:.4} mm/s simulated{}\n",
             shown(speed.value * 1e3, speed.standard_error * 1e3),
             shown(speed.standard_error * 1e3, speed.standard_error * 1e3),
-            it.simulated_speed * 1e3
+            it.simulated_speed * 1e3,
+            if it.outcome.0 == Outcome::Periodic {
+                ""
+            } else {
+                ", the mean of 128 cycles of a motion that does not repeat"
+            }
         );
     }
     text += &match it.recorded_impacts {
@@ -162,7 +173,7 @@ fn told_of(it: &Comparison) -> String {
             "impacts:      {recorded:.2} per cycle recorded (r reaches delta), {} simulated\n",
             it.impacts
         ),
-        None => format!("impacts:      {} per cycle simulated; r is not recorded\n", it.impacts),
+        None => format!("impacts:      {} per cycle simulated; {}\n", it.impacts, uncounted(it)),
     };
     if let Some([recorded, simulated]) = it.spikes {
         text +=
@@ -178,13 +189,23 @@ fn told_of(it: &Comparison) -> String {
     text
 }
 
+/// Why the impacts of a record are not counted.
+fn uncounted(it: &Comparison) -> &'static str {
+    match it.is_countable {
+        true => "r is not recorded",
+        false => {
+            "not counted in the record: fewer than three cycles without a gap, or than 20 samples a cycle"
+        }
+    }
+}
+
 fn explained(comparison: &Comparison, it: &Explanation) -> String {
     let of = |parameter| it.changed.iter().find(|it| it.0 == parameter).map(|it| it.1);
     let mu_d = of(Parameter::MuD).unwrap_or(comparison.motion.parameters[Parameter::MuD]);
     let changed: Vec<String> = it
         .changed
         .iter()
-        .map(|(parameter, value)| {
+        .map(|(parameter, value, _)| {
             if *parameter == Parameter::MuS && *value < 2.0 * mu_d {
                 return "mu_s below 2 mu_d, where it has no effect".to_owned();
             }
@@ -198,8 +219,15 @@ fn explained(comparison: &Comparison, it: &Explanation) -> String {
             )
         })
         .collect();
+    let bounds: String = it
+        .changed
+        .iter()
+        .filter(|it| it.0 != Parameter::MuS || it.1 >= 2.0 * mu_d)
+        .map(|(parameter, value, bound)| told_of_bound("  ", *parameter, *value, *bound))
+        .collect();
     format!(
-        "with {}: error {:.1} % over the first cycles, {:.1} % without; {} impacts per cycle, {:.4} mm/s\n",
+        "with {}: error of all signals {:.1} % over the first {EXPLAINED_CYCLES} cycles, {:.1} % without; {} impacts per cycle, {:.4} \
+         mm/s\n{bounds}",
         changed.join(", "),
         100.0 * it.misfit[1],
         100.0 * it.misfit[0],
@@ -215,7 +243,9 @@ fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Value {
         let changed = it
             .changed
             .iter()
-            .map(|(parameter, value)| json!({ "name": parameter.symbol(), "value": value }));
+            .map(|(parameter, value, bound)| {
+                json!({ "name": parameter.symbol(), "value": value, "on_bound": bound.map(|it| it.name()) })
+            });
         json!({
             "changed": changed.collect::<Vec<_>>(),
             "error": it.misfit[1],
@@ -225,6 +255,7 @@ fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Value {
         })
     };
     json!({
+        "countable": it.is_countable,
         "samples": it.sampling.count,
         "gaps": it.sampling.gaps,
         CYCLES.name: it.cycles,

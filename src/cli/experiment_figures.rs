@@ -3,6 +3,7 @@
 use crate::capsule::Dimension;
 use crate::experiment::identification::Evidence;
 use crate::experiment::line::Line;
+use crate::experiment::recording::GAP;
 use crate::experiment::{Coasting, Comparison, Given, Recording, Signal, Test};
 use crate::figure::plot::{Look, Plot, PlotPanel, Series};
 
@@ -166,6 +167,19 @@ fn coasting_plot(test: Test, speeds: &[f64], coasting: &Coasting) -> Plot {
     )
 }
 
+/// The points of a curve, broken at the gaps of the record.
+fn broken(points: Vec<(f64, f64)>, comparison: &Comparison) -> Vec<(f64, f64)> {
+    let longest = GAP * comparison.sampling.interval;
+    let mut all = Vec::with_capacity(points.len());
+    for (place, point) in points.iter().enumerate() {
+        if place > 0 && point.0 - points[place - 1].0 > longest {
+            all.push((f64::NAN, f64::NAN));
+        }
+        all.push(*point);
+    }
+    all
+}
+
 /// A comparison in the style of the paper's Figs 5 to 7: a panel for each signal, recorded and simulated.
 ///
 /// So many cycles of the drive are shown, which a note says where the record has more.
@@ -189,8 +203,9 @@ pub fn comparison_plot(name: &str, comparison: &Comparison, about: &str, cycles:
             Signal::Drive => "Drive",
         };
         let unit = unit.replace("m/s2", "m/s$^2$");
-        let of =
-            |values: &[f64]| scaled(&comparison.times[..count], &values[..count], [1.0, factor]);
+        let of = |values: &[f64]| {
+            broken(scaled(&comparison.times[..count], &values[..count], [1.0, factor]), comparison)
+        };
         vec![panel(
             "Time (s)",
             &format!("{symbol} ({unit})"),

@@ -14,6 +14,7 @@ use crate::capsule::Parameter;
 use crate::experiment::comparison::signals_of;
 use crate::experiment::identification::parameter_file;
 use crate::experiment::least_squares::{Bounds, Loss};
+use crate::experiment::motion_fit::Side;
 use crate::experiment::{
     Constant, Effort, Free, Identified, MotionFit, Recorded, Recording, Verdict, Weights,
     fit_motion, harmonic,
@@ -31,6 +32,8 @@ within its bounds is called one-sided or not determined.";
 
 /// A residual of this many standard deviations of the noise begins to count less, with --robust.
 const ROBUST: f64 = 2.0;
+/// Residuals below this share of what third differences take for noise are no noise.
+const COARSE: f64 = 0.5;
 
 /// Fit parameters to recorded histories of the motion.
 #[derive(Debug, Args)]
@@ -137,6 +140,7 @@ impl Fit {
             parameters: case.parameters,
             times: times[..count].to_vec(),
             phase: drive.phase.value,
+            phase_error: drive.phase.standard_error,
             signals: signals.into_iter().map(|(signal, values)| (signal, cut(values))).collect(),
         })
     }
@@ -228,6 +232,16 @@ fn table(fit: &MotionFit) -> String {
             ),
         };
     }
+    for it in fit.fitted.iter().filter(|it| it.verdict != Verdict::NotDetermined) {
+        text += &told_of_bound("", it.parameter, it.estimate.value, it.bound);
+    }
+    if !fit.combined.is_empty() {
+        let names: Vec<&str> = fit.combined.iter().map(|it| it.symbol()).collect();
+        text += &format!(
+            "note: of {} only combinations are determined: changed together they leave the motion as it is; hold one of them\n",
+            names.join(", ")
+        );
+    }
     let strongest = strongest(fit);
     if let Some((a, b, value)) = strongest {
         text +=
@@ -247,10 +261,28 @@ fn table(fit: &MotionFit) -> String {
     {
         text += "note: mu_s below 2 mu_d has no effect; the capsule breaks away at 2 mu_d\n";
     }
+    if fit.misfit < COARSE {
+        text += "warning: the records change too much from sample to sample for their noise to be told from the motion; errors rest \
+                 on the residuals alone\n";
+    }
     if fit.misfit > 1.5 {
         text += "warning: the model does not describe the records to their noise; errors are those of the best fit, not of the truth\n";
     }
     text
+}
+
+/// What is said of a best value on a bound.
+pub fn told_of_bound(
+    before: &str,
+    parameter: Parameter,
+    value: f64,
+    bound: Option<Side>,
+) -> String {
+    let Some(side) = bound else { return String::new() };
+    let (symbol, side, unit) = (parameter.symbol(), side.name(), unit(parameter.dimension()));
+    format!(
+        "{before}warning: {symbol} is best at the {side} value allowed, {value}{unit}: the true one may lie beyond; widen the bounds\n"
+    )
 }
 
 /// The two parameters that are correlated most.
@@ -272,10 +304,13 @@ fn as_json(fit: &MotionFit) -> serde_json::Value {
             "standard_error": it.estimate.standard_error,
             "interval_95": it.estimate.interval,
             "verdict": it.verdict.to_string(),
+            "on_bound": it.bound.map(|it| it.name()),
         })
     };
+    let combined = fit.combined.iter().map(|it| it.symbol());
     json!({
         "fitted": fit.fitted.iter().map(one).collect::<Vec<_>>(),
+        "combined": combined.collect::<Vec<_>>(),
         "correlations": fit.correlations,
         "misfit": fit.misfit,
         "samples": fit.samples,

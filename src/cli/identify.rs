@@ -139,6 +139,13 @@ impl Identify {
         }
         let names = Test::ALL.map(|it| format!("{}.csv", it.name())).join(", ");
         Err(Failure::request(match &self.folder {
+            Some(folder) if !folder.exists() => {
+                format!("{}: there is no such folder", folder.display())
+            }
+            Some(file) if file.is_file() => format!(
+                "{}: is a file, and a folder with some of {names} is expected; an option says what a file is, as --pull FILE",
+                file.display()
+            ),
             Some(folder) => format!("{}: holds none of {names}", folder.display()),
             None => format!(
                 "no recording is given; expected a folder with some of {names}, or an option for each"

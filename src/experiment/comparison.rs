@@ -1,13 +1,14 @@
 //! A recording beside the simulation of the same case: aligned in phase, with what differs.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use super::course::Recorded;
 use super::drive_phase::{Harmonic, harmonic};
 use super::estimate::Estimate;
 use super::free_vibration::noise;
 use super::line::line;
-use super::motion_fit::{Effort, Free, best_values};
+use super::motion_fit::{Effort, Free, Side, best_values};
 use super::recording::{Recording, Sampling};
 use super::sampled::{Signal, Started, sampled};
 use super::spikes::{Spike, contacts, spikes};
@@ -20,6 +21,9 @@ const TOLERANCE: f64 = 1e-12;
 const LONGEST: u64 = 8;
 /// Signals that repeat themselves with the motion, the best first.
 const REPEATING: [Signal; 4] = [Signal::R, Signal::A1, Signal::Y1, Signal::Y2];
+/// Events are counted over so many cycles at least, each of so many samples.
+const LEAST_COUNTED: f64 = 3.0;
+const LEAST_SAMPLES: f64 = 20.0;
 /// Phases that are tried where the drive is not recorded.
 const PHASES: usize = 72;
 
@@ -47,7 +51,7 @@ pub struct Comparison {
     pub drive: Option<Harmonic>,
     /// Phase of the drive at the first sample [rad].
     pub phase: f64,
-    /// Cycles of the drive in the record.
+    /// Cycles of the drive in the record, by the frequency of the recorded drive where it is recorded.
     pub cycles: f64,
     /// Progression speed as recorded, where x2 is [m/s].
     pub recorded_speed: Option<Estimate>,
@@ -57,14 +61,17 @@ pub struct Comparison {
     pub outcome: (Outcome, u64),
     /// The period of the record [cycles]; none where no period up to eight is seen, or nothing that repeats is recorded.
     pub recorded_period: Option<u64>,
-    /// Spikes of the acceleration per cycle, over the whole cycles, as recorded and as simulated and sampled alike, where it is recorded.
+    /// Spikes of the acceleration per cycle, over the whole cycles, as recorded and as simulated and sampled alike; none where it is
+    /// not recorded, or where they cannot be counted: see [`Comparison::is_countable`].
     pub spikes: Option<[f64; 2]>,
-    /// Impacts per cycle as recorded: where r, smoothed, rises through delta; none where r is not recorded.
+    /// Impacts per cycle as recorded: where r, smoothed, rises through delta; none where r is not recorded or they cannot be counted.
     pub recorded_impacts: Option<f64>,
     /// Impacts per cycle of the simulation.
     pub impacts: f64,
     /// The signals that were recorded.
     pub differences: Vec<Difference>,
+    /// Whether events can be counted: three cycles or more without a gap, of twenty samples or more.
+    pub is_countable: bool,
     /// The simulated motion.
     pub motion: Started,
 }
@@ -101,7 +108,8 @@ pub fn compare(recording: &Recording, parameters: &Parameters) -> Result<Compari
     let (times, signals) = signals_of(recording)?;
     let driven = recording.column("drive").or(recording.column("current"));
     let drive = driven.map(|values| harmonic(&times, values)).transpose()?;
-    let compared = |phase: f64| beside(recording, (&times, &signals), parameters, phase);
+    let cycle = drive.as_ref().map_or(parameters.drive_period(), |it| TAU / it.omega.value);
+    let compared = |phase: f64| beside(recording, (&times, &signals), parameters, (phase, cycle));
     let mut best = match &drive {
         Some(drive) => compared(drive.phase.value)?,
         None => {
@@ -121,7 +129,7 @@ fn beside(
     recording: &Recording,
     (times, signals): (&[f64], &[(Signal, Vec<f64>)]),
     parameters: &Parameters,
-    phase: f64,
+    (phase, cycle): (f64, f64),
 ) -> Result<Comparison, String> {
     let case = Case::at_section(parameters.clone(), State::default(), phase);
     let orbit = settle_case(&case, &Protocol::default());
@@ -146,30 +154,64 @@ fn beside(
         differences.push(Difference { signal, recorded, simulated, error });
     }
     let of = |signal: Signal| differences.iter().find(|it| it.signal == signal);
-    let cycles = times[times.len() - 1] / period;
-    let spikes = of(Signal::A1).map(|it| {
-        [&it.recorded, &it.simulated]
-            .map(|values| per_cycle(&times_of(&spikes(times, values)), period, cycles))
+    let sampling = recording.sampling();
+    let whole = whole_part(times, &sampling);
+    let at = &times[whole.clone()];
+    let at: Vec<f64> = at.iter().map(|time| time - at[0]).collect();
+    let cut = |values: &[f64]| values[whole.clone()].to_vec();
+    let last = at[at.len() - 1];
+    let is_countable = last >= LEAST_COUNTED * cycle && sampling.interval * LEAST_SAMPLES <= cycle;
+    // The simulated motion has the cycles of the study.
+    let spikes = of(Signal::A1).filter(|_| is_countable).map(|it| {
+        let count = |values: &[f64], cycle: f64| {
+            per_cycle(&times_of(&spikes(&at, &cut(values))), cycle, last / cycle)
+        };
+        [count(&it.recorded, cycle), count(&it.simulated, period)]
     });
-    let repeating = REPEATING.into_iter().find_map(of);
+    let repeating = REPEATING.into_iter().find_map(of).map(|it| it.recorded.clone());
+    let difference = || {
+        let both = (of(Signal::X1)?, of(Signal::X2)?);
+        Some(both.0.recorded.iter().zip(&both.1.recorded).map(|(a, b)| a - b).collect())
+    };
+    let repeating: Option<Vec<f64>> = repeating.or_else(difference);
     Ok(Comparison {
         times: times.to_vec(),
-        sampling: recording.sampling(),
+        sampling,
         drive: None,
         phase,
-        cycles,
-        recorded_speed: of(Signal::X2).and_then(|it| speed_of(times, &it.recorded, period)),
+        cycles: times[times.len() - 1] / cycle,
+        recorded_speed: of(Signal::X2).and_then(|it| speed_of(times, &it.recorded, cycle)),
         simulated_speed: speed,
         outcome: (orbit.outcome, orbit.period),
-        recorded_period: repeating.and_then(|it| period_of(times, &it.recorded, period)),
+        recorded_period: repeating.and_then(|it| period_of(&at, &cut(&it), cycle)),
         spikes,
-        recorded_impacts: of(Signal::R).map(|it| {
-            per_cycle(&contacts(times, &it.recorded, parameters[Parameter::Delta]), period, cycles)
+        recorded_impacts: of(Signal::R).filter(|_| is_countable).map(|it| {
+            let impacts = contacts(&at, &cut(&it.recorded), parameters[Parameter::Delta]);
+            per_cycle(&impacts, cycle, last / cycle)
         }),
         impacts: orbit.outputs[Output::ImpactsPerCycle],
         differences,
+        is_countable,
         motion,
     })
+}
+
+/// The samples of the longest part of a record without a gap.
+fn whole_part(times: &[f64], sampling: &Sampling) -> Range<usize> {
+    let place = |(begins, _): &(f64, f64)| {
+        times.partition_point(|time| {
+            time - times[0] <= begins - sampling.first + 0.5 * sampling.interval
+        })
+    };
+    let ends = sampling.gaps.iter().map(place).chain([times.len()]);
+    let mut from = 0;
+    let parts = ends.map(|end| {
+        let part = from..end.max(from);
+        from = end.max(from);
+        part
+    });
+    let parts: Vec<Range<usize>> = parts.collect();
+    parts.into_iter().max_by_key(ExactSizeIterator::len).unwrap_or(0..times.len())
 }
 
 /// The root mean square of the differences over the standard deviation of the record, without the advance.
@@ -248,8 +290,8 @@ fn speed_of(times: &[f64], x2: &[f64], period: f64) -> Option<Estimate> {
 /// What parameters would have to be for the simulation to describe a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Explanation {
-    /// The parameters that were free, with their values (SI).
-    pub changed: Vec<(Parameter, f64)>,
+    /// The parameters that were free, with their values (SI), and the bound that the value lies on, if it does.
+    pub changed: Vec<(Parameter, f64, Option<Side>)>,
     /// Root mean square of the residuals over the spread of each signal, without and with the change.
     pub misfit: [f64; 2],
     /// Impacts per cycle with the change.
@@ -259,17 +301,26 @@ pub struct Explanation {
 }
 
 /// Cycles of a record that explanations are fitted to.
-const EXPLAINED_CYCLES: f64 = 3.0;
+pub const EXPLAINED_CYCLES: f64 = 3.0;
 
 /// What other values of some parameters would bring the simulation nearest to the recording, each set in `choices` by itself.
 ///
 /// The paper's section 4 argues that discrepancies come from the stiffness of the stop or from friction: fits in which they
 /// alone are free show how much of the misfit each explains.
+///
+/// Fails where the simulation does not repeat: another start of the same motion differs as much as other parameters do.
 pub fn explain(
     comparison: &Comparison,
     choices: &[Vec<Free>],
     effort: &Effort,
 ) -> Result<Vec<Explanation>, String> {
+    if comparison.outcome.0 != Outcome::Periodic && !choices.is_empty() {
+        return Err(format!(
+            "the simulated motion is {}: histories of it differ by their starts, so that no difference is explained; speeds and \
+             counts can be compared",
+            comparison.outcome.0.name()
+        ));
+    }
     let parameters = &comparison.motion.parameters;
     let span = EXPLAINED_CYCLES * parameters.drive_period();
     let count = comparison.times.iter().take_while(|time| **time <= span).count();
@@ -278,16 +329,17 @@ pub fn explain(
         parameters: parameters.clone(),
         times: comparison.times[..count].to_vec(),
         phase: comparison.phase,
+        phase_error: comparison.drive.as_ref().map_or(0.0, |it| it.phase.standard_error),
         signals: comparison.differences.iter().map(cut).collect(),
     };
     let recorded = [recorded];
     let (_, without) = best_values(&recorded, &[], &Effort { starts: 1, ..*effort })?;
     let explanation = |free: &Vec<Free>| {
         let (values, with) = best_values(&recorded, free, effort)?;
-        let changed: Vec<(Parameter, f64)> =
-            free.iter().map(|it| it.parameter).zip(values).collect();
+        let one = |(it, value): (&Free, f64)| (it.parameter, value, Side::of(value, it.bounds));
+        let changed: Vec<_> = free.iter().zip(values).map(one).collect();
         let mut parameters = parameters.clone();
-        for (parameter, value) in &changed {
+        for (parameter, value, _) in &changed {
             parameters[*parameter] = *value;
         }
         let case = Case::at_section(parameters, State::default(), comparison.phase);

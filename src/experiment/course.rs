@@ -19,6 +19,8 @@ pub struct Recorded {
     pub times: Vec<f64>,
     /// The phase of the drive at the first sample [rad].
     pub phase: f64,
+    /// Its standard error, with which it is fitted, too; zero where it is exact [rad].
+    pub phase_error: f64,
     /// What was recorded, with its values at those times [SI].
     pub signals: Vec<(Signal, Vec<f64>)>,
 }
@@ -92,6 +94,9 @@ impl<'r> Course<'r> {
         if x2.error > 0.0 {
             unknown.push((Direction::StartX2, about(x2.value, x2.error)));
             unknown.push((Direction::StartY2, about(y2, x2.velocity_error)));
+        }
+        if recorded.phase_error > 0.0 {
+            unknown.push((Direction::StartPhase, about(recorded.phase, recorded.phase_error)));
         }
         let guess =
             Started { parameters: recorded.parameters.clone(), start, phase: recorded.phase };

@@ -48,9 +48,14 @@ impl Estimate {
 
 /// How many standard errors an interval of [`CONFIDENCE`] reaches to either side.
 pub fn student(degrees_of_freedom: usize) -> f64 {
+    reach(degrees_of_freedom, CONFIDENCE)
+}
+
+/// The same of another confidence.
+pub fn reach(degrees_of_freedom: usize, confidence: f64) -> f64 {
     let freedom = degrees_of_freedom.max(1) as f64;
     let distribution = StudentsT::new(0.0, 1.0, freedom).expect("positive degrees of freedom");
-    distribution.inverse_cdf(0.5 + 0.5 * CONFIDENCE)
+    distribution.inverse_cdf(0.5 + 0.5 * confidence)
 }
 
 /// The probability that chance alone gives a ratio of variances of at least this size, with so many degrees of freedom.

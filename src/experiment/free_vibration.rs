@@ -24,6 +24,8 @@ pub struct FreeVibration {
     pub rest: f64,
     /// Scatter of the record about the fitted decay [m].
     pub scatter: f64,
+    /// Noise of the record, by its third differences [m]; the scatter is no larger where the model describes the record.
+    pub noise: f64,
     /// When the fitted part of the record begins [s].
     pub begins: f64,
     /// Amplitudes of cos and sin of the fitted decay from there [m].
@@ -93,6 +95,7 @@ pub fn free_vibration(times: &[f64], r: &[f64], m1: f64) -> Result<FreeVibration
         by_decay: [estimate(0), estimate(1)],
         rest: fit.parameters[4],
         scatter: fit.residual_deviation(),
+        noise: noise(&r[first..]),
         begins,
         amplitudes: [fit.parameters[2], fit.parameters[3]],
         turns: turns.times.len(),
@@ -115,6 +118,8 @@ fn decay(m1: f64, parameters: &[f64], time: f64) -> (f64, [f64; 5]) {
 }
 
 struct Turns {
+    /// Which half wave each is of: some may not be found.
+    numbers: Vec<f64>,
     times: Vec<f64>,
     /// Distances from the rest position [m].
     heights: Vec<f64>,
@@ -142,10 +147,15 @@ fn turning_points(times: &[f64], r: &[f64]) -> Result<Turns, String> {
         smoothed(times, r, window, derivative).map_err(|why| format!("cannot be smoothed: {why}"))
     };
     let (smooth, slopes) = (read(0)?, read(1)?);
-    let mut turns =
-        Turns { times: Vec::new(), heights: Vec::new(), rest, first_index: halves[1].0 };
+    let mut turns = Turns {
+        numbers: Vec::new(),
+        times: Vec::new(),
+        heights: Vec::new(),
+        rest,
+        first_index: halves[1].0,
+    };
     // The first is where the mass was let go, perhaps held before: it is no turning point of the decay.
-    for &(from, to) in &halves[1..] {
+    for (number, &(from, to)) in halves.iter().enumerate().skip(1) {
         let away = |i: &usize| (smooth[*i] - rest).abs();
         let Some(top) = (from..to).max_by(|a, b| away(a).total_cmp(&away(b))) else { continue };
         let Some(at) = [top.saturating_sub(1), top].into_iter().find(|&i| {
@@ -156,6 +166,7 @@ fn turning_points(times: &[f64], r: &[f64]) -> Result<Turns, String> {
         let share = slopes[at] / (slopes[at] - slopes[at + 1]);
         let time = times[at] + share * (times[at + 1] - times[at]);
         let height = smooth[at] + share * (smooth[at + 1] - smooth[at]) - rest;
+        turns.numbers.push(number as f64);
         turns.times.push(time);
         turns.heights.push(height.abs());
     }
@@ -199,11 +210,10 @@ pub fn noise(values: &[f64]) -> f64 {
 
 /// Stiffness and damping by the lines through times and logarithms of heights.
 fn by_decrement(turns: &Turns, m1: f64) -> Result<[Estimate; 2], String> {
-    let count: Vec<f64> = (0..turns.times.len()).map(|i| i as f64).collect();
     let logs: Vec<f64> = turns.heights.iter().map(|it| it.ln()).collect();
     let few = "the turning points lie at one time";
-    let half = line(&count, &turns.times).ok_or(few)?.slope;
-    let fall = line(&count, &logs).ok_or(few)?.slope;
+    let half = line(&turns.numbers, &turns.times).ok_or(few)?.slope;
+    let fall = line(&turns.numbers, &logs).ok_or(few)?.slope;
     let pi = std::f64::consts::PI;
     let gamma = -fall.value / half.value;
     let omega = pi / half.value;

@@ -1,6 +1,6 @@
 //! What the simple tests of a rig say of its parameters, with where each value comes from.
 
-use super::estimate::Estimate;
+use super::estimate::{Estimate, reach};
 use super::free_vibration::{FreeVibration, free_vibration};
 use super::friction::{Coasting, CoastingTests, coasting, static_friction};
 use super::line::{Line, line};
@@ -8,8 +8,10 @@ use super::profile::Verdict;
 use super::recording::{Column, Presence::Required, Recording};
 use crate::capsule::{Dimension, Parameter};
 
-/// Ways that differ by more than this many standard errors are told to disagree.
-const DISAGREE: f64 = 3.0;
+/// A fitted decay that leaves so many times the noise does not describe the record.
+const MISFIT: f64 = 1.5;
+/// Two methods disagree where chance makes them differ so once in a thousand recordings.
+const DISAGREE: f64 = 0.999;
 
 /// A simple test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -163,7 +165,20 @@ fn of_free_vibration(
     let apart = found.disagreement();
     let identified = |i: usize, parameter: Parameter| {
         let mut notes: Vec<String> = gaps.iter().cloned().collect();
-        if apart[i] > DISAGREE {
+        if parameter == Parameter::C && found.by_decay[i].value <= 0.0 {
+            notes.push(
+                "the amplitude does not decay: is this a free vibration? no parameter file has this value"
+                    .to_owned(),
+            );
+        }
+        if found.scatter > MISFIT * found.noise {
+            notes.push(format!(
+                "the fitted decay leaves {:.1} times the noise of the record: the damping may not be viscous, the spring not linear, or the \
+                 capsule not at rest",
+                found.scatter / found.noise
+            ));
+        }
+        if apart[i] > reach(found.turns - 2, DISAGREE) {
             let apart = apart[i];
             notes.push(format!(
                 "the two methods differ by {apart:.1} standard errors: the damping may not be viscous, the spring not linear, or \
@@ -199,8 +214,8 @@ fn of_static_force(recording: &Recording) -> Result<(Vec<Identified>, Evidence),
         let [first, last] = it.slopes.map(|slope| 1e-3 / slope);
         let what = if last > first { "stiffens" } else { "softens" };
         format!(
-            "the spring is not linear (chance {:.1e}): it {what} from {first:.4} to {last:.4} kN/m over these loads; one \
-             stiffness describes it in the mean only",
+            "the spring is not linear (chance {:.1e}): it {what} from {first:.4} kN/m over the lower half of the loads to {last:.4} kN/m over \
+             the upper; one stiffness describes it in the mean only",
             it.chance
         )
     });
@@ -319,9 +334,19 @@ pub fn parameter_file(all: &[Identified], settings: &[(Parameter, f64)]) -> Stri
     for (parameter, value) in settings {
         text += &format!("{} = {}\n", parameter.symbol(), quantity(*value, parameter.dimension()));
     }
-    for it in all.iter().filter(|it| it.constant != Constant::MotorConstant) {
-        let value = quantity(it.estimate.value, it.constant.dimension());
-        text += &format!("{} = {value}\n", it.constant.symbol());
+    for it in all {
+        let Constant::Parameter(parameter) = it.constant else { continue };
+        let value = quantity(it.estimate.value, parameter.dimension());
+        let symbol = parameter.symbol();
+        text += &match (it.verdict, parameter.allowed().admits(it.estimate.value)) {
+            (Verdict::NotDetermined, _) => {
+                format!("# {symbol} is not determined by the recording\n")
+            }
+            (_, false) => {
+                format!("# {symbol} = {value} was found, but must be {}\n", parameter.allowed())
+            }
+            (_, true) => format!("{symbol} = {value}\n"),
+        };
     }
     for it in all {
         let Identified { constant, estimate, verdict, method, source, .. } = it;

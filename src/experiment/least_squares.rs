@@ -78,11 +78,18 @@ pub struct Fit {
     /// The covariance of the parameters with residuals of unit variance, `(J^T J)^-1`; of a parameter that the data do not
     /// determine, or that lies on a bound, the row and the column are infinite and zero: it is left out of the others'.
     pub unit_covariance: DMatrix<f64>,
+    /// Whether a parameter has an effect that others of them undo, so that only combinations are determined.
+    pub is_combined: Vec<bool>,
     /// How it ended.
     pub termination: Termination,
 }
 
 impl Fit {
+    /// Whether only combinations of a parameter with others are determined.
+    pub fn is_open(&self, parameter: usize) -> bool {
+        self.is_combined[parameter]
+    }
+
     /// The standard deviation of the residuals, estimated from them.
     pub fn residual_deviation(&self) -> f64 {
         (self.sum_of_squares / self.degrees_of_freedom as f64).sqrt()
@@ -239,10 +246,12 @@ impl<M: Model> Problem<'_, M> {
             .zip(&self.search.bounds)
             .map(|(&value, it)| it.holds(value))
             .collect();
+        let (unit_covariance, is_combined) = unit_covariance(&held.slopes, &on_bound);
         Fit {
             sum_of_squares: held.values.iter().map(|it| it * it).sum(),
             degrees_of_freedom: held.values.len().saturating_sub(parameters.len()),
-            unit_covariance: unit_covariance(&held.slopes, &on_bound),
+            unit_covariance,
+            is_combined,
             parameters,
             termination,
         }
@@ -294,10 +303,12 @@ fn weighed(mut residuals: Residuals, loss: Loss) -> Residuals {
     residuals
 }
 
-/// `(J^T J)^-1` over the parameters that the data determine; see [`Fit::unit_covariance`].
-fn unit_covariance(slopes: &[Vec<f64>], left_out: &[bool]) -> DMatrix<f64> {
+/// `(J^T J)^-1` over the parameters that the data determine, see [`Fit::unit_covariance`], and whether only combinations of each
+/// are determined.
+fn unit_covariance(slopes: &[Vec<f64>], left_out: &[bool]) -> (DMatrix<f64>, Vec<bool>) {
     let count = left_out.len();
     let mut covariance = DMatrix::zeros(count, count);
+    let mut is_combined = vec![false; count];
     let norm =
         |column: usize| slopes.iter().map(|row| row[column] * row[column]).sum::<f64>().sqrt();
     let norms: Vec<f64> = (0..count).map(norm).collect();
@@ -306,14 +317,14 @@ fn unit_covariance(slopes: &[Vec<f64>], left_out: &[bool]) -> DMatrix<f64> {
     others.into_iter().for_each(|i| covariance[(i, i)] = f64::INFINITY);
     if kept.is_empty() || slopes.len() < kept.len() {
         kept.into_iter().for_each(|i| covariance[(i, i)] = f64::INFINITY);
-        return covariance;
+        return (covariance, is_combined);
     }
     // Columns of unit length, so that units do not matter.
     let scaled = DMatrix::from_fn(slopes.len(), kept.len(), |row, column| {
         slopes[row][kept[column]] / norms[kept[column]]
     });
     let svd = scaled.svd(false, true);
-    let Some(directions) = svd.v_t else { return covariance };
+    let Some(directions) = svd.v_t else { return (covariance, is_combined) };
     let largest = svd.singular_values.max();
     for (value, direction) in svd.singular_values.iter().zip(directions.row_iter()) {
         let is_open = *value <= DETERMINED * largest;
@@ -324,9 +335,10 @@ fn unit_covariance(slopes: &[Vec<f64>], left_out: &[bool]) -> DMatrix<f64> {
                     covariance[(row, column)] += share / (value * value);
                 } else if i == j && direction[i].abs() > 1e-6 {
                     covariance[(row, row)] = f64::INFINITY;
+                    is_combined[row] = true;
                 }
             }
         }
     }
-    covariance
+    (covariance, is_combined)
 }

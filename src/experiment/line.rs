@@ -25,7 +25,7 @@ pub struct Line {
 pub struct Curvature {
     /// The probability that points on a line scatter so.
     pub chance: f64,
-    /// The slopes of the parabola at the least and at the greatest x.
+    /// The slopes of the lines through the points with the lesser half of x and through those with the greater.
     pub slopes: [f64; 2],
 }
 
@@ -57,14 +57,15 @@ pub fn line(x: &[f64], y: &[f64]) -> Option<Line> {
     Some(Line {
         slope: Estimate::of_student(slope, scatter / square.sqrt(), freedom),
         intercept: Estimate::of_student(y_mean - slope * x_mean, intercept_error, freedom),
-        curvature: curvature(&u, &residuals, slope, square),
+        curvature: curvature(&u, &residuals, square)
+            .map(|chance| Curvature { chance, slopes: halves(x, y, slope) }),
         residuals,
         scatter,
     })
 }
 
-/// The parabola through points whose line leaves these residuals, if it is needed; `u` is x less its mean.
-fn curvature(u: &[f64], residuals: &[f64], slope: f64, square: f64) -> Option<Curvature> {
+/// The chance of such residuals of points on a line, where it is low; `u` is x less its mean.
+fn curvature(u: &[f64], residuals: &[f64], square: f64) -> Option<f64> {
     let count = u.len() as f64;
     let freedom = u.len().checked_sub(3).filter(|&it| it > 0)?;
     // The parabola that is orthogonal to the lines.
@@ -78,9 +79,22 @@ fn curvature(u: &[f64], residuals: &[f64], slope: f64, square: f64) -> Option<Cu
     let explained = height * height * its_square;
     let left = residuals.iter().map(|it| it * it).sum::<f64>() - explained;
     let chance = chance_of_ratio(explained / (left.max(0.0) / freedom as f64), [1, freedom]);
-    let slope_at = |u: f64| slope + height * (2.0 * u - skew);
-    let ends = [f64::min, f64::max].map(|end| u.iter().copied().reduce(end).unwrap_or(0.0));
-    (chance < CURVED).then(|| Curvature { chance, slopes: ends.map(slope_at) })
+    (chance < CURVED).then_some(chance)
+}
+
+/// The slopes of the lines through the halves of the points by x; that of all where a half has no line.
+fn halves(x: &[f64], y: &[f64], slope: f64) -> [f64; 2] {
+    let mut points: Vec<(f64, f64)> = x.iter().copied().zip(y.iter().copied()).collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (low, high) = points.split_at(points.len() / 2);
+    [low, high].map(|half| {
+        let count = half.len() as f64;
+        let mean = |of: fn(&(f64, f64)) -> f64| half.iter().map(of).sum::<f64>() / count;
+        let (x_mean, y_mean) = (mean(|it| it.0), mean(|it| it.1));
+        let square: f64 = half.iter().map(|it| (it.0 - x_mean).powi(2)).sum();
+        let product: f64 = half.iter().map(|it| (it.0 - x_mean) * (it.1 - y_mean)).sum();
+        if square > 0.0 { product / square } else { slope }
+    })
 }
 
 #[cfg(test)]
@@ -147,8 +161,8 @@ mod tests {
             x.iter().enumerate().map(|(i, x)| 1.0 + 2.0 * x + 0.1 * x * x + noise(i)).collect();
         let curvature = line(&x, &y).and_then(|it| it.curvature).expect("curved");
         assert!(curvature.chance < 1e-6);
-        assert!((curvature.slopes[0] - 2.0).abs() < 5e-3);
-        assert!((curvature.slopes[1] - 2.38).abs() < 5e-3);
+        assert!((curvature.slopes[0] - 2.09).abs() < 5e-3);
+        assert!((curvature.slopes[1] - 2.29).abs() < 5e-3);
         assert_eq!(line(&[1.0, 1.0, 1.0], &[1.0, 2.0, 3.0]), None);
     }
 }

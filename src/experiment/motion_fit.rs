@@ -36,6 +36,33 @@ pub struct Fitted {
     pub estimate: Estimate,
     /// What the data say of it.
     pub verdict: Verdict,
+    /// What limits its best value, where that is one of its bounds.
+    pub bound: Option<Side>,
+}
+
+/// A side of the bounds of a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// The least value that is allowed.
+    Least,
+    /// The greatest.
+    Greatest,
+}
+
+impl Side {
+    /// The bound that a value lies on, if it does.
+    pub fn of(value: f64, bounds: Bounds) -> Option<Side> {
+        let is_least = value - bounds.least < bounds.greatest - value;
+        bounds.holds(value).then_some(if is_least { Side::Least } else { Side::Greatest })
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Side::Least => "least",
+            Side::Greatest => "greatest",
+        }
+    }
 }
 
 /// The outcome of a fit to motion.
@@ -45,6 +72,8 @@ pub struct MotionFit {
     pub fitted: Vec<Fitted>,
     /// The fitted motion of each recording.
     pub motions: Vec<Started>,
+    /// Parameters of which only combinations are determined, as together they have no effect.
+    pub combined: Vec<Parameter>,
     /// The correlation of the fitted parameters with each other; NaN where one is not determined.
     pub correlations: Vec<Vec<f64>>,
     /// Standard deviation of the residuals in units of the noise of the records: one where the model describes them.
@@ -74,14 +103,15 @@ pub struct Effort {
 ///
 /// Least squares of all samples, each divided by the noise of its signal: first that of third differences of the record, then that
 /// of the residuals. Unknowns
-/// besides the parameters are the start of each recording: r, y1, x2 and y2, unless a capsule at rest describes it as well;
-/// each is looked for about its estimate from the smoothed record. The derivatives are exact, through every impact, slip
+/// besides the parameters are the start of each recording: r, y1, x2 and y2, unless a capsule at rest describes it as well,
+/// each looked for about its estimate from the smoothed record; and the phase of the drive, of which the estimate from the record
+/// of the drive, with its standard error, is one datum more. The derivatives are exact, through every impact, slip
 /// and stick ([`sampled`]). The search begins at several starts: the values at hand, and points of a Halton sequence within the
 /// bounds. Intervals are those of the profile likelihood, with the scatter estimated from the residuals.
 ///
 /// # Assumes
 ///
-/// Independent noise, exact times and an exact phase of the drive.
+/// Independent noise, exact times, and a phase of the drive whose error is normal.
 ///
 /// # Breaks
 ///
@@ -104,15 +134,23 @@ pub fn fit_motion(
             standard_error: fit.standard_error(i),
             interval: profile.interval,
         },
-        verdict: profile.verdict(),
+        verdict: match fit.is_open(i) {
+            true => Verdict::NotDetermined,
+            false => profile.verdict(),
+        },
+        bound: Side::of(fit.parameters[i], free.bounds),
     });
     let covariance = &fit.unit_covariance;
     let correlation =
-        |i: usize, j: usize| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+        |i: usize, j: usize| match [i, j].iter().all(|&it| covariance[(it, it)].is_finite()) {
+            true => covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt(),
+            false => f64::NAN,
+        };
     let row = |i: usize| (0..free.len()).map(|j| correlation(i, j)).collect();
     Ok(MotionFit {
         fitted: fitted.collect(),
         motions: motions(&courses, free, &fit.parameters),
+        combined: (0..free.len()).filter(|&i| fit.is_open(i)).map(|i| free[i].parameter).collect(),
         correlations: (0..free.len()).map(row).collect(),
         misfit,
         samples: fit.degrees_of_freedom + fit.parameters.len(),
@@ -182,6 +220,7 @@ fn weighed_anew(courses: &mut [Course<'_>], free: &[Free], effort: &Effort, best
             *unit *= scatter.max(1e-3);
             rest = others;
         }
+        rest = &rest[usize::from(course.recorded.phase_error > 0.0)..];
     }
     let search = search(courses, free, effort);
     let model = |unknowns: &[f64]| residuals(courses, free, unknowns);
@@ -270,6 +309,14 @@ fn residuals(courses: &[Course<'_>], free: &[Free], unknowns: &[f64]) -> Option<
                 }
                 all.slopes.push(row);
             }
+        }
+        // What the record of the drive says of its phase is one more datum.
+        if let Some(place) = course.unknown.iter().position(|it| it.0 == Direction::StartPhase) {
+            let unit = 1.0 / course.recorded.phase_error;
+            all.values.push((motion.phase - course.recorded.phase) * unit);
+            let mut row = vec![0.0; unknowns.len()];
+            row[before + place] = unit;
+            all.slopes.push(row);
         }
         before += course.unknown.len();
     }

@@ -7,7 +7,7 @@ use crate::capsule::Dimension;
 /// So many faults of a file are told; of the others their number.
 const MOST_TOLD: usize = 20;
 /// An interval this many times the median one is a gap.
-const GAP: f64 = 1.5;
+pub const GAP: f64 = 1.5;
 /// Intervals that differ from the median one by more than this share of it are uneven.
 const EVEN: f64 = 1e-3;
 
@@ -73,6 +73,8 @@ pub struct Recording {
 pub struct Sampling {
     /// Samples.
     pub count: usize,
+    /// The first time [s].
+    pub first: f64,
     /// Median time between two samples [s].
     pub interval: f64,
     /// Whether all intervals but the gaps are equal, within a thousandth of the median.
@@ -115,6 +117,7 @@ impl Recording {
             |length: &&f64| !is_gap(**length) && (**length - interval).abs() > EVEN * interval;
         Sampling {
             count: times.len(),
+            first: times[0],
             interval,
             is_even: !intervals.iter().any(|length| apart(&length)),
             gaps: gaps.map(|(begins, length)| (*begins, *length)).collect(),

@@ -186,5 +186,6 @@ fn draw_series(canvas: &mut super::canvas::Canvas, panel: &Panel, series: &Serie
         }
         _ => panel.curve(canvas, &series.points, series.look.stroke()),
     }
-    panel.record(canvas, &series.label, series.points.iter().copied());
+    let drawn = series.points.iter().copied().filter(|(x, y)| x.is_finite() && y.is_finite());
+    panel.record(canvas, &series.label, drawn);
 }

@@ -9,7 +9,7 @@ use super::document::Faults;
 use crate::capsule::Parameter;
 
 /// The key by which a study names its parameter file.
-const KEY: &str = "include";
+pub const KEY: &str = "include";
 
 /// A study with the values of a parameter file in the place of its name.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -11,6 +11,7 @@ use super::branch_file::{Surroundings, read_branches};
 use super::definition::Study;
 use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
+use super::include;
 use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
 use super::{Coordinate, Refine};
@@ -39,6 +40,10 @@ impl Study {
         }
         let top = Table::new(&reader, document.get_ref());
         let title = read_title(&top);
+        // The name of a parameter file stands for its values, which are in the text by now.
+        if let Some(entry) = top.entry(include::KEY) {
+            entry.fault("must be the name of one parameter file beside the study, as \"rig.toml\"");
+        }
         let mut case_set = read_case_set(&top);
         let base = read_parameters(&top, &case_set.varied());
         let start = read_start(&top, &mut case_set);

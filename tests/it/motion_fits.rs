@@ -2,8 +2,10 @@
 
 use capsulemap::capsule::{Case, Parameter, Parameters, State, settle_case};
 use capsulemap::experiment::least_squares::{Bounds, Loss};
+use capsulemap::experiment::motion_fit::Side;
 use capsulemap::experiment::{
-    Effort, Free, MotionFit, Recorded, Signal, Started, Verdict, Weights, fit_motion, sampled,
+    Effort, Free, MotionFit, Recorded, Signal, Started, Verdict, Weights, fit_motion, harmonic,
+    sampled,
 };
 use capsulemap::orbit::Protocol;
 
@@ -18,7 +20,10 @@ fn normal(random: &mut Random) -> f64 {
     radius * (random.uniform(0.0, 1.0) * std::f64::consts::TAU).cos()
 }
 
-/// A record of the attractor of a capsule at this rate [Hz] over some cycles.
+/// Noise of the record of the drive [N].
+const DRIVE_NOISE: f64 = 0.05;
+
+/// A record of the attractor of a capsule at this rate [Hz] over some cycles; the phase is that of a noisy record of the drive.
 fn recorded(parameters: &Parameters, phase: f64, rate: f64, cycles: f64, seed: u64) -> Recorded {
     let case = Case::at_section(parameters.clone(), State::default(), phase);
     let start = State { x2: 0.0, ..settle_case(&case, &Protocol::default()).end };
@@ -31,8 +36,13 @@ fn recorded(parameters: &Parameters, phase: f64, rate: f64, cycles: f64, seed: u
     let mut noisy = |(values, (signal, noise)): (Vec<f64>, (Signal, f64))| {
         (signal, values.iter().map(|it| it + noise * normal(&mut random)).collect())
     };
-    let signals = exact.values.into_iter().zip(SENSORS).map(&mut noisy).collect();
-    Recorded { parameters: parameters.clone(), times, phase, signals }
+    let signals: Vec<_> = exact.values.into_iter().zip(SENSORS).map(&mut noisy).collect();
+    let (p_d, omega) = (parameters[Parameter::Pd], parameters[Parameter::Omega]);
+    let force = |t: &f64| p_d * (omega * t + phase).cos() + DRIVE_NOISE * normal(&mut random);
+    let force: Vec<f64> = times.iter().map(force).collect();
+    let drive = harmonic(&times, &force).expect("a drive").phase;
+    let (phase, phase_error) = (drive.value, drive.standard_error);
+    Recorded { parameters: parameters.clone(), times, phase, phase_error, signals }
 }
 
 const FREE: [(Parameter, f64, f64); 5] = [
@@ -92,4 +102,22 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
     for (count, (parameter, ..)) in held.iter().zip(FREE) {
         assert!(allowed.contains(&(*count as u64)), "{}: {count} of {seeds}", parameter.symbol());
     }
+}
+
+#[test]
+fn combinations_and_bounds_are_told() {
+    let record = recorded(&Parameters::default(), 0.7, 1000.0, 4.0, 1);
+    // Gravity and friction act through their product alone.
+    let fit = fit_motion(
+        std::slice::from_ref(&record),
+        &free(&[(Parameter::G, 5.0, 15.0), (Parameter::MuD, 0.1, 0.6)]),
+        &EFFORT,
+    );
+    let fit = fit.expect("a fit");
+    assert_eq!(fit.combined, [Parameter::G, Parameter::MuD]);
+    assert!(fit.fitted.iter().all(|it| it.verdict == Verdict::NotDetermined), "{fit:?}");
+    // The true stiffness of the stop is 2420 N/m.
+    let fit = fit_motion(&[record], &free(&[(Parameter::K2, 3000.0, 5000.0)]), &EFFORT);
+    let fit = fit.expect("a fit");
+    assert_eq!(fit.fitted[0].bound, Some(Side::Least), "{fit:?}");
 }
