@@ -27,7 +27,9 @@ Examples:
   capsulemap compare rig/motion.csv studies/fig6.toml --explain \"k2=5 kN/m..30 kN/m\" --explain mu_s=0.2..0.8,mu_d=0.1..0.4
 
 A recording is a CSV file with a column t and any of x2, r, x1, y1, y2, a1, drive, current, with their units. drive or current \
-give the phase; without them the phase with the least differences is taken. The simulation starts on what the case settles to. \
+give the phase; without them the phase with the least differences is taken. The simulation starts on what the case settles to, \
+with x1 and x2 moved by a constant each; offsets of other signals are kept. Events are counted per cycle of the recorded drive, \
+in the longest part of the record without a gap. \
 The error of a signal is the root mean square of the difference over the standard deviation of the record, without the mean \
 progression.
 

@@ -27,7 +27,8 @@ Examples:
   capsulemap fit a.csv b.csv --study a.toml --study b.toml --vary \"v_s=0.05..1\" --output fitted.toml
 
 Each recording has its own study, or all have one; its first case says how the rig was set. The drive must be recorded (column \
-drive or current), as it gives the phase. Intervals are those of the profile likelihood; a parameter that these data leave open \
+drive or current), as it gives the phase, whose error is in those of the parameters. Records are taken as they are: an offset of \
+a sensor is one of the motion. Intervals are those of the profile likelihood; a parameter that these data leave open \
 within its bounds is called one-sided or not determined.";
 
 /// A residual of this many standard deviations of the noise begins to count less, with --robust.

@@ -17,6 +17,7 @@ mod chaotic_basins;
 mod circles;
 mod cli;
 mod closed_forms;
+mod comparisons;
 mod conditions;
 mod continuation;
 mod contract;

@@ -1,0 +1,73 @@
+//! What a comparison tells of a record holds for records with gaps, of another frequency, and too short or too coarse to count.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::program::WorkDir;
+
+/// A folder with recordings of the paper's Fig 5 in `rig`, and its study.
+fn rig() -> (WorkDir, Vec<String>) {
+    let work = WorkDir::new();
+    work.put("fig5.toml", super::program::FIG5);
+    work.run(&["synthesize", "fig5.toml", "--output", "rig"]).done();
+    let text = fs::read_to_string(work.path("rig/motion.csv")).expect("recorded");
+    let lines = text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect();
+    (work, lines)
+}
+
+/// The comparison with a record of the rows whose times [s] are `kept`, every so many of them.
+fn compared(
+    (work, lines): (&WorkDir, &[String]),
+    study: &str,
+    (every, kept): (usize, fn(f64) -> bool),
+) -> Value {
+    let time =
+        |line: &&String| line.split(',').next().and_then(|it| it.parse().ok()).is_some_and(kept);
+    let rows = lines[1..].iter().filter(time).step_by(every);
+    let rows: Vec<&str> = [&lines[0]].into_iter().chain(rows).map(String::as_str).collect();
+    work.put("part.csv", rows.join("\n") + "\n");
+    work.run(&["compare", "part.csv", study, "--json"]).done().json()
+}
+
+#[test]
+fn a_record_with_a_gap_is_counted_where_it_has_none() {
+    let (work, lines) = rig();
+    let found = compared((&work, &lines), "fig5.toml", (1, |t| !(0.3..0.5).contains(&t)));
+    assert_eq!(found["gaps"].as_array().map(Vec::len), Some(1), "{found}");
+    assert_eq!(found["period_recorded"], 1);
+    assert_eq!(found["impacts_per_cycle_recorded"], 1.0);
+    assert_eq!(found["spikes_per_cycle"], serde_json::json!([1.0, 1.0]));
+}
+
+#[test]
+fn a_record_has_the_cycles_of_its_own_drive() {
+    let (work, lines) = rig();
+    work.put("slow.toml", super::program::FIG5.replace("77.91 rad/s", "20.73 rad/s"));
+    let found = compared((&work, &lines), "slow.toml", (1, |_| true));
+    assert!((found["cycles"].as_f64().expect("a number") - 20.0).abs() < 0.1, "{found}");
+    assert_eq!(found["period_recorded"], 1);
+    assert_eq!(found["impacts_per_cycle_recorded"], 1.0);
+}
+
+#[test]
+fn what_cannot_be_counted_is_not() {
+    let (work, lines) = rig();
+    for (every, kept) in [(1, (|t| t < 0.2) as fn(f64) -> bool), (20, |_| true)] {
+        let found = compared((&work, &lines), "fig5.toml", (every, kept));
+        assert_eq!(found["countable"], false, "{found}");
+        assert!(found["impacts_per_cycle_recorded"].is_null(), "{found}");
+        assert!(found["spikes_per_cycle"].is_null(), "{found}");
+    }
+}
+
+#[test]
+fn a_motion_that_does_not_repeat_is_not_explained() {
+    let work = WorkDir::new();
+    let chaos = include_str!("../../studies/chaos.toml");
+    work.put("chaos.toml", chaos);
+    work.run(&["synthesize", "chaos.toml", "--output", "rig"]).done();
+    let ran =
+        work.run(&["compare", "rig/motion.csv", "chaos.toml", "--explain", "k2=30 kN/m..90 kN/m"]);
+    assert!(ran.code == 2 && ran.err.contains("so that no difference is explained"), "{}", ran.err);
+}
