@@ -45,7 +45,7 @@ pub use kept_searches::{KeptSearches, searches_path};
 pub use margins::{Change, Margin, MarginEnd, Margins};
 pub use mean_errors::MeanErrors;
 pub use memory::{Memory, memory};
-pub use motion_row::{Row, quoted};
+pub use motion_row::{Row, command, quoted};
 pub use probe::{Probe, probe};
 pub use refined_front::{Refinement, Search};
 pub use refined_motion::{RefinedMotion, Slopes};

@@ -1,6 +1,6 @@
 //! What is told of each motion of a trade-off: its case, its numbers, and how to compute it again.
 
-use crate::capsule::{Output, Parameter, Resistance, Section, Switching};
+use crate::capsule::{Case, Output, Parameter, Resistance, Section, State, Switching};
 use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
@@ -155,14 +155,27 @@ impl Rows {
 /// The command that computes a motion between the cases.
 fn replay(motion: &RefinedMotion, protocol: &Protocol) -> String {
     let RefinedMotion { parameters, section: [r, y1, y2], phase, .. } = motion;
+    let start = State { r: *r, y1: *y1, y2: *y2, x2: 0.0 };
+    command(&Case::at_section(parameters.clone(), start, *phase), protocol)
+}
+
+/// The command that computes a case from its start, with the tolerance and the budget of cycles of a protocol.
+pub fn command(case: &Case, protocol: &Protocol) -> String {
+    let Case { parameters, start: State { r, y1, x2, y2 }, start_phase, section_phase } = case;
     let mut text = "capsulemap simulate".to_owned();
     let differs = |it: &&Parameter| parameters[**it] != it.default_value();
     for parameter in Parameter::ALL.iter().filter(differs) {
         text += &format!(" --set {}={:?}", parameter.symbol(), parameters[*parameter]);
     }
     text += &format!(" --start r={r:?},y1={y1:?},y2={y2:?}");
-    if *phase != 0.0 {
-        text += &format!(" --phase {phase:?}");
+    if *x2 != 0.0 {
+        text += &format!(",x2={x2:?}");
+    }
+    if start_phase == section_phase && *section_phase != 0.0 {
+        text += &format!(" --phase {section_phase:?}");
+    }
+    if start_phase != section_phase {
+        text += &format!(" --start-phase {start_phase:?} --section-phase {section_phase:?}");
     }
     let Protocol { tolerance, max_cycles, .. } = protocol;
     text += &format!(" --tolerance {tolerance:?} --max-cycles {max_cycles}");

@@ -10,6 +10,7 @@ mod continuation;
 mod drawing;
 mod dry_run;
 mod experiment_figures;
+mod explore;
 mod failure;
 mod figure;
 mod files;
@@ -92,6 +93,8 @@ enum Command {
     Tradeoff(tradeoff::Tradeoff),
     /// Write what a file of results says as one page for a browser.
     Report(report::Report),
+    /// Look at a file of results in the browser: click a cell of a map, see its motion.
+    Explore(explore::Explore),
     /// Say what is in a file of results.
     Inspect(inspect::Inspect),
     /// Find constants of a rig from recordings of simple tests.
@@ -127,6 +130,7 @@ pub fn main() -> ExitCode {
         Command::Figure(figure) => figure.run(),
         Command::Tradeoff(tradeoff) => tradeoff.run(),
         Command::Report(report) => report.run(),
+        Command::Explore(explore) => explore.run(),
         Command::Inspect(inspect) => inspect.run(),
         Command::Identify(identify) => identify.run(),
         Command::Fit(fit) => fit.run(),

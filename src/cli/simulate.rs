@@ -4,7 +4,6 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde_json::{Map, Value, json};
 
 use super::arguments::{named, plain_or_quantity};
 use super::failure::Failure;
@@ -15,9 +14,9 @@ use crate::capsule::{
     Case, Dimension, Orbit, Output, Parameter, Parameters, Resistance, Simulation, State,
     Switching, settle_case, simulate_case,
 };
-use crate::orbit::{Certificate, Outcome, Proof, Protocol};
+use crate::explore::{case_json, remarks};
+use crate::orbit::Protocol;
 use crate::run::Machine;
-use crate::store::catalogue::{CERTIFICATE, CYCLES, OUTCOME, PERIOD};
 use crate::study::document::unknown;
 
 const EXAMPLES: &str = "\
@@ -110,14 +109,7 @@ impl Simulate {
         let simulation = simulate_case(&case, self.cycles, protocol.tolerance);
         let orbit = settle_case(&case, &protocol);
         if self.json {
-            let object = json!({
-                "parameters": parameters_json(parameters),
-                "section": simulation.section,
-                "events": simulation.events,
-                "failure": failure_json(&simulation),
-                "orbit": orbit_json(&orbit),
-            });
-            print(&format!("{object:#}\n"))
+            print(&format!("{:#}\n", case_json(parameters, &simulation, &orbit)))
         } else {
             print(&summary(parameters, &simulation, &orbit))
         }
@@ -258,38 +250,6 @@ fn quantity(
     plain_or_quantity(text, dimension).map_err(fault).ok()
 }
 
-fn parameters_json(parameters: &Parameters) -> Value {
-    let mut object = Map::new();
-    for &parameter in Parameter::ALL {
-        object.insert(parameter.symbol().to_owned(), json!(parameters[parameter]));
-    }
-    object.insert("resistance".to_owned(), json!(parameters.resistance.name()));
-    object.insert("friction_switching".to_owned(), json!(parameters.switching.name()));
-    Value::Object(object)
-}
-
-fn failure_json(simulation: &Simulation) -> Value {
-    simulation.failure.map_or(Value::Null, |failure| json!(failure.to_string()))
-}
-
-fn orbit_json(orbit: &Orbit) -> Value {
-    let mut object = Map::new();
-    object.insert(OUTCOME.name.to_owned(), json!(orbit.outcome));
-    object.insert(PERIOD.name.to_owned(), json!(orbit.period));
-    object.insert(CYCLES.name.to_owned(), json!(orbit.cycles));
-    for &output in Output::ALL {
-        object.insert(output.name().to_owned(), json!(orbit.outputs[output]));
-    }
-    let Certificate { proof, multipliers, neutral, .. } = orbit.certificate;
-    object.insert(CERTIFICATE.name.to_owned(), json!(Proof::NAMES[proof as usize].0));
-    let parts = multipliers.map(|multiplier| [multiplier.re, multiplier.im]);
-    object.insert("multipliers".to_owned(), json!(parts));
-    object.insert("neutral_direction".to_owned(), json!(neutral));
-    let failure = orbit.failure.map(|failure| failure.to_string());
-    object.insert("failure".to_owned(), json!(failure));
-    Value::Object(object)
-}
-
 /// What a person wants to see first.
 fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> String {
     let given: Vec<String> = Parameter::ALL
@@ -333,61 +293,6 @@ fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> S
         let _ = writeln!(text, "  {remark}");
     }
     text
-}
-
-/// What the numbers of an orbit do not say by themselves.
-fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
-    let mut remarks = Vec::new();
-    if let Some([r, y1, y2]) = orbit.certificate.neutral {
-        let [r, y1, y2] = [r, y1, y2].map(|x| (x * 1e4).round() / 1e4 + 0.0);
-        let speed =
-            if orbit.outputs[Output::StickShare] < 1.0 { ", and with it the speed" } else { "" };
-        remarks.push(format!(
-            "neutral: as far as rounding tells (a multiplier within 1e-7 of one) this is one of a family of \
-             periodic orbits along (omega r, y1, y2) = ({r}, {y1}, {y2}); the start decides which{speed}"
-        ));
-    }
-    let rests = orbit.section.first().is_some_and(|&[_, _, y2]| y2 == 0.0);
-    if orbit.outcome == Outcome::Periodic && rests && parameters.break_away() > 0.0 {
-        remarks.push(
-            "the capsule sticks at the section: its multiplier 0 is that of disturbances after which it sticks again"
-                .to_owned(),
-        );
-    }
-    let [exponent, uncertainty, excluded, defect] = [
-        Output::LyapunovExponent,
-        Output::LyapunovUncertainty,
-        Output::ExcludedPeriod,
-        Output::IntegrationDefect,
-    ]
-    .map(|output| orbit.outputs[output]);
-    match orbit.outcome {
-        Outcome::QuasiPeriodic => {
-            remarks.push(format!("no period up to {excluded} cycles, as far as the section shows"));
-        }
-        Outcome::Undecided if excluded.is_nan() => {
-            let residual = orbit.outputs[Output::SectionResidual];
-            remarks.push(format!(
-                "undecided: what was found is not certified; its largest defect is {defect:.1e} (allowed: \
-                 10 000 tolerances), and integrated without derivatives it closes to {residual:.1e} (allowed: \
-                 100 000 tolerances)"
-            ));
-        }
-        Outcome::Undecided if exponent.is_finite() && exponent + 5.0 * uncertainty < 0.0 => {
-            let cycles = 25.0 / (-exponent * parameters.drive_period());
-            remarks.push(format!(
-                "undecided: the motion approaches an orbit too slowly for the cycles given, by e in {:.3} s; \
-                 at that rate some {cycles:.0} cycles would do (--max-cycles), and more if it slows down",
-                -1.0 / exponent
-            ));
-        }
-        Outcome::Undecided => remarks.push(
-            "undecided: too few cycles to tell whether neighbouring motions separate (--max-cycles)"
-                .to_owned(),
-        ),
-        Outcome::Periodic | Outcome::Chaotic | Outcome::Failed => {}
-    }
-    remarks
 }
 
 fn verdict(orbit: &Orbit) -> String {

@@ -1,12 +1,16 @@
 //! Pages to look at in a browser: the report of a file of results.
 
+mod case_json;
 mod html;
 mod numbers;
 mod optima;
 mod optimum;
 mod report;
 mod request;
+mod server;
 
+pub use case_json::{case_json, remarks};
 pub use html::GENERATOR;
 pub use report::report;
 pub use request::Request;
+pub use server::{Explored, Server};

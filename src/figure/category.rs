@@ -121,6 +121,11 @@ impl Kinds {
         self.heading.content()
     }
 
+    /// The place of the kind of a case in the list.
+    pub fn place(&self, case: usize) -> Option<u16> {
+        self.of_case.get(case).copied()
+    }
+
     /// The name of the kind of a case.
     pub fn name(&self, case: usize) -> Option<String> {
         self.of_case.get(case).map(|place| self.kinds[usize::from(*place)].name.clone())

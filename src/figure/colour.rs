@@ -119,6 +119,11 @@ impl Colours {
         self.scale.can_hold(value)
     }
 
+    /// The range of the bar.
+    pub fn scale(&self) -> Scale {
+        self.scale
+    }
+
     /// What they tell, with its unit.
     pub fn told(&self) -> String {
         self.quantity.told()

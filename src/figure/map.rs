@@ -48,11 +48,11 @@ fn reads(drawing: &Drawing) -> Names {
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let plane = Plane::of(view, "a map")?;
     let names = [plane.x_name, plane.y_name];
-    let output = view.drawing.of.first().cloned().unwrap_or_else(|| OUTPUT.name.to_owned());
+    let output = output(view.drawing);
     let rows = view.panels();
     let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
     let views: Vec<View<'_>> = rows.into_iter().flatten().collect();
-    let mut paint = paint((view, &views), &output, (&plane.free(), plane.count()))?;
+    let mut paint = paint((view, &views), &plane)?;
     let seen = plane.seen(view);
     let is_seen = |case: usize| seen[case % plane.count()];
     let (levels, no_line) = levels(view, &output, &paint, is_seen);
@@ -94,12 +94,18 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     Ok(canvas.finish(&view.about(&[output], &names)).noting(without).noting(no_line))
 }
 
-/// The colours of the cases of all panels.
-fn paint(
+/// The output shown.
+fn output(drawing: &Drawing) -> String {
+    drawing.of.first().cloned().unwrap_or_else(|| OUTPUT.name.to_owned())
+}
+
+/// The colours of the cases of all panels over a plane.
+pub(super) fn paint(
     (view, panels): (&View<'_>, &[View<'_>]),
-    output: &str,
-    cases: (&[&str], usize),
+    plane: &Plane<'_>,
 ) -> Result<Paint, FigureError> {
+    let (output, free) = (&output(view.drawing), plane.free());
+    let cases: (&[&str], usize) = (&free, plane.count());
     match (view.drawing.sweep, panels) {
         (Some(Sweep::Difference), [first]) => {
             let second = first.swept(Direction::Downward)?;

@@ -11,6 +11,7 @@ mod chosen;
 mod cells;
 mod case_panels;
 mod cloud;
+mod coloured;
 mod colour;
 mod contour;
 mod curves;
@@ -66,6 +67,7 @@ mod view;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+pub use coloured::{ColouredMap, MapAxis, MapColours, ShownQuantity, coloured_map, shown_quantity};
 pub use error::FigureError;
 pub use format::Format;
 pub use kind::Needs;

@@ -111,6 +111,14 @@ impl Paint {
         }
     }
 
+    /// What the colour of a case tells as a number: that of its kind where there are kinds; NaN where it has none.
+    pub fn number(&self, case: usize) -> f32 {
+        match self {
+            Paint::Numbers(_, values, _) => values[case] as f32,
+            Paint::Kinds(kinds) => kinds.place(case).map_or(f32::NAN, f32::from),
+        }
+    }
+
     /// Room beside frames of this height for the bar or the list of kinds [pt].
     pub fn room(&self, height: f64) -> f64 {
         match self {

@@ -85,7 +85,7 @@ impl Coordinate {
 }
 
 /// Gives `case` a value of what varies (SI).
-pub(super) fn set(case: &mut Case, coordinate: Coordinate, value: f64) {
+pub fn set(case: &mut Case, coordinate: Coordinate, value: f64) {
     match coordinate {
         Coordinate::Parameter(parameter) => case.parameters[parameter] = value,
         Coordinate::StartR => case.start.r = value,

@@ -1,0 +1,70 @@
+//! Answers: JSON, pages, bytes, and refusals with their reason.
+
+use axum::body::Body;
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde_json::{Value, json as object};
+
+/// Why a request is not answered.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refusal {
+    status: StatusCode,
+    why: String,
+}
+
+impl Refusal {
+    /// A request that does not come from the page.
+    pub fn forbidden(why: &str) -> Refusal {
+        Refusal { status: StatusCode::FORBIDDEN, why: why.to_owned() }
+    }
+
+    /// A request with another status.
+    pub fn with(status: StatusCode, why: &str) -> Refusal {
+        Refusal { status, why: why.to_owned() }
+    }
+
+    /// A request that asks for what cannot be had.
+    pub fn unfit(why: impl Into<String>) -> Refusal {
+        Refusal { status: StatusCode::BAD_REQUEST, why: why.into() }
+    }
+
+    /// An address at which there is nothing.
+    pub fn missing() -> Refusal {
+        Refusal::with(StatusCode::NOT_FOUND, "there is nothing at this address")
+    }
+
+    /// A fault of the machine or of the file.
+    pub fn failed(why: impl Into<String>) -> Refusal {
+        Refusal { status: StatusCode::INTERNAL_SERVER_ERROR, why: why.into() }
+    }
+}
+
+impl IntoResponse for Refusal {
+    fn into_response(self) -> Response {
+        let mut answer = json(&object!({ "error": self.why }));
+        *answer.status_mut() = self.status;
+        answer
+    }
+}
+
+/// An object.
+pub fn json(value: &Value) -> Response {
+    bytes(value.to_string().into_bytes(), "application/json")
+}
+
+/// A page.
+pub fn html(text: &'static str) -> Response {
+    bytes(text.as_bytes().to_vec(), "text/html; charset=utf-8")
+}
+
+/// Bytes of a type.
+pub fn bytes(bytes: Vec<u8>, kind: &'static str) -> Response {
+    of(Body::from(bytes), kind)
+}
+
+/// A body of a type.
+pub fn of(body: Body, kind: &'static str) -> Response {
+    let mut answer = Response::new(body);
+    answer.headers_mut().insert(header::CONTENT_TYPE, HeaderValue::from_static(kind));
+    answer
+}

@@ -1,0 +1,64 @@
+//! What a request asks for, by names and values.
+
+use super::answer::Refusal;
+use crate::study::Coordinate;
+
+/// The parameters of a request, each once.
+pub struct Asked(Vec<(String, String)>);
+
+impl Asked {
+    /// Fails if one is given twice.
+    pub fn new(pairs: Vec<(String, String)>) -> Result<Asked, Refusal> {
+        for (place, (name, _)) in pairs.iter().enumerate() {
+            if pairs[..place].iter().any(|it| it.0 == *name) {
+                return Err(Refusal::unfit(format!("{name} is given twice")));
+            }
+        }
+        Ok(Asked(pairs))
+    }
+
+    /// The text called `name`.
+    pub fn text(&self, name: &str) -> Option<&str> {
+        self.0.iter().find(|it| it.0 == name).map(|it| it.1.as_str())
+    }
+
+    /// The finite number called `name`, in SI.
+    pub fn number(&self, name: &str) -> Result<Option<f64>, Refusal> {
+        let Some(text) = self.text(name) else { return Ok(None) };
+        match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(Some(number)),
+            _ => Err(Refusal::unfit(format!("{name}: a finite number is expected"))),
+        }
+    }
+
+    /// The whole number called `name`, within bounds.
+    pub fn count(&self, name: &str, bounds: [usize; 2], usual: usize) -> Result<usize, Refusal> {
+        let Some(text) = self.text(name) else { return Ok(usual) };
+        let [least, most] = bounds;
+        match text.parse::<usize>() {
+            Ok(count) if (least..=most).contains(&count) => Ok(count),
+            _ => Err(Refusal::unfit(format!(
+                "{name}: a whole number from {least} to {most} is expected"
+            ))),
+        }
+    }
+
+    /// The parameters and coordinates of the start that are given, in SI.
+    pub fn coordinates(&self) -> Result<Vec<(Coordinate, f64)>, Refusal> {
+        let given = |it: Coordinate| Ok(self.number(it.name())?.map(|value| (it, value)));
+        Coordinate::all().filter_map(|it| given(it).transpose()).collect()
+    }
+
+    /// Fails if there is a parameter that is neither a coordinate nor `known`.
+    pub fn only(&self, known: &[&str]) -> Result<(), Refusal> {
+        let is_coordinate = |name: &str| Coordinate::all().any(|it| it.name() == name);
+        match self
+            .0
+            .iter()
+            .find(|(name, _)| !known.contains(&name.as_str()) && !is_coordinate(name))
+        {
+            Some(_) => Err(Refusal::unfit("a parameter of the request is not known")),
+            None => Ok(()),
+        }
+    }
+}

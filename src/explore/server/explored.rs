@@ -1,0 +1,140 @@
+//! The file of results that is explored, and cases near those it has.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use super::answer::Refusal;
+use crate::campaign::{CampaignError, study_of};
+use crate::capsule::{Case, State};
+use crate::figure::variables;
+use crate::orbit::Protocol;
+use crate::store::catalogue::{SECTION_R, SECTION_Y1, SECTION_Y2};
+use crate::store::{Archive, Dataset};
+use crate::study::axis::set;
+use crate::study::{Coordinate, Drawing, Study};
+
+/// A dataset with the variables of these names.
+type Held = (BTreeSet<String>, Arc<Dataset>);
+
+/// A file of results with its study.
+pub struct Explored {
+    /// The results.
+    pub archive: Archive,
+    /// Their file, as commands name it.
+    pub file: PathBuf,
+    /// The study.
+    pub study: Study,
+    /// What the last map was drawn from.
+    last: Mutex<Option<Held>>,
+}
+
+/// A case near those of the file.
+pub struct Near {
+    /// The case.
+    pub case: Case,
+    /// The number of the nearest case of the file.
+    pub index: usize,
+    /// Whether it has the parameters and the start of that case.
+    pub is_exact: bool,
+    /// Where it starts, in words.
+    pub start: String,
+}
+
+impl Explored {
+    /// The results in `archive`, the file at `file`.
+    ///
+    /// Fails if the text of the study has faults for this version of the program.
+    pub fn new(archive: Archive, file: &Path) -> Result<Explored, CampaignError> {
+        let study = study_of(&archive, file)?;
+        Ok(Explored { archive, file: file.to_owned(), study, last: Mutex::new(None) })
+    }
+
+    /// What a figure is drawn from; that of the last one is held.
+    pub fn dataset(&self, drawing: &Drawing) -> Result<Arc<Dataset>, Refusal> {
+        let names = variables(drawing);
+        let mut last = self.last.lock().unwrap_or_else(|it| it.into_inner());
+        if let Some((known, dataset)) = last.as_ref().filter(|it| it.0 == names) {
+            debug_assert_eq!(*known, names);
+            return Ok(dataset.clone());
+        }
+        // Of large files not both are held.
+        *last = None;
+        let dataset = self.archive.labelled(|name| names.contains(name));
+        let dataset = Arc::new(dataset.map_err(|error| Refusal::failed(error.to_string()))?);
+        *last = Some((names, dataset.clone()));
+        Ok(dataset)
+    }
+
+    /// How cases are integrated and judged here: with the tolerance and the budget of the study, which are what the command of
+    /// a case can say.
+    pub fn protocol(&self) -> Protocol {
+        let own = &self.study.protocol;
+        Protocol {
+            max_cycles: own.max_cycles,
+            max_steps: own.max_steps,
+            ..Protocol::with_tolerance(own.tolerance)
+        }
+    }
+
+    /// The case with these parameters and coordinates of the start; what is not given is as in the study, or at the first value
+    /// of its axis.
+    ///
+    /// Where the study says how cases start, it starts so. Where they inherit their start, it starts at a section point of the
+    /// motion of the nearest case.
+    pub fn near(&self, given: &[(Coordinate, f64)]) -> Result<Near, Refusal> {
+        let position = self.nearest(given);
+        let index = position
+            .iter()
+            .zip(self.study.shape())
+            .fold(0, |at, (place, length)| at * length + place);
+        let mut case = self.study.case(index);
+        let asked = case.clone();
+        for (coordinate, value) in given {
+            set(&mut case, *coordinate, *value);
+        }
+        let is_exact = case == asked;
+        let faults: Vec<String> =
+            case.parameters.faults().iter().map(ToString::to_string).collect();
+        if !faults.is_empty() {
+            return Err(Refusal::unfit(faults.join("; ")));
+        }
+        let mut start = "as the study says".to_owned();
+        if self.study.inherit().is_some() {
+            match self.section_point(&position)? {
+                Some([r, y1, y2]) => {
+                    case.start = State { r, y1, x2: 0.0, y2 };
+                    case.start_phase = case.section_phase;
+                    start = format!("at the motion of case {index}");
+                }
+                None => start = "as the study says: the nearest case has no motion".to_owned(),
+            }
+        }
+        Ok(Near { case, index, is_exact, start })
+    }
+
+    /// Where the nearest case is along each dimension of the results.
+    fn nearest(&self, given: &[(Coordinate, f64)]) -> Vec<usize> {
+        let axes = self.study.axes();
+        let place = |dimension: usize| {
+            let Some(axis) = axes.get(dimension) else { return 0 };
+            let wanted = given.iter().find(|it| it.0 == axis.coordinate).map(|it| it.1);
+            let Some(wanted) = wanted else { return 0 };
+            let away = |place: &usize| (axis.values[*place] - wanted).abs();
+            (0..axis.values.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+        };
+        (0..self.study.shape().len()).map(place).collect()
+    }
+
+    /// The first section point of the motion of a case, if it has one.
+    fn section_point(&self, position: &[usize]) -> Result<Option<[f64; 3]>, Refusal> {
+        let mut point = [f64::NAN; 3];
+        for (value, entry) in point.iter_mut().zip([SECTION_R, SECTION_Y1, SECTION_Y2]) {
+            let rows = self.archive.rows(entry.name, &[position.to_vec()]);
+            let rows = rows.map_err(|error| Refusal::failed(error.to_string()))?;
+            let first = rows.first().and_then(|row| row.to_real().iter().next().copied());
+            *value = first.unwrap_or(f64::NAN);
+        }
+        Ok(point.iter().all(|it| it.is_finite()).then_some(point))
+    }
+}

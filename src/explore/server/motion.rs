@@ -1,0 +1,92 @@
+//! The motion of one case, computed as it is asked for.
+
+use serde_json::{Value, json};
+
+use super::answer::Refusal;
+use super::asked::Asked;
+use super::explored::{Explored, Near};
+use crate::campaign::command;
+use crate::capsule::{
+    ArcPoint, Case, Orbit, Parameter, State, Switching, arc, settle_case, simulate_case,
+};
+use crate::explore::case_json::{case_json, remarks};
+
+/// Cycles of the transient, as `capsulemap simulate` computes without another number.
+const CYCLES: u64 = 20;
+/// Cycles that the histories show at most, and of a motion that does not repeat.
+const MOST_SHOWN: u64 = 8;
+/// Points of half a cycle, beside its events.
+const POINTS: u32 = 150;
+
+/// The case that is asked for: what `capsulemap simulate --json` prints of it, its remarks, the command, and the histories of
+/// what it settles to.
+pub fn motion(explored: &Explored, asked: &Asked) -> Result<Value, Refusal> {
+    asked.only(&["cycles"])?;
+    let cycles = asked.count("cycles", [0, 400], CYCLES as usize)? as u64;
+    let Near { case, index, is_exact, start } = explored.near(&asked.coordinates()?)?;
+    let protocol = explored.protocol();
+    let simulation = simulate_case(&case, cycles, protocol.tolerance);
+    let orbit = settle_case(&case, &protocol);
+    Ok(json!({
+        "simulate": case_json(&case.parameters, &simulation, &orbit),
+        "remarks": remarks(&case.parameters, &orbit),
+        "stroboscopic": orbit.section,
+        "history": history(&case, &orbit, protocol.tolerance),
+        "command": format!("{} --cycles {cycles}", command(&case, &protocol)),
+        "nearest": index,
+        "exact": is_exact,
+        "start": start,
+    }))
+}
+
+/// The motion that a case settles to over some cycles, with its events, in columns in SI; nothing where it failed.
+fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Value {
+    if orbit.failure.is_some() {
+        return Value::Null;
+    }
+    let cycles = match orbit.period {
+        0 => MOST_SHOWN,
+        period => period.clamp(2, MOST_SHOWN),
+    };
+    let Some(points) = followed(case, State { x2: 0.0, ..orbit.end }, cycles, tolerance) else {
+        return Value::Null;
+    };
+    // A screen shows fewer digits than these.
+    let column =
+        |of: &dyn Fn(&ArcPoint) -> f64| points.iter().map(|it| of(it) as f32).collect::<Vec<_>>();
+    let parameters = &case.parameters;
+    let friction = |it: &ArcPoint| parameters.forces(&it.state).friction;
+    let has_friction = parameters.switching == Switching::Filippov;
+    json!({
+        "cycles": cycles,
+        "period": parameters.drive_period(),
+        "delta": parameters[Parameter::Delta],
+        "t": points.iter().map(|it| it.time).collect::<Vec<_>>(),
+        "x1": column(&|it| it.state.x2 + it.state.r),
+        "x2": column(&|it| it.state.x2),
+        "r": column(&|it| it.state.r),
+        "y1": column(&|it| it.state.y1),
+        "y2": column(&|it| it.state.y2),
+        "drive": column(&|it| it.drive),
+        "contact": column(&|it| parameters.forces(&it.state).contact),
+        "friction": if has_friction { json!(column(&friction)) } else { Value::Null },
+    })
+}
+
+/// The motion from a point of the section, half a cycle after the other.
+fn followed(case: &Case, from: State<f64>, cycles: u64, tolerance: f64) -> Option<Vec<ArcPoint>> {
+    let half = 0.5 * case.parameters.drive_period();
+    let mut state = from;
+    let phase = case.section_phase;
+    let drive = case.parameters[Parameter::Pd] * phase.cos();
+    let mut points = vec![ArcPoint { time: 0.0, state, drive }];
+    for number in 0..2 * cycles {
+        let begins = number as f64 * half;
+        let turned = |halves: u64| phase + std::f64::consts::PI * (halves % 2) as f64;
+        let phases = [turned(number), turned(number + 1)];
+        let part = arc(&case.parameters, state, phases, POINTS, tolerance).ok()?;
+        state = part.last()?.state;
+        points.extend(part.into_iter().map(|it| ArcPoint { time: begins + it.time, ..it }));
+    }
+    Some(points)
+}

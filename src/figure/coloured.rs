@@ -1,0 +1,148 @@
+//! A map as the colours and numbers of its cells, for a screen that draws it itself.
+
+use plotters::style::RGBColor;
+
+use super::cells::Cells;
+use super::error::FigureError;
+use super::map;
+use super::paint::Paint;
+use super::plane::Plane;
+use super::quantity::Quantity;
+use super::scale::{Scale, Spacing};
+use super::shown::Shown;
+use super::view::View;
+use crate::store::dataset::Dataset;
+use crate::study::Drawing;
+
+/// Colours of a bar.
+const STEPS: usize = 256;
+
+/// An axis of a map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapAxis {
+    /// Its name in files.
+    pub name: String,
+    /// What it is, with its unit.
+    pub label: String,
+    /// Value shown per value in SI.
+    pub factor: f64,
+    /// The values of the cells, rising [SI].
+    pub values: Vec<f64>,
+    /// The place of each cell along the axis of the study.
+    pub places: Vec<usize>,
+    /// Where each cell ends, as a share of the axis from its low end.
+    pub ends: Vec<f64>,
+    /// The ends of the axis, in the unit shown, and whether it is logarithmic.
+    pub range: [f64; 2],
+    /// Whether equal ratios take equal lengths.
+    pub is_logarithmic: bool,
+}
+
+/// What the colours of a map tell.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MapColours {
+    /// Numbers: the ends of the bar in the unit shown, how its values are spread ("linear", "log" or "symlog"), the width about
+    /// which a symmetric scale turns, and its colours from the low end.
+    Bar([f64; 2], &'static str, f64, Vec<[u8; 3]>),
+    /// Kinds by their names, and none of them where no case has a value.
+    Kinds(Vec<(String, Option<[u8; 3]>)>),
+}
+
+/// A map as colours and numbers, cell by cell: row by row from the least ordinate, each from the least abscissa.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColouredMap {
+    /// The abscissa and the ordinate.
+    pub axes: [MapAxis; 2],
+    /// Red, green, blue and opacity of each cell; transparent where it has no value.
+    pub colours: Vec<u8>,
+    /// What each cell shows, in the unit shown; the place of its kind where there are kinds; NaN where it has none.
+    pub values: Vec<f32>,
+    /// What the colours tell, with its unit.
+    pub told: String,
+    /// The bar or the kinds.
+    pub key: MapColours,
+}
+
+/// The map that `drawing` asks for, with the colours of the figure.
+///
+/// Fails as the figure does.
+pub fn coloured_map<'a>(
+    shown: impl Into<Shown<'a>>,
+    drawing: &'a Drawing,
+) -> Result<ColouredMap, FigureError> {
+    let view = View::new(shown.into(), drawing)?;
+    let plane = Plane::of(&view, "a map")?;
+    let paint = map::paint((&view, std::slice::from_ref(&view)), &plane)?;
+    let (columns, count) = (plane.x.count(), plane.count());
+    let (mut colours, mut values) = (Vec::with_capacity(4 * count), Vec::with_capacity(count));
+    for row in 0..plane.y.count() {
+        for column in 0..columns {
+            let case = plane.y.place(row) * columns + plane.x.place(column);
+            let colour = paint.colour(case).map_or([0; 4], |it| [it.0, it.1, it.2, u8::MAX]);
+            colours.extend(colour);
+            values.push(paint.number(case));
+        }
+    }
+    let axis = |name: &str, cells: &Cells| axis(view.quantity(name), cells);
+    Ok(ColouredMap {
+        axes: [axis(plane.x_name, &plane.x), axis(plane.y_name, &plane.y)],
+        colours,
+        values,
+        told: paint.told(),
+        key: key(&paint),
+    })
+}
+
+fn axis(quantity: Quantity, cells: &Cells) -> MapAxis {
+    let Scale { spacing, low, high } = cells.scale;
+    MapAxis {
+        label: quantity.told(),
+        factor: quantity.factor,
+        values: cells.values().map(|value| value / quantity.factor).collect(),
+        places: (0..cells.count()).map(|cell| cells.place(cell)).collect(),
+        ends: (0..cells.count()).map(|cell| cells.range(cell)[1]).collect(),
+        range: [low, high],
+        is_logarithmic: spacing == Spacing::Log,
+        name: quantity.key,
+    }
+}
+
+fn key(paint: &Paint) -> MapColours {
+    let channels = |RGBColor(r, g, b): RGBColor| [r, g, b];
+    match paint {
+        Paint::Numbers(Some(colours), ..) => {
+            let Scale { spacing, low, high } = colours.scale();
+            let value = |step: usize| colours.scale().value(step as f64 / (STEPS - 1) as f64);
+            let bar = (0..STEPS).map(|step| channels(colours.of(value(step)))).collect();
+            let (spread, width) = match spacing {
+                Spacing::Linear => ("linear", 0.0),
+                Spacing::Log => ("log", 0.0),
+                Spacing::Symmetric(width) => ("symlog", width),
+            };
+            MapColours::Bar([low, high], spread, width, bar)
+        }
+        Paint::Numbers(None, ..) => MapColours::Kinds(Vec::new()),
+        Paint::Kinds(kinds) => {
+            let kind = |it: &super::category::Kind| (it.name.clone(), it.colour.map(channels));
+            MapColours::Kinds(kinds.kinds.iter().map(kind).collect())
+        }
+    }
+}
+
+/// How figures show a quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShownQuantity {
+    /// What it is, with its unit.
+    pub label: String,
+    /// Its unit; empty where it has none.
+    pub unit: String,
+    /// Value shown per value in SI.
+    pub factor: f64,
+}
+
+/// How figures show the quantity called `name` in files.
+pub fn shown_quantity(name: &str, dataset: &Dataset) -> ShownQuantity {
+    let quantity = Quantity::named(name, dataset);
+    let (label, unit) = (quantity.told(), quantity.unit().content());
+    ShownQuantity { label, unit, factor: quantity.factor }
+}
