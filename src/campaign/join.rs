@@ -30,7 +30,18 @@ impl Campaign<'_> {
     ///
     /// Fails if no block was begun or the folder holds those of another study.
     pub fn join_partial(&self, report: &Report<'_>) -> Result<Complete, CampaignError> {
-        Campaign { overwrite: true, ..*self }.join_or_keep(&partial_path(self.output), report)
+        self.join_partial_into(&partial_path(self.output), report)
+    }
+
+    /// The same into `file`, which is not the output.
+    ///
+    /// Fails as [`Campaign::join_partial`] does.
+    pub fn join_partial_into(
+        &self,
+        file: &Path,
+        report: &Report<'_>,
+    ) -> Result<Complete, CampaignError> {
+        Campaign { overwrite: true, ..*self }.join_or_keep(file, report)
     }
 
     /// Joins the blocks into `file`, which is partial unless it is the output.

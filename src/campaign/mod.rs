@@ -14,6 +14,7 @@ mod continuation;
 pub mod count;
 pub mod error;
 pub mod front_curve;
+pub mod in_memory;
 mod join;
 pub mod kept;
 pub mod kept_searches;
@@ -40,6 +41,7 @@ pub mod verify;
 
 pub use answer::{Answer, Gain, Named};
 pub use error::{CampaignError, Cause};
+pub use in_memory::results_in_memory;
 pub use kept::Kept;
 pub use kept_searches::{KeptSearches, searches_path};
 pub use margins::{Change, Margin, MarginEnd, Margins};

@@ -1,15 +1,16 @@
 //! A map as the colours and numbers of its cells, for a screen that draws it itself.
 
-use plotters::style::RGBColor;
-
+use super::basin;
 use super::cells::Cells;
 use super::error::FigureError;
 use super::map;
+use super::over_map::channels;
 use super::paint::Paint;
 use super::plane::Plane;
 use super::quantity::Quantity;
 use super::scale::{Scale, Spacing};
 use super::shown::Shown;
+use super::style::UNDECIDED;
 use super::view::View;
 use crate::store::dataset::Dataset;
 use crate::study::Drawing;
@@ -108,7 +109,6 @@ fn axis(quantity: Quantity, cells: &Cells) -> MapAxis {
 }
 
 fn key(paint: &Paint) -> MapColours {
-    let channels = |RGBColor(r, g, b): RGBColor| [r, g, b];
     match paint {
         Paint::Numbers(Some(colours), ..) => {
             let Scale { spacing, low, high } = colours.scale();
@@ -127,6 +127,11 @@ fn key(paint: &Paint) -> MapColours {
             MapColours::Kinds(kinds.kinds.iter().map(kind).collect())
         }
     }
+}
+
+/// The colour of a start in figures of basins: that of the attractor of this number, or of starts whose attractor is not known.
+pub fn label_colour(attractor: Option<u32>) -> [u8; 3] {
+    channels(attractor.map_or(UNDECIDED, |number| basin::band(number as usize)))
 }
 
 /// How figures show a quantity.

@@ -25,10 +25,12 @@ const HEIGHT: f64 = 165.0;
 
 /// A curve in the units of the figure.
 pub struct Curve {
-    symbol: Symbol,
+    /// What happens on it.
+    pub symbol: Symbol,
     /// Period of the orbits on it.
-    period: u64,
-    points: Vec<(f64, f64)>,
+    pub period: u64,
+    /// Its points.
+    pub points: Vec<(f64, f64)>,
     /// The special points that it goes through.
     specials: Vec<(f64, f64)>,
 }

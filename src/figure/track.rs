@@ -103,6 +103,11 @@ impl Rows {
         self.values.get(begin..begin + self.width).unwrap_or(&[])
     }
 
+    /// How many places there are.
+    pub fn count(&self) -> usize {
+        self.values.len() / self.width.max(1)
+    }
+
     /// The first number at a place, or NaN.
     pub fn one(&self, place: usize) -> f64 {
         self.at(place).first().copied().unwrap_or(f64::NAN)

@@ -116,9 +116,12 @@ impl<'a> Motions<'a> {
 
     /// Whether a motion may be among the best: it is no case that is undecided or failed.
     pub fn counts(&self, motion: &Candidate) -> bool {
-        let is_case = motion.case < self.count;
-        let outcome = if is_case { self.outcomes.name(motion.case) } else { None };
-        outcome.is_none_or(takes_part)
+        self.outcome(motion).is_none_or(takes_part)
+    }
+
+    /// The outcome of a motion that is a case, if it is known.
+    pub fn outcome(&self, motion: &Candidate) -> Option<&'a str> {
+        self.outcomes.name(motion.case).filter(|_| motion.case < self.count)
     }
 
     /// How many cases are shown that are not periodic.

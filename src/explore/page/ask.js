@@ -1,4 +1,4 @@
-// Asks the server: objects, maps and streams of lines.
+// Asks the server: objects, maps, trade-offs and streams of lines.
 
 async function answered(address, signal) {
   const answer = await fetch(address, { signal, credentials: "same-origin" });
@@ -14,14 +14,27 @@ export async function object(path, pairs = {}, signal) {
   return (await answered(address(path, pairs), signal)).json();
 }
 
-/** A map: its description, red, green, blue and opacity of each cell, and its values, from the least ordinate up. */
-export async function map(pairs, signal) {
-  const bytes = await (await answered(address("/api/map", pairs), signal)).arrayBuffer();
+// An object, and what follows it in the same answer.
+async function packed(path, pairs, signal) {
+  const bytes = await (await answered(address(path, pairs), signal)).arrayBuffer();
   const length = new DataView(bytes).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
+  return { head, bytes, begins: 4 + length };
+}
+
+/** A map: its description, red, green, blue and opacity of each cell, and its values, from the least ordinate up. */
+export async function map(pairs, signal) {
+  const { head, bytes, begins } = await packed("/api/map", pairs, signal);
   const cells = head.x.values.length * head.y.values.length;
-  const colours = new Uint8ClampedArray(bytes, 4 + length, 4 * cells);
-  return { ...head, colours, values: new Float32Array(bytes, 4 + length + 4 * cells, cells) };
+  const colours = new Uint8ClampedArray(bytes, begins, 4 * cells);
+  return { ...head, colours, values: new Float32Array(bytes, begins + 4 * cells, cells) };
+}
+
+/** A trade-off: its description, and price and speed of each cell of the map. */
+export async function tradeOff(pairs, signal) {
+  const { head, bytes, begins } = await packed("/api/trade-off", pairs, signal);
+  const prices = new Float32Array(bytes, begins, head.count);
+  return { ...head, prices, speeds: new Float32Array(bytes, begins + 4 * head.count, head.count) };
 }
 
 /** Objects that come line by line; each is given to `take` as it comes. */
@@ -31,12 +44,14 @@ export async function lines(path, pairs, take, signal) {
   let rest = "";
   for (;;) {
     const { done, value } = await reader.read();
+    const parts = (rest + (done ? "" : decoder.decode(value, { stream: true }))).split("\n");
+    rest = done ? "" : parts.pop();
+    parts.filter((line) => line).forEach((line) => take(JSON.parse(line)));
     if (done) return;
-    const parts = (rest + decoder.decode(value, { stream: true })).split("\n");
-    rest = parts.pop();
-    parts.forEach((line) => take(JSON.parse(line)));
   }
 }
 
-/** The address of a figure. */
-export const figure = (pairs, format) => address("/api/figure", { ...pairs, format });
+/** A figure as a file. */
+export async function figure(pairs) {
+  return (await answered(address("/api/figure", pairs))).blob();
+}

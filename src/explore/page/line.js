@@ -1,54 +1,238 @@
 // The bifurcation diagram along a line over the map, drawn as it is computed.
 
 import * as ask from "./ask.js";
-import { colour, context, frame, range } from "./plot.js";
+import { element, folded, labelled, say, said, select } from "./element.js";
+import { handOver, saveButtons } from "./keep.js";
+import { entry } from "./marks.js";
+import { colours, context, frame, redrawn, share } from "./plot.js";
+import { range, short } from "./ticks.js";
 
-/** The diagram on a canvas. */
+/** Values along a line. */
+const COUNT = 300;
+const STARTS = [["inherit", "where the value before it settled"], ["afresh", "as the study says"]];
+const MM = 1e3;
+
+/** The diagram in its place. `on` is told of `start`, of a `choose`n share of the line and of a `spot` under the pointer. */
 export class Line {
-  constructor(canvas, told) {
-    Object.assign(this, { canvas, told, points: [], label: "", running: null });
-    new ResizeObserver(() => this.draw()).observe(canvas);
+  constructor(place, on) {
+    Object.assign(this, { on, points: [], running: null, asked: null, spot: null, study: null });
+    this.canvas = element("canvas", { id: "line", tabIndex: 0, role: "application", ariaLabel: "Bifurcation diagram along the line" });
+    this.canvas.setAttribute("aria-roledescription", "diagram");
+    this.canvas.setAttribute("aria-describedby", "line-help line-at");
+    this.told = element("p", { id: "line-told" });
+    this.at = element("p", { id: "line-at", className: "told", textContent: "\u00a0" });
+    this.start = select("line-start", STARTS, "inherit", (start) => on.start(start));
+    this.start.id = "line-start";
+    this.legend = element("ul", { className: "legend", ariaLabel: "Points of the diagram" });
+    this.saving = element("div", { className: "buttons", hidden: true }, ...saveButtons("line", "diagram", () => this.figure()));
+    this.why = element("p", { className: "note" });
+    const help = element("p", { id: "line-help", className: "note", textContent: "Click a value for its motion; arrows step along the line, Enter computes there." });
+    const head = ["share", "outcome", "period", "x1 − x2 at the section (mm)", "speed (mm/s)"];
+    this.values = element("div");
+    this.table = () => folded("Values along the line", head, () => this.rows());
+    place.append(this.told, labelled("Each value starts", this.start), this.canvas, this.at, this.legend, help, this.values, this.why, this.saving);
+    this.listen();
   }
 
-  /** Computes along the line from one place to another, each by the names of the coordinates in SI; `axis` is the one to show. */
-  async follow(from, to, others, axis, start) {
+  listen() {
+    const { canvas } = this;
+    canvas.addEventListener("pointermove", (event) => this.hover(this.near(event), false));
+    canvas.addEventListener("pointerleave", () => this.hover(null, false));
+    canvas.addEventListener("click", (event) => this.choose(this.near(event)));
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    redrawn(canvas, () => this.draw());
+  }
+
+  /** Computes from one end to the other; `line` has both, the axes of the map, and what is held. Nothing where it is the same as before. */
+  async follow(line) {
+    const asked = JSON.stringify([line.from, line.to, line.held, line.start]);
+    if (asked === this.asked) return;
     this.running?.abort();
     const running = new AbortController();
-    this.running = running;
-    Object.assign(this, { points: [], axis, ends: [from[axis.name] * axis.factor, to[axis.name] * axis.factor] });
-    const count = 300;
-    const ends = Object.fromEntries(Object.entries(to).map(([name, value]) => [`to_${name}`, value]));
-    const began = performance.now();
-    let isWaiting = false;
-    const draw = () => { isWaiting = false; this.draw(); };
+    Object.assign(this, { running, asked, line, points: [], study: null, spot: null });
+    this.start.value = line.start;
+    this.values.replaceChildren();
+    this.saving.hidden = true;
+    this.why.textContent = "";
+    handOver("line", "", null);
+    this.began = performance.now();
     try {
-      await ask.lines("/api/line", { ...others, ...from, ...ends, count, start }, (point) => {
-        this.points.push(point);
-        const left = (performance.now() - began) / this.points.length * (count - this.points.length) / 1e3;
-        this.told.textContent = `${this.points.length} of ${count} values, ${left.toFixed(0)} s left`;
-        if (!isWaiting) { isWaiting = true; requestAnimationFrame(draw); }
-      }, running.signal);
-      this.told.textContent = `${this.points.length} values in ${((performance.now() - began) / 1e3).toFixed(1)} s`;
-    } catch (fault) {
-      if (fault.name !== "AbortError") this.told.textContent = fault.message;
+      const ends = Object.fromEntries(Object.entries(line.to).map(([name, value]) => [`to_${name}`, value]));
+      const pairs = { ...line.held, ...line.from, ...ends, count: COUNT, start: line.start };
+      await ask.lines("/api/line", pairs, (it) => this.take(it), running.signal);
+      this.finish();
+    } catch (it) {
+      if (it.name === "AbortError") return;
+      this.asked = null;
+      this.told.textContent = `${this.points.length ? `Stopped after ${this.points.length} values: ` : ""}${it.message}`;
+      say(this.told.textContent);
     }
+  }
+
+  /** Computes nothing more. */
+  stop() {
+    this.running?.abort();
+    this.asked = null;
+    handOver("line", "", null);
+  }
+
+  take(it) {
+    if (it.share === undefined) return this.describe(it);
+    this.points.push(it);
+    const done = this.points.length, left = (performance.now() - this.began) / done * (COUNT - done) / 1e3;
+    this.told.textContent = `${done} of ${COUNT} values, ${left.toFixed(0)} s left`;
+    if (done === 1) say(`The line is computed: ${COUNT} values`);
+    if (this.isWaiting) return;
+    this.isWaiting = true;
+    requestAnimationFrame(() => { this.isWaiting = false; this.draw(); });
+  }
+
+  // What the server says of the line as a whole.
+  describe({ study, why }) {
+    this.study = study;
+    this.why.textContent = study ? "" : why || "";
+    this.saving.hidden = !study;
+    handOver("line", "Bifurcation diagram along the line: study for capsulemap sweep", study, true);
+  }
+
+  finish() {
+    const without = this.points.filter((it) => !it.section_r.length).length;
+    const seconds = ((performance.now() - this.began) / 1e3).toFixed(1);
+    this.told.textContent = `${this.points.length} values in ${seconds} s${without ? `; ${without} have no motion and no points` : ""}.`;
+    this.canvas.setAttribute("aria-label", `Bifurcation diagram along the line: ${this.summary()}`);
+    say(this.told.textContent);
+    this.values.replaceChildren(this.table());
+    this.draw();
+  }
+
+  summary() {
+    const count = (of) => this.points.filter(of).length;
+    const speeds = this.speeds().filter(Number.isFinite), [low, high] = range(speeds, 0);
+    const periodic = count((it) => it.outcome === "periodic");
+    return `${this.points.length} values, ${periodic} periodic; speed from ${short(low, 4)} to ${short(high, 4)} mm/s`;
+  }
+
+  figure() {
+    const { from, to, held, start } = this.line;
+    const ends = Object.fromEntries(Object.entries(to).map(([name, value]) => [`to_${name}`, value]));
+    return { kind: "bifurcation", ...held, ...from, ...ends, count: COUNT, start };
+  }
+
+  speeds() { return this.points.map((it) => (it.progression_speed === null ? NaN : it.progression_speed * MM)); }
+
+  rows() {
+    const speed = (it) => (it.progression_speed === null ? "no value" : short(it.progression_speed * MM, 5));
+    const section = (it) => (it.section_r.length > 8 ? `${it.section_r.length} points` : it.section_r.map((r) => short(r * MM, 5)).join("; ") || "none");
+    return this.points.map((it) => [short(it.share, 4), it.outcome, it.period ?? "–", section(it), speed(it)]);
+  }
+
+  /** The coordinates at a share of the line. */
+  place(share) {
+    const { from, to, held } = this.line;
+    const between = Object.entries(from).map(([name, value]) => [name, value + share * (to[name] - value)]);
+    return { ...held, ...Object.fromEntries(between) };
+  }
+
+  areas({ width, height }) {
+    const middle = (height - 42) * 0.6;
+    return [{ left: 70, top: 10, right: width - 18, bottom: middle - 8 }, { left: 70, top: middle + 8, right: width - 18, bottom: height - 42 }];
+  }
+
+  axis() {
+    const { along, from, to } = this.line;
+    const ends = [from, to].map((it) => it[along.name] * along.factor);
+    return { range: [...ends].sort((a, b) => a - b), label: along.label, ends };
+  }
+
+  // The place of the point of the line that is nearest to the pointer.
+  near(event) {
+    if (!this.points.length) return null;
+    const box = this.canvas.getBoundingClientRect(), [area] = this.areas(box), { ends } = this.axis();
+    let across = (event.clientX - box.left - area.left) / (area.right - area.left);
+    if (across < 0 || across > 1) return null;
+    if (ends[0] > ends[1]) across = 1 - across;
+    const place = Math.round(across * (COUNT - 1));
+    return place < this.points.length ? place : null;
+  }
+
+  hover(place, isKey) {
+    this.spot = place;
+    this.at.textContent = place === null ? "\u00a0" : this.words(place);
+    if (isKey && place !== null) say(this.words(place));
+    this.on.spot(place === null ? null : this.place(this.points[place].share));
+    this.draw();
+  }
+
+  words(place) {
+    const it = this.points[place], at = this.place(it.share);
+    const where = this.line.axes.map((axis) => said(axis.label, at[axis.name] * axis.factor)).join(", ");
+    const speed = it.progression_speed === null ? "no speed" : `speed ${short(it.progression_speed * MM, 5)} mm/s`;
+    return `${where}: ${it.outcome}${it.period ? `, period ${it.period}` : ""}, ${speed}`;
+  }
+
+  choose(place) { if (place !== null && this.points[place]) this.on.choose(this.place(this.points[place].share)); }
+
+  key(event) {
+    const last = this.points.length - 1, far = event.shiftKey ? 10 : 1;
+    const isTurned = this.line && this.axis().ends[0] > this.axis().ends[1];
+    const step = { ArrowLeft: isTurned ? far : -far, ArrowRight: isTurned ? -far : far }[event.key];
+    if (last < 0 || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (step) this.hover(Math.min(Math.max((this.spot ?? 0) + step, 0), last), true);
+    else if (event.key === "Enter") this.choose(this.spot);
+    else return;
+    event.preventDefault();
   }
 
   draw() {
-    const { drawn, width, height } = context(this.canvas);
-    if (!this.axis) return;
-    const at = (share) => this.ends[0] + share * (this.ends[1] - this.ends[0]);
-    const middle = (height - 40) * 0.62;
-    const [low, high] = [...this.ends].sort((a, b) => a - b);
-    const x = { range: low === high ? [low - 1, high + 1] : [low, high], label: this.axis.label };
-    const sections = this.points.flatMap((it) => it.section_r.map((r) => r * 1e3));
-    const speeds = this.points.map((it) => it.progression_speed === null ? NaN : it.progression_speed * 1e3);
-    const upper = frame(drawn, { left: 66, top: 8, right: width - 10, bottom: middle - 12 }, { ...x, label: "" }, { range: range(sections), label: "x1 − x2 (mm)" });
-    const lower = frame(drawn, { left: 66, top: middle + 14, right: width - 10, bottom: height - 40 }, x, { range: range(speeds), label: "Speed (mm/s)" });
-    for (const [i, point] of this.points.entries()) {
-      drawn.fillStyle = colour(point.outcome === "periodic" ? "first" : "second");
-      for (const r of point.section_r) drawn.fillRect(upper.x(at(point.share)) - 0.8, upper.y(r * 1e3) - 0.8, 1.6, 1.6);
-      if (Number.isFinite(speeds[i])) drawn.fillRect(lower.x(at(point.share)) - 1, lower.y(speeds[i]) - 1, 2, 2);
-    }
+    const made = context(this.canvas), { drawn } = made;
+    if (!this.line) return;
+    const x = this.axis(), [above, below] = this.areas(made), shades = colours(), speeds = this.speeds();
+    const at = (value) => x.ends[0] + value * (x.ends[1] - x.ends[0]);
+    const sections = this.points.flatMap((it) => it.section_r.map((r) => r * MM));
+    const upper = frame(drawn, above, { ...x, label: "" }, { range: range(sections), label: "Section x1 − x2 (mm)" });
+    const lower = frame(drawn, below, { ...x, label: this.label() }, { range: range(speeds), label: "Speed (mm/s)" });
+    this.points.forEach((point, i) => {
+      drawn.fillStyle = point.outcome === "periodic" ? shades.first : shades.second;
+      const across = upper.x(at(point.share));
+      for (const r of point.section_r) drawn.fillRect(across - 0.9, upper.y(r * MM) - 0.9, 1.8, 1.8);
+      if (Number.isFinite(speeds[i])) drawn.fillRect(across - 1.2, lower.y(speeds[i]) - 1.2, 2.4, 2.4);
+    });
+    if (this.spot !== null && this.points[this.spot]) this.drawSpot(drawn, upper.x(at(this.points[this.spot].share)), above, below);
+    this.explain(shades);
   }
+
+  drawSpot(drawn, across, above, below) {
+    drawn.strokeStyle = colours().ink;
+    drawn.lineWidth = 1;
+    drawn.setLineDash([3, 3]);
+    drawn.beginPath(); drawn.moveTo(across, above.top); drawn.lineTo(across, below.bottom); drawn.stroke();
+    drawn.setLineDash([]);
+  }
+
+  // Along an oblique line another axis varies, too.
+  label() {
+    const { along, axes, from, to } = this.line;
+    const other = axes.find((it) => it.name !== along.name);
+    if (!other || from[other.name] === to[other.name]) return along.label;
+    const { ends } = this.axis(), [left, right] = ends[0] <= ends[1] ? [from, to] : [to, from];
+    return `${along.label}; ${other.label}: ${short(left[other.name] * other.factor, 4)} to ${short(right[other.name] * other.factor, 4)}`;
+  }
+
+  explain(shades) {
+    const outcomes = [...new Set(this.points.filter((it) => it.section_r.length && it.outcome !== "periodic").map((it) => it.outcome))];
+    const kinds = [["periodic", shades.first]].concat(outcomes.length ? [[outcomes.join(", "), shades.second]] : []);
+    const text = JSON.stringify(kinds);
+    if (text === this.legend.dataset.text) return;
+    this.legend.dataset.text = text;
+    this.legend.replaceChildren(...kinds.map(([words, shade]) => entry(words, (drawn, [x, y]) => {
+      drawn.fillStyle = shade;
+      drawn.fillRect(x - 3, y - 3, 6, 6);
+    })));
+  }
+}
+
+/** The axis along which a line is longer over a map. */
+export function longer({ x, y }, from, to) {
+  const length = (axis) => Math.abs(share(axis, to[axis.name] * axis.factor) - share(axis, from[axis.name] * axis.factor));
+  return length(x) >= length(y) ? x : y;
 }

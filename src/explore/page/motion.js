@@ -1,115 +1,101 @@
-// The motion of a case: histories, phase portrait, section, events and numbers.
+// The charts of a motion: histories, phase portrait and stroboscopic section.
 
 import uPlot from "./uPlot.esm.js";
-import { colour, context, frame, range, short } from "./plot.js";
+import { element } from "./element.js";
+import { colours, context, frame, redrawn, room, within } from "./plot.js";
+import { range, short } from "./ticks.js";
 
 const MM = 1e3;
-/** The histories: heading, unit, and columns with their names, colours and factors. */
+const HEIGHT = 170;
+/** The histories: label, and columns with their names, colours, factors and dashes. */
 const CHARTS = [
-  ["Displacements (mm)", [["r", "x1 − x2", "first", MM], ["x1", "x1", "second", MM], ["x2", "x2", "third", MM]]],
-  ["Velocities (mm/s)", [["y1", "y1", "second", MM], ["y2", "y2", "third", MM]]],
-  ["Forces (N)", [["drive", "drive", "fourth", 1], ["contact", "contact", "first", 1], ["friction", "friction", "third", 1]]],
+  ["Displacement (mm)", [["r", "x1 − x2", "first", MM], ["x1", "x1", "second", MM, [7, 3]], ["x2", "x2", "third", MM, [2, 3]]]],
+  ["Velocity (mm/s)", [["y1", "y1", "second", MM], ["y2", "y2", "third", MM, [7, 3]]]],
+  ["Force (N)", [["drive", "drive", "fourth", 1, [7, 3]], ["contact", "contact", "first", 1], ["friction", "friction", "third", 1, [2, 3]]]],
 ];
 
-const element = (name, content = {}, ...children) => {
-  const made = Object.assign(document.createElement(name), content);
-  made.append(...children);
-  return made;
-};
+const columns = (history, all) => all.filter(([name]) => history[name]);
+const scaled = (history, [name, , , factor]) => history[name].map((value) => value * factor);
 
-/** A panel for the motion `it` with this heading; `remove` is called when it is unpinned, `pin` when it is pinned. */
-export function panel(it, heading, { pin, remove }) {
-  const button = element("button", { type: "button", textContent: remove ? "Unpin" : "Pin to compare" });
-  button.addEventListener("click", remove || pin);
-  const charts = element("div", { className: "charts" });
-  const place = element("article", { className: "motion" }, element("h3", { textContent: heading }), summary(it), button, charts);
-  queueMicrotask(() => draw(it, charts));
-  charts.after(...tables(it));
-  return place;
+// Relative displacement and velocity.
+const portrait = ({ r, y1, y2 }) => [r.map((value) => value * MM), y1.map((value, i) => (value - y2[i]) * MM)];
+const section = ({ stroboscopic }) => [0, 1].map((i) => stroboscopic.map((it) => it[i] * MM));
+
+/** The ranges of everything that is drawn of a motion, by the name of its axis. */
+function ranges(it) {
+  const made = { "Time (s)": [0, it.history.t.at(-1)] };
+  for (const [label, all] of CHARTS) made[label] = range(columns(it.history, all).flatMap((column) => scaled(it.history, column)));
+  const [x, y] = portrait(it.history), [sx, sy] = section(it);
+  return { ...made, x: range([...x, it.history.delta * MM]), y: range(y), sx: range(sx), sy: range(sy) };
 }
 
-// What it settles to, in a sentence.
-function summary(it) {
-  const { orbit } = it.simulate;
-  const speed = orbit.progression_speed === null ? "" : `, ${short(orbit.progression_speed * MM)} mm/s`;
-  const kind = orbit.outcome === "periodic" ? `periodic, period ${orbit.period}` : orbit.outcome;
-  const start = `Starts ${it.start}${it.exact ? ` (case ${it.nearest})` : `; nearest case ${it.nearest}`}.`;
-  const about = element("div", {}, element("p", { textContent: `${kind}${speed}. ${start}` }));
-  it.remarks.forEach((remark) => about.append(element("p", { textContent: remark })));
-  if (orbit.failure) about.append(element("p", { textContent: `Failed: ${orbit.failure}` }));
-  return about;
+/** Ranges that hold all motions; none where no motion has a history. */
+export function common(motions) {
+  const all = motions.filter(({ history }) => history).map(ranges);
+  if (!all.length) return null;
+  const ends = (key) => [Math.min(...all.map((it) => it[key][0])), Math.max(...all.map((it) => it[key][1]))];
+  return Object.fromEntries(Object.keys(all[0]).map((key) => [key, ends(key)]));
 }
 
-function draw(it, charts) {
-  const { history } = it;
-  if (!history) return;
-  for (const [title, columns] of CHARTS) {
-    const shown = columns.filter(([name]) => history[name]);
-    const data = [history.t, ...shown.map(([name, , , factor]) => history[name].map((value) => value * factor))];
-    const axis = { stroke: colour("ink"), grid: { stroke: colour("line"), width: 0.5 }, ticks: { stroke: colour("line") } };
-    const options = {
-      title, width: charts.clientWidth, height: 190,
-      scales: { x: { time: false } },
-      axes: [{ ...axis, label: "Time (s)", labelSize: 18 }, { ...axis, size: 60 }],
-      series: [{ label: "t (s)" }, ...shown.map(([, label, shade]) => ({ label, stroke: colour(shade), width: 1.5, points: { show: false } }))],
-    };
-    const place = element("div", { role: "img", ariaLabel: `${title} over time, ${history.cycles} cycles` });
-    charts.append(place);
-    const chart = new uPlot(options, data, place);
-    new ResizeObserver(() => chart.setSize({ width: charts.clientWidth, height: 190 })).observe(charts);
-  }
-  const portrait = element("canvas", { className: "portrait", role: "img", ariaLabel: "Phase portrait: relative velocity over relative displacement" });
-  const section = element("canvas", { className: "portrait", role: "img", ariaLabel: "Stroboscopic section: velocity of the mass over relative displacement" });
-  charts.append(portrait, section);
-  new ResizeObserver(() => { drawPortrait(portrait, history); drawSection(section, it); }).observe(charts);
+/** The charts of a motion in a place that is on the page; `scales` are ranges to keep to, or none for its own. */
+export function charts(place, it, scales) {
+  const { history } = it, own = scales || ranges(it);
+  for (const [label, all] of CHARTS) place.append(chart(place, history, label, columns(history, all), own));
+  const canvas = (words) => element("canvas", { className: "portrait", role: "img", ariaLabel: words });
+  const [x, y] = portrait(history), ends = (values) => range(values, 0).map((value) => short(value, 4)).join(" to ");
+  const first = canvas(`Phase portrait: x1 − x2 from ${ends(x)} mm, y1 − y2 from ${ends(y)} mm/s, the stop at ${short(history.delta * MM)} mm`);
+  const second = canvas(`Stroboscopic section: ${it.stroboscopic.length} points; the table of section points has them`);
+  place.append(element("div", { className: "portraits" }, first, second));
+  redrawn(first, () => drawPortrait(first, it, own));
+  redrawn(second, () => drawSection(second, it, own));
 }
 
-const area = ({ width, height }) => ({ left: 66, top: 8, right: width - 10, bottom: height - 40 });
+function chart(place, history, label, shown, scales) {
+  const shades = colours(), data = [history.t, ...shown.map((column) => scaled(history, column))];
+  const axis = { stroke: shades.ink, grid: { stroke: shades.line, width: 0.5 }, ticks: { stroke: shades.faint, size: 4 }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif" };
+  const ends = shown.map(([, words], i) => `${words} from ${range(data[i + 1], 0).map((value) => short(value, 4)).join(" to ")}`);
+  const words = `${label} over ${history.cycles} cycles, ${short(history.t.at(-1), 4)} s: ${ends.join(", ")}`;
+  const holder = element("div", { role: "img", ariaLabel: words, className: "chart" });
+  const options = {
+    width: Math.max(place.clientWidth, 200), height: HEIGHT,
+    padding: [10, 16, 0, 0],
+    cursor: { y: false, drag: { x: false, y: false } },
+    scales: { x: { time: false, range: scales["Time (s)"] }, y: { range: scales[label] } },
+    axes: [{ ...axis, label: "Time (s)", labelSize: 16, size: 26, labelGap: 0 }, { ...axis, label, size: 52, labelSize: 16 }],
+    series: [{ label: "t (s)", value: read }, ...shown.map(([, name, shade, , dash]) => ({ label: name, stroke: shades[shade], width: 1.6, dash, points: { show: false }, value: read }))],
+  };
+  const made = new uPlot(options, data, holder);
+  new ResizeObserver(() => { if (place.clientWidth && place.clientWidth !== made.width) made.setSize({ width: place.clientWidth, height: HEIGHT }); }).observe(place);
+  return holder;
+}
 
-function drawPortrait(canvas, { r, y1, y2, delta }) {
-  const made = context(canvas), { drawn } = made, box = area(made);
-  const [xs, ys] = [r.map((value) => value * MM), y1.map((value, i) => (value - y2[i]) * MM)];
-  const place = frame(drawn, box, { range: range([...xs, delta * MM]), label: "x1 − x2 (mm)" }, { range: range(ys), label: "y1 − y2 (mm/s)" });
-  drawn.setLineDash([4, 3]);
-  drawn.beginPath(); drawn.moveTo(place.x(delta * MM), box.top); drawn.lineTo(place.x(delta * MM), box.bottom); drawn.stroke();
-  drawn.setLineDash([]);
-  drawn.strokeStyle = colour("first"); drawn.lineWidth = 1.3;
+const read = (_, value) => (value === null || value === undefined ? "–" : short(value, 4));
+
+function ring(drawn, x, y, radius) {
   drawn.beginPath();
-  xs.forEach((x, i) => drawn.lineTo(place.x(x), place.y(ys[i])));
-  drawn.stroke();
+  drawn.arc(x, y, radius, 0, 2 * Math.PI);
 }
 
-function drawSection(canvas, { stroboscopic }) {
-  const made = context(canvas), { drawn } = made;
-  const [xs, ys] = [stroboscopic.map((it) => it[0] * MM), stroboscopic.map((it) => it[1] * MM)];
-  const place = frame(drawn, area(made), { range: range(xs), label: "Stroboscopic x1 − x2 (mm)" }, { range: range(ys), label: "Stroboscopic y1 (mm/s)" });
-  drawn.fillStyle = colour("first");
-  xs.forEach((x, i) => { drawn.beginPath(); drawn.arc(place.x(x), place.y(ys[i]), 2.5, 0, 2 * Math.PI); drawn.fill(); });
+function drawPortrait(canvas, { history, stroboscopic }, scales) {
+  const made = context(canvas), { drawn } = made, area = room(made), shades = colours(), [xs, ys] = portrait(history);
+  const place = frame(drawn, area, { range: scales.x, label: "x1 − x2 (mm)" }, { range: scales.y, label: "y1 − y2 (mm/s)" });
+  within(drawn, area, () => {
+    [drawn.strokeStyle, drawn.lineWidth] = [shades.ink, 1];
+    drawn.setLineDash([5, 4]);
+    drawn.beginPath(); drawn.moveTo(place.x(history.delta * MM), area.top); drawn.lineTo(place.x(history.delta * MM), area.bottom); drawn.stroke();
+    drawn.setLineDash([]);
+    [drawn.strokeStyle, drawn.lineWidth] = [shades.first, 1.4];
+    drawn.beginPath();
+    xs.forEach((x, i) => drawn.lineTo(place.x(x), place.y(ys[i])));
+    drawn.stroke();
+    [drawn.strokeStyle, drawn.fillStyle, drawn.lineWidth] = [shades.second, shades.paper, 1.5];
+    for (const [r, y1, y2] of stroboscopic) { ring(drawn, place.x(r * MM), place.y((y1 - y2) * MM), 3.2); drawn.fill(); drawn.stroke(); }
+  });
 }
 
-const row = (cells, isHead) => {
-  const made = element("tr");
-  cells.forEach((cell) => made.append(element(isHead ? "th" : "td", {
-    textContent: cell, className: typeof cell === "number" || /^[−\d]/.test(cell) ? "number" : "",
-  })));
-  return made;
-};
-
-function table(heading, head, rows) {
-  const body = element("table", {}, row(head, true));
-  rows.forEach((cells) => body.append(row(cells, false)));
-  const place = element("div", { className: "scroll", tabIndex: 0, role: "region", ariaLabel: heading }, body);
-  return element("details", {}, element("summary", { textContent: heading }), place);
-}
-
-function tables({ simulate }) {
-  const { orbit, events, parameters } = simulate;
-  const numbers = Object.entries(orbit).filter(([, value]) => typeof value === "number" || value === null);
-  const multipliers = (orbit.multipliers || []).map(([re, im], i) => [`multiplier ${i + 1}`, re === null ? "not known" : `${short(re)} ${im < 0 ? "−" : "+"} ${short(Math.abs(im))} i`]);
-  const listed = events.map((it) => [short(it.t), it.kind, short(it.r * MM), short(it.y1 * MM), short(it.x2 * MM), short(it.y2 * MM)]);
-  return [
-    table("Numbers of the orbit (SI)", ["output", "value"], [...numbers.map(([name, value]) => [name, value === null ? "none" : String(value)]), ...multipliers]),
-    table(`Events from the start (${events.length})`, ["t (s)", "event", "r (mm)", "y1 (mm/s)", "x2 (mm)", "y2 (mm/s)"], listed),
-    table("Parameters (SI)", ["parameter", "value"], Object.entries(parameters).map(([name, value]) => [name, String(value)])),
-  ];
+function drawSection(canvas, it, scales) {
+  const made = context(canvas), { drawn } = made, area = room(made), [xs, ys] = section(it);
+  const place = frame(drawn, area, { range: scales.sx, label: "Section x1 − x2 (mm)" }, { range: scales.sy, label: "Section y1 (mm/s)" });
+  drawn.fillStyle = colours().second;
+  within(drawn, area, () => xs.forEach((x, i) => { ring(drawn, place.x(x), place.y(ys[i]), xs.length > 20 ? 1.6 : 3.2); drawn.fill(); }));
 }

@@ -1,203 +1,255 @@
-// The page: what is chosen, the map, the motion of the case that was clicked, and a line over the map.
+// The page: what is chosen, and the views that show it.
 
 import * as ask from "./ask.js";
 import * as view from "./view.js";
-import { Line } from "./line.js";
-import { Map as CellMap } from "./map.js";
-import { panel } from "./motion.js";
-import { short } from "./plot.js";
+import { Basin } from "./basin.js";
+import { brush, selection } from "./brush.js";
+import { Choices } from "./choices.js";
+import { button, by, element, fault, parted, say } from "./element.js";
+import { caseForm, fillForm } from "./form.js";
+import { handOver, quoted, save } from "./keep.js";
+import { note } from "./legend.js";
+import { Line, longer } from "./line.js";
+import { CellMap } from "./map.js";
+import { Motions } from "./motions.js";
+import { mark, select, showCurves, showTradeOff } from "./overlay.js";
+import { watch } from "./progress.js";
+import { axes, chosen, ends, here, named, page, pins, price } from "./shown.js";
+import { TradeOff, prices } from "./tradeoff.js";
 
-const by = (id) => document.getElementById(id);
-const file = await ask.object("/api/file").catch(told);
-const pins = [];
-let shown = null;
+/** When the case was clicked whose motion is awaited. */
+let clicked = null;
 
-function told(fault) {
-  if (fault.name === "AbortError") return;
-  by("fault").textContent = fault.message;
-  by("fault").hidden = false;
+function choose(coordinates) {
+  clicked = performance.now();
+  view.set({ at: view.written(coordinates) });
 }
 
-const map = new CellMap(by("map"), { hover, choose, line, mode });
-const diagram = new Line(by("line"), by("line-told"));
+const chooseOnMap = (point) => choose({ ...page.choices.held(), ...named(point) });
 
-const axis = (name) => file.axes.find((it) => it.name === name);
-const chosen = () => ({
-  of: view.text("of") || file.outputs[0].name,
-  x: view.text("x") || file.axes.at(-1).name,
-  y: view.text("y") || file.axes.at(-2).name,
-});
-
-/** The values of the axes that are not drawn. */
-function held() {
-  const { x, y } = chosen();
-  const others = file.axes.filter((it) => it.name !== x && it.name !== y);
-  return Object.fromEntries(others.map((it) => [it.name, view.number(it.name) ?? it.values[0]]));
+function hover(cell, isKey) {
+  const { map, tradeOff } = page;
+  const value = () => {
+    const [name, unit] = parted(map.data.told);
+    return `${name} = ${map.told(cell)}${unit && !map.data.key.kinds ? ` ${unit}` : ""}`;
+  };
+  const words = cell ? [value(), ...here(cell.cell)].join("; ") : "\u00a0";
+  by("told").textContent = words;
+  if (cell && isKey) say(words);
+  if (price()) tradeOff.mark(tradeOff.chosen, cell ? cell.number : null);
 }
 
-const sweep = () => (file.directions.length > 1 ? { sweep: view.text("sweep") || file.directions[0] } : {});
-const asked = () => ({ ...chosen(), ...held(), ...sweep() });
-
-function option(select, value, text) {
-  select.append(Object.assign(document.createElement("option"), { value, textContent: text }));
+// A line or a rectangle was drawn over the map.
+function drag(kind, from, to) {
+  if (kind === "line") { view.set({ line: `${view.written(named(from))}~${view.written(named(to))}` }); return; }
+  const all = prices(page.file);
+  if (!price() && all.length) view.set({ trade: all[0][0] });
+  brush("map", [0, 1].map((i) => [Math.min(from[i], to[i]), Math.max(from[i], to[i])]));
 }
 
-function choice(name, text, options, value) {
-  const label = document.createElement("label"), select = document.createElement("select");
-  select.name = name;
-  options.forEach(([key, words]) => option(select, key, words));
-  select.value = value;
-  select.addEventListener("change", () => view.set({ [name]: select.value }));
-  label.append(text, " ", select);
-  by("choices").append(label);
-}
-
-function slider(it) {
-  const label = document.createElement("label"), input = document.createElement("input"), says = document.createElement("output");
-  const values = it.values, now = held()[it.name];
-  Object.assign(input, { type: "range", min: 0, max: values.length - 1, step: 1, name: it.name });
-  const nearest = (wanted) => values.reduce((best, value, i) => (Math.abs(value - wanted) < Math.abs(values[best] - wanted) ? i : best), 0);
-  input.value = nearest(now);
-  const tell = () => { says.textContent = `${short(values[input.value] * it.factor)} ${it.unit}`; };
-  input.addEventListener("input", tell);
-  input.addEventListener("change", () => view.set({ [it.name]: values[input.value] }));
-  tell();
-  label.append(it.label, " ", input, says);
-  by("choices").append(label);
-}
-
-function drawChoices() {
-  by("choices").replaceChildren();
-  const { of, x, y } = chosen();
-  choice("of", "Output", file.outputs.map((it) => [it.name, it.label]), of);
-  if (file.axes.length > 2) {
-    for (const [name, text, value] of [["x", "Across", x], ["y", "Up", y]]) choice(name, text, file.axes.map((it) => [it.name, it.label]), value);
-  }
-  if (file.directions.length > 1) choice("sweep", "Sweep", [...file.directions.slice(0, 2), "difference"].map((it) => [it, it]), sweep().sweep);
-  file.axes.filter((it) => it.name !== x && it.name !== y).forEach(slider);
+function mode(kind) {
+  by("line-button").setAttribute("aria-pressed", String(kind === "line"));
+  by("brush-button").setAttribute("aria-pressed", String(kind === "rectangle"));
+  const how = { line: "a line over the map; or begin at the mark with L, move the end with the arrows, and end with L", rectangle: "a rectangle over the map; or begin at the mark with R, move the corner with the arrows, and end with R" };
+  const words = how[kind] ? `Drag ${how[kind]}.` : "\u00a0";
+  by("told").textContent = words;
+  if (how[kind]) say(words);
 }
 
 let asking = null;
 async function showMap() {
   asking?.abort();
-  asking = new AbortController();
-  const data = await ask.map(asked(), asking.signal);
-  map.show(data);
-  by("map").setAttribute("aria-label", `Map of ${data.told} over ${data.x.label} and ${data.y.label}`);
-  tellCommands();
+  const { signal } = asking = new AbortController(), begun = performance.now();
+  const data = await ask.map(page.choices.asked(), signal), came = performance.now();
+  page.map.show(data);
+  const now = performance.now();
+  Object.assign(by("map").dataset, { milliseconds: (now - begun).toFixed(1), painted: (now - came).toFixed(1) });
+  by("map").setAttribute("aria-label", `Map of ${data.told} over ${data.x.label} and ${data.y.label}, ${data.x.values.length} by ${data.y.values.length} cases`);
+  document.body.dataset.ready = "true";
+  await Promise.all([showTradeOff(signal), showCurves(signal)]);
+  mark();
+  handMaps();
 }
 
-/** What the page says of a cell. */
-function words(at) {
-  const { data } = map, { key } = data;
-  const value = key.kinds ? key.kinds[at.value]?.[0] : Number.isFinite(at.value) ? short(at.value) : "no value";
-  const place = (it, si) => `${it.label}: ${short(si * it.factor)}`;
-  return `${data.told}: ${value ?? "no value"}; ${place(data.x, at.cell[0])}; ${place(data.y, at.cell[1])}`;
+// The commands of the figures of the map and of the trade-off.
+function handMaps() {
+  const { file, choices } = page, { of, x, y } = choices.chosen(), { sweep } = choices.sweep();
+  const places = Object.entries(choices.held()).map(([name, value]) => ` --at ${name}=${value}`).join("") + (sweep ? ` --sweep ${sweep}` : "");
+  const figure = (kind, more) => `capsulemap figure ${quoted(file.file)} --kind ${kind} ${more}${places}`;
+  handOver("map", "Figure of the map", figure("map", `--of ${of} --x ${x} --y ${y}${page.curves ? " --curves" : ""}`));
+  handOver("trade-off", "Figure of the trade-off", price() && figure("trade-off", `--of ${price()}`));
 }
 
-function hover(at) { by("told").textContent = at ? words(at) : "\u00a0"; }
-
-function place([x, y]) { return { [map.data.x.name]: x, [map.data.y.name]: y }; }
-
-async function choose(point) {
-  view.set({ at: point.join(",") });
-}
-
-async function showMotion(point) {
-  const data = map.data;
-  const heading = `${data.x.label}: ${short(point[0] * data.x.factor)}; ${data.y.label}: ${short(point[1] * data.y.factor)}`;
-  const begun = performance.now();
-  const it = await ask.object("/api/motion", { ...held(), ...place(point) });
-  shown = { it, heading, point };
-  drawMotions();
-  by("motions").dataset.milliseconds = (performance.now() - begun).toFixed(1);
-  tellCommands();
-}
-
-function drawMotions() {
-  const pin = () => { pins.push(shown); if (pins.length > 2) pins.shift(); drawMotions(); };
-  const panels = pins.map((it) => panel(it.it, `Pinned: ${it.heading}`, { remove: () => { pins.splice(pins.indexOf(it), 1); drawMotions(); } }));
-  if (shown) panels.unshift(panel(shown.it, shown.heading, { pin }));
-  by("motions").replaceChildren(...panels);
-  map.pinned = pins.map((it) => [map.share(map.data.x, it.point[0] * map.data.x.factor), map.share(map.data.y, it.point[1] * map.data.y.factor)]);
-  map.draw();
-}
-
-function mode(isOn) {
-  map.isDrawingLine = isOn;
-  by("line-button").setAttribute("aria-pressed", String(isOn));
-  by("told").textContent = isOn ? "Drag a line over the map, or move the mark with the arrows and press L." : "\u00a0";
-}
-
-function line(from, to) {
-  mode(false);
-  const { x, y } = map.data;
-  view.set({ line: [...from.point, ...to.point].join(","), start: by("line-start").value });
-  void x; void y;
+async function showMotion() {
+  const coordinates = chosen();
+  if (!coordinates) return;
+  const begun = clicked ?? performance.now();
+  clicked = null;
+  if (!await page.motions.show(coordinates)) return;
+  by("basin-button").hidden = false;
+  fillForm(page.file, coordinates);
+  // The frame that shows the motion is painted before the next task.
+  requestAnimationFrame(() => {
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => { by("motions").dataset.milliseconds = (performance.now() - begun).toFixed(1); };
+    port2.postMessage(0);
+  });
 }
 
 function showLine() {
-  const ends = view.text("line")?.split(",").map(Number);
-  if (!ends || ends.length !== 4 || !ends.every(Number.isFinite)) return;
-  by("line-place").hidden = false;
-  const { x, y } = map.data;
-  const shares = (a, b) => [map.share(x, a * x.factor), map.share(y, b * y.factor)];
-  map.line = { from: shares(ends[0], ends[1]), to: shares(ends[2], ends[3]) };
-  map.draw();
-  // The diagram is over the axis along which the line is longer on the map.
-  const [from, to] = [map.line.from, map.line.to];
-  const along = Math.abs(to[0] - from[0]) >= Math.abs(to[1] - from[1]) ? x : y;
-  diagram.follow(place(ends.slice(0, 2)), place(ends.slice(2)), held(), along, view.text("start") || "inherit");
+  const both = ends(), { file, map, line } = page;
+  by("line-section").hidden = !both;
+  if (!both) return line.stop();
+  const [from, to] = both, start = view.text("start") || (file.inherits ? "inherit" : "afresh");
+  const along = map ? longer(map.data, from, to) : file.axes[0];
+  return line.follow({ from, to, held: map ? page.choices.held() : {}, start, axes: axes(), along });
 }
 
-function quoted(text) { return /^[\w.,=:/+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`; }
-
-function tellCommands() {
-  const { of, x, y } = chosen();
-  const at = Object.entries(held()).map(([name, value]) => ` --at ${name}=${value}`).join("");
-  const sweeps = sweep().sweep ? ` --sweep ${sweep().sweep}` : "";
-  const lines = [`capsulemap figure ${quoted(file.file)} --kind map --of ${of} --x ${x} --y ${y}${at}${sweeps}`];
-  if (shown) lines.push(shown.it.command);
-  by("commands").textContent = lines.join("\n");
+function showBasin() {
+  const coordinates = view.coordinates(view.text("basin"));
+  by("basin-section").hidden = !coordinates;
+  if (!coordinates) return page.basin.stop();
+  return page.basin.show(coordinates, view.numbers("starts", 4), page.motions.words(coordinates));
 }
 
-async function save(format) {
-  const answer = await fetch(ask.figure(asked(), format));
-  if (!answer.ok) return told(new Error((await answer.json()).error));
-  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(await answer.blob()), download: `map-${chosen().of}.${format}` });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+// The basins at the parameters of the chosen case, whatever its start.
+function askBasin() {
+  const parameters = Object.entries(chosen() || {}).filter(([name]) => !name.startsWith("start_"));
+  view.set({ basin: view.written(Object.fromEntries(parameters)) });
+  by("basin-section").scrollIntoView({ block: "nearest" });
 }
 
+async function showPins() {
+  await page.motions.pin(pins());
+  if (page.map?.data) mark();
+}
+
+// What has changed of the map and of what lies over it.
+async function mapChanged(has) {
+  const isOther = has(...page.choices.keys());
+  if (has("window") && !isSeen()) look();
+  if (has("exact")) page.map.isExact = by("exact-switch").checked = view.text("exact") === "1";
+  if (isOther) { page.choices.draw(); await showMap(); }
+  else if (has("trade", "curves")) { await Promise.all([has("trade") && showTradeOff(), has("curves") && showCurves()]); mark(); handMaps(); }
+  else if (has("brush")) select();
+  if (has("at", "line", "pins") && !isOther) mark();
+}
+
+/** Shows what has changed in the address. */
 async function changed(keys) {
+  const has = (...all) => all.some((key) => keys.includes(key));
   by("fault").hidden = true;
+  // What is computed is asked for first, as it takes longest.
+  const views = has("at") ? [showMotion()] : [];
   try {
-    const isOther = keys.some((key) => !["at", "line", "start"].includes(key));
-    if (isOther) { drawChoices(); await showMap(); }
-    if (keys.includes("at") && view.text("at")) {
-      const point = view.text("at").split(",").map(Number);
-      map.point(point);
-      await showMotion(point);
-    }
-    if (keys.includes("line") || keys.includes("start")) showLine();
-  } catch (fault) { told(fault); }
+    if (page.map) await mapChanged(has);
+    if (has("pins")) views.push(showPins());
+    if (has("same")) page.motions.scale(by("same-switch").checked = view.text("same") === "1");
+    if (has("line", "start", ...page.choices.keys())) views.push(showLine());
+    if (has("basin", "starts")) views.push(showBasin());
+  } catch (it) { fault(it); }
+  await Promise.all(views.map((it) => it?.catch(fault)));
 }
 
-if (file) {
+const written = (window) => window && window.flat().map((it) => Number(it.toFixed(5))).join(",");
+const isSeen = () => (view.text("window") ?? null) === written(page.map.window);
+
+function look() {
+  const all = view.numbers("window", 4);
+  if (all) page.map.look(all.slice(0, 2), all.slice(2)); else page.map.look();
+}
+
+let looking = 0;
+// Many parts are seen while the map is dragged: the last one is held.
+function looked(window) {
+  clearTimeout(looking);
+  looking = setTimeout(() => { view.set({ window: written(window) }); if (page.map.data) note(); }, 200);
+}
+
+const pressed = (id, act) => by(id).addEventListener("click", act);
+const switched = (name) => by(`${name}-switch`).addEventListener("change", (event) => view.set({ [name]: event.target.checked ? 1 : null }));
+
+function listenToMap() {
+  const { map, file } = page, turn = (kind) => () => map.setMode(map.mode === kind ? "move" : kind);
+  pressed("line-button", turn("line"));
+  pressed("brush-button", turn("rectangle"));
+  pressed("in-button", () => map.zoom(0.8));
+  pressed("out-button", () => map.zoom(1.25));
+  pressed("whole-button", () => map.look());
+  for (const format of ["pdf", "svg"]) pressed(`${format}-button`, (event) => save({ kind: "map", ...page.choices.asked() }, format, event.currentTarget));
+  pressed("trade-off-button", () => view.set({ trade: price() ? null : prices(file)[0][0], brush: null }));
+  ["curves", "exact"].forEach(switched);
+  by("trade-off-button").hidden = by("brush-button").hidden = !prices(file).length;
+  by("curves-switch").parentElement.hidden = !file.has_curves;
+}
+
+function pin(all) {
+  view.set({ pins: all.length ? all.map(view.written).join(";") : null });
+  by("motion-heading").focus();
+}
+
+function build(file) {
+  page.file = file;
+  page.choices = new Choices(file);
+  page.motions = new Motions(file, { pin: (it) => pin([...pins(), it]), unpin: (key) => pin(pins().filter((it) => view.written(it) !== key)) });
+  page.basin = new Basin(by("basin-place"), { choose, range: (all) => view.set({ starts: all && all.join(",") }), shown: () => page.basin.mark(chosen()) });
+  page.line = new Line(by("line-place"), {
+    choose, start: (start) => view.set({ start }), spot: (it) => page.map?.set({ spot: it && axes().map((axis) => it[axis.name]) }),
+  });
+  page.tradeOff = new TradeOff(by("trade-off-place"), prices(file), {
+    price: (trade) => view.set({ trade, brush: selection()?.plane === "map" ? view.text("brush") : null }),
+    choose: (cell) => chooseOnMap(page.tradeOff.coordinates(cell)),
+    spot: (cell) => page.map.set({ spot: cell === null ? null : page.tradeOff.coordinates(cell) }),
+    brush: (ranges) => brush("trade-off", ranges),
+  });
+  pressed("basin-button", askBasin);
+  pressed("fault-button", () => { by("fault").hidden = true; });
+  switched("same");
+  caseForm(file, choose);
+  fillForm(file, {});
+}
+
+function describe() {
+  const { file, choices } = page, told = choices.unknown();
   by("title").textContent = file.title;
   by("about").textContent = `${file.file}: ${file.cases.toLocaleString("en")} cases; ${file.program}`;
   by("study").textContent = file.study;
   document.title = `${file.title}: capsulemap explore`;
-  by("line-button").addEventListener("click", () => mode(!map.isDrawingLine));
-  by("whole-button").addEventListener("click", () => map.whole());
-  by("pdf-button").addEventListener("click", () => save("pdf"));
-  by("svg-button").addEventListener("click", () => save("svg"));
-  by("line-start").value = view.text("start") || (file.inherits ? "inherit" : "afresh");
-  by("line-start").addEventListener("change", () => view.set({ start: by("line-start").value }));
-  if (file.axes.length < 2) {
-    by("map-place").textContent = "These results have no two axes: there is no map of them.";
-  } else {
-    view.changed(changed);
-    await changed(["of", "at", "line"]);
-  }
+  by("notice").textContent = told.join(" ");
+  by("notice").hidden = !told.length;
 }
+
+// Results over one axis or over draws have no map.
+function withoutMap({ axes: [axis] }) {
+  const words = axis ? "These results have one axis: draw a line along it, or compute a case by its numbers." : "These results have no axes: compute a case by its numbers.";
+  by("map-place").replaceChildren(element("p", { textContent: words }));
+  by("motion-empty").textContent = "Compute a case by its numbers.";
+  by("form-place").open = true;
+  const line = () => view.set({ line: [axis.values[0], axis.values.at(-1)].map((it) => view.written({ [axis.name]: it })).join("~") });
+  if (axis) by("map-place").append(button(`Draw the line along ${parted(axis.label)[0]}`, line, { id: "line-button" }));
+  document.body.dataset.ready = "true";
+}
+
+async function open(file) {
+  build(file);
+  describe();
+  if (file.axes.length < 2) withoutMap(file);
+  else {
+    page.map = new CellMap(by("map"), { hover, choose: chooseOnMap, drag, mode, looked });
+    look();
+    listenToMap();
+  }
+  view.changed(changed);
+  await changed(["of", "exact", "at", "pins", "same", "line", "basin"]);
+  if (file.running) watch(file.running, again);
+}
+
+// Takes the file and the map as they are now; the view stays.
+async function again() {
+  Object.assign(page.file, await ask.object("/api/file"));
+  describe();
+  if (page.map) await mapChanged((...keys) => keys.includes("of"));
+}
+
+const file = await ask.object("/api/file").catch(fault);
+if (file) await open(file);

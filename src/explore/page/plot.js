@@ -1,7 +1,37 @@
 // Curves and points over two axes on a canvas, with ticks; uPlot draws what runs over time.
 
-/** A colour of the page by its name. */
-export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+import { runs } from "./element.js";
+import { ticks } from "./ticks.js";
+
+const NAMES = ["paper", "ink", "faint", "line", "panel", "first", "second", "third", "fourth", "mark"];
+const FONT = "12px system-ui, sans-serif";
+const INDEX_FONT = "9px system-ui, sans-serif";
+const drawings = new Map();
+let known = null;
+
+/** The colours of the page by their names. */
+export function colours() {
+  const style = known || getComputedStyle(document.documentElement);
+  known ??= Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+  return known;
+}
+
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+  known = null;
+  for (const [key, draw] of drawings) {
+    if (key instanceof HTMLElement && !key.isConnected) drawings.delete(key);
+    else draw();
+  }
+});
+
+/** Calls `draw` where the colours of the page change; `key` is an element, while it is there, or a name. */
+export const recoloured = (key, draw) => drawings.set(key, draw);
+
+/** Calls `draw` where the size of a canvas or the colours of the page change. */
+export function redrawn(canvas, draw) {
+  new ResizeObserver(draw).observe(canvas);
+  recoloured(canvas, draw);
+}
 
 /** A canvas with as many pixels as the screen has, and its context in the units of the page. */
 export function context(canvas) {
@@ -12,71 +42,90 @@ export function context(canvas) {
   const drawn = canvas.getContext("2d");
   drawn.setTransform(ratio, 0, 0, ratio, 0, 0);
   drawn.clearRect(0, 0, width, height);
-  drawn.font = "12px system-ui, sans-serif";
-  return { drawn, width, height };
+  drawn.font = FONT;
+  return { drawn, width, height, ratio };
 }
 
-/** Round values between two, some five of them. */
-export function ticks(low, high, isLogarithmic = false) {
-  if (isLogarithmic && high / low > 30) {
-    const first = Math.ceil(Math.log10(low) - 1e-9), last = Math.floor(Math.log10(high) + 1e-9);
-    return Array.from({ length: last - first + 1 }, (_, i) => 10 ** (first + i));
-  }
-  const rough = (high - low) / 5;
-  if (!(rough > 0)) return [low];
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((it) => it * power).find((it) => it >= rough * 0.999);
-  const first = Math.ceil(low / step - 1e-9);
-  const count = Math.floor(high / step + 1e-9) - first + 1;
-  return Array.from({ length: Math.max(count, 0) }, (_, i) => (first + i) * step);
+/** A label with its indices, about a point of the canvas. */
+export function words(drawn, label, x, y, align = "center") {
+  const parts = runs(label), font = (isIndex) => { drawn.font = isIndex ? INDEX_FONT : FONT; };
+  const widths = parts.map(([text, isIndex]) => { font(isIndex); return drawn.measureText(text).width; });
+  const whole = widths.reduce((sum, it) => sum + it, 0);
+  let at = x - { left: 0, center: whole / 2, right: whole }[align];
+  drawn.textAlign = "left";
+  parts.forEach(([text, isIndex], i) => {
+    font(isIndex);
+    drawn.fillText(text, at, isIndex ? y + 4 : y);
+    at += widths[i];
+  });
+  font(false);
 }
 
-/** A number with as many digits as are needed to tell ticks apart. */
-export const short = (value) => String(Number(value.toPrecision(6))).replace("-", "−");
-
-/** The ends of some values with a margin; others where all are the same. */
-export function range(values, margin = 0.05) {
-  let low = Infinity, high = -Infinity;
-  for (const value of values) {
-    if (Number.isFinite(value)) { low = Math.min(low, value); high = Math.max(high, value); }
-  }
-  if (low > high) return [0, 1];
-  const room = high > low ? margin * (high - low) : Math.abs(low) * 0.1 || 1;
-  return [low - room, high + room];
+/** The same, rotated, upward. */
+export function upward(drawn, label, x, y) {
+  drawn.save();
+  drawn.translate(x, y);
+  drawn.rotate(-Math.PI / 2);
+  drawn.textBaseline = "middle";
+  words(drawn, label, 0, 0);
+  drawn.restore();
 }
 
-/** The frame, ticks and labels of a panel; returns the places of values. */
+/** Clips what `draw` draws to an area. */
+export function within(drawn, area, draw) {
+  drawn.save();
+  drawn.beginPath();
+  drawn.rect(area.left, area.top, area.right - area.left, area.bottom - area.top);
+  drawn.clip();
+  draw();
+  drawn.restore();
+}
+
+/** The share of an axis at which a value lies. */
+export const share = ({ range: [low, high], log }, value) =>
+  log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
+
+/** The places of values in an area. */
+export const places = (area, x, y) => ({
+  x: (value) => area.left + share(x, value) * (area.right - area.left),
+  y: (value) => area.bottom - share(y, value) * (area.bottom - area.top),
+});
+
+/** The room of a frame on a canvas: ticks and labels to its left and below. */
+export const room = ({ width, height }) => ({ left: 70, top: 10, right: width - 18, bottom: height - 42 });
+
+/** The frame, ticks and labels of a panel; an axis without a label has no numbers. Returns the places of values. */
 export function frame(drawn, area, x, y) {
-  const share = ({ range: [low, high], log }, value) =>
-    log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
-  const place = {
-    x: (value) => area.left + share(x, value) * (area.right - area.left),
-    y: (value) => area.bottom - share(y, value) * (area.bottom - area.top),
-  };
-  drawn.strokeStyle = colour("faint");
-  drawn.fillStyle = colour("ink");
+  const place = places(area, x, y), { ink, faint } = colours();
+  drawn.strokeStyle = faint;
+  drawn.fillStyle = ink;
   drawn.lineWidth = 1;
   drawn.strokeRect(area.left, area.top, area.right - area.left, area.bottom - area.top);
+  across(drawn, area, x, place);
+  upwards(drawn, area, y, place);
+  return place;
+}
+
+function across(drawn, area, x, place) {
+  const { values, text } = ticks(...x.range, x.log, Math.min(8, Math.floor((area.right - area.left) / 62)));
   drawn.textAlign = "center";
   drawn.textBaseline = "top";
-  for (const value of ticks(...x.range, x.log)) {
+  for (const value of values) {
     const at = place.x(value);
     drawn.beginPath(); drawn.moveTo(at, area.bottom); drawn.lineTo(at, area.bottom + 4); drawn.stroke();
-    drawn.fillText(short(value), at, area.bottom + 6);
+    if (x.label) drawn.fillText(text(value), at, area.bottom + 7);
   }
-  drawn.fillText(x.label, (area.left + area.right) / 2, area.bottom + 22);
+  if (x.label) words(drawn, x.label, (area.left + area.right) / 2, area.bottom + 24);
+}
+
+function upwards(drawn, area, y, place) {
+  const { values, text } = ticks(...y.range, y.log, Math.min(8, Math.floor((area.bottom - area.top) / 30)));
   drawn.textAlign = "right";
   drawn.textBaseline = "middle";
-  for (const value of ticks(...y.range, y.log)) {
+  for (const value of values) {
     const at = place.y(value);
     drawn.beginPath(); drawn.moveTo(area.left, at); drawn.lineTo(area.left - 4, at); drawn.stroke();
-    drawn.fillText(short(value), area.left - 6, at);
+    drawn.fillText(text(value), area.left - 7, at);
   }
-  drawn.save();
-  drawn.translate(area.left - 52, (area.top + area.bottom) / 2);
-  drawn.rotate(-Math.PI / 2);
-  drawn.textAlign = "center";
-  drawn.fillText(y.label, 0, 0);
-  drawn.restore();
-  return place;
+  upward(drawn, y.label, area.left - 58, (area.top + area.bottom) / 2);
 }

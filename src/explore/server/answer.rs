@@ -5,6 +5,8 @@ use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde_json::{Value, json as object};
 
+use crate::figure::FigureError;
+
 /// Why a request is not answered.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
@@ -31,6 +33,11 @@ impl Refusal {
     /// An address at which there is nothing.
     pub fn missing() -> Refusal {
         Refusal::with(StatusCode::NOT_FOUND, "there is nothing at this address")
+    }
+
+    /// What cannot be drawn.
+    pub fn undrawn(why: FigureError) -> Refusal {
+        Refusal::unfit(why.to_string())
     }
 
     /// A fault of the machine or of the file.

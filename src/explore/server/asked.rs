@@ -1,7 +1,7 @@
 //! What a request asks for, by names and values.
 
 use super::answer::Refusal;
-use crate::study::Coordinate;
+use crate::study::{Coordinate, Direction};
 
 /// The parameters of a request, each once.
 pub struct Asked(Vec<(String, String)>);
@@ -47,6 +47,13 @@ impl Asked {
     pub fn coordinates(&self) -> Result<Vec<(Coordinate, f64)>, Refusal> {
         let given = |it: Coordinate| Ok(self.number(it.name())?.map(|value| (it, value)));
         Coordinate::all().filter_map(|it| given(it).transpose()).collect()
+    }
+
+    /// The direction in which the starts of a case were inherited, if it is given.
+    pub fn sweep(&self) -> Result<Option<Direction>, Refusal> {
+        let Some(text) = self.text("sweep") else { return Ok(None) };
+        let known = Direction::ALL.into_iter().find(|it| it.name() == text);
+        known.map(Some).ok_or_else(|| Refusal::unfit("sweep: upward, downward or afresh is expected"))
     }
 
     /// Fails if there is a parameter that is neither a coordinate nor `known`.

@@ -6,11 +6,11 @@ use super::explored::Explored;
 use crate::capsule::{Output, Parameter};
 use crate::figure::shown_quantity;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, OUTCOME, PERIOD, STUDY_TEXT};
-use crate::store::provenance;
+use crate::store::{has_branches, provenance};
 use crate::study::Coordinate;
 
-/// The file in one object; values of axes in SI.
-pub fn described(explored: &Explored) -> Value {
+/// The file in one object; values of axes in SI; `running` tells how far its run is.
+pub fn described(explored: &Explored, running: Value) -> Value {
     let Explored { archive, file, study, .. } = explored;
     let frame = archive.frame();
     let shown = |name: &str| {
@@ -35,6 +35,7 @@ pub fn described(explored: &Explored) -> Value {
         constant["value"] = json!(study.base[*it]);
         constant
     };
+    let has = |it: Output| archive.unit(it.name()).is_some();
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     json!({
         "title": if study.title.is_empty() { stem.as_ref() } else { study.title.as_str() },
@@ -44,6 +45,9 @@ pub fn described(explored: &Explored) -> Value {
         "directions": directions.collect::<Vec<_>>(),
         "outputs": outputs.collect::<Vec<_>>(),
         "constants": Parameter::ALL.iter().filter(is_held).map(constant).collect::<Vec<_>>(),
+        "has_curves": has_branches(frame),
+        "has_trade_off": has(Output::ProgressionSpeed) && (has(Output::WorkPositive) || has(Output::Power)),
+        "running": running,
         "inherits": study.inherit().is_some(),
         "program": provenance::program(&frame.attributes),
         "study": frame.texts.get(STUDY_TEXT).map_or("", String::as_str),

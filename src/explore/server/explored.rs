@@ -12,7 +12,7 @@ use crate::orbit::Protocol;
 use crate::store::catalogue::{SECTION_R, SECTION_Y1, SECTION_Y2};
 use crate::store::{Archive, Dataset};
 use crate::study::axis::set;
-use crate::study::{Coordinate, Drawing, Study};
+use crate::study::{Coordinate, Direction, Drawing, Study};
 
 /// A dataset with the variables of these names.
 type Held = (BTreeSet<String>, Arc<Dataset>);
@@ -50,12 +50,15 @@ impl Explored {
         Ok(Explored { archive, file: file.to_owned(), study, last: Mutex::new(None) })
     }
 
-    /// What a figure is drawn from; that of the last one is held.
+    /// What a figure is drawn from.
     pub fn dataset(&self, drawing: &Drawing) -> Result<Arc<Dataset>, Refusal> {
-        let names = variables(drawing);
+        self.with(variables(drawing))
+    }
+
+    /// The results with the variables of these names; the last that were read are held.
+    pub fn with(&self, names: BTreeSet<String>) -> Result<Arc<Dataset>, Refusal> {
         let mut last = self.last.lock().unwrap_or_else(|it| it.into_inner());
-        if let Some((known, dataset)) = last.as_ref().filter(|it| it.0 == names) {
-            debug_assert_eq!(*known, names);
+        if let Some((_, dataset)) = last.as_ref().filter(|it| it.0 == names) {
             return Ok(dataset.clone());
         }
         // Of large files not both are held.
@@ -81,9 +84,18 @@ impl Explored {
     /// of its axis.
     ///
     /// Where the study says how cases start, it starts so. Where they inherit their start, it starts at a section point of the
-    /// motion of the nearest case.
-    pub fn near(&self, given: &[(Coordinate, f64)]) -> Result<Near, Refusal> {
-        let position = self.nearest(given);
+    /// motion of the nearest case, of those swept in the direction `sweep` where there are several.
+    pub fn near(
+        &self,
+        given: &[(Coordinate, f64)],
+        sweep: Option<Direction>,
+    ) -> Result<Near, Refusal> {
+        let mut position = self.nearest(given);
+        if let (Some(directions), Some(sweep)) = (self.study.direction_axis(), sweep) {
+            let place = directions.iter().position(|it| *it == sweep);
+            let place = place.ok_or_else(|| Refusal::unfit("sweep: these results have no such"))?;
+            position[self.study.axes().len()] = place;
+        }
         let index = position
             .iter()
             .zip(self.study.shape())

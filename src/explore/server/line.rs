@@ -7,102 +7,175 @@ use super::asked::Asked;
 use super::explored::Explored;
 use crate::capsule::{Case, Orbit, Output, State, settle_all, settle_case};
 use crate::orbit::{Machine, Outcome, Protocol};
-use crate::study::Coordinate;
 use crate::study::axis::set;
+use crate::study::{
+    Axis, CaseSet, Coordinate, Direction, Drawing, DrawingKind, Grid, Inherit, Spacing, Study,
+};
 
 /// Values along the line.
 const LEAST: usize = 2;
 const MOST: usize = 2000;
-const USUAL: usize = 200;
+const USUAL: usize = 300;
 /// Cases that are settled together and then sent.
 const TOGETHER: usize = 32;
+/// The parameters of a request beside the ends of the line.
+const KNOWN: [&str; 6] = ["count", "start", "log", "sweep", "kind", "format"];
+/// Why a line that goes along no axis has no study.
+pub const NO_STUDY: &str = "a study varies one coordinate along an axis, and this line varies several together; a line along one axis \
+     has a study and a figure";
+
+/// A coordinate along the line, with its values.
+type Varied = (Coordinate, Vec<f64>);
 
 /// A line between two points of the plane of two coordinates.
 pub struct Line {
-    cases: Vec<(f64, Case)>,
+    /// The case at its beginning, with the values of all coordinates but those that vary.
+    first: Case,
+    varied: Vec<Varied>,
     /// Whether each case starts where the one before it settled.
     inherits: bool,
     protocol: Protocol,
 }
 
 impl Line {
-    /// The line from the coordinates of a request to those with `to_` before their names.
+    /// The line from the coordinates of a request to those with `to_` before their names; evenly in the logarithms of those that
+    /// `log` names.
     ///
     /// Fails if they are not the same coordinates, or a parameter is out of its bounds along the line.
     pub fn of(explored: &Explored, asked: &Asked) -> Result<Line, Refusal> {
-        let ends = |it: Coordinate| {
+        let end = |it: Coordinate| {
             Ok::<_, Refusal>(asked.number(&format!("to_{}", it.name()))?.map(|to| (it, to)))
         };
         let to: Vec<(Coordinate, f64)> =
-            Coordinate::all().filter_map(|it| ends(it).transpose()).collect::<Result<_, _>>()?;
+            Coordinate::all().filter_map(|it| end(it).transpose()).collect::<Result<_, _>>()?;
         let names: Vec<String> = to.iter().map(|(it, _)| format!("to_{}", it.name())).collect();
-        let known = names.iter().map(String::as_str).chain(["count", "start"]);
-        asked.only(&known.collect::<Vec<_>>())?;
+        asked.only(&names.iter().map(String::as_str).chain(KNOWN).collect::<Vec<_>>())?;
         let from = asked.coordinates()?;
-        let pairs: Option<Vec<_>> = to
-            .iter()
-            .map(|(it, to)| Some((*it, from.iter().find(|given| given.0 == *it)?.1, *to)))
-            .collect();
-        let Some(pairs) = pairs.filter(|it| !it.is_empty()) else {
-            return Err(Refusal::unfit("a line needs both ends of each coordinate that varies"));
-        };
         let inherits = match asked.text("start") {
             None | Some("inherit") => true,
             Some("afresh") => false,
             Some(_) => return Err(Refusal::unfit("start: inherit or afresh is expected")),
         };
         let count = asked.count("count", [LEAST, MOST], USUAL)?;
-        let first = explored.near(&from)?.case;
-        let fresh = explored.study.case(0);
-        let case = |number: usize| {
-            let share = number as f64 / (count - 1) as f64;
-            let mut case = first.clone();
-            if !inherits {
-                (case.start, case.start_phase) = (fresh.start, fresh.start_phase);
+        let begins =
+            |it: Coordinate| from.iter().find(|given| given.0 == it).map(|given| given.1);
+        let mut varied = Vec::new();
+        for (coordinate, to) in to {
+            let from = begins(coordinate).ok_or_else(|| {
+                Refusal::unfit(format!("{}: a line needs both of its ends", coordinate.name()))
+            })?;
+            if from != to {
+                let spacing = spacing(asked, coordinate, [from, to])?;
+                varied.push((coordinate, spacing.values(from, to, count)));
             }
-            for (coordinate, from, to) in &pairs {
-                set(&mut case, *coordinate, from + share * (to - from));
-            }
-            match case.parameters.faults().first() {
-                Some(fault) => Err(Refusal::unfit(fault.to_string())),
-                None => Ok((share, case)),
-            }
-        };
-        let cases = (0..count).map(case).collect::<Result<Vec<_>, _>>()?;
-        Ok(Line { cases, inherits, protocol: explored.protocol() })
+        }
+        if varied.is_empty() {
+            return Err(Refusal::unfit("a line needs two ends that differ"));
+        }
+        let mut first = explored.near(&from, asked.sweep()?)?.case;
+        if !inherits {
+            let as_asked = explored.study.case(0);
+            (first.start, first.start_phase) = (as_asked.start, as_asked.start_phase);
+        }
+        let line = Line { first, varied, inherits, protocol: explored.protocol() };
+        let cases = line.cases();
+        match cases.iter().find_map(|case| case.parameters.faults().into_iter().next()) {
+            Some(fault) => Err(Refusal::unfit(fault.to_string())),
+            None => Ok(line),
+        }
     }
 
-    /// Settles the cases one after the other and sends what they settle to, as long as somebody listens.
-    pub fn compute(self, _: &Explored, send: &dyn Fn(String) -> bool) {
-        if self.inherits {
-            return self.follow(send);
+    /// The study of a line along one axis, with its diagram.
+    pub fn study(&self) -> Option<Study> {
+        let [(coordinate, values)] = &self.varied[..] else { return None };
+        let axis = Axis { coordinate: *coordinate, values: values.clone() };
+        let inherit =
+            self.inherits.then(|| Inherit { axis: 0, directions: vec![Direction::Upward] });
+        let mut diagram = Drawing::new("bifurcation", DrawingKind::Bifurcation);
+        diagram.x = Some(coordinate.name().to_owned());
+        let study = Study {
+            title: format!("Along {}", coordinate.name()),
+            base: self.first.parameters.clone(),
+            start: State { x2: 0.0, ..self.first.start },
+            start_phase: self.first.start_phase,
+            section_phase: self.first.section_phase,
+            case_set: CaseSet::Grid(Grid { axes: vec![axis], inherit }),
+            protocol: self.protocol,
+            drawings: vec![diagram],
+            ..Study::default()
+        };
+        study.validated("the study of the line").ok()
+    }
+
+    /// The cases with the starts of the request.
+    fn cases(&self) -> Vec<Case> {
+        let case = |number: usize| {
+            let mut case = self.first.clone();
+            self.varied.iter().for_each(|(it, values)| set(&mut case, *it, values[number]));
+            case
+        };
+        (0..self.varied[0].1.len()).map(case).collect()
+    }
+
+    /// Sends the study or why there is none, and what each case settles to, as long as somebody listens.
+    pub fn compute(self, send: &dyn Fn(String) -> bool) {
+        let study = self.study();
+        let why = (self.varied.len() > 1).then_some(NO_STUDY);
+        let head = json!({ "study": study.map(|it| it.text), "why": why });
+        if send(head.to_string()) {
+            match self.inherits {
+                true => self.follow(send),
+                false => self.settle(send),
+            }
         }
-        for part in self.cases.chunks(TOGETHER) {
-            let cases: Vec<Case> = part.iter().map(|(_, case)| case.clone()).collect();
-            let orbits = settle_all(&cases, &self.protocol, Machine::default());
-            for ((share, _), orbit) in part.iter().zip(orbits) {
-                if !send(told(*share, &orbit).to_string()) {
+    }
+
+    /// Settles the cases, each from the start of the study.
+    fn settle(&self, send: &dyn Fn(String) -> bool) {
+        let cases = self.cases();
+        let shares = shares(cases.len());
+        for (part, shares) in cases.chunks(TOGETHER).zip(shares.chunks(TOGETHER)) {
+            let orbits = settle_all(part, &self.protocol, Machine::default());
+            for (share, orbit) in shares.iter().zip(&orbits) {
+                if !send(told(*share, orbit).to_string()) {
                     return;
                 }
             }
         }
     }
 
-    /// The same where each case starts where the one before it settled.
-    fn follow(self, send: &dyn Fn(String) -> bool) {
+    /// Settles the cases one after the other, each from where the one before it settled; after a failure from the start of the
+    /// study, as a run does.
+    fn follow(&self, send: &dyn Fn(String) -> bool) {
         let mut from: Option<State<f64>> = None;
-        for (share, mut case) in self.cases {
+        let cases = self.cases();
+        for (share, mut case) in shares(cases.len()).into_iter().zip(cases) {
             if let Some(state) = from {
-                case.start = State { x2: 0.0, ..state };
+                case.start = State { x2: case.start.x2, ..state };
                 case.start_phase = case.section_phase;
             }
             let orbit = settle_case(&case, &self.protocol);
             if !send(told(share, &orbit).to_string()) {
                 return;
             }
-            from = orbit.failure.is_none().then_some(orbit.end).or(from);
+            from = (orbit.outcome != Outcome::Failed).then_some(orbit.end);
         }
     }
+}
+
+/// How the values of a coordinate lie between its ends.
+fn spacing(asked: &Asked, coordinate: Coordinate, ends: [f64; 2]) -> Result<Spacing, Refusal> {
+    let mut logarithmic = asked.text("log").unwrap_or_default().split(',');
+    match logarithmic.any(|name| name == coordinate.name()) {
+        true if ends.iter().all(|end| *end > 0.0) => Ok(Spacing::Logarithmic),
+        true => Err(Refusal::unfit(format!("log: {} is not above zero", coordinate.name()))),
+        false => Ok(Spacing::Linear),
+    }
+}
+
+/// The places of so many values, as shares of the line.
+fn shares(count: usize) -> Vec<f64> {
+    (0..count).map(|number| number as f64 / (count - 1) as f64).collect()
 }
 
 /// One value of the line: its share of the length, the section points, and outputs in SI.

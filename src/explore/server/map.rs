@@ -1,21 +1,28 @@
-//! Maps: the cells of any output over two axes, with the colours of the figures.
+//! Maps: the cells of any output over two axes, with the colours of the figures, and what is shown over and beside them.
 
 use std::collections::BTreeMap;
 
 use axum::response::Response;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::answer::{Refusal, bytes};
+use super::answer::{Refusal, bytes, json as json_answer};
 use super::asked::Asked;
 use super::explored::Explored;
-use crate::figure::{ColouredMap, MapAxis, MapColours, coloured_map};
+use crate::figure::{
+    ColouredMap, MapAxis, MapColours, MapLine, MapPoint, TradeOffAxis, coloured_map, over_map,
+    over_map_variables, trade_off_cells,
+};
 use crate::study::{Drawing, DrawingKind, Sweep};
 
 /// The parameters of a request for a map or for its figure, beside the axes.
-pub const KNOWN: [&str; 5] = ["of", "x", "y", "sweep", "format"];
+const KNOWN: [&str; 6] = ["of", "x", "y", "sweep", "kind", "format"];
 
 /// The figure that a request asks for; the axes that are not drawn are held where it says.
-pub fn drawing(explored: &Explored, asked: &Asked) -> Result<Drawing, Refusal> {
+pub fn drawing(
+    explored: &Explored,
+    asked: &Asked,
+    kind: DrawingKind,
+) -> Result<Drawing, Refusal> {
     asked.only(&KNOWN)?;
     let [x, y, of] = ["x", "y", "of"].map(|name| asked.text(name).map(str::to_owned));
     let is_drawn = |name: &str| x.as_deref() == Some(name) || y.as_deref() == Some(name);
@@ -28,29 +35,62 @@ pub fn drawing(explored: &Explored, asked: &Asked) -> Result<Drawing, Refusal> {
     });
     let sweep = sweep.transpose()?;
     let of = of.into_iter().collect();
-    Ok(Drawing { x, y, of, at, sweep, ..Drawing::new("map", DrawingKind::Map) })
+    Ok(Drawing { x, y, of, at, sweep, ..Drawing::new(kind.name(), kind) })
 }
 
-/// The map as one binary answer: the length of a JSON object as four bytes, least first; the object; then red, green, blue and
-/// opacity of each cell, and its value as four bytes, least first.
+/// The map as one binary answer: red, green, blue and opacity of each cell, and its value.
 pub fn map(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
-    let drawing = drawing(explored, asked)?;
+    let drawing = drawing(explored, asked, DrawingKind::Map)?;
     let dataset = explored.dataset(&drawing)?;
-    let map =
-        coloured_map(&*dataset, &drawing).map_err(|error| Refusal::unfit(error.to_string()))?;
-    Ok(bytes(packed(&map), "application/octet-stream"))
+    let map = coloured_map(&*dataset, &drawing).map_err(Refusal::undrawn)?;
+    Ok(packed(&described(&map), &map.colours, &[&map.values]))
 }
 
-fn packed(map: &ColouredMap) -> Vec<u8> {
-    let mut head = described(map).to_string().into_bytes();
+/// The curves of special points and the branches over a map.
+pub fn curves(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
+    let drawing = drawing(explored, asked, DrawingKind::Map)?;
+    let dataset = explored.with(over_map_variables(&drawing))?;
+    let over = over_map(&*dataset, &drawing).map_err(Refusal::undrawn)?;
+    let line = |it: &MapLine| json!({ "words": it.words, "colour": it.colour, "dash": it.is_dashed, "points": it.points });
+    let point = |it: &MapPoint| json!({ "words": it.words, "colour": it.colour, "at": it.at });
+    let lines: Vec<Value> = over.lines.iter().map(line).collect();
+    let points: Vec<Value> = over.points.iter().map(point).collect();
+    Ok(json_answer(&json!({ "lines": lines, "points": points, "left_out": over.left_out })))
+}
+
+/// The trade-off of the cells of a map as one binary answer: prices, and speeds.
+pub fn trade_off(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
+    let drawing = drawing(explored, asked, DrawingKind::TradeOff)?;
+    let dataset = explored.dataset(&drawing)?;
+    let cells = trade_off_cells(&*dataset, &drawing).map_err(Refusal::undrawn)?;
+    let axis = |it: &TradeOffAxis| json!({ "name": it.name, "label": it.label });
+    let [price, speed] = &cells.axes;
+    let fronts: Map<String, Value> = cells
+        .fronts
+        .iter()
+        .map(|(direction, front)| (direction.name().to_owned(), json!(front)))
+        .collect();
+    let left_out: Vec<(&String, &usize)> = cells.left_out.iter().collect();
+    let head = json!({
+        "price": axis(price), "speed": axis(speed), "count": price.values.len(), "fronts": fronts, "left_out": left_out,
+    });
+    Ok(packed(&head, &[], &[&price.values, &speed.values]))
+}
+
+/// The length of a JSON object as four bytes, least first; the object; bytes; and columns of numbers of four bytes, least first.
+fn packed(head: &Value, bytes_of_cells: &[u8], columns: &[&[f32]]) -> Response {
+    let mut head = head.to_string().into_bytes();
     // What follows begins at a multiple of four.
     head.resize(head.len().next_multiple_of(4), b' ');
-    let mut packed = Vec::with_capacity(4 + head.len() + 2 * map.colours.len());
+    let numbers: usize = columns.iter().map(|it| it.len()).sum();
+    let mut packed = Vec::with_capacity(4 + head.len() + bytes_of_cells.len() + 4 * numbers);
     packed.extend((head.len() as u32).to_le_bytes());
     packed.extend(head);
-    packed.extend(&map.colours);
-    packed.extend(map.values.iter().flat_map(|value| value.to_le_bytes()));
-    packed
+    packed.extend(bytes_of_cells);
+    for column in columns {
+        packed.extend(column.iter().flat_map(|value| value.to_le_bytes()));
+    }
+    bytes(packed, "application/octet-stream")
 }
 
 fn described(map: &ColouredMap) -> Value {

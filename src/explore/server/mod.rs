@@ -1,16 +1,18 @@
 //! The local server of `capsulemap explore`: a page on the loopback address that shows a file of results and computes motions.
 
+mod access;
 mod answer;
 mod asked;
 mod assets;
+mod basin;
+mod computations;
 mod described;
 mod explored;
-mod guard;
 mod line;
 mod map;
 mod motion;
 mod saved;
-mod work;
+mod source;
 
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
@@ -21,7 +23,7 @@ use axum::Router;
 use axum::extract::{Path, Query, Request, State};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::Response;
-use axum::routing::get;
+use axum::routing::{MethodRouter, get};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
@@ -29,29 +31,32 @@ use tokio::sync::Semaphore;
 
 use answer::{Refusal, html, json};
 use asked::Asked;
-pub use explored::Explored;
-use guard::Guard;
-use work::Work;
+use access::Access;
+use basin::Basin;
+use computations::Computations;
+use explored::Explored;
+use line::Line;
+pub use source::Source;
 
 /// Connections at once; more wait.
 const MOST_CONNECTIONS: usize = 64;
 /// The longest wait for the head of a request.
-const PATIENCE: Duration = Duration::from_secs(10);
+const LONGEST_WAIT: Duration = Duration::from_secs(10);
 /// The longest head of a request [bytes].
 const LONGEST_HEAD: usize = 16 << 10;
 
 /// A server that listens on the loopback address and waits to be run.
 pub struct Server {
     listener: TcpListener,
-    guard: Arc<Guard>,
+    access: Arc<Access>,
 }
 
 /// What every answer is made of.
 #[derive(Clone)]
 struct Shared {
-    explored: Arc<Explored>,
-    guard: Arc<Guard>,
-    work: Arc<Work>,
+    source: Arc<Source>,
+    access: Arc<Access>,
+    computations: Arc<Computations>,
 }
 
 /// The parameters of a request.
@@ -64,25 +69,25 @@ impl Server {
     pub fn bind(port: u16) -> io::Result<Server> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
         listener.set_nonblocking(true)?;
-        let guard = Arc::new(Guard::new(listener.local_addr()?.port())?);
-        Ok(Server { listener, guard })
+        let access = Arc::new(Access::new(listener.local_addr()?.port())?);
+        Ok(Server { listener, access })
     }
 
     /// Where the page is, with the token that opens it once.
     pub fn address(&self) -> io::Result<String> {
         let address: SocketAddr = self.listener.local_addr()?;
-        Ok(format!("http://{address}/open?token={}", self.guard.token()))
+        Ok(format!("http://{address}/open?token={}", self.access.token()))
     }
 
     /// Answers requests until the process ends.
     ///
     /// Fails if the system takes the listening socket away.
-    pub fn run(self, explored: Explored) -> io::Result<()> {
+    pub fn run(self, source: Arc<Source>) -> io::Result<()> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let shared = Shared {
-            explored: Arc::new(explored),
-            guard: self.guard,
-            work: Arc::new(Work::default()),
+            source,
+            access: self.access,
+            computations: Arc::new(Computations::default()),
         };
         runtime.block_on(accept(self.listener, router(shared)))
     }
@@ -105,7 +110,7 @@ async fn accept(listener: TcpListener, router: Router) -> io::Result<()> {
         let service = TowerToHyperService::new(router.clone());
         tokio::spawn(async move {
             let mut connection = http1::Builder::new();
-            connection.timer(TokioTimer::new()).header_read_timeout(PATIENCE);
+            connection.timer(TokioTimer::new()).header_read_timeout(LONGEST_WAIT);
             connection.max_buf_size(LONGEST_HEAD);
             // A client that goes away or breaks the protocol ends its own connection alone.
             let _ = connection.serve_connection(TokioIo::new(stream), service).await;
@@ -120,10 +125,14 @@ fn router(shared: Shared) -> Router {
         .route("/open", get(open))
         .route("/page/{name}", get(asset))
         .route("/api/file", get(file))
-        .route("/api/map", get(map))
-        .route("/api/motion", get(motion))
+        .route("/api/progress", get(progress))
+        .route("/api/map", of_file(map::map))
+        .route("/api/curves", of_file(map::curves))
+        .route("/api/trade-off", of_file(map::trade_off))
+        .route("/api/motion", of_file(|it, asked| Ok(json(&motion::motion(it, asked)?))))
+        .route("/api/figure", of_file(saved::figure))
         .route("/api/line", get(line))
-        .route("/api/figure", get(figure))
+        .route("/api/basin", get(basin))
         .fallback(|| async { Refusal::missing() })
         .layer(from_fn_with_state(shared.clone(), guarded))
         .with_state(shared)
@@ -131,11 +140,11 @@ fn router(shared: Shared) -> Router {
 
 /// Refuses what does not come from the page, and says to browsers what the page may do.
 async fn guarded(State(shared): State<Shared>, request: Request, next: Next) -> Response {
-    let answer = match shared.guard.check(&request) {
+    let answer = match shared.access.check(&request) {
         Ok(()) => next.run(request).await,
         Err(refusal) => axum::response::IntoResponse::into_response(refusal),
     };
-    guard::with_policy(answer)
+    access::with_policy(answer)
 }
 
 async fn page() -> Response {
@@ -143,7 +152,7 @@ async fn page() -> Response {
 }
 
 async fn open(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
-    shared.guard.open(&pairs)
+    shared.access.open(&pairs)
 }
 
 async fn asset(Path(name): Path<String>) -> Result<Response, Refusal> {
@@ -151,30 +160,34 @@ async fn asset(Path(name): Path<String>) -> Result<Response, Refusal> {
 }
 
 async fn file(State(shared): State<Shared>) -> Result<Response, Refusal> {
-    shared.work.short(move || Ok(json(&described::described(&shared.explored)))).await
+    let source = shared.source.clone();
+    let told = move || {
+        let (running, explored) = (source.progress(), source.explored());
+        Ok(json(&described::described(&explored, running)))
+    };
+    shared.computations.short(told).await
 }
 
-async fn map(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
-    let asked = Asked::new(pairs)?;
-    let explored = shared.explored.clone();
-    shared.work.short(move || map::map(&explored, &asked)).await
+async fn progress(State(shared): State<Shared>) -> Response {
+    json(&shared.source.progress())
 }
 
-async fn motion(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
-    let asked = Asked::new(pairs)?;
-    let explored = shared.explored.clone();
-    shared.work.short(move || Ok(json(&motion::motion(&explored, &asked)?))).await
+/// Answers with what is computed from the results.
+fn of_file(answer: fn(&Explored, &Asked) -> Result<Response, Refusal>) -> MethodRouter<Shared> {
+    get(move |State(shared): State<Shared>, Query(pairs): Pairs| async move {
+        let (asked, explored) = (Asked::new(pairs)?, shared.source.explored());
+        shared.computations.short(move || answer(&explored, &asked)).await
+    })
 }
 
 async fn line(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
-    let asked = Asked::new(pairs)?;
-    let line = line::Line::of(&shared.explored, &asked)?;
-    let explored = shared.explored.clone();
-    shared.work.stream(move |send| line.compute(&explored, send)).await
+    let (asked, explored) = (Asked::new(pairs)?, shared.source.explored());
+    let line = shared.computations.short(move || Line::of(&explored, &asked)).await?;
+    shared.computations.stream(move |send| line.compute(send)).await
 }
 
-async fn figure(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
-    let asked = Asked::new(pairs)?;
-    let explored = shared.explored.clone();
-    shared.work.short(move || saved::figure(&explored, &asked)).await
+async fn basin(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
+    let (asked, explored) = (Asked::new(pairs)?, shared.source.explored());
+    let basin = shared.computations.short(move || Basin::of(&explored, &asked)).await?;
+    shared.computations.stream(move |send| basin.compute(send)).await
 }

@@ -10,6 +10,8 @@ use crate::capsule::{
     ArcPoint, Case, Orbit, Parameter, State, Switching, arc, settle_case, simulate_case,
 };
 use crate::explore::case_json::{case_json, remarks};
+use crate::orbit::{HistorySpan, Protocol};
+use crate::study::Study;
 
 /// Cycles of the transient, as `capsulemap simulate` computes without another number.
 const CYCLES: u64 = 20;
@@ -17,13 +19,15 @@ const CYCLES: u64 = 20;
 const MOST_SHOWN: u64 = 8;
 /// Points of half a cycle, beside its events.
 const POINTS: u32 = 150;
+/// Samples of a cycle in figures.
+const PER_CYCLE: u32 = 400;
 
 /// The case that is asked for: what `capsulemap simulate --json` prints of it, its remarks, the command, and the histories of
 /// what it settles to.
 pub fn motion(explored: &Explored, asked: &Asked) -> Result<Value, Refusal> {
-    asked.only(&["cycles"])?;
+    asked.only(&["cycles", "sweep"])?;
     let cycles = asked.count("cycles", [0, 400], CYCLES as usize)? as u64;
-    let Near { case, index, is_exact, start } = explored.near(&asked.coordinates()?)?;
+    let Near { case, index, is_exact, start } = explored.near(&asked.coordinates()?, asked.sweep()?)?;
     let protocol = explored.protocol();
     let simulation = simulate_case(&case, cycles, protocol.tolerance);
     let orbit = settle_case(&case, &protocol);
@@ -39,15 +43,39 @@ pub fn motion(explored: &Explored, asked: &Asked) -> Result<Value, Refusal> {
     }))
 }
 
+/// The study of the one case that a request asks for, with the history of what it settles to.
+///
+/// Fails as [`motion`] does.
+pub fn study(explored: &Explored, asked: &Asked) -> Result<Study, Refusal> {
+    asked.only(&["cycles", "sweep", "kind", "format"])?;
+    let case = explored.near(&asked.coordinates()?, asked.sweep()?)?.case;
+    let protocol = explored.protocol();
+    let cycles = shown(&settle_case(&case, &protocol)) as u32;
+    let history = Some(HistorySpan { cycles, per_cycle: PER_CYCLE, from_start: false });
+    Ok(Study {
+        base: case.parameters,
+        start: case.start,
+        start_phase: case.start_phase,
+        section_phase: case.section_phase,
+        protocol: Protocol { history, ..protocol },
+        ..Study::default()
+    })
+}
+
+/// Cycles of an orbit that are shown.
+pub fn shown(orbit: &Orbit) -> u64 {
+    match orbit.period {
+        0 => MOST_SHOWN,
+        period => period.clamp(2, MOST_SHOWN),
+    }
+}
+
 /// The motion that a case settles to over some cycles, with its events, in columns in SI; nothing where it failed.
 fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Value {
     if orbit.failure.is_some() {
         return Value::Null;
     }
-    let cycles = match orbit.period {
-        0 => MOST_SHOWN,
-        period => period.clamp(2, MOST_SHOWN),
-    };
+    let cycles = shown(orbit);
     let Some(points) = followed(case, State { x2: 0.0, ..orbit.end }, cycles, tolerance) else {
         return Value::Null;
     };
@@ -74,7 +102,7 @@ fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Value {
 }
 
 /// The motion from a point of the section, half a cycle after the other.
-fn followed(case: &Case, from: State<f64>, cycles: u64, tolerance: f64) -> Option<Vec<ArcPoint>> {
+pub fn followed(case: &Case, from: State<f64>, cycles: u64, tolerance: f64) -> Option<Vec<ArcPoint>> {
     let half = 0.5 * case.parameters.drive_period();
     let mut state = from;
     let phase = case.section_phase;

@@ -1,32 +1,82 @@
-//! The figure of a view through the drawing code of `capsulemap figure`, as a file to be saved.
+//! The figures of views through the drawing code of `capsulemap figure`, as files to be saved.
+
+use std::sync::Arc;
 
 use axum::http::{HeaderValue, header};
 use axum::response::Response;
 
 use super::answer::{Refusal, bytes};
 use super::asked::Asked;
+use super::basin::Basin;
 use super::explored::Explored;
-use super::map::drawing;
+use super::line::Line;
+use super::map;
+use super::motion;
+use crate::campaign::results_in_memory;
 use crate::figure::{Format, Place, draw};
+use crate::orbit::Machine;
+use crate::run::run_sample;
+use crate::store::Dataset;
+use crate::study::{Drawing, DrawingKind, Study};
 
-/// The map that a request asks for as PDF, SVG or PNG.
+/// The figure that a request asks for as PDF, SVG or PNG; what it shows is computed again where it is not in the file.
 pub fn figure(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
-    let (format, kind) = match asked.text("format") {
-        Some("pdf") => (Format::Pdf, "application/pdf"),
-        Some("svg") => (Format::Svg, "image/svg+xml"),
-        Some("png") => (Format::Png, "image/png"),
-        _ => return Err(Refusal::unfit("format: pdf, svg or png is expected")),
+    let (format, content) = format(asked)?;
+    let kind = asked.text("kind").unwrap_or_default();
+    let known = DrawingKind::NAMES.iter().find(|it| it.0 == kind).map(|it| it.1);
+    let (results, drawing) = match known {
+        Some(kind @ (DrawingKind::Map | DrawingKind::TradeOff)) => {
+            let drawing = map::drawing(explored, asked, kind)?;
+            (explored.dataset(&drawing)?, drawing)
+        }
+        Some(kind @ (DrawingKind::History | DrawingKind::PhasePortrait)) => {
+            let study = motion::study(explored, asked)?;
+            computed(&study, Drawing::new(kind.name(), kind))?
+        }
+        Some(DrawingKind::Bifurcation) => {
+            let line = Line::of(explored, asked)?;
+            let study = line.study().ok_or_else(|| Refusal::unfit(super::line::NO_STUDY))?;
+            drawn_by(&study)?
+        }
+        Some(DrawingKind::Basin) => drawn_by(Basin::of(explored, asked)?.study())?,
+        _ => {
+            let why = "kind: map, trade-off, history, phase-portrait, bifurcation or basin is expected";
+            return Err(Refusal::unfit(why));
+        }
     };
-    let drawing = drawing(explored, asked)?;
-    let dataset = explored.dataset(&drawing)?;
     let failed = |said: std::io::Error| Refusal::failed(said.to_string());
     let folder = tempfile::tempdir().map_err(failed)?;
     let place = Place { folder: folder.path(), formats: &[format], overwrite: false };
-    let files = draw(&*dataset, &drawing, &place);
-    let files = files.map_err(|error| Refusal::unfit(error.to_string()))?;
+    let files = draw(&*results, &drawing, &place).map_err(Refusal::undrawn)?;
     let path = files.paths.first().ok_or_else(|| Refusal::failed("no file was drawn"))?;
-    let mut answer = bytes(std::fs::read(path).map_err(failed)?, kind);
+    let mut answer = bytes(std::fs::read(path).map_err(failed)?, content);
     let disposition = HeaderValue::from_static("attachment");
     answer.headers_mut().insert(header::CONTENT_DISPOSITION, disposition);
     Ok(answer)
+}
+
+/// The format of a figure, and what browsers call it.
+fn format(asked: &Asked) -> Result<(Format, &'static str), Refusal> {
+    match asked.text("format") {
+        Some("pdf") => Ok((Format::Pdf, "application/pdf")),
+        Some("svg") => Ok((Format::Svg, "image/svg+xml")),
+        Some("png") => Ok((Format::Png, "image/png")),
+        _ => Err(Refusal::unfit("format: pdf, svg or png is expected")),
+    }
+}
+
+/// The results of a small study, with its own figure.
+fn drawn_by(study: &Study) -> Result<(Arc<Dataset>, Drawing), Refusal> {
+    let drawing = study.drawings.first().cloned();
+    computed(study, drawing.ok_or_else(|| Refusal::failed("the study has no figure"))?)
+}
+
+/// The results of a small study, with a figure of them.
+fn computed(study: &Study, drawing: Drawing) -> Result<(Arc<Dataset>, Drawing), Refusal> {
+    let chains: Vec<usize> = (0..study.chains()).collect();
+    let machine = Machine::default();
+    let failed = |why: String| Refusal::failed(why);
+    let records = run_sample(study, machine, &chains, || ()).map_err(|it| failed(it.to_string()))?;
+    let results = results_in_memory(study, &records, machine);
+    Ok((Arc::new(results.map_err(|it| failed(it.to_string()))?), drawing))
 }

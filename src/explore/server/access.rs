@@ -28,7 +28,7 @@ const SAID: [(&str, &str); 6] = [
 ];
 
 /// Knows the token that opens the page, and the cookie of the browser that used it.
-pub struct Guard {
+pub struct Access {
     token: String,
     /// Whether the token was used.
     is_used: Mutex<bool>,
@@ -36,11 +36,11 @@ pub struct Guard {
     secret: String,
 }
 
-impl Guard {
-    /// A guard of the server on this port. Fails if the system has no randomness.
-    pub fn new(port: u16) -> io::Result<Guard> {
+impl Access {
+    /// The access to the server on this port. Fails if the system has no randomness.
+    pub fn new(port: u16) -> io::Result<Access> {
         let cookie = format!("capsulemap-{port}");
-        Ok(Guard { token: random()?, is_used: Mutex::new(false), cookie, secret: random()? })
+        Ok(Access { token: random()?, is_used: Mutex::new(false), cookie, secret: random()? })
     }
 
     /// The token that opens the page once.

@@ -4,12 +4,13 @@ use std::pin::Pin;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use axum::body::{Body, Bytes};
 use axum::http::StatusCode;
 use axum::response::Response;
 use hyper::body::Frame;
+use tokio::sync::mpsc::error::TrySendError;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, mpsc, oneshot};
 use tokio::time::timeout;
 
@@ -18,60 +19,74 @@ use crate::orbit::STACK;
 
 /// Computations of one answer at once, and those that answer line by line.
 const MOST_SHORT: usize = 2;
-const MOST_STREAMS: usize = 1;
+const MOST_STREAMS: usize = 2;
 /// The longest wait for a place among them.
-const PATIENCE: Duration = Duration::from_secs(30);
+const LONGEST_WAIT: Duration = Duration::from_secs(30);
+/// Between two tries to send a line.
+const PAUSE: Duration = Duration::from_millis(5);
 /// Lines that wait to be sent.
 const WAITING: usize = 64;
 
 /// The places of computations.
-pub struct Work {
+pub struct Computations {
     short: Arc<Semaphore>,
     streams: Arc<Semaphore>,
 }
 
-impl Default for Work {
-    fn default() -> Work {
+impl Default for Computations {
+    fn default() -> Computations {
         let [short, streams] = [MOST_SHORT, MOST_STREAMS].map(|it| Arc::new(Semaphore::new(it)));
-        Work { short, streams }
+        Computations { short, streams }
     }
 }
 
-impl Work {
+impl Computations {
     /// The answer that a computation gives.
-    pub async fn short(
+    pub async fn short<T: Send + 'static>(
         &self,
-        work: impl FnOnce() -> Result<Response, Refusal> + Send + 'static,
-    ) -> Result<Response, Refusal> {
+        compute: impl FnOnce() -> Result<T, Refusal> + Send + 'static,
+    ) -> Result<T, Refusal> {
         let place = place(&self.short).await?;
         let (send, answer) = oneshot::channel();
-        let work = move || {
-            // Nobody may wait for the answer any more.
-            let _ = send.send(work());
+        begin(move || {
+            // The client may have gone away.
+            let _ = send.send(compute());
             drop(place);
-        };
-        begin(work)?;
+        })?;
         answer.await.unwrap_or_else(|_| Err(Refusal::failed("the computation ended early")))
     }
 
     /// The answer of a computation that sends it line by line, until it returns or nobody listens.
     pub async fn stream(
         &self,
-        work: impl FnOnce(&dyn Fn(String) -> bool) + Send + 'static,
+        compute: impl FnOnce(&dyn Fn(String) -> bool) + Send + 'static,
     ) -> Result<Response, Refusal> {
         let place = place(&self.streams).await?;
         let (send, lines) = mpsc::channel::<Bytes>(WAITING);
         begin(move || {
-            work(&|line| send.blocking_send(Bytes::from(line + "\n")).is_ok());
+            compute(&|line| sent(&send, Bytes::from(line + "\n")));
             drop(place);
         })?;
         Ok(of(Body::new(Lines(lines)), "application/x-ndjson"))
     }
 }
 
+/// Whether a line was sent; a client that takes none for long is as one that has gone away.
+fn sent(send: &mpsc::Sender<Bytes>, mut line: Bytes) -> bool {
+    let begun = Instant::now();
+    loop {
+        line = match send.try_send(line) {
+            Ok(()) => return true,
+            Err(TrySendError::Full(line)) if begun.elapsed() < LONGEST_WAIT => line,
+            Err(_) => return false,
+        };
+        thread::sleep(PAUSE);
+    }
+}
+
 /// A place among the computations, when there is one.
 async fn place(places: &Arc<Semaphore>) -> Result<OwnedSemaphorePermit, Refusal> {
-    match timeout(PATIENCE, places.clone().acquire_owned()).await {
+    match timeout(LONGEST_WAIT, places.clone().acquire_owned()).await {
         Ok(Ok(place)) => Ok(place),
         _ => {
             let why = "the program is busy with other computations";
@@ -80,8 +95,8 @@ async fn place(places: &Arc<Semaphore>) -> Result<OwnedSemaphorePermit, Refusal>
     }
 }
 
-fn begin(work: impl FnOnce() + Send + 'static) -> Result<(), Refusal> {
-    let begun = thread::Builder::new().stack_size(STACK).spawn(work);
+fn begin(compute: impl FnOnce() + Send + 'static) -> Result<(), Refusal> {
+    let begun = thread::Builder::new().stack_size(STACK).spawn(compute);
     begun.map(drop).map_err(|said| Refusal::failed(format!("no thread can be started: {said}")))
 }
 

@@ -1,0 +1,151 @@
+// The basins at some parameters: which attractor each start leads to, painted coarse and then finer.
+
+import * as ask from "./ask.js";
+import { button, element, labelled, say, said, table } from "./element.js";
+import { handOver, saveButtons } from "./keep.js";
+import { cross } from "./marks.js";
+import { Plane } from "./plane.js";
+import { short } from "./ticks.js";
+
+const UNDECIDED = [136, 136, 136];
+const MM = 1e3;
+const RANGE = ["start_r_from", "start_r_to", "start_y1_from", "start_y1_to"];
+
+/** The basins on a canvas, as a plane with a mark for the start that is shown. */
+class BasinPlane extends Plane {
+  over(drawn, to) { if (this.mark) cross(drawn, to(this.mark)); }
+}
+
+/** Basins in their place. `on` is told of a `choose`n start and of the `range` of starts that is wanted. */
+export class Basin {
+  constructor(place, on) {
+    Object.assign(this, { on, running: null, asked: null, told: element("p", { id: "basin-told" }), heading: element("p", { id: "basin-at" }) });
+    this.canvas = element("canvas", { id: "basin", tabIndex: 0, role: "application", ariaLabel: "Basins" });
+    this.canvas.setAttribute("aria-roledescription", "map");
+    this.canvas.setAttribute("aria-describedby", "basin-help basin-hover");
+    this.hovered = element("p", { id: "basin-hover", className: "told", textContent: "\u00a0" });
+    this.attractors = element("div", { id: "basin-attractors" });
+    this.bar = element("progress", { max: 1, value: 0, ariaLabel: "Starts computed" });
+    const help = element("p", { id: "basin-help", className: "note" });
+    help.textContent = "Click a start for its motion. Keys: arrows move the mark, Enter computes there, + and − zoom, 0 shows all.";
+    const choose = (point) => on.choose({ ...this.parameters, [this.data.x.name]: point[0], [this.data.y.name]: point[1] });
+    this.plane = new BasinPlane(this.canvas, { choose, hover: (at, isKey) => this.hover(at, isKey) });
+    this.saving = element("div", { className: "buttons" }, ...saveButtons("basin", "basin", () => ({ kind: "basin", ...this.request })));
+    place.append(this.heading, this.told, this.bar, this.canvas, this.hovered, this.attractors, help, this.ranges(), this.saving);
+  }
+
+  // The range of starts by numbers.
+  ranges() {
+    const words = ["x1 − x2 (mm) from", "to", "y1 (m/s) from", "to"], names = ["x1 − x2 from", "x1 − x2 to", "y1 from", "y1 to"];
+    this.inputs = RANGE.map((name, i) => element("input", { name, type: "number", step: "any", required: true, ariaLabel: names[i] }));
+    const form = element("form", { className: "row" }, ...this.inputs.map((it, i) => labelled(words[i], it)), element("button", { textContent: "Compute" }));
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      const [r0, r1, y0, y1] = this.inputs.map((it) => Number(it.value));
+      this.on.range([r0 / MM, r1 / MM, y0, y1]);
+    });
+    const whole = button("Usual range", () => this.on.range(null));
+    form.append(whole);
+    return element("details", {}, element("summary", { textContent: "Range of starts" }), form);
+  }
+
+  /** Computes the basins at parameters; `words` say them. `range` is that of the starts, or none for the usual. */
+  async show(parameters, range, words) {
+    const pairs = range ? Object.fromEntries(RANGE.map((name, i) => [name, range[i]])) : {};
+    const request = { ...parameters, ...pairs }, asked = JSON.stringify(request);
+    if (asked === this.asked) return;
+    this.stop();
+    const running = new AbortController();
+    Object.assign(this, { running, asked, request, parameters, data: null, last: null, began: performance.now() });
+    this.heading.textContent = `At ${words}`;
+    this.told.textContent = "The first starts are computed.";
+    say("The basin is computed");
+    Object.assign(this.bar, { value: 0, hidden: false });
+    this.plane.data = null;
+    this.plane.mark = null;
+    this.attractors.replaceChildren();
+    try {
+      await ask.lines("/api/basin", request, (it) => (it.labels ? this.take(it) : this.describe(it)), running.signal);
+      this.bar.hidden = true;
+      say(this.told.textContent);
+    } catch (it) {
+      if (it.name === "AbortError") return;
+      this.asked = null;
+      this.bar.hidden = true;
+      this.told.textContent = it.message;
+      say(it.message);
+    }
+  }
+
+  /** Computes nothing more. */
+  stop() {
+    this.running?.abort();
+    this.asked = null;
+    handOver("basin", "", null);
+  }
+
+  describe(head) {
+    this.head = head;
+    const ends = [head.x.range[0] / head.x.factor * MM, head.x.range[1] / head.x.factor * MM, ...head.y.range.map((it) => it / head.y.factor)];
+    this.inputs.forEach((input, i) => { input.value = String(Number(ends[i].toPrecision(6))); });
+    handOver("basin", "Basin: study for capsulemap sweep", head.study, true);
+  }
+
+  take(pass) {
+    const { head } = this, side = (head.side - 1) / pass.step + 1;
+    this.last = pass;
+    const colours = new Map(pass.attractors.map((it) => [it.label, it.colour]));
+    const bytes = new Uint8ClampedArray(4 * pass.labels.length);
+    pass.labels.forEach((label, i) => bytes.set([...(colours.get(label) || UNDECIDED), 255], 4 * i));
+    const axis = (it) => ({
+      ...it, log: false,
+      values: Array.from({ length: side }, (_, i) => (it.range[0] + i / (side - 1) * (it.range[1] - it.range[0])) / it.factor),
+      ends: Array.from({ length: side }, (_, i) => (i === side - 1 ? 1 : (i + 0.5) / (side - 1))),
+    });
+    this.data = { x: axis(head.x), y: axis(head.y), colours: bytes };
+    this.plane.show(this.data);
+    const seconds = ((performance.now() - this.began) / 1e3).toFixed(1);
+    const left = pass.computed < pass.cases ? "; it becomes finer" : "";
+    this.told.textContent = `${pass.computed} of ${pass.cases} starts in ${seconds} s: ${side} × ${side}${left}.`;
+    Object.assign(this.bar, { value: pass.computed, max: pass.cases });
+    this.canvas.setAttribute("aria-label", `Basins of ${pass.attractors.length} attractors over ${head.x.label} and ${head.y.label}`);
+    this.list(pass);
+    this.on.shown();
+  }
+
+  // What each colour means, with its share of the starts so far.
+  list({ attractors, labels }) {
+    const count = (label) => labels.filter((it) => it === label).length;
+    const swatch = (colour) => { const made = element("span", { className: "swatch" }); made.style.background = `rgb(${colour})`; return made; };
+    const part = (number) => `${short(100 * number / labels.length, 3)} %`;
+    const named = (text, colour) => element("span", {}, swatch(colour), text);
+    const rows = attractors.map((it) => {
+      const period = it.outcome === "periodic" ? `periodic, period ${it.period}` : it.outcome;
+      return [named(String(it.label), it.colour), period, it.speed === null ? "no value" : short(it.speed * MM, 5), part(count(it.label))];
+    });
+    const known = new Set(attractors.map((it) => it.label)), others = labels.filter((it) => !known.has(it)).length;
+    if (others) rows.push([named("none", UNDECIDED), "undecided", "–", part(others)]);
+    this.attractors.replaceChildren(table("Attractors of the basin", ["attractor", "motion", "speed (mm/s)", "share of starts"], rows));
+  }
+
+  hover(at, isKey) {
+    const words = at ? this.words(at) : "\u00a0";
+    this.hovered.textContent = words;
+    if (at && isKey) say(words);
+  }
+
+  words(at) {
+    const { x, y } = this.data, label = this.last.labels[at.number], it = this.last.attractors.find((one) => one.label === label);
+    const where = `${said(x.label, at.cell[0] * x.factor)}, ${said(y.label, at.cell[1] * y.factor)}`;
+    return `${where}: ${it ? `attractor ${label}` : "undecided"}`;
+  }
+
+  /** Puts the mark at the start of a motion, if it is one of these basins. */
+  mark(coordinates) {
+    if (!this.data) return;
+    const [x, y] = [coordinates?.[this.data.x.name], coordinates?.[this.data.y.name]];
+    const isHere = Object.entries(this.parameters).every(([name, value]) => coordinates?.[name] === value);
+    this.plane.mark = isHere && x !== undefined && y !== undefined ? this.plane.shares([x, y]) : null;
+    this.plane.draw();
+  }
+}

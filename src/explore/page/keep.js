@@ -1,0 +1,67 @@
+// What is handed over: the commands and studies of the views, and figures as files.
+
+import * as ask from "./ask.js";
+import { button, by, element, fault, say } from "./element.js";
+
+const entries = new Map();
+/** The order in which the views are listed. */
+const ORDER = ["map", "trade-off", "motion", "pin-a", "pin-b", "line", "basin"];
+
+/** A text as an argument of a shell. */
+export const quoted = (text) => (/^[\w.,=:/+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+
+/** Lists the command or the study (`isStudy`) of a view; nothing without a text. */
+export function handOver(id, title, text, isStudy = false) {
+  const known = entries.get(id);
+  if (known?.dataset.text === text && known?.dataset.title === title) return;
+  entries.delete(id);
+  if (text) entries.set(id, entry(title, text, isStudy));
+  by("commands").replaceChildren(...ORDER.filter((it) => entries.has(it)).map((it) => entries.get(it)));
+}
+
+function entry(title, text, isStudy) {
+  const copy = button("Copy", async () => {
+    try {
+      await navigator.clipboard.writeText(text);
+      say(`${title}: copied`);
+      copy.textContent = "Copied";
+      setTimeout(() => { copy.textContent = "Copy"; }, 2000);
+    } catch (it) { fault(it); }
+  }, { ariaLabel: `Copy: ${title}` });
+  const buttons = element("div", { className: "buttons" }, copy);
+  if (isStudy) buttons.append(button("Save as TOML", () => given(new Blob([text], { type: "application/toml" }), "study.toml")));
+  const place = element("pre", { tabIndex: 0, role: "region", ariaLabel: title, textContent: text });
+  const made = element("div", { className: "hand-over" }, element("h3", { textContent: title }), place, buttons);
+  Object.assign(made.dataset, { text, title });
+  return made;
+}
+
+// Gives bytes to the browser as a file to be kept.
+function given(blob, name) {
+  const link = element("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+/** Saves a figure; the button tells that it is being drawn. */
+export async function save(pairs, format, pressed) {
+  if (pressed.getAttribute("aria-disabled") === "true") return;
+  const words = pressed.textContent;
+  pressed.setAttribute("aria-disabled", "true");
+  pressed.textContent = "Being drawn …";
+  say("The figure is being drawn");
+  try {
+    given(await ask.figure({ ...pairs, format }), `${pairs.kind}.${format}`);
+    say("The figure is saved");
+  } catch (it) { fault(it); }
+  pressed.textContent = words;
+  pressed.removeAttribute("aria-disabled");
+}
+
+/** Buttons that save what `pairs` gives as PDF and as SVG. */
+export function saveButtons(id, words, pairs) {
+  return ["pdf", "svg"].map((format) => {
+    const made = button(`Save ${words} as ${format.toUpperCase()}`, () => save(pairs(), format, made), { id: `${id}-${format}-button` });
+    return made;
+  });
+}

@@ -1,0 +1,37 @@
+// The legend of the map, and what it does not show by itself.
+
+import * as curves from "./curves.js";
+import { by } from "./element.js";
+import { cross, dot, entry, front, letter, line, rectangle } from "./marks.js";
+import { chosen, onMap, page, pins } from "./shown.js";
+
+/** Tells what the marks on the map mean, and what is left out. */
+export function legend() {
+  const { map } = page;
+  if (!map?.data) return;
+  const { marks } = map, made = page.curves ? curves.entries(page.curves) : [];
+  for (const direction of ["forward", "backward"]) {
+    if (marks.fronts[direction]?.length) made.push(entry(`front, ${direction}`, (drawn, place) => dot(drawn, place, front(direction))));
+  }
+  if (map.mark) made.push(entry("chosen case", (drawn, place) => cross(drawn, place)));
+  marks.pins.forEach(({ name }) => made.push(entry(`pinned ${name}`, (drawn, place) => letter(drawn, place, name))));
+  if (marks.line) made.push(entry("line, from its ring", (drawn, [x, y]) => line(drawn, [[x - 9, y], [x + 12, y]])));
+  if (marks.rectangle) made.push(entry("selection", (drawn, [x, y]) => rectangle(drawn, [[x - 11, y - 6], [x + 11, y + 6]])));
+  by("map-legend").replaceChildren(...made);
+  by("map-legend").hidden = !made.length;
+  note();
+}
+
+/** Tells what the map leaves out as it is seen now. */
+export function note() {
+  const { map } = page, told = [];
+  const crowding = map.cells.crowding(map.area(), map.seen(), window.devicePixelRatio || 1);
+  if (crowding > 1.01) told.push("There are more cases than pixels: zoom in to see each.");
+  if (map.cells.mask) told.push("Pale: cases that are not selected.");
+  if (map.cells.hasGaps) told.push("Hatched: cases without a value.");
+  const away = pins().filter((it) => !onMap(it)).length;
+  if (away) told.push(`${away === 1 ? "A pinned case lies" : "Both pinned cases lie"} in another plane than the map.`);
+  if (chosen() && !onMap(chosen())) told.push("The chosen case lies in another plane than the map.");
+  by("map-note").textContent = told.join(" ");
+  by("map-note").hidden = !told.length;
+}

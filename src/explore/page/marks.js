@@ -1,0 +1,83 @@
+// Marks over a plane, each with a rim so that it is seen on every colour.
+
+import { colours } from "./plot.js";
+
+const RIM = "#ffffff";
+const INK = "#000000";
+
+/** Draws a path twice: its rim and itself. */
+export function rimmed(drawn, path, shade, width = 2, rim = RIM) {
+  for (const [line, tone] of [[width + 2.5, rim], [width, shade]]) {
+    drawn.lineWidth = line;
+    drawn.strokeStyle = tone;
+    drawn.beginPath();
+    path();
+    drawn.stroke();
+  }
+}
+
+/** The mark of the chosen case. */
+export function cross(drawn, [x, y]) {
+  rimmed(drawn, () => {
+    drawn.arc(x, y, 6, 0, 2 * Math.PI);
+    for (const [right, down] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+      drawn.moveTo(x + 4 * right, y + 4 * down);
+      drawn.lineTo(x + 12 * right, y + 12 * down);
+    }
+  }, INK);
+}
+
+/** A letter in a ring, for a pinned case. */
+export function letter(drawn, [x, y], text) {
+  drawn.beginPath();
+  drawn.arc(x, y, 8, 0, 2 * Math.PI);
+  drawn.fillStyle = RIM;
+  drawn.fill();
+  drawn.lineWidth = 1.5;
+  drawn.strokeStyle = INK;
+  drawn.stroke();
+  drawn.fillStyle = INK;
+  drawn.textAlign = "center";
+  drawn.textBaseline = "middle";
+  drawn.fillText(text, x, y + 0.5);
+}
+
+/** A line, with a ring where it begins. */
+export function line(drawn, [from, to]) {
+  rimmed(drawn, () => { drawn.moveTo(...from); drawn.lineTo(...to); }, INK);
+  rimmed(drawn, () => drawn.arc(...from, 3.5, 0, 2 * Math.PI), INK, 1.5);
+}
+
+/** A rectangle between two of its corners. */
+export function rectangle(drawn, [from, to]) {
+  drawn.setLineDash([6, 4]);
+  rimmed(drawn, () => drawn.rect(from[0], from[1], to[0] - from[0], to[1] - from[1]), INK, 1.5);
+  drawn.setLineDash([]);
+}
+
+/** A dot with a rim. */
+export function dot(drawn, [x, y], shade, radius = 3.5) {
+  drawn.beginPath();
+  drawn.arc(x, y, radius, 0, 2 * Math.PI);
+  drawn.fillStyle = shade;
+  drawn.fill();
+  drawn.lineWidth = 1;
+  drawn.strokeStyle = RIM;
+  drawn.stroke();
+}
+
+/** An entry of a legend: a small picture that `draw` draws about the middle of a canvas, and its words. */
+export function entry(text, draw) {
+  const made = document.createElement("li"), canvas = document.createElement("canvas"), ratio = window.devicePixelRatio || 1;
+  [canvas.width, canvas.height] = [28 * ratio, 20 * ratio];
+  canvas.setAttribute("aria-hidden", "true");
+  const drawn = canvas.getContext("2d");
+  drawn.scale(ratio, ratio);
+  drawn.font = "12px system-ui, sans-serif";
+  draw(drawn, [14, 10]);
+  made.append(canvas, text);
+  return made;
+}
+
+/** The colours of the fronts: forward and backward. */
+export const front = (direction) => colours()[direction === "forward" ? "second" : "first"];

@@ -1,0 +1,59 @@
+// What lies over the map and beside it: marks, the selection, curves, and the trade-off of its cells.
+
+import * as ask from "./ask.js";
+import * as curves from "./curves.js";
+import * as view from "./view.js";
+import { selection, told, within } from "./brush.js";
+import { by, say } from "./element.js";
+import { legend } from "./legend.js";
+import { axes, cellOf, chosen, ends, onMap, page, pins, price } from "./shown.js";
+
+/** Shows the trade-off of the cells of the map, if it is wanted. */
+export async function showTradeOff(signal) {
+  const name = price();
+  for (const state of ["aria-pressed", "aria-expanded"]) by("trade-off-button").setAttribute(state, String(!!name));
+  by("trade-off-section").hidden = !name;
+  if (name) await page.tradeOff.show({ ...page.choices.asked(), of: name }, page.map, signal);
+  select();
+}
+
+/** Marks what is selected, and the fronts, on the map and in the trade-off. */
+export function select() {
+  const { map, tradeOff } = page, data = price() ? tradeOff.data : null, wanted = data && selection();
+  const mask = wanted && (wanted.plane === "map" ? within(map.data, wanted.ranges) : tradeOff.within(wanted.ranges));
+  const words = mask ? told(mask, data) : "";
+  if (data) tradeOff.select(mask, wanted?.plane === "trade-off" ? wanted.ranges : null, words);
+  map.cells.select(mask);
+  const fronts = Object.entries(data?.fronts || {}).map(([direction, cells]) => [direction, cells.map((cell) => tradeOff.coordinates(cell))]);
+  const corners = wanted?.plane === "map" ? wanted.ranges[0].map((x, i) => [x, wanted.ranges[1][i]]) : null;
+  map.set({ fronts: Object.fromEntries(fronts), rectangle: corners });
+  legend();
+  if (mask) say(words);
+}
+
+/** Shows special points and branches over the map, if they are wanted. */
+export async function showCurves(signal) {
+  const isOn = view.text("curves") === "1" && page.file.has_curves;
+  by("curves-switch").checked = isOn;
+  by("curves-place").hidden = !isOn;
+  page.curves = null;
+  if (isOn) {
+    const { of: _of, sweep: _sweep, ...pairs } = page.choices.asked();
+    page.curves = await ask.object("/api/curves", pairs, signal);
+    by("curves-place").replaceChildren(curves.tables(page.curves, page.map.data));
+  }
+  page.map.set({ layers: page.curves ? [curves.layer(page.curves)] : [] });
+  legend();
+}
+
+/** Marks the cases and the line on the map, in the trade-off and in the basin. */
+export function mark() {
+  const { map, tradeOff, basin } = page, point = onMap(chosen());
+  map.mark = point && map.shares(point);
+  const pinned = pins().map((it, i) => ({ point: onMap(it), name: "AB"[i] })).filter((it) => it.point);
+  const line = ends()?.map((it) => axes().map((axis) => it[axis.name])) ?? null;
+  map.set({ pins: pinned, line });
+  tradeOff.mark(cellOf(point));
+  basin.mark(chosen());
+  legend();
+}

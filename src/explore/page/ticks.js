@@ -1,0 +1,55 @@
+// Numbers as text, ranges of values, and round values along an axis.
+
+const RAISED = Object.fromEntries([..."0123456789-"].map((it, i) => [it, "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"[i]]));
+const raised = (power) => [...String(power)].map((it) => RAISED[it]).join("");
+const signed = (text) => text.replace("-", "−");
+
+/** A number with `digits` significant digits at most. */
+export function short(value, digits = 6) {
+  if (!Number.isFinite(value)) return value > 0 ? "∞" : value < 0 ? "−∞" : "no value";
+  const [size, rounded] = [Math.abs(value), Number(value.toPrecision(digits))];
+  if (rounded === 0 || (size >= 1e-4 && size < 1e6)) return signed(String(rounded));
+  const [head, power] = rounded.toExponential().split("e");
+  return signed(`${head}×10${raised(Number(power))}`);
+}
+
+/** The ends of some values with a margin; others where all are the same. */
+export function range(values, margin = 0.05) {
+  let low = Infinity, high = -Infinity;
+  for (const value of values) {
+    if (Number.isFinite(value)) { low = Math.min(low, value); high = Math.max(high, value); }
+  }
+  if (low > high) return [0, 1];
+  const room = high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high)) ? margin * (high - low) : Math.abs(low) * 0.1 || 1;
+  return [low - room, high + room];
+}
+
+function even(low, high, most) {
+  const rough = (high - low) / Math.max(most, 1);
+  if (!(rough > 0)) return { values: [low], text: short };
+  const power = Math.floor(Math.log10(rough) + 1e-9);
+  const step = [1, 2, 5, 10].map((it) => it * 10 ** power).find((it) => it >= rough * 0.999);
+  const first = Math.ceil(low / step - 1e-9), count = Math.floor(high / step + 1e-9) - first + 1;
+  const values = Array.from({ length: Math.max(count, 0) }, (_, i) => (first + i) * step);
+  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  const isLong = digits > 4 || Math.max(Math.abs(low), Math.abs(high)) >= 1e5;
+  return { values, text: (value) => (isLong ? short(Number(value.toPrecision(12))) : signed(value.toFixed(digits))) };
+}
+
+function decades(low, high, most) {
+  const first = Math.ceil(Math.log10(low) - 1e-9), last = Math.floor(Math.log10(high) + 1e-9);
+  const stride = Math.max(1, Math.ceil((last - first + 1) / Math.max(most, 2)));
+  const powers = Array.from({ length: Math.max(last - first + 1, 0) }, (_, i) => first + i).filter((it) => (it - first) % stride === 0);
+  if (powers.length > 2) {
+    const text = (value) => (value >= 1e-3 && value <= 1e4 ? short(value) : `10${raised(Math.round(Math.log10(value)))}`);
+    return { values: powers.map((it) => 10 ** it), text };
+  }
+  const parts = [first - 1, first, first + 1, first + 2].flatMap((it) => [1, 2, 5].map((digit) => digit * 10 ** it));
+  const values = parts.filter((it) => it >= low * (1 - 1e-9) && it <= high * (1 + 1e-9));
+  return values.length > 2 && values.length <= most + 2 ? { values, text: short } : even(low, high, most);
+}
+
+/** Round values between two, at most about `most`, and the text of each. */
+export function ticks(low, high, isLogarithmic = false, most = 6) {
+  return isLogarithmic && low > 0 ? decades(low, high, most) : even(low, high, most);
+}

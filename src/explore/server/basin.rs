@@ -1,0 +1,203 @@
+//! A small basin of attraction at the parameters of a case, computed from coarse to fine.
+
+use serde_json::{Value, json};
+
+use super::answer::Refusal;
+use super::asked::Asked;
+use super::explored::Explored;
+use super::motion::{followed, shown};
+use crate::attractor::Label;
+use crate::capsule::{Case, Output, Parameter, State, settle_case};
+use crate::figure::{label_colour, shown_quantity};
+use crate::orbit::{Machine, Outcome};
+use crate::run::{self, Attractors, Record, run_sample};
+use crate::study::axis::set;
+use crate::study::{Axis, CaseSet, Coordinate, Drawing, DrawingKind, Grid, Spacing, Study};
+
+/// Starts along each side of the finest grid: one more than a multiple of the coarsest step.
+const SIDE: usize = 97;
+/// Each pass computes every so many starts along each side.
+const STEPS: [usize; 5] = [16, 8, 4, 2, 1];
+/// Starts that are computed together before the page is told.
+const TOGETHER: usize = 1024;
+/// How much wider than the motion the grid is.
+const WIDER: f64 = 2.0;
+/// What the ends of the grid are called in a request, by axis.
+const ENDS: [[&str; 2]; 2] =
+    [["start_r_from", "start_r_to"], ["start_y1_from", "start_y1_to"]];
+/// The axes, the faster first.
+const AXES: [Coordinate; 2] = [Coordinate::StartR, Coordinate::StartY1];
+/// What the page is told of a start whose attractor is not known.
+const UNKNOWN: i64 = -1;
+
+/// A grid of starts over r and y1 at the parameters of a case.
+pub struct Basin {
+    study: Study,
+    /// What the page is told of the axes, the faster first.
+    axes: [Value; 2],
+}
+
+impl Basin {
+    /// The grid that a request asks for; without ends, about the motion that the case settles to.
+    ///
+    /// Fails if a coordinate is out of its bounds or the ends of an axis are one.
+    pub fn of(explored: &Explored, asked: &Asked) -> Result<Basin, Refusal> {
+        let known = ENDS.iter().flatten().copied().chain(["sweep", "kind", "format"]);
+        asked.only(&known.collect::<Vec<_>>())?;
+        let given = asked.coordinates()?;
+        let is_parameter = |it: &(Coordinate, f64)| !it.0.is_start();
+        let at: Vec<(Coordinate, f64)> = given.iter().copied().filter(is_parameter).collect();
+        let case = explored.near(&at, asked.sweep()?)?.case;
+        let usual = around(explored, &case);
+        let mut axes = Vec::new();
+        for (axis, coordinate) in AXES.into_iter().enumerate() {
+            let [from, to] = ENDS[axis].map(|name| asked.number(name));
+            let [from, to] = [from?.unwrap_or(usual[axis][0]), to?.unwrap_or(usual[axis][1])];
+            if from >= to {
+                let [low, high] = ENDS[axis];
+                return Err(Refusal::unfit(format!("{low} must be less than {high}")));
+            }
+            axes.push(Axis { coordinate, values: Spacing::Linear.values(from, to, SIDE) });
+        }
+        let told = axes.iter().map(|it: &Axis| axis_json(explored, it)).collect::<Vec<_>>();
+        axes.reverse();
+        let mut begins = explored.study.case(0);
+        given.iter().filter(|it| it.0.is_start()).for_each(|(it, value)| set(&mut begins, *it, *value));
+        let mut basin = Drawing::new("basin", DrawingKind::Basin);
+        [basin.x, basin.y] = AXES.map(|it| Some(it.name().to_owned()));
+        let study = Study {
+            title: "Starts and where they lead".to_owned(),
+            base: case.parameters,
+            start: State { x2: 0.0, ..begins.start },
+            start_phase: begins.start_phase,
+            section_phase: case.section_phase,
+            case_set: CaseSet::Grid(Grid { axes, inherit: None }),
+            protocol: explored.protocol(),
+            drawings: vec![basin],
+            ..Study::default()
+        };
+        match study.validated("the study of the basin") {
+            Ok(study) => Ok(Basin { study, axes: [told[0].clone(), told[1].clone()] }),
+            Err(faults) => Err(Refusal::unfit(faults.to_string())),
+        }
+    }
+
+    /// The study of the grid, with its figure.
+    pub fn study(&self) -> &Study {
+        &self.study
+    }
+
+    /// Sends the grid, and after each pass what is known of the starts, as long as somebody listens.
+    pub fn compute(self, send: &dyn Fn(String) -> bool) {
+        if !send(self.head().to_string()) {
+            return;
+        }
+        let mut records: Vec<Record> = Vec::new();
+        let mut done = vec![false; self.study.cases()];
+        for step in STEPS {
+            let wanted: Vec<usize> = coarse(step).filter(|case| !done[*case]).collect();
+            for part in wanted.chunks(TOGETHER) {
+                let Some(more) = self.computed(part) else { return };
+                records.extend(more);
+                part.iter().for_each(|case| done[*case] = true);
+                let told = json!({ "computed": records.len(), "cases": self.study.cases() });
+                if !send(told.to_string()) {
+                    return;
+                }
+            }
+            match self.pass(step, &records) {
+                Some(pass) if send(pass.to_string()) => {}
+                _ => return,
+            }
+        }
+    }
+
+    /// The records of some starts; none if the threads cannot be started.
+    fn computed(&self, cases: &[usize]) -> Option<Vec<Record>> {
+        // A few starts do not repay a sample of starts that tells their orbits before.
+        let early_decision = cases.len() == TOGETHER;
+        let study = Study { early_decision, ..self.study.clone() };
+        run_sample(&study, Machine::default(), cases, || ()).ok()
+    }
+
+    fn head(&self) -> Value {
+        let [x, y] = &self.axes;
+        json!({ "study": self.study.text, "x": x, "y": y, "side": SIDE })
+    }
+
+    /// What the coarse grid of a pass shows, and the attractors that are known by now.
+    fn pass(&self, step: usize, records: &[Record]) -> Option<Value> {
+        let motions = run::final_motions(&self.study, records);
+        let found = run::attractors(&self.study, &motions, Machine::default(), || ()).ok()?;
+        let label = |case: usize| match found.label(case, &motions) {
+            Label::Attractor(number) => i64::from(number),
+            _ => UNKNOWN,
+        };
+        let labels: Vec<i64> = coarse(step).map(label).collect();
+        Some(json!({
+            "step": step,
+            "computed": records.len(),
+            "cases": self.study.cases(),
+            "labels": labels,
+            "attractors": attractors(&found, records),
+            "unknown": label_colour(None),
+        }))
+    }
+}
+
+/// An axis of starts, its ends in the unit shown.
+fn axis_json(explored: &Explored, axis: &Axis) -> Value {
+    let name = axis.coordinate.name();
+    let it = shown_quantity(name, explored.archive.frame());
+    let range = [axis.values[0], axis.values[SIDE - 1]].map(|value| value * it.factor);
+    json!({ "name": name, "label": it.label, "factor": it.factor, "range": range })
+}
+
+/// The cases of the grid of every so many starts, row by row from the least y1.
+fn coarse(step: usize) -> impl Iterator<Item = usize> {
+    let along = move || (0..SIDE).step_by(step);
+    along().flat_map(move |row| along().map(move |column| row * SIDE + column))
+}
+
+/// The attractors with what the first of their cases settled to.
+fn attractors(found: &Attractors, records: &[Record]) -> Vec<Value> {
+    let told = |(number, attractor): (usize, &crate::attractor::Attractor<3>)| {
+        let record = records.iter().find(|record| record.index == attractor.case)?;
+        let orbit = &record.orbit;
+        Some(json!({
+            "label": number,
+            "outcome": orbit.outcome.name(),
+            "period": if orbit.outcome == Outcome::Periodic { json!(orbit.period) } else { Value::Null },
+            "speed": orbit.outputs[Output::ProgressionSpeed],
+            "colour": label_colour(Some(number as u32)),
+        }))
+    };
+    found.of_starts.iter().enumerate().filter_map(told).collect()
+}
+
+/// Ends of the axes about the motion that a case settles to, to three digits; about the gap where there is none.
+fn around(explored: &Explored, case: &Case) -> [[f64; 2]; 2] {
+    let protocol = explored.protocol();
+    let orbit = settle_case(case, &protocol);
+    let from = State { x2: 0.0, ..orbit.end };
+    let points = followed(case, from, shown(&orbit), protocol.tolerance);
+    let parameters = &case.parameters;
+    let usual = parameters[Parameter::Pd] / parameters[Parameter::K1];
+    let omega = parameters[Parameter::Omega];
+    let widest = |of: fn(&State<f64>) -> f64, usual: f64| {
+        let values = points.iter().flatten().map(|it| of(&it.state));
+        let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| {
+            [low.min(it), high.max(it)]
+        });
+        let half = WIDER * 0.5 * (high - low);
+        let middle = 0.5 * (high + low);
+        let is_wide = half.is_finite() && half > 0.0;
+        if is_wide { [middle - half, middle + half] } else { [-usual, usual] }.map(rounded)
+    };
+    [widest(|it| it.r, usual), widest(|it| it.y1, usual * omega)]
+}
+
+/// A number to three digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}

@@ -1,0 +1,139 @@
+//! Curves of special points and branches as lines and points over a map, for a screen that draws them itself.
+
+use std::collections::BTreeSet;
+
+use plotters::style::RGBColor;
+
+use super::canvas::Dash;
+use super::curves::{self, Curve, curves};
+use super::error::FigureError;
+use super::plane::Plane;
+use super::shown::Shown;
+use super::symbol::Symbol;
+use super::track::{Rows, elsewhere, in_view};
+use super::varied;
+use super::view::View;
+use crate::store::catalogue::{
+    AT_BRANCH_POINTS, AT_SPECIAL_POINTS, INDEX_REQUEST, OrbitColumns, Place, SPECIAL_KIND,
+};
+use crate::study::Drawing;
+
+/// A line over a map, in the units of its axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapLine {
+    /// What it is.
+    pub words: String,
+    /// Its colour; none for branches, which have the colour of the text.
+    pub colour: Option<[u8; 3]>,
+    /// Whether it is broken.
+    pub is_dashed: bool,
+    /// Its points.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// A special point over a map, in the units of its axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapPoint {
+    /// What happens there.
+    pub words: &'static str,
+    /// The colour of curves of such points.
+    pub colour: [u8; 3],
+    /// Where it is.
+    pub at: [f64; 2],
+}
+
+/// What lies over a map.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct OverMap {
+    /// Curves of special points, and branches.
+    pub lines: Vec<MapLine>,
+    /// The special points of the branches.
+    pub points: Vec<MapPoint>,
+    /// How many branches lie at other values of the axes that are held; none if all are shown.
+    pub left_out: Option<String>,
+}
+
+/// The names of the variables that [`over_map`] reads.
+pub fn over_map_variables(drawing: &Drawing) -> BTreeSet<String> {
+    let at_points = Place::Branch.parameters().into_iter();
+    let names = curves::reads(drawing).and([AT_BRANCH_POINTS.branch, AT_SPECIAL_POINTS.branch]);
+    names.and([SPECIAL_KIND]).and(at_points).and(varied::READS).into_set()
+}
+
+/// The curves and branches of the results over the two axes of the map that `drawing` asks for, where they lie at the values of
+/// the axes that it holds.
+///
+/// Fails as the map does.
+pub fn over_map<'a>(
+    shown: impl Into<Shown<'a>>,
+    drawing: &'a Drawing,
+) -> Result<OverMap, FigureError> {
+    let view = View::new(shown.into(), drawing)?;
+    let plane = Plane::of(&view, "a map")?;
+    let axes = [plane.x_name, plane.y_name];
+    let of_curves = curves(&view, &axes.map(str::to_owned));
+    let mut over = OverMap { left_out: elsewhere(&view, &axes), ..OverMap::default() };
+    over.lines = of_curves.iter().map(line_of).collect();
+    let fits = in_view(&view, &axes);
+    let dataset = view.dataset;
+    let request = Rows::new(dataset, INDEX_REQUEST.name);
+    let factors = axes.map(|name| view.quantity(name).factor);
+    let asked = axes.map(|name| Rows::new(dataset, &Place::Request.name(name)));
+    let places = |(place, own): (Place, &OrbitColumns)| {
+        let columns = axes.map(|name| Rows::new(dataset, &place.name(name)));
+        let (asked, branch) = (&asked, Rows::new(dataset, own.branch.name));
+        move |number: usize, of: usize| -> Vec<(usize, [f64; 2])> {
+            // What the branch does not vary has the value of its request.
+            let value = |axis: usize, at: usize| {
+                let own = columns[axis].one(at);
+                (if own.is_finite() { own } else { asked[axis].one(of) }) * factors[axis]
+            };
+            let all = branch.places(number).into_iter();
+            let placed = all.map(|at| (at, [value(0, at), value(1, at)]));
+            placed.filter(|(_, at)| at.iter().all(|it| it.is_finite())).collect()
+        }
+    };
+    let points = places((Place::Branch, &AT_BRANCH_POINTS));
+    let specials = places((Place::Special, &AT_SPECIAL_POINTS));
+    let kind = Rows::new(dataset, SPECIAL_KIND.name);
+    let flags = dataset.variable(SPECIAL_KIND.name).map_or(&[][..], |it| &it.flags);
+    let symbol = |at: usize| {
+        let flag = flags.iter().find(|(code, _)| *code as f64 == kind.one(at))?;
+        Symbol::named(&flag.1)
+    };
+    for number in 0..request.count() {
+        let of = request.one(number) as usize;
+        if !fits.get(of).copied().unwrap_or(false) {
+            continue;
+        }
+        let line: Vec<[f64; 2]> = points(number, of).into_iter().map(|(_, at)| at).collect();
+        if line.len() > 1 {
+            let words = "branch".to_owned();
+            over.lines.push(MapLine { words, colour: None, is_dashed: false, points: line });
+        }
+        over.points.extend(specials(number, of).into_iter().filter_map(|(place, at)| {
+            let symbol = symbol(place)?;
+            Some(MapPoint { words: symbol.words, colour: channels(symbol.colour), at })
+        }));
+    }
+    Ok(over)
+}
+
+/// A curve as a line over a map.
+fn line_of(Curve { symbol, period, points, .. }: &Curve) -> MapLine {
+    let words = match period {
+        1 => symbol.words.to_owned(),
+        period => format!("{}, period {period}", symbol.words),
+    };
+    MapLine {
+        words,
+        colour: Some(channels(symbol.colour)),
+        is_dashed: symbol.dash != Dash::None,
+        points: points.iter().map(|&(x, y)| [x, y]).collect(),
+    }
+}
+
+/// Red, green and blue of a colour.
+pub(super) fn channels(RGBColor(red, green, blue): RGBColor) -> [u8; 3] {
+    [red, green, blue]
+}
