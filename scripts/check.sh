@@ -6,6 +6,8 @@ cd "$(dirname "$0")/.."
 # Readers of the result files, and a second computation of hypervolumes, as tried; the tests that need them say so when they are skipped.
 readers=(h5py==3.16.0 netCDF4==1.7.5.1.post1 h5netcdf==1.8.2 xarray==2026.9.0 numpy==2.4.6 moocore==0.3.2)
 
+chromium=${CAPSULEMAP_CHROMIUM:-/usr/bin/chromium}
+
 step() {
     local name=$1 start=$SECONDS
     shift
@@ -72,6 +74,33 @@ install_slurm() {
     "${install[@]}" || { "${root[@]}" apt-get update -q && "${install[@]}"; }
 }
 
+# What looks at the page of `capsulemap explore` as a person would: Chromium, and the packages that drive it.
+browser() {
+    local place=target/check-browser log=target/check-browser.log root=()
+    local skipped="the test of the page will be skipped"
+    mkdir -p "$place"
+    if ! command -v npm >/dev/null; then
+        echo "no npm here: $skipped"
+        return
+    fi
+    if ! [ -x "$chromium" ] && [ -n "${CI:-}" ] && command -v apt-get >/dev/null; then
+        [ "$(id -u)" -eq 0 ] || root=(sudo -n)
+        "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends chromium >"$log" 2>&1 ||
+            echo "apt-get could not install Chromium (see $log)"
+    fi
+    if ! [ -x "$chromium" ]; then
+        echo "Chromium is not at $chromium: $skipped (CI=true scripts/check.sh installs it)"
+        return
+    fi
+    cp tests/browser/package.json tests/browser/package-lock.json "$place"
+    if npm ci --silent --prefix "$place" >"$log" 2>&1; then
+        CAPSULEMAP_BROWSER=$PWD/$place
+        export CAPSULEMAP_BROWSER CAPSULEMAP_CHROMIUM=$chromium
+    else
+        echo "npm could not install what drives Chromium (see $log): $skipped"
+    fi
+}
+
 readme_test() {
     scripts/setup.sh && cargo test --release
 }
@@ -107,6 +136,7 @@ step "formatting" cargo fmt --check
 step "Python readers" python_readers
 step "Slurm" slurm
 step "strace" strace_for_kills
+step "browser" browser
 step "tests, as in the README" readme_test
 step "dependencies" dependencies
 step "engine alone" engine_alone

@@ -46,6 +46,14 @@ impl Values {
         all.first().map(|&first| all.iter().fold([first, first], wider))
     }
 
+    /// The number at a place of a line, as a line.
+    pub fn at(&self, place: usize) -> Values {
+        match self {
+            Values::Real(line) => Values::reals(vec![line[[place]]]),
+            Values::Integer(line) => Values::integers(vec![line[[place]]]),
+        }
+    }
+
     /// The same numbers as reals.
     pub fn to_real(&self) -> ArrayD<f64> {
         match self {

@@ -152,6 +152,28 @@ impl Archive {
         Ok(dataset)
     }
 
+    /// The same of the cases at these places along some axes alone, each of which has one value then.
+    pub fn labelled_at(
+        &self,
+        held: &BTreeMap<String, usize>,
+        wanted: impl Fn(&str) -> bool,
+    ) -> Result<Dataset, StoreError> {
+        let mut dataset = self.frame.clone();
+        for (name, axis) in &mut dataset.coordinates {
+            if let Some(&place) = held.get(name) {
+                axis.values = axis.values.at(place);
+            }
+        }
+        for (name, label) in &self.labels {
+            let variable = match self.shape(name)?.filter(|_| wanted(name)) {
+                Some(shape) => self.slab(name, &Slab::at(&label.dimensions, &shape, held))?,
+                None => None,
+            };
+            dataset.variables.insert(name.clone(), variable.unwrap_or_else(|| label.clone()));
+        }
+        Ok(dataset)
+    }
+
     /// The dataset with those variables that are `wanted`, by name and dimensions.
     pub fn dataset(&self, wanted: impl Fn(&str, &[String]) -> bool) -> Result<Dataset, StoreError> {
         let mut dataset = self.frame.clone();

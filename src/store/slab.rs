@@ -1,5 +1,7 @@
 //! Slabs of a variable over a study's axes, small enough to be held in memory one at a time.
 
+use std::collections::BTreeMap;
+
 use ndarray::{ArrayD, IxDyn};
 
 use super::Values;
@@ -27,6 +29,17 @@ impl Slab {
     /// All cases of a study of so many values along each axis.
     pub fn whole(shape: &[usize]) -> Slab {
         Slab { start: vec![0; shape.len()], count: shape.to_vec() }
+    }
+
+    /// The part of an array over these dimensions where some of them are held at a place.
+    pub fn at(dimensions: &[String], shape: &[usize], held: &BTreeMap<String, usize>) -> Slab {
+        let mut slab = Slab::whole(shape);
+        for (axis, name) in dimensions.iter().enumerate() {
+            if let Some(&place) = held.get(name) {
+                (slab.start[axis], slab.count[axis]) = (place, 1);
+            }
+        }
+        slab
     }
 
     /// Number of cases.

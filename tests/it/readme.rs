@@ -7,6 +7,8 @@ use capsulemap::capsule::{Parameter, parse_quantity};
 use capsulemap::store;
 use capsulemap::study::{DrawingKind, Study};
 
+use super::explorer::Explorer;
+
 const README: &str = include_str!("../../README.md");
 
 /// The blocks of the README in `language`.
@@ -61,6 +63,18 @@ fn the_main_job_leaves_a_file_and_its_figures() {
     }
     let dataset = store::read(&results.join("overview.h5")).expect("results");
     assert_eq!(dataset.coordinates[0].0, "p_d");
+    a_click_shows_a_motion(folder.path());
+}
+
+/// Explores the results of the main job by the command of the README.
+fn a_click_shows_a_motion(folder: &Path) {
+    let explore = blocks("sh").into_iter().find(|block| block.starts_with("capsulemap explore"));
+    let words: Vec<String> = split(explore.expect("the command"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_capsulemap"));
+    command.args(&words[1..]).arg("--no-browser").current_dir(folder);
+    let explorer = Explorer::begun(command).opened();
+    let motion = explorer.object("/api/motion?omega=60&p_d=3.4");
+    assert_eq!(motion["simulate"]["orbit"]["outcome"], "periodic", "{motion}");
 }
 
 #[test]

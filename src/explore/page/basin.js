@@ -5,7 +5,7 @@ import { button, element, labelled, say, said, table } from "./element.js";
 import { handOver, saveButtons } from "./keep.js";
 import { cross } from "./marks.js";
 import { Plane } from "./plane.js";
-import { short } from "./ticks.js";
+import { result, short } from "./ticks.js";
 
 const UNDECIDED = [136, 136, 136];
 const MM = 1e3;
@@ -13,7 +13,7 @@ const RANGE = ["start_r_from", "start_r_to", "start_y1_from", "start_y1_to"];
 
 /** The basins on a canvas, as a plane with a mark for the start that is shown. */
 class BasinPlane extends Plane {
-  over(drawn, to) { if (this.mark) cross(drawn, to(this.mark)); }
+  above(_, put) { if (this.mark) put(this.mark, cross); }
 }
 
 /** Basins in their place. `on` is told of a `choose`n start and of the `range` of starts that is wanted. */
@@ -30,7 +30,7 @@ export class Basin {
     help.textContent = "Click a start for its motion. Keys: arrows move the mark, Enter computes there, + and − zoom, 0 shows all.";
     const choose = (point) => on.choose({ ...this.parameters, [this.data.x.name]: point[0], [this.data.y.name]: point[1] });
     this.plane = new BasinPlane(this.canvas, { choose, hover: (at, isKey) => this.hover(at, isKey) });
-    this.saving = element("div", { className: "buttons" }, ...saveButtons("basin", "basin", () => ({ kind: "basin", ...this.request })));
+    this.saving = element("div", { className: "buttons" }, saveButtons("basin", "basin", () => ({ kind: "basin", ...this.request })));
     place.append(this.heading, this.told, this.bar, this.canvas, this.hovered, this.attractors, help, this.ranges(), this.saving);
   }
 
@@ -65,7 +65,7 @@ export class Basin {
     this.plane.mark = null;
     this.attractors.replaceChildren();
     try {
-      await ask.lines("/api/basin", request, (it) => (it.labels ? this.take(it) : this.describe(it)), running.signal);
+      await ask.lines("/api/basin", request, (it) => this.receive(it), running.signal);
       this.bar.hidden = true;
       say(this.told.textContent);
     } catch (it) {
@@ -84,6 +84,19 @@ export class Basin {
     handOver("basin", "", null);
   }
 
+  // The description of the basins comes first, then how many starts are computed, and the labels of each grid.
+  receive(it) {
+    if (it.side) return this.describe(it);
+    this.tell(it);
+    return it.labels && this.take(it);
+  }
+
+  tell({ computed, cases }) {
+    const seconds = ((performance.now() - this.began) / 1e3).toFixed(1), left = computed < cases ? "; it becomes finer" : "";
+    this.told.textContent = `${computed} of ${cases} starts in ${seconds} s${left}.`;
+    Object.assign(this.bar, { value: computed, max: cases });
+  }
+
   describe(head) {
     this.head = head;
     const ends = [head.x.range[0] / head.x.factor * MM, head.x.range[1] / head.x.factor * MM, ...head.y.range.map((it) => it / head.y.factor)];
@@ -96,7 +109,7 @@ export class Basin {
     this.last = pass;
     const colours = new Map(pass.attractors.map((it) => [it.label, it.colour]));
     const bytes = new Uint8ClampedArray(4 * pass.labels.length);
-    pass.labels.forEach((label, i) => bytes.set([...(colours.get(label) || UNDECIDED), 255], 4 * i));
+    pass.labels.forEach((label, i) => bytes.set([...(colours.get(label) || pass.unknown || UNDECIDED), 255], 4 * i));
     const axis = (it) => ({
       ...it, log: false,
       values: Array.from({ length: side }, (_, i) => (it.range[0] + i / (side - 1) * (it.range[1] - it.range[0])) / it.factor),
@@ -104,27 +117,23 @@ export class Basin {
     });
     this.data = { x: axis(head.x), y: axis(head.y), colours: bytes };
     this.plane.show(this.data);
-    const seconds = ((performance.now() - this.began) / 1e3).toFixed(1);
-    const left = pass.computed < pass.cases ? "; it becomes finer" : "";
-    this.told.textContent = `${pass.computed} of ${pass.cases} starts in ${seconds} s: ${side} × ${side}${left}.`;
-    Object.assign(this.bar, { value: pass.computed, max: pass.cases });
-    this.canvas.setAttribute("aria-label", `Basins of ${pass.attractors.length} attractors over ${head.x.label} and ${head.y.label}`);
+    this.canvas.setAttribute("aria-label", `Basins of ${pass.attractors.length} attractors over ${head.x.label} and ${head.y.label}, ${side} by ${side} starts`);
     this.list(pass);
     this.on.shown();
   }
 
   // What each colour means, with its share of the starts so far.
-  list({ attractors, labels }) {
+  list({ attractors, labels, unknown }) {
     const count = (label) => labels.filter((it) => it === label).length;
     const swatch = (colour) => { const made = element("span", { className: "swatch" }); made.style.background = `rgb(${colour})`; return made; };
     const part = (number) => `${short(100 * number / labels.length, 3)} %`;
     const named = (text, colour) => element("span", {}, swatch(colour), text);
     const rows = attractors.map((it) => {
       const period = it.outcome === "periodic" ? `periodic, period ${it.period}` : it.outcome;
-      return [named(String(it.label), it.colour), period, it.speed === null ? "no value" : short(it.speed * MM, 5), part(count(it.label))];
+      return [named(String(it.label), it.colour), period, result(it.speed === null ? null : it.speed * MM, "mm/s"), part(count(it.label))];
     });
     const known = new Set(attractors.map((it) => it.label)), others = labels.filter((it) => !known.has(it)).length;
-    if (others) rows.push([named("none", UNDECIDED), "undecided", "–", part(others)]);
+    if (others) rows.push([named("none", unknown || UNDECIDED), "undecided", "–", part(others)]);
     this.attractors.replaceChildren(table("Attractors of the basin", ["attractor", "motion", "speed (mm/s)", "share of starts"], rows));
   }
 

@@ -1,7 +1,8 @@
 // The selection that marks cases in the map and points in the trade-off: a rectangle in the one or the other.
 
 import * as view from "./view.js";
-import { short } from "./ticks.js";
+import { parted } from "./element.js";
+import { result } from "./ticks.js";
 
 /** The selection in the address: its `plane` ("map" or "trade-off") and the ranges of its two axes; none where there is none. */
 export function selection() {
@@ -12,8 +13,7 @@ export function selection() {
 
 /** Sets the selection, or removes it. */
 export function brush(plane, ranges) {
-  const digits = (it) => Number(it.toPrecision(8));
-  view.set({ brush: ranges && `${plane}:${ranges.flat().map(digits).join(",")}` });
+  view.set({ brush: ranges && `${plane}:${ranges.flat().join(",")}` });
 }
 
 /** The mask of the cells whose case lies in ranges of the axes of a map, in SI. */
@@ -37,6 +37,9 @@ export function told(mask, { prices, speeds, price, speed }) {
     [prices[i], speeds[i]].forEach((it, axis) => { ends[axis] = [Math.min(ends[axis][0], it), Math.max(ends[axis][1], it)]; });
   }
   const without = count - shown ? `; ${count - shown} of them take no part in the trade-off` : "";
-  const part = (it, [low, high]) => `${it.label} from ${short(low, 4)} to ${short(high, 4)}`;
+  const part = ({ label }, all) => {
+    const [name, unit] = parted(label), [low, high] = all.map((it) => result(it, unit, 4));
+    return `${name} from ${low} to ${high} ${unit}`.trim();
+  };
   return `${count} of ${mask.length} cases are selected${without}${shown ? `: ${part(price, ends[0])}; ${part(speed, ends[1])}` : ""}.`;
 }

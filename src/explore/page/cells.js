@@ -23,6 +23,7 @@ export class Cells {
   /** Takes the colours of the page as they are now. */
   recolour() {
     this.shown = this.mask ? this.faded() : this.own;
+    this.key = null;
   }
 
   faded() {
@@ -55,9 +56,18 @@ export class Cells {
   }
 
   /** Paints what is seen of the cells over an area. */
-  paint(drawn, area, [x, y], ratio) {
+  paint(drawn, area, seen, ratio) {
     const [wide, high] = [area.right - area.left, area.bottom - area.top];
-    const [width, height] = [wide, high].map((it) => Math.max(1, Math.round(it * ratio)));
+    const size = [wide, high].map((it) => Math.max(1, Math.round(it * ratio)));
+    const key = [...size, ...seen.flat()].join();
+    // Marks move far more often than the cells.
+    if (key !== this.key) this.fill(size, seen);
+    this.key = key;
+    if (this.hasGaps) hatch(drawn, area);
+    drawn.drawImage(this.layer, area.left, area.top, wide, high);
+  }
+
+  fill([width, height], [x, y]) {
     const image = new ImageData(width, height), pixels = new Uint32Array(image.data.buffer);
     const columns = this.places(this.ends[0], x, width), rows = this.places(this.ends[1], y, height);
     for (let j = 0; j < height; j++) {
@@ -66,8 +76,6 @@ export class Cells {
     }
     [this.layer.width, this.layer.height] = [width, height];
     this.layer.getContext("2d").putImageData(image, 0, 0);
-    if (this.hasGaps) hatch(drawn, area);
-    drawn.drawImage(this.layer, area.left, area.top, wide, high);
   }
 }
 
@@ -78,8 +86,8 @@ export function hatch(drawn, { left, top, right, bottom }) {
   const on = tile.getContext("2d");
   on.fillStyle = shades.panel;
   on.fillRect(0, 0, 8, 8);
-  on.strokeStyle = shades.faint;
-  on.lineWidth = 0.8;
+  on.strokeStyle = shades.line;
+  on.lineWidth = 1;
   on.beginPath();
   for (const at of [-8, 0, 8]) { on.moveTo(at, 8); on.lineTo(at + 8, 0); }
   on.stroke();

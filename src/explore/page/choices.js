@@ -23,7 +23,7 @@ export class Choices {
     const usual = outputs.find((it) => it.name === "progression_speed") || outputs[0];
     const x = known("x", axes) || axes.at(-1), others = axes.filter((it) => it !== x);
     const y = others.find((it) => it.name === view.text("y")) || others.at(-1);
-    return { of: (known("of", outputs) || usual).name, x: x.name, y: y.name };
+    return { of: (known("of", outputs) || usual).name, x: x?.name, y: y?.name };
   }
 
   /** The axes that are not drawn. */
@@ -46,6 +46,12 @@ export class Choices {
   sweep() {
     const { directions } = this.file, all = [...directions, "difference"];
     return directions.length > 1 ? { sweep: all.includes(view.text("sweep")) ? view.text("sweep") : directions[0] } : {};
+  }
+
+  /** The sweep from whose motions cases start: that of the map, or the first where it shows a difference. */
+  from() {
+    const { sweep } = this.sweep();
+    return sweep === "difference" ? { sweep: this.file.directions[0] } : this.sweep();
   }
 
   /** What is asked of the server for the map. */
@@ -96,11 +102,17 @@ export class Choices {
     const { directions } = this.file;
     if (directions.length > 1) {
       const all = [...directions, "difference"].map((it) => [it, it]);
-      fields.push(labelled("Sweep", select("sweep", all, this.sweep().sweep, (sweep) => view.set({ sweep }))));
+      fields.push(labelled("Sweep", select("sweep", all, this.sweep().sweep, (sweep) => this.turnSweep(sweep))));
     }
     this.sliders = this.others().map((it) => this.slider(it));
     by("choices").replaceChildren(...fields, ...this.sliders.map((it) => it.place));
     if (focused) by("choices").elements[focused]?.focus();
+  }
+
+  // The case that is shown is then that of the other sweep.
+  turnSweep(sweep) {
+    const at = view.coordinates(view.text("at")), from = sweep === "difference" ? this.file.directions[0] : sweep;
+    view.set({ sweep, ...(at ? { at: view.written({ ...at, sweep: from }) } : {}) });
   }
 
   slider(axis) {

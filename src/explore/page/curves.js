@@ -4,7 +4,13 @@ import { element, folded } from "./element.js";
 import { entry, rimmed } from "./marks.js";
 import { short } from "./ticks.js";
 
-const RIM = "#ffffff";
+// The colour of a curve or a point; black where it has none of its own.
+const ink = ({ colour }) => `rgb(${colour || [0, 0, 0]})`;
+// A rim that stands out from it.
+const rim = ({ colour }) => {
+  const [r, g, b] = colour || [0, 0, 0];
+  return 0.3 * r + 0.59 * g + 0.11 * b > 150 ? "#000000" : "#ffffff";
+};
 
 /** The shape of each special point, about a place. */
 const SHAPES = {
@@ -31,9 +37,9 @@ function shape(words) {
 function point(drawn, at, it, radius = 5) {
   drawn.beginPath();
   shape(it.words)(drawn, at, radius);
-  drawn.fillStyle = `rgb(${it.colour})`;
+  drawn.fillStyle = ink(it);
   drawn.fill();
-  [drawn.lineWidth, drawn.strokeStyle] = [1.2, RIM];
+  [drawn.lineWidth, drawn.strokeStyle] = [1.2, rim(it)];
   drawn.stroke();
 }
 
@@ -41,7 +47,7 @@ function curve(drawn, places, it) {
   const path = () => places.forEach(([x, y], i) => (i ? drawn.lineTo(x, y) : drawn.moveTo(x, y)));
   drawn.lineJoin = "round";
   drawn.setLineDash(it.dash ? [6, 4] : []);
-  rimmed(drawn, path, `rgb(${it.colour})`, 1.8);
+  rimmed(drawn, path, ink(it), 1.8, rim(it));
   drawn.setLineDash([]);
 }
 

@@ -30,7 +30,7 @@ function entry(title, text, isStudy) {
   }, { ariaLabel: `Copy: ${title}` });
   const buttons = element("div", { className: "buttons" }, copy);
   if (isStudy) buttons.append(button("Save as TOML", () => given(new Blob([text], { type: "application/toml" }), "study.toml")));
-  const place = element("pre", { tabIndex: 0, role: "region", ariaLabel: title, textContent: text });
+  const place = element("pre", { tabIndex: 0, role: "group", ariaLabel: title, textContent: text });
   const made = element("div", { className: "hand-over" }, element("h3", { textContent: title }), place, buttons);
   Object.assign(made.dataset, { text, title });
   return made;
@@ -60,8 +60,9 @@ export async function save(pairs, format, pressed) {
 
 /** Buttons that save what `pairs` gives as PDF and as SVG. */
 export function saveButtons(id, words, pairs) {
-  return ["pdf", "svg"].map((format) => {
-    const made = button(`Save ${words} as ${format.toUpperCase()}`, () => save(pairs(), format, made), { id: `${id}-${format}-button` });
+  const one = (format) => {
+    const name = format.toUpperCase(), made = button(name, () => save(pairs(), format, made), { id: `${id}-${format}-button`, ariaLabel: `Save ${words} as ${name}` });
     return made;
-  });
+  };
+  return element("span", { className: "saving" }, `Save ${words} as`, one("pdf"), one("svg"));
 }

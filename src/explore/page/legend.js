@@ -27,11 +27,11 @@ export function note() {
   const { map } = page, told = [];
   const crowding = map.cells.crowding(map.area(), map.seen(), window.devicePixelRatio || 1);
   if (crowding > 1.01) told.push("There are more cases than pixels: zoom in to see each.");
-  if (map.cells.mask) told.push("Pale: cases that are not selected.");
-  if (map.cells.hasGaps) told.push("Hatched: cases without a value.");
+  if (map.cells.mask) told.push("Faded: cases that are not selected.");
+  if (map.cells.hasGaps) told.push(`Hatched: cases without a value${page.file.running ? " or not computed yet" : ""}.`);
   const away = pins().filter((it) => !onMap(it)).length;
-  if (away) told.push(`${away === 1 ? "A pinned case lies" : "Both pinned cases lie"} in another plane than the map.`);
-  if (chosen() && !onMap(chosen())) told.push("The chosen case lies in another plane than the map.");
+  if (away) told.push(`${away === 1 ? "A pinned case lies" : "Both pinned cases lie"} in another plane or sweep than the map.`);
+  if (chosen() && !onMap(chosen())) told.push("The chosen case lies in another plane or sweep than the map.");
   by("map-note").textContent = told.join(" ");
   by("map-note").hidden = !told.length;
 }

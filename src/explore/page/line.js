@@ -5,7 +5,7 @@ import { element, folded, labelled, say, said, select } from "./element.js";
 import { handOver, saveButtons } from "./keep.js";
 import { entry } from "./marks.js";
 import { colours, context, frame, redrawn, share } from "./plot.js";
-import { range, short } from "./ticks.js";
+import { range, result, short } from "./ticks.js";
 
 /** Values along a line. */
 const COUNT = 300;
@@ -24,7 +24,7 @@ export class Line {
     this.start = select("line-start", STARTS, "inherit", (start) => on.start(start));
     this.start.id = "line-start";
     this.legend = element("ul", { className: "legend", ariaLabel: "Points of the diagram" });
-    this.saving = element("div", { className: "buttons", hidden: true }, ...saveButtons("line", "diagram", () => this.figure()));
+    this.saving = element("div", { className: "buttons", hidden: true }, saveButtons("line", "diagram", () => this.figure()));
     this.why = element("p", { className: "note" });
     const help = element("p", { id: "line-help", className: "note", textContent: "Click a value for its motion; arrows step along the line, Enter computes there." });
     const head = ["share", "outcome", "period", "x1 − x2 at the section (mm)", "speed (mm/s)"];
@@ -45,7 +45,7 @@ export class Line {
 
   /** Computes from one end to the other; `line` has both, the axes of the map, and what is held. Nothing where it is the same as before. */
   async follow(line) {
-    const asked = JSON.stringify([line.from, line.to, line.held, line.start]);
+    const asked = JSON.stringify([line.from, line.to, line.held, line.start, line.along.log]);
     if (asked === this.asked) return;
     this.running?.abort();
     const running = new AbortController();
@@ -58,7 +58,7 @@ export class Line {
     this.began = performance.now();
     try {
       const ends = Object.fromEntries(Object.entries(line.to).map(([name, value]) => [`to_${name}`, value]));
-      const pairs = { ...line.held, ...line.from, ...ends, count: COUNT, start: line.start };
+      const pairs = { ...line.held, ...line.from, ...ends, ...this.spacing(), count: COUNT, start: line.start };
       await ask.lines("/api/line", pairs, (it) => this.take(it), running.signal);
       this.finish();
     } catch (it) {
@@ -90,7 +90,7 @@ export class Line {
   // What the server says of the line as a whole.
   describe({ study, why }) {
     this.study = study;
-    this.why.textContent = study ? "" : why || "";
+    this.why.textContent = study || !why ? "" : `The line has no study to hand over: ${why}.`;
     this.saving.hidden = !study;
     handOver("line", "Bifurcation diagram along the line: study for capsulemap sweep", study, true);
   }
@@ -115,13 +115,19 @@ export class Line {
   figure() {
     const { from, to, held, start } = this.line;
     const ends = Object.fromEntries(Object.entries(to).map(([name, value]) => [`to_${name}`, value]));
-    return { kind: "bifurcation", ...held, ...from, ...ends, count: COUNT, start };
+    return { kind: "bifurcation", ...held, ...from, ...ends, ...this.spacing(), count: COUNT, start };
+  }
+
+  // The axes along which the line is straight in their logarithms.
+  spacing() {
+    const names = this.line.axes.filter((it) => it.log).map((it) => it.name);
+    return names.length ? { log: names.join(",") } : {};
   }
 
   speeds() { return this.points.map((it) => (it.progression_speed === null ? NaN : it.progression_speed * MM)); }
 
   rows() {
-    const speed = (it) => (it.progression_speed === null ? "no value" : short(it.progression_speed * MM, 5));
+    const speed = (it) => result(it.progression_speed === null ? null : it.progression_speed * MM, "mm/s");
     const section = (it) => (it.section_r.length > 8 ? `${it.section_r.length} points` : it.section_r.map((r) => short(r * MM, 5)).join("; ") || "none");
     return this.points.map((it) => [short(it.share, 4), it.outcome, it.period ?? "–", section(it), speed(it)]);
   }
@@ -129,8 +135,9 @@ export class Line {
   /** The coordinates at a share of the line. */
   place(share) {
     const { from, to, held } = this.line;
-    const between = Object.entries(from).map(([name, value]) => [name, value + share * (to[name] - value)]);
-    return { ...held, ...Object.fromEntries(between) };
+    const isLog = (name) => this.line.axes.find((it) => it.name === name)?.log;
+    const value = (a, b, name) => (isLog(name) ? a * (b / a) ** share : a + share * (b - a));
+    return { ...held, ...Object.fromEntries(Object.entries(from).map(([name, a]) => [name, value(a, to[name], name)])) };
   }
 
   areas({ width, height }) {
@@ -141,7 +148,7 @@ export class Line {
   axis() {
     const { along, from, to } = this.line;
     const ends = [from, to].map((it) => it[along.name] * along.factor);
-    return { range: [...ends].sort((a, b) => a - b), label: along.label, ends };
+    return { range: [...ends].sort((a, b) => a - b), label: along.label, log: along.log, ends };
   }
 
   // The place of the point of the line that is nearest to the pointer.
@@ -166,7 +173,7 @@ export class Line {
   words(place) {
     const it = this.points[place], at = this.place(it.share);
     const where = this.line.axes.map((axis) => said(axis.label, at[axis.name] * axis.factor)).join(", ");
-    const speed = it.progression_speed === null ? "no speed" : `speed ${short(it.progression_speed * MM, 5)} mm/s`;
+    const speed = it.progression_speed === null ? "no speed" : `speed ${result(it.progression_speed * MM, "mm/s")} mm/s`;
     return `${where}: ${it.outcome}${it.period ? `, period ${it.period}` : ""}, ${speed}`;
   }
 
@@ -187,7 +194,7 @@ export class Line {
     const made = context(this.canvas), { drawn } = made;
     if (!this.line) return;
     const x = this.axis(), [above, below] = this.areas(made), shades = colours(), speeds = this.speeds();
-    const at = (value) => x.ends[0] + value * (x.ends[1] - x.ends[0]);
+    const at = (share) => this.place(share)[this.line.along.name] * this.line.along.factor;
     const sections = this.points.flatMap((it) => it.section_r.map((r) => r * MM));
     const upper = frame(drawn, above, { ...x, label: "" }, { range: range(sections), label: "Section x1 − x2 (mm)" });
     const lower = frame(drawn, below, { ...x, label: this.label() }, { range: range(speeds), label: "Speed (mm/s)" });

@@ -1,10 +1,11 @@
 // The map: its cells, the marks over them, and the key of its colours.
 
 import { hatch } from "./cells.js";
+import { parted } from "./element.js";
 import { cross, dot, front, letter, line, rectangle } from "./marks.js";
 import { colours, room, upward, words } from "./plot.js";
 import { Plane } from "./plane.js";
-import { short, ticks } from "./ticks.js";
+import { result, short, ticks } from "./ticks.js";
 
 const SWATCH = 12;
 
@@ -38,19 +39,24 @@ export class CellMap extends Plane {
   told({ number }) {
     const value = this.data.values[number];
     if (this.data.key.kinds) return this.data.key.kinds[value]?.[0] ?? "no value";
-    return Number.isFinite(value) ? short(value, 5) : "no value";
+    return Number.isNaN(value) ? "no value" : result(value, parted(this.data.told)[1]);
   }
 
   over(drawn, to) {
     const { marks } = this, place = (point) => to(this.shares(point));
     marks.layers.forEach((layer) => layer(drawn, (x, y) => to([this.share(this.data.x, x), this.share(this.data.y, y)])));
-    for (const [direction, points] of Object.entries(marks.fronts)) points.forEach((it) => dot(drawn, place(it), front(direction)));
     if (marks.rectangle) rectangle(drawn, marks.rectangle.map(place));
     if (marks.line) line(drawn, marks.line.map(place));
     if (this.gesture) ({ line, rectangle })[this.gesture.kind](drawn, [to(this.gesture.from), to(this.gesture.to)]);
-    marks.pins.forEach(({ point, name }) => letter(drawn, place(point), name));
-    if (marks.spot) dot(drawn, place(marks.spot), colours().mark, 5);
-    if (this.mark) cross(drawn, to(this.mark));
+  }
+
+  // Marks at the edge of the map are not cut off.
+  above(_, put) {
+    const { marks } = this, at = (point, mark) => put(this.shares(point), mark);
+    for (const [direction, points] of Object.entries(marks.fronts)) points.forEach((it) => at(it, (drawn, place) => dot(drawn, place, front(direction))));
+    marks.pins.forEach(({ point, name }) => at(point, (drawn, place) => letter(drawn, place, name)));
+    if (marks.spot) at(marks.spot, (drawn, place) => dot(drawn, place, colours().mark, 5));
+    if (this.mark) put(this.mark, cross);
   }
 
   beside(drawn, area) {
@@ -66,7 +72,7 @@ function keyRoom(canvas, { key, told }) {
   drawn.font = "12px system-ui, sans-serif";
   const texts = key.kinds ? [told, ...key.kinds.map(([name]) => name)] : numbers(key, 300).map(([, text]) => text);
   const widest = Math.max(30, ...texts.map((it) => drawn.measureText(it).width));
-  return Math.min(key.kinds ? widest + 42 : widest + 68, 230);
+  return Math.min(key.kinds ? widest + 42 : widest + 62, 230);
 }
 
 function kinds(drawn, area, left, { key, told }) {

@@ -4,6 +4,7 @@ import { colours } from "./plot.js";
 
 const RIM = "#ffffff";
 const INK = "#000000";
+const LINE = "#c8003c";
 
 /** Draws a path twice: its rim and itself. */
 export function rimmed(drawn, path, shade, width = 2, rim = RIM) {
@@ -44,8 +45,8 @@ export function letter(drawn, [x, y], text) {
 
 /** A line, with a ring where it begins. */
 export function line(drawn, [from, to]) {
-  rimmed(drawn, () => { drawn.moveTo(...from); drawn.lineTo(...to); }, INK);
-  rimmed(drawn, () => drawn.arc(...from, 3.5, 0, 2 * Math.PI), INK, 1.5);
+  rimmed(drawn, () => { drawn.moveTo(...from); drawn.lineTo(...to); }, LINE);
+  rimmed(drawn, () => drawn.arc(...from, 3.5, 0, 2 * Math.PI), LINE, 1.5);
 }
 
 /** A rectangle between two of its corners. */
@@ -56,13 +57,13 @@ export function rectangle(drawn, [from, to]) {
 }
 
 /** A dot with a rim. */
-export function dot(drawn, [x, y], shade, radius = 3.5) {
+export function dot(drawn, [x, y], shade, radius = 3.5, rim = RIM) {
   drawn.beginPath();
   drawn.arc(x, y, radius, 0, 2 * Math.PI);
   drawn.fillStyle = shade;
   drawn.fill();
   drawn.lineWidth = 1;
-  drawn.strokeStyle = RIM;
+  drawn.strokeStyle = rim;
   drawn.stroke();
 }
 

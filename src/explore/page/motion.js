@@ -29,44 +29,87 @@ function ranges(it) {
   return { ...made, x: range([...x, it.history.delta * MM]), y: range(y), sx: range(sx), sy: range(sy) };
 }
 
-/** Ranges that hold all motions; none where no motion has a history. */
+/** Ranges that hold all motions, over the time of the shortest history; none where no motion has a history. */
 export function common(motions) {
   const all = motions.filter(({ history }) => history).map(ranges);
   if (!all.length) return null;
   const ends = (key) => [Math.min(...all.map((it) => it[key][0])), Math.max(...all.map((it) => it[key][1]))];
-  return Object.fromEntries(Object.keys(all[0]).map((key) => [key, ends(key)]));
+  const time = [0, Math.min(...all.map((it) => it["Time (s)"][1]))];
+  return { ...Object.fromEntries(Object.keys(all[0]).map((key) => [key, ends(key)])), "Time (s)": time };
 }
 
-/** The charts of a motion in a place that is on the page; `scales` are ranges to keep to, or none for its own. */
-export function charts(place, it, scales) {
-  const { history } = it, own = scales || ranges(it);
-  for (const [label, all] of CHARTS) place.append(chart(place, history, label, columns(history, all), own));
-  const canvas = (words) => element("canvas", { className: "portrait", role: "img", ariaLabel: words });
-  const [x, y] = portrait(history), ends = (values) => range(values, 0).map((value) => short(value, 4)).join(" to ");
-  const first = canvas(`Phase portrait: x1 − x2 from ${ends(x)} mm, y1 − y2 from ${ends(y)} mm/s, the stop at ${short(history.delta * MM)} mm`);
-  const second = canvas(`Stroboscopic section: ${it.stroboscopic.length} points; the table of section points has them`);
-  place.append(element("div", { className: "portraits" }, first, second));
-  redrawn(first, () => drawPortrait(first, it, own));
-  redrawn(second, () => drawSection(second, it, own));
+/** The charts of a motion in a place; another motion is shown in the same charts. */
+export class Charts {
+  constructor(place) {
+    Object.assign(this, { place, plots: [], it: null });
+    this.canvases = [0, 1].map(() => element("canvas", { className: "portrait", role: "img" }));
+    this.portraits = element("div", { className: "portraits" }, ...this.canvases);
+    const all = [drawPortrait, drawSection];
+    this.canvases.forEach((canvas, i) => redrawn(canvas, () => this.it && all[i](canvas, this.it, this.scales)));
+    new ResizeObserver(() => this.fit()).observe(place);
+  }
+
+  /** Shows a motion with a history; `scales` are ranges to keep to, or none for its own. */
+  show(it, scales) {
+    Object.assign(this, { it, scales: scales || ranges(it) });
+    const shown = CHARTS.map(([label, all]) => [label, columns(it.history, all)]), key = JSON.stringify([shown, colours()]);
+    if (key !== this.key) this.build(shown);
+    this.key = key;
+    shown.forEach(([label, all], i) => this.fill(this.plots[i], label, all));
+    this.describe();
+    drawPortrait(this.canvases[0], it, this.scales);
+    drawSection(this.canvases[1], it, this.scales);
+  }
+
+  build(shown) {
+    this.plots.forEach(({ plot }) => plot.destroy());
+    this.plots = shown.map(([label, all]) => {
+      const holder = element("div", { role: "img", className: "chart" });
+      return { holder, plot: new uPlot(options(label, all, this, Math.max(this.place.clientWidth, 200)), null, holder) };
+    });
+    this.place.replaceChildren(...this.plots.map(({ holder }) => holder), this.portraits);
+  }
+
+  fill({ plot, holder }, label, all) {
+    const { history } = this.it, data = [history.t, ...all.map((column) => scaled(history, column))];
+    const ends = all.map(([, words], i) => `${words} from ${range(data[i + 1], 0).map((value) => short(value, 4)).join(" to ")}`);
+    holder.setAttribute("aria-label", `${label} over ${history.cycles} cycles, ${short(history.t.at(-1), 4)} s: ${ends.join(", ")}`);
+    plot.setData(data);
+  }
+
+  describe() {
+    const { history, stroboscopic } = this.it, [x, y] = portrait(history), ends = (values) => range(values, 0).map((value) => short(value, 4)).join(" to ");
+    const words = [
+      `Phase portrait: x1 − x2 from ${ends(x)} mm, y1 − y2 from ${ends(y)} mm/s, the stop at ${short(history.delta * MM)} mm`,
+      `Stroboscopic section: ${stroboscopic.length} points; the table of section points has them`,
+    ];
+    this.canvases.forEach((canvas, i) => canvas.setAttribute("aria-label", words[i]));
+  }
+
+  fit() {
+    const width = this.place.clientWidth;
+    for (const { plot } of this.plots) if (width && width !== plot.width) plot.setSize({ width, height: HEIGHT });
+  }
+
+  /** Shows nothing. */
+  clear() {
+    Object.assign(this, { it: null, key: null });
+    this.place.replaceChildren();
+  }
 }
 
-function chart(place, history, label, shown, scales) {
-  const shades = colours(), data = [history.t, ...shown.map((column) => scaled(history, column))];
-  const axis = { stroke: shades.ink, grid: { stroke: shades.line, width: 0.5 }, ticks: { stroke: shades.faint, size: 4 }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif" };
-  const ends = shown.map(([, words], i) => `${words} from ${range(data[i + 1], 0).map((value) => short(value, 4)).join(" to ")}`);
-  const words = `${label} over ${history.cycles} cycles, ${short(history.t.at(-1), 4)} s: ${ends.join(", ")}`;
-  const holder = element("div", { role: "img", ariaLabel: words, className: "chart" });
-  const options = {
-    width: Math.max(place.clientWidth, 200), height: HEIGHT,
-    padding: [10, 16, 0, 0],
-    cursor: { y: false, drag: { x: false, y: false } },
-    scales: { x: { time: false, range: scales["Time (s)"] }, y: { range: scales[label] } },
-    axes: [{ ...axis, label: "Time (s)", labelSize: 16, size: 26, labelGap: 0 }, { ...axis, label, size: 52, labelSize: 16 }],
-    series: [{ label: "t (s)", value: read }, ...shown.map(([, name, shade, , dash]) => ({ label: name, stroke: shades[shade], width: 1.6, dash, points: { show: false }, value: read }))],
+// The options of the chart of some columns; its ranges are those of the motion that `charts` shows.
+function options(label, all, charts, width) {
+  const shades = colours(), font = "12px system-ui, sans-serif";
+  const axis = { stroke: shades.ink, grid: { stroke: shades.line, width: 0.5 }, ticks: { stroke: shades.faint, size: 4 }, font, labelFont: font, labelSize: 16 };
+  const border = (dash) => (dash ? (dash[0] > 4 ? "dashed" : "dotted") : "solid");
+  return {
+    width, height: HEIGHT, padding: [10, 16, 0, 0], cursor: { y: false, drag: { x: false, y: false } },
+    scales: { x: { time: false, range: () => charts.scales["Time (s)"] }, y: { range: () => charts.scales[label] } },
+    axes: [{ ...axis, label: "Time (s)", size: 26, labelGap: 0 }, { ...axis, label, size: 52 }],
+    legend: { markers: { width: 2, dash: (_, i) => border(all[i - 1]?.[4]) } },
+    series: [{ label: "t (s)", value: read }, ...all.map(([, name, shade, , dash]) => ({ label: name, stroke: shades[shade], width: 1.6, dash, points: { show: false }, value: read }))],
   };
-  const made = new uPlot(options, data, holder);
-  new ResizeObserver(() => { if (place.clientWidth && place.clientWidth !== made.width) made.setSize({ width: place.clientWidth, height: HEIGHT }); }).observe(place);
-  return holder;
 }
 
 const read = (_, value) => (value === null || value === undefined ? "–" : short(value, 4));

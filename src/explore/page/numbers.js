@@ -1,7 +1,7 @@
 // The numbers of motions in tables: the key numbers beside each other, and the long ones.
 
 import { element, folded, table } from "./element.js";
-import { short } from "./ticks.js";
+import { result, short } from "./ticks.js";
 
 const MILLI = 1e3;
 /** The key numbers: what, unit, output and factor. */
@@ -21,7 +21,7 @@ const KEY = [
   ["Lyapunov exponent", "1/s", "lyapunov_exponent", 1],
 ];
 
-const number = (value, factor) => (value === null || value === undefined ? "–" : short(value * factor, 5));
+const number = (value, unit, factor) => result(value === null || value === undefined ? null : value * factor, unit);
 
 /** A complex number in words. */
 export function complex([re, im]) {
@@ -33,24 +33,25 @@ export function complex([re, im]) {
 export function keyNumbers(motions) {
   const orbits = motions.map(({ it }) => it.simulate.orbit);
   const rows = [["Motion", ...orbits.map((it) => it.outcome)], ["Period (cycles)", ...orbits.map((it) => (it.period ? String(it.period) : "–"))]];
-  for (const [words, unit, name, factor] of KEY) rows.push([unit ? `${words} (${unit})` : words, ...orbits.map((it) => number(it[name], factor))]);
+  for (const [words, unit, name, factor] of KEY) rows.push([unit ? `${words} (${unit})` : words, ...orbits.map((it) => number(it[name], unit, factor))]);
   const most = Math.max(0, ...orbits.map((it) => (it.multipliers || []).length));
   for (let i = 0; i < most; i++) rows.push([`Multiplier ${i + 1}`, ...orbits.map((it) => (it.multipliers?.[i] ? complex(it.multipliers[i]) : "–"))]);
   const head = ["Key numbers", ...motions.map(({ name }) => name)];
   return element("div", { className: "key-numbers" }, table("Key numbers", head, rows));
 }
 
-/** The tables of a motion that open on demand. */
-export function tables({ simulate, stroboscopic }) {
+/** The tables of a motion that open on demand; `open` says which are. */
+export function tables({ simulate, stroboscopic }, open) {
   const { orbit, events, parameters } = simulate;
   const numbers = Object.entries(orbit).filter(([, value]) => typeof value === "number" || value === null);
   const text = (value) => (value === null ? "no value" : String(value).replace("-", "−"));
-  return [
-    folded(`Events from the start (${events.length})`, ["t (s)", "event", "r (mm)", "y1 (mm/s)", "x2 (mm)", "y2 (mm/s)"],
-      () => events.map((it) => [short(it.t), it.kind, ...[it.r, it.y1, it.x2, it.y2].map((value) => short(value * MILLI))])),
-    folded(`Section points (${stroboscopic.length})`, ["point", "r (mm)", "y1 (mm/s)", "y2 (mm/s)"],
-      () => stroboscopic.map((point, i) => [String(i + 1), ...point.map((value) => short(value * MILLI))])),
-    folded("Numbers of the orbit (SI)", ["output", "value"], () => numbers.map(([name, value]) => [name, text(value)])),
-    folded("Parameters (SI)", ["parameter", "value"], () => Object.entries(parameters).map(([name, value]) => [name, text(value)])),
+  const all = [
+    [`Events from the start (${events.length})`, ["t (s)", "event", "r (mm)", "y1 (mm/s)", "x2 (mm)", "y2 (mm/s)"],
+      () => events.map((it) => [short(it.t), it.kind, ...[it.r, it.y1, it.x2, it.y2].map((value) => short(value * MILLI))])],
+    [`Section points (${stroboscopic.length})`, ["point", "r (mm)", "y1 (mm/s)", "y2 (mm/s)"],
+      () => stroboscopic.map((point, i) => [String(i + 1), ...point.map((value) => short(value * MILLI))])],
+    ["Numbers of the orbit (SI)", ["output", "value"], () => numbers.map(([name, value]) => [name, text(value)])],
+    ["Parameters (SI)", ["parameter", "value"], () => Object.entries(parameters).map(([name, value]) => [name, text(value)])],
   ];
+  return all.map((it, i) => folded(...it, open[i]));
 }

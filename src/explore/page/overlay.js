@@ -13,8 +13,17 @@ export async function showTradeOff(signal) {
   const name = price();
   for (const state of ["aria-pressed", "aria-expanded"]) by("trade-off-button").setAttribute(state, String(!!name));
   by("trade-off-section").hidden = !name;
-  if (name) await page.tradeOff.show({ ...page.choices.asked(), of: name }, page.map, signal);
+  const asked = { ...page.choices.asked(), of: name };
+  if (asked.sweep === "difference") page.tradeOff.none("The trade-off is that of one sweep: choose upward or downward.");
+  else if (name) await page.tradeOff.show(asked, page.map, signal);
   select();
+}
+
+/** Takes away what lies over the map. */
+export function bare() {
+  Object.assign(page.map.marks, { pins: [], line: null, rectangle: null, fronts: {}, layers: [], spot: null });
+  page.map.mark = null;
+  page.tradeOff.data = null;
 }
 
 /** Marks what is selected, and the fronts, on the map and in the trade-off. */
@@ -38,8 +47,8 @@ export async function showCurves(signal) {
   by("curves-place").hidden = !isOn;
   page.curves = null;
   if (isOn) {
-    const { of: _of, sweep: _sweep, ...pairs } = page.choices.asked();
-    page.curves = await ask.object("/api/curves", pairs, signal);
+    const { x, y } = page.choices.chosen();
+    page.curves = await ask.object("/api/curves", { x, y, ...page.choices.held() }, signal);
     by("curves-place").replaceChildren(curves.tables(page.curves, page.map.data));
   }
   page.map.set({ layers: page.curves ? [curves.layer(page.curves)] : [] });

@@ -5,14 +5,15 @@ import * as view from "./view.js";
 import { Basin } from "./basin.js";
 import { brush, selection } from "./brush.js";
 import { Choices } from "./choices.js";
-import { button, by, element, fault, parted, say } from "./element.js";
+import { button, by, element, fault, parted, said, say } from "./element.js";
 import { caseForm, fillForm } from "./form.js";
 import { handOver, quoted, save } from "./keep.js";
-import { note } from "./legend.js";
+import { legend, note } from "./legend.js";
 import { Line, longer } from "./line.js";
 import { CellMap } from "./map.js";
 import { Motions } from "./motions.js";
-import { mark, select, showCurves, showTradeOff } from "./overlay.js";
+import { bare, mark, select, showCurves, showTradeOff } from "./overlay.js";
+import { recoloured } from "./plot.js";
 import { watch } from "./progress.js";
 import { axes, chosen, ends, here, named, page, pins, price } from "./shown.js";
 import { TradeOff, prices } from "./tradeoff.js";
@@ -25,15 +26,13 @@ function choose(coordinates) {
   view.set({ at: view.written(coordinates) });
 }
 
-const chooseOnMap = (point) => choose({ ...page.choices.held(), ...named(point) });
+const chooseOnMap = (point) => choose({ ...page.choices.held(), ...named(point), ...page.choices.from() });
 
 function hover(cell, isKey) {
   const { map, tradeOff } = page;
-  const value = () => {
-    const [name, unit] = parted(map.data.told);
-    return `${name} = ${map.told(cell)}${unit && !map.data.key.kinds ? ` ${unit}` : ""}`;
-  };
-  const words = cell ? [value(), ...here(cell.cell)].join("; ") : "\u00a0";
+  // Between the cases the map has the value of the case of the cell.
+  const point = () => (map.isExact ? ` (the point: ${axes().map((it, i) => said(it.label, cell.point[i] * it.factor)).join("; ")})` : "");
+  const words = cell ? `${[said(map.data.told, map.told(cell)), ...here(cell.cell)].join("; ")}${point()}` : "\u00a0";
   by("told").textContent = words;
   if (cell && isKey) say(words);
   if (price()) tradeOff.mark(tradeOff.chosen, cell ? cell.number : null);
@@ -57,16 +56,22 @@ function mode(kind) {
 }
 
 let asking = null;
+/** The cells that the marks over the map belong to. */
+let marked = null;
 async function showMap() {
   asking?.abort();
   const { signal } = asking = new AbortController(), begun = performance.now();
-  const data = await ask.map(page.choices.asked(), signal), came = performance.now();
+  const asked = page.choices.asked(), cells = JSON.stringify({ ...asked, of: null });
+  const data = await ask.map(asked, signal), came = performance.now();
+  // What lay over other cells is not over these.
+  if (cells !== marked) { marked = null; bare(); }
   page.map.show(data);
   const now = performance.now();
   Object.assign(by("map").dataset, { milliseconds: (now - begun).toFixed(1), painted: (now - came).toFixed(1) });
   by("map").setAttribute("aria-label", `Map of ${data.told} over ${data.x.label} and ${data.y.label}, ${data.x.values.length} by ${data.y.values.length} cases`);
   document.body.dataset.ready = "true";
-  await Promise.all([showTradeOff(signal), showCurves(signal)]);
+  if (marked) select(); else await Promise.all([showTradeOff(signal), showCurves(signal)]);
+  marked = cells;
   mark();
   handMaps();
 }
@@ -77,7 +82,7 @@ function handMaps() {
   const places = Object.entries(choices.held()).map(([name, value]) => ` --at ${name}=${value}`).join("") + (sweep ? ` --sweep ${sweep}` : "");
   const figure = (kind, more) => `capsulemap figure ${quoted(file.file)} --kind ${kind} ${more}${places}`;
   handOver("map", "Figure of the map", figure("map", `--of ${of} --x ${x} --y ${y}${page.curves ? " --curves" : ""}`));
-  handOver("trade-off", "Figure of the trade-off", price() && figure("trade-off", `--of ${price()}`));
+  handOver("trade-off", "Figure of the trade-off", price() && sweep !== "difference" && figure("trade-off", `--of ${price()}`));
 }
 
 async function showMotion() {
@@ -102,7 +107,7 @@ function showLine() {
   if (!both) return line.stop();
   const [from, to] = both, start = view.text("start") || (file.inherits ? "inherit" : "afresh");
   const along = map ? longer(map.data, from, to) : file.axes[0];
-  return line.follow({ from, to, held: map ? page.choices.held() : {}, start, axes: axes(), along });
+  return line.follow({ from, to, held: { ...(map ? page.choices.held() : {}), ...page.choices.from() }, start, axes: axes(), along });
 }
 
 function showBasin() {
@@ -129,7 +134,7 @@ async function mapChanged(has) {
   const isOther = has(...page.choices.keys());
   if (has("window") && !isSeen()) look();
   if (has("exact")) page.map.isExact = by("exact-switch").checked = view.text("exact") === "1";
-  if (isOther) { page.choices.draw(); await showMap(); }
+  if (isOther) { page.choices.draw(); notice(); await showMap(); }
   else if (has("trade", "curves")) { await Promise.all([has("trade") && showTradeOff(), has("curves") && showCurves()]); mark(); handMaps(); }
   else if (has("brush")) select();
   if (has("at", "line", "pins") && !isOther) mark();
@@ -176,7 +181,7 @@ function listenToMap() {
   pressed("in-button", () => map.zoom(0.8));
   pressed("out-button", () => map.zoom(1.25));
   pressed("whole-button", () => map.look());
-  for (const format of ["pdf", "svg"]) pressed(`${format}-button`, (event) => save({ kind: "map", ...page.choices.asked() }, format, event.currentTarget));
+  for (const format of ["pdf", "svg"]) pressed(`${format}-button`, (event) => save({ kind: "map", ...page.choices.asked(), ...(page.curves ? { curves: 1 } : {}) }, format, event.currentTarget));
   pressed("trade-off-button", () => view.set({ trade: price() ? null : prices(file)[0][0], brush: null }));
   ["curves", "exact"].forEach(switched);
   by("trade-off-button").hidden = by("brush-button").hidden = !prices(file).length;
@@ -185,7 +190,7 @@ function listenToMap() {
 
 function pin(all) {
   view.set({ pins: all.length ? all.map(view.written).join(";") : null });
-  by("motion-heading").focus();
+  by("motion-heading").focus({ preventScroll: true });
 }
 
 function build(file) {
@@ -205,18 +210,24 @@ function build(file) {
   pressed("basin-button", askBasin);
   pressed("fault-button", () => { by("fault").hidden = true; });
   switched("same");
-  caseForm(file, choose);
+  caseForm(file, (it) => choose({ ...it, ...page.choices.from() }));
   fillForm(file, {});
 }
 
+// What the address asks for and the file does not have.
+function notice() {
+  const told = page.choices.unknown();
+  by("notice").textContent = told.join(" ");
+  by("notice").hidden = !told.length;
+}
+
 function describe() {
-  const { file, choices } = page, told = choices.unknown();
+  const { file } = page;
   by("title").textContent = file.title;
   by("about").textContent = `${file.file}: ${file.cases.toLocaleString("en")} cases; ${file.program}`;
   by("study").textContent = file.study;
   document.title = `${file.title}: capsulemap explore`;
-  by("notice").textContent = told.join(" ");
-  by("notice").hidden = !told.length;
+  notice();
 }
 
 // Results over one axis or over draws have no map.
@@ -240,6 +251,7 @@ async function open(file) {
     listenToMap();
   }
   view.changed(changed);
+  recoloured("legend", legend);
   await changed(["of", "exact", "at", "pins", "same", "line", "basin"]);
   if (file.running) watch(file.running, again);
 }
@@ -247,6 +259,7 @@ async function open(file) {
 // Takes the file and the map as they are now; the view stays.
 async function again() {
   Object.assign(page.file, await ask.object("/api/file"));
+  marked = null;
   describe();
   if (page.map) await mapChanged((...keys) => keys.includes("of"));
 }

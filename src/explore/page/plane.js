@@ -233,10 +233,12 @@ export class Plane {
     const area = this.area(), [across, up] = this.seen(), { x, y } = this.data;
     within(drawn, area, () => {
       this.cells.paint(drawn, area, [across, up], ratio);
-      this.over(drawn, (shares) => this.place(shares, area));
+      this.over?.(drawn, (shares) => this.place(shares, area));
     });
     const axis = (it, [low, high]) => ({ label: it.label, log: it.log, range: [this.value(it, low), this.value(it, high)] });
     frame(drawn, area, axis(x, across), axis(y, up));
+    const isSeen = ([sx, sy]) => sx >= across[0] && sx <= across[1] && sy >= up[0] && sy <= up[1];
+    this.above(drawn, (shares, mark) => isSeen(shares) && mark(drawn, this.place(shares, area)));
     this.beside?.(drawn, area);
   }
 }

@@ -107,7 +107,7 @@ export function frame(drawn, area, x, y) {
 }
 
 function across(drawn, area, x, place) {
-  const { values, text } = ticks(...x.range, x.log, Math.min(8, Math.floor((area.right - area.left) / 62)));
+  const { values, text } = ticks(...x.range, x.log, Math.min(8, Math.max(3, Math.floor((area.right - area.left) / 50))));
   drawn.textAlign = "center";
   drawn.textBaseline = "top";
   for (const value of values) {

@@ -31,7 +31,8 @@ export function onMap(coordinates) {
   if (!coordinates || !page.map?.data) return null;
   const constants = Object.fromEntries(page.file.constants.map((it) => [it.name, it.value]));
   const plane = Object.entries({ ...constants, ...page.choices.held() });
-  const isHere = plane.every(([name, value]) => Math.abs((coordinates[name] ?? value) - value) <= SAME * Math.abs(value));
+  const { sweep } = page.choices.from();
+  const isHere = (coordinates.sweep ?? sweep) === sweep && plane.every(([name, value]) => Math.abs((coordinates[name] ?? value) - value) <= SAME * Math.abs(value));
   const point = axes().map((it) => coordinates[it.name]);
   return isHere && point.every((it) => it !== undefined) ? point : null;
 }

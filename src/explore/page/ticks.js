@@ -13,6 +13,15 @@ export function short(value, digits = 6) {
   return signed(`${head}×10${raised(Number(power))}`);
 }
 
+/** What rounding leaves of a result that is zero, by the unit shown, as in the figures. */
+const NOISE = { "m/s": 1e-10, "mm/s": 1e-7, m: 1e-12, mm: 1e-9, J: 1e-12, mJ: 1e-9, N: 1e-10 };
+
+/** A result in the unit shown: "≈ 0" where it is what rounding leaves of zero, a dash where there is none. */
+export function result(value, unit, digits = 5) {
+  if (value === null || value === undefined || Number.isNaN(value)) return "–";
+  return Math.abs(value) < NOISE[unit] ? "≈ 0" : short(value, digits);
+}
+
 /** The ends of some values with a margin; others where all are the same. */
 export function range(values, margin = 0.05) {
   let low = Infinity, high = -Infinity;
@@ -24,13 +33,13 @@ export function range(values, margin = 0.05) {
   return [low - room, high + room];
 }
 
-function even(low, high, most) {
-  const rough = (high - low) / Math.max(most, 1);
+function even(low, high, about) {
+  const most = Math.max(Math.floor(about), 2), rough = (high - low) / most;
   if (!(rough > 0)) return { values: [low], text: short };
-  const power = Math.floor(Math.log10(rough) + 1e-9);
-  const step = [1, 2, 5, 10].map((it) => it * 10 ** power).find((it) => it >= rough * 0.999);
-  const first = Math.ceil(low / step - 1e-9), count = Math.floor(high / step + 1e-9) - first + 1;
-  const values = Array.from({ length: Math.max(count, 0) }, (_, i) => (first + i) * step);
+  const power = Math.floor(Math.log10(rough) + 1e-9) - 1;
+  const first = (step) => Math.ceil(low / step - 1e-9), count = (step) => Math.floor(high / step + 1e-9) - first(step) + 1;
+  const step = [1, 2, 5, 10, 20, 50, 100, 200].map((it) => it * 10 ** power).find((it) => count(it) <= most);
+  const values = Array.from({ length: count(step) }, (_, i) => (first(step) + i) * step);
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const isLong = digits > 4 || Math.max(Math.abs(low), Math.abs(high)) >= 1e5;
   return { values, text: (value) => (isLong ? short(Number(value.toPrecision(12))) : signed(value.toFixed(digits))) };
@@ -40,13 +49,11 @@ function decades(low, high, most) {
   const first = Math.ceil(Math.log10(low) - 1e-9), last = Math.floor(Math.log10(high) + 1e-9);
   const stride = Math.max(1, Math.ceil((last - first + 1) / Math.max(most, 2)));
   const powers = Array.from({ length: Math.max(last - first + 1, 0) }, (_, i) => first + i).filter((it) => (it - first) % stride === 0);
-  if (powers.length > 2) {
-    const text = (value) => (value >= 1e-3 && value <= 1e4 ? short(value) : `10${raised(Math.round(Math.log10(value)))}`);
-    return { values: powers.map((it) => 10 ** it), text };
-  }
-  const parts = [first - 1, first, first + 1, first + 2].flatMap((it) => [1, 2, 5].map((digit) => digit * 10 ** it));
+  const parts = Array.from({ length: last - first + 3 }, (_, i) => [1, 2, 5].map((digit) => digit * 10 ** (first - 1 + i))).flat();
   const values = parts.filter((it) => it >= low * (1 - 1e-9) && it <= high * (1 + 1e-9));
-  return values.length > 2 && values.length <= most + 2 ? { values, text: short } : even(low, high, most);
+  if (values.length > 2 && values.length <= most + 1) return { values, text: short };
+  const text = (value) => (value >= 1e-3 && value <= 1e4 ? short(value) : `10${raised(Math.round(Math.log10(value)))}`);
+  return powers.length > 1 ? { values: powers.map((it) => 10 ** it), text } : even(low, high, most);
 }
 
 /** Round values between two, at most about `most`, and the text of each. */

@@ -2,11 +2,11 @@
 
 import * as ask from "./ask.js";
 import { Cloud } from "./cloud.js";
-import { button, element, folded, labelled, say, said, select } from "./element.js";
+import { button, element, folded, labelled, parted, say, said, select } from "./element.js";
 import { saveButtons } from "./keep.js";
 import { cross, dot, entry, front, rectangle } from "./marks.js";
 import { colours, context, frame, redrawn, room, within } from "./plot.js";
-import { range, short } from "./ticks.js";
+import { range, result, short } from "./ticks.js";
 
 /** The outputs that a motion costs. */
 const PRICES = ["work_positive", "power", "energy_per_metre", "cost_of_transport"];
@@ -38,15 +38,19 @@ export class TradeOff {
     this.fronts = element("div", { id: "trade-off-fronts" });
     const help = element("p", { id: "trade-off-help", className: "note" });
     help.textContent = "Drag a rectangle to mark its cases in the map; click a point for its motion. Left and right step along the fronts, Enter computes there.";
-    const saving = element("div", { className: "buttons" }, ...saveButtons("trade-off", "trade-off", () => this.request));
-    place.append(labelled("Price", this.price), this.canvas, this.told, this.legend, this.note, this.brushed, this.clear, help, this.numbers(), this.fronts, saving);
+    this.saving = element("div", { className: "buttons" }, saveButtons("trade-off", "trade-off", () => this.request));
+    place.append(labelled("Price", this.price), this.canvas, this.told, this.legend, this.note, this.brushed, this.clear, help, this.numbers(), this.fronts, this.saving);
     this.listen();
   }
 
   listen() {
     const events = { pointerdown: "press", pointermove: "move", pointerup: "release", pointercancel: "giveUp", pointerleave: "leave", keydown: "key" };
     for (const [name, act] of Object.entries(events)) this.canvas.addEventListener(name, (event) => this[act](event));
-    redrawn(this.canvas, () => { this.cloud = null; this.draw(); });
+    redrawn(this.canvas, () => {
+      this.cloud = null;
+      if (this.data) this.explain();
+      this.draw();
+    });
   }
 
   // The rectangle by numbers.
@@ -67,10 +71,20 @@ export class TradeOff {
     const data = await ask.tradeOff(request, signal);
     Object.assign(this, { data, map, request: { kind: "trade-off", ...request }, spot: null, mask: null, cloud: null });
     this.price.value = data.price.name;
+    this.saving.hidden = false;
     this.list = ["forward", "backward"].flatMap((direction) => (data.fronts[direction] || []).map((cell) => ({ direction, cell })));
     this.measure();
     this.tell();
     this.draw();
+  }
+
+  /** Shows no trade-off, and why. */
+  none(why) {
+    Object.assign(this, { data: null, cloud: null, mask: null, spot: null });
+    this.note.textContent = why;
+    [this.legend, this.fronts].forEach((it) => it.replaceChildren());
+    this.saving.hidden = true;
+    this.select(null, null, "");
   }
 
   measure() {
@@ -85,7 +99,7 @@ export class TradeOff {
 
   tell() {
     const { left_out: out, price, speed } = this.data;
-    const whole = this.data.prices.length, without = (out || []).map(([why, number]) => `${number} ${why}`);
+    const whole = this.data.prices.length, without = (out || []).filter((it) => it[1]).map(([why, number]) => `${number} ${why}`);
     const points = `${this.count} of ${whole} cases are shown`;
     this.note.textContent = `${points}${without.length ? `; left out: ${without.join(", ")}` : ""}${this.x.log ? "; the price is on a logarithmic axis" : ""}.`;
     this.canvas.setAttribute("aria-label", `Trade-off: ${speed.label} over ${price.label}, ${points}, ${this.list.length} on the fronts`);
@@ -98,7 +112,7 @@ export class TradeOff {
     const rows = () => cells.map((cell) => {
       const [a, b] = this.coordinates(cell), place = `${said(x.label, a * x.factor)}, ${said(y.label, b * y.factor)}`;
       const show = button("Show", () => this.on.choose(cell), { ariaLabel: `Show the motion at ${place}` });
-      return [short(this.data.prices[cell], 5), short(this.data.speeds[cell], 5), short(a * x.factor), short(b * y.factor), show];
+      return [result(this.data.prices[cell], parted(price.label)[1]), result(this.data.speeds[cell], parted(speed.label)[1]), short(a * x.factor), short(b * y.factor), show];
     });
     return folded(`Front, ${direction} (${cells.length} cases)`, [price.label, speed.label, x.label, y.label, "motion"], rows);
   }
@@ -131,6 +145,7 @@ export class TradeOff {
     Object.assign(this, { mask, brush, cloud: null });
     this.brushed.textContent = words;
     this.clear.hidden = !mask;
+    if (!this.data) return this.draw();
     if (brush) this.inputs.forEach((input, i) => { input.value = String(Number(brush[i >> 1][i & 1].toPrecision(6))); });
     this.explain();
     this.draw();
@@ -204,7 +219,8 @@ export class TradeOff {
 
   words(cell) {
     const { price, speed, prices, speeds } = this.data, { x, y } = this.map.data, [a, b] = this.coordinates(cell);
-    return [[price, prices[cell]], [speed, speeds[cell]], [x, a * x.factor], [y, b * y.factor]].map(([it, value]) => said(it.label, Number(value.toPrecision(6)))).join("; ");
+    const output = ({ label }, value) => said(label, result(value, parted(label)[1]));
+    return [output(price, prices[cell]), output(speed, speeds[cell]), said(x.label, a * x.factor), said(y.label, b * y.factor)].join("; ");
   }
 
   key(event) {
@@ -261,6 +277,6 @@ export class TradeOff {
       drawn.lineTo(place.x(prices[cell]), place.y(speeds[cell]));
     });
     drawn.stroke();
-    cells.forEach((cell) => dot(drawn, [place.x(prices[cell]), place.y(speeds[cell])], front(direction), cells.length > 60 ? 2 : 3.5));
+    cells.forEach((cell) => dot(drawn, [place.x(prices[cell]), place.y(speeds[cell])], front(direction), cells.length > 60 ? 2 : 3.5, colours().paper));
   }
 }

@@ -42,12 +42,13 @@ window.addEventListener("hashchange", () => {
   if (keys.length) listeners.forEach((listener) => listener(keys));
 });
 
-/** Coordinates by their names as text, "omega:62.5,p_d:3". */
+/** A case by the names of its coordinates as text, "omega:62.5,p_d:3", with the `sweep` whose motion it starts from, if there are several. */
 export const written = (coordinates) => Object.entries(coordinates).map(([name, value]) => `${name}:${value}`).join(",");
 
-/** The coordinates of a text; none where it is no such text. */
+/** The case of a text; none where it is no such text. */
 export function coordinates(text) {
   const pairs = (text || "").split(",").map((pair) => pair.split(":"));
-  const isFit = pairs.every(([name, value]) => /^\w+$/.test(name) && value && Number.isFinite(Number(value)));
-  return isFit ? Object.fromEntries(pairs.map(([name, value]) => [name, Number(value)])) : null;
+  const read = ([name, value]) => [name, name === "sweep" ? value : Number(value)];
+  const isFit = ([name, value]) => /^\w+$/.test(name) && value && (name === "sweep" ? /^\w+$/.test(value) : Number.isFinite(Number(value)));
+  return pairs.every(isFit) ? Object.fromEntries(pairs.map(read)) : null;
 }

@@ -7,25 +7,60 @@ use super::answer::bytes;
 /// The page itself.
 pub const INDEX: &str = include_str!("../page/index.html");
 
-/// Name, type and bytes of what the page loads.
-const ASSETS: [(&str, &str, &[u8]); 11] = [
-    ("page.css", CSS, include_bytes!("../page/page.css")),
-    ("page.js", JS, include_bytes!("../page/page.js")),
-    ("view.js", JS, include_bytes!("../page/view.js")),
-    ("ask.js", JS, include_bytes!("../page/ask.js")),
-    ("map.js", JS, include_bytes!("../page/map.js")),
-    ("motion.js", JS, include_bytes!("../page/motion.js")),
-    ("plot.js", JS, include_bytes!("../page/plot.js")),
-    ("line.js", JS, include_bytes!("../page/line.js")),
-    ("icon.svg", "image/svg+xml", include_bytes!("../page/icon.svg")),
-    ("uPlot.esm.js", JS, include_bytes!("../page/uPlot/uPlot.esm.js")),
-    ("uPlot.min.css", CSS, include_bytes!("../page/uPlot/uPlot.min.css")),
-];
-const CSS: &str = "text/css; charset=utf-8";
-const JS: &str = "text/javascript; charset=utf-8";
+/// Name and bytes of what the page loads.
+macro_rules! assets {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_bytes!(concat!("../page/", $name)))),*]
+    };
+}
 
-/// What the page loads by this name.
+const ASSETS: &[(&str, &[u8])] = assets![
+    "ask.js",
+    "basin.js",
+    "brush.js",
+    "cells.js",
+    "choices.js",
+    "cloud.js",
+    "curves.js",
+    "element.js",
+    "form.js",
+    "icon.svg",
+    "keep.js",
+    "legend.js",
+    "line.js",
+    "map.js",
+    "marks.js",
+    "motion.js",
+    "motions.js",
+    "numbers.js",
+    "overlay.js",
+    "page.css",
+    "page.js",
+    "panel.js",
+    "plane.js",
+    "plot.js",
+    "progress.js",
+    "shown.js",
+    "snap.js",
+    "ticks.js",
+    "tradeoff.js",
+    "view.js",
+    "uPlot/uPlot.esm.js",
+    "uPlot/uPlot.min.css",
+];
+
+/// What the page loads by this name; files of folders by their own names.
 pub fn asset(name: &str) -> Option<Response> {
-    let (_, kind, content) = ASSETS.iter().find(|it| it.0 == name)?;
-    Some(bytes(content.to_vec(), kind))
+    let own = |path: &str| path.rsplit('/').next() == Some(name);
+    let (path, content) = ASSETS.iter().find(|it| own(it.0))?;
+    Some(bytes(content.to_vec(), kind(path)))
+}
+
+/// What browsers call the type of a file.
+fn kind(path: &str) -> &'static str {
+    match path.rsplit('.').next() {
+        Some("js") => "text/javascript; charset=utf-8",
+        Some("css") => "text/css; charset=utf-8",
+        _ => "image/svg+xml",
+    }
 }

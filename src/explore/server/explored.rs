@@ -1,6 +1,6 @@
 //! The file of results that is explored, and cases near those it has.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
@@ -11,11 +11,11 @@ use crate::figure::variables;
 use crate::orbit::Protocol;
 use crate::store::catalogue::{SECTION_R, SECTION_Y1, SECTION_Y2};
 use crate::store::{Archive, Dataset};
-use crate::study::axis::set;
+use crate::study::axis::{is_within, set};
 use crate::study::{Coordinate, Direction, Drawing, Study};
 
-/// A dataset with the variables of these names.
-type Held = (BTreeSet<String>, Arc<Dataset>);
+/// Which part of the results is wanted: the names of variables, and the places along axes at which cases are held.
+type Part = (BTreeSet<String>, BTreeMap<String, usize>);
 
 /// A file of results with its study.
 pub struct Explored {
@@ -26,7 +26,7 @@ pub struct Explored {
     /// The study.
     pub study: Study,
     /// What the last map was drawn from.
-    last: Mutex<Option<Held>>,
+    last: Mutex<Option<(Part, Arc<Dataset>)>>,
 }
 
 /// A case near those of the file.
@@ -52,21 +52,45 @@ impl Explored {
 
     /// What a figure is drawn from.
     pub fn dataset(&self, drawing: &Drawing) -> Result<Arc<Dataset>, Refusal> {
-        self.with(variables(drawing))
+        self.part(variables(drawing), drawing)
     }
 
-    /// The results with the variables of these names; the last that were read are held.
-    pub fn with(&self, names: BTreeSet<String>) -> Result<Arc<Dataset>, Refusal> {
+    /// The variables of these names in the plane that `drawing` names, where it names both axes; of a large file no more is
+    /// read. The last that were read are kept.
+    pub fn part(&self, names: BTreeSet<String>, drawing: &Drawing) -> Result<Arc<Dataset>, Refusal> {
+        let part = (names, self.held(drawing)?);
         let mut last = self.last.lock().unwrap_or_else(|it| it.into_inner());
-        if let Some((_, dataset)) = last.as_ref().filter(|it| it.0 == names) {
+        if let Some((_, dataset)) = last.as_ref().filter(|it| it.0 == part) {
             return Ok(dataset.clone());
         }
         // Of large files not both are held.
         *last = None;
-        let dataset = self.archive.labelled(|name| names.contains(name));
+        let dataset = self.archive.labelled_at(&part.1, |name| part.0.contains(name));
         let dataset = Arc::new(dataset.map_err(|error| Refusal::failed(error.to_string()))?);
-        *last = Some((names, dataset.clone()));
+        *last = Some((part, dataset.clone()));
         Ok(dataset)
+    }
+
+    /// The places along the axes that a plane does not show; none where the drawing does not name both of its axes.
+    ///
+    /// Fails if an axis is held where it has no value.
+    fn held(&self, drawing: &Drawing) -> Result<BTreeMap<String, usize>, Refusal> {
+        let (Some(x), Some(y)) = (&drawing.x, &drawing.y) else { return Ok(BTreeMap::new()) };
+        let others = self.study.axes().iter().map(|axis| (axis.coordinate.name(), &axis.values));
+        let others = others.filter(|(name, _)| name != x && name != y);
+        let place = |(name, values): (&str, &Vec<f64>)| {
+            let Some(&wanted) = drawing.at.get(name) else { return Ok((name.to_owned(), 0)) };
+            let place = nearest(values, wanted);
+            match is_within(wanted, &values[place..=place]) {
+                true => Ok((name.to_owned(), place)),
+                false => {
+                    let near = values[place];
+                    let why = format!("{name}: its axis has no value {wanted}; the nearest is {near}");
+                    Err(Refusal::unfit(why))
+                }
+            }
+        };
+        others.map(place).collect()
     }
 
     /// How cases are integrated and judged here: with the tolerance and the budget of the study, which are what the command of
@@ -83,7 +107,7 @@ impl Explored {
     /// The case with these parameters and coordinates of the start; what is not given is as in the study, or at the first value
     /// of its axis.
     ///
-    /// Where the study says how cases start, it starts so. Where they inherit their start, it starts at a section point of the
+    /// It starts as the study says, but for the coordinates of the start that are given. Where starts are inherited and none is given, it starts at a section point of the
     /// motion of the nearest case, of those swept in the direction `sweep` where there are several.
     pub fn near(
         &self,
@@ -112,7 +136,9 @@ impl Explored {
             return Err(Refusal::unfit(faults.join("; ")));
         }
         let mut start = "as the study says".to_owned();
-        if self.study.inherit().is_some() {
+        if given.iter().any(|(it, _)| it.is_start()) {
+            start = "where it was asked to".to_owned();
+        } else if self.study.inherit().is_some() {
             match self.section_point(&position)? {
                 Some([r, y1, y2]) => {
                     case.start = State { r, y1, x2: 0.0, y2 };
@@ -132,8 +158,7 @@ impl Explored {
             let Some(axis) = axes.get(dimension) else { return 0 };
             let wanted = given.iter().find(|it| it.0 == axis.coordinate).map(|it| it.1);
             let Some(wanted) = wanted else { return 0 };
-            let away = |place: &usize| (axis.values[*place] - wanted).abs();
-            (0..axis.values.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+            nearest(&axis.values, wanted)
         };
         (0..self.study.shape().len()).map(place).collect()
     }
@@ -149,4 +174,10 @@ impl Explored {
         }
         Ok(point.iter().all(|it| it.is_finite()).then_some(point))
     }
+}
+
+/// The place of the value that is nearest to a wanted one.
+fn nearest(values: &[f64], wanted: f64) -> usize {
+    let away = |place: &usize| (values[*place] - wanted).abs();
+    (0..values.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
 }

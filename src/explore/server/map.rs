@@ -15,7 +15,7 @@ use crate::figure::{
 use crate::study::{Drawing, DrawingKind, Sweep};
 
 /// The parameters of a request for a map or for its figure, beside the axes.
-const KNOWN: [&str; 6] = ["of", "x", "y", "sweep", "kind", "format"];
+const KNOWN: [&str; 7] = ["of", "x", "y", "sweep", "curves", "kind", "format"];
 
 /// The figure that a request asks for; the axes that are not drawn are held where it says.
 pub fn drawing(
@@ -27,15 +27,26 @@ pub fn drawing(
     let [x, y, of] = ["x", "y", "of"].map(|name| asked.text(name).map(str::to_owned));
     let is_drawn = |name: &str| x.as_deref() == Some(name) || y.as_deref() == Some(name);
     let is_axis = |name: &str| explored.study.axes().iter().any(|it| it.coordinate.name() == name);
-    let held = asked.coordinates()?.into_iter().map(|(it, value)| (it.name().to_owned(), value));
-    let at: BTreeMap<String, f64> = held.filter(|it| is_axis(&it.0) && !is_drawn(&it.0)).collect();
+    let mut at = BTreeMap::new();
+    for (coordinate, value) in asked.coordinates()? {
+        match coordinate.name() {
+            name if !is_axis(name) => {
+                return Err(Refusal::unfit(format!("{name}: is no axis of these results")));
+            }
+            name if is_drawn(name) => {
+                return Err(Refusal::unfit(format!("{name}: is drawn and cannot be held")));
+            }
+            name => at.insert(name.to_owned(), value),
+        };
+    }
     let sweep = asked.text("sweep").map(|name| {
         let known = Sweep::NAMES.iter().find(|it| it.0 == name);
         known.map(|it| it.1).ok_or_else(|| Refusal::unfit("sweep: no such sweep"))
     });
     let sweep = sweep.transpose()?;
     let of = of.into_iter().collect();
-    Ok(Drawing { x, y, of, at, sweep, ..Drawing::new(kind.name(), kind) })
+    let curves = asked.text("curves").is_some();
+    Ok(Drawing { x, y, of, at, sweep, curves, ..Drawing::new(kind.name(), kind) })
 }
 
 /// The map as one binary answer: red, green, blue and opacity of each cell, and its value.
@@ -49,7 +60,7 @@ pub fn map(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
 /// The curves of special points and the branches over a map.
 pub fn curves(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
     let drawing = drawing(explored, asked, DrawingKind::Map)?;
-    let dataset = explored.with(over_map_variables(&drawing))?;
+    let dataset = explored.part(over_map_variables(&drawing), &drawing)?;
     let over = over_map(&*dataset, &drawing).map_err(Refusal::undrawn)?;
     let line = |it: &MapLine| json!({ "words": it.words, "colour": it.colour, "dash": it.is_dashed, "points": it.points });
     let point = |it: &MapPoint| json!({ "words": it.words, "colour": it.colour, "at": it.at });

@@ -15,8 +15,8 @@ use crate::study::Study;
 
 /// Between two looks at the blocks of a run.
 const PAUSE: Duration = Duration::from_secs(2);
-/// Blocks are joined again when so many times as long has passed as the last joining took.
-const RARELY: u32 = 5;
+/// Blocks are joined again after so many times as long as the last joining took.
+const RARELY: u32 = 4;
 
 /// The results that the page shows now.
 pub struct Source {
@@ -70,13 +70,15 @@ impl Source {
         }
         let followed = Followed::new(study, output)?;
         let explored = Arc::new(followed.joined()?);
-        let run = followed.run(0)?;
+        let run = followed.run()?;
         let folder = Some(followed.folder.path().to_owned());
         let now = Mutex::new(Now { explored, run: Some(run) });
         let source = Arc::new(Source { now, folder });
-        let follower = source.clone();
-        // Ends with the process, or when all results are there.
-        thread::spawn(move || follower.follow(&followed));
+        // Both end with the process, or when all results are there.
+        let (watching, joining, followed) = (source.clone(), source.clone(), Arc::new(followed));
+        let watched = followed.clone();
+        thread::spawn(move || watching.watch(&watched));
+        thread::spawn(move || joining.rejoin(&followed, run.done));
         Ok(source)
     }
 
@@ -104,28 +106,40 @@ impl Source {
         self.now.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Joins the blocks of a run again as there are more of them, until the run has ended.
-    fn follow(&self, followed: &Followed) {
-        let (mut joined, mut took, mut version) = (Instant::now(), Duration::ZERO, 0);
-        let mut shown = self.lock().run.map_or(0, |run| run.done);
+    /// Tells how far a run is, until all of its results are there, which are then shown.
+    fn watch(&self, followed: &Followed) {
         loop {
             thread::sleep(PAUSE);
             if let Some(whole) = followed.whole() {
                 *self.lock() = Now { explored: Arc::new(whole), run: None };
                 return;
             }
-            let Ok(run) = followed.run(version) else { continue };
-            if run.done > shown && joined.elapsed() >= RARELY * took {
-                let begun = Instant::now();
-                // The run may have ended meanwhile, which the next look tells.
-                if let Ok(explored) = followed.joined() {
-                    version += 1;
-                    shown = run.done;
-                    self.lock().explored = Arc::new(explored);
-                }
-                (joined, took) = (Instant::now(), begun.elapsed());
+            let run = followed.run();
+            let mut now = self.lock();
+            if let (Some(before), Ok(run)) = (now.run, run) {
+                now.run = Some(Run { version: before.version, ..run });
             }
-            self.lock().run = Some(Run { version, ..run });
+        }
+    }
+
+    /// Joins the blocks of a run again as there are more of them, until all of its results are shown.
+    fn rejoin(&self, followed: &Followed, mut shown: usize) {
+        loop {
+            thread::sleep(PAUSE);
+            let Some(Run { done, .. }) = self.lock().run else { return };
+            if done == shown {
+                continue;
+            }
+            let begun = Instant::now();
+            // The run may have ended meanwhile, and its blocks are gone.
+            if let Ok(explored) = followed.joined() {
+                let mut now = self.lock();
+                let Some(run) = now.run else { return };
+                now.run = Some(Run { version: run.version + 1, ..run });
+                now.explored = Arc::new(explored);
+                shown = done;
+            }
+            thread::sleep(RARELY * begun.elapsed());
         }
     }
 }
@@ -159,14 +173,14 @@ impl Followed {
     }
 
     /// How far the run is.
-    fn run(&self, version: u64) -> Result<Run, CampaignError> {
+    fn run(&self) -> Result<Run, CampaignError> {
         let blocks = self.campaign().status()?.blocks;
         let pace = blocks.as_ref().and_then(|it| it.pace(&self.study));
         Ok(Run {
             done: blocks.as_ref().map_or(0, |it| it.cases()),
             cases: self.study.cases(),
             seconds_left: pace.and_then(|it| it.left).map(|it| it.value),
-            version,
+            version: 0,
         })
     }
 }

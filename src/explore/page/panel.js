@@ -1,0 +1,67 @@
+// The panel of a motion: what it is, its charts, its numbers, and what can be done with it.
+
+import { button, element, sentence } from "./element.js";
+import { saveButtons } from "./keep.js";
+import { Charts } from "./motion.js";
+import { keyNumbers, tables } from "./numbers.js";
+import { result } from "./ticks.js";
+
+/** A motion in a few words. */
+export function summary({ simulate: { orbit } }) {
+  const speed = orbit.progression_speed === null ? "no speed" : `speed ${result(orbit.progression_speed * 1e3, "mm/s")} mm/s`;
+  return `${orbit.outcome === "periodic" ? `periodic, period ${orbit.period}` : orbit.outcome}, ${speed}`;
+}
+
+function about(it) {
+  const start = `It starts ${it.start}; ${it.exact ? `this is case ${it.nearest} of the file` : `it is no case of the file, the nearest is case ${it.nearest}`}.`;
+  const why = it.simulate.orbit.failure || it.simulate.failure || "the motion could not be followed";
+  const shown = it.history ? `${it.history.cycles} cycles are shown.` : `No history: ${why}.`;
+  return [summary(it), `${start} ${shown}`, ...it.remarks].map((words) => element("p", { textContent: sentence(words) }));
+}
+
+/** A panel with its name and the letter of its ids; `actions` are its first buttons. Motions follow each other in it. */
+export class Panel {
+  constructor(name, id) {
+    Object.assign(this, { name, motion: null });
+    this.heading = element("h3");
+    this.about = element("div");
+    this.actions = element("span", { className: "saving" });
+    const coordinates = () => this.motion.coordinates;
+    this.saving = element("span", { className: "buttons" },
+      saveButtons(`${id}-history`, "histories", () => ({ kind: "history", ...coordinates() })),
+      saveButtons(`${id}-portrait`, "portrait", () => ({ kind: "phase-portrait", ...coordinates() })));
+    const place = element("div", { className: "charts" });
+    this.charts = new Charts(place);
+    this.note = element("p", { className: "note", textContent: "Histories begin at the section, after the transient. Phase portrait: the dashed line is the stop, rings are stroboscopic points." });
+    this.numbers = element("div");
+    this.tables = element("div");
+    const buttons = element("div", { className: "buttons" }, this.actions, this.saving);
+    this.element = element("article", { className: "motion" }, this.heading, this.about, buttons, place, this.note, this.numbers, this.tables);
+  }
+
+  /** Shows a motion, called by `words`; the panel must be on the page. */
+  show(motion, words, scales) {
+    const isOther = motion !== this.motion;
+    this.motion = motion;
+    this.heading.textContent = `${this.name}: ${words}`;
+    if (isOther) this.tell(motion);
+    const { it } = motion, hasHistory = !!it?.history;
+    this.saving.hidden = this.note.hidden = !hasHistory;
+    if (hasHistory) this.charts.show(it, scales); else this.charts.clear();
+  }
+
+  tell({ it, failure }) {
+    const open = [...this.tables.children].map((details) => details.open);
+    const failed = () => [element("p", { className: "failure", textContent: `The motion could not be computed: ${failure}` })];
+    this.about.replaceChildren(...(it ? about(it) : failed()));
+    this.numbers.replaceChildren(...(it ? [keyNumbers([{ it, name: this.name }])] : []));
+    this.tables.replaceChildren(...(it ? tables(it, open) : []));
+  }
+
+  /** Sets what can be done: buttons as texts with what they do and their ids, or a note. */
+  offer(text, act, id) {
+    const key = `${text} ${id}`;
+    if (this.offered !== key) this.actions.replaceChildren(act ? button(text, () => this.act(), { id }) : element("span", { className: "note", textContent: text }));
+    Object.assign(this, { offered: key, act });
+  }
+}

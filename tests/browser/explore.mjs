@@ -1,0 +1,165 @@
+// Opens the page of `capsulemap explore` in Chromium, uses it as a person would, and prints what was found as one JSON object.
+//
+//   node explore.mjs check ADDRESS [FOLDER]    goes through every view in light and dark; screenshots go to FOLDER
+//   node explore.mjs measure ADDRESS CLICKS    times from click to painted motion, and from request to painted map [ms]
+
+import { createRequire } from "node:module";
+import { readFileSync } from "node:fs";
+
+// The packages of package.json, which are installed outside of the repository.
+const require = createRequire(`${process.env.CAPSULEMAP_BROWSER}/`);
+const { chromium } = require("playwright-core");
+const AXE = readFileSync(require.resolve("axe-core"), "utf8");
+
+const [task, address, option] = process.argv.slice(2);
+const ARGUMENTS = [
+  "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync",
+];
+const executablePath = process.env.CAPSULEMAP_CHROMIUM || "/usr/bin/chromium";
+const found = { requests: [], console: [], axe: [], views: {} };
+
+const browser = await chromium.launch({ executablePath, args: ARGUMENTS });
+// The page is opened once by its token: the cookie of that context opens it in the other scheme.
+const opening = await browser.newContext({ viewport: { width: 1400, height: 1000 } });
+
+async function opened(context, at) {
+  const page = await context.newPage();
+  page.on("request", (request) => found.requests.push(request.url()));
+  page.on("console", (message) => { if (["error", "warning"].includes(message.type())) found.console.push(message.text()); });
+  page.on("pageerror", (fault) => found.console.push(String(fault)));
+  await page.goto(at);
+  await page.waitForSelector("body[data-ready=true]");
+  return page;
+}
+
+/** The serious findings of axe-core on what is shown, and a picture of it. */
+async function look(page, scheme, name) {
+  // axe-core is evaluated by the test, which the policy of the page does not bind.
+  await page.evaluate(AXE);
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  for (const { id, impact, nodes } of violations) {
+    if (["serious", "critical"].includes(impact)) found.axe.push({ scheme, name, id, at: nodes.map((it) => it.target.join(" ")) });
+  }
+  if (option) await page.screenshot({ path: `${option}/${scheme}-${name}.png`, fullPage: true });
+}
+
+/** A point of the map by its shares of the frame. */
+async function point(page, across, up) {
+  const box = await page.locator("#map").boundingBox();
+  // Within the frame, whose labels are left of it and below, and whose colours are right of it.
+  const [left, right, bottom] = [80, 150, 50];
+  return [box.x + left + across * (box.width - left - right), box.y + (1 - up) * (box.height - bottom)];
+}
+
+/** Clicks the map and waits for the motion; returns the time until it was painted [ms]. */
+async function click(page, across, up) {
+  await page.evaluate(() => { delete document.getElementById("motions").dataset.milliseconds; });
+  await page.mouse.click(...await point(page, across, up));
+  await page.waitForSelector("#motions[data-milliseconds]");
+  return Number(await page.getAttribute("#motions", "data-milliseconds"));
+}
+
+/** The rows of the table called `heading`. */
+const table = (page, heading) => page.evaluate((wanted) => {
+  const summary = [...document.querySelectorAll("#motions summary")].find((it) => it.textContent.startsWith(wanted));
+  const details = summary.parentElement;
+  details.open = true;
+  return new Promise((resolve) => setTimeout(() => {
+    const rows = [...details.querySelectorAll("tr")].map((row) => [...row.children].map((cell) => cell.textContent.replace("−", "-")));
+    details.open = false;
+    resolve(rows);
+  }, 300));
+}, heading);
+
+const command = (page, start) => page.evaluate((wanted) => {
+  const all = [...document.querySelectorAll("#commands pre, #commands code")].map((it) => it.textContent);
+  return all.find((it) => it.includes(wanted)) ?? null;
+}, start);
+
+async function check(page, scheme) {
+  await look(page, scheme, "map");
+  await click(page, 0.4, 0.5);
+  const view = { command: await command(page, "capsulemap simulate"), numbers: await table(page, "Numbers of the orbit"), figure: await command(page, "capsulemap figure") };
+  view.charts = await page.locator("#motions canvas").count();
+  await look(page, scheme, "motion");
+  // The address holds the view: another page at it shows the same.
+  const again = await opened(page.context(), page.url());
+  await again.waitForSelector("#motions[data-milliseconds]");
+  view.again = await command(again, "capsulemap simulate");
+  await again.close();
+
+  await page.click("#pin-button");
+  await click(page, 0.7, 0.8);
+  view.pinned = await page.locator("#motions > *").count();
+  await look(page, scheme, "compare");
+
+  // The keyboard alone.
+  const before = await command(page, "capsulemap simulate");
+  await page.focus("#map");
+  for (const key of ["ArrowLeft", "ArrowLeft", "ArrowDown"]) await page.keyboard.press(key);
+  await page.keyboard.press("Enter");
+  await page.waitForFunction((before) => ![...document.querySelectorAll("#commands pre, #commands code")].some((it) => it.textContent === before), before);
+  view.byKeys = (await command(page, "capsulemap simulate")) !== before;
+
+  await page.click("#trade-off-button");
+  await page.waitForSelector("#trade-off-section:not([hidden]) canvas");
+  await page.waitForTimeout(500);
+  await look(page, scheme, "trade-off");
+
+  // A line along omega.
+  await page.click("#line-button");
+  await page.mouse.move(...await point(page, 0.1, 0.5));
+  await page.mouse.down();
+  await page.mouse.move(...await point(page, 0.5, 0.5), { steps: 4 });
+  await page.mouse.move(...await point(page, 0.9, 0.5), { steps: 4 });
+  await page.mouse.up();
+  await page.waitForSelector("#line-section:not([hidden])");
+  await page.waitForFunction(() => [...document.querySelectorAll("#commands pre, #commands code")].some((it) => it.textContent.includes("name = \"bifurcation\"")), null, { timeout: 60_000 });
+  view.line = await command(page, "name = \"bifurcation\"");
+  await page.waitForFunction(() => document.getElementById("line-section").textContent.includes("values in"), null, { timeout: 60_000 });
+  await look(page, scheme, "line");
+
+  await page.click("#basin-button");
+  await page.waitForSelector("#basin-section:not([hidden])");
+  await page.waitForFunction(() => document.getElementById("basin-section").textContent.includes("starts in"), null, { timeout: 60_000 });
+  view.basin = await command(page, "name = \"basin\"");
+  await look(page, scheme, "basin");
+
+  const download = page.waitForEvent("download");
+  await page.click("#pdf-button");
+  const bytes = readFileSync(await (await download).path());
+  view.pdf = bytes.subarray(0, 4).toString();
+  found.views[scheme] = view;
+}
+
+async function measure(page) {
+  const clicks = [], maps = [];
+  // Places of a sequence that fills the map evenly.
+  for (let i = 1; i <= Number(option || 100); i++) clicks.push(await click(page, (i * 0.7548776662) % 1, (i * 0.5698402910) % 1));
+  const outputs = await page.locator("#choices select[name=of] option").evaluateAll((all) => all.map((it) => it.value));
+  for (const of of outputs.slice(0, 10)) {
+    await page.evaluate(() => { delete document.getElementById("map").dataset.milliseconds; });
+    await page.selectOption("#choices select[name=of]", of);
+    await page.waitForSelector("#map[data-milliseconds]");
+    maps.push(Number(await page.getAttribute("#map", "data-milliseconds")));
+  }
+  const at = (all, share) => [...all].sort((a, b) => a - b)[Math.min(all.length - 1, Math.floor(share * all.length))];
+  const told = (all) => ({ count: all.length, median: at(all, 0.5), p95: at(all, 0.95), most: at(all, 1) });
+  return { clicks: told(clicks), maps: told(maps) };
+}
+
+try {
+  const first = await opened(opening, address);
+  if (task === "measure") {
+    console.log(JSON.stringify(await measure(first)));
+  } else {
+    const state = await opening.storageState();
+    await check(first, "light");
+    const dark = await browser.newContext({ viewport: { width: 1400, height: 1000 }, colorScheme: "dark", storageState: state });
+    await check(await opened(dark, new URL("/", address).href), "dark");
+    console.log(JSON.stringify(found));
+  }
+} finally {
+  await browser.close();
+}
