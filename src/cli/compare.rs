@@ -3,23 +3,18 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use serde_json::json;
 
+use super::compare_report::{as_json, explained, told_of};
 use super::experiment_figures::comparison_plot;
 use super::failure::Failure;
 use super::files;
-use super::fit::{threads, told_of_bound, varied};
-use super::identify::{shown, unit};
-use super::synthesize::case_of;
+use super::synthesize::{case_of, protocol_of};
 use super::terminal::print;
-use crate::capsule::{Output, Parameter};
-use crate::experiment::comparison::EXPLAINED_CYCLES;
+use super::varied::{Varied, threads, varied};
 use crate::experiment::least_squares::Loss;
-use crate::experiment::{Comparison, Effort, Explanation, Free, Weights, compare, explain};
+use crate::experiment::{Comparison, Effort, Free, Weights, compare, explain};
 use crate::figure::plot::draw_plot;
 use crate::figure::{Format, Place};
-use crate::orbit::Outcome;
-use crate::store::catalogue::{CYCLES, OUTCOME, PERIOD};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -30,8 +25,17 @@ A recording is a CSV file with a column t and any of x2, r, x1, y1, y2, a1, driv
 give the phase; without them the phase with the least differences is taken. The simulation starts on what the case settles to, \
 with x1 and x2 moved by a constant each; offsets of other signals are kept. Events are counted per cycle of the recorded drive, \
 in the longest part of the record without a gap. \
-The error of a signal is the root mean square of the difference over the standard deviation of the record, without the mean \
-progression.
+The error of a signal is the root mean square of the difference over the standard deviation of the record; that of x1 and x2 \
+is about the record's own mean progression, and the error of their shape, without the difference of the speeds, is told beside it. \
+Spikes of a1 are pulses of the acceleration that stand out of the motion about them; those on the stop that follow each other as the \
+mass rings there count once.
+
+The recorded speed of a motion that repeats itself is the slope of its means over periods, with the standard error of the noise. \
+Of one that does not, the error is that of the means of ten batches of whole cycles; a record of fewer than twenty cycles has none. \
+The simulated speed of a motion that does not repeat is the mean of measured_cycles of the study.
+
+A drive of another frequency than omega, of another amplitude than p_d (by 2 % and three standard errors), or of the other sign, and \
+signals of the other sign or in another unit are told.
 
 --explain fits parameters by themselves to the first cycles and says how much of the difference each explains; several in one \
 option, separated by commas, are fitted together.";
@@ -68,19 +72,22 @@ impl Compare {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let mut faults = Vec::new();
-        let choices: Vec<Vec<Free>> =
+        let choices: Vec<Vec<Varied>> =
             self.explain.iter().map(|text| varied("--explain", text, &mut faults)).collect();
         if !faults.is_empty() {
             return Err(Failure::requests(&faults));
         }
         let recording = files::motion(&self.recording)?;
         let case = case_of(&self.study, self.case)?;
+        let protocol = protocol_of(&self.study)?;
         let name = self.recording.display();
         let told = |why: String| Failure::request(format!("{name}: {why}"));
-        let comparison = compare(&recording, &case.parameters).map_err(told)?;
+        let comparison = compare(&recording, &case, &protocol).map_err(told)?;
         let effort =
             Effort { loss: Loss::Squares, weights: Weights::Spread, starts: 8, threads: threads() };
-        let explanations = explain(&comparison, &choices, &effort).map_err(told)?;
+        let free = |all: &Vec<Varied>| all.iter().map(|it| it.free).collect();
+        let free: Vec<Vec<Free>> = choices.iter().map(free).collect();
+        let explanations = explain(&comparison, &free, &effort).map_err(told)?;
         let mut paths = Vec::new();
         if let Some(output) = &self.output {
             paths = self.draw(&comparison, output)?;
@@ -89,8 +96,8 @@ impl Compare {
             return print(&format!("{:#}\n", as_json(&comparison, &explanations)));
         }
         let mut text = told_of(&comparison);
-        for it in &explanations {
-            text += &explained(&comparison, it);
+        for (it, varied) in explanations.iter().zip(&choices) {
+            text += &explained(&comparison, it, varied);
         }
         for path in paths {
             text += &format!("{}\n", path.display());
@@ -126,153 +133,4 @@ impl Compare {
             .map_err(Failure::request)?;
         Ok(files.paths)
     }
-}
-
-/// The comparison in lines.
-fn told_of(it: &Comparison) -> String {
-    let mut text = format!("record:       {}, {:.2} cycles of the drive\n", it.sampling, it.cycles);
-    text += &match &it.drive {
-        Some(drive) => format!(
-            "drive:        {} rad/s as recorded, {} rad/s in the study; phase {} rad at the first sample\n",
-            shown(drive.omega.value, drive.omega.standard_error),
-            it.motion.parameters[Parameter::Omega],
-            shown(drive.phase.value, drive.phase.standard_error),
-        ),
-        None => format!(
-            "drive:        not recorded; phase {:.3} rad at the first sample makes the differences least\n",
-            it.phase
-        ),
-    };
-    if let Some(drive) = &it.drive
-        && !drive.omega.holds(it.motion.parameters[Parameter::Omega])
-    {
-        text += "              warning: the frequencies differ, so that recording and study are not the same case\n";
-    }
-    let period = match it.outcome {
-        (Outcome::Periodic, period) => format!("periodic, period {period}"),
-        (other, _) => format!("{}: histories need not agree, only speeds and counts", other.name()),
-    };
-    let recorded = match it.recorded_period {
-        Some(period) => format!("period {period}"),
-        None => "no period up to 8".to_owned(),
-    };
-    text += &format!("motion:       {recorded} recorded; {period} simulated\n");
-    if let Some(speed) = &it.recorded_speed {
-        text += &format!(
-            "speed:        {} mm/s recorded (standard error {}), {:.4} mm/s simulated{}\n",
-            shown(speed.value * 1e3, speed.standard_error * 1e3),
-            shown(speed.standard_error * 1e3, speed.standard_error * 1e3),
-            it.simulated_speed * 1e3,
-            if it.outcome.0 == Outcome::Periodic {
-                ""
-            } else {
-                ", the mean of 128 cycles of a motion that does not repeat"
-            }
-        );
-    }
-    text += &match it.recorded_impacts {
-        Some(recorded) => format!(
-            "impacts:      {recorded:.2} per cycle recorded (r reaches delta), {} simulated\n",
-            it.impacts
-        ),
-        None => format!("impacts:      {} per cycle simulated; {}\n", it.impacts, uncounted(it)),
-    };
-    if let Some([recorded, simulated]) = it.spikes {
-        text +=
-            &format!("spikes of a1: {recorded:.2} per cycle recorded, {simulated:.2} simulated\n");
-    }
-    for difference in &it.differences {
-        text += &format!(
-            "error of {:<5}{:.2} %\n",
-            format!("{}:", difference.signal.name()),
-            difference.error * 100.0
-        );
-    }
-    text
-}
-
-/// Why the impacts of a record are not counted.
-fn uncounted(it: &Comparison) -> &'static str {
-    match it.is_countable {
-        true => "r is not recorded",
-        false => {
-            "not counted in the record: fewer than three cycles without a gap, or than 20 samples a cycle"
-        }
-    }
-}
-
-fn explained(comparison: &Comparison, it: &Explanation) -> String {
-    let of = |parameter| it.changed.iter().find(|it| it.0 == parameter).map(|it| it.1);
-    let mu_d = of(Parameter::MuD).unwrap_or(comparison.motion.parameters[Parameter::MuD]);
-    let changed: Vec<String> = it
-        .changed
-        .iter()
-        .map(|(parameter, value, _)| {
-            if *parameter == Parameter::MuS && *value < 2.0 * mu_d {
-                return "mu_s below 2 mu_d, where it has no effect".to_owned();
-            }
-            let old = comparison.motion.parameters[*parameter];
-            let change = 100.0 * (value / old - 1.0);
-            format!(
-                "{} = {}{} ({change:+.1} %)",
-                parameter.symbol(),
-                shown(*value, 1e-3 * value),
-                unit(parameter.dimension())
-            )
-        })
-        .collect();
-    let bounds: String = it
-        .changed
-        .iter()
-        .filter(|it| it.0 != Parameter::MuS || it.1 >= 2.0 * mu_d)
-        .map(|(parameter, value, bound)| told_of_bound("  ", *parameter, *value, *bound))
-        .collect();
-    format!(
-        "with {}: error of all signals {:.1} % over the first {EXPLAINED_CYCLES} cycles, {:.1} % without; {} impacts per cycle, {:.4} \
-         mm/s\n{bounds}",
-        changed.join(", "),
-        100.0 * it.misfit[1],
-        100.0 * it.misfit[0],
-        it.impacts,
-        it.speed * 1e3
-    )
-}
-
-fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Value {
-    let differences =
-        it.differences.iter().map(|it| json!({ "signal": it.signal.name(), "error": it.error }));
-    let explanation = |it: &Explanation| {
-        let changed = it
-            .changed
-            .iter()
-            .map(|(parameter, value, bound)| {
-                json!({ "name": parameter.symbol(), "value": value, "on_bound": bound.map(|it| it.name()) })
-            });
-        json!({
-            "changed": changed.collect::<Vec<_>>(),
-            "error": it.misfit[1],
-            "error_without": it.misfit[0],
-            Output::ImpactsPerCycle.name(): it.impacts,
-            Output::ProgressionSpeed.name(): it.speed,
-        })
-    };
-    json!({
-        "countable": it.is_countable,
-        "samples": it.sampling.count,
-        "gaps": it.sampling.gaps,
-        CYCLES.name: it.cycles,
-        "omega_recorded": it.drive.as_ref().map(|it| it.omega.value),
-        "phase": it.phase,
-        "period_recorded": it.recorded_period,
-        OUTCOME.name: it.outcome.0.name(),
-        PERIOD.name: it.outcome.1,
-        "speed_recorded": it.recorded_speed.map(|it| it.value),
-        "speed_recorded_error": it.recorded_speed.map(|it| it.standard_error),
-        "speed_simulated": it.simulated_speed,
-        "spikes_per_cycle": it.spikes,
-        Output::ImpactsPerCycle.name(): it.impacts,
-        "impacts_per_cycle_recorded": it.recorded_impacts,
-        "errors": differences.collect::<Vec<_>>(),
-        "explanations": explanations.iter().map(explanation).collect::<Vec<_>>(),
-    })
 }

@@ -1,10 +1,11 @@
 //! Pictures of an identification and of a comparison: what was measured beside what a model gives.
 
-use crate::capsule::Dimension;
+use crate::capsule::{Dimension, Parameter};
+use crate::experiment::friction::coast_down;
 use crate::experiment::identification::Evidence;
 use crate::experiment::line::Line;
 use crate::experiment::recording::GAP;
-use crate::experiment::{Coasting, Comparison, Given, Recording, Signal, Test};
+use crate::experiment::{Coasting, Comparison, Given, Recording, Signal, Test, Verdict};
 use crate::figure::plot::{Look, Plot, PlotPanel, Series};
 
 /// Height of a frame [pt].
@@ -138,33 +139,39 @@ fn line_plot(
     )
 }
 
-/// The coefficients of Eq. (2) over the initial speed, with the two fitted laws.
+/// The coefficients of Eq. (2) over the initial speed, with what the accepted law predicts of them, and the law itself.
 fn coasting_plot(test: Test, speeds: &[f64], coasting: &Coasting) -> Plot {
     let fastest = speeds.iter().copied().fold(0.0, f64::max);
-    let law = |law: &crate::experiment::friction::Stribeck| {
-        let (mu_d, v_s) = (law.mu_d.value, law.v_s.value);
+    let (mu_d, v_s) = (coasting.by_coast_down.mu_d.value, coasting.by_coast_down.v_s.value);
+    let curve = |of: &dyn Fn(f64) -> f64| {
         let at = |i: usize| 1.02 * fastest * i as f64 / SMOOTH as f64;
-        (0..=SMOOTH).map(|i| (at(i), mu_d * (1.0 + (-at(i) / v_s).exp()))).collect()
+        (0..=SMOOTH).map(|i| (at(i), of(at(i)))).collect::<Vec<_>>()
     };
-    let about = "friction coefficients v^2/(2 g d) of the coasting tests over the initial speed, the law through them, and the law \
-                 that the distances give";
-    plot(
-        test,
-        about,
-        vec![panel(
-            "Speed (m/s)",
-            "Friction coefficient",
-            vec![
-                series(
-                    "$v^2/(2gd)$ at initial speed",
-                    Look::Measured,
-                    scaled(speeds, &coasting.coefficients, [1.0, 1.0]),
-                ),
-                series("law through them", Look::Other, law(&coasting.by_initial_speed)),
-                series("law of the coast-down", Look::Model, law(&coasting.by_coast_down)),
-            ],
-        )],
-    )
+    let law = curve(&|v| mu_d * (1.0 + (-v / v_s).exp()));
+    // Gravity cancels; at rest the prediction is the law itself.
+    let predicted = curve(&|v| match v > 0.0 {
+        true => v * v / (2.0 * coast_down(v, mu_d, v_s, 1.0).0),
+        false => 2.0 * mu_d,
+    });
+    let about = "friction coefficients v^2/(2 g d) of the coasting tests over the initial speed, what the accepted law predicts of them, \
+                 and the accepted law, which is friction at that speed";
+    let mut frame = panel(
+        "Speed (m/s)",
+        "Friction coefficient",
+        vec![
+            series(
+                "$v^2/(2gd)$ measured",
+                Look::Measured,
+                scaled(speeds, &coasting.coefficients, [1.0, 1.0]),
+            ),
+            series("$v^2/(2gd)$ by the law", Look::Model, predicted),
+            series("law at speed $v$", Look::Other, law),
+        ],
+    );
+    if coasting.by_coast_down.verdicts[0] != Verdict::Determined {
+        frame.note = "one of several laws".to_owned();
+    }
+    plot(test, about, vec![frame])
 }
 
 /// The points of a curve, broken at the gaps of the record.
@@ -187,7 +194,7 @@ pub fn comparison_plot(name: &str, comparison: &Comparison, about: &str, cycles:
     let span = cycles as f64 * comparison.motion.parameters.drive_period();
     let count = comparison.times.partition_point(|time| *time <= span);
     let is_cut = count < comparison.times.len();
-    let row = |it: &crate::experiment::comparison::Difference| {
+    let row = |it: &crate::experiment::Difference| {
         let (factor, unit) = match it.signal.dimension() {
             Dimension::Length => (1e3, "mm"),
             Dimension::Velocity => (1e3, "mm/s"),
@@ -206,18 +213,22 @@ pub fn comparison_plot(name: &str, comparison: &Comparison, about: &str, cycles:
         let of = |values: &[f64]| {
             broken(scaled(&comparison.times[..count], &values[..count], [1.0, factor]), comparison)
         };
-        vec![panel(
-            "Time (s)",
-            &format!("{symbol} ({unit})"),
-            vec![
-                series("recorded", Look::Record, of(&it.recorded)),
-                series("simulated", Look::Simulated, of(&it.simulated)),
-            ],
-        )]
+        let mut all = vec![
+            series("recorded", Look::Record, of(&it.recorded)),
+            series("simulated", Look::Simulated, of(&it.simulated)),
+        ];
+        if it.signal == Signal::R {
+            let delta = factor * comparison.motion.parameters[Parameter::Delta];
+            let ends = [comparison.times[0], comparison.times[count - 1]];
+            all.push(series("$\\delta$", Look::Reference, ends.map(|t| (t, delta)).to_vec()));
+        }
+        vec![panel("Time (s)", &format!("{symbol} ({unit})"), all)]
     };
     let mut rows: Vec<Vec<PlotPanel>> = comparison.differences.iter().map(row).collect();
     if is_cut && let Some(first) = rows.first_mut().and_then(|row| row.first_mut()) {
-        first.note = format!("{cycles} of {:.1} cycles", comparison.cycles);
+        let whole = comparison.cycles.round();
+        let decimals = usize::from((comparison.cycles - whole).abs() >= 0.05);
+        first.note = format!("{cycles} of {:.decimals$} cycles", comparison.cycles);
     }
     Plot { name: name.to_owned(), about: about.to_owned(), rows, height: 0.8 * HEIGHT }
 }

@@ -10,8 +10,11 @@ use super::failure::Failure;
 use super::files;
 use super::terminal::print;
 use crate::capsule::{Dimension, Parameter};
-use crate::experiment::identification::{Evidence, parameter_file, remarks};
-use crate::experiment::{Given, Identified, Recording, Test, Verdict, identify};
+use crate::experiment::estimate::{decimals, significant};
+use crate::experiment::identification::{
+    Evidence, Other, impossible_rows, parameter_file, remarks,
+};
+use crate::experiment::{Estimate, Given, Identified, Recording, Test, Verdict, identify};
 use crate::figure::plot::{Plot, draw_plot};
 use crate::figure::{Format, Place};
 
@@ -30,7 +33,8 @@ is a CSV file whose header has names with units:
   coasting        v [m/s], d [mm]          mu_d, v_s
   motor           current [A], force [N]   motor_constant
 
-Intervals hold the true value in 95 of 100 experiments. A study takes the values by include = \"FILE.toml\" at its top.";
+Intervals hold the true value in 95 of 100 experiments. A study takes the values by include = \"FILE.toml\" at its top. What the tests do \
+not determine, as mu_d and v_s where separate ranges of them agree with the tests, has no value there, and the study takes its default.";
 
 /// Find constants of a rig from recordings of simple tests.
 #[derive(Debug, Args)]
@@ -207,18 +211,74 @@ impl Identify {
 /// Reads a recording and identifies its constants.
 fn read(test: Test, path: &Path, given: &Given) -> Result<Found, Failure> {
     let recording = files::recording(path, &test.columns(), test.least_rows())?;
+    let impossible = impossible_rows(test, &recording);
+    if !impossible.is_empty() {
+        let text = files::text(path)?;
+        let faults: Vec<String> = impossible
+            .iter()
+            .map(|(row, why)| format!("{}: line {}: {why}", path.display(), line_of(&text, *row)))
+            .collect();
+        return Err(Failure::requests(&faults));
+    }
     let (identified, evidence) = identify(test, &recording, given)
         .map_err(|why| Failure::request(format!("{}: {why}", path.display())))?;
     Ok(Found { test, recording, identified, evidence })
 }
 
-/// A value in a unit, with as many digits as make sense beside its error.
+/// The line of a row of numbers, counted from 0, in a file with a header, blank lines and comments.
+fn line_of(text: &str, row: usize) -> usize {
+    let is_row = |line: &str| !line.trim().is_empty() && !line.starts_with('#');
+    let rows = text.lines().enumerate().filter(|(_, line)| is_row(line));
+    rows.skip(1).nth(row).map_or(0, |(line, _)| line + 1)
+}
+
+/// A value with the decimals that show two significant digits of its standard error; without one, with three significant digits.
 pub fn shown(value: f64, error: f64) -> String {
-    if !(error.is_finite() && error > 0.0) {
-        return format!("{value:.5}");
+    match decimals(error) {
+        Some(decimals) => format!("{value:.decimals$}"),
+        None => significant(value, 3),
     }
-    let digits = (1.0 - error.log10()).floor().clamp(0.0, 12.0) as usize;
-    format!("{value:.digits$}")
+}
+
+/// An estimate in words: value, standard error and interval; where the data do not determine it, what they say of it.
+fn told(estimate: &Estimate, verdict: Verdict, unit: &str) -> String {
+    let Estimate { value, standard_error: error, interval } = estimate;
+    let is_told = verdict == Verdict::Determined && error.is_finite();
+    let [least, greatest] = interval.map(|end| match is_told {
+        true => shown(end, *error),
+        false => significant(end, 3),
+    });
+    match verdict {
+        _ if is_told && *error <= 1e-12 * value.abs() => {
+            format!(
+                "{}{unit}, no standard error, as the tests do not scatter",
+                significant(*value, 6)
+            )
+        }
+        _ if is_told => format!(
+            "{}{unit}, standard error {}, 95 %: {least} to {greatest}",
+            shown(*value, *error),
+            shown(*error, *error)
+        ),
+        Verdict::LimitedAbove => format!("below {greatest}{unit}, no standard error"),
+        Verdict::LimitedBelow => format!("above {least}{unit}, no standard error"),
+        _ => format!("between {least} and {greatest}{unit}, no standard error"),
+    }
+}
+
+/// What a second method gives, and how far it differs.
+fn told_of_other(other: &Other, unit: &str) -> String {
+    let Other { method, estimate, disagreement, bias } = other;
+    let verdict = match estimate.standard_error.is_finite() {
+        true => Verdict::Determined,
+        false => Verdict::NotDetermined,
+    };
+    let text = format!("{}, by {method}", told(estimate, verdict, unit));
+    let apart = disagreement
+        .map(|it| format!("; the methods differ by {:.1} standard errors", it.abs()))
+        .unwrap_or_default();
+    let bias = bias.map(|it| format!(": {it}")).unwrap_or_default();
+    text + &apart + &bias
 }
 
 /// The unit as it stands behind a number; nothing for a plain number.
@@ -233,24 +293,12 @@ pub fn unit(dimension: Dimension) -> String {
 fn table(all: &[Identified]) -> String {
     let mut text = String::new();
     for it in all {
-        let error = it.estimate.standard_error;
-        let value = |value: f64| shown(value, error);
         let unit = unit(it.constant.dimension());
-        text += &format!(
-            "{:<15}{}{unit}, standard error {}, 95 %: {} to {}\n",
-            it.constant.symbol(),
-            value(it.estimate.value),
-            value(error),
-            value(it.estimate.interval[0]),
-            value(it.estimate.interval[1]),
-        );
+        let found = told(&it.estimate, it.verdict, &unit);
+        text += &format!("{:<15}{found}\n", it.constant.symbol());
         text += &format!("{:<15}{}, {}\n", "", it.method, it.source);
-        if let Some((method, other)) = &it.other {
-            let (value, error) = (
-                shown(other.value, other.standard_error),
-                shown(other.standard_error, other.standard_error),
-            );
-            text += &format!("{:<15}{value}{unit}, standard error {error}, by {method}\n", "");
+        if let Some(other) = &it.other {
+            text += &format!("{:<15}{}\n", "", told_of_other(other, &unit));
         }
         if it.verdict != Verdict::Determined {
             text += &format!("{:<15}{}\n", "", it.verdict);
@@ -264,8 +312,14 @@ fn table(all: &[Identified]) -> String {
 
 fn as_json(all: &[Identified]) -> serde_json::Value {
     let one = |it: &Identified| {
-        let other = it.other.map(|(method, other)| {
-            json!({ "method": method, "value": other.value, "standard_error": other.standard_error })
+        let other = it.other.map(|it| {
+            json!({
+                "method": it.method,
+                "value": it.estimate.value,
+                "standard_error": it.estimate.standard_error,
+                "disagreement_in_standard_errors": it.disagreement,
+                "bias": it.bias,
+            })
         });
         json!({
             "name": it.constant.symbol(),
@@ -281,4 +335,45 @@ fn as_json(all: &[Identified]) -> serde_json::Value {
         })
     };
     json!({ "identified": all.iter().map(one).collect::<Vec<_>>(), "notes": remarks(all) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn estimates_have_two_digits_of_their_errors_and_none_where_they_have_none() {
+        let told = |value, standard_error, interval, verdict| {
+            told(&Estimate { value, standard_error, interval }, verdict, " N/m")
+        };
+        assert_eq!(
+            told(2418.96, 1.499, [2415.72, 2422.2], Verdict::Determined),
+            "2419.0 N/m, standard error 1.5, 95 %: 2415.7 to 2422.2"
+        );
+        let open = f64::INFINITY;
+        for (interval, verdict, text) in [
+            ([1e-4, 0.00751], Verdict::LimitedAbove, "below 0.00751 N/m, no standard error"),
+            ([0.5, 100.0], Verdict::LimitedBelow, "above 0.500 N/m, no standard error"),
+            ([0.31, 0.65], Verdict::Several, "between 0.310 and 0.650 N/m, no standard error"),
+            (
+                [0.31, 0.65],
+                Verdict::NotDetermined,
+                "between 0.310 and 0.650 N/m, no standard error",
+            ),
+        ] {
+            assert_eq!(told(0.4, open, interval, verdict), text);
+            assert_eq!(
+                told(0.4, 8.2e32, interval, verdict).split(',').next_back(),
+                Some(" no standard error")
+            );
+        }
+        let exact = told(0.65625, 0.0, [0.65625; 2], Verdict::Determined);
+        assert_eq!(exact, "0.656250 N/m, no standard error, as the tests do not scatter");
+    }
+
+    #[test]
+    fn rows_are_found_among_comments_and_blank_lines() {
+        let text = "# rig\n\npulled_mass [kg]\n0.4\n# again\n\n-0.4\n";
+        assert_eq!([0, 1].map(|row| line_of(text, row)), [4, 7]);
+    }
 }

@@ -12,6 +12,7 @@ use crate::campaign::{CampaignError, Replay, read_study_or_results};
 use crate::capsule::{Case, Dimension, Parameters, State, settle_case};
 use crate::experiment::synthesis::recorded;
 use crate::experiment::{Laboratory, Sensor, Signal, SimpleTests, Started, Test, simple_tests};
+use crate::orbit::Protocol;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -181,7 +182,7 @@ impl Synthesize {
 /// What the capsule settles to from `start`, at this phase of the drive and at x2 = 0.
 fn settled(parameters: &Parameters, start: State<f64>, phase: f64) -> Started {
     let case = Case::at_section(parameters.clone(), start, phase);
-    let end = settle_case(&case, &crate::orbit::Protocol::default()).end;
+    let end = settle_case(&case, &Protocol::default()).end;
     Started { parameters: parameters.clone(), start: State { x2: 0.0, ..end }, phase }
 }
 
@@ -195,6 +196,11 @@ pub fn case_of(path: &Path, index: usize) -> Result<Case, Failure> {
         other => other.into(),
     })?;
     Ok(replay.as_asked())
+}
+
+/// The protocol of a study or of a file of results.
+pub fn protocol_of(path: &Path) -> Result<Protocol, Failure> {
+    Ok(read_study_or_results(path)?.protocol)
 }
 
 fn noise_of(sensors: &[Sensor], signal: Signal) -> f64 {

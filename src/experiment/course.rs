@@ -46,27 +46,32 @@ pub struct Course<'r> {
     pub unknown: Vec<(Direction, Bounds)>,
     /// What the residuals of each signal are divided by.
     pub units: Vec<f64>,
+    /// The noise of each signal by its third differences, and the least that is taken for noise.
+    pub noise: Vec<[f64; 2]>,
 }
 
 impl<'r> Course<'r> {
     /// The start as the first samples have it.
     ///
-    /// Fails where neither r, nor x1 and x2, is recorded.
+    /// Fails where neither r, nor x1 and x2, is recorded, or a signal does not vary.
     pub fn new(recorded: &'r Recorded, weights: Weights) -> Result<Self, String> {
-        let noise: Vec<f64> = recorded
-            .signals
-            .iter()
-            .map(|(_, values)| {
-                let size = values.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
-                noise(values).max(1e-9 * size).max(f64::MIN_POSITIVE)
-            })
-            .collect();
+        let least = |values: &[f64]| {
+            let size = values.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+            (1e-9 * size).max(f64::MIN_POSITIVE)
+        };
+        let both = recorded.signals.iter().map(|(_, values)| {
+            let least = least(values);
+            [noise(values).max(least), least]
+        });
+        let both: Vec<[f64; 2]> = both.collect();
+        let noise: Vec<f64> = both.iter().map(|it| it[0]).collect();
         let units = match weights {
             Weights::Noise => noise.clone(),
             Weights::Spread => {
                 recorded.signals.iter().map(|it| spread(&recorded.times, &it.1)).collect()
             }
         };
+        varies(&recorded.signals)?;
         let begin = |signal: Signal| begin(recorded, &noise, signal);
         let x2 = begin(Signal::X2);
         let r = match (begin(Signal::R), begin(Signal::X1), x2) {
@@ -100,8 +105,19 @@ impl<'r> Course<'r> {
         }
         let guess =
             Started { parameters: recorded.parameters.clone(), start, phase: recorded.phase };
-        Ok(Course { recorded, guess, unknown, units })
+        Ok(Course { recorded, guess, unknown, units, noise: both })
     }
+}
+
+/// Fails where the values of a signal are all equal.
+pub fn varies(signals: &[(Signal, Vec<f64>)]) -> Result<(), String> {
+    let constant = signals.iter().find(|(_, values)| values.iter().all(|it| *it == values[0]));
+    constant.map_or(Ok(()), |(signal, _)| {
+        Err(format!(
+            "{} does not vary, so that it says nothing of the motion and its noise is unknown; remove the column",
+            signal.name()
+        ))
+    })
 }
 
 /// A signal at the first sample of a record, with its rate and the standard errors of both.

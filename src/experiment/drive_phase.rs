@@ -4,9 +4,10 @@ use std::f64::consts::TAU;
 
 use super::estimate::Estimate;
 use super::least_squares::{Residuals, Search, fit};
+use super::periodogram::strongest;
 
-/// Frequencies that are tried, per resolvable difference of frequencies.
-const PER_LINE: f64 = 4.0;
+/// A frequency is that of a study within so many standard errors.
+const SAME: f64 = 4.0;
 
 /// A harmonic `mean + amplitude cos(omega t + phase)`.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,12 +24,37 @@ pub struct Harmonic {
     pub scatter: f64,
 }
 
+/// The frequency of a recorded drive beside that of a study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Frequencies {
+    /// That of the study lies within the interval of the recorded one.
+    Same,
+    /// It lies outside, but nearer than chance excludes, or so near that the phase is right over the record all the same.
+    Apart,
+    /// They differ.
+    Differ,
+}
+
+impl Harmonic {
+    /// Whether the frequency is `omega` [rad/s], as a phase over `span` [s] sees it.
+    ///
+    /// They differ where they are more than four standard errors apart, and the phase drifts by more than its standard error.
+    pub fn beside(&self, omega: f64, span: f64) -> Frequencies {
+        let apart = (self.omega.value - omega).abs();
+        let drifts = apart * span > self.phase.standard_error;
+        match self.omega.holds(omega) {
+            true => Frequencies::Same,
+            false if apart > SAME * self.omega.standard_error && drifts => Frequencies::Differ,
+            false => Frequencies::Apart,
+        }
+    }
+}
+
 /// The harmonic that a record is nearest to.
 ///
 /// # Method
 ///
-/// For each frequency of a grid, from one cycle in the record to a quarter of the median sampling rate, the power of the
-/// harmonic is computed from the samples at their own times; from the strongest, all constants are fitted by least squares.
+/// From the strongest frequency ([`strongest`]), all constants are fitted by least squares.
 ///
 /// # Breaks
 ///
@@ -40,23 +66,7 @@ pub fn harmonic(times: &[f64], values: &[f64]) -> Result<Harmonic, String> {
     }
     let span = times[count - 1] - times[0];
     let mean = values.iter().sum::<f64>() / count as f64;
-    let line = TAU / span;
-    let fastest = 0.25 * TAU * count as f64 / span;
-    let steps = (PER_LINE * fastest / line) as usize;
-    let power = |omega: f64| {
-        let (mut cos, mut sin) = (0.0, 0.0);
-        for (time, value) in times.iter().zip(values) {
-            let (s, c) = (omega * (time - times[0])).sin_cos();
-            cos += (value - mean) * c;
-            sin += (value - mean) * s;
-        }
-        cos * cos + sin * sin
-    };
-    let grid = (PER_LINE as usize..=steps).map(|i| line * i as f64 / PER_LINE);
-    let strongest = grid.map(|omega| (power(omega), omega)).max_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((_, omega)) = strongest.filter(|(power, _)| *power > 0.0) else {
-        return Err("the record does not vary, so no drive is found".to_owned());
-    };
+    let omega = strongest(times, values).ok_or("the record does not vary, so no drive is found")?;
     let model = |p: &[f64]| {
         let rows = times.iter().zip(values).map(|(time, value)| {
             let (sin, cos) = (p[0] * (time - times[0])).sin_cos();

@@ -60,14 +60,55 @@ pub fn reach(degrees_of_freedom: usize, confidence: f64) -> f64 {
 
 /// The probability that chance alone gives a ratio of variances of at least this size, with so many degrees of freedom.
 pub fn chance_of_ratio(ratio: f64, freedom: [usize; 2]) -> f64 {
+    // Without any scatter on either side nothing speaks against chance; without any below, no chance gives the ratio.
+    if ratio.is_nan() || ratio <= 0.0 {
+        return 1.0;
+    }
+    if ratio == f64::INFINITY {
+        return 0.0;
+    }
     let [above, below] = freedom.map(|it| it.max(1) as f64);
     let distribution = FisherSnedecor::new(above, below).expect("positive degrees of freedom");
     distribution.sf(ratio)
 }
 
+/// A number with so many significant digits, without zeros that say nothing.
+pub fn significant(value: f64, digits: i32) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let exponent = value.abs().log10().floor() as i32;
+    if !(-5..7).contains(&exponent) {
+        return format!("{:.*e}", (digits - 1).max(0) as usize, value);
+    }
+    let decimals = (digits - 1 - exponent).max(0) as usize;
+    format!("{value:.decimals$}")
+}
+
+/// Decimals that show two significant digits of a standard error; none where it is not a number above zero.
+pub fn decimals(standard_error: f64) -> Option<usize> {
+    let is_told = standard_error.is_finite() && standard_error > 0.0;
+    is_told.then(|| (1.0 - standard_error.log10().floor()).clamp(0.0, 15.0) as usize)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_say_something() {
+        let shown = [0.0075312, 829.3, 8.29e29, 2419.0, 0.0].map(|it| significant(it, 3));
+        assert_eq!(shown, ["0.00753", "829", "8.29e29", "2419", "0"]);
+        let digits = [1.499, 0.0123, 12.3, 0.0, f64::INFINITY].map(decimals);
+        assert_eq!(digits, [Some(1), Some(3), Some(0), None, None]);
+    }
+
+    #[test]
+    fn ratios_without_scatter_have_a_chance() {
+        for (ratio, chance) in [(f64::NAN, 1.0), (-1.0, 1.0), (0.0, 1.0), (f64::INFINITY, 0.0)] {
+            assert_eq!(chance_of_ratio(ratio, [1, 5]), chance, "{ratio}");
+        }
+    }
 
     #[test]
     fn intervals_are_those_of_tables() {

@@ -1,129 +1,34 @@
 //! What the simple tests of a rig say of its parameters, with where each value comes from.
 
-use super::estimate::{Estimate, reach};
+#[cfg(test)]
+mod coverage;
+mod identified;
+#[cfg(test)]
+mod messages;
+mod parameter_file;
+
+pub use identified::{Constant, Given, Identified, Other, Test};
+pub use parameter_file::parameter_file;
+
+use super::estimate::significant;
 use super::free_vibration::{FreeVibration, free_vibration};
-use super::friction::{Coasting, CoastingTests, coasting, static_friction};
-use super::line::{Line, line};
+use super::friction::{Coasting, CoastingTests, Stribeck, V_S, coasting, static_friction};
+use super::line::{Line, Outlier, hysteresis, line, outliers};
 use super::profile::Verdict;
-use super::recording::{Column, Presence::Required, Recording};
-use crate::capsule::{Dimension, Parameter};
+use super::recording::Recording;
+use crate::capsule::Parameter;
 
 /// A fitted decay that leaves so many times the noise does not describe the record.
 const MISFIT: f64 = 1.5;
-/// Two methods disagree where chance makes them differ so once in a thousand recordings.
-const DISAGREE: f64 = 0.999;
-
-/// A simple test.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Test {
-    /// The mass is displaced and let go, on a capsule that is held: k1 and c.
-    FreeVibration,
-    /// The stop is loaded by weights: k2.
-    StaticForce,
-    /// A weight is increased until it moves the rig: mu_s.
-    Pull,
-    /// The rig is given a speed and slides until it rests: mu_d and v_s.
-    Coasting,
-    /// The force on the rod is measured over the current: the motor constant.
-    Motor,
-}
-
-impl Test {
-    /// All of them.
-    pub const ALL: [Test; 5] =
-        [Test::FreeVibration, Test::StaticForce, Test::Pull, Test::Coasting, Test::Motor];
-
-    /// Its name, which is that of its option and the stem of its file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Test::FreeVibration => "free-vibration",
-            Test::StaticForce => "static-force",
-            Test::Pull => "pull",
-            Test::Coasting => "coasting",
-            Test::Motor => "motor",
-        }
-    }
-
-    /// The columns of its recording.
-    pub fn columns(self) -> Vec<Column> {
-        let columns: &[(&'static str, Dimension)] = match self {
-            Test::FreeVibration => &[("t", Dimension::Time), ("r", Dimension::Length)],
-            Test::StaticForce => &[("force", Dimension::Force), ("deflection", Dimension::Length)],
-            Test::Pull => &[("pulled_mass", Dimension::Mass)],
-            Test::Coasting => &[("v", Dimension::Velocity), ("d", Dimension::Length)],
-            Test::Motor => &[("current", Dimension::Current), ("force", Dimension::Force)],
-        };
-        let column = |&(name, dimension)| Column { name, dimension, presence: Required };
-        columns.iter().map(column).collect()
-    }
-
-    /// Rows that its recording must have.
-    pub fn least_rows(self) -> usize {
-        match self {
-            Test::FreeVibration => 30,
-            Test::StaticForce | Test::Motor => 4,
-            Test::Pull => 2,
-            Test::Coasting => 4,
-        }
-    }
-}
-
-/// What was identified.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Constant {
-    /// A parameter of the model.
-    Parameter(Parameter),
-    /// Force per current of the motor.
-    MotorConstant,
-}
-
-impl Constant {
-    /// Its symbol.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Constant::Parameter(parameter) => parameter.symbol(),
-            Constant::MotorConstant => "motor_constant",
-        }
-    }
-
-    /// What it measures.
-    pub fn dimension(self) -> Dimension {
-        match self {
-            Constant::Parameter(parameter) => parameter.dimension(),
-            Constant::MotorConstant => Dimension::ForcePerCurrent,
-        }
-    }
-}
-
-/// An identified constant with where it comes from.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Identified {
-    /// Which.
-    pub constant: Constant,
-    /// Its value with its uncertainty (SI).
-    pub estimate: Estimate,
-    /// What the data say of it, where they may leave it open.
-    pub verdict: Verdict,
-    /// How it was found.
-    pub method: &'static str,
-    /// The recording.
-    pub source: String,
-    /// What another method gives, by its name.
-    pub other: Option<(&'static str, Estimate)>,
-    /// What must be known of it, a sentence each.
-    pub notes: Vec<String>,
-}
-
-/// Masses and gravity, which the tests take as exact (SI).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Given {
-    /// The mass.
-    pub m1: f64,
-    /// The capsule.
-    pub m2: f64,
-    /// Gravity.
-    pub g: f64,
-}
+/// Two methods disagree where they differ by more standard errors.
+const DISAGREE: f64 = 3.0;
+/// Why Eq. (2) of the paper is biased.
+const EQ_2_BIAS: &str = "biased by construction, as it takes the mean friction over the coast-down for that at the initial speed; no \
+                         independent estimate";
+/// No friction coefficient of a rig is smaller or larger.
+const FRICTION: [f64; 2] = [1e-3, 10.0];
+/// Residuals of this share of the largest value are those of rounding in the file, among which there is no outlier.
+const ROUNDED: f64 = 1e-6;
 
 /// What a test says, beside its constants, for a picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,57 +51,111 @@ pub fn identify(
     recording: &Recording,
     given: &Given,
 ) -> Result<(Vec<Identified>, Evidence), String> {
-    match test {
-        Test::FreeVibration => of_free_vibration(recording, given),
-        Test::StaticForce => of_static_force(recording),
-        Test::Pull => Ok((vec![of_pulls(recording, given)], Evidence::None)),
-        Test::Coasting => of_coasting(recording, given),
-        Test::Motor => of_motor(recording),
+    if let Some((row, why)) = impossible_rows(test, recording).first() {
+        return Err(format!("row {} of the numbers: {why}", row + 1));
     }
+    let (mut all, evidence) = match test {
+        Test::FreeVibration => of_free_vibration(recording, given)?,
+        Test::StaticForce => of_static_force(recording)?,
+        Test::Pull => (vec![of_pulls(recording, given)], Evidence::None),
+        Test::Coasting => of_coasting(recording, given)?,
+        Test::Motor => of_motor(recording)?,
+    };
+    all.iter_mut().for_each(|it| it.notes.extend(implausible(it.constant, it.estimate.value)));
+    Ok((all, evidence))
+}
+
+/// Rows with values that the test cannot give, counted from 0, and what is wrong with them.
+pub fn impossible_rows(test: Test, recording: &Recording) -> Vec<(usize, String)> {
+    let why = match test {
+        Test::Pull => "pulled masses must be above zero",
+        Test::Coasting => "speeds and distances of coasting tests must be above zero",
+        _ => return Vec::new(),
+    };
+    let columns: Vec<&[f64]> = recording.columns.iter().map(|(_, values)| &values[..]).collect();
+    let is_wrong = |row: &usize| columns.iter().any(|values| values[*row] <= 0.0);
+    (0..recording.rows()).filter(is_wrong).map(|row| (row, why.to_owned())).collect()
+}
+
+/// What is said of a value that no rig can have.
+fn implausible(constant: Constant, value: f64) -> Option<String> {
+    let Constant::Parameter(parameter) = constant else { return None };
+    let (symbol, value_text) = (parameter.symbol(), significant(value, 3));
+    if !parameter.allowed().admits(value) {
+        let allowed = parameter.allowed();
+        return Some(format!(
+            "{symbol} = {value_text}, but it must be {allowed}: no parameter file has this value"
+        ));
+    }
+    let [least, greatest] = FRICTION;
+    let is_friction = [Parameter::MuS, Parameter::MuD].contains(&parameter);
+    let beyond = match value {
+        _ if !is_friction => return None,
+        _ if value > greatest => format!("above {greatest}"),
+        _ if value < least => format!("below {least}"),
+        _ => return None,
+    };
+    Some(format!(
+        "{symbol} = {value_text} is {beyond}: are the units of the columns and of the masses right?"
+    ))
+}
+
+/// What is said of rows far off a line through values y.
+fn outliers_of_line(line: &Line, y: &[f64]) -> Vec<String> {
+    let largest = y.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+    if line.scatter <= ROUNDED * largest {
+        return Vec::new();
+    }
+    outliers(&line.residuals, 2).iter().map(Outlier::to_string).collect()
 }
 
 fn of_free_vibration(
     recording: &Recording,
     given: &Given,
 ) -> Result<(Vec<Identified>, Evidence), String> {
-    let sampling = recording.sampling();
     let found = free_vibration(recording.required("t"), recording.required("r"), given.m1)?;
-    let gaps = (!sampling.gaps.is_empty()).then(|| format!("the record: {sampling}"));
     let apart = found.disagreement();
-    let identified = |i: usize, parameter: Parameter| {
-        let mut notes: Vec<String> = gaps.iter().cloned().collect();
-        if parameter == Parameter::C && found.by_decay[i].value <= 0.0 {
-            notes.push(
-                "the amplitude does not decay: is this a free vibration? no parameter file has this value"
-                    .to_owned(),
-            );
-        }
-        if found.scatter > MISFIT * found.noise {
-            notes.push(format!(
-                "the fitted decay leaves {:.1} times the noise of the record: the damping may not be viscous, the spring not linear, or the \
-                 capsule not at rest",
-                found.scatter / found.noise
-            ));
-        }
-        if apart[i] > reach(found.turns - 2, DISAGREE) {
-            let apart = apart[i];
-            notes.push(format!(
-                "the two methods differ by {apart:.1} standard errors: the damping may not be viscous, the spring not linear, or \
-                 the capsule not at rest"
-            ));
-        }
-        Identified {
-            constant: Constant::Parameter(parameter),
-            estimate: found.by_decay[i],
-            verdict: Verdict::Determined,
-            method: "least squares on the whole decay",
-            source: recording.source.clone(),
-            other: Some(("logarithmic decrement", found.by_decrement[i])),
-            notes,
-        }
+    let identified = |i: usize, parameter: Parameter| Identified {
+        constant: Constant::Parameter(parameter),
+        estimate: found.by_decay[i],
+        verdict: Verdict::Determined,
+        method: "least squares on the whole decay",
+        source: recording.source.clone(),
+        other: Some(Other {
+            method: "logarithmic decrement",
+            estimate: found.by_decrement[i],
+            disagreement: Some(apart[i]),
+            bias: None,
+        }),
+        notes: notes_of_decay(recording, &found, i),
     };
     let all = vec![identified(0, Parameter::K1), identified(1, Parameter::C)];
     Ok((all, Evidence::Decay(Box::new(found))))
+}
+
+/// What must be known of the stiffness (0) or the damping (1) of a decay.
+fn notes_of_decay(recording: &Recording, found: &FreeVibration, which: usize) -> Vec<String> {
+    const WHY: &str =
+        "the damping may not be viscous, the spring not linear, or the capsule not at rest";
+    let sampling = recording.sampling();
+    let mut notes = Vec::new();
+    if !sampling.gaps.is_empty() {
+        notes.push(format!("the record: {sampling}"));
+    }
+    if which == 1 && found.by_decay[1].value <= 0.0 {
+        notes.push("the amplitude does not decay: is this a free vibration?".to_owned());
+    }
+    if found.scatter > MISFIT * found.noise {
+        let share = found.scatter / found.noise;
+        notes.push(format!(
+            "the fitted decay leaves {share:.1} times the noise of the record: {WHY}"
+        ));
+    }
+    let apart = found.disagreement()[which].abs();
+    if apart > DISAGREE {
+        notes.push(format!("the two methods differ by {apart:.1} standard errors: {WHY}"));
+    }
+    notes
 }
 
 /// The deflection over the load, as weights are known better than deflections.
@@ -210,7 +169,7 @@ fn of_static_force(recording: &Recording) -> Result<(Vec<Identified>, Evidence),
             .to_owned());
     }
     let slope = -1.0 / (compliance.value * compliance.value);
-    let notes = line.curvature.map(|it| {
+    let curved = line.curvature.map(|it| {
         let [first, last] = it.slopes.map(|slope| 1e-3 / slope);
         let what = if last > first { "stiffens" } else { "softens" };
         format!(
@@ -219,6 +178,14 @@ fn of_static_force(recording: &Recording) -> Result<(Vec<Identified>, Evidence),
             it.chance
         )
     });
+    let apart = hysteresis(loads, &line.residuals).map(|it| {
+        let (size, what) = (significant(1e3 * it.abs(), 2), if it > 0.0 { "larger" } else { "smaller" });
+        format!("deflections are {size} mm {what} while the load falls than while it rises (hysteresis, as of friction)")
+    });
+    let mut notes: Vec<String> = curved.into_iter().chain(apart).collect();
+    if notes.is_empty() {
+        notes.extend(outliers_of_line(&line, deflections));
+    }
     let identified = Identified {
         constant: Constant::Parameter(Parameter::K2),
         estimate: compliance.map(|it| 1.0 / it, slope),
@@ -226,21 +193,32 @@ fn of_static_force(recording: &Recording) -> Result<(Vec<Identified>, Evidence),
         method: "line through deflection over load",
         source: recording.source.clone(),
         other: None,
-        notes: notes.into_iter().collect(),
+        notes,
     };
     Ok((vec![identified], Evidence::Line(Box::new(line))))
 }
 
 fn of_pulls(recording: &Recording, given: &Given) -> Identified {
     let pulled = recording.required("pulled_mass");
+    let estimate = static_friction(pulled, given.m1 + given.m2);
+    let mut notes = Vec::new();
+    if estimate.standard_error <= 1e-12 * estimate.value {
+        notes.push(
+            "all pulled masses are equal: their scatter is below the steps of the weights, and half a step bounds the error"
+                .to_owned(),
+        );
+    }
+    let ratios: Vec<f64> = pulled.iter().map(|it| it / (given.m1 + given.m2)).collect();
+    let residuals: Vec<f64> = ratios.iter().map(|it| it - estimate.value).collect();
+    notes.extend(outliers(&residuals, 1).iter().map(Outlier::to_string));
     Identified {
         constant: Constant::Parameter(Parameter::MuS),
-        estimate: static_friction(pulled, given.m1 + given.m2),
+        estimate,
         verdict: Verdict::Determined,
         method: "mean of pulled mass over mass of the rig",
         source: recording.source.clone(),
         other: None,
-        notes: Vec::new(),
+        notes,
     }
 }
 
@@ -249,42 +227,73 @@ fn of_coasting(
     given: &Given,
 ) -> Result<(Vec<Identified>, Evidence), String> {
     let [speeds, distances] = ["v", "d"].map(|name| recording.required(name));
-    if speeds.iter().chain(distances).any(|it| *it <= 0.0) {
-        return Err("speeds and distances of coasting tests must be above zero".to_owned());
-    }
     let found = coasting(&CoastingTests { speeds, distances, g: given.g })?;
     let (second, first) = (&found.by_coast_down, &found.by_initial_speed);
-    let identified =
-        |parameter, (estimate, other): (Estimate, Estimate), verdict: Verdict| Identified {
+    let identified = |i: usize, parameter: Parameter| {
+        let of = |law: &Stribeck| [law.mu_d, law.v_s][i];
+        let mut notes: Vec<String> = ambiguity(parameter, second, i).into_iter().collect();
+        if i == 0 {
+            notes.extend(found.misfits.iter().cloned());
+        }
+        Identified {
             constant: Constant::Parameter(parameter),
-            estimate,
-            verdict,
+            estimate: of(second),
+            verdict: second.verdicts[i],
             method: "distances of the coast-down under the Coulomb-Stribeck law",
             source: recording.source.clone(),
-            other: Some(("v^2/(2 g d) at the initial speed, Eq. (2)", other)),
-            notes: Vec::new(),
-        };
-    let all = vec![
-        identified(Parameter::MuD, (second.mu_d, first.mu_d), second.verdicts[0]),
-        identified(Parameter::Vs, (second.v_s, first.v_s), second.verdicts[1]),
-    ];
+            other: Some(Other {
+                method: "v^2/(2 g d) at the initial speed, Eq. (2)",
+                estimate: of(first),
+                disagreement: None,
+                bias: Some(EQ_2_BIAS),
+            }),
+            notes,
+        }
+    };
+    let all = vec![identified(0, Parameter::MuD), identified(1, Parameter::Vs)];
     Ok((all, Evidence::Coasting(Box::new(found))))
+}
+
+/// The separate ranges of a parameter of friction that agree with the tests, where there are several.
+fn ambiguity(parameter: Parameter, law: &Stribeck, which: usize) -> Option<String> {
+    let symbol = parameter.symbol();
+    if law.verdicts[which] == Verdict::NotDetermined {
+        return (parameter == Parameter::MuD).then(|| {
+            "mu_d follows from v_s, of which every value agrees with these tests".to_owned()
+        });
+    }
+    if law.verdicts[which] != Verdict::Several {
+        return None;
+    }
+    let (bounds, unit) = match parameter {
+        Parameter::Vs => (V_S, " m/s"),
+        _ => ([0.0, f64::INFINITY], ""),
+    };
+    let range = |&[least, greatest]: &[f64; 2]| {
+        let [from, to] = [least, greatest].map(|it| significant(it, 3));
+        match (least <= bounds[0] * 1.000_001, greatest >= bounds[1] * 0.999_999) {
+            (true, _) => format!("below {to}{unit}"),
+            (_, true) => format!("above {from}{unit}"),
+            _ => format!("{from} to {to}{unit}"),
+        }
+    };
+    let ranges: Vec<String> = law.ranges[which].iter().map(range).collect();
+    Some(format!(
+        "{symbol} may be {}: over these speeds a small v_s describes the tests as well as a large one with half the mu_d; tests over more \
+         speeds tell them apart",
+        ranges.join(" or ")
+    ))
 }
 
 fn of_motor(recording: &Recording) -> Result<(Vec<Identified>, Evidence), String> {
     let [currents, forces] = ["current", "force"].map(|name| recording.required(name));
     let line =
         line(currents, forces).ok_or("all currents are equal, so no line lies through them")?;
-    let intercept = line.intercept;
-    let mut notes = Vec::new();
-    if !intercept.holds(0.0) {
-        notes.push(format!("without current the force is {:.4} N, not zero", intercept.value));
-    }
-    if let Some(it) = line.curvature {
-        notes.push(format!(
-            "the force is not proportional to the current (chance {:.1e})",
-            it.chance
-        ));
+    let largest = forces.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+    if line.slope.value.abs() * (currents.iter().fold(0.0, |most: f64, it| most.max(it.abs())))
+        <= 1e-12 * largest
+    {
+        return Err("all forces are equal, so the motor constant is not determined".to_owned());
     }
     let identified = Identified {
         constant: Constant::MotorConstant,
@@ -293,15 +302,40 @@ fn of_motor(recording: &Recording) -> Result<(Vec<Identified>, Evidence), String
         method: "line through force over current",
         source: recording.source.clone(),
         other: None,
-        notes,
+        notes: notes_of_motor(&line, forces, largest),
     };
     Ok((vec![identified], Evidence::Line(Box::new(line))))
+}
+
+/// What must be known of the line of a motor, whose largest force is this.
+fn notes_of_motor(line: &Line, forces: &[f64], largest: f64) -> Vec<String> {
+    let intercept = line.intercept;
+    let mut notes = Vec::new();
+    if !intercept.holds(0.0) && intercept.value.abs() > 1e-9 * largest {
+        let force = significant(intercept.value, 3);
+        notes.push(format!("without current the force is {force} N, not zero"));
+    }
+    if line.slope.value < 0.0 {
+        notes.push(
+            "the force is opposite to the current: is the sign of one of them reversed?".to_owned(),
+        );
+    }
+    if let Some(it) = line.curvature {
+        notes.push(format!(
+            "the force is not proportional to the current (chance {:.1e})",
+            it.chance
+        ));
+    } else {
+        notes.extend(outliers_of_line(line, forces));
+    }
+    notes
 }
 
 /// Notes that concern several constants together.
 pub fn remarks(all: &[Identified]) -> Vec<String> {
     let of = |parameter| {
-        let found = all.iter().find(|it| it.constant == Constant::Parameter(parameter))?;
+        let is_it = |it: &&Identified| it.constant == Constant::Parameter(parameter);
+        let found = all.iter().find(is_it).filter(|it| it.verdict == Verdict::Determined)?;
         Some(found.estimate)
     };
     let (Some(mu_s), Some(mu_d)) = (of(Parameter::MuS), of(Parameter::MuD)) else {
@@ -316,58 +350,4 @@ pub fn remarks(all: &[Identified]) -> Vec<String> {
         mu_s.value,
         2.0 * mu_d.value
     )]
-}
-
-/// The identified constants as a parameter file, which studies include by `include = "FILE"`; `settings` are parameters that
-/// were given, by symbol with their values as text.
-pub fn parameter_file(all: &[Identified], settings: &[(Parameter, f64)]) -> String {
-    let mut text = concat!(
-        "# Identified by capsulemap ",
-        env!("CARGO_PKG_VERSION"),
-        ". A study takes these values by include = \"FILE\" at its top.\n\n[parameters]\n"
-    )
-    .to_owned();
-    let quantity = |value: f64, dimension: Dimension| match dimension {
-        Dimension::Number => format!("{value}"),
-        dimension => format!("\"{value} {}\"", dimension.unit()),
-    };
-    for (parameter, value) in settings {
-        text += &format!("{} = {}\n", parameter.symbol(), quantity(*value, parameter.dimension()));
-    }
-    for it in all {
-        let Constant::Parameter(parameter) = it.constant else { continue };
-        let value = quantity(it.estimate.value, parameter.dimension());
-        let symbol = parameter.symbol();
-        text += &match (it.verdict, parameter.allowed().admits(it.estimate.value)) {
-            (Verdict::NotDetermined, _) => {
-                format!("# {symbol} is not determined by the recording\n")
-            }
-            (_, false) => {
-                format!("# {symbol} = {value} was found, but must be {}\n", parameter.allowed())
-            }
-            (_, true) => format!("{symbol} = {value}\n"),
-        };
-    }
-    for it in all {
-        let Identified { constant, estimate, verdict, method, source, .. } = it;
-        let of = |value: f64| quantity(value, constant.dimension());
-        let [least, greatest] = estimate.interval.map(of);
-        text += &format!(
-            "\n[identified.{}]\nvalue = {}\nstandard_error = {}\ninterval_95 = [{least}, {greatest}]\nverdict = \"{verdict}\"\nmethod = \
-             \"{method}\"\nrecording = {}\n",
-            constant.symbol(),
-            of(estimate.value),
-            of(estimate.standard_error),
-            toml_string(source),
-        );
-        for note in &it.notes {
-            text += &format!("# {note}\n");
-        }
-    }
-    text
-}
-
-/// A text as TOML writes it.
-fn toml_string(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }

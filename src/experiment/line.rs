@@ -1,9 +1,20 @@
 //! Straight lines through measured points, with standard errors, and whether the points lie on one.
 
+use std::fmt;
+
 use super::estimate::{Estimate, chance_of_ratio};
+use super::recording::median;
 
 /// A curvature that chance alone would give with a lower probability than this is told.
 const CURVED: f64 = 0.01;
+/// Residuals of this share of the values are those of rounding.
+const ROUNDING: f64 = 1e-13;
+/// A residual beyond this many robust standard deviations is told.
+const FAR: f64 = 4.0;
+/// Fewer points do not tell how far residuals scatter.
+const LEAST_POINTS: usize = 6;
+/// Loading and unloading differ where chance alone gives their difference with a lower probability.
+const HYSTERESIS: f64 = 0.001;
 
 /// The line `y = intercept + slope x` with the least squares of the residuals in y.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +46,10 @@ pub struct Curvature {
 ///
 /// Least squares of the residuals in y, which are taken to be independent and of equal scatter, x as exact. The curvature
 /// is tested by the F test of a quadratic term.
+///
+/// # Guarantees
+///
+/// Residuals that are no more than rounding are zero: points on a line have no scatter and no curvature.
 pub fn line(x: &[f64], y: &[f64]) -> Option<Line> {
     let count = x.len();
     if count < 3 {
@@ -49,7 +64,9 @@ pub fn line(x: &[f64], y: &[f64]) -> Option<Line> {
         return None;
     }
     let slope = u.iter().zip(y).map(|(u, y)| u * (y - y_mean)).sum::<f64>() / square;
-    let residuals: Vec<f64> = u.iter().zip(y).map(|(u, y)| y - y_mean - slope * u).collect();
+    let height = y.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+    let clear = |it: f64| if it.abs() <= ROUNDING * height { 0.0 } else { it };
+    let residuals: Vec<f64> = u.iter().zip(y).map(|(u, y)| clear(y - y_mean - slope * u)).collect();
     let left: f64 = residuals.iter().map(|it| it * it).sum();
     let freedom = count - 2;
     let scatter = (left / freedom as f64).sqrt();
@@ -66,20 +83,118 @@ pub fn line(x: &[f64], y: &[f64]) -> Option<Line> {
 
 /// The chance of such residuals of points on a line, where it is low; `u` is x less its mean.
 fn curvature(u: &[f64], residuals: &[f64], square: f64) -> Option<f64> {
-    let count = u.len() as f64;
     let freedom = u.len().checked_sub(3).filter(|&it| it > 0)?;
-    // The parabola that is orthogonal to the lines.
+    let explained = explained_by_parabola(u, residuals, square)?;
+    let left = residuals.iter().map(|it| it * it).sum::<f64>() - explained;
+    let chance = chance_of_ratio(explained / (left.max(0.0) / freedom as f64), [1, freedom]);
+    (chance < CURVED).then_some(chance)
+}
+
+/// The sum of squares of residuals that the parabola explains that is orthogonal to the lines; none where there is none.
+fn explained_by_parabola(u: &[f64], residuals: &[f64], square: f64) -> Option<f64> {
     let skew = u.iter().map(|it| it * it * it).sum::<f64>() / square;
-    let parabola: Vec<f64> = u.iter().map(|it| it * it - skew * it - square / count).collect();
+    let mean = square / u.len() as f64;
+    let parabola: Vec<f64> = u.iter().map(|it| it * it - skew * it - mean).collect();
     let its_square: f64 = parabola.iter().map(|it| it * it).sum();
     if its_square <= (1e-12 * square).powi(2) {
         return None;
     }
-    let height = parabola.iter().zip(residuals).map(|(p, r)| p * r).sum::<f64>() / its_square;
-    let explained = height * height * its_square;
-    let left = residuals.iter().map(|it| it * it).sum::<f64>() - explained;
-    let chance = chance_of_ratio(explained / (left.max(0.0) / freedom as f64), [1, freedom]);
-    (chance < CURVED).then_some(chance)
+    let product = parabola.iter().zip(residuals).map(|(p, r)| p * r).sum::<f64>();
+    Some(product * product / its_square)
+}
+
+/// The probability that chance gives residuals that a line and a parabola in x explain so well; none for fewer than six points,
+/// or where x does not vary.
+///
+/// Method: the F test of both terms together, of residuals with zero mean.
+pub fn chance_of_parabola(x: &[f64], residuals: &[f64]) -> Option<f64> {
+    let count = x.len();
+    let freedom = count.checked_sub(4).filter(|_| count >= LEAST_POINTS)?;
+    let mean = x.iter().sum::<f64>() / count as f64;
+    let u: Vec<f64> = x.iter().map(|it| it - mean).collect();
+    let square: f64 = u.iter().map(|it| it * it).sum();
+    if square <= 0.0 {
+        return None;
+    }
+    let product: f64 = u.iter().zip(residuals).map(|(u, r)| u * r).sum();
+    let straight = product * product / square;
+    let explained = straight + explained_by_parabola(&u, residuals, square)?;
+    let all: f64 = residuals.iter().map(|it| it * it).sum();
+    let left = (all - explained).max(0.0) / freedom as f64;
+    Some(chance_of_ratio(0.5 * explained / left, [2, freedom]))
+}
+
+/// A point whose residual is far beyond those of the others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outlier {
+    /// Its row, counted from 1.
+    pub row: usize,
+    /// Its residual in robust standard deviations of all residuals.
+    pub deviations: f64,
+}
+
+impl fmt::Display for Outlier {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "row {} of the numbers lies {:.1} robust standard deviations off the fit: is it an outlier?",
+            self.row,
+            self.deviations.abs()
+        )
+    }
+}
+
+/// The points whose residuals exceed four robust standard deviations, of a fit of so many parameters.
+///
+/// # Method
+///
+/// The robust standard deviation is 1.4826 times the median of the absolute residuals, times `sqrt(n/(n - p))` for p parameters
+/// of n points.
+///
+/// # Breaks
+///
+/// Fewer than six points, or residuals of which most are zero, have no outliers.
+pub fn outliers(residuals: &[f64], parameters: usize) -> Vec<Outlier> {
+    let count = residuals.len();
+    if count < LEAST_POINTS.max(parameters + 1) {
+        return Vec::new();
+    }
+    let sizes: Vec<f64> = residuals.iter().map(|it| it.abs()).collect();
+    let freedom = (count - parameters) as f64;
+    let deviation = 1.4826 * median(&sizes) * (count as f64 / freedom).sqrt();
+    if deviation <= 0.0 {
+        return Vec::new();
+    }
+    let outlier = |(i, it): (usize, &f64)| Outlier { row: i + 1, deviations: it / deviation };
+    residuals.iter().enumerate().map(outlier).filter(|it| it.deviations.abs() > FAR).collect()
+}
+
+/// How much higher y lies on rows where x falls than on rows where it rises, where both are many and the difference is no chance.
+///
+/// # Method
+///
+/// A row belongs to the direction in which x came to it, the first to the direction in which x leaves. The difference of the mean
+/// residuals of both about the line is judged by Student's test; none where a direction has fewer than three rows.
+pub fn hysteresis(x: &[f64], residuals: &[f64]) -> Option<f64> {
+    let steps: Vec<f64> = x.windows(2).map(|it| it[1] - it[0]).collect();
+    let directions = steps.iter().take(1).chain(&steps);
+    let of = |sign: f64| {
+        let chosen =
+            residuals.iter().zip(directions.clone()).filter(|(_, step)| **step * sign > 0.0);
+        chosen.map(|(residual, _)| *residual).collect::<Vec<f64>>()
+    };
+    let both = [of(1.0), of(-1.0)];
+    if both.iter().any(|it| it.len() < 3) {
+        return None;
+    }
+    let means = both.each_ref().map(|it| it.iter().sum::<f64>() / it.len() as f64);
+    let square = |i: usize| both[i].iter().map(|it| (it - means[i]).powi(2)).sum::<f64>();
+    let freedom = both[0].len() + both[1].len() - 3;
+    let variance = (square(0) + square(1)) / freedom as f64;
+    let difference = means[1] - means[0];
+    let share = 1.0 / both[0].len() as f64 + 1.0 / both[1].len() as f64;
+    let chance = chance_of_ratio(difference * difference / (variance * share), [1, freedom]);
+    (chance < HYSTERESIS).then_some(difference)
 }
 
 /// The slopes of the lines through the halves of the points by x; that of all where a half has no line.
@@ -164,5 +279,19 @@ mod tests {
         assert!((curvature.slopes[0] - 2.09).abs() < 5e-3);
         assert!((curvature.slopes[1] - 2.29).abs() < 5e-3);
         assert_eq!(line(&[1.0, 1.0, 1.0], &[1.0, 2.0, 3.0]), None);
+    }
+
+    #[test]
+    fn points_without_scatter_have_a_line_and_no_curvature() {
+        let x: Vec<f64> = (0..8).map(f64::from).collect();
+        for (offset, slope) in [(2.0, 0.0), (0.1, 0.0), (0.0, 0.0), (0.3, 1.7)] {
+            let y: Vec<f64> = x.iter().map(|x| offset + slope * x).collect();
+            let line = line(&x, &y).expect("a line");
+            assert!((line.slope.value - slope).abs() < 1e-14, "{line:?}");
+            assert_eq!((line.scatter, line.curvature), (0.0, None));
+            assert!(outliers(&line.residuals, 2).is_empty());
+            assert_eq!(hysteresis(&x, &line.residuals), None);
+            assert!(chance_of_parabola(&x, &line.residuals).is_none_or(|it| it == 1.0));
+        }
     }
 }

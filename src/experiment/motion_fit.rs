@@ -4,9 +4,12 @@ use std::thread;
 
 use super::course::{Course, Recorded, Weights};
 use super::estimate::Estimate;
-use super::least_squares::{Bounds, Fit, Loss, Residuals, Search, fit_once};
-use super::profile::{Verdict, profile};
+pub use super::free_parameter::{Free, Side};
+use super::least_squares::{Fit, Loss, Residuals, Search, fit_once};
+use super::misfit::{Misfit, SignalResiduals, misfit, robust_deviation};
+use super::profile::{Profile, Verdict, profile_points};
 use super::sampled::{Direction, Signal, Started, sampled};
+use super::search_starts::starts;
 use crate::capsule::Parameter;
 
 /// Relative local error of the steps of the simulation.
@@ -17,15 +20,6 @@ const MOVES: f64 = 4.0;
 const CONVERGED: f64 = 1e-9;
 /// Evaluations of the model per parameter and start.
 const PATIENCE: usize = 20;
-
-/// A parameter to be fitted, and where it is looked for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Free {
-    /// Which.
-    pub parameter: Parameter,
-    /// From where to where (SI).
-    pub bounds: Bounds,
-}
 
 /// A parameter as fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,31 +34,6 @@ pub struct Fitted {
     pub bound: Option<Side>,
 }
 
-/// A side of the bounds of a parameter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// The least value that is allowed.
-    Least,
-    /// The greatest.
-    Greatest,
-}
-
-impl Side {
-    /// The bound that a value lies on, if it does.
-    pub fn of(value: f64, bounds: Bounds) -> Option<Side> {
-        let is_least = value - bounds.least < bounds.greatest - value;
-        bounds.holds(value).then_some(if is_least { Side::Least } else { Side::Greatest })
-    }
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Side::Least => "least",
-            Side::Greatest => "greatest",
-        }
-    }
-}
-
 /// The outcome of a fit to motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionFit {
@@ -76,8 +45,13 @@ pub struct MotionFit {
     pub combined: Vec<Parameter>,
     /// The correlation of the fitted parameters with each other; NaN where one is not determined.
     pub correlations: Vec<Vec<f64>>,
-    /// Standard deviation of the residuals in units of the noise of the records: one where the model describes them.
-    pub misfit: f64,
+    /// The covariance of the fitted parameters (SI); infinite and zero where one is not determined.
+    pub covariance: Vec<Vec<f64>>,
+    /// Points of the profile of each parameter: its value (SI), and what the sum of squares has grown by with the others fitted, in
+    /// units of what ends the interval.
+    pub profiles: Vec<Vec<[f64; 2]>>,
+    /// The residuals in units of the noise of the records.
+    pub misfit: Misfit,
     /// Samples that were used.
     pub samples: usize,
     /// How many of the starts of the search ended in this minimum, and how many there were.
@@ -121,12 +95,13 @@ pub fn fit_motion(
     free: &[Free],
     effort: &Effort,
 ) -> Result<MotionFit, String> {
-    let Best { courses, fit, misfit, starts } = best(recordings, free, effort)?;
+    let Best { courses, fit, starts, .. } = best(recordings, free, effort)?;
     let search = search(&courses, free, effort);
     let model = |unknowns: &[f64]| residuals(&courses, free, unknowns);
     let which: Vec<usize> = (0..free.len()).collect();
     let profiles =
-        in_threads(&which, effort.threads, |&which| profile(&model, &fit, &search, which));
+        in_threads(&which, effort.threads, |&which| profile_points(&model, &fit, &search, which));
+    let (profiles, points): (Vec<Profile>, Vec<_>) = profiles.into_iter().unzip();
     let fitted = free.iter().zip(profiles).enumerate().map(|(i, (free, profile))| Fitted {
         parameter: free.parameter,
         estimate: Estimate {
@@ -141,6 +116,8 @@ pub fn fit_motion(
         bound: Side::of(fit.parameters[i], free.bounds),
     });
     let covariance = &fit.unit_covariance;
+    let variance = fit.residual_deviation().powi(2);
+    let covariances = |i: usize| (0..free.len()).map(|j| covariance[(i, j)] * variance).collect();
     let correlation =
         |i: usize, j: usize| match [i, j].iter().all(|&it| covariance[(it, it)].is_finite()) {
             true => covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt(),
@@ -152,14 +129,16 @@ pub fn fit_motion(
         motions: motions(&courses, free, &fit.parameters),
         combined: (0..free.len()).filter(|&i| fit.is_open(i)).map(|i| free[i].parameter).collect(),
         correlations: (0..free.len()).map(row).collect(),
-        misfit,
+        covariance: (0..free.len()).map(covariances).collect(),
+        profiles: points,
+        misfit: misfit(&signals(&courses, free, &fit), fit.degrees_of_freedom),
         samples: fit.degrees_of_freedom + fit.parameters.len(),
         starts,
     })
 }
 
-/// The best values of the parameters alone, without intervals, and the standard deviation of the residuals in units of the
-/// noise; see [`fit_motion`].
+/// The best values of the parameters alone, without intervals, and the standard deviation of the residuals as they are weighed; see
+/// [`fit_motion`].
 pub fn best_values(
     recordings: &[Recorded],
     free: &[Free],
@@ -210,21 +189,45 @@ fn best<'r>(
 /// A signal with sharp features has larger third differences than its noise alone; with one scatter for all signals the intervals of
 /// what it determines would be too wide, and others too narrow.
 fn weighed_anew(courses: &mut [Course<'_>], free: &[Free], effort: &Effort, best: Fit) -> Fit {
-    let Some(found) = residuals(courses, free, &best.parameters) else { return best };
-    let mut rest = found.values.as_slice();
-    for course in courses.iter_mut() {
-        let count = course.recorded.times.len();
-        for unit in &mut course.units {
-            let (own, others) = rest.split_at(count);
-            let scatter = (own.iter().map(|it| it * it).sum::<f64>() / count as f64).sqrt();
-            *unit *= scatter.max(1e-3);
-            rest = others;
-        }
-        rest = &rest[usize::from(course.recorded.phase_error > 0.0)..];
+    let found = by_signal(courses, free, &best);
+    let units = courses.iter_mut().flat_map(|it| &mut it.units);
+    for (unit, own) in units.zip(found) {
+        let scatter = match effort.loss {
+            Loss::Squares => (own.iter().map(|it| it * it).sum::<f64>() / own.len() as f64).sqrt(),
+            // Outliers, which are to count little, would make the unit of their signal large.
+            Loss::SoftL1(_) => robust_deviation(&own),
+        };
+        *unit *= scatter.max(1e-3);
     }
     let search = search(courses, free, effort);
     let model = |unknowns: &[f64]| residuals(courses, free, unknowns);
     fit_once(&model, &best.parameters, &search, 1.0).unwrap_or(best)
+}
+
+/// The residuals of each signal of each recording in its unit; empty where the motion cannot be followed.
+fn by_signal(courses: &[Course<'_>], free: &[Free], fit: &Fit) -> Vec<Vec<f64>> {
+    let Some(found) = residuals(courses, free, &fit.parameters) else { return Vec::new() };
+    let (mut all, mut rest) = (Vec::new(), found.values.as_slice());
+    for course in courses {
+        for _ in &course.units {
+            let (own, others) = rest.split_at(course.recorded.times.len());
+            all.push(own.to_vec());
+            rest = others;
+        }
+        rest = &rest[usize::from(course.recorded.phase_error > 0.0)..];
+    }
+    all
+}
+
+/// The residuals of all signals with the noise of their records.
+fn signals(courses: &[Course<'_>], free: &[Free], fit: &Fit) -> Vec<SignalResiduals> {
+    let units = courses.iter().flat_map(|it| it.units.iter().zip(&it.noise));
+    let signal = |(own, (unit, noise)): (Vec<f64>, (&f64, &[f64; 2]))| SignalResiduals {
+        values: own.iter().map(|it| it * unit).collect(),
+        record_noise: noise[0],
+        least_noise: noise[1],
+    };
+    by_signal(courses, free, fit).into_iter().zip(units).map(signal).collect()
 }
 
 fn search(courses: &[Course<'_>], free: &[Free], effort: &Effort) -> Search {
@@ -321,44 +324,6 @@ fn residuals(courses: &[Course<'_>], free: &[Free], unknowns: &[f64]) -> Option<
         before += course.unknown.len();
     }
     Some(all)
-}
-
-/// Where the search begins: the values of the first recording, then points of a Halton sequence within the bounds.
-fn starts(courses: &[Course<'_>], free: &[Free], count: usize) -> Vec<Vec<f64>> {
-    const PRIMES: [u32; 14] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43];
-    let of_starts: Vec<f64> = courses
-        .iter()
-        .flat_map(|course| {
-            course.unknown.iter().map(|(direction, _)| course.guess.value(*direction))
-        })
-        .collect();
-    let start = |index: usize| {
-        let value = |(i, free): (usize, &Free)| {
-            let Bounds { least, greatest } = free.bounds;
-            match index {
-                0 => courses[0].guess.parameters[free.parameter].clamp(least, greatest),
-                _ => {
-                    least
-                        + (greatest - least)
-                            * radical_inverse(index as u32, PRIMES[i % PRIMES.len()])
-                }
-            }
-        };
-        let parameters = free.iter().enumerate().map(value);
-        parameters.chain(of_starts.iter().copied()).collect()
-    };
-    (0..count.max(1)).map(start).collect()
-}
-
-/// The digits of `index` in a base, mirrored at the point.
-fn radical_inverse(mut index: u32, base: u32) -> f64 {
-    let (mut value, mut unit) = (0.0, 1.0);
-    while index > 0 {
-        unit /= f64::from(base);
-        value += unit * f64::from(index % base);
-        index /= base;
-    }
-    value
 }
 
 /// A function of each of some things, in their order, by so many threads.

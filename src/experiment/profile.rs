@@ -1,5 +1,6 @@
 //! The interval of a fitted parameter by its profile likelihood, and what the data say of it.
 
+use std::cell::RefCell;
 use std::fmt;
 
 use super::estimate::student;
@@ -16,6 +17,20 @@ pub enum Verdict {
     LimitedAbove,
     /// Every value within the bounds describes them as well.
     NotDetermined,
+    /// Separate ranges of values describe them as well.
+    Several,
+}
+
+impl Verdict {
+    /// What is said of one range, by whether the data limit it below and above.
+    pub fn of_limits(is_limited: [bool; 2]) -> Verdict {
+        match is_limited {
+            [true, true] => Verdict::Determined,
+            [true, false] => Verdict::LimitedBelow,
+            [false, true] => Verdict::LimitedAbove,
+            [false, false] => Verdict::NotDetermined,
+        }
+    }
 }
 
 impl fmt::Display for Verdict {
@@ -25,6 +40,7 @@ impl fmt::Display for Verdict {
             Verdict::LimitedBelow => "one-sided: the data set a lower limit only",
             Verdict::LimitedAbove => "one-sided: the data set an upper limit only",
             Verdict::NotDetermined => "not determined by these data",
+            Verdict::Several => "not determined by these data: separate ranges agree with them",
         })
     }
 }
@@ -41,12 +57,7 @@ pub struct Profile {
 impl Profile {
     /// What it says of the parameter.
     pub fn verdict(&self) -> Verdict {
-        match self.is_limited {
-            [true, true] => Verdict::Determined,
-            [true, false] => Verdict::LimitedBelow,
-            [false, true] => Verdict::LimitedAbove,
-            [false, false] => Verdict::NotDetermined,
-        }
+        Verdict::of_limits(self.is_limited)
     }
 }
 
@@ -73,14 +84,30 @@ const NEAR: f64 = 1e-3;
 ///
 /// Where the profile has several minima within the bounds, the interval is that around the best fit.
 pub fn profile(model: &impl Model, best: &Fit, search: &Search, which: usize) -> Profile {
+    profile_points(model, best, search, which).0
+}
+
+/// The same with the points of the profile that were computed, rising: values of the parameter, and what the sum of squares has grown
+/// by, in units of what ends the interval.
+pub fn profile_points(
+    model: &impl Model,
+    best: &Fit,
+    search: &Search,
+    which: usize,
+) -> (Profile, Vec<[f64; 2]>) {
     let bounds = search.bounds[which];
-    let walk = |side: usize| Walk { model, best, search, which }.end(side);
+    let points = RefCell::new(vec![[best.parameters[which], 0.0]]);
+    let walk = |side: usize| Walk { model, best, search, which, points: &points }.end(side);
     let ends = [0, 1].map(walk);
     let limits = [bounds.least, bounds.greatest];
-    Profile {
+    let profile = Profile {
         interval: [0, 1].map(|side| ends[side].unwrap_or(limits[side])),
         is_limited: ends.map(|end| end.is_some()),
-    }
+    };
+    let mut points = points.into_inner();
+    points.retain(|it| it[1].is_finite());
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    (profile, points)
 }
 
 struct Walk<'a, M> {
@@ -88,6 +115,8 @@ struct Walk<'a, M> {
     best: &'a Fit,
     search: &'a Search,
     which: usize,
+    /// Points of the profile, as they are computed.
+    points: &'a RefCell<Vec<[f64; 2]>>,
 }
 
 impl<M: Model> Walk<'_, M> {
@@ -167,7 +196,9 @@ impl<M: Model> Walk<'_, M> {
         };
         let allowed = student(self.best.degrees_of_freedom).powi(2) * self.best.sum_of_squares
             / self.best.degrees_of_freedom as f64;
-        sum.map_or(f64::INFINITY, |sum| (sum - self.best.sum_of_squares) / allowed)
+        let grown = sum.map_or(f64::INFINITY, |sum| (sum - self.best.sum_of_squares) / allowed);
+        self.points.borrow_mut().push([value, grown]);
+        grown
     }
 
     fn others(&self, parameters: &[f64]) -> Vec<f64> {
@@ -175,6 +206,42 @@ impl<M: Model> Walk<'_, M> {
         others.remove(self.which);
         others
     }
+}
+
+/// The narrowing of golden section, and its steps: to 1e-12.
+const GOLDEN: (f64, usize) = (0.618_033_988_749_894_9, 60);
+
+/// Ranges, of which those that overlap are one, rising.
+pub(super) fn merged(mut ranges: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    ranges.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut all: Vec<[f64; 2]> = Vec::new();
+    for range in ranges {
+        match all.last_mut() {
+            Some(last) if range[0] <= last[1] => last[1] = last[1].max(range[1]),
+            _ => all.push(range),
+        }
+    }
+    all
+}
+
+/// The least value of a function with one minimum in a range, with where it is, by golden section.
+pub(super) fn least(function: &dyn Fn(f64) -> f64, [mut a, mut b]: [f64; 2]) -> (f64, f64) {
+    let (share, steps) = GOLDEN;
+    let inner = |from: f64, to: f64| {
+        let at = to - share * (to - from);
+        (at, function(at))
+    };
+    let (mut low, mut high) = (inner(a, b), inner(b, a));
+    for _ in 0..steps {
+        if low.1 <= high.1 {
+            (b, high) = (high.0, low);
+            low = inner(a, b);
+        } else {
+            (a, low) = (low.0, high);
+            high = inner(b, a);
+        }
+    }
+    if low.1 <= high.1 { low } else { high }
 }
 
 #[cfg(test)]
@@ -199,12 +266,18 @@ mod tests {
         let search = Search { bounds: vec![bounds; 2], ..Search::free(2) };
         let best = fit(&model, &[0.0, 0.0], &search).expect("a fit");
         for which in [0, 1] {
-            let profile = profile(&model, &best, &search, which);
+            let (profile, points) = profile_points(&model, &best, &search, which);
             let reach = student(18) * best.standard_error(which);
             let [least, greatest] = profile.interval.map(|it| it - best.parameters[which]);
             assert!((least / -reach - 1.0).abs() < 2e-3, "{least} {reach}");
             assert!((greatest / reach - 1.0).abs() < 2e-3, "{greatest} {reach}");
             assert_eq!(profile.verdict(), Verdict::Determined);
+            // The profile of a linear model is a parabola that is one at the ends of the interval.
+            assert!(points.len() >= 5 && points.is_sorted_by(|a, b| a[0] <= b[0]), "{points:?}");
+            for [value, grown] in points {
+                let parabola = ((value - best.parameters[which]) / reach).powi(2);
+                assert!((grown - parabola).abs() < 1e-6 * (1.0 + parabola), "{grown} {parabola}");
+            }
         }
     }
 

@@ -1,6 +1,7 @@
 //! Recordings of an experiment: columns of numbers with units, and how their times are spaced.
 
 use std::fmt;
+use std::ops::Range;
 
 use crate::capsule::Dimension;
 
@@ -122,6 +123,26 @@ impl Recording {
             is_even: !intervals.iter().any(|length| apart(&length)),
             gaps: gaps.map(|(begins, length)| (*begins, *length)).collect(),
         }
+    }
+}
+
+impl Sampling {
+    /// The samples of the longest part of the record without a gap, by its times since any moment.
+    pub fn whole_part(&self, times: &[f64]) -> Range<usize> {
+        let place = |(begins, _): &(f64, f64)| {
+            times.partition_point(|time| {
+                time - times[0] <= begins - self.first + 0.5 * self.interval
+            })
+        };
+        let ends = self.gaps.iter().map(place).chain([times.len()]);
+        let mut from = 0;
+        let parts = ends.map(|end| {
+            let part = from..end.max(from);
+            from = end.max(from);
+            part
+        });
+        let parts: Vec<Range<usize>> = parts.collect();
+        parts.into_iter().max_by_key(ExactSizeIterator::len).unwrap_or(0..times.len())
     }
 }
 

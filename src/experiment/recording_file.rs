@@ -133,8 +133,9 @@ impl Reading<'_> {
     /// What is asked of all rows together.
     fn rows(&mut self, recording: &Recording, places: &[u64], least: usize) {
         if recording.rows() < least {
-            let message =
-                format!("{} rows of numbers; at least {least} are needed", recording.rows());
+            let rows = recording.rows();
+            let are = if rows == 1 { "row" } else { "rows" };
+            let message = format!("{rows} {are} of numbers; at least {least} are needed");
             self.faults.push((None, message));
         }
         let Some(times) = recording.column("t") else { return };
@@ -191,7 +192,8 @@ fn row_length(record: &StringRecord, expected: usize) -> String {
         true => "; a number has a decimal point, not a comma",
         false => "",
     };
-    format!("{} cells, but the header has {expected}{hint}", record.len())
+    let cells = if record.len() == 1 { "cell" } else { "cells" };
+    format!("{} {cells}, but the header has {expected}{hint}", record.len())
 }
 
 /// The finite number in a cell.
@@ -259,9 +261,9 @@ mod tests {
                 Some(3),
                 "3 cells, but the header has 2; a number has a decimal point",
             ),
-            ("t [s],x2 [m]\n0,1\n1\n", Some(3), "1 cells, but the header has 2"),
+            ("t [s],x2 [m]\n0,1\n1\n", Some(3), "1 cell, but the header has 2"),
             ("t [s],x2 [m]\n0,1\n0,2\n", Some(3), "t = 0 s does not come after 0 s in line 2"),
-            ("t [s],x2 [m]\n0,1\n", None, "1 rows of numbers; at least 2 are needed"),
+            ("t [s],x2 [m]\n0,1\n", None, "1 row of numbers; at least 2 are needed"),
             ("t [s],t [s],x2 [m]\n0,0,1\n1,1,2\n", Some(1), "the column t stands twice"),
             ("", Some(1), "no column t; expected \"t [s]\"; the file is empty"),
         ] {

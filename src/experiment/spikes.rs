@@ -1,69 +1,203 @@
-//! Impacts of a record: spikes of the accelerometer on the mass, and where the relative displacement reaches the gap.
+//! Impacts of a record: pulses of the accelerometer on the mass, and where the relative displacement reaches the gap.
+
+use std::f64::consts::TAU;
 
 use super::free_vibration::noise;
 use super::recording::median;
 use super::smoothing::{Window, smoothed};
+use crate::capsule::{Parameter, Parameters};
 
-/// A spike stands out by this many standard deviations of the noise at least.
-const CLEAR: f64 = 8.0;
-/// And by this share of the largest.
+/// A pulse stands out by this many standard errors of its height at least.
+const CLEAR: f64 = 6.0;
+/// And by this share of the standard deviation of the record more: the motion between impacts is no parabola.
+const OF_RECORD: f64 = 0.2;
+/// And by this share of the highest.
 const SHARE: f64 = 0.25;
+/// A pulse is sought in a window of so many periods of the mass on the stop.
+const WINDOW: f64 = 1.5;
+/// Pulses that follow each other within so many of these periods are of one contact.
+const ONE_CONTACT: f64 = 1.1;
+/// Samples in a period of the mass on the stop: fewer show no pulse, and more are averaged to fewer.
+const SAMPLES: [f64; 2] = [6.0, 80.0];
+/// The window is this share of a cycle at most.
+const LONGEST_WINDOW: f64 = 0.8;
 
-/// A spike of a record.
+/// A pulse of the acceleration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spike {
-    /// When its peak is [s].
+    /// When it is highest [s].
     pub time: f64,
-    /// Its peak, with its sign, in the unit of the record.
-    pub peak: f64,
-    /// How far it stands out of what is around it.
-    pub prominence: f64,
+    /// How far it goes beyond the motion about it, with its sign, in the unit of the record.
+    pub height: f64,
 }
 
-/// The spikes of an acceleration towards the side on which they are higher.
+/// The pulses of a record, and the time at its end in which none is sought.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spikes {
+    /// One per contact, in their order.
+    pub found: Vec<Spike>,
+    /// None is sought so near to the first and the last sample [s].
+    pub margin: f64,
+}
+
+/// The period of the mass on the spring and the stop, the capsule being held [s].
+pub fn contact_period(parameters: &Parameters) -> f64 {
+    let stiffness = parameters[Parameter::K1] + parameters[Parameter::K2];
+    TAU / (stiffness / parameters[Parameter::M1]).sqrt()
+}
+
+/// The pulses of an acceleration that impacts give, on the side on which they are higher; none where the record cannot show them.
 ///
 /// # Method
 ///
-/// Impacts push the mass to one side: that on which the record goes farther from its median. A local extremum there is a
-/// spike if its prominence, the height above the higher of the lowest points between it and a higher one on either side, is
-/// at least eight standard deviations of the noise and a quarter of the largest prominence.
+/// A contact lasts about half the `period` T of the mass on spring and stop, [`contact_period`]. About each sample a parabola and half
+/// a wave of that length are fitted together to a window of 1.5 T; the height of the half wave is that of a pulse. A maximum of the
+/// height is a pulse if it is at least a quarter of the highest, and above six of its standard errors and a fifth of the standard
+/// deviation of the record together. On the stop the mass rings with the period T or, as the capsule gives way, a shorter one;
+/// pulses that follow each other within 1.1 T are of one contact and count once.
+///
+/// # Source
+///
+/// The matched filter in white noise: Turin, IRE Transactions on Information Theory 6 (1960); the noise is that of third differences.
+///
+/// # Assumes
+///
+/// The stiffness of the stop is that of the study to some ten per cent.
 ///
 /// # Breaks
 ///
-/// A soft stop, in contact for much of the cycle, makes no spike: an impact is then seen in r alone. Where the mass is
-/// driven harder than the stop pushes, the extrema of the drive are spikes too.
-pub fn spikes(times: &[f64], acceleration: &[f64]) -> Vec<Spike> {
-    if acceleration.len() < 5 {
-        return Vec::new();
+/// None is returned where the window is longer than 0.8 of the `cycle`, as such a contact is no pulse, or where fewer than six
+/// samples fall in T. A contact whose force is below the thresholds is not seen, and a mass that leaves the stop for less
+/// than 0.6 T is seen once for two.
+pub fn spikes(times: &[f64], acceleration: &[f64], period: f64, cycle: f64) -> Option<Spikes> {
+    let intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    if intervals.is_empty() || WINDOW * period > LONGEST_WINDOW * cycle {
+        return None;
     }
-    let middle = median(acceleration);
-    let farthest = |end: fn(f64, f64) -> f64| {
-        acceleration.iter().copied().reduce(end).unwrap_or(middle) - middle
+    let interval = median(&intervals);
+    let together = (period / interval / SAMPLES[1]).floor().max(1.0);
+    let even = averaged(times, acceleration, interval * together);
+    let samples = period / (interval * together);
+    let pulse = Pulse::new(samples);
+    if samples < SAMPLES[0] || even.len() < 2 * pulse.weights.len() {
+        return None;
+    }
+    let step = interval * together;
+    let margin = (pulse.half() as f64 + 0.5) * step;
+    let mut heights = pulse.heights(&even);
+    let greatest = |sign: f64| heights.iter().map(|it| sign * it).fold(0.0, f64::max);
+    let sign = if greatest(1.0) >= greatest(-1.0) { 1.0 } else { -1.0 };
+    let highest = greatest(sign);
+    heights.iter_mut().for_each(|it| *it *= sign);
+    let clear = CLEAR * noise(&even) * pulse.unit_error + OF_RECORD * deviation(&even);
+    let found = tops(&heights, clear.max(SHARE * highest), samples);
+    let spike = |(at, height): (f64, f64)| Spike {
+        time: times[0] + (at + pulse.half() as f64) * step + 0.5 * (step - interval),
+        height: sign * height,
     };
-    let sign = if farthest(f64::max) >= -farthest(f64::min) { 1.0 } else { -1.0 };
-    let height: Vec<f64> = acceleration.iter().map(|it| sign * (it - middle)).collect();
-    let tops =
-        (1..height.len() - 1).filter(|&i| height[i] > height[i - 1] && height[i] >= height[i + 1]);
-    let found: Vec<Spike> = tops
-        .map(|i| Spike {
-            time: times[i],
-            peak: acceleration[i],
-            prominence: prominence(&height, i),
-        })
-        .collect();
-    let largest = found.iter().map(|it| it.prominence).fold(0.0, f64::max);
-    let least = (CLEAR * noise(acceleration)).max(SHARE * largest);
-    found.into_iter().filter(|it| it.prominence > 0.0 && it.prominence >= least).collect()
+    Some(Spikes { found: found.into_iter().map(spike).collect(), margin })
 }
 
-/// How far the point `top` stands above the higher of the lowest points between it and a higher one on either side.
-fn prominence(height: &[f64], top: usize) -> f64 {
-    let lowest = |side: &mut dyn Iterator<Item = &f64>| {
-        side.take_while(|it| **it <= height[top]).fold(height[top], |least, it| least.min(*it))
-    };
-    let before = lowest(&mut height[..top].iter().rev());
-    let after = lowest(&mut height[top + 1..].iter());
-    height[top] - before.max(after)
+/// The maxima above a threshold, in samples, one per contact.
+fn tops(heights: &[f64], least: f64, samples: f64) -> Vec<(f64, f64)> {
+    let mut all: Vec<(f64, f64)> = Vec::new();
+    for i in 1..heights.len().saturating_sub(1) {
+        let [before, top, after] = [heights[i - 1], heights[i], heights[i + 1]];
+        if top < least || top <= before || top < after {
+            continue;
+        }
+        // Where the parabola through the three is highest.
+        let at = i as f64 + 0.5 * (before - after) / (before - 2.0 * top + after);
+        match all.last_mut() {
+            Some(last) if at - last.0 < 0.5 * samples => {
+                if top > last.1 {
+                    *last = (at, top);
+                }
+            }
+            _ => all.push((at, top)),
+        }
+    }
+    let is_first = |i: &usize| *i == 0 || all[*i].0 - all[i - 1].0 > ONE_CONTACT * samples;
+    (0..all.len()).filter(is_first).map(|i| all[i]).collect()
+}
+
+/// Half a wave in a window, without its parts along the parabolas of the window.
+struct Pulse {
+    weights: Vec<f64>,
+    /// The standard error of a height over that of a sample.
+    unit_error: f64,
+}
+
+impl Pulse {
+    /// Of a contact of half so many samples.
+    fn new(samples: f64) -> Pulse {
+        let half = (0.5 * WINDOW * samples).round().max(4.0) as i32;
+        let at: Vec<f64> = (-half..=half).map(f64::from).collect();
+        let wave = |u: &f64| if u.abs() < 0.25 * samples { (TAU * u / samples).cos() } else { 0.0 };
+        let mut weights: Vec<f64> = at.iter().map(wave).collect();
+        // The wave is even in time, so of a cubic only the constant and the square are not orthogonal to it.
+        let square = at.iter().map(|u| u * u).sum::<f64>() / at.len() as f64;
+        for parabola in
+            [at.iter().map(|_| 1.0).collect(), at.iter().map(|u| u * u - square).collect()]
+        {
+            let parabola: Vec<f64> = parabola;
+            let product =
+                |other: &[f64]| -> f64 { parabola.iter().zip(other).map(|(a, b)| a * b).sum() };
+            let share = product(&weights) / product(&parabola);
+            weights.iter_mut().zip(&parabola).for_each(|(it, p)| *it -= share * p);
+        }
+        let norm: f64 = weights.iter().map(|it| it * it).sum();
+        weights.iter_mut().for_each(|it| *it /= norm);
+        Pulse { weights, unit_error: 1.0 / norm.sqrt() }
+    }
+
+    /// Half the samples of the window.
+    fn half(&self) -> usize {
+        self.weights.len() / 2
+    }
+
+    /// The height of the pulse about each sample that has a whole window.
+    fn heights(&self, values: &[f64]) -> Vec<f64> {
+        let sum = |part: &[f64]| part.iter().zip(&self.weights).map(|(a, b)| a * b).sum();
+        values.windows(self.weights.len()).map(sum).collect()
+    }
+}
+
+/// The means of a record over even intervals of this length; where one has no sample, the mean before it.
+fn averaged(times: &[f64], values: &[f64], length: f64) -> Vec<f64> {
+    let (mut means, mut from) = (Vec::new(), 0);
+    let count = ((times[times.len() - 1] - times[0]) / length + 0.5).floor() as usize;
+    for i in 0..count {
+        // Samples lie in the middle of their interval.
+        let ends = times[0] + ((i + 1) as f64 - 1e-6) * length;
+        let to = from + times[from..].iter().take_while(|time| **time < ends).count();
+        let mean = match to > from {
+            true => values[from..to].iter().sum::<f64>() / (to - from) as f64,
+            false => means.last().copied().unwrap_or(values[0]),
+        };
+        means.push(mean);
+        from = to;
+    }
+    means
+}
+
+fn deviation(values: &[f64]) -> f64 {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values.iter().map(|it| (it - mean).powi(2)).sum::<f64>() / count).sqrt()
+}
+
+/// Events per cycle up to a time, over as many whole cycles as follow the middle of the longest interval without one in the first
+/// three.
+///
+/// A window that begins there cuts none in half, which one that begins with the record may.
+pub fn per_cycle(events: &[f64], cycle: f64, until: f64) -> f64 {
+    let early: Vec<f64> = events.iter().copied().take_while(|time| *time < 3.0 * cycle).collect();
+    let longest = early.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+    let begins = longest.map_or(0.0, |pair| 0.5 * (pair[0] + pair[1]));
+    let whole = ((until - begins) / cycle).floor().max(1.0);
+    let is_within = |time: &&f64| (begins..begins + whole * cycle).contains(*time);
+    events.iter().filter(is_within).count() as f64 / whole
 }
 
 /// The times at which the relative displacement `r` rises through the gap `delta` and stays beyond it by three standard
@@ -93,27 +227,44 @@ pub fn contacts(times: &[f64], r: &[f64], delta: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::experiment::synthesis::Noise;
+
+    /// A wave of the drive with a contact of half a wave of 20 ms in each cycle of 0.4 s, and noise.
+    fn record(height: f64, rate: f64, seed: u64) -> (Vec<f64>, Vec<f64>) {
+        let mut noise = Noise::new(seed);
+        let times: Vec<f64> = (0..(2.0 * rate) as u32).map(|i| f64::from(i) / rate).collect();
+        let contact = |t: f64| {
+            let from = (t % 0.4) - 0.1;
+            if from.abs() < 5e-3 { height * (TAU * from / 20e-3).cos() } else { 0.0 }
+        };
+        let at = |t: &f64| 1.5 * (15.7 * t).sin() + contact(*t) + noise.normal(0.1);
+        let values = times.iter().map(at).collect();
+        (times, values)
+    }
 
     #[test]
-    fn spikes_on_a_wave_are_found_with_their_sign() {
-        let times: Vec<f64> = (0..2000).map(|i| 1e-3 * f64::from(i)).collect();
-        let noise = |i: usize| 0.05 * ((i * i * 31 % 101) as f64 / 50.0 - 1.0);
-        let spike = |t: f64| {
-            let from = (t % 0.4) - 0.1;
-            -20.0 * (-(from / 2e-3).powi(2)).exp()
-        };
-        let record: Vec<f64> = times
-            .iter()
-            .enumerate()
-            .map(|(i, t)| 1.5 * (15.7 * t).sin() + spike(*t) + noise(i))
-            .collect();
-        let found = spikes(&times, &record);
-        assert_eq!(found.len(), 5, "{found:?}");
-        for (i, spike) in found.iter().enumerate() {
-            assert!((spike.time - 0.4 * i as f64 - 0.1).abs() < 2e-3, "{spike:?}");
-            assert!(spike.peak < -15.0 && spike.prominence > 15.0, "{spike:?}");
+    fn pulses_on_a_wave_are_found_with_their_sign() {
+        for rate in [1e3, 1.7e3, 2e4] {
+            for height in [-20.0, 20.0] {
+                let (times, record) = record(height, rate, 1);
+                let found = spikes(&times, &record, 20e-3, 0.4).expect("long enough").found;
+                assert_eq!(found.len(), 5, "{rate}: {found:?}");
+                for (i, spike) in found.iter().enumerate() {
+                    assert!((spike.time - 0.4 * i as f64 - 0.1).abs() < 1e-3, "{rate}: {spike:?}");
+                    assert!((spike.height / height - 1.0).abs() < 0.1, "{rate}: {spike:?}");
+                }
+            }
         }
-        assert!(spikes(&times[..3], &record[..3]).is_empty());
-        assert!(spikes(&times, &vec![1.0; 2000]).is_empty());
+    }
+
+    #[test]
+    fn a_wave_has_no_pulses_and_a_soft_contact_shows_none() {
+        for seed in 0..20 {
+            let (times, record) = record(0.0, 1e3, seed);
+            let found = spikes(&times, &record, 20e-3, 0.4).expect("long enough").found;
+            assert_eq!(found, []);
+            assert_eq!(spikes(&times, &record, 0.3, 0.4), None);
+            assert_eq!(spikes(&times, &record, 4e-3, 0.4), None);
+        }
     }
 }

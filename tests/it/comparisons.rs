@@ -71,3 +71,20 @@ fn a_motion_that_does_not_repeat_is_not_explained() {
         work.run(&["compare", "rig/motion.csv", "chaos.toml", "--explain", "k2=30 kN/m..90 kN/m"]);
     assert!(ran.code == 2 && ran.err.contains("so that no difference is explained"), "{}", ran.err);
 }
+
+#[test]
+fn a_record_of_x2_alone_has_its_period_and_an_error_of_its_speed() {
+    let (work, lines) = rig();
+    let rows: Vec<String> = lines
+        .iter()
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            [cells[0], cells[1], cells[4]].join(",")
+        })
+        .collect();
+    work.put("x2.csv", rows.join("\n") + "\n");
+    let found = work.run(&["compare", "x2.csv", "fig5.toml", "--json"]).done().json();
+    assert_eq!(found["period_recorded"], 1);
+    let error = found["speed_recorded_error"].as_f64().expect("known");
+    assert!((0.2e-6..1.2e-6).contains(&error), "{error}");
+}

@@ -138,6 +138,26 @@ fn a_recording_of_the_model_agrees_with_it_and_gives_its_parameters() {
     assert!((0.8..1.2).contains(&number(&fit["misfit"])), "{fit}");
 }
 
+#[test]
+fn studies_take_the_default_of_what_is_not_determined() {
+    let work = WorkDir::new();
+    // At so low speeds friction hardly falls: 0.33 with a large Stribeck velocity, or twice that with a small one.
+    let row =
+        |v: f64| format!("{v},{}\n", v * v / (2.0 * 0.63 * 9.81) * (1.0 + 0.02 * (9e3 * v).sin()));
+    let rows: String = (0..8).map(|i| row(0.02 + 0.004 * f64::from(i))).collect();
+    work.put("slow.csv", format!("v [m/s],d [m]\n{rows}"));
+    let ran = work.run(&["identify", "--coasting", "slow.csv", "--output", "slow.toml"]).done();
+    assert!(
+        ran.out.contains("mu_d may be 0.3") && ran.out.contains("no standard error"),
+        "{}",
+        ran.out
+    );
+    work.put("own.toml", format!("include = \"slow.toml\"\n{}", super::program::FIG5));
+    let shown = json(&work, &["simulate", "--study", "own.toml", "--case", "0", "--json"]);
+    let of = |name: &str| number(&shown["parameters"][name]);
+    assert_eq!([of("mu_d"), of("v_s")], [0.33, 0.3]);
+}
+
 /// Recordings that are wrong, with what is said of them; `motion.csv` is compared, the others are identified.
 const WRONG: &[(&str, &str, &str)] = &[
     (
@@ -168,14 +188,20 @@ const WRONG: &[(&str, &str, &str)] = &[
         "force [kg],deflection [mm]\n1,0\n",
         "line 1: \"force [kg]\": expected a force in N, mN, kN",
     ),
-    ("pull", "pulled_mass [kg]\n0.4\n", "1 rows of numbers; at least 2 are needed"),
+    ("pull", "pulled_mass [kg]\n0.4\n", "1 row of numbers; at least 2 are needed"),
+    (
+        "pull",
+        "pulled_mass [kg]\n# weighed\n0.4\n\n-0.4\n",
+        "line 5: pulled masses must be above zero",
+    ),
     (
         "coasting",
         "v [m/s],d [m]\n1,1\n2,0\n3,1\n4,1\n",
-        "speeds and distances of coasting tests must be above zero",
+        "line 3: speeds and distances of coasting tests must be above zero",
     ),
+    ("motor", "current [A],force [N]\n0,2\n1,2\n2,2\n3,2\n4,2\n", "all forces are equal"),
     ("motor", "current [A],force [N]\n1,2,3\n", "line 2: 3 cells, but the header has 2"),
-    ("motion", "t [s],x2 [mm]\n0,1\n", "1 rows of numbers; at least 16 are needed"),
+    ("motion", "t [s],x2 [mm]\n0,1\n", "1 row of numbers; at least 16 are needed"),
     ("motion", "x2 [mm]\n1\n", "line 1: no column t; expected \"t [s]\"; the columns are x2 [mm]"),
 ];
 
@@ -300,7 +326,7 @@ fn the_two_methods_of_free_vibration_agree() {
         let (all, _) = identify(Test::FreeVibration, &recording(Test::FreeVibration, seed), &given)
             .expect("identified");
         for it in all {
-            let (_, other) = it.other.expect("a second method");
+            let other = it.other.expect("a second method").estimate;
             assert!((other.value / it.estimate.value - 1.0).abs() < 0.2, "seed {seed}: {other:?}");
             warned += usize::from(!it.notes.is_empty());
         }

@@ -121,3 +121,18 @@ fn combinations_and_bounds_are_told() {
     let fit = fit.expect("a fit");
     assert_eq!(fit.fitted[0].bound, Some(Side::Least), "{fit:?}");
 }
+
+#[test]
+fn the_misfit_is_one_where_the_model_describes_the_record() {
+    let of = |seed: u64| {
+        let record = recorded(&Parameters::default(), 0.7, 1000.0, 6.0, seed);
+        let fit = fit_motion(&[record], &free(&FREE[2..3]), &EFFORT).expect("a fit");
+        assert_eq!(fit.misfit.outliers, 0, "{fit:?}");
+        fit.misfit
+    };
+    let all: Vec<_> = (0..40).map(of).collect();
+    let mean = all.iter().map(|it| it.value).sum::<f64>() / 40.0;
+    let robust = all.iter().map(|it| it.robust).sum::<f64>() / 40.0;
+    println!("misfit {mean:.4}, by the median {robust:.4}");
+    assert!((mean - 1.0).abs() < 0.01 && (robust - 1.0).abs() < 0.02, "{mean} {robust}");
+}

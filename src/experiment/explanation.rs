@@ -1,0 +1,78 @@
+//! What other parameters would have to be for the simulation to describe a recording.
+
+use super::agreement::Difference;
+use super::comparison::Comparison;
+use super::course::Recorded;
+use super::motion_fit::{Effort, Free, Side, best_values};
+use crate::capsule::{Case, Output, Parameter, State, settle_case};
+use crate::orbit::{Outcome, Protocol};
+
+/// What parameters would have to be for the simulation to describe a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Explanation {
+    /// The parameters that were free, with their values (SI), and the bound that the value lies on, if it does.
+    pub changed: Vec<(Parameter, f64, Option<Side>)>,
+    /// Root mean square of the residuals over the spread of each signal, without and with the change.
+    pub misfit: [f64; 2],
+    /// Impacts per cycle with the change.
+    pub impacts: f64,
+    /// Progression speed with the change [m/s].
+    pub speed: f64,
+}
+
+/// Cycles of a record that explanations are fitted to.
+pub const EXPLAINED_CYCLES: f64 = 3.0;
+
+/// What other values of some parameters would bring the simulation nearest to the recording, each set in `choices` by itself.
+///
+/// The paper's section 4 argues that discrepancies come from the stiffness of the stop or from friction: fits in which they
+/// alone are free show how much of the misfit each explains.
+///
+/// Fails where the simulation does not repeat: another start of the same motion differs as much as other parameters do.
+pub fn explain(
+    comparison: &Comparison,
+    choices: &[Vec<Free>],
+    effort: &Effort,
+) -> Result<Vec<Explanation>, String> {
+    if choices.is_empty() {
+        return Ok(Vec::new());
+    }
+    if comparison.outcome.0 != Outcome::Periodic {
+        return Err(format!(
+            "the simulated motion is {}: histories of it differ by their starts, so that no difference is explained; speeds and \
+             counts can be compared",
+            comparison.outcome.0.name()
+        ));
+    }
+    let parameters = &comparison.motion.parameters;
+    let span = EXPLAINED_CYCLES * parameters.drive_period();
+    let count = comparison.times.iter().take_while(|time| **time <= span).count();
+    let cut = |it: &Difference| (it.signal, it.recorded[..count].to_vec());
+    let recorded = Recorded {
+        parameters: parameters.clone(),
+        times: comparison.times[..count].to_vec(),
+        phase: comparison.phase,
+        phase_error: comparison.drive.as_ref().map_or(0.0, |it| it.harmonic.phase.standard_error),
+        signals: comparison.differences.iter().filter(|it| it.errors.is_some()).map(cut).collect(),
+    };
+    let recorded = [recorded];
+    let (_, without) = best_values(&recorded, &[], &Effort { starts: 1, ..*effort })?;
+    let explanation = |free: &Vec<Free>| {
+        let (values, with) = best_values(&recorded, free, effort)?;
+        let one = |(it, value): (&Free, f64)| (it.parameter, value, Side::of(value, it.bounds));
+        let changed: Vec<_> = free.iter().zip(values).map(one).collect();
+        let mut parameters = parameters.clone();
+        for (parameter, value, _) in &changed {
+            parameters[*parameter] = *value;
+        }
+        let case = Case::at_section(parameters, State::default(), comparison.phase);
+        let orbit = settle_case(&case, &Protocol::default());
+        Ok(Explanation {
+            changed,
+            misfit: [without, with],
+            impacts: orbit.outputs[Output::ImpactsPerCycle],
+            speed: orbit.outputs[Output::ProgressionSpeed],
+        })
+    };
+    choices.iter().map(explanation).collect()
+}

@@ -1,0 +1,89 @@
+//! What the capsule of a study settles to, as a recording is compared with it.
+
+use super::estimate::Estimate;
+use super::progression::Progression;
+use super::sampled::{Signal, Started, sampled};
+use crate::capsule::drive::reduced;
+use crate::capsule::{
+    Account, AsPrinted, CapsuleSystem, Case, Filippov, Orbit, Output, Parameter, Reading, State,
+    Switching, per_cycle, settle_case,
+};
+use crate::flow::System;
+use crate::orbit::return_map::{Cycles, observed};
+use crate::orbit::{Outcome, Protocol};
+
+/// Relative local error of the steps of the simulation.
+pub const TOLERANCE: f64 = 1e-12;
+/// The cycles of a motion that does not repeat are averaged in so many batches, whose spread tells the error, as in campaigns.
+const BATCHES: u64 = 16;
+
+/// The motion that a case settles to.
+pub struct Settled {
+    case: Case,
+    /// What it is.
+    pub orbit: Orbit,
+    /// Its mean progression; without an error where it repeats itself, or cannot be followed on.
+    pub speed: Progression,
+    /// Cycles over which it was measured, where it does not repeat.
+    pub measured_cycles: u64,
+}
+
+impl Settled {
+    /// By the protocol of the study.
+    ///
+    /// The error of a motion that does not repeat is that of sixteen batches of the cycles that follow, as many as it was measured
+    /// over.
+    ///
+    /// Fails where it cannot be followed.
+    pub fn new(case: &Case, protocol: &Protocol) -> Result<Settled, String> {
+        let protocol = Protocol { history: None, ..*protocol };
+        let orbit = settle_case(case, &protocol);
+        if let Some(failure) = &orbit.failure {
+            return Err(format!("the simulation cannot be followed: {:?}", failure.reason));
+        }
+        let value = orbit.outputs[Output::ProgressionSpeed];
+        let repeats = orbit.outcome == Outcome::Periodic;
+        let speeds = match case.parameters.switching {
+            _ if repeats => None,
+            Switching::Filippov => batches::<Filippov>(case, &orbit, &protocol),
+            Switching::AsPrinted => batches::<AsPrinted>(case, &orbit, &protocol),
+        };
+        let speed = Progression {
+            value,
+            standard_error: speeds.map(|it| Estimate::mean(&it).standard_error),
+            batches: (!repeats).then_some(BATCHES as usize),
+        };
+        let measured_cycles = protocol.measured_cycles;
+        Ok(Settled { case: case.clone(), orbit, speed, measured_cycles })
+    }
+
+    /// The motion from this phase of the drive on, at x2 = 0.
+    ///
+    /// Fails where it cannot be followed.
+    pub fn at_phase(&self, phase: f64) -> Result<Started, String> {
+        let parameters = self.case.parameters.clone();
+        let start = State { x2: 0.0, ..self.orbit.end };
+        let section = Started { parameters, start, phase: self.case.section_phase };
+        let turned = reduced(phase - section.phase) / section.parameters[Parameter::Omega];
+        let signals = [Signal::R, Signal::Y1, Signal::Y2];
+        let found = sampled(&section, &[turned], &signals, &[], TOLERANCE)
+            .map_err(|why| format!("the simulation cannot be followed: {why:?}"))?;
+        let [r, y1, y2] = [0, 1, 2].map(|i| found.values[i][0]);
+        Ok(Started { start: State { r, y1, x2: 0.0, y2 }, phase, ..section })
+    }
+}
+
+/// The speeds of batches of cycles from the end of an orbit on; none where it cannot be followed.
+fn batches<R: Reading>(case: &Case, orbit: &Orbit, protocol: &Protocol) -> Option<Vec<f64>> {
+    let count = protocol.measured_cycles.div_ceil(BATCHES);
+    let cycles = Cycles { count, tolerance: protocol.tolerance };
+    let system = CapsuleSystem::<R>::new(case.parameters.clone(), case.section_phase);
+    let of = |parameter: Parameter| system.parameters[parameter];
+    let mut point = [orbit.end.r, orbit.end.y1, orbit.end.y2];
+    let speed = |_| {
+        let mut account = Account::new(of, 0);
+        point = observed(&system.system(of), point, &cycles, &mut account).ok()?;
+        Some(per_cycle(&account, of, count as f64)[Output::ProgressionSpeed])
+    };
+    (0..BATCHES).map(speed).collect()
+}

@@ -1,0 +1,91 @@
+//! The examples in the help of the commands of experiments run on a synthesised rig.
+
+use std::fs;
+
+use super::program::{FIG5, WorkDir};
+
+/// A folder in which examples run: studies, a rig, and the files that examples name.
+fn folder() -> WorkDir {
+    let work = WorkDir::new();
+    fs::create_dir(work.path("studies")).expect("a folder");
+    for (name, text) in [
+        ("studies/fig5.toml", include_str!("../../studies/fig5.toml")),
+        ("studies/fig6.toml", include_str!("../../studies/fig6.toml")),
+        ("a.toml", FIG5),
+        ("b.toml", FIG5),
+    ] {
+        work.put(name, text);
+    }
+    work.run(&["synthesize", "a.toml", "--output", "other"]).done();
+    for (from, to) in [
+        ("other/motion.csv", "a.csv"),
+        ("other/motion.csv", "b.csv"),
+        ("other/static-force.csv", "spring.csv"),
+    ] {
+        fs::copy(work.path(from), work.path(to)).expect("copied");
+    }
+    work
+}
+
+/// The words of a command as a shell has them: separated by spaces, in quotes kept together.
+fn words(line: &str) -> Vec<String> {
+    let quoted = line.split('"').enumerate();
+    let mut words = vec![String::new()];
+    for (i, part) in quoted {
+        if i % 2 == 1 {
+            words.last_mut().expect("a word").push_str(part);
+            continue;
+        }
+        for (j, word) in part.split(' ').enumerate() {
+            if j > 0 {
+                words.push(String::new());
+            }
+            words.last_mut().expect("a word").push_str(word);
+        }
+    }
+    words.retain(|it| !it.is_empty());
+    words
+}
+
+/// The commands under "Examples:", without the name of the program; the help breaks long ones into several lines.
+fn examples(help: &str) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    let lines = help.lines().skip_while(|line| *line != "Examples:").skip(1);
+    for line in lines.take_while(|line| !line.trim().is_empty()) {
+        match line.trim().strip_prefix("capsulemap ") {
+            Some(begins) => all.push(begins.to_owned()),
+            None => {
+                let last = all.last_mut().expect("an example");
+                *last += " ";
+                *last += line.trim();
+            }
+        }
+    }
+    all
+}
+
+#[test]
+fn every_example_of_the_help_runs() {
+    let work = folder();
+    let mut count = 0;
+    for command in ["synthesize", "identify", "compare", "fit"] {
+        // Each command has the rig as the examples of synthesize leave it first.
+        let _ = fs::remove_dir_all(work.path("rig"));
+        if command != "synthesize" {
+            work.run(&["synthesize", "studies/fig5.toml", "--output", "rig"]).done();
+        }
+        let help = work.run(&[command, "--help"]).done().out;
+        for example in examples(&help) {
+            let words = words(&example);
+            assert_eq!(words.first().map(String::as_str), Some(command), "{example}");
+            let mut arguments: Vec<&str> = words.iter().map(String::as_str).collect();
+            if arguments.contains(&"--output") {
+                arguments.push("--overwrite");
+            }
+            let ran = work.run(&arguments);
+            assert_eq!(ran.code, 0, "{example}: {}", ran.err);
+            count += 1;
+        }
+    }
+    assert!(count >= 8, "{count} examples");
+}
