@@ -18,7 +18,9 @@ use crate::figure::{Measured, Place};
 use crate::store::{self, Archive, Dataset, StoreError, catalogue};
 use crate::study::appearance::dimension_of;
 use crate::study::document::unknown;
-use crate::study::{COLOURED_BY, Coordinate, Drawing, DrawingKind, Held, Sweep, check_panels};
+use crate::study::{
+    COLOURED_BY, Coordinate, Drawing, DrawingKind, Held, Sweep, check_panels, free_name,
+};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -168,14 +170,7 @@ impl Figure {
 
     /// The kind and what is drawn, different from the names of the figures of the study.
     fn free_name(&self, kind: DrawingKind, archive: &Archive) -> String {
-        let parts = std::iter::once(kind.name()).chain(self.of.iter().map(String::as_str));
-        let name = parts.collect::<Vec<_>>().join("-");
-        let studied = studied(archive, &self.file).unwrap_or_default();
-        if studied.iter().any(|drawing| drawing.name == name) {
-            format!("{name}-own")
-        } else {
-            name
-        }
+        free_name(kind, &self.of, &studied(archive, &self.file).unwrap_or_default())
     }
 
     fn cycles(&self) -> Result<Option<[f64; 2]>, Failure> {

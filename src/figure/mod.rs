@@ -69,7 +69,9 @@ mod view;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-pub use coloured::{ColouredMap, MapAxis, MapColours, ShownQuantity, coloured_map, label_colour, shown_quantity};
+pub use coloured::{
+    ColouredMap, MapAxis, MapColours, ShownQuantity, coloured_map, label_colour, shown_quantity,
+};
 pub use error::FigureError;
 pub use format::Format;
 pub use kind::Needs;

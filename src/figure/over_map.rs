@@ -108,7 +108,7 @@ pub fn over_map<'a>(
         }
         let line: Vec<[f64; 2]> = points(number, of).into_iter().map(|(_, at)| at).collect();
         if line.len() > 1 {
-            let words = "branch".to_owned();
+            let words = "branch of orbits".to_owned();
             over.lines.push(MapLine { words, colour: None, is_dashed: false, points: line });
         }
         over.points.extend(specials(number, of).into_iter().filter_map(|(place, at)| {

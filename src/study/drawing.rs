@@ -329,6 +329,16 @@ impl Drawing {
     }
 }
 
+/// A name for a figure of a kind that shows these outputs, which none of the figures of a study has.
+pub fn free_name(kind: DrawingKind, of: &[String], studied: &[Drawing]) -> String {
+    let parts = std::iter::once(kind.name()).chain(of.iter().map(String::as_str));
+    let name = parts.collect::<Vec<_>>().join("-");
+    match studied.iter().any(|drawing| drawing.name == name) {
+        true => format!("{name}-own"),
+        false => name,
+    }
+}
+
 /// Fails where panels along these axes are too many, or none.
 pub fn check_panels(panels: &[(String, Vec<f64>)]) -> Result<(), String> {
     let [most_axes, most] = PANELS;

@@ -30,7 +30,9 @@ pub use case_set::CaseSet;
 pub use continuation::{Continuation, FirstOrbit};
 pub use definition::Study;
 pub use document::{Fault, Faults};
-pub use drawing::{COLOURED_BY, Drawing, DrawingKind, Held, Size, Sweep, Texts, check_panels};
+pub use drawing::{
+    COLOURED_BY, Drawing, DrawingKind, Held, Size, Sweep, Texts, check_panels, free_name,
+};
 pub use draws::{DrawKind, Draws, Range};
 pub use grid::{Direction, Grid, Inherit};
 pub use refinement::{Refine, Refinement, Refining};

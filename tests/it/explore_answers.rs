@@ -153,17 +153,18 @@ fn a_line_is_that_of_its_study() {
     let work = swept();
     let explorer = Explorer::new(&work, &["map.h5"]);
     for start in ["inherit", "afresh"] {
-        let lines = explorer.lines(&format!(
-            "/api/line?p_d=3&omega=45&to_omega=70&count=12&start={start}"
-        ));
+        let lines =
+            explorer.lines(&format!("/api/line?p_d=3&omega=45&to_omega=70&count=12&start={start}"));
         let name = format!("line-{start}");
         work.put(&format!("{name}.toml"), lines[0]["study"].as_str().expect("a study"));
         let file = format!("{name}.h5");
         let study = format!("{name}.toml");
         work.run(&["sweep", &study, "--output", &file, "--no-figures"]).done();
         let kept = results(&work, &file);
-        let speeds: Vec<f64> =
-            lines[1..].iter().map(|it| it["progression_speed"].as_f64().expect("a speed")).collect();
+        let speeds: Vec<f64> = lines[1..]
+            .iter()
+            .map(|it| it["progression_speed"].as_f64().expect("a speed"))
+            .collect();
         assert_eq!(speeds, reals(&kept, "progression_speed"), "{start}");
     }
     // A line across the map has no study, and says why.
@@ -228,20 +229,30 @@ fn figures_are_those_of_the_command_line() {
     let explorer = Explorer::new(&work, &["map.h5"]);
     let asked = explorer.get("/api/figure?kind=map&of=period&x=omega&y=p_d&format=svg");
     assert_eq!((asked.status, asked.header("content-type")), (200, Some("image/svg+xml")));
-    let drawn = ["figure", "map.h5", "--kind", "map", "--of", "period", "--x", "omega", "--y", "p_d"];
+    let drawn =
+        ["figure", "map.h5", "--kind", "map", "--of", "period", "--x", "omega", "--y", "p_d"];
     work.run(&[&drawn[..], &["--formats", "svg"]].concat()).done();
     let files = work.files();
     let svg = files.iter().find(|it| it.ends_with(".svg")).expect("a figure");
-    assert_eq!(asked.text(), fs::read_to_string(work.path(svg)).expect("a figure"));
-    for kind in ["trade-off&of=power&x=omega&y=p_d", "history&p_d=3&omega=60",
-        "phase-portrait&p_d=3&omega=60", "bifurcation&p_d=3&omega=45&to_omega=50&count=6"]
-    {
+    let drawn = fs::read_to_string(work.path(svg)).expect("a figure");
+    assert!(asked.text() == drawn, "{svg} differs");
+    for kind in [
+        "trade-off&of=power&x=omega&y=p_d",
+        "history&p_d=3&omega=60",
+        "phase-portrait&p_d=3&omega=60",
+        "bifurcation&p_d=3&omega=45&to_omega=50&count=6",
+    ] {
         let asked = explorer.get(&format!("/api/figure?format=pdf&kind={kind}"));
         assert_eq!(asked.status, 200, "{kind}: {}", asked.text());
         assert!(asked.body.starts_with(b"%PDF"), "{kind}");
     }
-    let refused = explorer.get("/api/figure?format=pdf&kind=bifurcation&p_d=3&to_p_d=4&omega=45&to_omega=50");
-    assert!(refused.status == 400 && refused.text().contains("along one axis"), "{}", refused.text());
+    let refused =
+        explorer.get("/api/figure?format=pdf&kind=bifurcation&p_d=3&to_p_d=4&omega=45&to_omega=50");
+    assert!(
+        refused.status == 400 && refused.text().contains("along one axis"),
+        "{}",
+        refused.text()
+    );
 }
 
 #[test]
@@ -254,7 +265,7 @@ fn curves_and_branches_lie_over_a_map_where_they_were_found() {
     let over = explorer.object("/api/curves?x=omega&y=p_d");
     let file = results(&work, "r.h5");
     let lines = over["lines"].as_array().expect("a list");
-    let (curves, branches): (Vec<_>, Vec<_>) = lines.iter().partition(|it| it["words"] != "branch");
+    let (curves, branches): (Vec<_>, Vec<_>) = lines.iter().partition(|it| !it["colour"].is_null());
     assert!(!curves.is_empty() && !branches.is_empty(), "{over}");
     let of = |all: &[&Value], axis: usize| -> Vec<f64> {
         let points = all.iter().flat_map(|it| it["points"].as_array().expect("points"));
@@ -305,13 +316,14 @@ second = { name = "p_d", from = "2.7 N", to = "2.9 N" }
 "#;
 
 #[test]
-fn a_run_under_way_is_shown_and_grows() {
+fn an_unfinished_run_is_shown_and_grows() {
     let work = WorkDir::new();
     // Some thousand cases in blocks of 512, of which one task computes a half.
     let many = STUDY.replace("points = 5", "points = 40").replace("points = 15", "points = 60");
     let many = many.replace("inherit = \"omega\"", "r = \"0 mm\"");
     work.put("many.toml", &many);
-    work.run(&["explore", "many.toml", "--no-browser"]).refused(&["nothing is computed yet", "capsulemap sweep many.toml"]);
+    work.run(&["explore", "many.toml", "--no-browser"])
+        .refused(&["nothing is computed yet", "capsulemap sweep many.toml"]);
     work.run(&["sweep", "many.toml", "--task", "1/2", "--no-figures"]).done();
     let explorer = Explorer::new(&work, &["many.toml"]);
     let before = explorer.object("/api/progress");
@@ -341,7 +353,8 @@ fn a_run_under_way_is_shown_and_grows() {
 fn wrong_inputs_are_named() {
     let work = swept();
     work.run(&["explore", "none.h5"]).refused(&["none.h5"]);
-    work.run(&["explore", "map.h5", "--output", "x.h5"]).refused(&["--output", "goes with a study"]);
+    work.run(&["explore", "map.h5", "--output", "x.h5"])
+        .refused(&["--output", "goes with a study"]);
     let explorer = Explorer::new(&work, &["map.h5"]);
     let port = explorer.port.to_string();
     work.run(&["explore", "map.h5", "--no-browser", "--port", &port])

@@ -105,7 +105,7 @@ fn a_person_clicks_compares_and_hands_over() {
         }
         // What is handed over runs.
         let figure = text(&view["figure"]).strip_prefix("capsulemap").expect("a command");
-        work.shell(&format!("\"$0\" {figure} --output {scheme} --formats png")).done();
+        work.shell(&format!("\"$0\" {figure} --name {scheme} --formats png")).done();
         for study in ["line", "basin"] {
             let file = format!("{scheme}-{study}.toml");
             work.put(&file, text(&view[study]));

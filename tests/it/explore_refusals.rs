@@ -28,19 +28,43 @@ const HOSTILE: &[(&str, &[u16])] = &[
     ("GET /api/file HTTP/1.1\r\nHost: 0.0.0.0:{port}\r\nCookie: {cookie}\r\n", &[403]),
     ("GET /api/file HTTP/1.1\r\nHost: \r\nCookie: {cookie}\r\n", &[400, 403]),
     ("GET /api/file HTTP/1.1\r\nCookie: {cookie}\r\n", &[400, 403]),
-    ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nHost: example.org\r\nCookie: {cookie}\r\n", &[400]),
-    ("GET http://example.org/api/file HTTP/1.1\r\nHost: example.org\r\nCookie: {cookie}\r\n", &[403]),
+    (
+        "GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nHost: example.org\r\nCookie: {cookie}\r\n",
+        &[400],
+    ),
+    (
+        "GET http://example.org/api/file HTTP/1.1\r\nHost: example.org\r\nCookie: {cookie}\r\n",
+        &[403],
+    ),
     // Another page in the same browser.
-    ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: http://example.org\r\nCookie: {cookie}\r\n", &[403]),
-    ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: null\r\nCookie: {cookie}\r\n", &[403]),
-    ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: http://127.0.0.1:1\r\nCookie: {cookie}\r\n", &[403]),
-    ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nSec-Fetch-Site: cross-site\r\nCookie: {cookie}\r\n", &[403]),
-    ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nSec-Fetch-Site: same-site\r\nCookie: {cookie}\r\n", &[403]),
+    (
+        "GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: http://example.org\r\nCookie: {cookie}\r\n",
+        &[403],
+    ),
+    (
+        "GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: null\r\nCookie: {cookie}\r\n",
+        &[403],
+    ),
+    (
+        "GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: http://127.0.0.1:1\r\nCookie: {cookie}\r\n",
+        &[403],
+    ),
+    (
+        "GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nSec-Fetch-Site: cross-site\r\nCookie: {cookie}\r\n",
+        &[403],
+    ),
+    (
+        "GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nSec-Fetch-Site: same-site\r\nCookie: {cookie}\r\n",
+        &[403],
+    ),
     // Another user of the machine, without the token or the cookie.
     ("GET / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n", &[403]),
     ("GET /api/motion?omega=60&p_d=3 HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n", &[403]),
     ("GET /page/page.js HTTP/1.1\r\nHost: localhost:{port}\r\n", &[403]),
-    ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: capsulemap-{port}=0000\r\n", &[403]),
+    (
+        "GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: capsulemap-{port}=0000\r\n",
+        &[403],
+    ),
     ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: capsulemap-{port}=\r\n", &[403]),
     ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: other={token}\r\n", &[403]),
     ("GET /open?token= HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n", &[403]),
@@ -49,21 +73,42 @@ const HOSTILE: &[(&str, &[u16])] = &[
     ("GET /open?token={token} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n", &[403]),
     // Paths out of the page.
     ("GET /page/../Cargo.toml HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n", &[404]),
-    ("GET /page/..%2f..%2fetc%2fpasswd HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n", &[404]),
+    (
+        "GET /page/..%2f..%2fetc%2fpasswd HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n",
+        &[404],
+    ),
     ("GET /page/%00 HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n", &[404]),
     ("GET /../../etc/passwd HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n", &[404]),
     ("GET //example.org/ HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n", &[400, 404]),
     // Other methods, and bodies.
-    ("POST /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\nContent-Length: 0\r\n", &[405]),
+    (
+        "POST /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\nContent-Length: 0\r\n",
+        &[405],
+    ),
     ("DELETE / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n", &[405]),
-    ("CONNECT example.org:443 HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n", &[400, 403, 404, 405]),
-    ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\nContent-Length: 99999999999\r\n", &[413]),
-    ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\nTransfer-Encoding: chunked\r\n", &[413]),
-    ("GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\nContent-Length: -1\r\n", &[400]),
+    (
+        "CONNECT example.org:443 HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n",
+        &[400, 403, 404, 405],
+    ),
+    (
+        "GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\nContent-Length: 99999999999\r\n",
+        &[413],
+    ),
+    (
+        "GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\nTransfer-Encoding: chunked\r\n",
+        &[413],
+    ),
+    (
+        "GET /api/file HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\nContent-Length: -1\r\n",
+        &[400],
+    ),
     // What is no HTTP.
     ("GET /api/file HTTP/9.9\r\nHost: 127.0.0.1:{port}\r\n", &[400, 505]),
     ("\u{0}\u{1}\u{2}\r\n", &[400]),
-    ("GET /api/motion?omega=%ff%fe HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n", &[400]),
+    (
+        "GET /api/motion?omega=%ff%fe HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n",
+        &[400],
+    ),
 ];
 
 #[test]
@@ -76,7 +121,8 @@ fn hostile_requests_are_refused_and_the_server_lives() {
     };
     let secret = explorer.cookie.split('=').nth(1).expect("a value").to_owned();
     for (request, allowed) in HOSTILE {
-        let answered = explorer.raw(fill(request).replacen("\r\n", "\r\nConnection: close\r\n", 1).as_bytes());
+        let answered =
+            explorer.raw(fill(request).replacen("\r\n", "\r\nConnection: close\r\n", 1).as_bytes());
         // A connection that is closed without an answer is a refusal, too, where the request is no HTTP.
         let Some(answered) = answered else {
             assert!(allowed.contains(&400), "{request}: no answer");
@@ -87,7 +133,8 @@ fn hostile_requests_are_refused_and_the_server_lives() {
         assert!(!told.contains(&secret) && !told.contains(&explorer.token), "{request}");
     }
     // Heads that are too long, and a thousand headers.
-    let long = format!("GET /api/file?x={} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", "a".repeat(200_000));
+    let long =
+        format!("GET /api/file?x={} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", "a".repeat(200_000));
     let many = format!("GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n{}\r\n", "X: y\r\n".repeat(1000));
     for request in [long, many] {
         let status = explorer.raw(request.as_bytes()).map_or(400, |it| it.status);
@@ -142,4 +189,34 @@ fn a_token_opens_the_page_once() {
     let cookie = opened.header("set-cookie").expect("a cookie");
     assert!(cookie.contains("HttpOnly") && cookie.contains("SameSite=Strict"), "{cookie}");
     assert_eq!(second.get(&format!("/open?token={}", second.token)).status, 403);
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_it_and_leaves_nothing_behind() {
+    use std::os::unix::process::ExitStatusExt;
+    use std::time::Instant;
+
+    let work = WorkDir::new();
+    // Of the blocks of a run that was shared among two tasks one half is there: partial results lie in a file of the server.
+    let many = STUDY
+        .replace("omega = \"60 rad/s\"\np_d = \"4 N\"\n", "")
+        .replace(
+            "values = [\"60 rad/s\", \"70 rad/s\"]",
+            "from = \"60 rad/s\"\nto = \"70 rad/s\"\npoints = 400",
+        )
+        .replace("values = [\"3 N\", \"4 N\"]", "from = \"3 N\"\nto = \"4 N\"\npoints = 4");
+    work.put("many.toml", many);
+    work.run(&["sweep", "many.toml", "--task", "1/2", "--no-figures"]).done();
+    std::fs::create_dir(work.path("temporary")).expect("a folder");
+    let mut command = work.command(&["explore", "many.toml", "--no-browser"]);
+    command.env("TMPDIR", work.path("temporary"));
+    let mut explorer = Explorer::begun(command);
+    let there = || std::fs::read_dir(work.path("temporary")).expect("a folder").count();
+    assert_eq!(there(), 1);
+    let asked = Instant::now();
+    work.shell(&format!("kill -INT {}", explorer.child.id())).done();
+    let status = explorer.child.wait().expect("its end");
+    assert!(asked.elapsed() < Duration::from_secs(10));
+    assert_eq!((status.signal(), there()), (Some(2), 0));
 }

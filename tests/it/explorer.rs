@@ -11,7 +11,8 @@ use super::program::WorkDir;
 
 /// A server that is stopped with the test.
 pub struct Explorer {
-    child: Child,
+    /// Its process.
+    pub child: Child,
     /// Its port.
     pub port: u16,
     /// The one-time token that it has printed.
@@ -74,7 +75,8 @@ impl Explorer {
     /// The answer to a request as a browser makes it.
     pub fn get(&self, address: &str) -> Answered {
         let port = self.port;
-        let mut request = format!("GET {address} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: close\r\n");
+        let mut request =
+            format!("GET {address} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: close\r\n");
         if !self.cookie.is_empty() {
             request += &format!("Cookie: {}\r\n", self.cookie);
         }

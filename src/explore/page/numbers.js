@@ -26,6 +26,8 @@ const number = (value, unit, factor) => result(value === null || value === undef
 /** A complex number in words. */
 export function complex([re, im]) {
   if (re === null || im === null) return "–";
+  // Multipliers are known to some 1e-12.
+  if (Math.hypot(re, im) < 1e-12) return "≈ 0";
   return im === 0 ? short(re, 4) : `${short(re, 4)} ${im < 0 ? "−" : "+"} ${short(Math.abs(im), 4)} i`;
 }
 

@@ -3,7 +3,8 @@
 use axum::body::Body;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use serde_json::{Value, json as object};
+use serde::Serialize;
+use serde_json::json as object;
 
 use crate::figure::FigureError;
 
@@ -55,8 +56,10 @@ impl IntoResponse for Refusal {
 }
 
 /// An object.
-pub fn json(value: &Value) -> Response {
-    bytes(value.to_string().into_bytes(), "application/json")
+pub fn json(value: &impl Serialize) -> Response {
+    // Names of fields and numbers can always be written.
+    let text = serde_json::to_vec(value).unwrap_or_default();
+    bytes(text, "application/json")
 }
 
 /// A page.

@@ -53,7 +53,9 @@ impl Asked {
     pub fn sweep(&self) -> Result<Option<Direction>, Refusal> {
         let Some(text) = self.text("sweep") else { return Ok(None) };
         let known = Direction::ALL.into_iter().find(|it| it.name() == text);
-        known.map(Some).ok_or_else(|| Refusal::unfit("sweep: upward, downward or afresh is expected"))
+        known
+            .map(Some)
+            .ok_or_else(|| Refusal::unfit("sweep: upward, downward or afresh is expected"))
     }
 
     /// Fails if there is a parameter that is neither a coordinate nor `known`.

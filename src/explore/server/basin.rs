@@ -11,6 +11,7 @@ use crate::capsule::{Case, Output, Parameter, State, settle_case};
 use crate::figure::{label_colour, shown_quantity};
 use crate::orbit::{Machine, Outcome};
 use crate::run::{self, Attractors, Record, run_sample};
+use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::study::axis::set;
 use crate::study::{Axis, CaseSet, Coordinate, Drawing, DrawingKind, Grid, Spacing, Study};
 
@@ -23,8 +24,7 @@ const TOGETHER: usize = 1024;
 /// How much wider than the motion the grid is.
 const WIDER: f64 = 2.0;
 /// What the ends of the grid are called in a request, by axis.
-const ENDS: [[&str; 2]; 2] =
-    [["start_r_from", "start_r_to"], ["start_y1_from", "start_y1_to"]];
+const ENDS: [[&str; 2]; 2] = [["start_r_from", "start_r_to"], ["start_y1_from", "start_y1_to"]];
 /// The axes, the faster first.
 const AXES: [Coordinate; 2] = [Coordinate::StartR, Coordinate::StartY1];
 /// What the page is told of a start whose attractor is not known.
@@ -62,7 +62,10 @@ impl Basin {
         let told = axes.iter().map(|it: &Axis| axis_json(explored, it)).collect::<Vec<_>>();
         axes.reverse();
         let mut begins = explored.study.case(0);
-        given.iter().filter(|it| it.0.is_start()).for_each(|(it, value)| set(&mut begins, *it, *value));
+        given
+            .iter()
+            .filter(|it| it.0.is_start())
+            .for_each(|(it, value)| set(&mut begins, *it, *value));
         let mut basin = Drawing::new("basin", DrawingKind::Basin);
         [basin.x, basin.y] = AXES.map(|it| Some(it.name().to_owned()));
         let study = Study {
@@ -166,8 +169,8 @@ fn attractors(found: &Attractors, records: &[Record]) -> Vec<Value> {
         let orbit = &record.orbit;
         Some(json!({
             "label": number,
-            "outcome": orbit.outcome.name(),
-            "period": if orbit.outcome == Outcome::Periodic { json!(orbit.period) } else { Value::Null },
+            (OUTCOME.name): orbit.outcome.name(),
+            (PERIOD.name): if orbit.outcome == Outcome::Periodic { json!(orbit.period) } else { Value::Null },
             "speed": orbit.outputs[Output::ProgressionSpeed],
             "colour": label_colour(Some(number as u32)),
         }))

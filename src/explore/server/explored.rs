@@ -57,7 +57,11 @@ impl Explored {
 
     /// The variables of these names in the plane that `drawing` names, where it names both axes; of a large file no more is
     /// read. The last that were read are kept.
-    pub fn part(&self, names: BTreeSet<String>, drawing: &Drawing) -> Result<Arc<Dataset>, Refusal> {
+    pub fn part(
+        &self,
+        names: BTreeSet<String>,
+        drawing: &Drawing,
+    ) -> Result<Arc<Dataset>, Refusal> {
         let part = (names, self.held(drawing)?);
         let mut last = self.last.lock().unwrap_or_else(|it| it.into_inner());
         if let Some((_, dataset)) = last.as_ref().filter(|it| it.0 == part) {
@@ -85,7 +89,8 @@ impl Explored {
                 true => Ok((name.to_owned(), place)),
                 false => {
                     let near = values[place];
-                    let why = format!("{name}: its axis has no value {wanted}; the nearest is {near}");
+                    let why =
+                        format!("{name}: its axis has no value {wanted}; the nearest is {near}");
                     Err(Refusal::unfit(why))
                 }
             }

@@ -7,6 +7,7 @@ use super::asked::Asked;
 use super::explored::Explored;
 use crate::capsule::{Case, Orbit, Output, State, settle_all, settle_case};
 use crate::orbit::{Machine, Outcome, Protocol};
+use crate::store::catalogue::{OUTCOME, PERIOD, SECTION_R};
 use crate::study::axis::set;
 use crate::study::{
     Axis, CaseSet, Coordinate, Direction, Drawing, DrawingKind, Grid, Inherit, Spacing, Study,
@@ -20,6 +21,8 @@ const USUAL: usize = 300;
 const TOGETHER: usize = 32;
 /// The parameters of a request beside the ends of the line.
 const KNOWN: [&str; 6] = ["count", "start", "log", "sweep", "kind", "format"];
+/// The outputs that are sent of each case.
+const SHOWN: [Output; 3] = [Output::ProgressionSpeed, Output::Power, Output::LyapunovExponent];
 /// Why a line that goes along no axis has no study.
 pub const NO_STUDY: &str = "a study varies one coordinate along an axis, and this line varies several together; a line along one axis \
      has a study and a figure";
@@ -57,8 +60,7 @@ impl Line {
             Some(_) => return Err(Refusal::unfit("start: inherit or afresh is expected")),
         };
         let count = asked.count("count", [LEAST, MOST], USUAL)?;
-        let begins =
-            |it: Coordinate| from.iter().find(|given| given.0 == it).map(|given| given.1);
+        let begins = |it: Coordinate| from.iter().find(|given| given.0 == it).map(|given| given.1);
         let mut varied = Vec::new();
         for (coordinate, to) in to {
             let from = begins(coordinate).ok_or_else(|| {
@@ -181,13 +183,15 @@ fn shares(count: usize) -> Vec<f64> {
 /// One value of the line: its share of the length, the section points, and outputs in SI.
 fn told(share: f64, orbit: &Orbit) -> Value {
     let points: Vec<f32> = orbit.section.iter().map(|it| it[0] as f32).collect();
-    json!({
+    let period = (orbit.outcome == Outcome::Periodic).then_some(orbit.period);
+    let mut told = json!({
         "share": share,
-        "outcome": orbit.outcome.name(),
-        "period": if orbit.outcome == Outcome::Periodic { json!(orbit.period) } else { Value::Null },
-        "section_r": points,
-        "progression_speed": orbit.outputs[Output::ProgressionSpeed],
-        "power": orbit.outputs[Output::Power],
-        "lyapunov_exponent": orbit.outputs[Output::LyapunovExponent],
-    })
+        (OUTCOME.name): orbit.outcome.name(),
+        (PERIOD.name): period,
+        (SECTION_R.name): points,
+    });
+    for output in SHOWN {
+        told[output.name()] = json!(orbit.outputs[output]);
+    }
+    told
 }

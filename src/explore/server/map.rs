@@ -12,17 +12,13 @@ use crate::figure::{
     ColouredMap, MapAxis, MapColours, MapLine, MapPoint, TradeOffAxis, coloured_map, over_map,
     over_map_variables, trade_off_cells,
 };
-use crate::study::{Drawing, DrawingKind, Sweep};
+use crate::study::{Drawing, DrawingKind, Sweep, free_name};
 
 /// The parameters of a request for a map or for its figure, beside the axes.
 const KNOWN: [&str; 7] = ["of", "x", "y", "sweep", "curves", "kind", "format"];
 
 /// The figure that a request asks for; the axes that are not drawn are held where it says.
-pub fn drawing(
-    explored: &Explored,
-    asked: &Asked,
-    kind: DrawingKind,
-) -> Result<Drawing, Refusal> {
+pub fn drawing(explored: &Explored, asked: &Asked, kind: DrawingKind) -> Result<Drawing, Refusal> {
     asked.only(&KNOWN)?;
     let [x, y, of] = ["x", "y", "of"].map(|name| asked.text(name).map(str::to_owned));
     let is_drawn = |name: &str| x.as_deref() == Some(name) || y.as_deref() == Some(name);
@@ -44,9 +40,10 @@ pub fn drawing(
         known.map(|it| it.1).ok_or_else(|| Refusal::unfit("sweep: no such sweep"))
     });
     let sweep = sweep.transpose()?;
-    let of = of.into_iter().collect();
+    let of: Vec<String> = of.into_iter().collect();
+    let name = free_name(kind, &of, &explored.study.drawings);
     let curves = asked.text("curves").is_some();
-    Ok(Drawing { x, y, of, at, sweep, curves, ..Drawing::new(kind.name(), kind) })
+    Ok(Drawing { x, y, of, at, sweep, curves, ..Drawing::new(name, kind) })
 }
 
 /// The map as one binary answer: red, green, blue and opacity of each cell, and its value.

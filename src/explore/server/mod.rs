@@ -29,9 +29,9 @@ use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
 use tokio::sync::Semaphore;
 
+use access::Access;
 use answer::{Refusal, html, json};
 use asked::Asked;
-use access::Access;
 use basin::Basin;
 use computations::Computations;
 use explored::Explored;
@@ -84,11 +84,8 @@ impl Server {
     /// Fails if the system takes the listening socket away.
     pub fn run(self, source: Arc<Source>) -> io::Result<()> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-        let shared = Shared {
-            source,
-            access: self.access,
-            computations: Arc::new(Computations::default()),
-        };
+        let shared =
+            Shared { source, access: self.access, computations: Arc::new(Computations::default()) };
         runtime.block_on(accept(self.listener, router(shared)))
     }
 }

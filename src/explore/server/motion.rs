@@ -1,6 +1,7 @@
 //! The motion of one case, computed as it is asked for.
 
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::Value;
 
 use super::answer::Refusal;
 use super::asked::Asked;
@@ -11,43 +12,84 @@ use crate::capsule::{
 };
 use crate::explore::case_json::{case_json, remarks};
 use crate::orbit::{HistorySpan, Protocol};
+use crate::store::catalogue::CYCLES;
 use crate::study::Study;
 
 /// Cycles of the transient, as `capsulemap simulate` computes without another number.
-const CYCLES: u64 = 20;
+const TRANSIENT: u64 = 20;
 /// Cycles that the histories show at most, and of a motion that does not repeat.
 const MOST_SHOWN: u64 = 8;
-/// Points of half a cycle, beside its events.
+/// Points of half a cycle, beside its events, of motions over two cycles; those over more have fewer.
 const POINTS: u32 = 150;
+/// Points of half a cycle at least.
+const LEAST_POINTS: u32 = 60;
 /// Samples of a cycle in figures.
 const PER_CYCLE: u32 = 400;
 
+/// What is told of a motion.
+#[derive(Serialize)]
+pub struct Told {
+    /// What `capsulemap simulate --json` prints of its case.
+    simulate: Value,
+    /// What the numbers do not say by themselves.
+    remarks: Vec<String>,
+    /// Its stroboscopic section.
+    stroboscopic: Vec<[f64; 3]>,
+    history: Option<History>,
+    /// The command that computes it.
+    command: String,
+    /// The number of the nearest case of the file, and whether it is that case.
+    nearest: usize,
+    exact: bool,
+    /// Where it starts, in words.
+    start: String,
+}
+
+/// Columns over time in SI; a screen shows fewer digits than theirs.
+#[derive(Serialize)]
+struct History {
+    cycles: u64,
+    period: f64,
+    delta: f64,
+    t: Vec<f64>,
+    x1: Vec<f32>,
+    x2: Vec<f32>,
+    r: Vec<f32>,
+    y1: Vec<f32>,
+    y2: Vec<f32>,
+    drive: Vec<f32>,
+    contact: Vec<f32>,
+    /// None where the reading of the model gives the capsule at rest no force.
+    friction: Option<Vec<f32>>,
+}
+
 /// The case that is asked for: what `capsulemap simulate --json` prints of it, its remarks, the command, and the histories of
 /// what it settles to.
-pub fn motion(explored: &Explored, asked: &Asked) -> Result<Value, Refusal> {
-    asked.only(&["cycles", "sweep"])?;
-    let cycles = asked.count("cycles", [0, 400], CYCLES as usize)? as u64;
-    let Near { case, index, is_exact, start } = explored.near(&asked.coordinates()?, asked.sweep()?)?;
+pub fn motion(explored: &Explored, asked: &Asked) -> Result<Told, Refusal> {
+    asked.only(&[CYCLES.name, "sweep"])?;
+    let cycles = asked.count(CYCLES.name, [0, 400], TRANSIENT as usize)? as u64;
+    let Near { case, index, is_exact, start } =
+        explored.near(&asked.coordinates()?, asked.sweep()?)?;
     let protocol = explored.protocol();
     let simulation = simulate_case(&case, cycles, protocol.tolerance);
     let orbit = settle_case(&case, &protocol);
-    Ok(json!({
-        "simulate": case_json(&case.parameters, &simulation, &orbit),
-        "remarks": remarks(&case.parameters, &orbit),
-        "stroboscopic": orbit.section,
-        "history": history(&case, &orbit, protocol.tolerance),
-        "command": format!("{} --cycles {cycles}", command(&case, &protocol)),
-        "nearest": index,
-        "exact": is_exact,
-        "start": start,
-    }))
+    Ok(Told {
+        simulate: case_json(&case.parameters, &simulation, &orbit),
+        remarks: remarks(&case.parameters, &orbit),
+        history: history(&case, &orbit, protocol.tolerance),
+        stroboscopic: orbit.section,
+        command: format!("{} --cycles {cycles}", command(&case, &protocol)),
+        nearest: index,
+        exact: is_exact,
+        start,
+    })
 }
 
 /// The study of the one case that a request asks for, with the history of what it settles to.
 ///
 /// Fails as [`motion`] does.
 pub fn study(explored: &Explored, asked: &Asked) -> Result<Study, Refusal> {
-    asked.only(&["cycles", "sweep", "kind", "format"])?;
+    asked.only(&[CYCLES.name, "sweep", "kind", "format"])?;
     let case = explored.near(&asked.coordinates()?, asked.sweep()?)?.case;
     let protocol = explored.protocol();
     let cycles = shown(&settle_case(&case, &protocol)) as u32;
@@ -71,48 +113,47 @@ pub fn shown(orbit: &Orbit) -> u64 {
 }
 
 /// The motion that a case settles to over some cycles, with its events, in columns in SI; nothing where it failed.
-fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Value {
-    if orbit.failure.is_some() {
-        return Value::Null;
-    }
+fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
     let cycles = shown(orbit);
-    let Some(points) = followed(case, State { x2: 0.0, ..orbit.end }, cycles, tolerance) else {
-        return Value::Null;
-    };
-    // A screen shows fewer digits than these.
-    let column =
-        |of: &dyn Fn(&ArcPoint) -> f64| points.iter().map(|it| of(it) as f32).collect::<Vec<_>>();
+    let from = State { x2: 0.0, ..orbit.end };
+    let points = followed(case, from, cycles, tolerance).filter(|_| orbit.failure.is_none())?;
+    let column = |of: &dyn Fn(&ArcPoint) -> f64| points.iter().map(|it| of(it) as f32).collect();
     let parameters = &case.parameters;
-    let friction = |it: &ArcPoint| parameters.forces(&it.state).friction;
-    let has_friction = parameters.switching == Switching::Filippov;
-    json!({
-        "cycles": cycles,
-        "period": parameters.drive_period(),
-        "delta": parameters[Parameter::Delta],
-        "t": points.iter().map(|it| it.time).collect::<Vec<_>>(),
-        "x1": column(&|it| it.state.x2 + it.state.r),
-        "x2": column(&|it| it.state.x2),
-        "r": column(&|it| it.state.r),
-        "y1": column(&|it| it.state.y1),
-        "y2": column(&|it| it.state.y2),
-        "drive": column(&|it| it.drive),
-        "contact": column(&|it| parameters.forces(&it.state).contact),
-        "friction": if has_friction { json!(column(&friction)) } else { Value::Null },
+    let friction = || column(&|it| parameters.forces(&it.state).friction);
+    Some(History {
+        cycles,
+        period: parameters.drive_period(),
+        delta: parameters[Parameter::Delta],
+        t: points.iter().map(|it| it.time).collect(),
+        x1: column(&|it| it.state.x2 + it.state.r),
+        x2: column(&|it| it.state.x2),
+        r: column(&|it| it.state.r),
+        y1: column(&|it| it.state.y1),
+        y2: column(&|it| it.state.y2),
+        drive: column(&|it| it.drive),
+        contact: column(&|it| parameters.forces(&it.state).contact),
+        friction: (parameters.switching == Switching::Filippov).then(friction),
     })
 }
 
 /// The motion from a point of the section, half a cycle after the other.
-pub fn followed(case: &Case, from: State<f64>, cycles: u64, tolerance: f64) -> Option<Vec<ArcPoint>> {
+pub fn followed(
+    case: &Case,
+    from: State<f64>,
+    cycles: u64,
+    tolerance: f64,
+) -> Option<Vec<ArcPoint>> {
     let half = 0.5 * case.parameters.drive_period();
     let mut state = from;
     let phase = case.section_phase;
     let drive = case.parameters[Parameter::Pd] * phase.cos();
     let mut points = vec![ArcPoint { time: 0.0, state, drive }];
+    let count = (2 * POINTS / cycles as u32).clamp(LEAST_POINTS, POINTS);
     for number in 0..2 * cycles {
         let begins = number as f64 * half;
         let turned = |halves: u64| phase + std::f64::consts::PI * (halves % 2) as f64;
         let phases = [turned(number), turned(number + 1)];
-        let part = arc(&case.parameters, state, phases, POINTS, tolerance).ok()?;
+        let part = arc(&case.parameters, state, phases, count, tolerance).ok()?;
         state = part.last()?.state;
         points.extend(part.into_iter().map(|it| ArcPoint { time: begins + it.time, ..it }));
     }

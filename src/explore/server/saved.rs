@@ -40,7 +40,8 @@ pub fn figure(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
         }
         Some(DrawingKind::Basin) => drawn_by(Basin::of(explored, asked)?.study())?,
         _ => {
-            let why = "kind: map, trade-off, history, phase-portrait, bifurcation or basin is expected";
+            let why =
+                "kind: map, trade-off, history, phase-portrait, bifurcation or basin is expected";
             return Err(Refusal::unfit(why));
         }
     };
@@ -76,7 +77,8 @@ fn computed(study: &Study, drawing: Drawing) -> Result<(Arc<Dataset>, Drawing), 
     let chains: Vec<usize> = (0..study.chains()).collect();
     let machine = Machine::default();
     let failed = |why: String| Refusal::failed(why);
-    let records = run_sample(study, machine, &chains, || ()).map_err(|it| failed(it.to_string()))?;
+    let records =
+        run_sample(study, machine, &chains, || ()).map_err(|it| failed(it.to_string()))?;
     let results = results_in_memory(study, &records, machine);
     Ok((Arc::new(results.map_err(|it| failed(it.to_string()))?), drawing))
 }
