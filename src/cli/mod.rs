@@ -27,6 +27,7 @@ mod readable;
 mod report;
 mod simulate;
 mod slurm;
+mod smooth;
 mod status;
 mod stop;
 mod summary;
@@ -102,6 +103,8 @@ enum Command {
     Inspect(inspect::Inspect),
     /// Find constants of a rig from recordings of simple tests.
     Identify(identify::Identify),
+    /// Smooth and differentiate the signals of a recording.
+    Smooth(smooth::Smooth),
     /// Fit parameters to recorded histories of the motion.
     Fit(fit::Fit),
     /// Compare a recording with the simulation of the same case.
@@ -136,6 +139,7 @@ pub fn main() -> ExitCode {
         Command::Explore(explore) => explore.run(),
         Command::Inspect(inspect) => inspect.run(),
         Command::Identify(identify) => identify.run(),
+        Command::Smooth(smooth) => smooth.run(),
         Command::Fit(fit) => fit.run(),
         Command::Compare(compare) => compare.run(),
         Command::Synthesize(synthesize) => synthesize.run(),

@@ -22,10 +22,12 @@ pub enum Side {
 }
 
 impl Side {
-    /// The bound that a value lies on, if it does.
+    /// The bound that a value lies on, if it does, within a ten-thousandth of their distance: a search may stop that far from it.
     pub fn of(value: f64, bounds: Bounds) -> Option<Side> {
-        let is_least = value - bounds.least < bounds.greatest - value;
-        bounds.holds(value).then_some(if is_least { Side::Least } else { Side::Greatest })
+        let near = 1e-4 * (bounds.greatest - bounds.least);
+        let (below, above) = (value - bounds.least, bounds.greatest - value);
+        let side = if below < above { Side::Least } else { Side::Greatest };
+        (near.is_finite() && below.min(above) < near).then_some(side)
     }
 
     /// Its name.

@@ -129,6 +129,12 @@ impl Recording {
 impl Sampling {
     /// The samples of the longest part of the record without a gap, by its times since any moment.
     pub fn whole_part(&self, times: &[f64]) -> Range<usize> {
+        let parts = self.parts(times).into_iter();
+        parts.max_by_key(ExactSizeIterator::len).unwrap_or(0..times.len())
+    }
+
+    /// The samples of each part of the record without a gap, by its times since any moment.
+    pub fn parts(&self, times: &[f64]) -> Vec<Range<usize>> {
         let place = |(begins, _): &(f64, f64)| {
             times.partition_point(|time| {
                 time - times[0] <= begins - self.first + 0.5 * self.interval
@@ -141,8 +147,7 @@ impl Sampling {
             from = end.max(from);
             part
         });
-        let parts: Vec<Range<usize>> = parts.collect();
-        parts.into_iter().max_by_key(ExactSizeIterator::len).unwrap_or(0..times.len())
+        parts.collect()
     }
 }
 

@@ -189,6 +189,11 @@ fn a_token_opens_the_page_once() {
     let cookie = opened.header("set-cookie").expect("a cookie");
     assert!(cookie.contains("HttpOnly") && cookie.contains("SameSite=Strict"), "{cookie}");
     assert_eq!(second.get(&format!("/open?token={}", second.token)).status, 403);
+    // The browser that has the cookie is sent on to the page, and another is told why it is not.
+    let again = first.get(&format!("/open?token={}", first.token));
+    assert_eq!((again.status, again.header("location")), (303, Some("/")));
+    let refused = second.get("/");
+    assert!(refused.status == 403 && refused.text().contains("<p>Not shown: open the address"));
 }
 
 #[cfg(unix)]

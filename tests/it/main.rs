@@ -102,6 +102,7 @@ mod sensitivities;
 mod series_terms;
 mod sizes;
 mod slurm;
+mod smoothed_records;
 mod store;
 mod stribeck_scan;
 mod study;

@@ -37,7 +37,6 @@ fn intervals_of_friction_hold_the_truth_at_any_speeds() {
     for (speeds, count, most) in cases {
         let mut noise = Noise::new(11);
         let mut held = [0, 0];
-        let mut said = std::collections::BTreeMap::new();
         let mut wrong = 0;
         for _ in 0..SETS {
             let law = identified(&tests_of(speeds, count, 0.02, &mut noise)).by_coast_down;
@@ -46,9 +45,7 @@ fn intervals_of_friction_hold_the_truth_at_any_speeds() {
             }
             let is_determined = law.verdicts[0] == Verdict::Determined;
             wrong += u64::from(is_determined && !law.mu_d.holds(TRUTH[0]));
-            *said.entry(format!("{:?}", law.verdicts)).or_insert(0) += 1;
         }
-        println!("{speeds:?}: {held:?} of {SETS}, {wrong} wrong of determined, {said:?}");
         for count in held {
             let allowed = SETS * 92 / 100..=SETS * most / 100;
             assert!(allowed.contains(&count), "{speeds:?}: {held:?} of {SETS}");
@@ -75,11 +72,10 @@ fn log_decrements_deviate_as_their_standard_errors_say() {
         }
     }
     assert!(fewest >= 5, "{fewest}");
-    for (i, name) in ["k1", "c"].iter().enumerate() {
+    for (i, name) in [Parameter::K1, Parameter::C].map(Parameter::symbol).iter().enumerate() {
         let mean = |of: &[f64]| of.iter().sum::<f64>() / SEEDS as f64;
         let size = |of: &[f64]| (of.iter().map(|it| it * it).sum::<f64>() / SEEDS as f64).sqrt();
         let (all, apart) = (&deviations[i], &apart[i]);
-        println!("{name}: mean {:.2}, rms {:.2}; apart {:.2}", mean(all), size(all), size(apart));
         assert!(mean(all).abs() < 0.3, "{name}: {}", mean(all));
         assert!((0.8..1.25).contains(&size(all)), "{name}: {}", size(all));
         assert!(size(apart) < 1.2, "{name}: {}", size(apart));
@@ -112,7 +108,6 @@ fn of_rigs_that_the_model_describes_hardly_any_note_is_told() {
             // That a line misses zero is told where its interval of 95 % does.
             notes.retain(|it| !it.starts_with("without current"));
         }
-        println!("{}: {} notes, as {:?}", test.name(), notes.len(), notes.first());
         // Of 15 normal residuals one exceeds four robust standard deviations in 3 to 5 of 100 tests; curvature is told in 1 of 100.
         assert!(notes.len() as u64 <= SEEDS * 7 / 100, "{}: {notes:#?}", test.name());
     }

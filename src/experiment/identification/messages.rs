@@ -52,7 +52,9 @@ fn of_two_modes_of_friction_neither_is_a_value() {
         assert!(text.contains(limits[0]) && text.contains(limits[1]), "{text}");
         // Studies take the default of what is not determined.
         let file = parameter_file(&all, &[]);
-        for (symbol, default) in [("mu_d", "0.33"), ("v_s", "0.3 m/s")] {
+        for (symbol, default) in
+            [(Parameter::MuD.symbol(), "0.33"), (Parameter::Vs.symbol(), "0.3 m/s")]
+        {
             assert!(!file.contains(&format!("\n{symbol} = ")), "{file}");
             let comment = format!("a study takes the default, {default}, unless it sets {symbol}");
             assert!(file.contains(&comment), "{file}");

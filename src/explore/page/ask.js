@@ -1,7 +1,13 @@
 // Asks the server: objects, maps, trade-offs and streams of lines.
 
+/** What is told where nobody answers. */
+const GONE = "capsulemap explore no longer answers; start it again";
+
+// A browser tells of a connection that is refused or cut by a TypeError.
+const gone = (it) => { throw it instanceof TypeError ? new Error(GONE) : it; };
+
 async function answered(address, signal) {
-  const answer = await fetch(address, { signal, credentials: "same-origin" });
+  const answer = await fetch(address, { signal, credentials: "same-origin" }).catch(gone);
   if (answer.ok) return answer;
   const told = await answer.json().catch(() => ({ error: `the server answered ${answer.status}` }));
   throw new Error(told.error);
@@ -11,12 +17,12 @@ const address = (path, pairs) => `${path}?${new URLSearchParams(pairs)}`;
 
 /** An object. */
 export async function object(path, pairs = {}, signal) {
-  return (await answered(address(path, pairs), signal)).json();
+  return (await answered(address(path, pairs), signal)).json().catch(gone);
 }
 
 // An object, and what follows it in the same answer.
 async function packed(path, pairs, signal) {
-  const bytes = await (await answered(address(path, pairs), signal)).arrayBuffer();
+  const bytes = await (await answered(address(path, pairs), signal)).arrayBuffer().catch(gone);
   const length = new DataView(bytes).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
   return { head, bytes, begins: 4 + length };
@@ -43,7 +49,7 @@ export async function lines(path, pairs, take, signal) {
   const decoder = new TextDecoder();
   let rest = "";
   for (;;) {
-    const { done, value } = await reader.read();
+    const { done, value } = await reader.read().catch(gone);
     const parts = (rest + (done ? "" : decoder.decode(value, { stream: true }))).split("\n");
     rest = done ? "" : parts.pop();
     parts.filter((line) => line).forEach((line) => take(JSON.parse(line)));

@@ -2,8 +2,9 @@
 
 import * as ask from "./ask.js";
 import { button, element, labelled, say, said, table } from "./element.js";
+import { isReversed } from "./form.js";
 import { handOver, saveButtons } from "./keep.js";
-import { cross } from "./marks.js";
+import { cross, cursor, dot, entry, rimmed } from "./marks.js";
 import { Plane } from "./plane.js";
 import { result, short } from "./ticks.js";
 
@@ -11,9 +12,26 @@ const UNDECIDED = [136, 136, 136];
 const MM = 1e3;
 const RANGE = ["start_r_from", "start_r_to", "start_y1_from", "start_y1_to"];
 
-/** The basins on a canvas, as a plane with a mark for the start that is shown. */
+/** The basins on a canvas, as a plane; `stop` is where r = delta, and `points` are section points with their colours, in SI. */
 class BasinPlane extends Plane {
-  above(_, put) { if (this.mark) put(this.mark, cross); }
+  over(drawn, to) {
+    if (!this.hasStop()) return;
+    const at = this.share(this.data.x, this.stop * this.data.x.factor);
+    drawn.setLineDash([6, 4]);
+    rimmed(drawn, () => { drawn.moveTo(...to([at, 0])); drawn.lineTo(...to([at, 1])); }, "#000000", 1.5);
+    drawn.setLineDash([]);
+  }
+
+  hasStop() {
+    const [low, high] = this.data.x.range, stop = this.stop * this.data.x.factor;
+    return stop >= low && stop <= high;
+  }
+
+  above(drawn, put) {
+    for (const { at, colour } of this.points || []) put(this.shares(at), (_, [x, y]) => { dot(drawn, [x, y], "#000000", 6); dot(drawn, [x, y], `rgb(${colour})`, 3.5); });
+    if (this.chosen) put(this.chosen, cross);
+    if (this.mark && !this.mark.every((it, i) => it === this.chosen?.[i])) put(this.mark, cursor);
+  }
 }
 
 /** Basins in their place. `on` is told of a `choose`n start and of the `range` of starts that is wanted. */
@@ -25,13 +43,14 @@ export class Basin {
     this.canvas.setAttribute("aria-describedby", "basin-help basin-hover");
     this.hovered = element("p", { id: "basin-hover", className: "told", textContent: "\u00a0" });
     this.attractors = element("div", { id: "basin-attractors" });
+    this.legend = element("ul", { className: "legend", ariaLabel: "Marks of the basin" });
     this.bar = element("progress", { max: 1, value: 0, ariaLabel: "Starts computed" });
     const help = element("p", { id: "basin-help", className: "note" });
     help.textContent = "Click a start for its motion. Keys: arrows move the mark, Enter computes there, + and − zoom, 0 shows all.";
     const choose = (point) => on.choose({ ...this.parameters, [this.data.x.name]: point[0], [this.data.y.name]: point[1] });
     this.plane = new BasinPlane(this.canvas, { choose, hover: (at, isKey) => this.hover(at, isKey) });
     this.saving = element("div", { className: "buttons" }, saveButtons("basin", "basin", () => ({ kind: "basin", ...this.request })));
-    place.append(this.heading, this.told, this.bar, this.canvas, this.hovered, this.attractors, help, this.ranges(), this.saving);
+    place.append(this.heading, this.told, this.bar, this.canvas, this.hovered, this.legend, this.attractors, help, this.ranges(), this.saving);
   }
 
   // The range of starts by numbers.
@@ -41,6 +60,8 @@ export class Basin {
     const form = element("form", { className: "row" }, ...this.inputs.map((it, i) => labelled(words[i], it)), element("button", { textContent: "Compute" }));
     form.addEventListener("submit", (event) => {
       event.preventDefault();
+      const pairs = [this.inputs.slice(0, 2), this.inputs.slice(2)];
+      if (pairs.some((ends, i) => isReversed(...ends, words[2 * i].replace(" from", "")))) return;
       const [r0, r1, y0, y1] = this.inputs.map((it) => Number(it.value));
       this.on.range([r0 / MM, r1 / MM, y0, y1]);
     });
@@ -57,13 +78,14 @@ export class Basin {
     this.stop();
     const running = new AbortController();
     Object.assign(this, { running, asked, request, parameters, data: null, last: null, began: performance.now() });
-    this.heading.textContent = `At ${words}`;
+    this.heading.textContent = `At ${words}.`;
+    this.at = words;
     this.told.textContent = "The first starts are computed.";
     say("The basin is computed");
     Object.assign(this.bar, { value: 0, hidden: false });
     this.plane.data = null;
-    this.plane.mark = null;
-    this.attractors.replaceChildren();
+    Object.assign(this.plane, { mark: null, chosen: null, points: [] });
+    [this.attractors, this.legend].forEach((it) => it.replaceChildren());
     try {
       await ask.lines("/api/basin", request, (it) => this.receive(it), running.signal);
       this.bar.hidden = true;
@@ -99,6 +121,10 @@ export class Basin {
 
   describe(head) {
     this.head = head;
+    this.plane.stop = head.delta ?? NaN;
+    const { start } = head;
+    // The plane varies the other two coordinates of the start.
+    if (start) this.heading.textContent = `At ${this.at}. Every start has y2 = ${short(start.y2)} m/s, phase = ${short(start.phase)} rad.`;
     const ends = [head.x.range[0] / head.x.factor * MM, head.x.range[1] / head.x.factor * MM, ...head.y.range.map((it) => it / head.y.factor)];
     this.inputs.forEach((input, i) => { input.value = String(Number(ends[i].toPrecision(6))); });
     handOver("basin", "Basin: study for capsulemap sweep", head.study, true);
@@ -116,10 +142,25 @@ export class Basin {
       ends: Array.from({ length: side }, (_, i) => (i === side - 1 ? 1 : (i + 0.5) / (side - 1))),
     });
     this.data = { x: axis(head.x), y: axis(head.y), colours: bytes };
+    this.plane.points = pass.attractors.flatMap((it) => (it.points || []).map((at) => ({ at, colour: it.colour })));
     this.plane.show(this.data);
+    this.explain();
     this.canvas.setAttribute("aria-label", `Basins of ${pass.attractors.length} attractors over ${head.x.label} and ${head.y.label}, ${side} by ${side} starts`);
     this.list(pass);
     this.on.shown();
+  }
+
+  // What lies over the basins.
+  explain() {
+    const { plane } = this, made = [];
+    if (plane.hasStop()) made.push(entry("stop, x1 − x2 = delta", (drawn, [x, y]) => {
+      drawn.setLineDash([4, 3]);
+      rimmed(drawn, () => { drawn.moveTo(x, y - 9); drawn.lineTo(x, y + 9); }, "#000000", 1.5);
+      drawn.setLineDash([]);
+    }));
+    if (plane.points.some(({ at }) => plane.isSeen(plane.shares(at)))) made.push(entry("section point of an attractor, in its colour", (drawn, at) => { dot(drawn, at, "#000000", 6); dot(drawn, at, "#888888", 3.5); }));
+    if (plane.chosen) made.push(entry("chosen start", (drawn, at) => cross(drawn, at)));
+    this.legend.replaceChildren(...made);
   }
 
   // What each colour means, with its share of the starts so far.
@@ -130,7 +171,7 @@ export class Basin {
     const named = (text, colour) => element("span", {}, swatch(colour), text);
     const rows = attractors.map((it) => {
       const period = it.outcome === "periodic" ? `periodic, period ${it.period}` : it.outcome;
-      return [named(String(it.label), it.colour), period, result(it.speed === null ? null : it.speed * MM, "mm/s"), part(count(it.label))];
+      return [named(String(it.label + 1), it.colour), period, result(it.speed === null ? null : it.speed * MM, "mm/s"), part(count(it.label))];
     });
     const known = new Set(attractors.map((it) => it.label)), others = labels.filter((it) => !known.has(it)).length;
     if (others) rows.push([named("none", unknown || UNDECIDED), "undecided", "–", part(others)]);
@@ -146,7 +187,7 @@ export class Basin {
   words(at) {
     const { x, y } = this.data, label = this.last.labels[at.number], it = this.last.attractors.find((one) => one.label === label);
     const where = `${said(x.label, at.cell[0] * x.factor)}, ${said(y.label, at.cell[1] * y.factor)}`;
-    return `${where}: ${it ? `attractor ${label}` : "undecided"}`;
+    return `${where}: ${it ? `attractor ${label + 1}` : "undecided"}`;
   }
 
   /** Puts the mark at the start of a motion, if it is one of these basins. */
@@ -154,7 +195,10 @@ export class Basin {
     if (!this.data) return;
     const [x, y] = [coordinates?.[this.data.x.name], coordinates?.[this.data.y.name]];
     const isHere = Object.entries(this.parameters).every(([name, value]) => coordinates?.[name] === value);
-    this.plane.mark = isHere && x !== undefined && y !== undefined ? this.plane.shares([x, y]) : null;
+    const place = isHere && x !== undefined && y !== undefined ? this.plane.shares([x, y]) : null;
+    this.plane.chosen = place;
+    if (place) this.plane.mark = place;
     this.plane.draw();
+    this.explain();
   }
 }

@@ -13,7 +13,7 @@ export function selection() {
 
 /** Sets the selection, or removes it. */
 export function brush(plane, ranges) {
-  view.set({ brush: ranges && `${plane}:${ranges.flat().join(",")}` });
+  view.set({ brush: ranges && `${plane}:${ranges.flat().map((it) => Number(it.toPrecision(12))).join(",")}` });
 }
 
 /** The mask of the cells whose case lies in ranges of the axes of a map, in SI. */

@@ -69,6 +69,8 @@ export class Choices {
       const value = it.values[this.nearest(it, wanted)], room = SAME * Math.max(...it.values.map(Math.abs));
       if (Math.abs(value - wanted) > room) told.push(`${parted(it.label)[0]} has no value ${short(wanted * it.factor)} ${it.unit}; the map shows the nearest, ${short(value * it.factor)} ${it.unit}.`);
     }
+    const { directions } = this.file, sweep = view.text("sweep");
+    if (sweep && ![...directions, ...(directions.length > 1 ? ["difference"] : [])].includes(sweep)) told.push(`The file has no sweep ${sweep}.`);
     for (const [key, all] of [["of", this.file.outputs], ["x", this.file.axes], ["y", this.file.axes]]) {
       const name = view.text(key);
       if (name && !all.some((it) => it.name === name)) told.push(`The file has no ${key === "of" ? "output" : "axis"} ${name}.`);
@@ -84,9 +86,10 @@ export class Choices {
     for (const it of this.file.axes) {
       if (it.name === axes.x || it.name === axes.y) { set[it.name] = null; continue; }
       set[it.name] = it.values[this.nearest(it, at[it.name] ?? it.values[0])];
+      if (at[it.name] !== set[it.name]) delete at.from;
       at[it.name] = set[it.name];
     }
-    if (view.text("at")) set.at = view.written(at);
+    if (view.coordinates(view.text("at"))) set.at = view.written(at);
     view.set(set);
   }
 
@@ -97,7 +100,7 @@ export class Choices {
     this.drawn = key;
     const focused = document.activeElement?.name;
     const outputs = this.file.outputs.map((it) => [it.name, it.label]), axes = this.file.axes.map((it) => [it.name, it.label]);
-    const fields = [labelled("Output", select("of", outputs, this.chosen().of, (of) => view.set({ of })))];
+    const fields = [labelled("Output", select("of", outputs, this.chosen().of, (of) => view.step({ of })))];
     for (const [name, text] of [["x", "Across"], ["y", "Up"]]) fields.push(labelled(text, select(name, axes, this.chosen()[name], (it) => this.turn(name, it))));
     const { directions } = this.file;
     if (directions.length > 1) {
@@ -112,7 +115,7 @@ export class Choices {
   // The case that is shown is then that of the other sweep.
   turnSweep(sweep) {
     const at = view.coordinates(view.text("at")), from = sweep === "difference" ? this.file.directions[0] : sweep;
-    view.set({ sweep, ...(at ? { at: view.written({ ...at, sweep: from }) } : {}) });
+    view.set({ sweep, ...(at && !at.from ? { at: view.written({ ...at, sweep: from }) } : {}) });
   }
 
   slider(axis) {
@@ -132,7 +135,7 @@ export class Choices {
   // The place that is shown moves with the slider.
   slid(name, value) {
     const at = view.coordinates(view.text("at"));
-    view.set({ [name]: value, ...(at ? { at: view.written({ ...at, [name]: value }) } : {}) });
+    view.set({ [name]: value, ...(at ? { at: view.written(view.moved(at, { [name]: value })) } : {}) });
   }
 
   refresh() {

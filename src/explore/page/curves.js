@@ -51,11 +51,23 @@ function curve(drawn, places, it) {
   drawn.setLineDash([]);
 }
 
-/** What draws curves and points over a map; `to` of it takes places in the units shown. */
-export const layer = ({ lines, points }) => (drawn, to) => {
-  lines.forEach((it) => curve(drawn, it.points.map(([x, y]) => to(x, y)), it));
-  points.forEach((it) => point(drawn, to(...it.at), it));
+// The sequence of events changes at many points: other symbols lie over those, and folds and period doublings over all.
+const order = ({ words }) => (/fold|period doubling/.test(words) ? 2 : /event/.test(words) ? 0 : 1);
+
+/** What draws curves and points over a map: `to` takes places in the units shown, and `put` draws at one that is seen. */
+export const layer = ({ lines, points }) => {
+  const sorted = [...points].sort((a, b) => order(a) - order(b));
+  return {
+    lines: (drawn, to) => lines.forEach((it) => curve(drawn, it.points.map(([x, y]) => to(x, y)), it)),
+    points: (drawn, put) => sorted.forEach((it) => put(...it.at, (_, at) => point(drawn, at, it))),
+  };
 };
+
+/** Those of the curves and points that are seen on a map. */
+export function seen({ lines, points }, map) {
+  const isLine = ({ points: all }) => all.some((it, i) => i && map.crosses(map.shown(...all[i - 1]), map.shown(...it)));
+  return { lines: lines.filter(isLine), points: points.filter((it) => map.isSeen(map.shown(...it.at))) };
+}
 
 // One of each kind, by its words, colour and dashes.
 const kinds = (all) => [...new Map(all.map((it) => [JSON.stringify([it.words, it.colour, it.dash]), it])).values()];

@@ -61,7 +61,7 @@ export function said(label, value) {
   return `${name} ${sign}${text}${unit && /\d|∞/.test(text) ? ` ${unit}` : ""}`;
 }
 
-const isNumber = (cell) => typeof cell === "number" || /^[−\d≈]/.test(cell);
+const isNumber = (cell) => typeof cell === "number" || /^[−-]?[\d≈∞]/.test(cell);
 
 // A row; `numeric` says which columns have numbers, which stand to the right.
 function row(cells, numeric, isHead) {

@@ -15,21 +15,26 @@ export function handOver(id, title, text, isStudy = false) {
   const known = entries.get(id);
   if (known?.dataset.text === text && known?.dataset.title === title) return;
   entries.delete(id);
-  if (text) entries.set(id, entry(title, text, isStudy));
+  if (text) entries.set(id, entry(id, title, text, isStudy));
   by("commands").replaceChildren(...ORDER.filter((it) => entries.has(it)).map((it) => entries.get(it)));
 }
 
-function entry(title, text, isStudy) {
-  const copy = button("Copy", async () => {
+/** A button that copies what `text` gives. */
+export function copyButton(words, title, text) {
+  const copy = button(words, async () => {
     try {
-      await navigator.clipboard.writeText(text);
+      await navigator.clipboard.writeText(text());
       say(`${title}: copied`);
       copy.textContent = "Copied";
-      setTimeout(() => { copy.textContent = "Copy"; }, 2000);
+      setTimeout(() => { copy.textContent = words; }, 2000);
     } catch (it) { fault(it); }
-  }, { ariaLabel: `Copy: ${title}` });
-  const buttons = element("div", { className: "buttons" }, copy);
-  if (isStudy) buttons.append(button("Save as TOML", () => given(new Blob([text], { type: "application/toml" }), "study.toml")));
+  }, { ariaLabel: `${words}: ${title}` });
+  return copy;
+}
+
+function entry(id, title, text, isStudy) {
+  const buttons = element("div", { className: "buttons" }, copyButton("Copy", title, () => text));
+  if (isStudy) buttons.append(button("Save as TOML", () => given(new Blob([text], { type: "application/toml" }), `${id}.toml`), { ariaLabel: `Save as TOML: ${title}` }));
   const place = element("pre", { tabIndex: 0, role: "group", ariaLabel: title, textContent: text });
   const made = element("div", { className: "hand-over" }, element("h3", { textContent: title }), place, buttons);
   Object.assign(made.dataset, { text, title });

@@ -2,25 +2,30 @@
 
 import * as curves from "./curves.js";
 import { by } from "./element.js";
-import { cross, dot, entry, front, letter, line, rectangle } from "./marks.js";
+import { cross, cursor, dot, entry, front, letter, line, rectangle } from "./marks.js";
 import { chosen, onMap, page, pins } from "./shown.js";
 
 /** Tells what the marks on the map mean, and what is left out. */
 export function legend() {
   const { map } = page;
   if (!map?.data) return;
-  const { marks } = map, made = page.curves ? curves.entries(page.curves) : [];
+  const { marks } = map, made = page.curves ? curves.entries(curves.seen(page.curves, map)) : [];
+  const isSeen = (point) => map.isSeen(map.shares(point)), crosses = (from, to) => map.crosses(map.shares(from), map.shares(to));
   for (const direction of ["forward", "backward"]) {
-    if (marks.fronts[direction]?.length) made.push(entry(`front, ${direction}`, (drawn, place) => dot(drawn, place, front(direction))));
+    if (marks.fronts[direction]?.some(isSeen)) made.push(entry(`front, ${direction}`, (drawn, place) => dot(drawn, place, front(direction))));
   }
-  if (map.mark) made.push(entry("chosen case", (drawn, place) => cross(drawn, place)));
-  marks.pins.forEach(({ name }) => made.push(entry(`pinned ${name}`, (drawn, place) => letter(drawn, place, name))));
-  if (marks.line) made.push(entry("line, from its ring", (drawn, [x, y]) => line(drawn, [[x - 9, y], [x + 12, y]])));
-  if (marks.rectangle) made.push(entry("selection", (drawn, [x, y]) => rectangle(drawn, [[x - 11, y - 6], [x + 11, y + 6]])));
+  if (map.chosen && map.isSeen(map.chosen)) made.push(entry("chosen case", (drawn, place) => cross(drawn, place)));
+  if (map.hasCursor() && map.isSeen(map.mark)) made.push(entry("mark of the keyboard", (drawn, place) => cursor(drawn, place)));
+  marks.pins.filter(({ point }) => isSeen(point)).forEach(({ name }) => made.push(entry(`pinned ${name}`, (drawn, place) => letter(drawn, place, name))));
+  if (marks.line && crosses(...marks.line)) made.push(entry("line, from its ring", (drawn, [x, y]) => line(drawn, [[x - 9, y], [x + 12, y]])));
+  if (marks.rectangle && sides(marks.rectangle).some((it) => crosses(...it))) made.push(entry("selection", (drawn, [x, y]) => rectangle(drawn, [[x - 11, y - 6], [x + 11, y + 6]])));
   by("map-legend").replaceChildren(...made);
   by("map-legend").hidden = !made.length;
   note();
 }
+
+// The sides of a rectangle between two of its corners.
+const sides = ([[x0, y0], [x1, y1]]) => [[[x0, y0], [x1, y0]], [[x1, y0], [x1, y1]], [[x1, y1], [x0, y1]], [[x0, y1], [x0, y0]]];
 
 /** Tells what the map leaves out as it is seen now. */
 export function note() {

@@ -2,15 +2,27 @@
 
 import * as ask from "./ask.js";
 import { element, folded, labelled, say, said, select } from "./element.js";
-import { handOver, saveButtons } from "./keep.js";
+import { copyButton, handOver, saveButtons } from "./keep.js";
 import { entry } from "./marks.js";
 import { colours, context, frame, redrawn, share } from "./plot.js";
 import { range, result, short } from "./ticks.js";
 
 /** Values along a line. */
 const COUNT = 300;
-const STARTS = [["inherit", "where the value before it settled"], ["afresh", "as the study says"]];
+const STARTS = [["inherit", "where the value before it settled"], ["afresh", "from the initial state of the study"]];
 const MM = 1e3;
+
+const square = (drawn, x, y, r) => drawn.fillRect(x - r, y - r, 2 * r, 2 * r);
+const plus = (drawn, x, y, r) => { drawn.beginPath(); drawn.moveTo(x - 2 * r, y); drawn.lineTo(x + 2 * r, y); drawn.moveTo(x, y - 2 * r); drawn.lineTo(x, y + 2 * r); drawn.stroke(); };
+const hollow = (drawn, x, y, r) => drawn.strokeRect(x - 1.5 * r, y - 1.5 * r, 3 * r, 3 * r);
+const triangle = (drawn, x, y, r) => { drawn.beginPath(); drawn.moveTo(x, y - 1.6 * r); drawn.lineTo(x + 1.5 * r, y + 1.2 * r); drawn.lineTo(x - 1.5 * r, y + 1.2 * r); drawn.fill(); };
+/** The points of each outcome: they differ in shape and, for all kinds of sight, in blue, orange or grey. */
+const KINDS = {
+  "periodic": { shade: "first", put: square },
+  "chaotic": { shade: "second", put: triangle },
+  "quasi-periodic": { shade: "ink", put: plus },
+};
+const kind = (outcome) => KINDS[outcome] || { shade: "faint", put: hollow };
 
 /** The diagram in its place. `on` is told of `start`, of a `choose`n share of the line and of a `spot` under the pointer. */
 export class Line {
@@ -27,9 +39,7 @@ export class Line {
     this.saving = element("div", { className: "buttons", hidden: true }, saveButtons("line", "diagram", () => this.figure()));
     this.why = element("p", { className: "note" });
     const help = element("p", { id: "line-help", className: "note", textContent: "Click a value for its motion; arrows step along the line, Enter computes there." });
-    const head = ["share", "outcome", "period", "x1 − x2 at the section (mm)", "speed (mm/s)"];
     this.values = element("div");
-    this.table = () => folded("Values along the line", head, () => this.rows());
     place.append(this.told, labelled("Each value starts", this.start), this.canvas, this.at, this.legend, help, this.values, this.why, this.saving);
     this.listen();
   }
@@ -96,12 +106,14 @@ export class Line {
   }
 
   finish() {
-    const without = this.points.filter((it) => !it.section_r.length).length;
+    const failed = this.points.filter((it) => it.outcome === "failed").length;
+    const without = this.points.filter((it) => it.outcome !== "failed" && !it.section_r.length).length;
     const seconds = ((performance.now() - this.began) / 1e3).toFixed(1);
-    this.told.textContent = `${this.points.length} values in ${seconds} s${without ? `; ${without} have no motion and no points` : ""}.`;
+    const more = [failed && `${failed} failed and have no points`, without && `${without} others have no points`].filter((it) => it);
+    this.told.textContent = [`${this.points.length} values in ${seconds} s`, ...more].join("; ").concat(".");
     this.canvas.setAttribute("aria-label", `Bifurcation diagram along the line: ${this.summary()}`);
     say(this.told.textContent);
-    this.values.replaceChildren(this.table());
+    this.values.replaceChildren(this.table(), copyButton("Copy as CSV", "Values along the line", () => this.csv()));
     this.draw();
   }
 
@@ -129,14 +141,35 @@ export class Line {
   rows() {
     const speed = (it) => result(it.progression_speed === null ? null : it.progression_speed * MM, "mm/s");
     const section = (it) => (it.section_r.length > 8 ? `${it.section_r.length} points` : it.section_r.map((r) => short(r * MM, 5)).join("; ") || "none");
-    return this.points.map((it) => [short(it.share, 4), it.outcome, it.period ?? "–", section(it), speed(it)]);
+    return this.points.map((it) => [...this.varied().map((axis) => short(this.place(it.share)[axis.name] * axis.factor)), it.outcome, it.period ?? "–", section(it), speed(it)]);
+  }
+
+  // The axes whose values differ along the line.
+  varied() {
+    const { axes, from, to } = this.line;
+    return axes.filter(({ name }) => from[name] !== to[name]);
+  }
+
+  table() {
+    const head = [...this.varied().map((it) => it.label), "outcome", "period", "Section x1 − x2 (mm)", "Speed (mm/s)"];
+    return folded("Values along the line", head, () => this.rows());
+  }
+
+  /** The same with all digits that are known, in SI and by the names of the program. */
+  csv() {
+    const axes = this.varied(), head = [...axes.map((it) => it.name), "outcome", "period", "progression_speed", "section_r"];
+    const number = (value) => (value === null || value === undefined ? "" : String(value));
+    const row = (it) => [...axes.map(({ name }) => this.place(it.share)[name]), it.outcome, number(it.period), number(it.progression_speed), it.section_r.join(" ")];
+    return [head, ...this.points.map(row)].map((cells) => cells.join(",")).join("\n").concat("\n");
   }
 
   /** The coordinates at a share of the line. */
   place(share) {
     const { from, to, held } = this.line;
     const isLog = (name) => this.line.axes.find((it) => it.name === name)?.log;
-    const value = (a, b, name) => (isLog(name) ? a * (b / a) ** share : a + share * (b - a));
+    const between = (a, b, name) => (isLog(name) ? a * (b / a) ** share : a + share * (b - a));
+    // The ends are kept as they are; between them rounding would leave digits that mean nothing.
+    const value = (a, b, name) => (share === 0 || a === b ? a : share === 1 ? b : Number(between(a, b, name).toPrecision(12)));
     return { ...held, ...Object.fromEntries(Object.entries(from).map(([name, a]) => [name, value(a, to[name], name)])) };
   }
 
@@ -177,7 +210,16 @@ export class Line {
     return `${where}: ${it.outcome}${it.period ? `, period ${it.period}` : ""}, ${speed}`;
   }
 
-  choose(place) { if (place !== null && this.points[place]) this.on.choose(this.place(this.points[place].share)); }
+  choose(place) {
+    const point = place === null ? null : this.points[place];
+    if (!point) return;
+    const at = this.place(point.share);
+    if (!point.end) return this.on.choose(at);
+    // Of several motions at these parameters the one that the line has is shown, whatever the sweep of the file.
+    const [start_r, start_y1, start_y2] = point.end;
+    delete at.sweep;
+    this.on.choose({ ...at, start_r, start_y1, start_y2, start_phase: point.phase, from: "line" });
+  }
 
   key(event) {
     const last = this.points.length - 1, far = event.shiftKey ? 10 : 1;
@@ -199,10 +241,10 @@ export class Line {
     const upper = frame(drawn, above, { ...x, label: "" }, { range: range(sections), label: "Section x1 − x2 (mm)" });
     const lower = frame(drawn, below, { ...x, label: this.label() }, { range: range(speeds), label: "Speed (mm/s)" });
     this.points.forEach((point, i) => {
-      drawn.fillStyle = point.outcome === "periodic" ? shades.first : shades.second;
-      const across = upper.x(at(point.share));
-      for (const r of point.section_r) drawn.fillRect(across - 0.9, upper.y(r * MM) - 0.9, 1.8, 1.8);
-      if (Number.isFinite(speeds[i])) drawn.fillRect(across - 1.2, lower.y(speeds[i]) - 1.2, 2.4, 2.4);
+      const across = upper.x(at(point.share)), { shade, put } = kind(point.outcome);
+      [drawn.fillStyle, drawn.strokeStyle, drawn.lineWidth] = [shades[shade], shades[shade], 1];
+      for (const r of point.section_r) put(drawn, across, upper.y(r * MM), 1);
+      if (Number.isFinite(speeds[i])) put(drawn, across, lower.y(speeds[i]), 1.3);
     });
     if (this.spot !== null && this.points[this.spot]) this.drawSpot(drawn, upper.x(at(this.points[this.spot].share)), above, below);
     this.explain(shades);
@@ -226,14 +268,14 @@ export class Line {
   }
 
   explain(shades) {
-    const outcomes = [...new Set(this.points.filter((it) => it.section_r.length && it.outcome !== "periodic").map((it) => it.outcome))];
-    const kinds = [["periodic", shades.first]].concat(outcomes.length ? [[outcomes.join(", "), shades.second]] : []);
-    const text = JSON.stringify(kinds);
+    const outcomes = [...new Set(this.points.filter((it) => it.section_r.length).map((it) => it.outcome))].sort();
+    const text = JSON.stringify([outcomes, shades]);
     if (text === this.legend.dataset.text) return;
     this.legend.dataset.text = text;
-    this.legend.replaceChildren(...kinds.map(([words, shade]) => entry(words, (drawn, [x, y]) => {
-      drawn.fillStyle = shade;
-      drawn.fillRect(x - 3, y - 3, 6, 6);
+    this.legend.replaceChildren(...outcomes.map((outcome) => entry(outcome, (drawn, [x, y]) => {
+      const { shade, put } = kind(outcome);
+      [drawn.fillStyle, drawn.strokeStyle, drawn.lineWidth] = [shades[shade], shades[shade], 1.5];
+      put(drawn, x, y, 3);
     })));
   }
 }

@@ -2,7 +2,7 @@
 
 import { hatch } from "./cells.js";
 import { parted } from "./element.js";
-import { cross, dot, front, letter, line, rectangle } from "./marks.js";
+import { cross, cursor, dot, dots, front, letter, line, rectangle } from "./marks.js";
 import { colours, room, upward, words } from "./plot.js";
 import { Plane } from "./plane.js";
 import { result, short, ticks } from "./ticks.js";
@@ -13,13 +13,13 @@ const SWATCH = 12;
 export class CellMap extends Plane {
   constructor(canvas, on) {
     super(canvas, on);
-    this.marks = { pins: [], line: null, rectangle: null, fronts: {}, layers: [], spot: null };
+    this.marks = { pins: [], line: null, rectangle: null, fronts: {}, curves: null, spot: null };
   }
 
   /** Shows other cells; the mark and what is seen stay if the axes are the same. */
   show(data) {
     const isSame = this.data && this.data.x.name === data.x.name && this.data.y.name === data.y.name;
-    if (!isSame) Object.assign(this, { window: this.data ? null : this.window, mark: null });
+    if (!isSame) Object.assign(this, { window: this.data ? null : this.window, mark: null, chosen: null });
     this.keyRoom = keyRoom(this.canvas, data);
     super.show(data);
   }
@@ -42,21 +42,35 @@ export class CellMap extends Plane {
     return Number.isNaN(value) ? "no value" : result(value, parted(this.data.told)[1]);
   }
 
+  /** The shares of a place in the units shown. */
+  shown(x, y) { return [this.share(this.data.x, x), this.share(this.data.y, y)]; }
+
   over(drawn, to) {
     const { marks } = this, place = (point) => to(this.shares(point));
-    marks.layers.forEach((layer) => layer(drawn, (x, y) => to([this.share(this.data.x, x), this.share(this.data.y, y)])));
+    marks.curves?.lines(drawn, (x, y) => to(this.shown(x, y)));
     if (marks.rectangle) rectangle(drawn, marks.rectangle.map(place));
     if (marks.line) line(drawn, marks.line.map(place));
     if (this.gesture) ({ line, rectangle })[this.gesture.kind](drawn, [to(this.gesture.from), to(this.gesture.to)]);
   }
 
   // Marks at the edge of the map are not cut off.
-  above(_, put) {
+  above(drawn, put) {
     const { marks } = this, at = (point, mark) => put(this.shares(point), mark);
-    for (const [direction, points] of Object.entries(marks.fronts)) points.forEach((it) => at(it, (drawn, place) => dot(drawn, place, front(direction))));
+    marks.curves?.points(drawn, (x, y, mark) => put(this.shown(x, y), mark));
+    this.drawFronts(drawn, at);
     marks.pins.forEach(({ point, name }) => at(point, (drawn, place) => letter(drawn, place, name)));
     if (marks.spot) at(marks.spot, (drawn, place) => dot(drawn, place, colours().mark, 5));
-    if (this.mark) put(this.mark, cross);
+    if (this.chosen) put(this.chosen, cross);
+    if (this.hasCursor()) put(this.mark, cursor);
+  }
+
+  /** Whether the mark of the keyboard lies elsewhere than the chosen case. */
+  hasCursor() { return !!this.mark && !this.mark.every((it, i) => it === this.chosen?.[i]); }
+
+  drawFronts(drawn, at) {
+    const all = [];
+    for (const [direction, points] of Object.entries(this.marks.fronts)) points.forEach((it) => at(it, (_, place) => all.push([place, front(direction)])));
+    dots(drawn, all);
   }
 
   beside(drawn, area) {

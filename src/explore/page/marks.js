@@ -67,6 +67,22 @@ export function dot(drawn, [x, y], shade, radius = 3.5, rim = RIM) {
   drawn.stroke();
 }
 
+/** Dots that are more than this have no rims and are smaller: rims would hide what lies under them. */
+const MANY = 60;
+
+/** Dots as places with their colours, all rims under all dots. */
+export function dots(drawn, all, rim = RIM) {
+  const radius = all.length > MANY ? 2.2 : 3.5;
+  const disc = ([x, y], shade, size) => { drawn.beginPath(); drawn.arc(x, y, size, 0, 2 * Math.PI); drawn.fillStyle = shade; drawn.fill(); };
+  if (all.length <= MANY) all.forEach(([place]) => disc(place, rim, radius + 1));
+  all.forEach(([place, shade]) => disc(place, shade, radius));
+}
+
+/** The mark of the keyboard, where no case is chosen. */
+export function cursor(drawn, [x, y]) {
+  rimmed(drawn, () => drawn.rect(x - 6, y - 6, 12, 12), INK, 1.5);
+}
+
 /** An entry of a legend: a small picture that `draw` draws about the middle of a canvas, and its words. */
 export function entry(text, draw) {
   const made = document.createElement("li"), canvas = document.createElement("canvas"), ratio = window.devicePixelRatio || 1;

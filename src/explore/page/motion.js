@@ -101,7 +101,7 @@ export class Charts {
 // The options of the chart of some columns; its ranges are those of the motion that `charts` shows.
 function options(label, all, charts, width) {
   const shades = colours(), font = "12px system-ui, sans-serif";
-  const axis = { stroke: shades.ink, grid: { stroke: shades.line, width: 0.5 }, ticks: { stroke: shades.faint, size: 4 }, font, labelFont: font, labelSize: 16 };
+  const axis = { stroke: shades.ink, grid: { stroke: shades.line, width: 0.5 }, ticks: { stroke: shades.faint, size: 4 }, font, labelFont: font, labelSize: 16, values: (_, all) => all.map((it) => (it === null ? "" : short(it))) };
   const border = (dash) => (dash ? (dash[0] > 4 ? "dashed" : "dotted") : "solid");
   return {
     width, height: HEIGHT, padding: [10, 16, 0, 0], cursor: { y: false, drag: { x: false, y: false } },
@@ -131,14 +131,15 @@ function drawPortrait(canvas, { history, stroboscopic }, scales) {
     drawn.beginPath();
     xs.forEach((x, i) => drawn.lineTo(place.x(x), place.y(ys[i])));
     drawn.stroke();
-    [drawn.strokeStyle, drawn.fillStyle, drawn.lineWidth] = [shades.second, shades.paper, 1.5];
-    for (const [r, y1, y2] of stroboscopic) { ring(drawn, place.x(r * MM), place.y((y1 - y2) * MM), 3.2); drawn.fill(); drawn.stroke(); }
   });
+  // Rings at the frame are not cut off.
+  [drawn.strokeStyle, drawn.fillStyle, drawn.lineWidth] = [shades.second, shades.paper, 1.5];
+  for (const [r, y1, y2] of stroboscopic) { ring(drawn, place.x(r * MM), place.y((y1 - y2) * MM), 3.2); drawn.fill(); drawn.stroke(); }
 }
 
 function drawSection(canvas, it, scales) {
   const made = context(canvas), { drawn } = made, area = room(made), [xs, ys] = section(it);
   const place = frame(drawn, area, { range: scales.sx, label: "Section x1 − x2 (mm)" }, { range: scales.sy, label: "Section y1 (mm/s)" });
   drawn.fillStyle = colours().second;
-  within(drawn, area, () => xs.forEach((x, i) => { ring(drawn, place.x(x), place.y(ys[i]), xs.length > 20 ? 1.6 : 3.2); drawn.fill(); }));
+  xs.forEach((x, i) => { ring(drawn, place.x(x), place.y(ys[i]), xs.length > 20 ? 1.6 : 3.2); drawn.fill(); });
 }

@@ -2,42 +2,39 @@
 
 import * as ask from "./ask.js";
 import { by, say, said } from "./element.js";
+import { STARTS } from "./form.js";
 import { handOver } from "./keep.js";
 import { common } from "./motion.js";
 import { keyNumbers } from "./numbers.js";
 import { Panel, summary } from "./panel.js";
 import { recoloured } from "./plot.js";
 import { short } from "./ticks.js";
-import { written } from "./view.js";
+import { asked, written } from "./view.js";
 
 const LETTERS = ["A", "B"];
-/** Coordinates of the start, as they are shown. */
-const STARTS = {
-  start_r: { label: "Initial x1 − x2 (mm)", factor: 1e3 },
-  start_y1: { label: "Initial y1 (m/s)", factor: 1 },
-  start_y2: { label: "Initial y2 (m/s)", factor: 1 },
-  start_phase: { label: "Initial phase (rad)", factor: 1 },
-};
 
 /** The motions of cases, each known by its coordinates. `on` is told of what to `pin` and `unpin`. */
 export class Motions {
   constructor(file, on) {
     Object.assign(this, { file, on, known: new Map(), current: null, pins: [], isSame: false, asking: null });
     this.panels = [new Panel("Chosen", "motion"), ...LETTERS.map((name) => new Panel(`Pinned ${name}`, `pin-${name.toLowerCase()}`))];
+    this.empty = by("motion-empty");
     recoloured("motions", () => this.draw());
   }
 
   /** The coordinates of a case in words. */
   words(coordinates) {
-    const shown = [...this.file.axes, ...this.file.constants, ...Object.entries(STARTS).map(([name, it]) => ({ name, ...it }))];
+    const starts = coordinates.from ? [] : Object.entries(STARTS).map(([name, it]) => ({ name, ...it }));
+    const shown = [...this.file.axes, ...this.file.constants, ...starts];
     const isNew = (it, i) => shown.findIndex((other) => other.name === it.name) === i;
     const words = shown.filter((it, i) => isNew(it, i) && it.name in coordinates).map((it) => said(it.label, coordinates[it.name] * it.factor));
-    return [...words, ...(coordinates.sweep ? [`sweep ${coordinates.sweep}`] : [])].join(", ");
+    const more = [coordinates.sweep && `sweep ${coordinates.sweep}`, coordinates.from && "from the motion of the line"];
+    return [...words, ...more.filter((it) => it)].join(", ");
   }
 
   async motion(coordinates, signal) {
     const key = written(coordinates);
-    if (!this.known.has(key)) this.known.set(key, { key, coordinates, it: await ask.object("/api/motion", coordinates, signal) });
+    if (!this.known.has(key)) this.known.set(key, { key, coordinates, it: await ask.object("/api/motion", asked(coordinates), signal) });
     return this.known.get(key);
   }
 
@@ -57,6 +54,14 @@ export class Motions {
     this.draw();
     say(motion.failure || `Motion at ${this.words(coordinates)}: ${summary(motion.it)}`);
     return true;
+  }
+
+  /** Shows no chosen motion. */
+  clear() {
+    this.asking?.abort();
+    this.current = null;
+    this.forget();
+    this.draw();
   }
 
   // What is not shown any more is computed again where it is asked for.
@@ -80,10 +85,9 @@ export class Motions {
 
   draw() {
     const all = [this.current, ...this.pins], shown = all.map((motion, i) => [motion, this.panels[i]]).filter(([motion]) => motion);
-    if (!shown.length) return;
     const fit = shown.map(([motion]) => motion).filter(({ it }) => it);
     const scales = this.isSame && fit.length > 1 ? common(fit.map(({ it }) => it)) : null;
-    this.place(shown.map(([, panel]) => panel.element));
+    this.place(shown.length ? shown.map(([, panel]) => panel.element) : [this.empty]);
     shown.forEach(([motion, panel]) => panel.show(motion, this.words(motion.coordinates), scales));
     this.offer();
     by("same-label").hidden = fit.length < 2;

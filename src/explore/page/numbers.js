@@ -12,7 +12,7 @@ const KEY = [
   ["Positive work per cycle", "mJ", "work_positive", MILLI],
   ["Friction loss per cycle", "mJ", "friction_loss", MILLI],
   ["Damper loss per cycle", "mJ", "damper_loss", MILLI],
-  ["Power", "mW", "power", MILLI],
+  ["Power (positive work)", "mW", "power", MILLI],
   ["Energy per metre", "J/m", "energy_per_metre", 1],
   ["Cost of transport", "", "cost_of_transport", 1],
   ["Impacts per cycle", "", "impacts_per_cycle", 1],
@@ -46,9 +46,10 @@ export function keyNumbers(motions) {
 export function tables({ simulate, stroboscopic }, open) {
   const { orbit, events, parameters } = simulate;
   const numbers = Object.entries(orbit).filter(([, value]) => typeof value === "number" || value === null);
-  const text = (value) => (value === null ? "no value" : String(value).replace("-", "−"));
+  // These are pasted into programs: their minus is that of ASCII.
+  const text = (value) => (value === null ? "no value" : String(value));
   const all = [
-    [`Events from the start (${events.length})`, ["t (s)", "event", "r (mm)", "y1 (mm/s)", "x2 (mm)", "y2 (mm/s)"],
+    [`Events of the first cycles, from the start (${events.length})`, ["t (s)", "event", "r (mm)", "y1 (mm/s)", "x2 (mm)", "y2 (mm/s)"],
       () => events.map((it) => [short(it.t), it.kind, ...[it.r, it.y1, it.x2, it.y2].map((value) => short(value * MILLI))])],
     [`Section points (${stroboscopic.length})`, ["point", "r (mm)", "y1 (mm/s)", "y2 (mm/s)"],
       () => stroboscopic.map((point, i) => [String(i + 1), ...point.map((value) => short(value * MILLI))])],

@@ -4,9 +4,16 @@ import * as ask from "./ask.js";
 import * as curves from "./curves.js";
 import * as view from "./view.js";
 import { selection, told, within } from "./brush.js";
-import { by, say } from "./element.js";
+import { by, said, say } from "./element.js";
 import { legend } from "./legend.js";
 import { axes, cellOf, chosen, ends, onMap, page, pins, price } from "./shown.js";
+
+// What the plane of the map holds, and how many cases the file has.
+function plane() {
+  const { choices, file } = page, held = choices.held(), { sweep } = choices.sweep();
+  const words = choices.others().map((it) => said(it.label, held[it.name] * it.factor));
+  return { held: [...words, ...(sweep ? [`sweep ${sweep}`] : [])].join(", "), cases: file.cases };
+}
 
 /** Shows the trade-off of the cells of the map, if it is wanted. */
 export async function showTradeOff(signal) {
@@ -15,14 +22,14 @@ export async function showTradeOff(signal) {
   by("trade-off-section").hidden = !name;
   const asked = { ...page.choices.asked(), of: name };
   if (asked.sweep === "difference") page.tradeOff.none("The trade-off is that of one sweep: choose upward or downward.");
-  else if (name) await page.tradeOff.show(asked, page.map, signal);
+  else if (name) await page.tradeOff.show(asked, page.map, plane(), signal);
   select();
 }
 
 /** Takes away what lies over the map. */
 export function bare() {
-  Object.assign(page.map.marks, { pins: [], line: null, rectangle: null, fronts: {}, layers: [], spot: null });
-  page.map.mark = null;
+  Object.assign(page.map.marks, { pins: [], line: null, rectangle: null, fronts: {}, curves: null, spot: null });
+  page.map.chosen = null;
   page.tradeOff.data = null;
 }
 
@@ -51,14 +58,17 @@ export async function showCurves(signal) {
     page.curves = await ask.object("/api/curves", { x, y, ...page.choices.held() }, signal);
     by("curves-place").replaceChildren(curves.tables(page.curves, page.map.data));
   }
-  page.map.set({ layers: page.curves ? [curves.layer(page.curves)] : [] });
+  page.map.set({ curves: page.curves && curves.layer(page.curves) });
   legend();
 }
 
 /** Marks the cases and the line on the map, in the trade-off and in the basin. */
 export function mark() {
   const { map, tradeOff, basin } = page, point = onMap(chosen());
-  map.mark = point && map.shares(point);
+  const place = point && map.shares(point), isOther = place && !place.every((it, i) => it === map.chosen?.[i]);
+  // The mark of the keyboard follows the chosen case only where that changes.
+  map.chosen = place;
+  if (isOther) map.mark = place;
   const pinned = pins().map((it, i) => ({ point: onMap(it), name: "AB"[i] })).filter((it) => it.point);
   const line = ends()?.map((it) => axes().map((axis) => it[axis.name])) ?? null;
   map.set({ pins: pinned, line });

@@ -6,9 +6,9 @@ import { Basin } from "./basin.js";
 import { brush, selection } from "./brush.js";
 import { Choices } from "./choices.js";
 import { button, by, element, fault, parted, said, say } from "./element.js";
-import { caseForm, fillForm } from "./form.js";
+import { caseForm, fillForm, lineForm } from "./form.js";
 import { handOver, quoted, save } from "./keep.js";
-import { legend, note } from "./legend.js";
+import { legend } from "./legend.js";
 import { Line, longer } from "./line.js";
 import { CellMap } from "./map.js";
 import { Motions } from "./motions.js";
@@ -23,7 +23,7 @@ let clicked = null;
 
 function choose(coordinates) {
   clicked = performance.now();
-  view.set({ at: view.written(coordinates) });
+  view.step({ at: view.written(coordinates) });
 }
 
 const chooseOnMap = (point) => choose({ ...page.choices.held(), ...named(point), ...page.choices.from() });
@@ -34,13 +34,22 @@ function hover(cell, isKey) {
   const point = () => (map.isExact ? ` (the point: ${axes().map((it, i) => said(it.label, cell.point[i] * it.factor)).join("; ")})` : "");
   const words = cell ? `${[said(map.data.told, map.told(cell)), ...here(cell.cell)].join("; ")}${point()}` : "\u00a0";
   by("told").textContent = words;
-  if (cell && isKey) say(words);
+  if (cell && isKey) { say(words); legend(); }
   if (price()) tradeOff.mark(tradeOff.chosen, cell ? cell.number : null);
+}
+
+// The readout of the map as it is now: at the mark, or none.
+const readout = () => hover(page.map.mark && page.map.at(page.map.mark), false);
+
+function drawLine(from, to) {
+  if (from.some((it, i) => it !== to[i])) view.step({ line: `${view.written(named(from))}~${view.written(named(to))}` });
+  else { by("told").textContent = "Both ends of the line are at the same case: there is no line."; say(by("told").textContent); }
 }
 
 // A line or a rectangle was drawn over the map.
 function drag(kind, from, to) {
-  if (kind === "line") { view.set({ line: `${view.written(named(from))}~${view.written(named(to))}` }); return; }
+  if (kind === "line") { drawLine(from, to); return; }
+  if (from.every((it, i) => it === to[i])) return;
   const all = prices(page.file);
   if (!price() && all.length) view.set({ trade: all[0][0] });
   brush("map", [0, 1].map((i) => [Math.min(from[i], to[i]), Math.max(from[i], to[i])]));
@@ -72,8 +81,48 @@ async function showMap() {
   document.body.dataset.ready = "true";
   if (marked) select(); else await Promise.all([showTradeOff(signal), showCurves(signal)]);
   marked = cells;
+  painted = Object.fromEntries(page.choices.keys().map((key) => [key, view.text(key)]));
   mark();
   handMaps();
+  readout();
+}
+
+/** What the address said of the map that is shown. */
+let painted = null;
+// A map that could not be shown is not chosen any more: the one before it is still there.
+function takeBack() {
+  if (!painted) return;
+  view.restore(painted);
+  page.choices.draw();
+  notice();
+}
+
+/** The axes over which the form of a line was built, and what fills it. */
+let formed = { key: "", fill: null };
+// The form has the ends of the line, or those of the map.
+function fillLine(line) {
+  const all = axes(), key = all.map((it) => it.name).join();
+  if (key !== formed.key) formed = { key, fill: lineForm(all, drawLine) };
+  formed.fill(line || [0, -1].map((end) => all.map((it) => it.values.at(end))));
+}
+
+// The ends of the axes as they are seen, as options of the command; none where all is seen.
+function limits() {
+  const { map, file } = page;
+  if (!map.window) return "";
+  return [map.data.x, map.data.y].map((axis, i) => {
+    const unit = file.axes.find((it) => it.name === axis.name)?.unit;
+    const ends = map.window[i].map((share) => `${Number(map.value(axis, share).toPrecision(6))}${unit ? ` ${unit}` : ""}`);
+    return ` --limits ${quoted(`${axis.name}=${ends.join(",")}`)}`;
+  }).join("");
+}
+
+// Figures that are saved here show the whole map.
+function nameSaving() {
+  for (const format of ["pdf", "svg"]) {
+    const it = by(`${format}-button`);
+    if (it.getAttribute("aria-disabled") !== "true") it.textContent = `Save ${page.map.window ? "whole " : ""}${it.dataset.words}`;
+  }
 }
 
 // The commands of the figures of the map and of the trade-off.
@@ -81,17 +130,18 @@ function handMaps() {
   const { file, choices } = page, { of, x, y } = choices.chosen(), { sweep } = choices.sweep();
   const places = Object.entries(choices.held()).map(([name, value]) => ` --at ${name}=${value}`).join("") + (sweep ? ` --sweep ${sweep}` : "");
   const figure = (kind, more) => `capsulemap figure ${quoted(file.file)} --kind ${kind} ${more}${places}`;
-  handOver("map", "Figure of the map", figure("map", `--of ${of} --x ${x} --y ${y}${page.curves ? " --curves" : ""}`));
+  handOver("map", "Figure of the map", figure("map", `--of ${of} --x ${x} --y ${y}${page.curves ? " --curves" : ""}${limits()}`));
   handOver("trade-off", "Figure of the trade-off", price() && sweep !== "difference" && figure("trade-off", `--of ${price()}`));
 }
 
 async function showMotion() {
   const coordinates = chosen();
-  if (!coordinates) return;
+  by("basin-button").hidden = !coordinates;
+  offerSweep();
+  if (!coordinates) { page.motions.clear(); return; }
   const begun = clicked ?? performance.now();
   clicked = null;
   if (!await page.motions.show(coordinates)) return;
-  by("basin-button").hidden = false;
   fillForm(page.file, coordinates);
   // The frame that shows the motion is painted before the next task.
   requestAnimationFrame(() => {
@@ -101,12 +151,29 @@ async function showMotion() {
   });
 }
 
+// The same case in another sweep, unless it is pinned.
+function otherSweep() {
+  const coordinates = chosen(), sweep = coordinates?.sweep && page.file.directions.find((it) => it !== coordinates.sweep);
+  const other = sweep && { ...coordinates, sweep };
+  return other && pins().length < 2 && pins().every((it) => view.written(it) !== view.written(other)) ? other : null;
+}
+
+function offerSweep() {
+  const other = otherSweep();
+  by("other-sweep-button").hidden = !other;
+  if (other) by("other-sweep-button").textContent = `Compare with the ${other.sweep} sweep`;
+}
+
 function showLine() {
   const both = ends(), { file, map, line } = page;
   by("line-section").hidden = !both;
+  if (map) fillLine(both?.map((it) => axes().map((axis) => it[axis.name])));
   if (!both) return line.stop();
   const [from, to] = both, start = view.text("start") || (file.inherits ? "inherit" : "afresh");
   const along = map ? longer(map.data, from, to) : file.axes[0];
+  const fixed = Object.entries(from).filter(([name, value]) => to[name] === value);
+  const where = page.motions.words({ ...(map ? page.choices.held() : {}), ...Object.fromEntries(fixed) });
+  by("line-heading").textContent = `Bifurcation diagram along the line${where ? `: ${where}` : ""}`;
   return line.follow({ from, to, held: { ...(map ? page.choices.held() : {}), ...page.choices.from() }, start, axes: axes(), along });
 }
 
@@ -119,12 +186,13 @@ function showBasin() {
 
 // The basins at the parameters of the chosen case, whatever its start.
 function askBasin() {
-  const parameters = Object.entries(chosen() || {}).filter(([name]) => !name.startsWith("start_"));
-  view.set({ basin: view.written(Object.fromEntries(parameters)) });
+  const parameters = Object.entries(chosen() || {}).filter(([name]) => name !== "from" && !name.startsWith("start_"));
+  view.step({ basin: view.written(Object.fromEntries(parameters)) });
   by("basin-section").scrollIntoView({ block: "nearest" });
 }
 
 async function showPins() {
+  offerSweep();
   await page.motions.pin(pins());
   if (page.map?.data) mark();
 }
@@ -152,7 +220,11 @@ async function changed(keys) {
     if (has("same")) page.motions.scale(by("same-switch").checked = view.text("same") === "1");
     if (has("line", "start", ...page.choices.keys())) views.push(showLine());
     if (has("basin", "starts")) views.push(showBasin());
-  } catch (it) { fault(it); }
+  } catch (it) {
+    fault(it);
+    if (it.name !== "AbortError" && has(...page.choices.keys())) takeBack();
+  }
+  notice();
   await Promise.all(views.map((it) => it?.catch(fault)));
 }
 
@@ -164,11 +236,18 @@ function look() {
   if (all) page.map.look(all.slice(0, 2), all.slice(2)); else page.map.look();
 }
 
+// What depends on the part of the map that is seen.
+function seen() {
+  legend();
+  nameSaving();
+  handMaps();
+}
+
 let looking = 0;
 // Many parts are seen while the map is dragged: the last one is held.
 function looked(window) {
   clearTimeout(looking);
-  looking = setTimeout(() => { view.set({ window: written(window) }); if (page.map.data) note(); }, 200);
+  looking = setTimeout(() => { view.set({ window: written(window) }); if (page.map.data) seen(); }, 200);
 }
 
 const pressed = (id, act) => by(id).addEventListener("click", act);
@@ -181,7 +260,7 @@ function listenToMap() {
   pressed("in-button", () => map.zoom(0.8));
   pressed("out-button", () => map.zoom(1.25));
   pressed("whole-button", () => map.look());
-  for (const format of ["pdf", "svg"]) pressed(`${format}-button`, (event) => save({ kind: "map", ...page.choices.asked(), ...(page.curves ? { curves: 1 } : {}) }, format, event.currentTarget));
+  for (const format of ["pdf", "svg"]) pressed(`${format}-button`, (event) => save({ kind: "map", ...page.choices.asked(), ...(page.curves ? { curves: 1 } : {}) }, format, event.currentTarget).then(nameSaving));
   pressed("trade-off-button", () => view.set({ trade: price() ? null : prices(file)[0][0], brush: null }));
   ["curves", "exact"].forEach(switched);
   by("trade-off-button").hidden = by("brush-button").hidden = !prices(file).length;
@@ -208,16 +287,29 @@ function build(file) {
     brush: (ranges) => brush("trade-off", ranges),
   });
   pressed("basin-button", askBasin);
+  pressed("other-sweep-button", () => { const other = otherSweep(); if (other) pin([...pins(), other]); });
   pressed("fault-button", () => { by("fault").hidden = true; });
   switched("same");
-  caseForm(file, (it) => choose({ ...it, ...page.choices.from() }));
+  caseForm(file, (it) => choose({ ...it, ...(Object.keys(it).some((name) => name.startsWith("start_")) ? {} : page.choices.from()) }));
   fillForm(file, {});
+}
+
+// What of the address cannot be read, in sentences.
+function unread() {
+  const told = [], has = (key) => view.text(key) !== null;
+  if (has("at") && !chosen()) told.push("The case in the address (at) cannot be read: no motion is chosen.");
+  if (has("line") && !ends()) {
+    const isLine = view.text("line").split("~").map(view.coordinates).filter((it) => it).length === 2;
+    told.push(isLine ? "The line in the address lies over other axes and is not shown." : "The line in the address (line) cannot be read and is not shown.");
+  }
+  return told;
 }
 
 // What the address asks for and the file does not have.
 function notice() {
-  const told = page.choices.unknown();
-  by("notice").textContent = told.join(" ");
+  const told = [...page.choices.unknown(), ...unread()];
+  // The same words are not told twice.
+  if (by("notice").textContent !== told.join(" ")) by("notice").textContent = told.join(" ");
   by("notice").hidden = !told.length;
 }
 
@@ -227,6 +319,8 @@ function describe() {
   by("about").textContent = `${file.file}: ${file.cases.toLocaleString("en")} cases; ${file.program}`;
   by("study").textContent = file.study;
   document.title = `${file.title}: capsulemap explore`;
+  const command = element("code", { textContent: `capsulemap explore ${quoted(file.file)}` });
+  by("again-hint").replaceChildren("To see this view on another day, start ", command, " again and put the part of this address from # behind the new address.");
   notice();
 }
 

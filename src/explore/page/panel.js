@@ -5,6 +5,7 @@ import { saveButtons } from "./keep.js";
 import { Charts } from "./motion.js";
 import { keyNumbers, tables } from "./numbers.js";
 import { result } from "./ticks.js";
+import { asked } from "./view.js";
 
 /** A motion in a few words. */
 export function summary({ simulate: { orbit } }) {
@@ -12,8 +13,8 @@ export function summary({ simulate: { orbit } }) {
   return `${orbit.outcome === "periodic" ? `periodic, period ${orbit.period}` : orbit.outcome}, ${speed}`;
 }
 
-function about(it) {
-  const start = `It starts ${it.start}; ${it.exact ? `this is case ${it.nearest} of the file` : `it is no case of the file, the nearest is case ${it.nearest}`}.`;
+function about(it, { from }) {
+  const start = `It starts ${from ? "where the line settled at this value" : it.start}; ${it.exact ? `this is case ${it.nearest} of the file` : `it is no case of the file, the nearest is case ${it.nearest}`}.`;
   const why = it.simulate.orbit.failure || it.simulate.failure || "the motion could not be followed";
   const shown = it.history ? `${it.history.cycles} cycles are shown.` : `No history: ${why}.`;
   return [summary(it), `${start} ${shown}`, ...it.remarks].map((words) => element("p", { textContent: sentence(words) }));
@@ -26,7 +27,7 @@ export class Panel {
     this.heading = element("h3");
     this.about = element("div");
     this.actions = element("span", { className: "saving" });
-    const coordinates = () => this.motion.coordinates;
+    const coordinates = () => asked(this.motion.coordinates);
     this.saving = element("span", { className: "buttons" },
       saveButtons(`${id}-history`, "histories", () => ({ kind: "history", ...coordinates() })),
       saveButtons(`${id}-portrait`, "portrait", () => ({ kind: "phase-portrait", ...coordinates() })));
@@ -50,10 +51,10 @@ export class Panel {
     if (hasHistory) this.charts.show(it, scales); else this.charts.clear();
   }
 
-  tell({ it, failure }) {
+  tell({ it, failure, coordinates }) {
     const open = [...this.tables.children].map((details) => details.open);
     const failed = () => [element("p", { className: "failure", textContent: `The motion could not be computed: ${failure}` })];
-    this.about.replaceChildren(...(it ? about(it) : failed()));
+    this.about.replaceChildren(...(it ? about(it, coordinates) : failed()));
     this.numbers.replaceChildren(...(it ? [keyNumbers([{ it, name: this.name }])] : []));
     this.tables.replaceChildren(...(it ? tables(it, open) : []));
   }

@@ -2,7 +2,7 @@
 
 import { Cells } from "./cells.js";
 import { context, frame, redrawn, room, within } from "./plot.js";
-import { along } from "./snap.js";
+import { along, crosses } from "./snap.js";
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const KINDS = { l: "line", r: "rectangle" };
@@ -10,11 +10,13 @@ const KINDS = { l: "line", r: "rectangle" };
 const STILL = 4;
 /** The least part of an axis that is seen. */
 const LEAST = 1e-4;
+/** Significant digits of a point between the cases. */
+const DIGITS = 12;
 
-/** A plane on a canvas. `on` is told of `hover`, `choose`, `looked` (another part is seen), `drag` (a line or a rectangle) and `mode`. */
+/** A plane on a canvas: `chosen` is the place of the chosen case, `mark` that of the keyboard, in shares. `on` is told of `hover`, `choose`, `looked` (another part is seen), `drag` (a line or a rectangle) and `mode`. */
 export class Plane {
   constructor(canvas, on) {
-    Object.assign(this, { canvas, on, data: null, window: null, mark: null, mode: "move", gesture: null, isExact: false });
+    Object.assign(this, { canvas, on, data: null, window: null, mark: null, chosen: null, mode: "move", gesture: null, isExact: false });
     const events = { pointerdown: "press", pointermove: "move", pointerup: "release", pointercancel: "giveUp", pointerleave: "leave", keydown: "key" };
     for (const [name, act] of Object.entries(events)) canvas.addEventListener(name, (event) => this[act](event));
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
@@ -59,12 +61,15 @@ export class Plane {
       return low;
     };
     const [column, row] = [cell(data.x, x), cell(data.y, y)];
-    const si = (axis, share) => this.value(axis, share) / axis.factor;
+    const si = (axis, share) => Number((this.value(axis, share) / axis.factor).toPrecision(DIGITS));
     return {
       column, row, number: row * data.x.values.length + column,
       cell: [data.x.values[column], data.y.values[row]], point: [si(data.x, x), si(data.y, y)],
     };
   }
+
+  /** The shares of the case of the cell, or those given where points between the cases are taken. */
+  snapped(shares) { return this.isExact ? shares : this.shares(this.at(shares).cell); }
 
   /** The place on the canvas of shares of the axes. */
   place([x, y], area = this.area()) {
@@ -90,7 +95,8 @@ export class Plane {
     if (!shares) return;
     this.canvas.setPointerCapture(event.pointerId);
     this.held = { from: [event.clientX, event.clientY], seen: this.seen(), shares, hasMoved: false };
-    if (this.mode !== "move") this.gesture = { kind: this.mode, from: shares, to: shares };
+    const from = this.mode === "line" ? this.snapped(shares) : shares;
+    if (this.mode !== "move") this.gesture = { kind: this.mode, from, to: from };
   }
 
   move(event) {
@@ -98,7 +104,10 @@ export class Plane {
     if (!this.held) return this.hovered(this.pointed(event));
     const [dx, dy] = [event.clientX - this.held.from[0], event.clientY - this.held.from[1]];
     if (Math.hypot(dx, dy) > STILL) this.held.hasMoved = true;
-    if (this.gesture) this.extend(this.pointed(event, true), event.shiftKey);
+    if (this.gesture) {
+      this.extend(this.pointed(event, true), event.shiftKey);
+      this.hovered(this.gesture.to);
+    }
     else if (this.held.hasMoved && this.window) {
       const area = this.area(), [x, y] = this.held.seen;
       const [right, up] = [dx / (area.right - area.left) * (x[1] - x[0]), -dy / (area.bottom - area.top) * (y[1] - y[0])];
@@ -121,15 +130,17 @@ export class Plane {
   // The other end of the line or the rectangle that is drawn.
   extend(to, isStraight) {
     const { gesture } = this;
-    gesture.to = gesture.kind === "line" ? along(gesture.from, to, (it) => this.place(it), isStraight) : to;
+    gesture.to = gesture.kind === "line" ? this.snapped(along(gesture.from, to, (it) => this.place(it), isStraight)) : to;
     this.draw();
   }
 
   finish() {
-    const { kind, from, to } = this.gesture;
+    const { kind, from, to, byKeys } = this.gesture, isCell = kind === "line" && !this.isExact;
+    const [begins, ends] = [from, to].map((it) => this.at(it)[isCell ? "cell" : "point"]);
     this.gesture = null;
-    if (from[0] !== to[0] || from[1] !== to[1]) this.on.drag(kind, this.at(from).point, this.at(to).point);
+    if (byKeys && kind === "line") this.mark = to;
     this.setMode("move");
+    this.on.drag(kind, begins, ends);
   }
 
   giveUp() {
@@ -148,7 +159,7 @@ export class Plane {
   /** The places of what is chosen: those of the case of the cell, or the very point. */
   choose(shares, isExact) {
     const at = this.at(shares);
-    this.mark = isExact ? shares : this.shares(at.cell);
+    this.mark = this.chosen = isExact ? shares : this.shares(at.cell);
     this.draw();
     this.on.choose(isExact ? at.point : at.cell, at);
   }
@@ -168,10 +179,13 @@ export class Plane {
     this.look(part(about[0], x), part(about[1], y));
   }
 
+  /** Whether a place, or a part of a line between two places, is seen. */
+  isSeen(place) { return crosses(place, place, this.seen()); }
+  crosses(from, to) { return crosses(from, to, this.seen()); }
+
   centre() {
-    const [x, y] = this.seen(), isIn = ([low, high], it) => it >= low && it <= high;
-    if (this.mark && isIn(x, this.mark[0]) && isIn(y, this.mark[1])) return this.mark;
-    return [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2];
+    const [x, y] = this.seen();
+    return this.mark && this.isSeen(this.mark) ? this.mark : [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2];
   }
 
   /** Sees this part, moved and shortened so that it lies within; the whole without one. */
@@ -188,14 +202,16 @@ export class Plane {
 
   key(event) {
     if (!this.data || event.ctrlKey || event.metaKey || event.altKey) return;
-    const mark = this.centre(), letter = event.key.toLowerCase();
-    if (ARROWS[event.key]) this.step(mark, ARROWS[event.key], event.shiftKey);
-    else if (event.key === "Enter" || event.key === " ") { if (this.gesture) this.finish(); else this.choose(mark, this.isExact); }
+    const mark = this.centre(), letter = event.key.toLowerCase(), isEnter = event.key === "Enter" || event.key === " ";
+    // A mark that is not seen is placed before anything is computed there.
+    if ((ARROWS[event.key] || isEnter) && mark !== this.mark) this.put(this.snapped(mark));
+    else if (ARROWS[event.key]) this.step(mark, ARROWS[event.key], event.shiftKey);
+    else if (isEnter) { if (this.gesture) this.finish(); else this.choose(mark, this.isExact); }
     else if (event.key === "+" || event.key === "=") this.zoom(0.8);
     else if (event.key === "-") this.zoom(1.25);
     else if (event.key === "0") this.look();
     else if (event.key === "Escape" && this.mode !== "move") this.giveUp();
-    else if (KINDS[letter] && this.on.drag) this.begin(KINDS[letter], mark);
+    else if (KINDS[letter] && this.on.drag) this.begin(KINDS[letter], this.snapped(mark));
     else return;
     event.preventDefault();
   }
@@ -204,8 +220,15 @@ export class Plane {
     if (this.gesture) return this.finish();
     this.setMode(kind);
     this.mark = mark;
-    this.gesture = { kind, from: mark, to: mark };
+    this.gesture = { kind, from: mark, to: mark, byKeys: true };
     this.draw();
+  }
+
+  // Places the mark of the keyboard.
+  put(mark) {
+    this.mark = mark;
+    if (this.gesture) this.extend(mark, false); else this.draw();
+    this.on.hover?.(this.at(mark), true);
   }
 
   // The mark goes from case to case, or by hundredths of what is seen.
@@ -216,8 +239,7 @@ export class Plane {
     if (this.isExact) this.mark = [by(mark[0], x, right), by(mark[1], y, up)];
     else this.mark = [near(this.data.x, column + far * right), near(this.data.y, row + far * up)];
     this.follow();
-    if (this.gesture) this.extend(this.mark, false); else this.draw();
-    this.on.hover?.(this.at(this.mark), true);
+    this.put(this.mark);
   }
 
   // What is seen moves with the mark.
@@ -237,8 +259,7 @@ export class Plane {
     });
     const axis = (it, [low, high]) => ({ label: it.label, log: it.log, range: [this.value(it, low), this.value(it, high)] });
     frame(drawn, area, axis(x, across), axis(y, up));
-    const isSeen = ([sx, sy]) => sx >= across[0] && sx <= across[1] && sy >= up[0] && sy <= up[1];
-    this.above(drawn, (shares, mark) => isSeen(shares) && mark(drawn, this.place(shares, area)));
+    this.above(drawn, (shares, mark) => this.isSeen(shares) && mark(drawn, this.place(shares, area)));
     this.beside?.(drawn, area);
   }
 }

@@ -1,7 +1,7 @@
 // Curves and points over two axes on a canvas, with ticks; uPlot draws what runs over time.
 
-import { runs } from "./element.js";
-import { ticks } from "./ticks.js";
+import { parted, runs } from "./element.js";
+import { short, texts, ticks } from "./ticks.js";
 
 const NAMES = ["paper", "ink", "faint", "line", "panel", "first", "second", "third", "fourth", "mark"];
 const FONT = "12px system-ui, sans-serif";
@@ -106,26 +106,33 @@ export function frame(drawn, area, x, y) {
   return place;
 }
 
+// A label whose numbers are counted from another.
+function counted(label, offset) {
+  if (!offset) return label;
+  const [name, unit] = parted(label);
+  return `${name} ${offset < 0 ? "+" : "−"} ${short(Math.abs(offset), 12)}${unit ? ` (${unit})` : ""}`;
+}
+
 function across(drawn, area, x, place) {
-  const { values, text } = ticks(...x.range, x.log, Math.min(8, Math.max(3, Math.floor((area.right - area.left) / 50))));
+  const found = ticks(...x.range, x.log, Math.min(8, Math.max(3, Math.floor((area.right - area.left) / 50)))), { texts: all, offset } = texts(found);
   drawn.textAlign = "center";
   drawn.textBaseline = "top";
-  for (const value of values) {
+  found.values.forEach((value, i) => {
     const at = place.x(value);
     drawn.beginPath(); drawn.moveTo(at, area.bottom); drawn.lineTo(at, area.bottom + 4); drawn.stroke();
-    if (x.label) drawn.fillText(text(value), at, area.bottom + 7);
-  }
-  if (x.label) words(drawn, x.label, (area.left + area.right) / 2, area.bottom + 24);
+    if (x.label) drawn.fillText(all[i], at, area.bottom + 7);
+  });
+  if (x.label) words(drawn, counted(x.label, offset), (area.left + area.right) / 2, area.bottom + 24);
 }
 
 function upwards(drawn, area, y, place) {
-  const { values, text } = ticks(...y.range, y.log, Math.min(8, Math.floor((area.bottom - area.top) / 30)));
+  const found = ticks(...y.range, y.log, Math.min(8, Math.floor((area.bottom - area.top) / 30))), { texts: all, offset } = texts(found);
   drawn.textAlign = "right";
   drawn.textBaseline = "middle";
-  for (const value of values) {
+  found.values.forEach((value, i) => {
     const at = place.y(value);
     drawn.beginPath(); drawn.moveTo(area.left, at); drawn.lineTo(area.left - 4, at); drawn.stroke();
-    drawn.fillText(text(value), area.left - 7, at);
-  }
-  upward(drawn, y.label, area.left - 58, (area.top + area.bottom) / 2);
+    drawn.fillText(all[i], area.left - 7, at);
+  });
+  upward(drawn, counted(y.label, offset), area.left - 58, (area.top + area.bottom) / 2);
 }

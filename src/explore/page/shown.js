@@ -32,7 +32,9 @@ export function onMap(coordinates) {
   const constants = Object.fromEntries(page.file.constants.map((it) => [it.name, it.value]));
   const plane = Object.entries({ ...constants, ...page.choices.held() });
   const { sweep } = page.choices.from();
-  const isHere = (coordinates.sweep ?? sweep) === sweep && plane.every(([name, value]) => Math.abs((coordinates[name] ?? value) - value) <= SAME * Math.abs(value));
+  // A difference is that of both sweeps.
+  const isSweep = page.choices.sweep().sweep === "difference" || (coordinates.sweep ?? sweep) === sweep;
+  const isHere = isSweep && plane.every(([name, value]) => Math.abs((coordinates[name] ?? value) - value) <= SAME * Math.abs(value));
   const point = axes().map((it) => coordinates[it.name]);
   return isHere && point.every((it) => it !== undefined) ? point : null;
 }

@@ -33,6 +33,29 @@ export function range(values, margin = 0.05) {
   return [low - room, high + room];
 }
 
+// The text of values that lie a step apart and are no larger than `top`; all of an axis are written alike.
+function format(step, top) {
+  const power = Math.floor(Math.log10(top) + 1e-9), isFar = top >= 1e5 || top < 1e-3;
+  const digits = Math.max(0, (isFar ? power : 0) - Math.floor(Math.log10(step) + 1e-9));
+  if (!isFar) return (value) => signed(value.toFixed(digits));
+  const zero = step / 1e6;
+  return (value) => (Math.abs(value) < zero ? "0" : signed(`${(value / 10 ** power).toFixed(digits)}×10${raised(power)}`));
+}
+
+/** Texts of more characters than this do not fit beside an axis. */
+const LONG = 7;
+
+/** The texts of values along an axis, and the round number from which they are counted, 0 where they are short enough without. */
+export function texts({ values, text }) {
+  const plain = { texts: values.map(text), offset: 0 };
+  if (values.length < 2 || plain.texts.every((it) => it.length <= LONG)) return plain;
+  const step = values[1] - values[0], unit = 10 ** Math.ceil(Math.log10(step * values.length) - 1e-9);
+  const offset = Number((Math.floor(values[0] / unit + 1e-9) * unit).toPrecision(12));
+  if (offset === 0) return plain;
+  const near = values.map((it) => it - offset), short = format(step, Math.max(...near.map(Math.abs)));
+  return { texts: near.map(short), offset };
+}
+
 function even(low, high, about) {
   const most = Math.max(Math.floor(about), 2), rough = (high - low) / most;
   if (!(rough > 0)) return { values: [low], text: short };
@@ -40,9 +63,13 @@ function even(low, high, about) {
   const first = (step) => Math.ceil(low / step - 1e-9), count = (step) => Math.floor(high / step + 1e-9) - first(step) + 1;
   const step = [1, 2, 5, 10, 20, 50, 100, 200].map((it) => it * 10 ** power).find((it) => count(it) <= most);
   const values = Array.from({ length: count(step) }, (_, i) => (first(step) + i) * step);
-  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  const isLong = digits > 4 || Math.max(Math.abs(low), Math.abs(high)) >= 1e5;
-  return { values, text: (value) => (isLong ? short(Number(value.toPrecision(12))) : signed(value.toFixed(digits))) };
+  return { values, text: format(step, Math.max(...values.map(Math.abs), step)) };
+}
+
+// A round value by its power of ten.
+function power(value) {
+  const exponent = Math.floor(Math.log10(value) + 1e-9), digit = Math.round(value / 10 ** exponent);
+  return `${digit === 1 ? "" : `${digit}×`}10${raised(exponent)}`;
 }
 
 function decades(low, high, most) {
@@ -51,9 +78,10 @@ function decades(low, high, most) {
   const powers = Array.from({ length: Math.max(last - first + 1, 0) }, (_, i) => first + i).filter((it) => (it - first) % stride === 0);
   const parts = Array.from({ length: last - first + 3 }, (_, i) => [1, 2, 5].map((digit) => digit * 10 ** (first - 1 + i))).flat();
   const values = parts.filter((it) => it >= low * (1 - 1e-9) && it <= high * (1 + 1e-9));
-  if (values.length > 2 && values.length <= most + 1) return { values, text: short };
-  const text = (value) => (value >= 1e-3 && value <= 1e4 ? short(value) : `10${raised(Math.round(Math.log10(value)))}`);
-  return powers.length > 1 ? { values: powers.map((it) => 10 ** it), text } : even(low, high, most);
+  const isMany = !(values.length > 2 && values.length <= most + 1);
+  if (isMany && powers.length < 2) return even(low, high, most);
+  const all = isMany ? powers.map((it) => 10 ** it) : values;
+  return { values: all, text: all.every((it) => it >= 1e-3 && it <= 1e4) ? short : power };
 }
 
 /** Round values between two, at most about `most`, and the text of each. */

@@ -3,8 +3,9 @@
 import * as ask from "./ask.js";
 import { Cloud } from "./cloud.js";
 import { button, element, folded, labelled, parted, say, said, select } from "./element.js";
+import { isReversed } from "./form.js";
 import { saveButtons } from "./keep.js";
-import { cross, dot, entry, front, rectangle } from "./marks.js";
+import { cross, dot, dots, entry, front, rectangle } from "./marks.js";
 import { colours, context, frame, redrawn, room, within } from "./plot.js";
 import { range, result, short } from "./ticks.js";
 
@@ -17,7 +18,7 @@ const STILL = 4;
 /** The outputs of a file that can be a price: their names and labels. */
 export function prices(file) {
   const known = new Map(file.outputs.map((it) => [it.name, it.label]));
-  const label = (name) => known.get(name) ?? (name === "power" && known.has("work_positive") ? "Power" : null);
+  const label = (name) => known.get(name) ?? (name === "power" && known.has("work_positive") ? "Power (positive work)" : null);
   if (!known.has("progression_speed")) return [];
   return PRICES.map((name) => [name, label(name)]).filter(([, text]) => text);
 }
@@ -56,20 +57,31 @@ export class TradeOff {
   // The rectangle by numbers.
   numbers() {
     this.inputs = ["Price from", "Price to", "Speed from", "Speed to"].map((name) => element("input", { type: "number", step: "any", required: true, ariaLabel: name }));
-    const words = ["price from", "to", "speed from", "to"];
-    const form = element("form", { className: "row" }, ...this.inputs.map((it, i) => labelled(words[i], it)), element("button", { textContent: "Select" }));
+    const form = element("form", { className: "row" });
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      const [p0, p1, s0, s1] = this.inputs.map((it) => Number(it.value));
-      this.on.brush([[Math.min(p0, p1), Math.max(p0, p1)], [Math.min(s0, s1), Math.max(s0, s1)]]);
+      const pairs = [this.inputs.slice(0, 2), this.inputs.slice(2)], names = [this.data.price.label, this.data.speed.label];
+      if (pairs.some((ends, i) => isReversed(...ends, names[i]))) return;
+      this.on.brush(pairs.map((ends) => ends.map((it) => Number(it.value))));
     });
+    this.form = form;
     return element("details", {}, element("summary", { textContent: "Select by numbers, in the units of the axes" }), form);
   }
 
-  /** Shows the trade-off of the cells of a map; `request` is that of its figure, too. */
-  async show(request, map, signal) {
+  // The fields are called as the axes are.
+  nameFields() {
+    const { price, speed } = this.data, words = [`${price.label} from`, "to", `${speed.label} from`, "to"];
+    const key = words.join();
+    if (this.form.dataset.key === key) return;
+    this.form.dataset.key = key;
+    this.form.replaceChildren(...this.inputs.map((it, i) => labelled(words[i], it)), element("button", { textContent: "Select" }));
+  }
+
+  /** Shows the trade-off of the cells of a map; `request` is that of its figure, too; `plane` has what the plane holds in words, and
+   * how many `cases` the file has. */
+  async show(request, map, plane, signal) {
     const data = await ask.tradeOff(request, signal);
-    Object.assign(this, { data, map, request: { kind: "trade-off", ...request }, spot: null, mask: null, cloud: null });
+    Object.assign(this, { data, map, plane, request: { kind: "trade-off", ...request }, spot: null, mask: null, cloud: null });
     this.price.value = data.price.name;
     this.saving.hidden = false;
     this.list = ["forward", "backward"].flatMap((direction) => (data.fronts[direction] || []).map((cell) => ({ direction, cell })));
@@ -100,11 +112,19 @@ export class TradeOff {
   tell() {
     const { left_out: out, price, speed } = this.data;
     const whole = this.data.prices.length, without = (out || []).filter((it) => it[1]).map(([why, number]) => `${number} ${why}`);
-    const points = `${this.count} of ${whole} cases are shown`;
+    const { held, cases } = this.plane, part = whole < cases ? ` of this plane${held ? ` (${held})` : ""}` : "";
+    const points = `${this.count} of ${whole} cases${part} are shown${part ? `; the file has ${cases}` : ""}`;
     this.note.textContent = `${points}${without.length ? `; left out: ${without.join(", ")}` : ""}${this.x.log ? "; the price is on a logarithmic axis" : ""}.`;
     this.canvas.setAttribute("aria-label", `Trade-off: ${speed.label} over ${price.label}, ${points}, ${this.list.length} on the fronts`);
-    this.fronts.replaceChildren(...["forward", "backward"].filter((it) => this.data.fronts[it]?.length).map((it) => this.table(it)));
+    this.fronts.replaceChildren(...["forward", "backward"].filter((it) => this.data.fronts[it]?.length).flatMap((it) => [this.fastest(it), this.table(it)]));
+    this.nameFields();
     this.explain();
+  }
+
+  fastest(direction) {
+    const { fronts, speeds } = this.data;
+    const best = fronts[direction].reduce((one, cell) => (Math.abs(speeds[cell]) > Math.abs(speeds[one]) ? cell : one));
+    return element("p", { textContent: `Fastest ${direction}: ${this.words(best)}` });
   }
 
   table(direction) {
@@ -114,7 +134,7 @@ export class TradeOff {
       const show = button("Show", () => this.on.choose(cell), { ariaLabel: `Show the motion at ${place}` });
       return [result(this.data.prices[cell], parted(price.label)[1]), result(this.data.speeds[cell], parted(speed.label)[1]), short(a * x.factor), short(b * y.factor), show];
     });
-    return folded(`Front, ${direction} (${cells.length} cases)`, [price.label, speed.label, x.label, y.label, "motion"], rows);
+    return folded(`Front, ${direction} (${cells.length} cases, by rising price)`, [price.label, speed.label, x.label, y.label, "motion"], rows);
   }
 
   explain() {
@@ -243,7 +263,7 @@ export class TradeOff {
       this.drawZero(drawn, area, place, shades);
       if (!this.cloud?.fits(area, ratio)) this.cloud = this.points(area, ratio, place);
       this.cloud.draw(drawn);
-      for (const direction of ["forward", "backward"]) this.drawFront(drawn, place, direction);
+      dots(drawn, ["forward", "backward"].flatMap((direction) => this.drawFront(drawn, place, direction)), shades.paper);
       const at = (cell) => [place.x(prices[cell]), place.y(speeds[cell])];
       const corners = this.brush?.[0].map((it, i) => [place.x(it), place.y(this.brush[1][i])]);
       if (corners) rectangle(drawn, corners);
@@ -267,7 +287,7 @@ export class TradeOff {
     drawn.beginPath(); drawn.moveTo(area.left, place.y(0)); drawn.lineTo(area.right, place.y(0)); drawn.stroke();
   }
 
-  // Stairs: up to the next case, the last one stays the best.
+  // Stairs: up to the next case, the last one stays the best. Returns its dots.
   drawFront(drawn, place, direction) {
     const { prices, speeds, fronts } = this.data, cells = fronts[direction] || [];
     [drawn.strokeStyle, drawn.lineWidth] = [front(direction), 2];
@@ -277,6 +297,6 @@ export class TradeOff {
       drawn.lineTo(place.x(prices[cell]), place.y(speeds[cell]));
     });
     drawn.stroke();
-    cells.forEach((cell) => dot(drawn, [place.x(prices[cell]), place.y(speeds[cell])], front(direction), cells.length > 60 ? 2 : 3.5, colours().paper));
+    return cells.map((cell) => [[place.x(prices[cell]), place.y(speeds[cell])], front(direction)]);
   }
 }

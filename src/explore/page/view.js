@@ -16,20 +16,31 @@ export function numbers(key, count) {
   return all?.length === count && all.every(Number.isFinite) ? all : null;
 }
 
-/** Sets keys, or removes those whose value is none, and tells the listeners which have changed. */
-export function set(pairs) {
+// Writes keys into the address; returns those that have changed.
+function put(pairs, write) {
   const before = new URLSearchParams(held);
   for (const [key, value] of Object.entries(pairs)) {
     if (value === null || value === undefined) held.delete(key);
     else held.set(key, String(value));
   }
   const keys = Object.keys(pairs).filter((key) => before.get(key) !== held.get(key));
-  if (!keys.length) return;
+  if (!keys.length) return keys;
   // Commas and colons stay readable.
   const text = String(held).replace(/%2C/g, ",").replace(/%3A/g, ":").replace(/%7E/g, "~").replace(/%3B/g, ";");
-  history.replaceState(null, "", `#${text}`);
-  listeners.forEach((listener) => listener(keys));
+  history[write](null, "", `#${text}`);
+  return keys;
 }
+
+function tell(keys) { if (keys.length) listeners.forEach((listener) => listener(keys)); }
+
+/** Sets keys, or removes those whose value is none, and tells the listeners which have changed. */
+export const set = (pairs) => tell(put(pairs, "replaceState"));
+
+/** The same as a step that the Back of the browser undoes. */
+export const step = (pairs) => tell(put(pairs, "pushState"));
+
+/** Sets keys to what is shown already, and tells nobody. */
+export const restore = (pairs) => { put(pairs, "replaceState"); };
 
 /** Calls `listener` with the keys that have changed. */
 export const changed = (listener) => listeners.push(listener);
@@ -39,16 +50,26 @@ window.addEventListener("hashchange", () => {
   const before = held;
   held = read();
   const keys = [...new Set([...before.keys(), ...held.keys()])].filter((key) => before.get(key) !== held.get(key));
-  if (keys.length) listeners.forEach((listener) => listener(keys));
+  tell(keys);
 });
 
-/** A case by the names of its coordinates as text, "omega:62.5,p_d:3", with the `sweep` whose motion it starts from, if there are several. */
+/** What else is said of a case, in words: the `sweep` whose motion it starts from, and whether its start is `from` the line. */
+const WORDS = ["sweep", "from"];
+
+/** The case as the server is asked for it. */
+export const asked = ({ from, ...coordinates }) => coordinates;
+
+/** The case at other values of parameters: its start is then no motion of the line. */
+export const moved = (coordinates, values) => ({ ...asked(coordinates), ...values });
+
+/** A case by the names of its coordinates as text, "omega:62.5,p_d:3", with the words that are said of it. */
 export const written = (coordinates) => Object.entries(coordinates).map(([name, value]) => `${name}:${value}`).join(",");
 
 /** The case of a text; none where it is no such text. */
 export function coordinates(text) {
   const pairs = (text || "").split(",").map((pair) => pair.split(":"));
-  const read = ([name, value]) => [name, name === "sweep" ? value : Number(value)];
-  const isFit = ([name, value]) => /^\w+$/.test(name) && value && (name === "sweep" ? /^\w+$/.test(value) : Number.isFinite(Number(value)));
+  const isWord = (name) => WORDS.includes(name);
+  const read = ([name, value]) => [name, isWord(name) ? value : Number(value)];
+  const isFit = ([name, value]) => /^\w+$/.test(name) && value && (isWord(name) ? /^\w+$/.test(value) : Number.isFinite(Number(value)));
   return pairs.every(isFit) ? Object.fromEntries(pairs.map(read)) : null;
 }

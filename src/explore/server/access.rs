@@ -84,7 +84,7 @@ impl Access {
     }
 
     /// Whether the browser has the cookie.
-    fn knows(&self, headers: &HeaderMap) -> bool {
+    pub fn knows(&self, headers: &HeaderMap) -> bool {
         let cookies = headers.get_all(header::COOKIE).iter();
         let pairs = cookies.filter_map(|it| it.to_str().ok()).flat_map(|it| it.split(';'));
         let own = pairs.filter_map(|pair| pair.trim().split_once('='));

@@ -8,6 +8,9 @@ use serde_json::json as object;
 
 use crate::figure::FigureError;
 
+/// What browsers call a page.
+const HTML: &str = "text/html; charset=utf-8";
+
 /// Why a request is not answered.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
@@ -47,6 +50,20 @@ impl Refusal {
     }
 }
 
+impl Refusal {
+    /// The refusal as a page, for a person who has typed the address.
+    pub fn page(self) -> Response {
+        let why = self.why;
+        let text = format!(
+            "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>capsulemap explore</title>\n\
+             <h1>capsulemap explore</h1>\n<p>Not shown: {why}.</p></html>\n"
+        );
+        let mut answer = bytes(text.into_bytes(), HTML);
+        *answer.status_mut() = self.status;
+        answer
+    }
+}
+
 impl IntoResponse for Refusal {
     fn into_response(self) -> Response {
         let mut answer = json(&object!({ "error": self.why }));
@@ -64,7 +81,7 @@ pub fn json(value: &impl Serialize) -> Response {
 
 /// A page.
 pub fn html(text: &'static str) -> Response {
-    bytes(text.as_bytes().to_vec(), "text/html; charset=utf-8")
+    bytes(text.as_bytes().to_vec(), HTML)
 }
 
 /// Bytes of a type.

@@ -6,7 +6,7 @@ use super::answer::Refusal;
 use super::asked::Asked;
 use super::explored::Explored;
 use super::motion::{followed, shown};
-use crate::attractor::Label;
+use crate::attractor::{Attractor, Label};
 use crate::capsule::{Case, Output, Parameter, State, settle_case};
 use crate::figure::{label_colour, shown_quantity};
 use crate::orbit::{Machine, Outcome};
@@ -125,7 +125,14 @@ impl Basin {
 
     fn head(&self) -> Value {
         let [x, y] = &self.axes;
-        json!({ "study": self.study.text, "x": x, "y": y, "side": SIDE })
+        json!({
+            "study": self.study.text,
+            "x": x,
+            "y": y,
+            "side": SIDE,
+            "start": { "y2": self.study.start.y2, "phase": self.study.start_phase },
+            (Parameter::Delta.symbol()): self.study.base[Parameter::Delta],
+        })
     }
 
     /// What the coarse grid of a pass shows, and the attractors that are known by now.
@@ -142,9 +149,30 @@ impl Basin {
             "computed": records.len(),
             "cases": self.study.cases(),
             "labels": labels,
-            "attractors": attractors(&found, records),
+            "attractors": self.attractors(&found, records),
             "unknown": label_colour(None),
         }))
+    }
+
+    /// The attractors with what the first of their cases settled to, and their section points where those lie in the plane of the
+    /// starts.
+    fn attractors(&self, found: &Attractors, records: &[Record]) -> Vec<Value> {
+        let is_in_plane = self.study.start_phase == self.study.section_phase;
+        let told = |(number, attractor): (usize, &Attractor<3>)| {
+            let record = records.iter().find(|record| record.index == attractor.case)?;
+            let orbit = &record.orbit;
+            let is_periodic = orbit.outcome == Outcome::Periodic;
+            let points = attractor.points.iter().filter(|_| is_periodic && is_in_plane);
+            Some(json!({
+                "label": number,
+                (OUTCOME.name): orbit.outcome.name(),
+                (PERIOD.name): is_periodic.then_some(orbit.period),
+                "speed": orbit.outputs[Output::ProgressionSpeed],
+                "colour": label_colour(Some(number as u32)),
+                "points": points.map(|it| [it[0], it[1]]).collect::<Vec<_>>(),
+            }))
+        };
+        found.of_starts.iter().enumerate().filter_map(told).collect()
     }
 }
 
@@ -160,22 +188,6 @@ fn axis_json(explored: &Explored, axis: &Axis) -> Value {
 fn coarse(step: usize) -> impl Iterator<Item = usize> {
     let along = move || (0..SIDE).step_by(step);
     along().flat_map(move |row| along().map(move |column| row * SIDE + column))
-}
-
-/// The attractors with what the first of their cases settled to.
-fn attractors(found: &Attractors, records: &[Record]) -> Vec<Value> {
-    let told = |(number, attractor): (usize, &crate::attractor::Attractor<3>)| {
-        let record = records.iter().find(|record| record.index == attractor.case)?;
-        let orbit = &record.orbit;
-        Some(json!({
-            "label": number,
-            (OUTCOME.name): orbit.outcome.name(),
-            (PERIOD.name): if orbit.outcome == Outcome::Periodic { json!(orbit.period) } else { Value::Null },
-            "speed": orbit.outputs[Output::ProgressionSpeed],
-            "colour": label_colour(Some(number as u32)),
-        }))
-    };
-    found.of_starts.iter().enumerate().filter_map(told).collect()
 }
 
 /// Ends of the axes about the motion that a case settles to, to three digits; about the gap where there is none.

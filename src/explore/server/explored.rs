@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 
 use super::answer::Refusal;
 use crate::campaign::{CampaignError, study_of};
-use crate::capsule::{Case, State};
+use crate::capsule::{Case, Output, State};
 use crate::figure::variables;
 use crate::orbit::Protocol;
 use crate::store::catalogue::{SECTION_R, SECTION_Y1, SECTION_Y2};
@@ -35,6 +35,8 @@ pub struct Near {
     pub case: Case,
     /// The number of the nearest case of the file.
     pub index: usize,
+    /// The place of that case along each dimension of the results.
+    pub position: Vec<usize>,
     /// Whether it has the parameters and the start of that case.
     pub is_exact: bool,
     /// Where it starts, in words.
@@ -153,7 +155,7 @@ impl Explored {
                 None => start = "as the study says: the nearest case has no motion".to_owned(),
             }
         }
-        Ok(Near { case, index, is_exact, start })
+        Ok(Near { case, index, position, is_exact, start })
     }
 
     /// Where the nearest case is along each dimension of the results.
@@ -166,6 +168,12 @@ impl Explored {
             nearest(&axis.values, wanted)
         };
         (0..self.study.shape().len()).map(place).collect()
+    }
+
+    /// What the file has of an output for the case at a place, if it has it.
+    pub fn kept(&self, position: &[usize], output: Output) -> Option<f64> {
+        let rows = self.archive.rows(output.name(), &[position.to_vec()]).ok()?;
+        rows.first()?.to_real().iter().next().copied().filter(|it| it.is_finite())
     }
 
     /// The first section point of the motion of a case, if it has one.

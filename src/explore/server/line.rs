@@ -138,8 +138,8 @@ impl Line {
         let shares = shares(cases.len());
         for (part, shares) in cases.chunks(TOGETHER).zip(shares.chunks(TOGETHER)) {
             let orbits = settle_all(part, &self.protocol, Machine::default());
-            for (share, orbit) in shares.iter().zip(&orbits) {
-                if !send(told(*share, orbit).to_string()) {
+            for ((share, case), orbit) in shares.iter().zip(part).zip(&orbits) {
+                if !send(told(*share, case, orbit).to_string()) {
                     return;
                 }
             }
@@ -157,7 +157,7 @@ impl Line {
                 case.start_phase = case.section_phase;
             }
             let orbit = settle_case(&case, &self.protocol);
-            if !send(told(share, &orbit).to_string()) {
+            if !send(told(share, &case, &orbit).to_string()) {
                 return;
             }
             from = (orbit.outcome != Outcome::Failed).then_some(orbit.end);
@@ -180,12 +180,17 @@ fn shares(count: usize) -> Vec<f64> {
     (0..count).map(|number| number as f64 / (count - 1) as f64).collect()
 }
 
-/// One value of the line: its share of the length, the section points, and outputs in SI.
-fn told(share: f64, orbit: &Orbit) -> Value {
+/// One value of the line: its share of the length, the section points, the state on the section from which the motion goes on, and
+/// outputs in SI.
+fn told(share: f64, case: &Case, orbit: &Orbit) -> Value {
     let points: Vec<f32> = orbit.section.iter().map(|it| it[0] as f32).collect();
     let period = (orbit.outcome == Outcome::Periodic).then_some(orbit.period);
+    let State { r, y1, y2, .. } = orbit.end;
+    let end = (orbit.outcome != Outcome::Failed).then_some([r, y1, y2]);
     let mut told = json!({
         "share": share,
+        "end": end,
+        "phase": case.section_phase,
         (OUTCOME.name): orbit.outcome.name(),
         (PERIOD.name): period,
         (SECTION_R.name): points,

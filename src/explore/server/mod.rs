@@ -21,8 +21,9 @@ use std::time::Duration;
 
 use axum::Router;
 use axum::extract::{Path, Query, Request, State};
+use axum::http::HeaderMap;
 use axum::middleware::{Next, from_fn_with_state};
-use axum::response::Response;
+use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::{MethodRouter, get};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
@@ -139,7 +140,8 @@ fn router(shared: Shared) -> Router {
 async fn guarded(State(shared): State<Shared>, request: Request, next: Next) -> Response {
     let answer = match shared.access.check(&request) {
         Ok(()) => next.run(request).await,
-        Err(refusal) => axum::response::IntoResponse::into_response(refusal),
+        Err(refusal) if request.uri().path() == "/" => refusal.page(),
+        Err(refusal) => refusal.into_response(),
     };
     access::with_policy(answer)
 }
@@ -148,8 +150,12 @@ async fn page() -> Response {
     html(assets::INDEX)
 }
 
-async fn open(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
-    shared.access.open(&pairs)
+/// Gives the browser its cookie for the token; one that has it is sent on to the page.
+async fn open(State(shared): State<Shared>, headers: HeaderMap, Query(pairs): Pairs) -> Response {
+    if shared.access.knows(&headers) {
+        return Redirect::to("/").into_response();
+    }
+    shared.access.open(&pairs).unwrap_or_else(Refusal::page)
 }
 
 async fn asset(Path(name): Path<String>) -> Result<Response, Refusal> {

@@ -8,10 +8,10 @@ use super::asked::Asked;
 use super::explored::{Explored, Near};
 use crate::campaign::command;
 use crate::capsule::{
-    ArcPoint, Case, Orbit, Parameter, State, Switching, arc, settle_case, simulate_case,
+    ArcPoint, Case, Orbit, Output, Parameter, State, Switching, arc, settle_case, simulate_case,
 };
 use crate::explore::case_json::{case_json, remarks};
-use crate::orbit::{HistorySpan, Protocol};
+use crate::orbit::{HistorySpan, Outcome, Protocol};
 use crate::store::catalogue::CYCLES;
 use crate::study::Study;
 
@@ -68,20 +68,34 @@ struct History {
 pub fn motion(explored: &Explored, asked: &Asked) -> Result<Told, Refusal> {
     asked.only(&[CYCLES.name, "sweep"])?;
     let cycles = asked.count(CYCLES.name, [0, 400], TRANSIENT as usize)? as u64;
-    let Near { case, index, is_exact, start } =
-        explored.near(&asked.coordinates()?, asked.sweep()?)?;
+    let near = explored.near(&asked.coordinates()?, asked.sweep()?)?;
     let protocol = explored.protocol();
-    let simulation = simulate_case(&case, cycles, protocol.tolerance);
-    let orbit = settle_case(&case, &protocol);
+    let Near { case, index, is_exact, .. } = &near;
+    let simulation = simulate_case(case, cycles, protocol.tolerance);
+    let orbit = settle_case(case, &protocol);
+    let mut remarks = remarks(&case.parameters, &orbit);
+    remarks.extend(other_mean(explored, &near, &orbit));
     Ok(Told {
         simulate: case_json(&case.parameters, &simulation, &orbit),
-        remarks: remarks(&case.parameters, &orbit),
-        history: history(&case, &orbit, protocol.tolerance),
+        remarks,
+        history: history(case, &orbit, protocol.tolerance),
         stroboscopic: orbit.section,
-        command: format!("{} --cycles {cycles}", command(&case, &protocol)),
-        nearest: index,
-        exact: is_exact,
-        start,
+        command: format!("{} --cycles {cycles}", command(case, &protocol)),
+        nearest: *index,
+        exact: *is_exact,
+        start: near.start,
+    })
+}
+
+/// Why the speed of a case of the file is not the one that the file has, where its motion does not repeat.
+fn other_mean(explored: &Explored, near: &Near, orbit: &Orbit) -> Option<String> {
+    let kept = explored.kept(&near.position, Output::ProgressionSpeed)?;
+    (near.is_exact && orbit.outcome != Outcome::Periodic).then(|| {
+        format!(
+            "the file has the speed {:.6} mm/s for this case: of a motion that does not repeat, both are means over some cycles, \
+             and these are others",
+            1e3 * kept
+        )
     })
 }
 
