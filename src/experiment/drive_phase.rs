@@ -54,7 +54,7 @@ impl Harmonic {
 ///
 /// # Method
 ///
-/// From the strongest frequency ([`strongest`]), all constants are fitted by least squares.
+/// From the strongest frequency (`strongest`), all constants are fitted by least squares.
 ///
 /// # Breaks
 ///

@@ -64,7 +64,7 @@ pub const V_S: [f64; 2] = [1e-4, 100.0];
 /// meets more friction than at its initial speed, that is biased. The second method fits the distance that it slides,
 /// `d = v_s^2/(mu_d g) G(v/v_s)` with `G(z)` the integral of `u/(1 + exp(-u))` from 0 to z. Both fit logarithms, so errors of
 /// speed and distance are taken to be relative and equal. With v_s given, mu_d is the geometric mean of what each test gives;
-/// v_s is looked for over all of [`V_S`]. The ranges are those of the profile likelihood, see [`ScaleFit`].
+/// v_s is looked for over all of [`V_S`]. The ranges are those of the profile likelihood, see `ScaleFit`.
 ///
 /// # Breaks
 ///

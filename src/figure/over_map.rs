@@ -55,7 +55,7 @@ pub struct OverMap {
 
 /// The names of the variables that [`over_map`] reads.
 pub fn over_map_variables(drawing: &Drawing) -> BTreeSet<String> {
-    let at_points = Place::Branch.parameters().into_iter();
+    let at_points = Place::Branch.parameters();
     let names = curves::reads(drawing).and([AT_BRANCH_POINTS.branch, AT_SPECIAL_POINTS.branch]);
     names.and([SPECIAL_KIND]).and(at_points).and(varied::READS).into_set()
 }

@@ -26,11 +26,14 @@ fn rows(work: &WorkDir, file: &str) -> (String, Vec<Vec<f64>>) {
     (header, lines.map(|line| line.split(',').map(number).collect()).collect())
 }
 
+/// A function of time.
+type Function = fn(f64) -> f64;
+
 #[test]
 fn polynomials_are_kept_and_differentiated_on_both_sides_of_a_gap() {
     let work = WorkDir::new();
     work.put("record.csv", record());
-    let derivatives: [(&str, [fn(f64) -> f64; 2]); 3] = [
+    let derivatives: [(&str, [Function; 2]); 3] = [
         ("t [s],x1 [m],r [m]", [|t| t * t, |t| 1.0 + 2.0 * t - 3.0 * t * t + 4.0 * t * t * t]),
         ("t [s],y1 [m/s],dr/dt [m/s]", [|t| 2.0 * t, |t| 2.0 - 6.0 * t + 12.0 * t * t]),
         ("t [s],a1 [m/s2],d2r/dt2 [m/s2]", [|_| 2.0, |t| -6.0 + 24.0 * t]),

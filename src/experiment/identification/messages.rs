@@ -108,9 +108,8 @@ fn loading_and_unloading_and_outliers_are_told() {
 
 #[test]
 fn recordings_without_scatter_are_told_and_do_not_panic() {
-    let currents = |force: fn(f64) -> f64| {
-        (0..8).map(|i| f64::from(i)).map(|it| [it, force(it)]).collect::<Vec<_>>()
-    };
+    let currents =
+        |force: fn(f64) -> f64| (0..8).map(f64::from).map(|it| [it, force(it)]).collect::<Vec<_>>();
     for force in [2.0, 0.1, 0.0] {
         let rows: Vec<[f64; 2]> = (0..8).map(|i| [f64::from(i), force]).collect();
         let why = told(Test::Motor, &rows).expect_err("no constant");

@@ -12,6 +12,12 @@ const UNDECIDED = [136, 136, 136];
 const MM = 1e3;
 const RANGE = ["start_r_from", "start_r_to", "start_y1_from", "start_y1_to"];
 
+// The colour of the attractor within black, which is seen on the basin of the same colour.
+function sectionPoint(drawn, place, shade) {
+  dot(drawn, place, "#000000", 6);
+  dot(drawn, place, shade, 3.5);
+}
+
 /** The basins on a canvas, as a plane; `stop` is where r = delta, and `points` are section points with their colours, in SI. */
 class BasinPlane extends Plane {
   over(drawn, to) {
@@ -28,7 +34,7 @@ class BasinPlane extends Plane {
   }
 
   above(drawn, put) {
-    for (const { at, colour } of this.points || []) put(this.shares(at), (_, [x, y]) => { dot(drawn, [x, y], "#000000", 6); dot(drawn, [x, y], `rgb(${colour})`, 3.5); });
+    for (const { at, colour } of this.points || []) put(this.shares(at), (_, place) => sectionPoint(drawn, place, `rgb(${colour})`));
     if (this.chosen) put(this.chosen, cross);
     if (this.mark && !this.mark.every((it, i) => it === this.chosen?.[i])) put(this.mark, cursor);
   }
@@ -158,7 +164,8 @@ export class Basin {
       rimmed(drawn, () => { drawn.moveTo(x, y - 9); drawn.lineTo(x, y + 9); }, "#000000", 1.5);
       drawn.setLineDash([]);
     }));
-    if (plane.points.some(({ at }) => plane.isSeen(plane.shares(at)))) made.push(entry("section point of an attractor, in its colour", (drawn, at) => { dot(drawn, at, "#000000", 6); dot(drawn, at, "#888888", 3.5); }));
+    const isSeen = plane.points.some(({ at }) => plane.isSeen(plane.shares(at)));
+    if (isSeen) made.push(entry("section point of an attractor, in its colour", (drawn, at) => sectionPoint(drawn, at, "#888888")));
     if (plane.chosen) made.push(entry("chosen start", (drawn, at) => cross(drawn, at)));
     this.legend.replaceChildren(...made);
   }

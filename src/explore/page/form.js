@@ -42,7 +42,8 @@ export function caseForm(file, choose) {
   const group = (words, all) => element("fieldset", {}, element("legend", { textContent: words }), ...fields(all));
   const groups = [["Axes", file.axes], ["Constants", file.constants]].filter(([, all]) => all.length).map(([words, all]) => group(words, all));
   const usual = file.inherits ? "at the motion of the nearest case where all are empty" : "as the study says where all are empty";
-  groups.push(group(`Start, optional: ${usual}; one that is empty beside others is as the study says`, starts(file)));
+  groups.push(group("Start (optional)", starts(file)));
+  groups.at(-1).append(element("p", { className: "note", textContent: `The case starts ${usual}. A field that is empty beside others is as the study says.` }));
   for (const { name } of starts(file)) groups.at(-1).querySelector(`[name=${name}]`).required = false;
   by("case-form").replaceChildren(...groups, element("button", { textContent: "Compute this case", id: "case-button" }));
   by("case-form").addEventListener("submit", (event) => {

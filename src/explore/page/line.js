@@ -188,7 +188,8 @@ export class Line {
   near(event) {
     if (!this.points.length) return null;
     const box = this.canvas.getBoundingClientRect(), [area] = this.areas(box), { ends } = this.axis();
-    let across = (event.clientX - box.left - area.left) / (area.right - area.left);
+    // A click tells whole pixels and a movement parts of them: both must find the same value.
+    let across = (Math.floor(event.clientX) - box.left - area.left) / (area.right - area.left);
     if (across < 0 || across > 1) return null;
     if (ends[0] > ends[1]) across = 1 - across;
     const place = Math.round(across * (COUNT - 1));

@@ -112,7 +112,10 @@ function limits() {
   if (!map.window) return "";
   return [map.data.x, map.data.y].map((axis, i) => {
     const unit = file.axes.find((it) => it.name === axis.name)?.unit;
-    const ends = map.window[i].map((share) => `${Number(map.value(axis, share).toPrecision(6))}${unit ? ` ${unit}` : ""}`);
+    const [low, high] = map.window[i].map((share) => map.value(axis, share));
+    // As many digits as tell the ends apart to a thousandth.
+    const digits = 4 + Math.ceil(Math.log10(Math.max(Math.abs(low), Math.abs(high)) / (high - low)));
+    const ends = [low, high].map((it) => `${Number(it.toPrecision(Math.max(digits, 4)))}${unit ? ` ${unit}` : ""}`);
     return ` --limits ${quoted(`${axis.name}=${ends.join(",")}`)}`;
   }).join("");
 }

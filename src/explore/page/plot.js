@@ -106,33 +106,38 @@ export function frame(drawn, area, x, y) {
   return place;
 }
 
-// A label whose numbers are counted from another.
-function counted(label, offset) {
-  if (!offset) return label;
-  const [name, unit] = parted(label);
-  return `${name} ${offset < 0 ? "+" : "−"} ${short(Math.abs(offset), 12)}${unit ? ` (${unit})` : ""}`;
+// A label whose numbers are counted from an offset, in a unit.
+function counted(label, { offset, unit }) {
+  if (!offset && !unit) return label;
+  const [name, own] = parted(label), whole = [unit, own].filter((it) => it).join(" ");
+  const from = offset ? ` ${offset < 0 ? "+" : "−"} ${short(Math.abs(offset), 12)}` : "";
+  return `${name}${from}${whole ? ` (${whole})` : ""}`;
 }
 
 function across(drawn, area, x, place) {
-  const found = ticks(...x.range, x.log, Math.min(8, Math.max(3, Math.floor((area.right - area.left) / 50)))), { texts: all, offset } = texts(found);
+  const found = ticks(...x.range, x.log, Math.min(8, Math.max(3, Math.floor((area.right - area.left) / 50))));
+  const apart = found.values.length > 1 ? Math.abs(place.x(found.values[1]) - place.x(found.values[0])) : Infinity;
+  const said = texts(found, (text) => drawn.measureText(text).width < apart - 6);
   drawn.textAlign = "center";
   drawn.textBaseline = "top";
   found.values.forEach((value, i) => {
     const at = place.x(value);
     drawn.beginPath(); drawn.moveTo(at, area.bottom); drawn.lineTo(at, area.bottom + 4); drawn.stroke();
-    if (x.label) drawn.fillText(all[i], at, area.bottom + 7);
+    if (x.label) drawn.fillText(said.texts[i], at, area.bottom + 7);
   });
-  if (x.label) words(drawn, counted(x.label, offset), (area.left + area.right) / 2, area.bottom + 24);
+  if (x.label) words(drawn, counted(x.label, said), (area.left + area.right) / 2, area.bottom + 24);
 }
 
 function upwards(drawn, area, y, place) {
-  const found = ticks(...y.range, y.log, Math.min(8, Math.floor((area.bottom - area.top) / 30))), { texts: all, offset } = texts(found);
+  const found = ticks(...y.range, y.log, Math.min(8, Math.floor((area.bottom - area.top) / 30)));
+  // The numbers end short of the label, which is rotated.
+  const said = texts(found, (text) => drawn.measureText(text).width < 44);
   drawn.textAlign = "right";
   drawn.textBaseline = "middle";
   found.values.forEach((value, i) => {
     const at = place.y(value);
     drawn.beginPath(); drawn.moveTo(area.left, at); drawn.lineTo(area.left - 4, at); drawn.stroke();
-    drawn.fillText(all[i], area.left - 7, at);
+    drawn.fillText(said.texts[i], area.left - 7, at);
   });
-  upward(drawn, counted(y.label, offset), area.left - 58, (area.top + area.bottom) / 2);
+  upward(drawn, counted(y.label, said), area.left - 58, (area.top + area.bottom) / 2);
 }

@@ -37,23 +37,23 @@ export function range(values, margin = 0.05) {
 function format(step, top) {
   const power = Math.floor(Math.log10(top) + 1e-9), isFar = top >= 1e5 || top < 1e-3;
   const digits = Math.max(0, (isFar ? power : 0) - Math.floor(Math.log10(step) + 1e-9));
-  if (!isFar) return (value) => signed(value.toFixed(digits));
+  if (!isFar) return (value) => signed(value.toFixed(digits).replace(/^-(?=[0.]*$)/, ""));
   const zero = step / 1e6;
   return (value) => (Math.abs(value) < zero ? "0" : signed(`${(value / 10 ** power).toFixed(digits)}×10${raised(power)}`));
 }
 
-/** Texts of more characters than this do not fit beside an axis. */
-const LONG = 7;
-
-/** The texts of values along an axis, and the round number from which they are counted, 0 where they are short enough without. */
-export function texts({ values, text }) {
-  const plain = { texts: values.map(text), offset: 0 };
-  if (values.length < 2 || plain.texts.every((it) => it.length <= LONG)) return plain;
-  const step = values[1] - values[0], unit = 10 ** Math.ceil(Math.log10(step * values.length) - 1e-9);
-  const offset = Number((Math.floor(values[0] / unit + 1e-9) * unit).toPrecision(12));
-  if (offset === 0) return plain;
-  const near = values.map((it) => it - offset), short = format(step, Math.max(...near.map(Math.abs)));
-  return { texts: near.map(short), offset };
+/** The texts of values along an axis. Where they do not all fit, they are counted from the round number `offset`, in units of `unit`,
+ * which the label of the axis has to say; both are none where the texts are the values. */
+export function texts({ values, text }, fits) {
+  const plain = values.map(text);
+  const step = values[1] - values[0], isEven = values.length > 1 && Math.abs(values.at(-1) - values[0] - step * (values.length - 1)) < step / 2;
+  if (!isEven || plain.every(fits)) return { texts: plain, offset: 0, unit: "" };
+  const whole = 10 ** Math.ceil(Math.log10(step * values.length) - 1e-9);
+  const isOneSided = values[0] > 0 || values.at(-1) < 0, least = values[0] > 0 ? values[0] : values.at(-1);
+  const offset = isOneSided ? Number((Math.trunc(least / whole + 1e-9 * Math.sign(least)) * whole).toPrecision(12)) : 0;
+  const near = values.map((it) => it - offset), power = Math.floor(Math.log10(step) + 1e-9);
+  const isFar = power < -3 || power > 3, unit = isFar ? 10 ** power : 1, short = format(step / unit, Math.max(1, ...near.map((it) => Math.abs(it / unit))));
+  return { texts: near.map((it) => short(it / unit)), offset, unit: isFar ? `10${raised(power)}` : "" };
 }
 
 function even(low, high, about) {
