@@ -136,7 +136,7 @@ fn told_of_spikes(it: &Comparison) -> String {
                 false => "no pulses stand out".to_owned(),
             });
             format!(
-                "{} recorded, {} simulated (pulses of the acceleration, one per contact)",
+                "{} recorded, {} simulated (pulses of the acceleration; those within the time of a contact on the stop of the study are one)",
                 told[0], told[1]
             )
         }

@@ -201,7 +201,10 @@ export class Basin {
   mark(coordinates) {
     if (!this.data) return;
     const [x, y] = [coordinates?.[this.data.x.name], coordinates?.[this.data.y.name]];
-    const isHere = Object.entries(this.parameters).every(([name, value]) => coordinates?.[name] === value);
+    const isAt = Object.entries(this.parameters).every(([name, value]) => coordinates?.[name] === value);
+    const { y2, phase } = this.head.start || {}, { start_y2 = y2, start_phase = phase } = coordinates || {};
+    // A start with another y2 or another phase lies in another plane.
+    const isHere = isAt && start_y2 === y2 && start_phase === phase;
     const place = isHere && x !== undefined && y !== undefined ? this.plane.shares([x, y]) : null;
     this.plane.chosen = place;
     if (place) this.plane.mark = place;

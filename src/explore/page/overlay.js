@@ -72,7 +72,9 @@ export function mark() {
   const pinned = pins().map((it, i) => ({ point: onMap(it), name: "AB"[i] })).filter((it) => it.point);
   const line = ends()?.map((it) => axes().map((axis) => it[axis.name])) ?? null;
   map.set({ pins: pinned, line });
-  tradeOff.mark(cellOf(point));
+  // A case with a start of its own may have another motion than the case of the file.
+  const isOwn = Object.keys(chosen() || {}).some((name) => name.startsWith("start_") && !page.choices.axis(name));
+  tradeOff.mark(isOwn ? null : cellOf(point));
   basin.mark(chosen());
   legend();
 }
