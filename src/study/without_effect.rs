@@ -43,6 +43,11 @@ impl Study {
         }
     }
 
+    /// Whether a parameter has an effect under the law of resistance.
+    pub fn has_effect(&self, parameter: Parameter) -> bool {
+        self.reason(parameter).is_none()
+    }
+
     /// Why a parameter has no effect under the law of resistance, whatever its value.
     fn reason(&self, parameter: Parameter) -> Option<&'static str> {
         match (parameter, self.base.resistance) {

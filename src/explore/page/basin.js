@@ -165,7 +165,7 @@ export class Basin {
       drawn.setLineDash([]);
     }));
     const isSeen = plane.points.some(({ at }) => plane.isSeen(plane.shares(at)));
-    if (isSeen) made.push(entry("section point of an attractor, in its colour", (drawn, at) => sectionPoint(drawn, at, "#888888")));
+    if (isSeen) made.push(entry("section point of an attractor, in its colour, projected: its y2 is its own", (drawn, at) => sectionPoint(drawn, at, "#888888")));
     if (plane.chosen) made.push(entry("chosen start", (drawn, at) => cross(drawn, at)));
     this.legend.replaceChildren(...made);
   }

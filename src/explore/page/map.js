@@ -5,7 +5,7 @@ import { parted } from "./element.js";
 import { cross, cursor, dot, dots, front, letter, line, rectangle } from "./marks.js";
 import { colours, room, upward, words } from "./plot.js";
 import { Plane } from "./plane.js";
-import { result, short, ticks } from "./ticks.js";
+import { alike, result, ticks } from "./ticks.js";
 
 const SWATCH = 12;
 
@@ -125,7 +125,8 @@ function numbers(key, height) {
   for (const value of [0, ...powers].filter((it) => it >= low && it <= high)) {
     if (taken.every((it) => Math.abs(share(it) - share(value)) * height > 18)) taken.push(value);
   }
-  return taken.map((it) => [it, short(it)]);
+  const text = alike(taken);
+  return taken.map((it) => [it, text(it)]);
 }
 
 function bar(drawn, area, left, key) {

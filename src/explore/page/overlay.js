@@ -62,13 +62,16 @@ export async function showCurves(signal) {
   legend();
 }
 
+/** The place of the chosen case when it was marked last. */
+let last = null;
+
 /** Marks the cases and the line on the map, in the trade-off and in the basin. */
 export function mark() {
   const { map, tradeOff, basin } = page, point = onMap(chosen());
-  const place = point && map.shares(point), isOther = place && !place.every((it, i) => it === map.chosen?.[i]);
+  const place = point && map.shares(point), isOther = place && !place.every((it, i) => it === last?.[i]);
   // The mark of the keyboard follows the chosen case only where that changes.
-  map.chosen = place;
-  if (isOther) map.mark = place;
+  map.chosen = last = place;
+  if (isOther || (place && !map.mark)) map.mark = place;
   const pinned = pins().map((it, i) => ({ point: onMap(it), name: "AB"[i] })).filter((it) => it.point);
   const line = ends()?.map((it) => axes().map((axis) => it[axis.name])) ?? null;
   map.set({ pins: pinned, line });

@@ -45,7 +45,7 @@ function format(step, top) {
 /** The texts of values along an axis. Where they do not all fit, they are counted from the round number `offset`, in units of `unit`,
  * which the label of the axis has to say; both are none where the texts are the values. */
 export function texts({ values, text }, fits) {
-  const plain = values.map(text);
+  const plain = values.map((it) => text(it));
   const step = values[1] - values[0], isEven = values.length > 1 && Math.abs(values.at(-1) - values[0] - step * (values.length - 1)) < step / 2;
   if (!isEven || plain.every(fits)) return { texts: plain, offset: 0, unit: "" };
   const whole = 10 ** Math.ceil(Math.log10(step * values.length) - 1e-9);
@@ -68,9 +68,13 @@ function even(low, high, about) {
 
 // A round value by its power of ten.
 function power(value) {
-  const exponent = Math.floor(Math.log10(value) + 1e-9), digit = Math.round(value / 10 ** exponent);
-  return `${digit === 1 ? "" : `${digit}×`}10${raised(exponent)}`;
+  if (value === 0) return "0";
+  const size = Math.abs(value), exponent = Math.floor(Math.log10(size) + 1e-9), digit = Math.round(size / 10 ** exponent);
+  return `${value < 0 ? "−" : ""}${digit === 1 ? "" : `${digit}×`}10${raised(exponent)}`;
 }
+
+/** The text of round values over decades: all are written alike. */
+export const alike = (values) => (values.every((it) => it === 0 || (Math.abs(it) >= 1e-3 && Math.abs(it) <= 1e4)) ? (it) => short(it) : power);
 
 function decades(low, high, most) {
   const first = Math.ceil(Math.log10(low) - 1e-9), last = Math.floor(Math.log10(high) + 1e-9);
@@ -81,7 +85,7 @@ function decades(low, high, most) {
   const isMany = !(values.length > 2 && values.length <= most + 1);
   if (isMany && powers.length < 2) return even(low, high, most);
   const all = isMany ? powers.map((it) => 10 ** it) : values;
-  return { values: all, text: all.every((it) => it >= 1e-3 && it <= 1e4) ? short : power };
+  return { values: all, text: alike(all) };
 }
 
 /** Round values between two, at most about `most`, and the text of each. */

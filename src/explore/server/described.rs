@@ -29,10 +29,8 @@ pub fn described(explored: &Explored, running: Value) -> Value {
     let outputs = Output::ALL.iter().map(|it| it.name()).chain(kinds);
     let outputs = outputs.filter(|name| archive.unit(name).is_some()).map(shown);
     let varied = study.case_set.varied();
-    // A file has no constants of laws of resistance that are not those of the study.
-    let is_held = |it: &&Parameter| {
-        !varied.contains(&Coordinate::Parameter(**it)) && archive.unit(it.symbol()).is_some()
-    };
+    let is_held =
+        |it: &&Parameter| !varied.contains(&Coordinate::Parameter(**it)) && study.has_effect(**it);
     let constant = |it: &Parameter| {
         let mut constant = shown(it.symbol());
         constant["value"] = json!(study.base[*it]);
