@@ -105,6 +105,8 @@ async fn accept(listener: TcpListener, router: Router) -> io::Result<()> {
                 continue;
             }
         };
+        // An answer is sent at once: what is left of it waits for no acknowledgement.
+        let _ = stream.set_nodelay(true);
         let service = TowerToHyperService::new(router.clone());
         tokio::spawn(async move {
             let mut connection = http1::Builder::new();
