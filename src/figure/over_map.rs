@@ -74,49 +74,76 @@ pub fn over_map<'a>(
     let of_curves = curves(&view, &axes.map(str::to_owned));
     let mut over = OverMap { left_out: elsewhere(&view, &axes), ..OverMap::default() };
     over.lines = of_curves.iter().map(line_of).collect();
-    let fits = in_view(&view, &axes);
-    let dataset = view.dataset;
-    let request = Rows::new(dataset, INDEX_REQUEST.name);
-    let factors = axes.map(|name| view.quantity(name).factor);
-    let asked = axes.map(|name| Rows::new(dataset, &Place::Request.name(name)));
-    let places = |(place, own): (Place, &OrbitColumns)| {
-        let columns = axes.map(|name| Rows::new(dataset, &place.name(name)));
-        let (asked, branch) = (&asked, Rows::new(dataset, own.branch.name));
-        move |number: usize, of: usize| -> Vec<(usize, [f64; 2])> {
+    Branches::new(&view, axes).add_to(&mut over);
+    Ok(over)
+}
+
+/// The branches of the results over the axes of a map.
+struct Branches<'v, 'a> {
+    view: &'v View<'a>,
+    axes: [&'a str; 2],
+    /// Value shown per value in SI, by axis.
+    factors: [f64; 2],
+    /// The values of the requests, by axis.
+    asked: [Rows; 2],
+}
+
+impl<'v, 'a> Branches<'v, 'a> {
+    fn new(view: &'v View<'a>, axes: [&'a str; 2]) -> Self {
+        let factors = axes.map(|name| view.quantity(name).factor);
+        let asked = axes.map(|name| Rows::new(view.dataset, &Place::Request.name(name)));
+        Branches { view, axes, factors, asked }
+    }
+
+    /// Adds the branches that lie at the values of the axes that are held, and their special points.
+    fn add_to(&self, over: &mut OverMap) {
+        let dataset = self.view.dataset;
+        let fits = in_view(self.view, &self.axes);
+        let request = Rows::new(dataset, INDEX_REQUEST.name);
+        let points = self.places((Place::Branch, &AT_BRANCH_POINTS));
+        let specials = self.places((Place::Special, &AT_SPECIAL_POINTS));
+        let kind = Rows::new(dataset, SPECIAL_KIND.name);
+        let flags = dataset.variable(SPECIAL_KIND.name).map_or(&[][..], |it| &it.flags);
+        let symbol = |at: usize| {
+            let flag = flags.iter().find(|(code, _)| *code as f64 == kind.one(at))?;
+            Symbol::named(&flag.1)
+        };
+        for number in 0..request.count() {
+            let of = request.one(number) as usize;
+            if !fits.get(of).copied().unwrap_or(false) {
+                continue;
+            }
+            let line: Vec<[f64; 2]> = points(number, of).into_iter().map(|(_, at)| at).collect();
+            if line.len() > 1 {
+                let words = "branch of orbits".to_owned();
+                over.lines.push(MapLine { words, colour: None, is_dashed: false, points: line });
+            }
+            over.points.extend(specials(number, of).into_iter().filter_map(|(place, at)| {
+                let symbol = symbol(place)?;
+                Some(MapPoint { words: symbol.words, colour: channels(symbol.colour), at })
+            }));
+        }
+    }
+
+    /// The rows of a branch, by its number and that of its request, with where they are in the units of the axes.
+    fn places(
+        &self,
+        (place, own): (Place, &OrbitColumns),
+    ) -> impl Fn(usize, usize) -> Vec<(usize, [f64; 2])> {
+        let columns = self.axes.map(|name| Rows::new(self.view.dataset, &place.name(name)));
+        let branch = Rows::new(self.view.dataset, own.branch.name);
+        move |number, of| {
             // What the branch does not vary has the value of its request.
             let value = |axis: usize, at: usize| {
                 let own = columns[axis].one(at);
-                (if own.is_finite() { own } else { asked[axis].one(of) }) * factors[axis]
+                let in_si = if own.is_finite() { own } else { self.asked[axis].one(of) };
+                in_si * self.factors[axis]
             };
             let all = branch.places(number).into_iter();
             let placed = all.map(|at| (at, [value(0, at), value(1, at)]));
             placed.filter(|(_, at)| at.iter().all(|it| it.is_finite())).collect()
         }
-    };
-    let points = places((Place::Branch, &AT_BRANCH_POINTS));
-    let specials = places((Place::Special, &AT_SPECIAL_POINTS));
-    let kind = Rows::new(dataset, SPECIAL_KIND.name);
-    let flags = dataset.variable(SPECIAL_KIND.name).map_or(&[][..], |it| &it.flags);
-    let symbol = |at: usize| {
-        let flag = flags.iter().find(|(code, _)| *code as f64 == kind.one(at))?;
-        Symbol::named(&flag.1)
-    };
-    for number in 0..request.count() {
-        let of = request.one(number) as usize;
-        if !fits.get(of).copied().unwrap_or(false) {
-            continue;
-        }
-        let line: Vec<[f64; 2]> = points(number, of).into_iter().map(|(_, at)| at).collect();
-        if line.len() > 1 {
-            let words = "branch of orbits".to_owned();
-            over.lines.push(MapLine { words, colour: None, is_dashed: false, points: line });
-        }
-        over.points.extend(specials(number, of).into_iter().filter_map(|(place, at)| {
-            let symbol = symbol(place)?;
-            Some(MapPoint { words: symbol.words, colour: channels(symbol.colour), at })
-        }));
     }
-    Ok(over)
 }
 
 /// A curve as a line over a map.

@@ -9,37 +9,13 @@ use std::time::Duration;
 use capsulemap::store::{self, Dataset};
 use serde_json::Value;
 
-use super::explorer::Explorer;
+use super::explorer::{Explorer, coarse_overview};
 use super::program::{TWO_MOTIONS, WorkDir};
 
-/// A coarse map of the overview's capsule, with periodic and chaotic cases, and a curve of folds over it.
-const STUDY: &str = r#"
-[parameters]
-c = "0.44 N s/m"
-mu_s = 0.437
-mu_d = 0.2185
-k2 = "86.8 kN/m"
-delta = "2.45 mm"
-[[axes]]
-name = "p_d"
-from = "1 N"
-to = "5 N"
-points = 5
-[[axes]]
-name = "omega"
-from = "30 rad/s"
-to = "100 rad/s"
-points = 15
-[start]
-inherit = "omega"
-[protocol]
-max_cycles = 1000
-"#;
-
-/// The file of results of [`STUDY`].
+/// The file of results of a coarse map.
 fn swept() -> WorkDir {
     let work = WorkDir::new();
-    work.put("map.toml", STUDY);
+    work.put("map.toml", coarse_overview([5, 15]));
     work.run(&["sweep", "map.toml", "--output", "map.h5", "--no-figures"]).done();
     work
 }
@@ -332,9 +308,8 @@ second = { name = "p_d", from = "2.7 N", to = "2.9 N" }
 fn an_unfinished_run_is_shown_and_grows() {
     let work = WorkDir::new();
     // Some thousand cases in blocks of 512, of which one task computes a half.
-    let many = STUDY.replace("points = 5", "points = 40").replace("points = 15", "points = 60");
-    let many = many.replace("inherit = \"omega\"", "r = \"0 mm\"");
-    work.put("many.toml", &many);
+    let many = coarse_overview([40, 60]);
+    work.put("many.toml", many.replace("inherit = \"omega\"", "r = \"0 mm\""));
     work.run(&["explore", "many.toml", "--no-browser"])
         .refused(&["nothing is computed yet", "capsulemap sweep many.toml"]);
     work.run(&["sweep", "many.toml", "--task", "1/2", "--no-figures"]).done();

@@ -5,35 +5,9 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::explorer::Explorer;
+use super::explorer::{Explorer, coarse_overview};
 use super::program::WorkDir;
 use super::store::say;
-
-/// A coarse map of the overview's capsule.
-const STUDY: &str = r#"
-title = "Coarse overview"
-outputs = ["progression_speed", "power", "energy_per_metre", "lyapunov_exponent"]
-[parameters]
-c = "0.44 N s/m"
-mu_s = 0.437
-mu_d = 0.2185
-k2 = "86.8 kN/m"
-delta = "2.45 mm"
-[[axes]]
-name = "p_d"
-from = "1 N"
-to = "5 N"
-points = 13
-[[axes]]
-name = "omega"
-from = "30 rad/s"
-to = "100 rad/s"
-points = 41
-[start]
-inherit = "omega"
-[protocol]
-max_cycles = 1000
-"#;
 
 /// Whether the packages that drive a browser are there; a printed line where they are not.
 fn has_browser() -> bool {
@@ -68,7 +42,7 @@ fn a_person_clicks_compares_and_hands_over() {
         return;
     }
     let work = WorkDir::new();
-    work.put("map.toml", STUDY);
+    work.put("map.toml", coarse_overview([13, 41]));
     work.run(&["sweep", "map.toml", "--output", "map.h5", "--no-figures"]).done();
     let explorer = Explorer::unopened(&work, &["map.h5"]);
     let found = found(&explorer);

@@ -9,6 +9,35 @@ use serde_json::Value;
 
 use super::program::WorkDir;
 
+/// The study of a coarse map of the overview's capsule, with periodic and chaotic cases, of so many forces and frequencies.
+pub fn coarse_overview([forces, frequencies]: [usize; 2]) -> String {
+    format!(
+        r#"
+title = "Coarse overview"
+[parameters]
+c = "0.44 N s/m"
+mu_s = 0.437
+mu_d = 0.2185
+k2 = "86.8 kN/m"
+delta = "2.45 mm"
+[[axes]]
+name = "p_d"
+from = "1 N"
+to = "5 N"
+points = {forces}
+[[axes]]
+name = "omega"
+from = "30 rad/s"
+to = "100 rad/s"
+points = {frequencies}
+[start]
+inherit = "omega"
+[protocol]
+max_cycles = 1000
+"#
+    )
+}
+
 /// A server that is stopped with the test.
 pub struct Explorer {
     /// Its process.

@@ -25,7 +25,7 @@ const FLOORS: [&str; 15] = [
 ];
 
 /// Crates that one floor alone may use.
-const RESERVED: [(&str, &[&str]); 5] = [
+const RESERVED: [(&str, &[&str]); 6] = [
     ("run", &["rayon"]),
     ("study", &["toml"]),
     ("store", &["hdf5", "hdf5_sys"]),
@@ -42,6 +42,7 @@ const RESERVED: [(&str, &[&str]); 5] = [
             "png",
         ],
     ),
+    ("explore", &["axum", "hyper", "hyper_util", "tokio", "getrandom"]),
     ("cli", &["clap", "clap_complete", "indicatif"]),
 ];
 

@@ -48,24 +48,12 @@ impl Basin {
         let is_parameter = |it: &(Coordinate, f64)| !it.0.is_start();
         let at: Vec<(Coordinate, f64)> = given.iter().copied().filter(is_parameter).collect();
         let case = explored.near(&at, asked.sweep()?)?.case;
-        let usual = around(explored, &case);
-        let mut axes = Vec::new();
-        for (axis, coordinate) in AXES.into_iter().enumerate() {
-            let [from, to] = ENDS[axis].map(|name| asked.number(name));
-            let [from, to] = [from?.unwrap_or(usual[axis][0]), to?.unwrap_or(usual[axis][1])];
-            if from >= to {
-                let [low, high] = ENDS[axis];
-                return Err(Refusal::unfit(format!("{low} must be less than {high}")));
-            }
-            axes.push(Axis { coordinate, values: Spacing::Linear.values(from, to, SIDE) });
-        }
-        let told = axes.iter().map(|it: &Axis| axis_json(explored, it)).collect::<Vec<_>>();
+        let mut axes = axes(asked, around(explored, &case))?;
+        let told = [0, 1].map(|axis| axis_json(explored, &axes[axis]));
+        // Those of a study come with the slower first.
         axes.reverse();
         let mut begins = explored.study.case(0);
-        given
-            .iter()
-            .filter(|it| it.0.is_start())
-            .for_each(|(it, value)| set(&mut begins, *it, *value));
+        given.iter().filter(|it| it.0.is_start()).for_each(|it| set(&mut begins, it.0, it.1));
         let mut basin = Drawing::new("basin", DrawingKind::Basin);
         [basin.x, basin.y] = AXES.map(|it| Some(it.name().to_owned()));
         let study = Study {
@@ -80,7 +68,7 @@ impl Basin {
             ..Study::default()
         };
         match study.validated("the study of the basin") {
-            Ok(study) => Ok(Basin { study, axes: [told[0].clone(), told[1].clone()] }),
+            Ok(study) => Ok(Basin { study, axes: told }),
             Err(faults) => Err(Refusal::unfit(faults.to_string())),
         }
     }
@@ -174,6 +162,22 @@ impl Basin {
         };
         found.of_starts.iter().enumerate().filter_map(told).collect()
     }
+}
+
+/// The axes that a request asks for, the faster first; `usual` are their ends where it does not.
+fn axes(asked: &Asked, usual: [[f64; 2]; 2]) -> Result<Vec<Axis>, Refusal> {
+    let axis = |axis: usize| {
+        let [low, high] = ENDS[axis];
+        let from = asked.number(low)?.unwrap_or(usual[axis][0]);
+        let to = asked.number(high)?.unwrap_or(usual[axis][1]);
+        match from < to {
+            true => {
+                Ok(Axis { coordinate: AXES[axis], values: Spacing::Linear.values(from, to, SIDE) })
+            }
+            false => Err(Refusal::unfit(format!("{low} must be less than {high}"))),
+        }
+    };
+    (0..AXES.len()).map(axis).collect()
 }
 
 /// An axis of starts, its ends in the unit shown.
