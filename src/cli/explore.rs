@@ -82,6 +82,11 @@ impl Explore {
                     "{file}: nothing is computed yet; `capsulemap sweep {arguments}` begins"
                 ))
             }
+            // Nothing is replaced by looking at it.
+            error @ (CampaignError::OtherResults { .. }
+            | CampaignError::Store(StoreError::Changed { .. })) => {
+                Failure::request(format!("{error}; name another --output"))
+            }
             error => Failure::from(error),
         })
     }

@@ -341,6 +341,10 @@ fn an_unfinished_run_is_shown_and_grows() {
 fn wrong_inputs_are_named() {
     let work = swept();
     work.run(&["explore", "none.h5"]).refused(&["none.h5"]);
+    work.put("other.toml", coarse_overview([2, 3]));
+    let other = work.run(&["explore", "other.toml", "--output", "map.h5"]);
+    other.refused(&["map.h5", "name another --output"]);
+    assert!(!other.err.contains("--overwrite"), "{}", other.err);
     work.run(&["explore", "map.h5", "--output", "x.h5"])
         .refused(&["--output", "goes with a study"]);
     let explorer = Explorer::new(&work, &["map.h5"]);
