@@ -29,8 +29,6 @@ pub struct MapAxis {
     pub factor: f64,
     /// The values of the cells, rising [SI].
     pub values: Vec<f64>,
-    /// The place of each cell along the axis of the study.
-    pub places: Vec<usize>,
     /// Where each cell ends, as a share of the axis from its low end.
     pub ends: Vec<f64>,
     /// The ends of the axis, in the unit shown, and whether it is logarithmic.
@@ -100,7 +98,6 @@ fn axis(quantity: Quantity, cells: &Cells) -> MapAxis {
         label: quantity.told(),
         factor: quantity.factor,
         values: cells.values().map(|value| value / quantity.factor).collect(),
-        places: (0..cells.count()).map(|cell| cells.place(cell)).collect(),
         ends: (0..cells.count()).map(|cell| cells.range(cell)[1]).collect(),
         range: [low, high],
         is_logarithmic: spacing == Spacing::Log,

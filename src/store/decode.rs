@@ -165,7 +165,9 @@ impl Archive {
             }
         }
         for (name, label) in &self.labels {
-            let variable = match self.shape(name)?.filter(|_| wanted(name)) {
+            // Of what is not wanted, which is most, not even the shape is read.
+            let shape = if wanted(name) { self.shape(name)? } else { None };
+            let variable = match shape {
                 Some(shape) => self.slab(name, &Slab::at(&label.dimensions, &shape, held))?,
                 None => None,
             };
