@@ -10,8 +10,9 @@ use crate::lane::Instructions;
 
 use super::measuring::{MeasureRequest, Measured};
 use super::measuring_all::measured_side_by_side;
-use super::passage::{Integrator, Passage, ReturnRequest};
+use super::passage::{Integrator, Passage, PlainRequest, ReturnRequest};
 use super::passages::passages;
+use super::returns::PlainReturn;
 
 /// Room for the stack of a computation [bytes]; only what is used is taken.
 const STACK: usize = 4 << 20;
@@ -26,11 +27,13 @@ type Returned<M, const D: usize> = Result<Passage<<M as System<D>>::Event, D>, R
 enum Request<M: System<D>, const D: usize> {
     Return(ReturnRequest<M, D>),
     Measure(MeasureRequest<M, D>),
+    Plain(PlainRequest<M, D>),
 }
 /// What it is given for it.
 enum Answer<M: System<D>, const D: usize> {
     Returned(Returned<M, D>),
     Measured(Measured<M, D>),
+    Plain(Vec<Option<PlainReturn<M::Event, D>>>),
 }
 /// A computation that waits for an answer; the first time it is resumed for nothing.
 type Computation<M, T, const D: usize> =
@@ -47,6 +50,8 @@ pub struct Batch<M: System<D>, T, const D: usize> {
     returns: Vec<(Computation<M, T, D>, ReturnRequest<M, D>)>,
     /// Computations that wait for their cycles to be measured.
     measures: Vec<(Computation<M, T, D>, MeasureRequest<M, D>)>,
+    /// Computations that wait for returns without derivatives, each for enough to fill the lanes.
+    plain: Vec<(Computation<M, T, D>, PlainRequest<M, D>)>,
     stacks: Vec<DefaultStack>,
 }
 
@@ -71,6 +76,13 @@ impl<M: System<D>, const D: usize> Integrator<M, D> for Waiting<'_, M, D> {
         match self.0.suspend(Request::Measure(request)) {
             Some(Answer::Measured(measured)) => measured,
             _ => panic!("the computation goes on with what is measured"),
+        }
+    }
+
+    fn plain_returns(&self, request: PlainRequest<M, D>) -> Vec<Option<PlainReturn<M::Event, D>>> {
+        match self.0.suspend(Request::Plain(request)) {
+            Some(Answer::Plain(returns)) => returns,
+            _ => panic!("the computation goes on with the returns"),
         }
     }
 }
@@ -109,12 +121,14 @@ impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
 
     /// No computations yet.
     pub fn new(instructions: Instructions) -> Self {
-        Batch { instructions, returns: Vec::new(), measures: Vec::new(), stacks: Vec::new() }
+        let (returns, measures, plain) = (Vec::new(), Vec::new(), Vec::new());
+        Batch { instructions, returns, measures, plain, stacks: Vec::new() }
     }
 
-    /// How many wait for what most of them wait for.
+    /// How many motions wait of the kind of which most do.
     pub fn waiting(&self) -> usize {
-        self.returns.len().max(self.measures.len())
+        let plain = 2 * self.instructions.lanes_of_a_vector() * self.plain.len();
+        self.returns.len().max(self.measures.len()).max(plain)
     }
 
     /// Begins a computation; its result, if it asks for nothing.
@@ -136,8 +150,11 @@ impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
     /// computations that end with it.
     pub fn advance(&mut self) -> Vec<T> {
         let most = EACH_LANE * self.instructions.lanes_of_a_vector();
-        let (computations, answers): (Vec<_>, Vec<_>) = if self.returns.len() >= self.measures.len()
-        {
+        let (computations, answers): (Vec<_>, Vec<_>) = if !self.plain.is_empty() {
+            let (computations, requests) = first(&mut self.plain, most);
+            let returned = requests.iter().map(|it| Answer::Plain(it.answer(self.instructions)));
+            (computations, returned.collect())
+        } else if self.returns.len() >= self.measures.len() {
             let (computations, requests) = first(&mut self.returns, most);
             let returned = passages(self.instructions, &requests.iter().collect::<Vec<_>>());
             (computations, returned.into_iter().map(Answer::Returned).collect())
@@ -162,6 +179,10 @@ impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
             }
             CoroutineResult::Yield(Request::Measure(request)) => {
                 self.measures.push((coroutine, request));
+                None
+            }
+            CoroutineResult::Yield(Request::Plain(request)) => {
+                self.plain.push((coroutine, request));
                 None
             }
             CoroutineResult::Return(result) => {

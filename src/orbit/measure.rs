@@ -7,9 +7,12 @@ use super::aperiodic::{Aperiodic, Departure, follow_aperiodic};
 use super::certificate::certify;
 use super::matrix::Complex;
 use super::measuring::{Kept, MeasureRequest, Measured};
-use super::passage::{Integrator, OneByOne};
+use super::neighbourhood::{Neighbourhood, OrbitPoint};
+use super::passage::{Integrator, OneByOne, PlainRequest, image};
 use super::precision::{GRAZES, STANDS_STILL, same, sound};
 use super::recurrence::Settled;
+use super::return_map::{Cycles, append_points};
+use super::settling::Foretold;
 use super::{
     Case, Certificate, Exponent, Failure, Orbit, OrbitOf, Outcome, Proof, Protocol, Trajectory,
 };
@@ -23,6 +26,35 @@ pub(super) enum Found<const D: usize> {
     Aperiodic,
     /// It does not, and this is what the linearised flow says of it.
     Followed(Aperiodic<D>),
+    /// It is on this periodic orbit.
+    Orbit(Verdict<D>),
+}
+
+/// Whether a motion leads to the orbit that it seems to tend to.
+pub(super) enum Told<const D: usize> {
+    /// It leads there.
+    Leads(Verdict<D>),
+    /// That is not proven; the orbit, if it has a neighbourhood, which does not hold the motion yet.
+    Unproven(Option<(ClosedOrbit<D>, Neighbourhood<D>)>),
+}
+
+/// A periodic orbit that a motion seems to tend to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ClosedOrbit<const D: usize> {
+    verdict: Verdict<D>,
+    /// Its section point.
+    point: [f64; D],
+}
+
+impl<const D: usize> ClosedOrbit<D> {
+    /// What a motion is found to do that is on this orbit, to which its trajectory goes.
+    pub(super) fn reached<S: Stroboscopic<f64, D>>(
+        &self,
+        trajectory: &mut Trajectory<'_, S, D>,
+    ) -> Found<D> {
+        trajectory.leap(self.point);
+        Found::Orbit(self.verdict)
+    }
 }
 
 /// The motion of a case of a system.
@@ -31,7 +63,8 @@ type Moving<'a, M, const D: usize> = Trajectory<'a, <M as System<D>>::Single, D>
 type Fails<M, const D: usize> = Failure<<M as System<D>>::State<f64>>;
 
 /// What is to be measured, and what is known of it.
-struct Verdict<const D: usize> {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Verdict<const D: usize> {
     outcome: Outcome,
     period: u64,
     /// Cycles to measure over.
@@ -117,9 +150,20 @@ fn judge<M: System<D>, const D: usize>(
             let outcome = aperiodic.outcome();
             // A period too long for the recurrence of sections, or one that is approached slowly.
             let recurs = aperiodic.recurs.filter(|_| outcome != Outcome::Chaotic);
+            let here = (trajectory.motion(), trajectory.progress);
             let periodic = recurs.and_then(|settled| {
-                certified(trajectory, case, (&aperiodic.last, settled), protocol, integrator)
+                let last = &aperiodic.last;
+                let found = certified(trajectory, case, (last, settled), protocol, integrator)?;
+                let is_family = found.certificate.neutral.is_some();
+                let leads = is_family || {
+                    let home = home(trajectory, case, (&found, last), protocol, integrator);
+                    home.is_some_and(|home| home.contains(last))
+                };
+                leads.then_some(found)
             });
+            if periodic.is_none() {
+                trajectory.go_on(here.0, here.1);
+            }
             Ok(periodic.unwrap_or_else(|| Verdict {
                 outcome,
                 period: 0,
@@ -130,6 +174,7 @@ fn judge<M: System<D>, const D: usize>(
                 size: 0.0,
             }))
         }
+        Found::Orbit(verdict) => Ok(verdict),
         Found::Aperiodic => {
             let start = Departure {
                 point: trajectory.section(),
@@ -150,6 +195,53 @@ fn judge<M: System<D>, const D: usize>(
             }
         }
     }
+}
+
+/// Whether a motion leads to the orbit that it seems to tend to; its trajectory is then led onto it.
+///
+/// Method: Newton's closes the orbit from the limit of the section points, and a neighbourhood that the return map leads
+/// into itself holds the section point where the motion is.
+pub(super) fn told<M: System<D>, const D: usize>(
+    trajectory: &mut Moving<'_, M, D>,
+    case: &Case<M, D>,
+    foretold: &Foretold<D>,
+    protocol: &Protocol,
+    integrator: &dyn Integrator<M, D>,
+) -> Told<D> {
+    let here = trajectory.section();
+    let limit = (&foretold.limit, foretold.nearly);
+    let orbit = certified(trajectory, case, limit, protocol, integrator);
+    let isolated = orbit.filter(|it| it.certificate.neutral.is_none());
+    let Some(orbit) = isolated else { return Told::Unproven(None) };
+    match home(trajectory, case, (&orbit, &here), protocol, integrator) {
+        Some(home) if home.contains(&here) => Told::Leads(orbit),
+        home => {
+            let orbit = ClosedOrbit { verdict: orbit, point: trajectory.section() };
+            Told::Unproven(home.map(|home| (orbit, home)))
+        }
+    }
+}
+
+/// A neighbourhood of the orbit on which the trajectory is, around its section point that is nearest to another, which it
+/// holds if it can.
+fn home<M: System<D>, const D: usize>(
+    trajectory: &Moving<'_, M, D>,
+    case: &Case<M, D>,
+    (orbit, held): (&Verdict<D>, &[f64; D]),
+    protocol: &Protocol,
+    integrator: &dyn Integrator<M, D>,
+) -> Option<Neighbourhood<D>> {
+    let (system, metric) = (&case.system, case.system.metric());
+    let cycles = Cycles { count: orbit.period, tolerance: protocol.tolerance };
+    let mut points = vec![trajectory.section()];
+    append_points(system, &mut points, orbit.period as usize, protocol.tolerance)?;
+    let away = |point: &[f64; D]| metric.distance(point, held);
+    let point = points.into_iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    let jacobian = image(integrator, system, &point, &cycles).ok()?.jacobian;
+    Neighbourhood::holding(&OrbitPoint { point, jacobian }, &metric, held, |points| {
+        let points = points.to_vec();
+        integrator.plain_returns(PlainRequest { system: system.clone(), points, cycles })
+    })
 }
 
 /// The verdict on a section that repeats: periodic if Newton's method closes the orbit within the steps left, else

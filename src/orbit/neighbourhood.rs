@@ -7,6 +7,7 @@ use super::matrix::{Matrix, eigenvalues};
 use super::passage::{Passage, ReturnRequest};
 use super::passages::passages;
 use super::return_map::Cycles;
+use super::returns::PlainReturn;
 
 /// The first radius that is tried, as a share of the size of the orbit.
 const WIDEST: f64 = 0.25;
@@ -18,6 +19,14 @@ const SAFETY: f64 = 0.5;
 const DOUBLINGS: u32 = 40;
 /// The longest period of an orbit that is given a neighbourhood, as its map must be followed a thousand times [cycles].
 const LONGEST: u64 = 16;
+/// A neighbourhood that shall hold a point is wider than the point is far by this factor.
+const WIDER: f64 = 1.0 + 1e-6;
+/// Where that fails, a radius smaller by this factor is tried, so often.
+const SMALLER: f64 = 0.25;
+const SMALLER_RADII: u32 = 5;
+/// A return map may differ from its linear part by this share of what that shrinks a difference by: where the rest grows
+/// as the square, as that of a smooth map does or faster, its own growth within is then below half of it.
+const CURVED: f64 = 0.25;
 
 /// An ellipsoid around a section point of a periodic orbit, which its return map leads into itself.
 ///
@@ -115,6 +124,108 @@ impl<const D: usize> Neighbourhood<D> {
             radius *= 0.5;
         }
         None
+    }
+}
+
+/// A point of a periodic orbit with the derivative of the return map over its period there.
+#[derive(Debug, Clone, Copy)]
+pub struct OrbitPoint<const D: usize> {
+    /// The section point.
+    pub point: [f64; D],
+    /// The derivative.
+    pub jacobian: Matrix<D>,
+}
+
+impl<const D: usize> Neighbourhood<D> {
+    /// A neighbourhood of a point of an orbit that holds another point, or the widest of some smaller ones; none where no
+    /// ellipsoid passes.
+    ///
+    /// Method: as [`Neighbourhood::of`], by returns without derivatives, a sixth of the work: at the points of the lattice the
+    /// events are those of the orbit, and the image differs from that of the linear map by a quarter of (1 - theta) times the
+    /// distance at most, `theta` the factor by which that shrinks every difference. `returns_of` tells where points return to
+    /// over the period.
+    /// Guarantees: as [`Neighbourhood::of`]; between the points the rest beside the linear part is taken to grow as the
+    /// square of the distance or faster.
+    pub fn holding<E: PartialEq>(
+        orbit: &OrbitPoint<D>,
+        metric: &Metric<D>,
+        held: &[f64; D],
+        mut returns_of: impl FnMut(&[[f64; D]]) -> Vec<Option<PlainReturn<E, D>>>,
+    ) -> Option<Self> {
+        let own = returns_of(&[orbit.point]).pop()??;
+        let linear = LinearMap::of(orbit, metric, &own.end)?;
+        let lattice = lattice(&linear.at_rest);
+        let mut radius = WIDER * linear.norm.size(&linear.away(held)) / SAFETY;
+        for _ in 0..=SMALLER_RADII {
+            let points: Vec<[f64; D]> = [radius, 0.5 * radius]
+                .iter()
+                .flat_map(|radius| lattice.iter().map(|it| linear.point(it, *radius)))
+                .collect();
+            let returns = returns_of(&points);
+            let passes = points.iter().zip(&returns).all(|(point, back)| {
+                let back = back.as_ref().filter(|back| back.events == own.events);
+                back.is_some_and(|back| linear.leads(point, &back.end))
+            });
+            if passes {
+                return Some(linear.neighbourhood(SAFETY * radius));
+            }
+            radius *= SMALLER;
+        }
+        None
+    }
+}
+
+/// The linear part of a return map at a point of an orbit, in the units of a metric.
+struct LinearMap<'a, const D: usize> {
+    centre: [f64; D],
+    metric: &'a Metric<D>,
+    /// The coordinates that are exactly zero and stay so.
+    at_rest: [bool; D],
+    map: Matrix<D>,
+    norm: Norm<D>,
+}
+
+impl<'a, const D: usize> LinearMap<'a, D> {
+    /// That of an orbit's point, whose image is known; none where it does not shrink every difference.
+    fn of(orbit: &OrbitPoint<D>, metric: &'a Metric<D>, image: &[f64; D]) -> Option<Self> {
+        let OrbitPoint { point: centre, jacobian } = *orbit;
+        let at_rest =
+            std::array::from_fn(|i| centre[i] == 0.0 && image[i] == 0.0 && jacobian[i] == [0.0; D]);
+        let map = scaled(&jacobian, metric, &at_rest);
+        let norm = Norm::of(&map)?;
+        Some(LinearMap { centre, metric, at_rest, map, norm })
+    }
+
+    /// How far a point is from the orbit's, in the units of the metric.
+    fn away(&self, point: &[f64; D]) -> [f64; D] {
+        std::array::from_fn(|i| self.metric.scales[i] * (point[i] - self.centre[i]))
+    }
+
+    /// The point in a direction on the ellipsoid of a radius.
+    fn point(&self, direction: &[f64; D], radius: f64) -> [f64; D] {
+        let along = self.norm.unit(direction);
+        std::array::from_fn(|i| self.centre[i] + radius * along[i] / self.metric.scales[i])
+    }
+
+    /// Whether a point is led to another nearly as the linear map leads it.
+    fn leads(&self, point: &[f64; D], image: &[f64; D]) -> bool {
+        let (from, to) = (self.away(point), self.away(image));
+        let rest = std::array::from_fn(|i| {
+            to[i] - self.map[i].iter().zip(&from).map(|(a, x)| a * x).sum::<f64>()
+        });
+        let allowed = CURVED * (1.0 - self.norm.theta) * self.norm.size(&from);
+        let rests = (0..D).all(|i| !self.at_rest[i] || image[i] == 0.0);
+        rests && self.norm.size(&rest) <= allowed
+    }
+
+    /// The ellipsoid of a radius.
+    fn neighbourhood(&self, radius: f64) -> Neighbourhood<D> {
+        let scales = &self.metric.scales;
+        let form = std::array::from_fn(|i| {
+            let of = |j: usize| self.norm.form[i][j] * scales[i] * scales[j] / (radius * radius);
+            std::array::from_fn(of)
+        });
+        Neighbourhood { centre: self.centre, form, at_rest: self.at_rest }
     }
 }
 

@@ -1,12 +1,13 @@
-//! The section points of many cases after a number of cycles that are waited, as a bifurcation diagram needs
-//! them where nothing is to be proven.
+//! The section points of many cases after a number of cycles that are waited, without derivatives: as a bifurcation
+//! diagram needs them where nothing is to be proven, and as the proof of a neighbourhood does.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::flow::{Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
-use crate::lane::{Lane, Mask, SideBySide, Work};
+use crate::flow::{Event, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
+use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
+use super::return_map::Cycles;
 use super::{Case, Machine};
 
 /// The last section points of a case.
@@ -34,14 +35,50 @@ pub fn returns<M: System<D>, const D: usize>(
     let nothing = Returns { points: Vec::new(), failure: None };
     let (taken, found) = (AtomicUsize::new(0), Mutex::new(vec![nothing; cases.len()]));
     machine.share_out(cases.len(), |share, instructions| {
-        let (waited, kept) = (waited as usize, kept);
-        let own = instructions.run(Crowd { cases, taken: &taken, share, waited, kept, tolerance });
+        let (waited, events) = (waited as usize, false);
+        let crowd = Crowd { cases, taken: &taken, share, waited, kept, events, tolerance };
+        let own = instructions.run(crowd);
         let mut found = found.lock().expect("no thread has panicked");
-        for (index, returns) in own {
+        for (index, returns, _) in own {
             found[index] = returns;
         }
     });
     found.into_inner().expect("no thread has panicked")
+}
+
+/// A return without derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlainReturn<E, const D: usize> {
+    /// The section point.
+    pub end: [f64; D],
+    /// The events in order.
+    pub events: Vec<E>,
+}
+
+/// Where some section points of a system return to after so many cycles; none where the motion cannot be followed so
+/// far.
+///
+/// Guarantees: the same bits by any instructions.
+///
+/// # Panics
+/// Where the processor does not have the instructions.
+pub fn plain_returns<M: System<D>, const D: usize>(
+    instructions: Instructions,
+    system: &M,
+    points: &[[f64; D]],
+    cycles: &Cycles,
+) -> Vec<Option<PlainReturn<M::Event, D>>> {
+    let case = |point: &[f64; D]| Case::new(system.clone(), M::Single::state(*point));
+    let cases: Vec<_> = points.iter().map(case).collect();
+    let (taken, share, kept, events) = (AtomicUsize::new(0), usize::MAX, 1, true);
+    let (waited, tolerance) = (cycles.count.saturating_sub(1) as usize, cycles.tolerance);
+    let crowd = Crowd { cases: &cases, taken: &taken, share, waited, kept, events, tolerance };
+    let mut found: Vec<_> = points.iter().map(|_| None).collect();
+    for (index, returns, events) in instructions.run(crowd) {
+        let end = returns.points.last().filter(|_| returns.failure.is_none());
+        found[index] = end.map(|end| PlainReturn { end: *end, events });
+    }
+    found
 }
 
 /// The cases, and how many of them any thread has taken.
@@ -52,16 +89,22 @@ struct Crowd<'a, M: System<D>, const D: usize> {
     share: usize,
     waited: usize,
     kept: usize,
+    /// Whether events are noted.
+    events: bool,
     tolerance: f64,
 }
 
-/// A case in a lane: its index, the cycles met, the steps of the next, and the points kept.
-struct Occupant<const D: usize> {
+/// A case in a lane: its index, the cycles met, the steps of the next, and the points and events noted.
+struct Occupant<E, const D: usize> {
     index: usize,
     cycles: usize,
     steps: u64,
     points: Vec<[f64; D]>,
+    events: Vec<E>,
 }
+
+/// The index of a case, its section points, and its events where they are noted.
+type Followed<E, const D: usize> = (usize, Returns<D>, Vec<E>);
 
 impl<M: System<D>, const D: usize> Crowd<'_, M, D> {
     /// The next case.
@@ -72,7 +115,7 @@ impl<M: System<D>, const D: usize> Crowd<'_, M, D> {
 }
 
 impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
-    type Output = Vec<(usize, Returns<D>)>;
+    type Output = Vec<Followed<M::Event, D>>;
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Self::Output {
@@ -81,14 +124,15 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
         let system = first.system.single();
         let mut motion = Motion::<L, M::In<L>>::splat(&Motion::new(&system, 0.0, first.start));
         let mut system = M::In::<L>::splat(&system);
-        let mut lanes: Vec<Option<Occupant<D>>> = (0..L::WIDTH).map(|_| None).collect();
+        let mut lanes: Vec<Option<Occupant<M::Event, D>>> = (0..L::WIDTH).map(|_| None).collect();
         let refill = |lane: usize, system: &mut M::In<L>, motion: &mut Motion<L, M::In<L>>| {
             let (index, case) = self.next()?;
             assert!(case.system.is_alike(&first.system), "cases side by side are alike");
             let one = case.system.single();
             system.put(lane, &one);
             motion.put(lane, &Motion::new(&one, case.begins, case.start));
-            Some(Occupant { index, cycles: 0, steps: 0, points: Vec::new() })
+            let (points, events) = (Vec::new(), Vec::new());
+            Some(Occupant { index, cycles: 0, steps: 0, points, events })
         };
         for (lane, occupant) in lanes.iter_mut().enumerate().take(self.share) {
             *occupant = refill(lane, &mut system, &mut motion);
@@ -105,12 +149,15 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
             for (lane, place) in lanes.iter_mut().enumerate() {
                 let Some(occupant) = place else { continue };
                 occupant.steps += 1;
+                if self.events {
+                    occupant.events.extend(M::Event::from_code(step.event.lane(lane)));
+                }
                 let slow = occupant.steps >= STEPS_PER_CYCLE;
                 if broken >> lane & 1 != 0 || slow {
                     let why = motion.breakdown(&system, lane);
                     let failure = Some(why.map_or(Reason::TooManySteps, Reason::from));
                     let points = std::mem::take(&mut occupant.points);
-                    done.push((occupant.index, Returns { points, failure }));
+                    done.push((occupant.index, Returns { points, failure }, Vec::new()));
                 } else if arrived >> lane & 1 != 0 {
                     occupant.steps = 0;
                     occupant.cycles += 1;
@@ -121,7 +168,8 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
                         continue;
                     }
                     let points = std::mem::take(&mut occupant.points);
-                    done.push((occupant.index, Returns { points, failure: None }));
+                    let events = std::mem::take(&mut occupant.events);
+                    done.push((occupant.index, Returns { points, failure: None }, events));
                 } else {
                     continue;
                 }

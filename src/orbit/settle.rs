@@ -2,9 +2,9 @@
 
 use crate::flow::System;
 
-use super::measure::{Found, conclude};
-use super::passage::OneByOne;
-use super::settling::{Settling, Verdict};
+use super::measure::Found;
+use super::settling::{Foretold, Settling, Verdict};
+use super::underway::Underway;
 use super::{Case, Failure, OrbitOf, Protocol, Trajectory};
 
 /// Follows a case to the first section, from there until it settles, and measures it.
@@ -15,19 +15,7 @@ pub fn settle<M: System<D>, const D: usize>(
     case: &Case<M, D>,
     protocol: &Protocol,
 ) -> OrbitOf<M, D> {
-    let system = case.system.single();
-    let mut trajectory = Trajectory::begun(&system, case.start, case.begins, protocol.tolerance)
-        .limited(protocol.max_steps);
-    let mut settling = Settling::new(protocol, case.system.metric());
-    if trajectory.is_at_section() {
-        settling.meet(trajectory.section());
-    }
-    let settled = find_period::<M, D>(&mut trajectory, &mut settling, protocol);
-    let found = settled.map(|end| match end {
-        End::Found(found) => found,
-        End::Inside(_) => unreachable!("no orbit is known"),
-    });
-    conclude(&mut trajectory, case, found, protocol, &OneByOne)
+    Underway::new(0, case.clone(), protocol, None).finish(protocol).1
 }
 
 /// How a case has come to its end.
@@ -37,15 +25,27 @@ pub(super) enum End<const D: usize> {
     Found(Found<D>),
     /// It is in the neighbourhood of the known orbit of this number.
     Inside(usize),
+    /// It seems to tend to this orbit, which is to be proven.
+    Foretold(Foretold<D>),
+    /// It is in the neighbourhood of the orbit that was foretold.
+    Home,
 }
 
-impl<const D: usize> From<Found<D>> for End<D> {
-    fn from(found: Found<D>) -> Self {
-        End::Found(found)
+impl<const D: usize> End<D> {
+    /// That which follows from a section point, if the case is at an end; nothing is foretold any more where its budget
+    /// of cycles is `exhausted`.
+    pub(super) fn of(verdict: Verdict<D>, exhausted: bool) -> Option<Self> {
+        match verdict {
+            Verdict::Unsettled => None,
+            Verdict::Settled(settled) => Some(End::Found(Found::Repeats(settled))),
+            Verdict::Inside(number) => Some(End::Inside(number)),
+            Verdict::Foretold(foretold) => (!exhausted).then_some(End::Foretold(foretold)),
+            Verdict::Home => Some(End::Home),
+        }
     }
 }
 
-/// Follows until the section repeats, a known orbit is near, or the budget of cycles ends.
+/// Follows until the section repeats, an orbit is near or foretold, or the budget of cycles ends.
 pub(super) fn find_period<M: System<D>, const D: usize>(
     trajectory: &mut Trajectory<'_, M::Single, D>,
     settling: &mut Settling<D>,
@@ -53,15 +53,10 @@ pub(super) fn find_period<M: System<D>, const D: usize>(
 ) -> Result<End<D>, Failure<M::State<f64>>> {
     while trajectory.progress.cycles < protocol.max_cycles {
         trajectory.cycle(|_| ())?;
-        match settling.meet(trajectory.section()) {
-            Verdict::Settled(settled) => return Ok(Found::Repeats(settled).into()),
-            Verdict::Inside(number) => return Ok(End::Inside(number)),
-            // At the end of the budget the motion is measured where it is.
-            Verdict::Leap(section) if trajectory.progress.cycles < protocol.max_cycles => {
-                trajectory.leap(section);
-            }
-            Verdict::Leap(_) | Verdict::Unsettled => {}
+        let exhausted = trajectory.progress.cycles >= protocol.max_cycles;
+        if let Some(end) = End::of(settling.meet(trajectory.section()), exhausted) {
+            return Ok(end);
         }
     }
-    Ok(Found::Aperiodic.into())
+    Ok(End::Found(Found::Aperiodic))
 }

@@ -11,13 +11,10 @@ use super::known_orbits::KnownOrbits;
 use super::measure::Found;
 use super::passage::Integrator;
 use super::settle::End;
-use super::settling::{Settling, Verdict};
-use super::trajectory::{Progress, leap};
-use super::underway::{Finding, Underway};
+use super::settling::Settling;
+use super::trajectory::Progress;
+use super::underway::{Conclusion, Finding, Underway};
 use super::{Case, OrbitOf, Protocol, Trajectory};
-
-/// A case by its number with what it has settled to.
-type Done<M, const D: usize> = (usize, OrbitOf<M, D>);
 
 /// With no more than one lane in so many at work, cases are followed faster one by one.
 const WORTHWHILE: usize = 4;
@@ -84,7 +81,7 @@ struct Supply<'a, M: System<D>, const D: usize> {
     /// side.
     aperiodic: Vec<Underway<M, D>>,
     /// Cases that are being certified and measured.
-    concluding: Batch<M, Done<M, D>, D>,
+    concluding: Batch<M, Conclusion<M, D>, D>,
     /// Cases that could depart, or go on, had they a lane.
     ready: Vec<Underway<M, D>>,
     /// With no more than one lane in so many at work, the lanes are left.
@@ -163,7 +160,7 @@ impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
         let followed = follow_aperiodic_side_by_side(self.instructions, &motions, self.protocol);
         for (case, followed) in cases.into_iter().zip(followed) {
             self.conclude(case, move |trajectory, _| {
-                let followed = followed.map(|it| End::from(Found::Followed(it)));
+                let followed = followed.map(|it| End::Found(Found::Followed(it)));
                 followed.map_err(|reason| trajectory.failure(reason))
             });
         }
@@ -177,6 +174,8 @@ impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
         + 'static,
     ) {
         let protocol = *self.protocol;
+        // A computation has little room for what it begins with.
+        let case = Box::new(case);
         let conclude =
             move |integrator: &dyn Integrator<M, D>| case.conclude(&protocol, found, integrator);
         let done = self.concluding.begin(conclude);
@@ -189,10 +188,13 @@ impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
         self.pass_on(done);
     }
 
-    /// Hands on cases that are done, and takes those that follow them.
-    fn pass_on(&mut self, done: impl IntoIterator<Item = Done<M, D>>) {
-        for done in done {
-            let next = self.next(Some(done));
+    /// Hands on cases that are done and takes those that follow them; others go on.
+    fn pass_on(&mut self, concluded: impl IntoIterator<Item = Conclusion<M, D>>) {
+        for conclusion in concluded {
+            let next = match conclusion {
+                Conclusion::Done(number, orbit) => self.next(Some((number, orbit))),
+                Conclusion::GoesOn(case) => Some(*case),
+            };
             self.ready.extend(next);
         }
     }
@@ -269,20 +271,14 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
         case.progress.count(duration);
         self.cycle_began[lane] = self.steps;
         let exhausted = case.progress.cycles >= self.cases.protocol.max_cycles;
-        match case.settling.meet(M::Single::point(state)) {
-            Verdict::Settled(settled) => {
-                self.replace(lane, move |_, _| Ok(Found::Repeats(settled).into()))
-            }
-            Verdict::Inside(number) => self.replace(lane, move |_, _| Ok(End::Inside(number))),
-            // At the end of the budget the motion is measured where it is.
-            _ if exhausted => {
-                let case = self.take(lane).expect("the lane is occupied");
-                self.cases.aperiodic.push(case);
-                let next = self.cases.next(None);
-                self.fill_lane(lane, next);
-            }
-            Verdict::Leap(section) => self.motion.put(lane, &leap(&case.system, state, section)),
-            Verdict::Unsettled => {}
+        let end = End::of(case.settling.meet(M::Single::point(state)), exhausted);
+        if let Some(end) = end {
+            self.replace(lane, move |_, _| Ok(end));
+        } else if exhausted {
+            let case = self.take(lane).expect("the lane is occupied");
+            self.cases.aperiodic.push(case);
+            let next = self.cases.next(None);
+            self.fill_lane(lane, next);
         }
     }
 
