@@ -19,6 +19,8 @@ use super::{Dataset, Values, Variable, drawn, provenance};
 pub const RESISTANCE: &str = "resistance";
 /// Attribute: the reading of the switching between stick and slip.
 pub const SWITCHING: &str = "friction_switching";
+/// Attribute: what was taken where the study leaves it open, see [`Study::remarks`].
+pub const REMARKS: &str = "study_remarks";
 /// Attribute: differs between studies whose cases differ, see [`Study::fingerprint`].
 pub const FINGERPRINT: &str = "study_fingerprint";
 
@@ -95,6 +97,9 @@ pub fn frame(study: &Study) -> Dataset {
     dataset.attributes.insert(SWITCHING.to_owned(), study.base.switching.name().to_owned());
     dataset.attributes.insert(RESISTANCE.to_owned(), study.base.resistance.name().to_owned());
     dataset.attributes.insert(FINGERPRINT.to_owned(), study.fingerprint());
+    if !study.remarks.is_empty() {
+        dataset.attributes.insert(REMARKS.to_owned(), study.remarks.join("; "));
+    }
     if let Some(inherit) = study.inherit() {
         let axis = study.axes()[inherit.axis].coordinate.name();
         dataset.attributes.insert(INHERITED_ALONG.to_owned(), axis.to_owned());

@@ -17,7 +17,7 @@ use super::{
 impl Study {
     /// The study as the text of a study file, with all digits and in SI units.
     ///
-    /// [`Study::parse`] makes the same study of it, but for `text`, if the study is one that
+    /// [`Study::parse`] makes the same study of it, but for `text` and `remarks`, if the study is one that
     /// [`Study::validated`] accepts. What the study holds constant of a coordinate that varies is left out.
     pub fn to_toml(&self) -> String {
         let mut document = Document::default();

@@ -73,6 +73,7 @@ mod motion_fits;
 mod mutants;
 mod neutral;
 mod observers;
+mod one_coefficient;
 mod optima;
 mod oscillators;
 mod panels;
