@@ -6,6 +6,7 @@ mod basin_measures;
 mod basins;
 mod belt;
 mod blocks;
+mod boundary_scaling;
 mod branch;
 mod branch_curves;
 mod branch_ends;
