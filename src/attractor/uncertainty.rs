@@ -140,10 +140,7 @@ impl Samples {
             counts.iter().map(|it| it.size.log_share_without(&it.slabs[axis][slab])).collect()
         };
         let slabs = |axis: usize| (0..SLABS).map(|slab| without(axis, slab)).collect();
-        Samples {
-            whole: counts.iter().map(log).collect(),
-            without: (0..axes).map(slabs).collect(),
-        }
+        Samples { whole: counts.iter().map(log).collect(), without: (0..axes).map(slabs).collect() }
     }
 
     /// A number that follows from the logarithms of the shares, with its statistical error: infinite where all that is crossed by

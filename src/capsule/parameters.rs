@@ -110,15 +110,16 @@ impl Parameters {
         let other = if completed == Parameter::MuS { Parameter::MuD } else { Parameter::MuS };
         let [completed, other] = [completed, other].map(Parameter::symbol);
         let value = self[Parameter::MuD];
-        format!("{completed} is not given: Coulomb's law knows one coefficient, so {completed} = {other} = {value}")
+        format!(
+            "{completed} is not given: Coulomb's law knows one coefficient, so {completed} = {other} = {value}"
+        )
     }
 
     /// That mu_s has no effect, in a sentence, where the friction at the onset of sliding is larger and alone decides when rest
     /// ends. In Eq. (1) as printed mu_s always has one.
     pub fn idle_static_friction(&self) -> Option<String> {
         let drag = self.drag();
-        let is_idle =
-            self.switching == Switching::Filippov && drag.static_limit < drag.at_onset;
+        let is_idle = self.switching == Switching::Filippov && drag.static_limit < drag.at_onset;
         let onset = self.resistance.onset_in_words();
         is_idle.then(|| {
             format!(

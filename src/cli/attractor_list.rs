@@ -70,13 +70,13 @@ fn boundary(dataset: &Dataset) -> String {
         return String::new();
     };
     let mut text = format!(
-        "\nboundary of the basins: dimension {dimension:.3} ± {error:.3}, uncertainty exponent {exponent:.3} ± {error:.3}\n"
+        "\nboundary of the basins: dimension {dimension:.3} ± {error:.3}, uncertainty exponent {exponent:.3} ± {error:.3} (sizes in starts)\n"
     );
     let [spans, slopes, errors] = [UNCERTAINTY_SPAN, UNCERTAINTY_SLOPE, UNCERTAINTY_SLOPE_ERROR]
         .map(|entry| numbers(dataset, entry.name));
     for ((span, slope), error) in spans.iter().zip(&slopes).zip(&errors) {
         if slope.is_finite() {
-            let _ = writeln!(text, "  local slope {slope:.3} ± {error:.3} from boxes of {span} starts on");
+            let _ = writeln!(text, "  local slope {slope:.3} ± {error:.3} from the size {span} on");
         }
     }
     if once(UNCERTAINTY_SCALES.name) == Some(0.0) {

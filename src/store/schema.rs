@@ -115,7 +115,7 @@ pub fn numbers_of_case(study: &Study) -> BTreeMap<String, usize> {
 }
 
 /// How the cases were integrated, which the file says even where the study left it to the program.
-fn protocol(study: &Study) -> [(String, String); 8] {
+fn protocol(study: &Study) -> [(String, String); 9] {
     let protocol = &study.protocol;
     [
         ("tolerance", format!("{:e}", protocol.tolerance)),
@@ -126,6 +126,7 @@ fn protocol(study: &Study) -> [(String, String); 8] {
         ("max_period", protocol.max_period.to_string()),
         ("measured_cycles", protocol.measured_cycles.to_string()),
         ("exponent_cycles", protocol.exponent_cycles.to_string()),
+        ("exponent_error", format!("{:e}", protocol.exponent_error)),
     ]
     .map(|(key, value)| (format!("{OF_PROTOCOL}{key}"), value))
 }

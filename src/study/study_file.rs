@@ -6,6 +6,7 @@ use crate::capsule::{Dimension, Output};
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
 
+use super::Refine;
 use super::axis_file::read_case_set;
 use super::branch_file::{Surroundings, read_branches};
 use super::definition::Study;
@@ -15,7 +16,6 @@ use super::include;
 use super::parameter_table::read_parameters;
 use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
-use super::Refine;
 
 /// More numbers in the results than this (32 GB) are too, rather than found out after a night.
 const MOST_NUMBERS: usize = 4_000_000_000;
@@ -127,6 +127,16 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
         {
             let given = protocol.exponent_cycles;
             entry.fault(format!("{given} are too few for an exponent; {BATCHES} or more, or 0"));
+        }
+        if let Some(entry) = table.entry("exponent_error")
+            && let Some(given) = entry.quantity(Dimension::Number)
+        {
+            let [least, most] =
+                [Protocol::EXPONENT_ERRORS.start(), Protocol::EXPONENT_ERRORS.end()];
+            match Protocol::EXPONENT_ERRORS.contains(&given) {
+                true => protocol.exponent_error = given,
+                false => entry.fault(format!("{given} must lie between {least} and {most}")),
+            }
         }
         let size = |key: &str, least: u64, most: u64, value: &mut usize| {
             let mut found = *value as u64;

@@ -275,6 +275,7 @@ fn write_protocol(document: &mut Document, protocol: &Protocol) {
     document.put("max_period", protocol.max_period);
     document.put("measured_cycles", protocol.measured_cycles);
     document.put("exponent_cycles", protocol.exponent_cycles);
+    document.put("exponent_error", number(protocol.exponent_error));
     document.put("points", protocol.points);
     document.put("impact_points", protocol.impact_points);
     if let Some(HistorySpan { cycles, per_cycle, from_start }) = protocol.history {

@@ -3,6 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use capsulemap::attractor::{Label, Uncertainty, uncertainty};
+use capsulemap::store;
+
+use super::program::{TWO_MOTIONS, WorkDir};
 
 /// What the labels of a function over the unit square say, on a grid of so many starts a side.
 fn of(side: usize, label: impl Fn(f64, f64) -> u32) -> Uncertainty {
@@ -27,8 +30,7 @@ fn ellipse(draw: &mut fastrand::Rng) -> [f64; 5] {
 fn inside(ellipse: &[f64; 5], x: f64, y: f64) -> bool {
     let [x0, y0, a, b, angle] = *ellipse;
     let (sin, cos) = angle.sin_cos();
-    let (along, across) =
-        ((x - x0) * cos + (y - y0) * sin, (y - y0) * cos - (x - x0) * sin);
+    let (along, across) = ((x - x0) * cos + (y - y0) * sin, (y - y0) * cos - (x - x0) * sin);
     (along / a).hypot(across / b) < 1.0
 }
 
@@ -125,4 +127,38 @@ fn a_boundary_that_is_smooth_below_a_length_alone_is_told_to_have_no_exponent() 
         let told = wavy.slopes.iter().find(|it| it.spans[0] == pair[0].span).expect("a slope");
         assert!((slope - told.slope.value).abs() < 1e-12, "{slope} {told:?}");
     }
+}
+
+#[test]
+fn the_file_and_inspect_tell_what_the_labels_say() {
+    let axis = |name: &str, most: &str| {
+        format!("[[axes]]\nname = \"{name}\"\nfrom = \"-{most}\"\nto = \"{most}\"\npoints = 96\n")
+    };
+    let axes = axis("start_r", "6 mm") + &axis("start_y1", "1.5 m/s");
+    let folder = WorkDir::new();
+    folder.put("two.toml", format!("{TWO_MOTIONS}omega = \"155 rad/s\"\n{axes}"));
+    folder.run(&["sweep", "two.toml"]).done();
+    let file = "results/two/two.h5";
+    let dataset = store::read(&folder.path(file)).expect("a file of results");
+    let column = |name: &str| -> Vec<f64> {
+        dataset.variable(name).expect(name).values.to_real().into_iter().collect()
+    };
+    let labels = column("attractor");
+    let label = |start: usize| match labels[start] {
+        number if number < 0.0 => Label::Undecided,
+        number => Label::Attractor(number as u32),
+    };
+    let found = uncertainty(&[96, 96], label).expect("a boundary");
+    assert_eq!(column("uncertainty_exponent"), [found.exponent.value]);
+    assert_eq!(column("uncertainty_exponent_error"), [found.exponent.error]);
+    assert_eq!(column("boundary_dimension"), [2.0 - found.exponent.value]);
+    assert_eq!(column("uncertainty_scales"), [f64::from(u8::from(found.scales))]);
+    assert_eq!(column("uncertainty_span"), [1.0, 2.0, 4.0]);
+    let slopes: Vec<f64> = found.slopes.iter().map(|it| it.slope.value).collect();
+    assert_eq!(column("uncertainty_slope")[..2], slopes[..]);
+    assert!(column("uncertainty_slope")[2].is_nan());
+    let told = folder.run(&["inspect", file]).done().out;
+    let line = format!("boundary of the basins: dimension {:.3} ± ", 2.0 - found.exponent.value);
+    assert!(told.contains(&line), "{told}");
+    assert_eq!(told.contains("\n  no power law: "), !found.scales, "{told}");
 }

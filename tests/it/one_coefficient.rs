@@ -80,7 +80,8 @@ fn what_is_given_is_left_as_it_is_and_an_axis_is_not_followed() {
         let text = format!("[parameters]\nresistance = \"coulomb\"\n{open}\n{axis}");
         let faults = Study::parse("one.toml", &text).expect_err("one is missing").to_string();
         assert!(faults.contains(&format!("parameters.{missing}: missing; expected")), "{faults}");
-        let text = format!("[parameters]\nresistance = \"coulomb\"\n{open}\n{missing} = 0.1\n{axis}");
+        let text =
+            format!("[parameters]\nresistance = \"coulomb\"\n{open}\n{missing} = 0.1\n{axis}");
         assert!(Study::parse("one.toml", &text).is_ok());
     }
 }
