@@ -1,5 +1,7 @@
 //! The laws of resistance to the capsule, and how friction switches, by name.
 
+use super::parameter::Parameter;
+
 /// The law of resistance to the capsule's motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Resistance {
@@ -35,11 +37,12 @@ impl Resistance {
     }
 
     /// The friction coefficient where sliding begins, in words.
-    pub fn onset_in_words(self) -> &'static str {
+    pub fn onset_in_words(self) -> String {
+        let coefficient = Parameter::MuD.symbol();
         match self {
-            Resistance::CoulombStribeck => "2 mu_d",
-            Resistance::Coulomb => "mu_d",
-            Resistance::Medium => "0",
+            Resistance::CoulombStribeck => format!("2 {coefficient}"),
+            Resistance::Coulomb => coefficient.to_owned(),
+            Resistance::Medium => "0".to_owned(),
         }
     }
 }
