@@ -14,7 +14,7 @@ mod uncertainty;
 
 pub use basin::{Entropy, Estimate, entropy};
 pub use bridge::{Bridge, bridges};
-pub use edge::{EdgeSearch, LeadTo, Saddle};
+pub use edge::{EdgeSearch, LeadTo, Met, Saddle};
 pub use final_motion::FinalMotion;
 pub use identity::{Attractor, coincide};
 pub use integrity::{Integrity, integrity};
