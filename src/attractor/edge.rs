@@ -2,7 +2,7 @@
 
 use crate::flow::System;
 use crate::orbit::Protocol;
-use crate::orbit::matrix::{Complex, eigenvalues};
+use crate::orbit::matrix::{Complex, Matrix, eigenvalues};
 use crate::orbit::newton::close;
 use crate::orbit::passage::{Integrator, image};
 use crate::orbit::precision::closes;
@@ -18,6 +18,15 @@ pub struct Saddle<const D: usize> {
     pub multipliers: [Complex; D],
     /// How far its section is from repeating after the period, relative to the motion [-].
     pub residual: f64,
+}
+
+/// A saddle that a search has met, and what is on the two sides of the boundary there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Met<const D: usize> {
+    /// The attractors to which the motions on the two sides of the boundary lead, by their numbers.
+    pub sides: [u32; 2],
+    /// The orbit.
+    pub saddle: Saddle<D>,
 }
 
 /// Points at which a segment is divided at a time: they are followed side by side.
@@ -37,6 +46,10 @@ const CYCLES: usize = 256;
 const ROUNDS: usize = 24;
 /// The longest period that is sought.
 const LONGEST: usize = 16;
+/// How far a saddle is pushed along its unstable direction, relative to the motion: far beyond its error, and near.
+const PUSH: f64 = 1e-6;
+/// Times that a vector is turned to the unstable direction; another multiplier beside it may be nearly as large.
+const POWERS: usize = 200;
 /// To this share of the size of an orbit its points are rounded before the least is sought.
 const LEAST: f64 = 1e-6;
 
@@ -56,22 +69,30 @@ pub struct EdgeSearch<'a, M: System<D>, const D: usize> {
 }
 
 impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
-    /// The saddle to which the motions tend that begin on the boundary between two section points, of which only the first
-    /// leads to attractor `first`; none where no orbit of a period of up to 16 cycles is met, as the motion on the boundary
-    /// does not repeat or is longer.
+    /// The saddle to which the motions tend that begin on a boundary between two section points; none where these do not lead
+    /// to two known attractors, where no orbit of a period of up to 16 cycles is met, as the motion on the boundary does not
+    /// repeat or is longer, or where pushes of it do not lead to two known attractors.
+    ///
+    /// The boundary is the first on the way from the first point. Where a third basin lies between the two, it is that of
+    /// the third: what the saddle parts is told by motions that begin beside it, to either side along its unstable direction.
     ///
     /// Method: two points on the two sides of the boundary are brought together by division of the segment between them, and
     /// followed until they part; from where they were still close they are brought together anew (Skufca, Yorke and Eckhardt
     /// 2006). Where both come back to where they were, Newton's method on the return map closes the orbit. Guarantees: it
     /// closes to rounding and has exactly one multiplier beyond 1 in magnitude. Breaks: where the boundary is fractal the
     /// saddle depends on the starts, and is one of many.
-    pub fn saddle(&self, ends: [[f64; D]; 2], first: u32) -> Option<Saddle<D>> {
-        let mut ends = ends;
+    pub fn saddle(&self, points: [[f64; D]; 2]) -> Option<Met<D>> {
+        let leads = (self.leads)(&points);
+        let first = leads[0]?;
+        if leads[1].is_none_or(|second| second == first) {
+            return None;
+        }
+        let mut ends = points;
         for _ in 0..ROUNDS {
             ends = self.together(ends, first);
             let trail = self.trail(ends)?;
-            if let Some(saddle) = self.closed(&trail) {
-                return Some(saddle);
+            if let Some(closed) = self.closed(&trail) {
+                return self.met(closed);
             }
             let metric = self.system.metric();
             let is_near = |pair: &&[[f64; D]; 2]| {
@@ -84,6 +105,14 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
             ends = trail[near - 1];
         }
         None
+    }
+
+    /// A saddle with what small pushes along its unstable direction lead to, which are two attractors where it lies on their boundary.
+    fn met(&self, closed: Saddled<D>) -> Option<Met<D>> {
+        let Saddled { saddle, pushes } = closed;
+        let leads = (self.leads)(&pushes);
+        let sides = [leads[0]?, leads[1]?];
+        (sides[0] != sides[1]).then_some(Met { sides, saddle })
     }
 
     /// Two points on the two sides of the boundary, close together.
@@ -127,7 +156,7 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
     }
 
     /// The saddle near which a trail returns, the closest return first.
-    fn closed(&self, trail: &[[[f64; D]; 2]]) -> Option<Saddle<D>> {
+    fn closed(&self, trail: &[[[f64; D]; 2]]) -> Option<Saddled<D>> {
         let metric = self.system.metric();
         let size = trail.iter().map(|[point, _]| metric.size(point)).fold(0.0, f64::max);
         for period in 1..=LONGEST.min(trail.len().saturating_sub(1)) {
@@ -145,7 +174,7 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
     }
 
     /// The saddle of this period near a section point.
-    fn close(&self, point: [f64; D], period: usize, size: f64) -> Option<Saddle<D>> {
+    fn close(&self, point: [f64; D], period: usize, size: f64) -> Option<Saddled<D>> {
         let metric = self.system.metric();
         let cycles = Cycles { count: period as u64, tolerance: self.protocol.tolerance };
         let image_of = |at: &[f64; D]| image(self.integrator, self.system, at, &cycles);
@@ -164,6 +193,29 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
         let key = |place: &usize| metric.rounded(&points[*place], LEAST * metric.largest(&points));
         let least = (0..period).min_by_key(key).unwrap_or(0);
         points.rotate_left(least);
-        Some(Saddle { points, multipliers, residual: closed.residual })
+        let along = self.unstable(&closed.jacobian).map(|it| it * PUSH * size);
+        let pushes =
+            [1.0, -1.0].map(|side| std::array::from_fn(|i| closed.point[i] + side * along[i]));
+        let saddle = Saddle { points, multipliers, residual: closed.residual };
+        Some(Saddled { saddle, pushes })
     }
+
+    /// The direction of the one multiplier beyond 1, of size one in the units of the metric: what a matrix turns any vector to.
+    fn unstable(&self, jacobian: &Matrix<D>) -> [f64; D] {
+        let metric = self.system.metric();
+        let mut vector: [f64; D] = std::array::from_fn(|i| 1.0 / metric.scales[i]);
+        for _ in 0..POWERS {
+            let image: [f64; D] =
+                std::array::from_fn(|i| (0..D).map(|j| jacobian[i][j] * vector[j]).sum());
+            let size = metric.size(&image);
+            vector = image.map(|it| it / size);
+        }
+        vector
+    }
+}
+
+/// A saddle, and two points beside it, to either side along its unstable direction.
+struct Saddled<const D: usize> {
+    saddle: Saddle<D>,
+    pushes: [[f64; D]; 2],
 }

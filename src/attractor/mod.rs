@@ -10,10 +10,11 @@ mod link;
 mod share;
 mod shock;
 mod table;
+mod uncertainty;
 
-pub use basin::{Entropy, Estimate, Uncertainty, entropy, uncertainty};
+pub use basin::{Entropy, Estimate, entropy};
 pub use bridge::{Bridge, bridges};
-pub use edge::{EdgeSearch, LeadTo, Saddle};
+pub use edge::{EdgeSearch, LeadTo, Met, Saddle};
 pub use final_motion::FinalMotion;
 pub use identity::{Attractor, coincide};
 pub use integrity::{Integrity, integrity};
@@ -21,3 +22,4 @@ pub use link::{LinearOrbits, Links, Neighbours, Unseen, linear_orbits};
 pub use share::{Label, Share, shares_of_draws, shares_of_grid};
 pub use shock::{Shock, minimal_critical_shock};
 pub use table::{Executor, Serial, Table, attractors_of};
+pub use uncertainty::{BoxSize, LocalSlope, Uncertainty, uncertainty};

@@ -1,4 +1,6 @@
-//! How far the means of a motion that does not repeat may be from those of endlessly many cycles.
+//! Standard errors of speed and price of the motions of a trade-off that do not repeat.
+
+use crate::capsule::mean_errors::standard_error;
 
 /// Standard errors of the means of a motion that does not repeat.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,12 +16,4 @@ impl MeanErrors {
     pub fn of(speeds: &[f64], prices: &[f64]) -> MeanErrors {
         MeanErrors { speed: standard_error(speeds), price: standard_error(prices) }
     }
-}
-
-/// The standard error of the mean of some numbers.
-fn standard_error(values: &[f64]) -> f64 {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-    (squares / (count - 1.0) / count).sqrt()
 }

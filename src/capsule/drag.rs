@@ -37,17 +37,13 @@ side_by_side!(Drag {
 impl<L: Lane> Drag<L> {
     /// The law with the constants of these parameters.
     ///
-    /// Friction at vanishing speed is 2 mu_d N by the Coulomb-Stribeck law, and rest ends at
+    /// Friction at vanishing speed is 2 mu_d N by the Coulomb-Stribeck law and mu_d N by Coulomb's, and rest ends at
     /// f_b = max(f_s, f_d(0+)): a capsule that left at less would be pushed straight back.
     pub fn new(of: impl Fn(Parameter) -> L, law: Resistance) -> Self {
-        let (of_rest, rise) = match law {
-            Resistance::CoulombStribeck => (1.0, 2.0),
-            Resistance::Coulomb => (1.0, 1.0),
-            Resistance::Medium => (0.0, 0.0),
-        };
+        let of_rest = if law == Resistance::Medium { 0.0 } else { 1.0 };
         let load = (of(Parameter::M1) + of(Parameter::M2)) * of(Parameter::G);
         let static_limit = L::splat(of_rest) * of(Parameter::MuS) * load;
-        let at_onset = L::splat(rise) * of(Parameter::MuD) * load;
+        let at_onset = L::splat(law.onset_factor()) * of(Parameter::MuD) * load;
         Drag {
             law,
             dynamic: of(Parameter::MuD) * load,

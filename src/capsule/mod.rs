@@ -11,6 +11,7 @@ mod failure;
 mod forces;
 pub mod history;
 mod locomotion;
+pub mod mean_errors;
 pub mod output;
 pub mod parameter;
 pub mod parameters;

@@ -60,6 +60,13 @@ outputs! {
     IntegrationDefect "integration_defect" "1" "largest defect of a step of the measured cycles, times its length and relative to the motion";
     ExcludedPeriod "excluded_period" "1" "longest period in drive cycles that is excluded, with all shorter ones";
     SectionResidual "section_residual" "1" "how far the section is from repeating after the period, relative to the motion";
+    ProgressionSpeedError "progression_speed_error" "m/s" "standard error of the mean that the progression speed is of a motion that does not repeat, over batches of cycles";
+    WorkNetError "work_net_error" "J" "standard error of the mean that work_net is of a motion that does not repeat, over batches of cycles";
+    WorkPositiveError "work_positive_error" "J" "standard error of the mean that work_positive is of a motion that does not repeat, over batches of cycles";
+    WorkAbsoluteError "work_absolute_error" "J" "standard error of the mean that work_absolute is of a motion that does not repeat, over batches of cycles";
+    WorkActuatorError "work_actuator_error" "J" "standard error of the mean that work_actuator is of a motion that does not repeat, over batches of cycles";
+    FrictionLossError "friction_loss_error" "J" "standard error of the mean that friction_loss is of a motion that does not repeat, over batches of cycles";
+    DamperLossError "damper_loss_error" "J" "standard error of the mean that damper_loss is of a motion that does not repeat, over batches of cycles";
 }
 
 impl Output {

@@ -90,6 +90,45 @@ impl Parameters {
         self.drag().break_away
     }
 
+    /// Completes the friction where one of mu_s and mu_d is `given` and the other is not: Coulomb's law knows one coefficient, so
+    /// there the other takes its value. Returns which did.
+    pub fn complete_friction(&mut self, given: impl Fn(Parameter) -> bool) -> Option<Parameter> {
+        let (from, to) = match (given(Parameter::MuS), given(Parameter::MuD)) {
+            (true, false) => (Parameter::MuS, Parameter::MuD),
+            (false, true) => (Parameter::MuD, Parameter::MuS),
+            _ => return None,
+        };
+        if self.resistance != Resistance::Coulomb {
+            return None;
+        }
+        self[to] = self[from];
+        Some(to)
+    }
+
+    /// What [`Parameters::complete_friction`] did, in a sentence.
+    pub fn told_of_completed(&self, completed: Parameter) -> String {
+        let other = if completed == Parameter::MuS { Parameter::MuD } else { Parameter::MuS };
+        let [completed, other] = [completed, other].map(Parameter::symbol);
+        let value = self[Parameter::MuD];
+        format!(
+            "{completed} is not given: Coulomb's law knows one coefficient, so {completed} = {other} = {value}"
+        )
+    }
+
+    /// That mu_s has no effect, in a sentence, where the friction at the onset of sliding is larger and alone decides when rest
+    /// ends. In Eq. (1) as printed mu_s always has one.
+    pub fn idle_static_friction(&self) -> Option<String> {
+        let drag = self.drag();
+        let is_idle = self.switching == Switching::Filippov && drag.static_limit < drag.at_onset;
+        let onset = self.resistance.onset_in_words();
+        is_idle.then(|| {
+            format!(
+                "mu_s below {onset} has no effect; the capsule breaks away at {onset} (m1 + m2) g = {} N",
+                drag.break_away
+            )
+        })
+    }
+
     /// The law of resistance with its constants.
     pub fn drag(&self) -> Drag<f64> {
         Drag::new(|parameter| self[parameter], self.resistance)

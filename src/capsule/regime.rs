@@ -111,7 +111,7 @@ pub(super) fn sign<L: Lane>(x: L) -> L {
     L::select(x.lt(L::splat(0.0)), L::splat(-1.0), L::splat(1.0))
 }
 
-/// Whether y2 is zero: on the surface of rest it is so by the guard that led there, derivatives included.
+/// Whether y2 is zero; its derivatives are zero, too, where the capsule is held there.
 #[inline(always)]
 fn at_rest<L: Lane>(state: &State<L>) -> L::Mask {
     state.y2.abs().le(L::splat(0.0))
@@ -244,6 +244,9 @@ impl<L: Lane> Rules<'_, L> {
         let next = Next::select(due, next, Next::new(before, *zeros));
         (*mode, *zeros) = (next.mode, next.zeros);
         zeros[CONTACT] = contact;
+        // A capsule that is pushed off y2 = 0 while frozen slides here instead, and the friction at the onset of sliding, which is
+        // above |F|, brings it back to rest: so pushes along y2 end, and what it has moved by then is of second order.
+        state.y2 = L::select(due & mode.is(Regime::Held), zero, state.y2);
     }
 }
 

@@ -1,12 +1,14 @@
 //! The laws of resistance to the capsule, and how friction switches, by name.
 
+use super::parameter::Parameter;
+
 /// The law of resistance to the capsule's motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Resistance {
-    /// `mu_d (1 + exp(-|y2|/v_s)) N` against the motion; the paper's law.
+    /// `mu_d (1 + exp(-|y2|/v_s)) N` against the motion, so 2 mu_d N where sliding begins; the paper's law.
     #[default]
     CoulombStribeck,
-    /// `mu_d N` against the motion.
+    /// `mu_d N` against the motion, at any speed.
     Coulomb,
     /// `c1 y2 + c2 |y2| y2` against the motion; nothing sticks in a medium (paper, Fig 1b).
     Medium,
@@ -23,6 +25,25 @@ impl Resistance {
     /// Its name.
     pub fn name(self) -> &'static str {
         Resistance::NAMES[self as usize].0
+    }
+
+    /// How many times mu_d N the friction is where sliding begins, f_d(0+).
+    pub fn onset_factor(self) -> f64 {
+        match self {
+            Resistance::CoulombStribeck => 2.0,
+            Resistance::Coulomb => 1.0,
+            Resistance::Medium => 0.0,
+        }
+    }
+
+    /// The friction coefficient where sliding begins, in words.
+    pub fn onset_in_words(self) -> String {
+        let coefficient = Parameter::MuD.symbol();
+        match self {
+            Resistance::CoulombStribeck => format!("2 {coefficient}"),
+            Resistance::Coulomb => coefficient.to_owned(),
+            Resistance::Medium => "0".to_owned(),
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use crate::orbit::{
 use super::account::{Account, Energies, Impact};
 use super::case::Case;
 use super::history::History;
+use super::mean_errors;
 use super::output::{Output, Outputs};
 use super::parameter::Parameter;
 use super::parameters::Parameters;
@@ -136,6 +137,7 @@ impl Orbit {
                     section: Vec::new(),
                     failure: Some(failure),
                     observed: Account::single(&case.parameters, 0),
+                    batches: Vec::new(),
                     ..orbit
                 };
                 Orbit::measured(failed, &case.parameters, None, protocol)
@@ -214,6 +216,7 @@ pub fn outputs(
     outputs[Output::IntegrationDefect] = orbit.defect;
     outputs[Output::ExcludedPeriod] = orbit.excluded;
     outputs[Output::SectionResidual] = orbit.residual;
+    mean_errors::add(&mut outputs, orbit, parameters);
     outputs
 }
 

@@ -1,4 +1,4 @@
-//! The attractors of the starts of a study, and the saddles between their basins, as tables on the terminal.
+//! The attractors of the starts of a study, the saddles between their basins and the boundary of these, as tables on the terminal.
 
 use std::fmt::Write;
 
@@ -6,8 +6,10 @@ use serde_json::{Value, json};
 
 use crate::capsule::Output;
 use crate::store::catalogue::{
-    ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, EDGE_HIGH,
-    EDGE_LOW, EDGE_MULTIPLIER_REAL, EDGE_PERIOD, PERIOD, Place,
+    ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR,
+    BOUNDARY_DIMENSION, EDGE_HIGH, EDGE_LOW, EDGE_MULTIPLIER_REAL, EDGE_PERIOD, PERIOD, Place,
+    UNCERTAINTY_EXPONENT, UNCERTAINTY_EXPONENT_ERROR, UNCERTAINTY_SCALES, UNCERTAINTY_SLOPE,
+    UNCERTAINTY_SLOPE_ERROR, UNCERTAINTY_SPAN,
 };
 use crate::store::{Dataset, Variable};
 
@@ -56,7 +58,36 @@ pub fn saddles(dataset: &Dataset) -> Vec<Value> {
     (0..low.len()).map(one).collect()
 }
 
-/// Both as tables; empty where there is neither.
+/// How the boundary of the basins goes with the size of boxes, and a word where no power law describes it; empty where the file
+/// does not tell.
+fn boundary(dataset: &Dataset) -> String {
+    let once = |name: &str| numbers(dataset, name).first().copied();
+    let (Some(exponent), Some(error), Some(dimension)) = (
+        once(UNCERTAINTY_EXPONENT.name),
+        once(UNCERTAINTY_EXPONENT_ERROR.name),
+        once(BOUNDARY_DIMENSION.name),
+    ) else {
+        return String::new();
+    };
+    let mut text = format!(
+        "\nboundary of the basins: dimension {dimension:.3} ± {error:.3}, uncertainty exponent {exponent:.3} ± {error:.3} (sizes in starts)\n"
+    );
+    let [spans, slopes, errors] = [UNCERTAINTY_SPAN, UNCERTAINTY_SLOPE, UNCERTAINTY_SLOPE_ERROR]
+        .map(|entry| numbers(dataset, entry.name));
+    for ((span, slope), error) in spans.iter().zip(&slopes).zip(&errors) {
+        if slope.is_finite() {
+            let _ = writeln!(text, "  local slope {slope:.3} ± {error:.3} from the size {span} on");
+        }
+    }
+    if once(UNCERTAINTY_SCALES.name) == Some(0.0) {
+        text.push_str(
+            "  no power law: local slopes differ by more than their errors; exponent and dimension are means over these sizes\n",
+        );
+    }
+    text
+}
+
+/// All as tables; empty where there is nothing of it.
 pub fn tables(dataset: &Dataset) -> String {
     let mut text = String::new();
     let (attractors, saddles) = (attractors(dataset), saddles(dataset));
@@ -94,7 +125,7 @@ pub fn tables(dataset: &Dataset) -> String {
                 writeln!(text, "  between {low} and {high}: period {period}, multiplier {largest}");
         }
     }
-    text
+    text + &boundary(dataset)
 }
 
 /// The numbers of a variable as they are stored; none where there is none.

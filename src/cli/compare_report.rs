@@ -190,13 +190,14 @@ fn uncounted(it: &Comparison) -> &'static str {
 
 /// What other values of some parameters explain.
 pub fn explained(comparison: &Comparison, it: &Explanation, varied: &[Varied]) -> String {
-    let of = |parameter| it.changed.iter().find(|it| it.0 == parameter).map(|it| it.1);
-    let mu_d = of(Parameter::MuD).unwrap_or(comparison.motion.parameters[Parameter::MuD]);
-    let without_effect = |parameter, value| parameter == Parameter::MuS && value < 2.0 * mu_d;
+    let mut explaining = comparison.motion.parameters.clone();
+    it.changed.iter().for_each(|(parameter, value, _)| explaining[*parameter] = *value);
+    let is_idle = explaining.idle_static_friction().is_some();
     let (mut changed, mut bounds) = (Vec::new(), String::new());
     for ((parameter, value, bound), varied) in it.changed.iter().zip(varied) {
-        if without_effect(*parameter, *value) {
-            changed.push("mu_s below 2 mu_d, where it has no effect".to_owned());
+        if is_idle && *parameter == Parameter::MuS {
+            let onset = explaining.resistance.onset_in_words();
+            changed.push(format!("mu_s below {onset}, where it has no effect"));
             continue;
         }
         let change = 100.0 * (value / comparison.motion.parameters[*parameter] - 1.0);

@@ -56,7 +56,8 @@ impl Continue {
             let message = format!("{name}: asks for no [[branches]]; studies/README.md shows how");
             return Err(Failure::request(message));
         }
-        study.branches_without_effect().iter().for_each(|why| notify(&format!("note: {why}")));
+        let notes = study.remarks.iter().cloned().chain(study.branches_without_effect());
+        notes.for_each(|why| notify(&format!("note: {why}")));
         let output = output_path(&self.study, self.output.as_deref())?;
         let machine = Machine { threads: self.threads.map(usize::from), instructions: None };
         let overwrite = self.overwrite;

@@ -32,13 +32,11 @@ pub fn table(fit: &MotionFit, varied: &[Varied], is_robust: bool) -> String {
             &format!("strongest correlation {value:+.2}, of {} and {}\n", a.symbol(), b.symbol());
     }
     text += &told_of_misfit(fit, is_robust);
-    if fit
-        .motions
-        .iter()
-        .any(|it| it.parameters.drag().static_limit < it.parameters.drag().at_onset)
-        && fit.fitted.iter().any(|it| it.parameter == Parameter::MuS)
-    {
-        text += "note: mu_s below 2 mu_d has no effect; the capsule breaks away at 2 mu_d\n";
+    if fit.fitted.iter().any(|it| it.parameter == Parameter::MuS) {
+        let mut idle: Vec<String> =
+            fit.motions.iter().filter_map(|it| it.parameters.idle_static_friction()).collect();
+        idle.dedup();
+        idle.iter().for_each(|why| text += &format!("note: {why}\n"));
     }
     text
 }

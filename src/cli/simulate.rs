@@ -52,8 +52,7 @@ pub struct Simulate {
     /// Gap between mass and stop, as "3.5 mm".
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     delta: Option<String>,
-    /// Any parameter (m1, m2, k1, c, k2, delta, p_d, omega, mu_s, mu_d, v_s, g, c1, c2); the capsule leaves
-    /// rest at the force max(mu_s, 2 mu_d) (m1 + m2) g.
+    /// Any parameter (m1, m2, k1, c, k2, delta, p_d, omega, mu_s, mu_d, v_s, g, c1, c2).
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Start of the motion (r, y1, x2, y2); at rest by default.
@@ -77,7 +76,9 @@ pub struct Simulate {
     /// Reading of the switching between stick and slip.
     #[arg(long, value_parser = named(&Switching::NAMES), default_value = "filippov")]
     friction_switching: Switching,
-    /// Law of resistance to the capsule.
+    /// Law of resistance to the capsule, with the normal load N = (m1 + m2) g: coulomb-stribeck is mu_d (1 + exp(-|y2|/v_s)) N
+    /// while it slides, and rest ends at max(mu_s, 2 mu_d) N; coulomb is mu_d N, and rest ends at max(mu_s, mu_d) N, where one of
+    /// mu_s and mu_d given alone is both; medium is c1 y2 + c2 |y2| y2 without rest.
     #[arg(long, value_parser = named(&Resistance::NAMES), default_value = "coulomb-stribeck")]
     resistance: Resistance,
     /// Print one JSON object.
@@ -89,22 +90,21 @@ pub struct Simulate {
 struct Request {
     case: Case,
     protocol: Protocol,
+    /// What was taken where it was not given.
+    notes: Vec<String>,
 }
 
 impl Simulate {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let Request { case, protocol } = match &self.study {
+        let Request { case, protocol, notes } = match &self.study {
             Some(study) => self.studied(study)?,
             None => self.request()?,
         };
         let parameters = &case.parameters;
-        let drag = parameters.drag();
-        if drag.static_limit < drag.at_onset {
-            let force = parameters.break_away();
-            notify(&format!(
-                "note: mu_s below 2 mu_d has no effect; the capsule breaks away at 2 mu_d (m1 + m2) g = {force} N"
-            ));
+        notes.iter().for_each(|note| notify(&format!("note: {note}")));
+        if let Some(why) = parameters.idle_static_friction() {
+            notify(&format!("note: {why}"));
         }
         let simulation = simulate_case(&case, self.cycles, protocol.tolerance);
         let orbit = settle_case(&case, &protocol);
@@ -144,7 +144,7 @@ impl Simulate {
                 replay.as_run(Machine::default(), &silent)?
             }
         };
-        Ok(Request { case, protocol: *replay.protocol() })
+        Ok(Request { case, protocol: *replay.protocol(), notes: study.remarks })
     }
 
     fn request(&self) -> Result<Request, Failure> {
@@ -176,6 +176,9 @@ impl Simulate {
             let value = quantity(option, text, parameter.dimension(), &mut faults);
             parameters[*parameter] = value.unwrap_or(parameters[*parameter]);
         }
+        let is_given = |parameter| given.iter().any(|(_, other, _)| *other == parameter);
+        let completed = parameters.complete_friction(is_given);
+        let notes = completed.map(|it| parameters.told_of_completed(it)).into_iter().collect();
         let start = self.start(&mut faults);
         let [start_phase, section_phase] = self.phases.read(&mut faults);
         if !Protocol::TOLERANCES.contains(&self.tolerance) {
@@ -189,7 +192,7 @@ impl Simulate {
                 ..Protocol::with_tolerance(self.tolerance)
             };
             let case = Case { parameters, start, start_phase, section_phase };
-            Ok(Request { case, protocol })
+            Ok(Request { case, protocol, notes })
         } else {
             Err(Failure::requests(&faults))
         }

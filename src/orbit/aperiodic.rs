@@ -72,9 +72,19 @@ pub struct Departure<const D: usize> {
     pub max_steps: u64,
 }
 
+/// How long a motion is followed.
+#[derive(Debug, Clone, Copy)]
+struct Goal {
+    /// Cycles at most.
+    cycles: u64,
+    /// The standard error of an exponent above zero, relative to it, at which the motion is followed no further [-].
+    error: f64,
+}
+
 /// One motion that is followed.
 struct Follower<const D: usize> {
     metric: Metric<D>,
+    goal: Goal,
     stretching: Stretching<D, 1>,
     points: Vec<[f64; D]>,
     /// Steps taken in the cycle, and before it.
@@ -86,23 +96,24 @@ struct Follower<const D: usize> {
     done: Option<Result<(), Reason>>,
 }
 
-/// Follows motions from `starts`, one in each lane of `system` and no more than there are lanes, for so many
-/// `cycles` or until it is clear that neighbours part.
+/// Follows motions from `starts`, one in each lane of `system` and no more than there are lanes, for as many cycles as
+/// `protocol` gives the exponent, or until it is clear that neighbours part and the exponent is known as well as wanted.
 ///
 /// The bits of each do not depend on the others.
 #[inline(always)]
 pub fn follow_aperiodic<L, S, const D: usize>(
     system: &S,
     starts: &[Departure<D>],
-    cycles: u64,
-    tolerance: f64,
+    protocol: &Protocol,
 ) -> Vec<Result<Aperiodic<D>, Reason>>
 where
     L: Lane,
     S: Stroboscopic<Dual<L, 1>, D>,
 {
+    let Protocol { exponent_cycles, exponent_error, tolerance, .. } = *protocol;
+    let goal = Goal { cycles: exponent_cycles, error: exponent_error };
     let mut followers: Vec<Follower<D>> =
-        starts.iter().map(|start| Follower::new(start, cycles)).collect();
+        starts.iter().map(|start| Follower::new(start, goal)).collect();
     let start = |i: usize| Dual {
         value: L::from_fn(|lane| starts[lane.min(starts.len() - 1)].point[i]),
         gradient: [L::from_fn(|lane| match followers.get(lane) {
@@ -142,7 +153,7 @@ where
                 follower.steps_before += std::mem::take(&mut follower.steps);
                 follower.elapsed += motion.time.lane(lane);
                 let period = until.lane(lane);
-                follower.meet(lane, &mut point, cycles, |it| it.duration::<S, _>(period));
+                follower.meet(lane, &mut point, |it| it.duration::<S, _>(period));
             }
         }
         if step.arrives.any() {
@@ -174,7 +185,6 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Self::Output {
-        let Protocol { exponent_cycles, tolerance, .. } = *self.protocol;
         let mut followed = Vec::with_capacity(self.starts.len());
         for group in self.starts.chunks(L::WIDTH) {
             let mut system = M::In::<Dual<L, 1>>::splat(&group[0].0.single());
@@ -187,24 +197,25 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
                 max_steps,
             };
             let starts: Vec<_> = group.iter().map(depart).collect();
-            followed.extend(follow_aperiodic(&system, &starts, exponent_cycles, tolerance));
+            followed.extend(follow_aperiodic(&system, &starts, self.protocol));
         }
         followed
     }
 }
 
 impl<const D: usize> Follower<D> {
-    fn new(start: &Departure<D>, cycles: u64) -> Self {
+    fn new(start: &Departure<D>, goal: Goal) -> Self {
         let Departure { metric, max_steps, .. } = *start;
         Follower {
             metric,
+            goal,
             stretching: Stretching::new(metric),
             points: Vec::new(),
             steps: 0,
             steps_before: 0,
             max_steps,
             elapsed: 0.0,
-            done: (cycles == 0).then_some(Ok(())),
+            done: (goal.cycles == 0).then_some(Ok(())),
         }
     }
 
@@ -225,7 +236,6 @@ impl<const D: usize> Follower<D> {
         &mut self,
         lane: usize,
         point: &mut [Dual<L, 1>; D],
-        cycles: u64,
         duration: impl Fn(&Self) -> f64,
     ) {
         let mut direction = point.map(|coordinate| [coordinate.gradient[0].lane(lane)]);
@@ -235,15 +245,18 @@ impl<const D: usize> Follower<D> {
         }
         self.points.push(point.map(|coordinate| coordinate.value.lane(lane)));
         let met = self.points.len();
-        if met as u64 >= cycles || (met.is_multiple_of(LOOK) && self.parts(duration(self))) {
+        if met as u64 >= self.goal.cycles
+            || (met.is_multiple_of(LOOK) && self.parts(duration(self)))
+        {
             self.done = Some(Ok(()));
         }
     }
 
-    /// Whether it is clear already that neighbours part, in cycles of this mean duration.
+    /// Whether it is clear already that neighbours part, and the exponent is known as well as wanted, in cycles of this mean
+    /// duration.
     fn parts(&self, duration: f64) -> bool {
         let [Exponent { value, uncertainty }] = self.stretching.exponents(duration);
-        value > 2.0 * CERTAINTY * uncertainty && self.stretching.total(0) > 2.0 * GROWTH
+        value > 1.0 / self.goal.error * uncertainty && self.stretching.total(0) > 2.0 * GROWTH
     }
 
     fn tell(&self, duration: f64) -> Result<Aperiodic<D>, Reason> {

@@ -58,6 +58,10 @@ pub struct Orbit<S, O, const D: usize> {
     pub end: S,
     /// What was observed over the measured cycles.
     pub observed: O,
+    /// What had been observed at the end of each batch of them, see [`batch_ends`]; none of a periodic orbit.
+    ///
+    /// [`batch_ends`]: super::measuring::batch_ends
+    pub batches: Vec<O>,
     /// Why it could not be followed, if so.
     pub failure: Option<Failure<S>>,
 }
@@ -86,6 +90,7 @@ impl<S: Copy, O, const D: usize> Orbit<S, O, D> {
             begins: end,
             end,
             observed,
+            batches: Vec::new(),
             failure: Some(failure),
         }
     }

@@ -5,6 +5,7 @@ use crate::lane::Dual;
 
 use super::aperiodic::{Aperiodic, Departure, follow_aperiodic};
 use super::certificate::certify;
+use super::exponent::BATCHES;
 use super::matrix::Complex;
 use super::measuring::{Kept, MeasureRequest, Measured};
 use super::neighbourhood::{Neighbourhood, OrbitPoint};
@@ -184,8 +185,7 @@ fn judge<M: System<D>, const D: usize>(
             let followed = follow_aperiodic::<f64, M::In<Dual<f64, 1>>, D>(
                 &case.system.constant(),
                 &[start],
-                protocol.exponent_cycles,
-                protocol.tolerance,
+                protocol,
             );
             match followed[0] {
                 Ok(aperiodic) => {
@@ -291,12 +291,15 @@ fn measure<M: System<D>, const D: usize>(
     let metric = system.metric();
     let (begins, elapsed) = (trajectory.state(), trajectory.elapsed());
     let first = trajectory.section();
-    let Measured { motion, progress, observed, kept, failure } =
+    // The sums of a periodic orbit are the same in all of its periods.
+    let batches = if verdict.outcome == Outcome::Periodic { 0 } else { BATCHES as u64 };
+    let Measured { motion, progress, observed, batches, kept, failure } =
         integrator.measured(MeasureRequest {
             system: system.clone(),
             motion: trajectory.motion(),
             progress: trajectory.progress,
             cycles: verdict.cycles,
+            batches,
             max_steps: protocol.max_steps,
             tolerance: protocol.tolerance,
             points: protocol.points,
@@ -338,6 +341,7 @@ fn measure<M: System<D>, const D: usize>(
         begins,
         end: trajectory.state(),
         observed,
+        batches,
         failure: None,
     };
     Ok(if is_sound { orbit } else { orbit.withdrawn() })

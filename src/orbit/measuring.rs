@@ -17,6 +17,8 @@ pub struct MeasureRequest<M: System<D>, const D: usize> {
     pub progress: Progress,
     /// How many cycles.
     pub cycles: u64,
+    /// In how many batches what is observed is told, too; none for zero.
+    pub batches: u64,
     /// Steps that it may take in all, those before included.
     pub max_steps: u64,
     /// Relative local error of a step.
@@ -35,6 +37,8 @@ pub struct Measured<M: System<D>, const D: usize> {
     pub progress: Progress,
     /// What was observed.
     pub observed: M::Observer,
+    /// What had been observed at the end of each batch.
+    pub batches: Vec<M::Observer>,
     /// What the section and the steps say of it.
     pub kept: Kept<D>,
     /// Why it could not be followed to the end, if so.
@@ -88,6 +92,14 @@ impl<const D: usize> Kept<D> {
     }
 }
 
+/// The cycles at which batches end of which so many are wanted: whole cycles, batches that differ by one cycle at most in length, and
+/// no more than there are cycles.
+pub fn batch_ends(cycles: u64, batches: u64) -> impl Iterator<Item = u64> + Clone {
+    let count = batches.min(cycles);
+    (1..=count)
+        .map(move |batch| (u128::from(cycles) * u128::from(batch) / u128::from(count)) as u64)
+}
+
 /// The cycles of one motion by itself.
 pub fn measured_alone<M: System<D>, const D: usize>(
     request: MeasureRequest<M, D>,
@@ -99,7 +111,9 @@ pub fn measured_alone<M: System<D>, const D: usize>(
     let mut observed = system.observer(request.observed_points);
     let mut kept = Kept::new(request.points);
     let mut failure = None;
-    for _ in 0..cycles {
+    let mut ends = batch_ends(cycles, request.batches).peekable();
+    let mut batches = Vec::new();
+    for cycle in 1..=cycles {
         kept.begin_cycle(&metric, trajectory.section());
         let followed = trajectory.cycle(|step| {
             observed.see(&moving, step);
@@ -109,7 +123,10 @@ pub fn measured_alone<M: System<D>, const D: usize>(
             failure = Some(why);
             break;
         }
+        if ends.next_if_eq(&cycle).is_some() {
+            batches.push(observed.clone());
+        }
     }
     let (motion, progress) = (trajectory.motion(), trajectory.progress);
-    Measured { motion, progress, observed, kept, failure }
+    Measured { motion, progress, observed, batches, kept, failure }
 }

@@ -1,11 +1,12 @@
 //! Cycles of many motions that are measured side by side.
 
 use std::cmp::Reverse;
+use std::collections::VecDeque;
 
 use crate::flow::{Motion, Observer, Step, Stroboscopic, Switched, System};
 use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
-use super::measuring::{Kept, MeasureRequest, Measured, measured_alone};
+use super::measuring::{Kept, MeasureRequest, Measured, batch_ends, measured_alone};
 use super::trajectory::Progress;
 
 /// With no more than one lane in so many taken, cycles are measured faster one motion by one.
@@ -51,6 +52,9 @@ struct Occupant<M: System<D>, const D: usize> {
     kept: Kept<D>,
     progress: Progress,
     cycles_left: u64,
+    batches: Vec<M::Observer>,
+    /// The cycles at which batches end that it has not come to.
+    ends: VecDeque<u64>,
 }
 
 /// The cycles of each, as many motions at a time as there are lanes.
@@ -94,7 +98,15 @@ fn together<L: Lane, M: System<D>, const D: usize>(
                 let mut kept = Kept::new(request.points);
                 kept.begin_cycle(&metrics[number], M::Single::point(&request.motion.state));
                 let (progress, cycles_left) = (request.progress, request.cycles);
-                *place = Some(Occupant { number, system: single, kept, progress, cycles_left });
+                *place = Some(Occupant {
+                    number,
+                    system: single,
+                    kept,
+                    progress,
+                    cycles_left,
+                    batches: Vec::new(),
+                    ends: batch_ends(request.cycles, request.batches).collect(),
+                });
                 until = system.period();
             }
         }
@@ -120,13 +132,18 @@ fn together<L: Lane, M: System<D>, const D: usize>(
             } else if one.arrives {
                 progress.count(durations.lane(lane));
                 occupant.cycles_left -= 1;
+                let cycle = request.cycles - occupant.cycles_left;
+                if occupant.ends.front() == Some(&cycle) {
+                    occupant.ends.pop_front();
+                    occupant.batches.push(observed.lane(lane));
+                }
                 let here = M::Single::point(&motion.state.lane(lane));
                 if occupant.cycles_left > 0 {
                     occupant.kept.begin_cycle(&metrics[number], here);
-                } else if let Some(Occupant { kept, progress, .. }) = place.take() {
+                } else if let Some(Occupant { kept, progress, batches, .. }) = place.take() {
                     let (motion, observed) = (motion.lane(lane), observed.lane(lane));
                     found[number] =
-                        Some(Measured { motion, progress, observed, kept, failure: None });
+                        Some(Measured { motion, progress, observed, batches, kept, failure: None });
                 }
             }
         }

@@ -82,6 +82,8 @@ pub struct Protocol {
     pub measured_cycles: u64,
     /// Cycles over which its exponent is computed at most; none is for zero.
     pub exponent_cycles: u64,
+    /// The standard error, relative to the exponent, at which an exponent above zero is known well enough before that [-].
+    pub exponent_error: f64,
     /// Section points kept at most.
     pub points: usize,
     /// Impacts kept at most, by an observer that notes them.
@@ -102,6 +104,7 @@ impl Default for Protocol {
             max_period: 32,
             measured_cycles: 128,
             exponent_cycles: 2048,
+            exponent_error: *Protocol::EXPONENT_ERRORS.end(),
             points: 64,
             impact_points: 64,
             accelerate: true,
@@ -111,6 +114,8 @@ impl Default for Protocol {
 }
 
 impl Protocol {
+    /// What the error wanted of an exponent may be: chaos is told by an exponent of five standard errors, and is to be clear.
+    pub const EXPONENT_ERRORS: RangeInclusive<f64> = 1e-4..=0.1;
     /// What a tolerance and a recurrence may be.
     pub const TOLERANCES: RangeInclusive<f64> = 1e-15..=1e-3;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::attractor::{EdgeSearch, Saddle};
+use crate::attractor::{EdgeSearch, Met, Saddle};
 use crate::capsule::{AsPrinted, Filippov, Reading, Switching};
 use crate::orbit::passage::OneByOne;
 use crate::orbit::{Machine, Outcome};
@@ -13,11 +13,14 @@ use super::leads::Leads;
 
 /// So many pairs of basins are looked at.
 const PAIRS: usize = 64;
+/// So many pairs of neighbouring starts are tried for each, spread along their boundary on the grid, as long as a third basin
+/// lies between the two.
+const TRIES: usize = 8;
 
 /// A saddle on the boundary of two basins.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Edge {
-    /// The two attractors, by their numbers.
+    /// The two attractors to which the motions on the two sides of the boundary beside it lead, by their numbers, the lower first.
     pub between: [u32; 2],
     /// The orbit.
     pub saddle: Saddle<3>,
@@ -31,8 +34,11 @@ pub fn has_edges(study: &Study) -> bool {
     is_grid && in_section && study.start_phase == study.section_phase
 }
 
-/// The saddles between the basins of a study, one at most for each two that are neighbours on its grid, from the first two
-/// neighbouring starts that lead to them; see [`EdgeSearch::saddle`]. None is looked for where an attractor does not repeat.
+/// The saddles between the basins of a study, one at most for each two; none is looked for where an attractor does not repeat.
+///
+/// Method: between two neighbouring starts that lead to different attractors, see [`EdgeSearch::saddle`]. Two neighbouring starts
+/// may have a third basin between them, thinner than the grid: what is met then is between one of the two and the third, and
+/// counts as that, and other neighbours are tried for the two. Breaks: where a third basin lies between all that are tried.
 pub fn edges(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Edge> {
     // What does not repeat is told apart less surely, and takes long to follow.
     let all_repeat = attractors.of_starts.iter().all(|it| it.outcome == Outcome::Periodic);
@@ -55,20 +61,41 @@ fn edges_as<R: Reading>(study: &Study, attractors: &Attractors, machine: Machine
         integrator: &OneByOne,
         leads: &|points| known.of(points),
     };
-    let of_pair = |(between, cases): (&[u32; 2], &[usize; 2])| {
-        let ends = cases.map(|case| {
-            let start = study.case(case).start;
-            [start.r, start.y1, start.y2]
-        });
-        Some(Edge { between: *between, saddle: search.saddle(ends, between[0])? })
+    let point = |case: usize| {
+        let start = study.case(case).start;
+        [start.r, start.y1, start.y2]
     };
-    neighbours(study, attractors).iter().take(PAIRS).filter_map(of_pair).collect()
+    let mut found = BTreeMap::new();
+    let mut between_others = Vec::new();
+    for (between, all) in neighbours(study, attractors).into_iter().take(PAIRS) {
+        for cases in spread_out(&all) {
+            let Some(Met { mut sides, saddle }) = search.saddle(cases.map(point)) else {
+                break;
+            };
+            sides.sort_unstable();
+            if sides == between {
+                found.insert(between, saddle);
+                break;
+            }
+            between_others.push((sides, saddle));
+        }
+    }
+    for (sides, saddle) in between_others {
+        found.entry(sides).or_insert(saddle);
+    }
+    found.into_iter().map(|(between, saddle)| Edge { between, saddle }).collect()
 }
 
-/// The first two neighbouring starts that lead to each two attractors, the start of the lower number first.
-fn neighbours(study: &Study, attractors: &Attractors) -> BTreeMap<[u32; 2], [usize; 2]> {
+/// Some of all, the first among them, spread evenly.
+fn spread_out(all: &[[usize; 2]]) -> impl Iterator<Item = [usize; 2]> {
+    let count = all.len().min(TRIES);
+    (0..count).map(move |at| all[at * all.len() / count])
+}
+
+/// The neighbouring starts that lead to each two attractors, the start of the lower number first.
+fn neighbours(study: &Study, attractors: &Attractors) -> BTreeMap<[u32; 2], Vec<[usize; 2]>> {
     let (shape, labels) = (study.shape(), &attractors.of_case);
-    let mut found = BTreeMap::new();
+    let mut found: BTreeMap<[u32; 2], Vec<[usize; 2]>> = BTreeMap::new();
     for start in 0..labels.len() {
         let mut spacing = labels.len();
         for &length in &shape {
@@ -80,10 +107,10 @@ fn neighbours(study: &Study, attractors: &Attractors) -> BTreeMap<[u32; 2], [usi
             };
             match (labels[start], other) {
                 (Some(a), Some(b)) if a < b => {
-                    found.entry([a, b]).or_insert([start, start + spacing]);
+                    found.entry([a, b]).or_default().push([start, start + spacing]);
                 }
                 (Some(a), Some(b)) if b < a => {
-                    found.entry([b, a]).or_insert([start + spacing, start]);
+                    found.entry([b, a]).or_default().push([start + spacing, start]);
                 }
                 _ => {}
             }

@@ -2,7 +2,7 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::attractor::{Entropy, Integrity, Share, Uncertainty};
+use crate::attractor::{Entropy, Integrity, Share};
 use crate::capsule::Output;
 use crate::orbit::Outcome;
 use crate::run::{
@@ -17,13 +17,12 @@ use super::catalogue::{
     ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_MULTIPLIER_IMAG, ATTRACTOR_MULTIPLIER_REAL,
     ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, ATTRACTOR_SHARE_HIGH,
     ATTRACTOR_SHARE_LOW, BASIN_ENTROPY, BASIN_ENTROPY_BOX, BASIN_ENTROPY_ERROR,
-    BOUNDARY_BASIN_ENTROPY, BOUNDARY_BASIN_ENTROPY_ERROR, BOUNDARY_DIMENSION, EDGE_CYCLE,
-    EDGE_HIGH, EDGE_INDEX, EDGE_LOW, EDGE_MULTIPLIER_IMAG, EDGE_MULTIPLIER_REAL, EDGE_PERIOD,
-    EDGE_RESIDUAL, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, EVENT, EVENT_ATTRACTOR,
-    EVENT_KIND, EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, INFERRED_ELSEWHERE, INFERRED_SAMPLE, Place,
-    SECTION, UNCERTAINTY_EXPONENT, UNCERTAINTY_EXPONENT_ERROR,
+    BOUNDARY_BASIN_ENTROPY, BOUNDARY_BASIN_ENTROPY_ERROR, EDGE_CYCLE, EDGE_HIGH, EDGE_INDEX,
+    EDGE_LOW, EDGE_MULTIPLIER_IMAG, EDGE_MULTIPLIER_REAL, EDGE_PERIOD, EDGE_RESIDUAL,
+    EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, EVENT, EVENT_ATTRACTOR, EVENT_KIND,
+    EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, INFERRED_ELSEWHERE, INFERRED_SAMPLE, Place, SECTION,
 };
-use super::{Dataset, Values};
+use super::{Dataset, Values, boundary};
 
 /// Adds to the dataset of a study which attractor each case has ended on, the table of the attractors of starts, and
 /// that of events.
@@ -205,17 +204,15 @@ fn add_measures(dataset: &mut Dataset, table: &AttractorTable) {
         real(BOUNDARY_BASIN_ENTROPY, boundary.value);
         real(BOUNDARY_BASIN_ENTROPY_ERROR, boundary.error);
     }
-    if let Some(Uncertainty { exponent, dimension, .. }) = &table.uncertainty {
-        real(UNCERTAINTY_EXPONENT, exponent.value);
-        real(UNCERTAINTY_EXPONENT_ERROR, exponent.error);
-        real(BOUNDARY_DIMENSION, dimension.value);
-    }
     let mut whole = |entry: Entry, number: usize| {
         let number = ArrayD::from_elem(IxDyn(&[]), number as i64);
         dataset.put(entry, &[], Values::Integer(number));
     };
     if let Some(Entropy { side, .. }) = table.entropy {
         whole(BASIN_ENTROPY_BOX, side);
+    }
+    if let Some(uncertainty) = &table.uncertainty {
+        boundary::add(dataset, uncertainty);
     }
     if let Some(sample) = table.inferred {
         add_sample(dataset, sample);

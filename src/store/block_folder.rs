@@ -13,9 +13,10 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use crate::capsule::Output;
 use crate::orbit::Outcome;
 use crate::run::Record;
-use crate::study::Study;
+use crate::study::{Refine, Study};
 
 use super::block_file::{self, BlockFile, Column, Head, Numbers, Summary, Unusable};
 use super::catalogue::{CASE, END_R, END_Y1, END_Y2, RESIDUAL, starts};
@@ -33,6 +34,8 @@ const LOCK: &str = "lock";
 const TRIES: u32 = 10;
 /// Time between two tries.
 const PAUSE: Duration = Duration::from_millis(100);
+/// The output that tells whether the capsule never slides.
+const STICK_SHARE: Output = Output::StickShare;
 /// Lines that are shown of a change of the study.
 const LINES_SHOWN: usize = 6;
 
@@ -329,6 +332,13 @@ fn columns(study: &Study, records: &[Record]) -> Vec<Column> {
     if study.refine.is_some() {
         let cases = records.iter().map(|record| record.index as i64).collect();
         columns.push(Column { name: CASE.to_owned(), numbers: Numbers::Integer(cases) });
+    }
+    // What tells the cases of a refined map apart is whether the capsule never slides, too, whatever outputs are kept.
+    if let (Some(Refine::Outputs(_)), false) = (&study.refine, study.outputs.contains(&STICK_SHARE))
+    {
+        let shares = records.iter().map(|record| record.orbit.outputs[STICK_SHARE]).collect();
+        columns
+            .push(Column { name: STICK_SHARE.name().to_owned(), numbers: Numbers::Real(shares) });
     }
     columns.extend(beyond_variables(records));
     columns

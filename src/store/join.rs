@@ -127,10 +127,9 @@ impl<'a> Blocks<'a> {
 
     /// What tells the cases of a refined map apart that have been computed, each once, in the order of their indices.
     pub fn map_points(&self) -> Result<Vec<(usize, MapPoint)>, StoreError> {
-        let of: Vec<Output> = within(self.study).iter().map(|(output, _)| *output).collect();
-        let kept = |output: &Output| self.study.outputs.contains(output);
-        let shares = kept(&Output::StickShare).then_some(Output::StickShare);
-        let of: Vec<Output> = of.into_iter().chain(shares).collect();
+        // Blocks have the share of rest even where the results leave it out.
+        let refined = within(self.study).iter().map(|(output, _)| *output);
+        let of: Vec<Output> = refined.chain([Output::StickShare]).collect();
         let mut known = Vec::new();
         for file in &self.files {
             let columns: Result<Vec<Vec<f64>>, StoreError> =

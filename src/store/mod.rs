@@ -2,6 +2,7 @@
 
 mod attractors;
 pub mod block_folder;
+mod boundary;
 mod branch_columns;
 pub mod branches;
 pub mod catalogue;

@@ -19,6 +19,8 @@ use super::{Dataset, Values, Variable, drawn, provenance};
 pub const RESISTANCE: &str = "resistance";
 /// Attribute: the reading of the switching between stick and slip.
 pub const SWITCHING: &str = "friction_switching";
+/// Attribute: what was taken where the study leaves it open, see [`Study::remarks`].
+pub const REMARKS: &str = "study_remarks";
 /// Attribute: differs between studies whose cases differ, see [`Study::fingerprint`].
 pub const FINGERPRINT: &str = "study_fingerprint";
 
@@ -95,6 +97,9 @@ pub fn frame(study: &Study) -> Dataset {
     dataset.attributes.insert(SWITCHING.to_owned(), study.base.switching.name().to_owned());
     dataset.attributes.insert(RESISTANCE.to_owned(), study.base.resistance.name().to_owned());
     dataset.attributes.insert(FINGERPRINT.to_owned(), study.fingerprint());
+    if !study.remarks.is_empty() {
+        dataset.attributes.insert(REMARKS.to_owned(), study.remarks.join("; "));
+    }
     if let Some(inherit) = study.inherit() {
         let axis = study.axes()[inherit.axis].coordinate.name();
         dataset.attributes.insert(INHERITED_ALONG.to_owned(), axis.to_owned());
@@ -110,7 +115,7 @@ pub fn numbers_of_case(study: &Study) -> BTreeMap<String, usize> {
 }
 
 /// How the cases were integrated, which the file says even where the study left it to the program.
-fn protocol(study: &Study) -> [(String, String); 8] {
+fn protocol(study: &Study) -> [(String, String); 9] {
     let protocol = &study.protocol;
     [
         ("tolerance", format!("{:e}", protocol.tolerance)),
@@ -121,6 +126,7 @@ fn protocol(study: &Study) -> [(String, String); 8] {
         ("max_period", protocol.max_period.to_string()),
         ("measured_cycles", protocol.measured_cycles.to_string()),
         ("exponent_cycles", protocol.exponent_cycles.to_string()),
+        ("exponent_error", format!("{:e}", protocol.exponent_error)),
     ]
     .map(|(key, value)| (format!("{OF_PROTOCOL}{key}"), value))
 }

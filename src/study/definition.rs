@@ -17,6 +17,8 @@ pub struct Study {
     pub title: String,
     /// The study as it was written.
     pub text: String,
+    /// What was taken where the text leaves it open and the default does not apply, in sentences.
+    pub remarks: Vec<String>,
     /// Values of the parameters that do not vary.
     pub base: Parameters,
     /// Start of the cases, where it does not vary.
@@ -49,6 +51,7 @@ impl Default for Study {
         Study {
             title: String::new(),
             text: String::new(),
+            remarks: Vec::new(),
             base: Parameters::default(),
             start: State::default(),
             start_phase: 0.0,
@@ -108,6 +111,7 @@ impl Study {
         let computed = Study {
             title: String::new(),
             text: String::new(),
+            remarks: Vec::new(),
             branches: Vec::new(),
             drawings: Vec::new(),
             ..self.clone()

@@ -2,19 +2,20 @@
 
 use toml::de::DeTable;
 
-use crate::capsule::{Dimension, Output, Parameter, Parameters, Resistance, Switching};
+use crate::capsule::{Dimension, Output};
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
 
+use super::Refine;
 use super::axis_file::read_case_set;
 use super::branch_file::{Surroundings, read_branches};
 use super::definition::Study;
 use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
 use super::include;
+use super::parameter_table::read_parameters;
 use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
-use super::{Coordinate, Refine};
 
 /// More numbers in the results than this (32 GB) are too, rather than found out after a night.
 const MOST_NUMBERS: usize = 4_000_000_000;
@@ -24,9 +25,6 @@ const MOST_POINTS: u64 = 1_000_000;
 
 /// Longest period that can be looked for, as every section point within it is remembered.
 const LONGEST_PERIOD: u64 = 100_000;
-
-/// The four parameters that Table 1 of the paper leaves open: a study says what they are.
-const OPEN: [Parameter; 4] = [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta];
 
 impl Study {
     /// Reads a study from its text; all faults are reported at once. `name` is the file's, for messages.
@@ -45,7 +43,7 @@ impl Study {
             entry.fault("must be the name of one parameter file beside the study, as \"rig.toml\"");
         }
         let mut case_set = read_case_set(&top);
-        let base = read_parameters(&top, &case_set.varied());
+        let (base, remarks) = read_parameters(&top, &case_set.varied());
         let start = read_start(&top, &mut case_set);
         let protocol = read_protocol(&top);
         let basin = read_basin(&top, &case_set);
@@ -57,6 +55,7 @@ impl Study {
         let study = Study {
             title,
             text: text.to_owned(),
+            remarks,
             base,
             start: start.state,
             start_phase: start.start_phase,
@@ -101,36 +100,6 @@ fn check_size(reader: &Reader<'_>, study: &Study) {
     }
 }
 
-fn read_parameters(top: &Table<'_, '_>, varied: &[Coordinate]) -> Parameters {
-    let mut parameters = Parameters::default();
-    let table = top.table("parameters");
-    let on_axis = |parameter| varied.contains(&Coordinate::Parameter(parameter));
-    for &parameter in Parameter::ALL {
-        let entry = table.as_ref().and_then(|table| table.entry(parameter.symbol()));
-        match entry {
-            Some(entry) if on_axis(parameter) => entry.fault("is given here and on an axis"),
-            Some(entry) => {
-                let value = entry.allowed_quantity(parameter.dimension(), parameter.allowed());
-                parameters[parameter] = value.unwrap_or(parameters[parameter]);
-            }
-            None if OPEN.contains(&parameter) && !on_axis(parameter) => {
-                let expected = format!("a value for the {} here or an axis", parameter.meaning());
-                top.missing(&format!("parameters.{}", parameter.symbol()), &expected);
-            }
-            None => {}
-        }
-    }
-    let Some(table) = table else { return parameters };
-    if let Some(entry) = table.entry("resistance") {
-        parameters.resistance = entry.one_of("resistance", &Resistance::NAMES).unwrap_or_default();
-    }
-    if let Some(entry) = table.entry("friction_switching") {
-        parameters.switching = entry.one_of("reading", &Switching::NAMES).unwrap_or_default();
-    }
-    table.finish();
-    parameters
-}
-
 fn read_protocol(top: &Table<'_, '_>) -> Protocol {
     let mut protocol = Protocol::default();
     if let Some(table) = top.table("protocol") {
@@ -158,6 +127,16 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
         {
             let given = protocol.exponent_cycles;
             entry.fault(format!("{given} are too few for an exponent; {BATCHES} or more, or 0"));
+        }
+        if let Some(entry) = table.entry("exponent_error")
+            && let Some(given) = entry.quantity(Dimension::Number)
+        {
+            let [least, most] =
+                [Protocol::EXPONENT_ERRORS.start(), Protocol::EXPONENT_ERRORS.end()];
+            match Protocol::EXPONENT_ERRORS.contains(&given) {
+                true => protocol.exponent_error = given,
+                false => entry.fault(format!("{given} must lie between {least} and {most}")),
+            }
         }
         let size = |key: &str, least: u64, most: u64, value: &mut usize| {
             let mut found = *value as u64;

@@ -17,7 +17,7 @@ use super::{
 impl Study {
     /// The study as the text of a study file, with all digits and in SI units.
     ///
-    /// [`Study::parse`] makes the same study of it, but for `text`, if the study is one that
+    /// [`Study::parse`] makes the same study of it, but for `text` and `remarks`, if the study is one that
     /// [`Study::validated`] accepts. What the study holds constant of a coordinate that varies is left out.
     pub fn to_toml(&self) -> String {
         let mut document = Document::default();
@@ -150,20 +150,37 @@ impl Study {
                 Coordinate::SectionPhase => own.section_phase = read.section_phase,
             }
         }
-        note(&mut faults, "title", &own.title, &read.title);
-        note(&mut faults, "outputs", &own.outputs, &read.outputs);
-        note(&mut faults, "parameters", &own.base, &read.base);
-        note(&mut faults, "start", &own.start, &read.start);
-        let phases = |study: &Study| [study.start_phase, study.section_phase];
-        note(&mut faults, "start", &phases(&own), &phases(read));
-        note(&mut faults, "axes", &own.case_set, &read.case_set);
-        note(&mut faults, "protocol", &own.protocol, &read.protocol);
-        for (i, (own, read)) in own.branches.iter().zip(&read.branches).enumerate() {
-            note(&mut faults, &format!("branches[{}]", i + 1), own, read);
-        }
-        for (i, (own, read)) in own.drawings.iter().zip(&read.drawings).enumerate() {
-            note(&mut faults, &format!("figures[{}]", i + 1), own, read);
-        }
+        // Named one by one, so that no field of a study is forgotten here.
+        let Study {
+            title,
+            text: _,
+            remarks: _,
+            base,
+            start,
+            start_phase,
+            section_phase,
+            case_set,
+            protocol,
+            early_decision,
+            refine,
+            outputs,
+            branches,
+            drawings,
+        } = &own;
+        note(&mut faults, "title", title, &read.title);
+        note(&mut faults, "outputs", outputs, &read.outputs);
+        note(&mut faults, "parameters", base, &read.base);
+        note(&mut faults, "start", start, &read.start);
+        note(&mut faults, "start.start_phase", start_phase, &read.start_phase);
+        note(&mut faults, "start.section_phase", section_phase, &read.section_phase);
+        note(&mut faults, "axes", case_set, &read.case_set);
+        note(&mut faults, "protocol", protocol, &read.protocol);
+        note(&mut faults, "basin.early_decision", early_decision, &read.early_decision);
+        let refined_by =
+            if let Some(Refine::Outputs(_)) = refine { "map.refine" } else { "basin.refine" };
+        note(&mut faults, refined_by, refine, &read.refine);
+        note_each(&mut faults, "branches", branches, &read.branches);
+        note_each(&mut faults, "figures", drawings, &read.drawings);
         faults
     }
 }
@@ -172,6 +189,21 @@ impl Study {
 fn note<T: PartialEq + Debug>(faults: &mut Vec<Fault>, key: &str, own: &T, read: &T) {
     if own != read {
         let message = format!("a study file cannot hold {own:?}; it would be read as {read:?}");
+        faults.push(Fault { line: None, key: key.to_owned(), message });
+    }
+}
+
+/// Notes each part of a list that is read back as another, and parts that are read back as more or fewer.
+fn note_each<T: PartialEq + Debug>(faults: &mut Vec<Fault>, key: &str, own: &[T], read: &[T]) {
+    for (i, (own, read)) in own.iter().zip(read).enumerate() {
+        note(faults, &format!("{key}[{}]", i + 1), own, read);
+    }
+    if own.len() != read.len() {
+        let message = format!(
+            "a study file cannot hold these {}; they would be read as {}",
+            own.len(),
+            read.len()
+        );
         faults.push(Fault { line: None, key: key.to_owned(), message });
     }
 }
@@ -243,6 +275,7 @@ fn write_protocol(document: &mut Document, protocol: &Protocol) {
     document.put("max_period", protocol.max_period);
     document.put("measured_cycles", protocol.measured_cycles);
     document.put("exponent_cycles", protocol.exponent_cycles);
+    document.put("exponent_error", number(protocol.exponent_error));
     document.put("points", protocol.points);
     document.put("impact_points", protocol.impact_points);
     if let Some(HistorySpan { cycles, per_cycle, from_start }) = protocol.history {

@@ -11,6 +11,15 @@ impl Study {
         self.axes().iter().filter_map(|axis| self.why_without_effect(axis)).collect()
     }
 
+    /// That mu_s has no effect, in a sentence, where neither coefficient of friction varies and the study gives too little of it.
+    pub fn idle_static_friction(&self) -> Option<String> {
+        let varies = |it: &Coordinate| {
+            [Parameter::MuS, Parameter::MuD].map(Coordinate::Parameter).contains(it)
+        };
+        let is_constant = !self.case_set.varied().iter().any(varies);
+        self.base.idle_static_friction().filter(|_| is_constant)
+    }
+
     /// The branches along which orbits stay the same, at least in a part, each with the reason, in a sentence.
     pub fn branches_without_effect(&self) -> Vec<String> {
         let each = |branch: &Continuation| {
@@ -73,20 +82,17 @@ impl Study {
     /// Static friction below which it has no effect, beside so much dynamic friction: rest ends where the force exceeds
     /// the friction at the onset of sliding.
     fn least_static_friction(&self, dynamic: f64) -> f64 {
-        let stribeck = self.base.resistance == Resistance::CoulombStribeck;
-        let factor = if stribeck { 2.0 } else { 1.0 };
+        let factor = self.base.resistance.onset_factor();
         if self.base.switching == Switching::Filippov { factor * dynamic } else { 0.0 }
     }
 
     /// That static friction has no effect in a part of what is above `low`.
     fn idle_below(&self, dynamic: f64, low: f64) -> Option<String> {
         let limit = self.least_static_friction(dynamic);
-        let stribeck = self.base.resistance == Resistance::CoulombStribeck;
-        let times = if stribeck { "2 " } else { "" };
-        let [name, slides] = [Parameter::MuS, Parameter::MuD].map(Parameter::symbol);
+        let (name, onset) = (Parameter::MuS.symbol(), self.base.resistance.onset_in_words());
         (low < limit).then(|| {
             format!(
-                "{name} has no effect below {times}{slides} = {limit}, where rest ends with the friction at the onset \
+                "{name} has no effect below {onset} = {limit}, where rest ends with the friction at the onset \
                  of sliding"
             )
         })

@@ -247,6 +247,36 @@ fn neighbouring_trajectories_part_at_the_rate_of_the_exponent() {
     }
 }
 
+#[test]
+fn an_exponent_is_as_exact_as_the_study_wants_it() {
+    let cases = chaotic(3);
+    let systems: Vec<CapsuleSystem<Filippov>> =
+        cases.iter().map(|(case, _)| case.read().system).collect();
+    let capsules: Vec<_> =
+        cases.iter().zip(&systems).map(|((_, start), system)| (system, *start, u64::MAX)).collect();
+    let with = |exponent_error: f64| {
+        let protocol = Protocol { exponent_error, exponent_cycles: 100_000, ..Protocol::default() };
+        let all = follow_aperiodic_side_by_side(Instructions::widest(), &capsules, &protocol);
+        all.into_iter().map(|it| it.expect("the integration continues")).collect::<Vec<_>>()
+    };
+    let (coarse, fine) = (with(0.1), with(0.015));
+    for (((case, start), coarse), fine) in cases.iter().zip(coarse).zip(fine) {
+        for (found, wanted) in [(&coarse, 0.1), (&fine, 0.015)] {
+            let exponent = found.exponent;
+            assert!(exponent.uncertainty < wanted * exponent.value, "{exponent:?}");
+            assert!(found.cycles < 100_000 && found.cycles % 128 == 0, "{}", found.cycles);
+        }
+        assert!(fine.cycles >= 2 * coarse.cycles, "{} {}", fine.cycles, coarse.cycles);
+        // Two neighbouring trajectories know nothing of the linearised flow.
+        let (rate, spread) = parting(case, *start, 10_000);
+        let apart = (rate - fine.exponent.value).abs();
+        assert!(
+            apart < 4.0 * fine.exponent.uncertainty.hypot(spread),
+            "{rate} +- {spread}, {fine:?}"
+        );
+    }
+}
+
 /// The rate at which a trajectory and another, put back to a distance of 1e-8 each cycle, part, and its
 /// standard error over ten batches [1/s].
 fn parting(case: &Case, start: Section, cycles: usize) -> (f64, f64) {

@@ -1,5 +1,9 @@
 //! Standard errors of the means of motions that do not repeat.
 
+use capsulemap::capsule::mean_errors::ERRORS;
+use capsulemap::capsule::{Parameters, State, settle};
+use capsulemap::orbit::{Outcome, Protocol};
+use capsulemap::store;
 use serde_json::Value;
 
 use super::program::WorkDir;
@@ -23,6 +27,48 @@ fn motions(folder: &WorkDir, name: &str, cycles: u64) -> Vec<Value> {
     rows.retain(|row| row["outcome"] == "chaotic");
     rows.sort_by_key(|row| row["case"].as_u64());
     rows
+}
+
+/// The outcomes of a file of results, and some outputs of each case.
+fn outputs(folder: &WorkDir, name: &str, outputs: [&str; 4]) -> (Vec<f64>, [Vec<f64>; 4]) {
+    let file = folder.path(&format!("results/{name}/{name}.h5"));
+    let dataset = store::read(&file).expect("a file of results");
+    let column = |name: &str| -> Vec<f64> {
+        dataset.variable(name).expect(name).values.to_real().into_iter().collect()
+    };
+    (column("outcome"), outputs.map(column))
+}
+
+#[test]
+fn means_in_files_have_errors_as_longer_means_show() {
+    let folder = WorkDir::new();
+    for (name, cycles) in [("short", 128), ("long", 64 * 128)] {
+        folder.put(&format!("{name}.toml"), study(cycles));
+        folder.run(&["sweep", &format!("{name}.toml"), "--no-figures"]).done();
+    }
+    for output in ["progression_speed", "work_net", "work_positive", "friction_loss"] {
+        let error = format!("{output}_error");
+        let names = [output, error.as_str(), "lyapunov_uncertainty", "energy_residual"];
+        let (outcomes, [short, error_short, ..]) = outputs(&folder, "short", names);
+        let (_, [long, error_long, ..]) = outputs(&folder, "long", names);
+        let mut chaotic = 0;
+        for case in (0..outcomes.len()).filter(|case| outcomes[*case] == 1.0) {
+            chaotic += 1;
+            let apart = (short[case] - long[case]).abs();
+            assert!(apart < 4.0 * error_short[case], "{output}: {apart} {}", error_short[case]);
+            // Sixty-four times as many cycles have an eighth of the error, as far as 16 batches tell it.
+            let ratio = error_short[case] / error_long[case];
+            assert!((2.5..25.0).contains(&ratio), "{output}: {ratio}");
+        }
+        assert!(chaotic >= 3, "{chaotic}");
+    }
+}
+
+#[test]
+fn the_mean_of_a_periodic_orbit_has_no_error() {
+    let orbit = settle(&Parameters::default(), 0.0, State::default(), &Protocol::default());
+    assert_eq!(orbit.outcome, Outcome::Periodic);
+    assert!(ERRORS.iter().all(|output| orbit.outputs[*output] == 0.0));
 }
 
 fn speed(of: &Value) -> f64 {

@@ -100,6 +100,7 @@ fn measure_request<R: Reading>(number: u64, case: &Case) -> MeasureRequest<Capsu
         motion,
         progress: Progress::default(),
         cycles: random.logarithmic(1.0, 16.0) as u64,
+        batches: random.uniform(0.0, 5.0) as u64,
         max_steps: steps as u64,
         tolerance: 1e-12,
         points: random.uniform(0.0, 4.0) as usize,
@@ -109,9 +110,9 @@ fn measure_request<R: Reading>(number: u64, case: &Case) -> MeasureRequest<Capsu
 
 /// All that has been measured, as text.
 fn told<R: Reading>(measured: &Measured<CapsuleSystem<R>, 3>) -> String {
-    let Measured { motion, progress, observed, kept, failure } = measured;
+    let Measured { motion, progress, observed, batches, kept, failure } = measured;
     let at = (motion.time, motion.state);
-    format!("{at:?} {progress:?} {observed:?} {kept:?} {failure:?}")
+    format!("{at:?} {progress:?} {observed:?} {batches:?} {kept:?} {failure:?}")
 }
 
 fn compare_measured<R: Reading>() {

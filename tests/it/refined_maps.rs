@@ -83,6 +83,51 @@ fn a_refined_map_is_the_full_one_within_what_the_study_allows() {
 }
 
 #[test]
+fn what_outputs_leave_out_does_not_change_what_is_inferred_and_checked() {
+    // From forces on at which the capsule rests whatever the frequency, so that rest is inferred.
+    let from_rest = |map: &str| study(map).replace("from = \"1 N\"", "from = \"0.1 N\"");
+    let few =
+        format!("outputs = [\"progression_speed\", \"work_positive\"]\n{}", from_rest(REFINE));
+    let few =
+        few.replace("[[figures]]\nname = \"loss\"\nkind = \"map\"\nof = [\"friction_loss\"]\n", "");
+    let folder = WorkDir::new();
+    for (name, text) in [("all", from_rest(REFINE)), ("few", few), ("full", from_rest(""))] {
+        folder.put(&format!("{name}.toml"), text);
+        folder.run(&["sweep", &format!("{name}.toml"), "--no-figures"]).done();
+    }
+    let [all, few, full] = ["all", "few", "full"].map(|name| read(&folder, name));
+    for name in ["outcome", "period", "progression_speed", "work_positive"] {
+        let bits = |dataset: &Dataset| -> Vec<u64> {
+            column(dataset, name).into_iter().map(f64::to_bits).collect()
+        };
+        assert!(bits(&all) == bits(&few), "{name}");
+    }
+    // The full grid says how many inferred cases differ; those of the sample are as many in a thousand.
+    let [period, speed, work, stick] =
+        ["period", "progression_speed", "work_positive", "stick_share"].map(|name| {
+            column(&full, name).into_iter().zip(column(&all, name)).collect::<Vec<(f64, f64)>>()
+        });
+    let outcomes = column(&all, "outcome");
+    let inferred: Vec<usize> = (0..outcomes.len()).filter(|case| outcomes[*case] < 0.0).collect();
+    let differs = |case: &&usize| {
+        let at = **case;
+        let rests = |share: f64| share >= 1.0;
+        period[at].0 != period[at].1
+            || rests(stick[at].0) != rests(stick[at].1)
+            || (speed[at].0 - speed[at].1).abs() > 1e-3
+            || (work[at].0 - work[at].1).abs() > 2e-3
+    };
+    let expected = 1000.0 * inferred.iter().filter(differs).count() as f64 / inferred.len() as f64;
+    let rest = inferred.iter().filter(|case| stick[**case].1 == 1.0).count();
+    assert!(10 * rest > inferred.len(), "rest is inferred of {rest} of {} only", inferred.len());
+    for dataset in [&all, &few] {
+        let elsewhere = column(dataset, "inferred_elsewhere")[0];
+        let spread = 4.0 * expected.max(1.0).sqrt();
+        assert!((elsewhere - expected).abs() <= spread, "{elsewhere}, {expected} expected");
+    }
+}
+
+#[test]
 fn a_refined_map_has_the_same_numbers_on_any_machine_and_in_parts() {
     let folder = WorkDir::new();
     for name in ["one", "parts"] {

@@ -2,7 +2,7 @@
 
 use capsulemap::attractor::{Attractor, FinalMotion};
 use capsulemap::capsule::branch::{self, Point, Request};
-use capsulemap::capsule::{CapsuleSystem, Filippov, Parameter};
+use capsulemap::capsule::{CapsuleSystem, Case, Filippov, Output, Parameter, State, settle_case};
 use capsulemap::flow::{Stroboscopic, System};
 use capsulemap::orbit::matrix::{Matrix, solve};
 use capsulemap::orbit::passage::{OneByOne, image};
@@ -50,6 +50,34 @@ fn eigenvector(matrix: &Matrix<3>, value: f64) -> [f64; 3] {
     vector
 }
 
+/// The attractors to which a small push along the unstable direction of a saddle leads, either way, whichever its size.
+fn pushed(study: &Study, found: &Attractors, edge: &Edge) -> [u32; 2] {
+    let saddle = &edge.saddle;
+    let system: Capsule = study.case(0).read::<Filippov>().system;
+    let count = saddle.points.len() as u64;
+    let cycles = Cycles { count, tolerance: study.protocol.tolerance };
+    let image = image(&OneByOne, &system, &saddle.points[0], &cycles).expect("it goes on");
+    let unstable = eigenvector(&image.jacobian, saddle.multipliers[0].re);
+    let metric = system.metric();
+    let leads = |push: f64| {
+        let point = std::array::from_fn(|i| saddle.points[0][i] + push * unstable[i]);
+        let case = orbit::Case::new(system.clone(), Single::state(point));
+        let settled = orbit::settle(&case, &study.protocol);
+        let motion = FinalMotion::of(&settled, Single::point(&settled.end));
+        let here = Attractor::of(0, &system, &motion, &study.protocol).expect("an attractor");
+        assert_eq!(here.outcome, Outcome::Periodic);
+        let place = found.of_starts.iter().position(|known| known.is(&here, &metric));
+        place.expect("a known one") as u32
+    };
+    let of_size = [1e-3, 1e-5, 1e-7].map(|size| {
+        let mut both = [leads(size), leads(-size)];
+        both.sort_unstable();
+        both
+    });
+    assert!(of_size.iter().all(|it| *it == of_size[0]), "{of_size:?}");
+    of_size[0]
+}
+
 #[test]
 fn starts_on_the_two_sides_of_a_saddle_lead_to_the_two_attractors() {
     let study = study(12);
@@ -59,25 +87,46 @@ fn starts_on_the_two_sides_of_a_saddle_lead_to_the_two_attractors() {
     assert_eq!((*between, saddle.points.len()), ([0, 1], 1));
     assert!(saddle.residual < 1e-12, "{:e}", saddle.residual);
     assert!(saddle.multipliers[0].abs() > 1.0 && saddle.multipliers[1].abs() < 1.0);
-    let system: Capsule = study.case(0).read::<Filippov>().system;
-    let cycles = Cycles { count: 1, tolerance: study.protocol.tolerance };
-    let image = image(&OneByOne, &system, &saddle.points[0], &cycles).expect("it goes on");
-    let unstable = eigenvector(&image.jacobian, saddle.multipliers[0].re);
-    // A small push along the unstable direction decides, whichever its size.
-    let metric = system.metric();
-    let leads = |push: f64| {
-        let point = std::array::from_fn(|i| saddle.points[0][i] + push * unstable[i]);
-        let case = orbit::Case::new(system.clone(), Single::state(point));
-        let settled = orbit::settle(&case, &study.protocol);
-        let motion = FinalMotion::of(&settled, Single::point(&settled.end));
-        let here = Attractor::of(0, &system, &motion, &study.protocol).expect("an attractor");
-        assert_eq!(here.outcome, Outcome::Periodic);
-        found.of_starts.iter().position(|known| known.is(&here, &metric)).expect("a known one")
-    };
-    for size in [1e-3, 1e-5, 1e-7] {
-        let mut both = [leads(size), leads(-size)];
-        both.sort_unstable();
-        assert_eq!(both, [0, 1], "{size:e}");
+    assert_eq!(pushed(&study, &found, &edges[0]), [0, 1]);
+}
+
+/// The speed of what a section point leads to [m/s].
+fn speed(study: &Study, [r, y1, y2]: [f64; 3]) -> f64 {
+    let case = Case { start: State { r, y1, x2: 0.0, y2 }, ..study.case(0) };
+    let orbit = settle_case(&case, &study.protocol);
+    assert_eq!(orbit.outcome, Outcome::Periodic);
+    orbit.outputs[Output::ProgressionSpeed]
+}
+
+#[test]
+fn a_saddle_names_the_attractors_of_its_own_boundary_among_three() {
+    // Some neighbours of this grid have the third basin between them, as a strip thinner than the grid.
+    let text = std::fs::read_to_string("studies/three-ways.toml").expect("the study");
+    let text = text.replace("points = 1000", "points = 100").replace("refine = true", "");
+    let study = Study::parse("three-ways.toml", &text).unwrap_or_else(|faults| panic!("{faults}"));
+    let (found, edges) = edges(&study);
+    assert_eq!((found.of_starts.len(), study.cases()), (3, 10_000));
+    // A push of the mass alone, which is no eigenvector, crosses the boundary, too; the orbit that follows tells the side by its
+    // speed, without sections and metrics.
+    let speeds: Vec<f64> = found.of_starts.iter().map(|it| speed(&study, it.points[0])).collect();
+    for edge in &edges {
+        let [r, y1, y2] = edge.saddle.points[0];
+        let sides = [1e-5, -1e-5].map(|push| {
+            let here = speed(&study, [r, y1 + push, y2]);
+            let place = speeds.iter().position(|it| (it - here).abs() < 1e-9);
+            place.expect("a known attractor") as u32
+        });
+        let sides = [sides[0].min(sides[1]), sides[0].max(sides[1])];
+        assert_eq!(sides, edge.between, "{edge:?}");
+        assert_eq!(pushed(&study, &found, edge), edge.between, "{edge:?}");
+    }
+    let pairs: Vec<[u32; 2]> = edges.iter().map(|edge| edge.between).collect();
+    assert_eq!(pairs, [[0, 2], [1, 2]]);
+    // No saddle stands for two boundaries.
+    let firsts: Vec<[f64; 3]> = edges.iter().map(|edge| edge.saddle.points[0]).collect();
+    for (i, a) in firsts.iter().enumerate() {
+        let is_same = |b: &[f64; 3]| (0..3).all(|at| (a[at] - b[at]).abs() < 1e-9);
+        assert!(!firsts[..i].iter().any(is_same), "{edges:?}");
     }
 }
 

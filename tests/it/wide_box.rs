@@ -1,8 +1,11 @@
 //! Outcomes over the whole box of parameters that users may set: periods that hold, and few undecided.
 
-use capsulemap::capsule::{Case, Orbit, Output, Parameter, Resistance, Section, State, simulate};
+use capsulemap::capsule::{
+    AsPrinted, Case, History, Orbit, Output, Parameter, Reading, Resistance, Section, State,
+    Switching, simulate,
+};
 use capsulemap::lane::Instructions;
-use capsulemap::orbit::{Outcome, Proof, Protocol};
+use capsulemap::orbit::{HistorySpan, Outcome, Proof, Protocol};
 
 use super::draws;
 use super::second_method::follow;
@@ -59,6 +62,68 @@ fn no_period_is_wrong_and_few_cases_are_undecided() {
         // In a medium without a drive motion dies down without end, and slowly where the drag is weak.
         assert!(100 * undecided.len() <= 2 * cases.len(), "{name}: {undecided:?}");
     }
+}
+
+/// The friction as Eq. (1) of the paper prints it, where rest is held by more than f_s: motions that repeat are certified.
+#[test]
+fn as_printed_no_period_is_wrong_and_few_cases_that_repeat_are_undecided() {
+    for law in [Resistance::CoulombStribeck, Resistance::Coulomb] {
+        let mut cases = draws::wide(count(), 21, law);
+        cases.iter_mut().for_each(|case| case.parameters.switching = Switching::AsPrinted);
+        let orbits = draws::settled(&cases, &Protocol::default(), Instructions::widest());
+        let (mut held, mut undecided) = (0, 0);
+        for (number, (case, orbit)) in cases.iter().zip(&orbits).enumerate() {
+            let about = format!("{}, case {number}: {case:?}", law.name());
+            if orbit.outcome == Outcome::Periodic {
+                check_period(case, orbit, &about);
+            }
+            // Held at rest: f_s < |F| < f_d(0+) in a part of the cycle.
+            let drag = case.parameters.drag();
+            let rests = orbit.outputs[Output::StickShare] == 1.0 && orbit.end.y2 == 0.0;
+            if !rests || drag.static_limit >= drag.at_onset {
+                continue;
+            }
+            undecided += usize::from(orbit.outcome == Outcome::Undecided);
+            if orbit.outcome == Outcome::Periodic && orbit.period <= 4 && is_held(case, orbit) {
+                held += 1;
+                comes_back(case, orbit, &about);
+            }
+        }
+        println!("{}: {held} held at rest, {undecided} undecided", law.name());
+        assert!(held > 10 && undecided == 0, "{}: {held} {undecided}", law.name());
+    }
+}
+
+/// Whether the force on the capsule at rest exceeds f_s in a part of the period.
+fn is_held(case: &Case, orbit: &Orbit) -> bool {
+    let p = &case.parameters;
+    let span = HistorySpan { cycles: orbit.period as u32, per_cycle: 400, from_start: true };
+    let [r, y1, y2] = orbit.section[0];
+    let from = Case::at_section(p.clone(), State { r, y1, x2: 0.0, y2 }, case.section_phase);
+    let system = AsPrinted::single(p, case.section_phase);
+    let history = History::sample(&system, &from, span, 1e-12).expect("it goes on");
+    let force = |state: &State<f64>| {
+        let contact = p[Parameter::K2] * (state.r - p[Parameter::Delta]).max(0.0);
+        p[Parameter::K1] * state.r + contact + p[Parameter::C] * (state.y1 - state.y2)
+    };
+    history.states.iter().any(|state| force(state).abs() > 1.01 * p.drag().static_limit)
+}
+
+/// A push of the capsule off rest, either way, has died after a period: without derivatives, the multiplier 0.
+fn comes_back(case: &Case, orbit: &Orbit, about: &str) {
+    let omega = case.parameters[Parameter::Omega];
+    let [r, y1, _] = orbit.section[0];
+    let size = points(case, orbit).iter().map(|it| apart(it, &[0.0; 3], omega)).fold(0.0, f64::max);
+    for push in [1e-7, -1e-7] {
+        let start = State { r, y1, x2: 0.0, y2: push * size };
+        let run = simulate(&case.parameters, case.section_phase, start, orbit.period, 1e-13);
+        let end = run.section.last().expect("a section");
+        assert_eq!(end.y2, 0.0, "{about}");
+        // What is left is the push in (r, y1), which the damper has carried there.
+        let moved = (omega * (end.r - r)).abs().max((end.y1 - y1).abs());
+        assert!(moved <= 1e-7 * size * 10.0, "{moved:e}: {about}");
+    }
+    assert!(orbit.certificate.multipliers[2].abs() < 1e-9, "{about}");
 }
 
 /// The section repeats after the period, and after no divisor of it.

@@ -6,7 +6,7 @@ use capsulemap::capsule::{Allowed, Output, Parameter, Parameters, Resistance, St
 use capsulemap::orbit::{HistorySpan, Protocol};
 use capsulemap::study::{
     Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Draws, FirstOrbit, Grid, Inherit,
-    Range, Spacing, Study,
+    Range, Refine, Spacing, Study,
 };
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -131,6 +131,7 @@ impl Random {
             max_period: 1 + self.below(100_000),
             measured_cycles: 1 + self.below(1000) as u64,
             exponent_cycles: self.one(&[0, 16, 2048, 1_000_000]),
+            exponent_error: self.uniform(1e-4, 0.1),
             points: self.below(100),
             impact_points: self.below(100),
             accelerate: self.is_so(),
@@ -331,6 +332,27 @@ fn what_a_study_file_cannot_hold_is_reported() {
     let inherit = Some(Inherit { axis: 0, directions: Vec::new() });
     let case_set = CaseSet::Grid(Grid { axes, inherit });
     assert!(ran(Study { case_set, ..Study::default() }).contains("axes: a study file cannot hold"));
+    // `[basin]` is for studies whose cases differ in their starts alone, and its `refine` for grids: see studies/README.md.
+    let message = ran(Study { early_decision: false, ..Study::default() });
+    assert!(message.contains("basin.early_decision: a study file cannot hold false"), "{message}");
+    let axes =
+        vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd), values: vec![1.0, 2.0] }];
+    let case_set = CaseSet::Grid(Grid { axes, inherit: None });
+    let refine = Some(Refine::Attractors);
+    let message = ran(Study { case_set, refine, ..Study::default() });
+    assert!(
+        message.contains("basin.refine: a study file cannot hold Some(Attractors)"),
+        "{message}"
+    );
+    // A map is refined by one output or more.
+    let axes = ["p_d", "k2"].map(|name| {
+        let parameter = Parameter::named(name).expect("a parameter");
+        Axis { coordinate: Coordinate::Parameter(parameter), values: vec![1.0, 2.0] }
+    });
+    let case_set = CaseSet::Grid(Grid { axes: axes.to_vec(), inherit: None });
+    let refine = Some(Refine::Outputs(Vec::new()));
+    let message = ran(Study { case_set, refine, ..Study::default() });
+    assert!(message.contains("map.refine"), "{message}");
     let mut random = Random(ChaCha8Rng::seed_from_u64(4));
     let mut branch = random.branch(&Study::default(), "one".to_owned());
     branch.range.reverse();

@@ -105,5 +105,12 @@ const fn output_shown(output: Output) -> Option<Shown> {
         Output::IntegrationDefect => words("Integration defect", ""),
         Output::ExcludedPeriod => words("Longest period excluded", ""),
         Output::SectionResidual => words("Section residual", ""),
+        Output::ProgressionSpeedError => shown("Error of the progression speed", "", "mm/s", 1e3),
+        Output::WorkNetError => shown("Error of the net work per cycle", "", "mJ", 1e3),
+        Output::WorkPositiveError => shown("Error of the positive work per cycle", "", "mJ", 1e3),
+        Output::WorkAbsoluteError => shown("Error of the absolute work per cycle", "", "mJ", 1e3),
+        Output::WorkActuatorError => shown("Error of the actuator work per cycle", "", "mJ", 1e3),
+        Output::FrictionLossError => shown("Error of the friction loss per cycle", "", "mJ", 1e3),
+        Output::DamperLossError => shown("Error of the damper loss per cycle", "", "mJ", 1e3),
     }
 }

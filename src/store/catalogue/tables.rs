@@ -90,9 +90,23 @@ entries! {
     UNCERTAINTY_EXPONENT "uncertainty_exponent" "1" Once, Real, None,
         "exponent by which the share of boxes that a boundary crosses falls with their size";
     UNCERTAINTY_EXPONENT_ERROR "uncertainty_exponent_error" "1" Once, Real, None,
-        "standard error of the uncertainty exponent, by the scatter about the line";
+        "error of the uncertainty exponent, which covers what the local slopes drift";
     BOUNDARY_DIMENSION "boundary_dimension" "1" Once, Real, None,
         "dimension of the boundary of the basins: the axes less the uncertainty exponent";
+    UNCERTAINTY_SCALES "uncertainty_scales" "1" Once, Whole, None,
+        "1 where one exponent describes all sizes of boxes, 0 where local slopes differ by more than their errors: no power law";
+    UNCERTAINTY_SIZE "uncertainty_size" "1" Dimension, Whole, None,
+        "size of the boxes that a boundary may cross, the smallest first";
+    UNCERTAINTY_SPAN "uncertainty_span" "1" Table(UNCERTAINTY_SIZE.name), Whole, None,
+        "how far apart the ends of a box are along an axis, in starts";
+    UNCERTAINTY_BOXES "uncertainty_boxes" "1" Table(UNCERTAINTY_SIZE.name), Whole, None,
+        "boxes of the size";
+    UNCERTAINTY_CROSSED "uncertainty_crossed" "1" Table(UNCERTAINTY_SIZE.name), Whole, None,
+        "those that a boundary crosses";
+    UNCERTAINTY_SLOPE "uncertainty_slope" "1" Table(UNCERTAINTY_SIZE.name), Real, None,
+        "local slope: the uncertainty exponent between the size and the next that a boundary crosses";
+    UNCERTAINTY_SLOPE_ERROR "uncertainty_slope_error" "1" Table(UNCERTAINTY_SIZE.name), Real, None,
+        "statistical error of the local slope, by leaving out slabs of the grid";
 
     EVENT "event" "1" Dimension, Whole, None,
         "event of an attractor";
