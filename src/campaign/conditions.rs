@@ -1,5 +1,7 @@
 //! What conditions on cases ask of the motions between them.
 
+use std::collections::BTreeSet;
+
 use serde_json::{Value, json};
 
 use crate::capsule::{Outputs, Parameter};
@@ -13,6 +15,8 @@ const KEPT: f64 = 1e-8;
 /// Conditions on motions between the cases.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Conditions {
+    /// All conditions in the form of [`Condition::normal`], each once, in their order.
+    pub normal: Vec<String>,
     /// Limits of outputs.
     pub limits: Vec<Limit>,
     /// Bounds of parameters (SI).
@@ -25,7 +29,7 @@ impl Conditions {
     ///
     /// Fails with all conditions that cannot be kept between the cases.
     pub fn of(conditions: &[Condition]) -> Result<Conditions, Vec<String>> {
-        let mut found = Conditions::default();
+        let mut found = Conditions { normal: normal(conditions), ..Conditions::default() };
         let mut faults = Vec::new();
         for condition in conditions {
             if let Err(fault) = found.add(condition) {
@@ -95,13 +99,12 @@ impl Conditions {
 
     /// All of them in JSON; nothing of none.
     pub fn described(&self) -> Option<Value> {
-        let sign = |side: Side| if side == Side::Upper { "<=" } else { ">=" };
-        let bounds = self.bounds.iter().map(|it| (it.0.symbol(), it.1, it.2));
-        let limits = self.limits.iter().map(|it| (it.output.name(), it.side, it.value));
-        let all: Vec<Value> = bounds
-            .chain(limits)
-            .map(|(name, side, value)| json!([name, sign(side), value]))
-            .collect();
-        (!all.is_empty()).then_some(Value::Array(all))
+        (!self.normal.is_empty()).then(|| json!(self.normal))
     }
+}
+
+/// Conditions in the form of [`Condition::normal`], each once, in their order: those who ask for the same have the same.
+pub(super) fn normal(conditions: &[Condition]) -> Vec<String> {
+    let found: BTreeSet<String> = conditions.iter().map(Condition::normal).collect();
+    found.into_iter().collect()
 }

@@ -15,12 +15,14 @@ use crate::store::{Archive, LineFile, provenance, read_lines};
 use crate::study::Study;
 
 use super::error::CampaignError;
-use super::refined_motion::{RefinedMotion, Slopes, distinct};
+use super::refined_motion::{RefinedMotion, Slopes};
 
 /// The extension of the file, beside that of the results.
 const EXTENSION: &str = "searches";
 /// The form of the lines; the number is increased with every change.
-const FORMAT: &str = "capsulemap searches 1";
+const FORMAT: &str = "capsulemap searches 2";
+/// How the form begins in every version.
+const ANY_FORMAT: &str = "capsulemap searches ";
 
 /// Searches that are done.
 #[derive(Debug, Default)]
@@ -77,9 +79,9 @@ impl KeptSearches {
         self.known.is_empty()
     }
 
-    /// The motions found, each once, in an order that does not depend on that of the searches.
-    pub fn motions(&self) -> Vec<RefinedMotion> {
-        distinct(self.known.values().flatten().cloned().collect())
+    /// Each search in JSON, with the motions that it has led to.
+    pub(super) fn each(&self) -> impl Iterator<Item = (&String, &Vec<RefinedMotion>)> {
+        self.known.iter()
     }
 
     /// The options of the refinements whose searches are kept, the direction first.
@@ -113,8 +115,7 @@ impl KeptSearches {
 
 /// The option of the conditions that a search has kept.
 fn conditions(what: &Value) -> Option<String> {
-    let part = |it: &Value| Some(format!("{} {} {}", it[0].as_str()?, it[1].as_str()?, it[2]));
-    let parts: Option<Vec<String>> = what["where"].as_array()?.iter().map(part).collect();
+    let parts: Option<Vec<&str>> = what["where"].as_array()?.iter().map(Value::as_str).collect();
     Some(format!(" --where \"{}\"", parts?.join(" and ")))
 }
 
@@ -139,6 +140,11 @@ fn searches(
     let first: Value =
         serde_json::from_str(first).map_err(|_| other("something else than searches"))?;
     let now = head(archive, study);
+    let is_older = first["format"] != now["format"]
+        && first["format"].as_str().is_some_and(|it| it.starts_with(ANY_FORMAT));
+    if is_older {
+        return Err(other("searches by another scheme, of another version of the program"));
+    }
     for (key, what) in [
         ("format", "something else than searches"),
         ("fingerprint", "searches of another study"),

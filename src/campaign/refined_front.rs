@@ -17,6 +17,7 @@ use crate::tradeoff::{
 };
 
 use super::conditions::Conditions;
+use super::conditions_of_draws::OfDraws;
 use super::error::CampaignError;
 use super::kept_searches::KeptSearches;
 use super::motion_row::Row;
@@ -68,10 +69,21 @@ pub struct Refinement<'a> {
     pub direction: Direction,
     /// What is asked of motions between the cases.
     pub conditions: Conditions,
+    /// What is asked of motions under tolerances.
+    pub asked: OfDraws,
+    /// The most of the output that may be spent, if that is given (SI).
+    pub budget: Option<f64>,
     /// Number of the drawing of starts.
     pub seed: u64,
     /// Searches that are done already, and where further ones are kept.
     pub kept: &'a KeptSearches,
+}
+
+impl Search {
+    /// What it begins with.
+    pub fn from(&self) -> usize {
+        self.from
+    }
 }
 
 impl Refinement<'_> {
@@ -166,7 +178,10 @@ impl Refinement<'_> {
                 let most = budget.map(|(_, most)| most);
                 json!({ "from": from, "moving": direction.name(), "of": of, "most": most })
             }
-            Goal::Least(output) => json!({ "from": from, "least": output.name(), "of": of }),
+            Goal::Least(output) => {
+                let moving = self.direction.name();
+                json!({ "from": from, "moving": moving, "least": output.name(), "of": of })
+            }
         })
     }
 

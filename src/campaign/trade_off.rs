@@ -1,6 +1,6 @@
 //! What is best among the motions of a file of results, and between its cases: the answer of a trade-off.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use crate::capsule::Output;
@@ -10,13 +10,15 @@ use crate::tradeoff::{
     Candidate, Direction, MOST_FREE, Optima, SMOOTH, fastest_first, hypervolume, optima as best_of,
 };
 
-use super::answer::{Answer, Gain, Named};
+use super::answer::{Answer, Gain, Named, Searched};
 use super::bounding::bound;
-use super::conditions::Conditions;
+use super::conditions::{Conditions, normal};
+use super::conditions_of_draws::OfDraws;
 use super::error::CampaignError;
+use super::kept_fronts::KeptFront;
 use super::kept_searches::KeptSearches;
 use super::motion_row::{Row, Rows};
-use super::refined_front::Refinement;
+use super::refined_front::{Refinement, Search};
 use super::refined_motion::{RefinedMotion, distinct};
 use super::report::{Event, Report, Reports, Stage};
 use super::robustness::Tolerances;
@@ -62,8 +64,8 @@ pub struct TradeOff<'a> {
 pub enum Between<'a> {
     /// None.
     Nothing,
-    /// Those that are known.
-    Known(&'a KeptSearches),
+    /// Those that searches under the same conditions have found.
+    Known(&'a KeptFront),
     /// Those that are found by searches which are not done yet, with the number by which starts are drawn.
     Sought(&'a KeptSearches, u64),
 }
@@ -73,6 +75,8 @@ struct Asked<'a> {
     request: &'a TradeOff<'a>,
     /// Number of cases.
     cases: usize,
+    /// The conditions on the cases.
+    conditions: Vec<String>,
     rows: &'a Rows,
     /// Those that take part.
     candidates: &'a [Candidate],
@@ -108,16 +112,20 @@ impl TradeOff<'_> {
         let asked = Asked {
             request: self,
             cases: table.cases(),
+            conditions: normal(&conditions),
             rows: &rows,
             candidates: &found.all,
             optima: best_of(&found.all, self.direction, self.at_rest),
-            refinement: study.as_ref().map(|study| self.refinement(study, (&rows, between), &none)),
+            refinement: study.as_ref().map(|study| Refinement {
+                asked: OfDraws::of(&conditions),
+                ..self.refinement(study, (&rows, between), &none)
+            }),
         };
         let reports = Reports::new(report);
-        let (searches, between) = asked.between(&reports)?;
+        let (searched, between) = asked.between(&reports)?;
         let all = with_refined((asked.cases, &found.all), &between, self.of);
         let motions = Motions { asked: &asked, between: &between, all };
-        let mut answer = Answer { left_out: found.left_out, ..motions.answer(searches)? };
+        let mut answer = Answer { left_out: found.left_out, ..motions.answer(searched)? };
         if let Some(refinement) = &asked.refinement {
             add_errors(&mut answer, refinement, self.threads)?;
         }
@@ -177,8 +185,8 @@ impl TradeOff<'_> {
         none: &'r KeptSearches,
     ) -> Refinement<'r> {
         let kept = match self.between {
-            Between::Nothing => none,
-            Between::Known(kept) | Between::Sought(kept, _) => kept,
+            Between::Nothing | Between::Known(_) => none,
+            Between::Sought(kept, _) => kept,
         };
         Refinement {
             study,
@@ -187,15 +195,18 @@ impl TradeOff<'_> {
             of: self.of,
             direction: self.direction,
             conditions,
-            seed: self.seed(),
+            asked: OfDraws::default(),
+            budget: self.budget,
+            seed: self.seed().unwrap_or_default(),
             kept,
         }
     }
 
-    fn seed(&self) -> u64 {
+    /// The number by which starts are drawn; none where none are.
+    fn seed(&self) -> Option<u64> {
         match self.between {
-            Between::Sought(_, seed) => seed,
-            _ => 0,
+            Between::Sought(_, seed) => Some(seed),
+            _ => None,
         }
     }
 
@@ -222,13 +233,15 @@ impl TradeOff<'_> {
 }
 
 impl Asked<'_> {
-    /// The motions between the cases that take part, with the number of searches if they were sought.
+    /// The motions between the cases that take part, with the searches that have found them, if any were made.
     fn between(
         &self,
         reports: &Reports<'_>,
-    ) -> Result<(Option<usize>, Vec<RefinedMotion>), CampaignError> {
+    ) -> Result<(Option<Searched>, Vec<RefinedMotion>), CampaignError> {
         match (&self.refinement, self.request.between) {
-            (_, Between::Known(kept)) => Ok((None, kept.motions())),
+            (_, Between::Known(KeptFront { searched, motions, .. })) => {
+                Ok((Some(searched.clone()), motions.clone()))
+            }
             (Some(refinement), Between::Sought(..)) => {
                 let free = refinement.free().len();
                 if !(1..=MOST_FREE).contains(&free) {
@@ -236,8 +249,8 @@ impl Asked<'_> {
                         format!("{free} parameters vary; 1 to {MOST_FREE} can be refined over");
                     return Err(self.request.fault(fault));
                 }
-                let (searches, motions) = self.sought(refinement, reports)?;
-                Ok((Some(searches), motions))
+                let (searched, motions) = self.sought(refinement, reports)?;
+                Ok((Some(searched), motions))
             }
             _ => Ok((None, Vec::new())),
         }
@@ -248,7 +261,7 @@ impl Asked<'_> {
         &self,
         refinement: &Refinement<'_>,
         reports: &Reports<'_>,
-    ) -> Result<(usize, Vec<RefinedMotion>), CampaignError> {
+    ) -> Result<(Searched, Vec<RefinedMotion>), CampaignError> {
         let threads = self.request.threads;
         let searches = refinement.searches(self.candidates, &self.optima);
         reports.send(Event::Begun(Stage::Searching, searches.len()))?;
@@ -267,14 +280,19 @@ impl Asked<'_> {
         let step = || reports.step(Stage::Following);
         let followed = refinement.followed(&gaps, threads, step)?;
         reports.send(Event::Ended(Stage::Following))?;
-        let begun = searches.len() + gaps.len();
-        Ok((begun, distinct([found, followed].concat())))
+        let starts: BTreeSet<usize> = searches.iter().map(Search::from).collect();
+        let searched = Searched {
+            searches: searches.len() + gaps.len(),
+            starts: starts.len(),
+            directions: vec![refinement.direction],
+        };
+        Ok((searched, distinct([found, followed].concat())))
     }
 }
 
 impl Motions<'_> {
-    /// What is best among them, before tolerances; with what so many searches have brought, if there were any.
-    fn answer(&self, searches: Option<usize>) -> Result<Answer, CampaignError> {
+    /// What is best among them, before tolerances; with what searches have brought, if there were any.
+    fn answer(&self, searched: Option<Searched>) -> Result<Answer, CampaignError> {
         let Motions { asked, between, all } = self;
         let request = asked.request;
         let best = best_of(all, request.direction, Some(asked.optima.at_rest));
@@ -283,8 +301,8 @@ impl Motions<'_> {
         let named = |(name, at): (&'static str, Option<usize>)| -> Result<Named, CampaignError> {
             Ok(Named { name, row: at.map(row).transpose()? })
         };
-        let gain = |searches: usize| Gain {
-            searches,
+        let gain = |searched: Searched| Gain {
+            searched,
             found: between.len(),
             seed: request.seed(),
             hypervolumes: request.hypervolumes([(&asked.optima, asked.candidates), (&best, all)]),
@@ -294,14 +312,20 @@ impl Motions<'_> {
             file: request.file.display().to_string(),
             of: request.of,
             direction: request.direction,
+            conditions: asked.conditions.clone(),
+            limits: [request.budget, request.speed],
             cases: asked.cases,
             left_out: BTreeMap::new(),
             at_rest: (best.at_rest, all.len() - moving.len()),
-            refined: searches.map(gain),
+            refined: searched.map(gain),
             named: request.named(&best, all).into_iter().map(named).collect::<Result<_, _>>()?,
             front: rows(&best.front)?,
             top: rows(&moving[..moving.len().min(request.top)])?,
             tolerances: request.under.cloned(),
+            not_judged: asked
+                .refinement
+                .as_ref()
+                .map_or(Vec::new(), |it| it.asked.not_judged.clone()),
             robust_front: Vec::new(),
         })
     }

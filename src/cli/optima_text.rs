@@ -22,9 +22,15 @@ pub fn json(answer: &Answer) -> Value {
     object.insert("cases".to_owned(), json!(answer.cases));
     object.insert("left_out".to_owned(), json!(answer.left_out));
     object.insert("speed_at_rest".to_owned(), json!(answer.at_rest.0));
-    if let Some(Gain { searches, found, seed, hypervolumes: [of_cases, whole] }) = answer.refined {
+    object.insert("where".to_owned(), json!(answer.conditions));
+    let [budget, least_speed] = answer.limits;
+    object.insert("budget".to_owned(), json!(budget));
+    object.insert("least_speed".to_owned(), json!(least_speed));
+    if let Some(Gain { searched, found, seed, hypervolumes: [of_cases, whole] }) = &answer.refined {
         let gain = json!({
-            "searches": searches,
+            "scope": "local",
+            "searches": searched.searches,
+            "starts": searched.starts,
             "found": found,
             "seed": seed,
             "hypervolume_of_cases": of_cases,
@@ -39,7 +45,14 @@ pub fn json(answer: &Answer) -> Value {
     if let Some(Tolerances { each, draws, seed }) = &answer.tolerances {
         let each: Map<String, Value> =
             each.iter().map(|(it, most)| (it.symbol().to_owned(), json!(most))).collect();
-        let asked = json!({ "each": each, "draws": draws, "seed": seed });
+        let asked = json!({
+            "each": each,
+            "each_is": "half width",
+            "distribution": "uniform",
+            "draws": draws,
+            "seed": seed,
+            "conditions_not_judged": answer.not_judged,
+        });
         object.insert("tolerances".to_owned(), asked);
         object.insert("robust_front".to_owned(), json!(answer.robust_front));
     }
@@ -88,6 +101,9 @@ fn json_of_row(row: &Row, of: Output) -> Value {
             "kept": it.kept,
             "speed_of_slowest_5_percent": it.speed,
             "price_of_dearest_5_percent": it.price,
+            "meet_conditions": it.meet_conditions,
+            "within_budget": it.within_budget,
+            "meet_conditions_within_budget": it.meet_both,
         })
     });
     point.insert("robustness".to_owned(), json!(robustness));
@@ -134,6 +150,10 @@ pub fn csv(answer: &Answer) -> String {
         "kept",
         "speed_of_slowest_5_percent",
         "price_of_dearest_5_percent",
+        "draws",
+        "meet_conditions",
+        "within_budget",
+        "meet_conditions_within_budget",
         "replay",
     ];
     let header: Vec<&str> = fixed.into_iter().chain(rest).chain(names).chain(more).collect();
@@ -154,6 +174,9 @@ pub fn csv(answer: &Answer) -> String {
             optional(row.share),
         ];
         let robustness = |of: fn(&Robustness) -> f64| optional(row.robustness.as_ref().map(of));
+        let counted_draws = |of: fn(&Robustness) -> Option<usize>| {
+            optional(row.robustness.as_ref().and_then(of).map(|it| it as f64))
+        };
         let more = [
             format!("{:?}", row.energy_per_metre),
             optional(row.errors.map(|it| it.speed)),
@@ -163,6 +186,10 @@ pub fn csv(answer: &Answer) -> String {
             robustness(|it| it.kept),
             robustness(|it| it.speed),
             robustness(|it| it.price),
+            robustness(|it| it.draws as f64),
+            counted_draws(|it| it.meet_conditions),
+            counted_draws(|it| it.within_budget),
+            counted_draws(|it| it.meet_both),
             // A command has commas.
             format!("\"{}\"", row.replay.replace('"', "\"\"")),
         ];
@@ -191,28 +218,33 @@ pub fn table(answer: &Answer) -> String {
         "\n{} left out at rest (no faster than {speed:.1e} m/s){against}",
         count(slow)
     );
-    if let Some(Gain { searches, found, hypervolumes: [of_cases, whole], .. }) = answer.refined {
+    if let Some(Gain { searched, found, hypervolumes: [of_cases, whole], .. }) = &answer.refined {
         let gain = 100.0 * (whole / of_cases - 1.0);
         let grows = match gain.is_finite() {
             true => format!("; the area that the front dominates grows by {gain:.3} %"),
             false => String::new(),
         };
-        let found = counted(found, "motion");
-        let searches = if searches == 1 {
-            "1 search".to_owned()
-        } else {
-            format!("{} searches", count(searches))
-        };
-        let _ = writeln!(text, "{searches} between the cases led to {found}{grows}");
+        let (searches, found) = (searched.in_words(), counted(*found, "motion"));
+        let _ = writeln!(
+            text,
+            "{searches} between the cases led to {found}{grows}; each search is local: a better motion may lie elsewhere"
+        );
     }
+    let condition = match answer.conditions.is_empty() {
+        true => String::new(),
+        false => format!(" where {}", answer.conditions.join(" and ")),
+    };
     let _ = writeln!(
         text,
-        "Pareto front of {} ({}) and {}: {}\n",
+        "Pareto front of {} ({}) and {}{condition}: {}",
         Output::ProgressionSpeed.name(),
         answer.direction.name(),
         answer.of.name(),
         counted(answer.front.len(), "motion")
     );
+    write_limits(&mut text, answer);
+    write_tolerances(&mut text, answer);
+    text.push('\n');
     if answer.front.is_empty() {
         return text;
     }
@@ -245,6 +277,58 @@ pub fn table(answer: &Answer) -> String {
     text
 }
 
+/// What tolerances are, and what of the conditions cannot be judged under them.
+fn write_tolerances(text: &mut String, answer: &Answer) {
+    let Some(Tolerances { each, draws, seed }) = &answer.tolerances else { return };
+    let half_widths: Vec<String> = each
+        .iter()
+        .map(|(it, most)| format!("{} \u{b1} {} %", it.symbol(), 100.0 * most))
+        .collect();
+    let _ = writeln!(
+        text,
+        "tolerances: {}, half widths of even distributions (standard deviations are these over \u{221a}3), independent; {draws} draws, \
+         seed {seed}",
+        half_widths.join(", ")
+    );
+    if !answer.not_judged.is_empty() {
+        let conditions = answer.not_judged.join(" and ");
+        let _ = writeln!(text, "not judged of the draws, which have no such number: {conditions}");
+    }
+}
+
+/// How many draws keep the conditions and the budget.
+fn counts_of_draws(robustness: &Robustness) -> String {
+    let Robustness { draws, meet_conditions, within_budget, meet_both, .. } = robustness;
+    let told = |count: &Option<usize>, does: &str| {
+        count.map_or(String::new(), |count| format!(", {count} of {draws} draws {does}"))
+    };
+    [
+        told(meet_conditions, "keep the conditions"),
+        told(within_budget, "keep to the budget"),
+        told(meet_both, "do both"),
+    ]
+    .concat()
+}
+
+/// What may be spent and what speed is wanted, which choose motions of the front.
+fn write_limits(text: &mut String, answer: &Answer) {
+    let [budget, speed] = answer.limits;
+    if let Some(most) = budget {
+        let (of, unit) = (answer.of.name(), answer.of.unit());
+        let _ = writeln!(
+            text,
+            "budget: {of} of {most:e} {unit} at most, which leaves no motion out of the front"
+        );
+    }
+    if let Some(least) = speed {
+        let _ = writeln!(
+            text,
+            "speed wanted: {} mm/s at least, which leaves no motion out of the front",
+            1e3 * least
+        );
+    }
+}
+
 /// How far the parameters of the optima may change.
 fn write_margins(text: &mut String, answer: &Answer) {
     let rows = answer.named.iter().filter_map(|Named { name, row }| Some((name, row.as_ref()?)));
@@ -272,12 +356,18 @@ fn write_row(text: &mut String, answer: &Answer, what: &str, row: &Row) {
     let robust = row.robustness.map_or(String::new(), |it| {
         let (kept, speed) = (100.0 * it.kept, 1e3 * it.speed);
         format!(
-            "; under tolerances 95 % of the draws reach {speed:.4} mm/s or more {}, 95 % take {:.4e} {} or less, {kept:.1} % keep the period",
+            "; under tolerances 95 % of the draws reach {speed:.4} mm/s or more {}, 95 % take {:.4e} {} or less, {kept:.1} % keep the period{}",
             answer.direction.adverb(),
             it.price,
-            answer.of.unit()
+            answer.of.unit(),
+            counts_of_draws(&it)
         )
     });
+    let is_not_judged = answer.tolerances.is_some() && row.period.is_none();
+    let robust = match is_not_judged {
+        true => "; not judged under tolerances, as it does not repeat".to_owned(),
+        false => robust,
+    };
     let basin =
         row.share.map_or(String::new(), |share| format!(", {:.1} % of the starts", 100.0 * share));
     let varied = row.coordinates.iter().filter(|(.., varies)| *varies);

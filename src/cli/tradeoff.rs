@@ -61,8 +61,9 @@ pub struct Tradeoff {
     /// Search for better motions between the cases, over the parameters that vary, within their ranges (at most 6).
     #[arg(long)]
     refine: bool,
-    /// Tolerances of parameters, as "k2 = 5 %, mu_s = 10 %": tells for the optima and the front the speed that 95 of 100 draws
-    /// reach, the cost that 95 of 100 do not exceed, and the share that keeps the period.
+    /// Tolerances of parameters, as "k2 = 5 %, mu_s = 10 %": 5 % is the half width of an even (uniform) distribution, within which each
+    /// parameter is drawn by itself. Tells for the periodic optima and motions of the front the speed that 95 of 100 draws reach, the
+    /// cost that 95 of 100 do not exceed, the share that keeps the period, and how many draws keep `--where` and `--budget`.
     #[arg(long, value_name = "TOLERANCES")]
     tolerances: Option<String>,
     /// How many sets of parameters are drawn within the tolerances.

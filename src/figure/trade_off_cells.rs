@@ -44,7 +44,7 @@ pub fn trade_off_cells<'a>(
     let view = View::new(shown.into(), drawing)?;
     let plane = Plane::of(&view, "a map")?;
     let free = plane.free();
-    let motions = Motions::of(&view, price(drawing), &free)?;
+    let motions = Motions::of(&view, (price(drawing), &free), None)?;
     let cells = cells(&plane);
     let mut left_out = BTreeMap::new();
     if motions.left_out > 0 {

@@ -6,6 +6,7 @@ use super::optima_table::{Row, Table};
 use super::quantity::Quantity;
 use super::symbol::{FASTEST, KNEE, LEAST, Symbol};
 use super::text::Text;
+use super::trade_off_fronts::Front;
 use super::trade_off_motions::{Best, Motions, coordinates, value_of};
 use super::view::View;
 use crate::campaign::RefinedMotion;
@@ -38,19 +39,22 @@ pub fn marked<'m>(motions: &'m Motions<'_>, best: &Best) -> Vec<(Symbol, &'m Can
     found.map(|(symbol, place)| (symbol, motions.at(place))).collect()
 }
 
-/// The optima in each direction with their speeds, their prices by the output `price`, and what varies over the axes `free`.
+/// The optima of each front and direction with their speeds, their prices by the output `price`, and what varies over the axes `free`.
 pub fn table(
     (view, free): (&View<'_>, &[&str]),
     price: &str,
-    (motions, best): (&Motions<'_>, &[Best]),
+    fronts: &[Front<'_>],
 ) -> Result<Table, FigureError> {
     let columns = columns(view, price, free)?;
     let mut table = Table::default();
-    for best in best {
+    let each = fronts.iter().flat_map(|front| front.best.iter().map(move |best| (front, best)));
+    for (front, best) in each {
+        let motions = &front.motions;
         for (symbol, motion) in marked(motions, best).into_iter().rev() {
             let refined = motions.refined(motion);
             let cells = columns.iter().map(|column| (column.cell)(motion, refined)).collect();
-            let name = Text::plain(&name(symbol, motions, (best, motion)));
+            let letter = front.letter.map_or(String::new(), |letter| format!(" ({letter})"));
+            let name = Text::plain(&(name(symbol, motions, (best, motion)) + &letter));
             table.rows.push(Row { mark: Mark::Symbol(symbol), name, cells });
         }
     }
