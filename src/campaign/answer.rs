@@ -68,6 +68,9 @@ pub struct Gain {
     pub found: usize,
     /// The number by which starts were drawn; none of searches that were kept before.
     pub seed: Option<u64>,
+    /// How many points were drawn over the ranges, and from how many of them searches began: those that settle to a periodic motion in
+    /// the direction asked for; none of searches that were kept before.
+    pub drawn: Option<[usize; 2]>,
     /// The area that the front of the cases dominates up to the dearest price of both fronts, and that of the whole front, in
     /// units of speed and price.
     pub hypervolumes: [f64; 2],
@@ -80,6 +83,9 @@ pub struct Searched {
     pub searches: usize,
     /// Motions and points that they have begun with.
     pub starts: usize,
+    /// Orbits that they have led to and that do not count: plain integration from them does not lead back, or they do not keep the
+    /// conditions.
+    pub unsettled: usize,
     /// The directions in which speed was sought.
     pub directions: Vec<Direction>,
 }
@@ -87,7 +93,7 @@ pub struct Searched {
 impl Searched {
     /// How many from how many starts, and for which directions.
     pub fn in_words(&self) -> String {
-        let Searched { searches, starts, directions } = self;
+        let Searched { searches, starts, directions, .. } = self;
         let directions: Vec<&str> = directions.iter().map(|it| it.name()).collect();
         let plural = if *searches == 1 { "" } else { "es" };
         let (searches, starts) = (count(*searches), counted(*starts, "start"));

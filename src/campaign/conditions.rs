@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 
-use crate::capsule::{Outputs, Parameter};
+use crate::capsule::{Outputs, Parameter, Parameters};
+use crate::orbit::Outcome;
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};
 use crate::tradeoff::{Limit, MOST_LIMITS, SMOOTH, Side};
@@ -19,6 +20,10 @@ pub struct Conditions {
     pub normal: Vec<String>,
     /// Limits of outputs.
     pub limits: Vec<Limit>,
+    /// What the period may be, each with its limit [cycles].
+    pub periods: Vec<(Comparison, f64)>,
+    /// Whether motions may not be periodic, so that none can be sought.
+    pub excludes_periodic: bool,
     /// Bounds of parameters (SI).
     pub bounds: Vec<(Parameter, Side, f64)>,
 }
@@ -52,7 +57,13 @@ impl Conditions {
             Comparison::Equal => &[Side::Lower, Side::Upper],
             Comparison::Unequal => &[],
         };
-        if name == OUTCOME.name || name == PERIOD.name {
+        if name == PERIOD.name {
+            self.periods.push((condition.comparison, *limit));
+            return Ok(());
+        }
+        if name == OUTCOME.name {
+            let code = condition.code(Outcome::Periodic.name());
+            self.excludes_periodic |= !condition.comparison.holds(code, *limit);
             return Ok(());
         }
         if let Some(parameter) = Parameter::named(name) {
@@ -87,6 +98,21 @@ impl Conditions {
             Side::Lower => [low.max(*value), high],
             Side::Upper => [low, high.min(*value)],
         })
+    }
+
+    /// Whether a search may begin with a motion that has these parameters and this period: limits of outputs, to which a search comes back,
+    /// may be exceeded.
+    pub fn may_begin(&self, parameters: &Parameters, period: u64) -> bool {
+        let is_within = |(parameter, side, value): &(Parameter, Side, f64)| match side {
+            Side::Lower => parameters[*parameter] >= *value,
+            Side::Upper => parameters[*parameter] <= *value,
+        };
+        let periods = self.periods.iter();
+        !self.excludes_periodic
+            && self.bounds.iter().all(is_within)
+            && periods
+                .into_iter()
+                .all(|(comparison, limit)| comparison.holds(period as f64, *limit))
     }
 
     /// Whether outputs keep all limits.

@@ -1,8 +1,8 @@
 //! What conditions on cases ask of a motion under tolerances, which has parameters, outputs, a period and an outcome of its own.
 
 use crate::capsule::{Orbit, Output, Parameter, Parameters};
-use crate::store::Condition;
 use crate::store::catalogue::{OUTCOME, PERIOD};
+use crate::store::{Comparison, Condition};
 
 /// Conditions as far as they can be judged of a draw.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -11,6 +11,9 @@ pub struct OfDraws {
     /// Those on something else: a start, an attractor, a count of cycles, and the like.
     pub not_judged: Vec<String>,
 }
+
+/// A limit is kept to this share of it.
+const KEPT: f64 = 1e-8;
 
 /// What a condition is on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,23 +49,25 @@ impl OfDraws {
         found
     }
 
-    /// Whether a draw keeps those that can be judged; none where there is none.
+    /// Whether a draw keeps those that can be judged; none where there is none. Limits may be reached, as by motions between the cases,
+    /// which lie on them.
     pub fn met(&self, parameters: &Parameters, orbit: &Orbit) -> Option<bool> {
         let holds = |(quantity, condition): &(Quantity, Condition)| {
             let value = match quantity {
                 Quantity::Parameter(parameter) => parameters[*parameter],
                 Quantity::Output(output) => orbit.outputs[*output],
                 Quantity::Period => orbit.period as f64,
-                Quantity::Outcome => code(condition, orbit.outcome.name()),
+                Quantity::Outcome => condition.code(orbit.outcome.name()),
             };
-            condition.comparison.holds(value, condition.limit)
+            keeps(condition, value)
         };
         (!self.judged.is_empty()).then(|| self.judged.iter().all(holds))
     }
 }
 
-/// The code of a category in the file of the condition; not a number where it has none.
-fn code(condition: &Condition, name: &str) -> f64 {
-    let found = condition.column.flags.iter().find(|(_, flag)| flag == name);
-    found.map_or(f64::NAN, |(code, _)| *code as f64)
+/// Whether a number keeps a condition, or reaches its limit but for rounding.
+fn keeps(condition: &Condition, value: f64) -> bool {
+    let Condition { comparison, limit, .. } = condition;
+    let is_reached = (value - limit).abs() <= KEPT * limit.abs().max(value.abs());
+    comparison.holds(value, *limit) || (*comparison != Comparison::Unequal && is_reached)
 }

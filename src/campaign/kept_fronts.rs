@@ -31,6 +31,7 @@ struct Group {
     directions: BTreeSet<String>,
     starts: BTreeSet<String>,
     searches: usize,
+    unsettled: usize,
     found: Vec<RefinedMotion>,
 }
 
@@ -58,7 +59,7 @@ impl KeptSearches {
     /// Fails if the file of results cannot be read, or has no more what a condition is on.
     pub fn fronts(&self, archive: &Archive) -> Result<Vec<KeptFront>, CampaignError> {
         let mut groups: BTreeMap<Vec<String>, Group> = BTreeMap::new();
-        for (what, found) in self.each() {
+        for (what, led) in self.each() {
             let what: Value = serde_json::from_str(what).unwrap_or_default();
             let conditions = what["where"].as_array().map_or(&[][..], Vec::as_slice);
             let conditions = conditions.iter().filter_map(|it| Some(it.as_str()?.to_owned()));
@@ -67,7 +68,8 @@ impl KeptSearches {
             // A front that is followed goes on from motions that searches have found.
             group.starts.extend(what.get("prices").is_none().then(|| what["from"].to_string()));
             group.searches += 1;
-            group.found.extend(found.iter().cloned());
+            group.unsettled += led.unsettled;
+            group.found.extend(led.motions.iter().cloned());
         }
         let table = CaseTable::of(archive)?;
         let path = archive.path();
@@ -91,7 +93,12 @@ impl Group {
         Ok(KeptFront {
             conditions: asked,
             keeps,
-            searched: Searched { searches: self.searches, starts: self.starts.len(), directions },
+            searched: Searched {
+                searches: self.searches,
+                starts: self.starts.len(),
+                unsettled: self.unsettled,
+                directions,
+            },
             motions: distinct(self.found),
         })
     }

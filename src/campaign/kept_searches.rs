@@ -15,7 +15,8 @@ use crate::store::{Archive, LineFile, provenance, read_lines};
 use crate::study::Study;
 
 use super::error::CampaignError;
-use super::refined_motion::{RefinedMotion, Slopes};
+use super::refined_motion::{Led, RefinedMotion, Slopes};
+use super::refinement_starts::Start;
 
 /// The extension of the file, beside that of the results.
 const EXTENSION: &str = "searches";
@@ -28,7 +29,7 @@ const ANY_FORMAT: &str = "capsulemap searches ";
 #[derive(Debug, Default)]
 pub struct KeptSearches {
     /// What each has led to, by what it begins with and looks for.
-    known: BTreeMap<String, Vec<RefinedMotion>>,
+    known: BTreeMap<String, Led>,
     /// Where further ones are kept.
     file: Option<LineFile>,
 }
@@ -79,8 +80,8 @@ impl KeptSearches {
         self.known.is_empty()
     }
 
-    /// Each search in JSON, with the motions that it has led to.
-    pub(super) fn each(&self) -> impl Iterator<Item = (&String, &Vec<RefinedMotion>)> {
+    /// Each search in JSON, with what it has led to.
+    pub(super) fn each(&self) -> impl Iterator<Item = (&String, &Led)> {
         self.known.iter()
     }
 
@@ -99,15 +100,17 @@ impl KeptSearches {
     pub(super) fn kept_or_found(
         &self,
         what: &Value,
-        search: impl FnOnce() -> Result<Vec<RefinedMotion>, CampaignError>,
-    ) -> Result<Vec<RefinedMotion>, CampaignError> {
+        search: impl FnOnce() -> Result<Led, CampaignError>,
+    ) -> Result<Led, CampaignError> {
         if let Some(known) = self.known.get(&what.to_string()) {
             return Ok(known.clone());
         }
         let found = search()?;
         if let Some(file) = &self.file {
-            let found: Vec<Written> = found.iter().map(Written::of).collect();
-            file.add(&json!({ "search": what, "found": found }).to_string())?;
+            let Led { motions, unsettled } = &found;
+            let motions: Vec<Written> = motions.iter().map(Written::of).collect();
+            let line = json!({ "search": what, "found": motions, "unsettled": unsettled });
+            file.add(&line.to_string())?;
         }
         Ok(found)
     }
@@ -134,7 +137,7 @@ fn searches(
     lines: &[String],
     (archive, study): (&Archive, &Study),
     path: &Path,
-) -> Result<BTreeMap<String, Vec<RefinedMotion>>, CampaignError> {
+) -> Result<BTreeMap<String, Led>, CampaignError> {
     let other = |what| CampaignError::OtherSearches { path: path.to_owned(), what };
     let Some((first, rest)) = lines.split_first() else { return Ok(BTreeMap::new()) };
     let first: Value =
@@ -158,9 +161,11 @@ fn searches(
     let mut known = BTreeMap::new();
     for line in rest {
         let damaged = || other("a line that is damaged");
-        let Line { search, found } = serde_json::from_str(line).map_err(|_| damaged())?;
+        let Line { search, found, unsettled } =
+            serde_json::from_str(line).map_err(|_| damaged())?;
         let motions: Option<_> = found.into_iter().map(|it| it.motion(study)).collect();
-        known.insert(search.to_string(), motions.ok_or_else(damaged)?);
+        let motions = motions.ok_or_else(damaged)?;
+        known.insert(search.to_string(), Led { motions, unsettled });
     }
     Ok(known)
 }
@@ -170,12 +175,13 @@ fn searches(
 struct Line {
     search: Value,
     found: Vec<Written>,
+    unsettled: usize,
 }
 
 /// A motion as it is written.
 #[derive(Serialize, Deserialize)]
 struct Written {
-    from: usize,
+    from: Start,
     parameters: BTreeMap<String, Real>,
     section: [f64; 3],
     phase: f64,

@@ -4,14 +4,16 @@ use crate::capsule::{Output, Outputs, Parameter, Parameters, Section};
 use crate::study::Coordinate;
 use crate::tradeoff::{Candidate, Family, Hold, Side};
 
+use super::refinement_starts::Start;
+
 /// Said of a motion whose search has not converged.
 const NOT_CONVERGED: &str = "not converged";
 
 /// A motion of the refined front.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefinedMotion {
-    /// The case whose orbit was followed to it.
-    pub from: usize,
+    /// The motion that was followed to it.
+    pub from: Start,
     /// Its parameters.
     pub parameters: Parameters,
     /// Its section point (SI).
@@ -65,6 +67,25 @@ pub struct Slopes {
     pub stationarity: Option<f64>,
     /// What keeps it from being better, in words.
     pub held_by: Vec<String>,
+}
+
+/// What searches have led to.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Led {
+    /// Motions to which plain integration leads, and that keep the conditions.
+    pub motions: Vec<RefinedMotion>,
+    /// How many orbits were found that are none of these.
+    pub unsettled: usize,
+}
+
+impl Led {
+    /// Adds an orbit that was found: a motion, or none.
+    pub(super) fn add(&mut self, found: Option<RefinedMotion>) {
+        match found {
+            Some(motion) => self.motions.push(motion),
+            None => self.unsettled += 1,
+        }
+    }
 }
 
 /// Motions that agree in these to this share are one.

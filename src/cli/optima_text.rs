@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Map, Value, json};
 
+use super::optima_notes::{counts_of_draws, write_limits, write_starts, write_tolerances};
 use super::readable::{count, counted};
 use crate::campaign::{
     Answer, Gain, Margin, MarginEnd, Margins, Named, Robustness, Row, Slopes, Tolerances,
@@ -26,11 +27,16 @@ pub fn json(answer: &Answer) -> Value {
     let [budget, least_speed] = answer.limits;
     object.insert("budget".to_owned(), json!(budget));
     object.insert("least_speed".to_owned(), json!(least_speed));
-    if let Some(Gain { searched, found, seed, hypervolumes: [of_cases, whole] }) = &answer.refined {
+    if let Some(Gain { searched, found, seed, drawn, hypervolumes: [of_cases, whole] }) =
+        &answer.refined
+    {
         let gain = json!({
             "scope": "local",
             "searches": searched.searches,
             "starts": searched.starts,
+            "points_drawn": drawn.map(|[points, _]| points),
+            "points_searched_from": drawn.map(|[_, begun]| begun),
+            "unsettled": searched.unsettled,
             "found": found,
             "seed": seed,
             "hypervolume_of_cases": of_cases,
@@ -218,7 +224,9 @@ pub fn table(answer: &Answer) -> String {
         "\n{} left out at rest (no faster than {speed:.1e} m/s){against}",
         count(slow)
     );
-    if let Some(Gain { searched, found, hypervolumes: [of_cases, whole], .. }) = &answer.refined {
+    if let Some(Gain { searched, found, drawn, hypervolumes: [of_cases, whole], .. }) =
+        &answer.refined
+    {
         let gain = 100.0 * (whole / of_cases - 1.0);
         let grows = match gain.is_finite() {
             true => format!("; the area that the front dominates grows by {gain:.3} %"),
@@ -229,6 +237,7 @@ pub fn table(answer: &Answer) -> String {
             text,
             "{searches} between the cases led to {found}{grows}; each search is local: a better motion may lie elsewhere"
         );
+        write_starts(&mut text, searched, *drawn);
     }
     let condition = match answer.conditions.is_empty() {
         true => String::new(),
@@ -275,58 +284,6 @@ pub fn table(answer: &Answer) -> String {
         }
     }
     text
-}
-
-/// What tolerances are, and what of the conditions cannot be judged under them.
-fn write_tolerances(text: &mut String, answer: &Answer) {
-    let Some(Tolerances { each, draws, seed }) = &answer.tolerances else { return };
-    let half_widths: Vec<String> = each
-        .iter()
-        .map(|(it, most)| format!("{} \u{b1} {} %", it.symbol(), 100.0 * most))
-        .collect();
-    let _ = writeln!(
-        text,
-        "tolerances: {}, half widths of even distributions (standard deviations are these over \u{221a}3), independent; {draws} draws, \
-         seed {seed}",
-        half_widths.join(", ")
-    );
-    if !answer.not_judged.is_empty() {
-        let conditions = answer.not_judged.join(" and ");
-        let _ = writeln!(text, "not judged of the draws, which have no such number: {conditions}");
-    }
-}
-
-/// How many draws keep the conditions and the budget.
-fn counts_of_draws(robustness: &Robustness) -> String {
-    let Robustness { draws, meet_conditions, within_budget, meet_both, .. } = robustness;
-    let told = |count: &Option<usize>, does: &str| {
-        count.map_or(String::new(), |count| format!(", {count} of {draws} draws {does}"))
-    };
-    [
-        told(meet_conditions, "keep the conditions"),
-        told(within_budget, "keep to the budget"),
-        told(meet_both, "do both"),
-    ]
-    .concat()
-}
-
-/// What may be spent and what speed is wanted, which choose motions of the front.
-fn write_limits(text: &mut String, answer: &Answer) {
-    let [budget, speed] = answer.limits;
-    if let Some(most) = budget {
-        let (of, unit) = (answer.of.name(), answer.of.unit());
-        let _ = writeln!(
-            text,
-            "budget: {of} of {most:e} {unit} at most, which leaves no motion out of the front"
-        );
-    }
-    if let Some(least) = speed {
-        let _ = writeln!(
-            text,
-            "speed wanted: {} mm/s at least, which leaves no motion out of the front",
-            1e3 * least
-        );
-    }
 }
 
 /// How far the parameters of the optima may change.

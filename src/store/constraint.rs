@@ -51,6 +51,12 @@ const SIGNS: [(&str, Comparison); 7] = [
 ];
 
 impl Condition {
+    /// The code of a category of what it is on; not a number where it has none.
+    pub fn code(&self, name: &str) -> f64 {
+        let found = self.column.flags.iter().find(|(_, flag)| flag == name);
+        found.map_or(f64::NAN, |(code, _)| *code as f64)
+    }
+
     /// The condition in one form, which [`conditions`] reads again: name, sign, and the limit in SI or the name of a category.
     pub fn normal(&self) -> String {
         let Condition { name, column, comparison, limit, .. } = self;
