@@ -15,8 +15,7 @@ use crate::store::{Archive, LineFile, provenance, read_lines};
 use crate::study::Study;
 
 use super::error::CampaignError;
-use super::refined_motion::{Led, RefinedMotion, Slopes};
-use super::refinement_starts::Start;
+use super::refined_motion::{Led, RefinedMotion, Slopes, Start};
 
 /// The extension of the file, beside that of the results.
 const EXTENSION: &str = "searches";

@@ -20,8 +20,7 @@ use super::conditions_of_draws::OfDraws;
 use super::error::CampaignError;
 use super::kept_searches::KeptSearches;
 use super::motion_row::Row;
-use super::refined_motion::{Led, RefinedMotion, Slopes, distinct, words};
-use super::refinement_starts::{DrawnMotion, Start};
+use super::refined_motion::{DrawnMotion, Led, RefinedMotion, Slopes, Start, distinct, words};
 use super::replay::Replay;
 use super::report::silent;
 

@@ -1,13 +1,43 @@
 //! A motion between the cases of a study: where it is, what it gives, and what keeps it from being better.
 
+use serde::{Deserialize, Serialize};
+
 use crate::capsule::{Output, Outputs, Parameter, Parameters, Section};
 use crate::study::Coordinate;
 use crate::tradeoff::{Candidate, Family, Hold, Side};
 
-use super::refinement_starts::Start;
-
 /// Said of a motion whose search has not converged.
 const NOT_CONVERGED: &str = "not converged";
+
+/// What a search begins with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Start {
+    /// The motion of a case of the file.
+    Case(usize),
+    /// The motion that a point of the ranges settles to from rest.
+    Drawn {
+        /// The number by which points are drawn.
+        seed: u64,
+        /// Its number among them.
+        drawn: usize,
+    },
+}
+
+/// A periodic motion that a drawn point settles to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnMotion {
+    /// The number of the point.
+    pub number: usize,
+    /// Its parameters.
+    pub parameters: Parameters,
+    /// A section point of its orbit (SI).
+    pub section: Section,
+    /// Its period [cycles].
+    pub period: u64,
+    /// Its outputs (SI).
+    pub outputs: Outputs,
+}
 
 /// A motion of the refined front.
 #[derive(Debug, Clone, PartialEq)]

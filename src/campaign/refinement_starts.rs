@@ -2,9 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use serde::{Deserialize, Serialize};
-
-use crate::capsule::{Case, Output, Outputs, Parameter, Parameters, Section, State, settle_case};
+use crate::capsule::{Case, Output, Parameter, State, settle_case};
 use crate::orbit::Outcome;
 use crate::run::on_all_threads;
 use crate::store::catalogue::{ATTRACTOR, PERIOD};
@@ -14,6 +12,7 @@ use crate::tradeoff::{Candidate, Goal, Optima, optima};
 
 use super::error::CampaignError;
 use super::refined_front::{Refinement, Search};
+use super::refined_motion::{DrawnMotion, Start};
 
 /// Cases from which each optimum is sought, the best first.
 const STARTS: usize = 8;
@@ -28,36 +27,6 @@ const PARTS: usize = 8;
 
 /// An odd number that spreads the bits of a product.
 const MIXES: u64 = 0x9e37_79b9_7f4a_7c15;
-
-/// What a search begins with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum Start {
-    /// The motion of a case of the file.
-    Case(usize),
-    /// The motion that a point of the ranges settles to from rest.
-    Drawn {
-        /// The number by which points are drawn.
-        seed: u64,
-        /// Its number among them.
-        drawn: usize,
-    },
-}
-
-/// A periodic motion that a drawn point settles to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DrawnMotion {
-    /// The number of the point.
-    pub number: usize,
-    /// Its parameters.
-    pub parameters: Parameters,
-    /// A section point of its orbit (SI).
-    pub section: Section,
-    /// Its period [cycles].
-    pub period: u64,
-    /// Its outputs (SI).
-    pub outputs: Outputs,
-}
 
 impl Refinement<'_> {
     /// The periodic motions in the direction asked for that so many points settle to from rest, by their numbers; calls `done` after

@@ -155,7 +155,8 @@ impl Report<'_> {
         page.verbatim(&commands.join("\n"));
         if !self.kept.is_empty() {
             page.note(&format!(
-                "{} motions between the cases are known, from {} searches; motions under different conditions are counted apart.",
+                "{} motions between the cases are known, from {} searches; motions under different conditions are counted apart. \
+                 The commands above make the searches of the default `--starts` and `--seed` alone.",
                 self.fronts.iter().map(|front| front.motions.len()).sum::<usize>(),
                 self.kept.len()
             ));

@@ -15,14 +15,14 @@ use super::paint::Paint;
 use super::panel::{Panel, Pointing};
 use super::style::{BLUE, FAINT_INK, ONE_COLUMN, UNDECIDED_DOT};
 use super::text::Text;
-use super::trade_off_fronts::Front;
+use super::trade_off_fronts::{Front, marked};
 use super::trade_off_motions::{Best, Motions};
-use super::trade_off_table::{BETWEEN, OPEN, marked, table};
+use super::trade_off_table::{BETWEEN, OPEN, table};
 use super::view::View;
 use crate::capsule::Output;
 use crate::store::catalogue::{self, DRAW};
 use crate::study::{Coordinate, Drawing};
-use crate::tradeoff::{Candidate, Direction};
+use crate::tradeoff::Candidate;
 
 /// The energy shown, unless another is asked for.
 const ENERGY: catalogue::Entry = catalogue::Entry::of_output(Output::WorkPositive);
@@ -32,8 +32,6 @@ pub const SPEED: catalogue::Entry = catalogue::Entry::of_output(Output::Progress
 const PER_METRE: catalogue::Entry = catalogue::Entry::of_output(Output::EnergyPerMetre);
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
-/// The directions, each with a front and optima of its own.
-pub const DIRECTIONS: [Direction; 2] = [Direction::Forward, Direction::Backward];
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };

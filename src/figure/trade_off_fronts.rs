@@ -5,12 +5,12 @@ use super::error::FigureError;
 use super::header::{Entry, Mark};
 use super::panel::Panel;
 use super::style::{CURVE_WIDTH, GREEN, INK, MINOR_WIDTH, PURPLE, VERMILION};
+use super::symbol::{FASTEST, KNEE, LEAST, Symbol};
 use super::text::Text;
-use super::trade_off::DIRECTIONS;
-use super::trade_off_motions::{Best, Motions};
-use super::trade_off_table::marked;
+use super::trade_off_motions::{Best, DIRECTIONS, Motions};
 use super::view::View;
 use crate::campaign::KeptFront;
+use crate::tradeoff::Candidate;
 
 /// How fronts under conditions are drawn, one after the other.
 const UNDER_CONDITIONS: [(plotters::style::RGBColor, Dash); 4] =
@@ -139,6 +139,15 @@ impl<'a> Front<'a> {
         });
         format!("{between} periodic motions between the cases{condition}{from}")
     }
+}
+
+/// The optima in a direction with what marks them, those that matter least first.
+pub fn marked<'m>(motions: &'m Motions<'_>, best: &Best) -> Vec<(Symbol, &'m Candidate)> {
+    let of_all = &best.of_all;
+    let each =
+        [(LEAST, of_all.lowest_cost_of_transport), (KNEE, of_all.knee), (FASTEST, of_all.fastest)];
+    let found = each.into_iter().filter_map(|(symbol, place)| Some((symbol, place?)));
+    found.map(|(symbol, place)| (symbol, motions.at(place))).collect()
 }
 
 /// The front as stairs: up to the next case, the last one stays the best.

@@ -10,6 +10,9 @@ use crate::store::takes_part;
 use crate::study::Coordinate;
 use crate::tradeoff::{Candidate, Direction, Optima, optima, speed_at_rest};
 
+/// The directions, each with a front and optima of its own.
+pub const DIRECTIONS: [Direction; 2] = [Direction::Forward, Direction::Backward];
+
 /// The motions of a figure.
 pub struct Motions<'a> {
     /// The cases that have both outputs, each with its place over the free axes, and then the refined motions, numbered after all

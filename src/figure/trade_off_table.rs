@@ -4,9 +4,9 @@ use super::error::FigureError;
 use super::header::Mark;
 use super::optima_table::{Row, Table};
 use super::quantity::Quantity;
-use super::symbol::{FASTEST, KNEE, LEAST, Symbol};
+use super::symbol::Symbol;
 use super::text::Text;
-use super::trade_off_fronts::Front;
+use super::trade_off_fronts::{Front, marked};
 use super::trade_off_motions::{Best, Motions, coordinates, value_of};
 use super::view::View;
 use crate::campaign::RefinedMotion;
@@ -28,15 +28,6 @@ struct Column<'v> {
     /// What it holds, and the unit.
     heading: [Text; 2],
     cell: Cell<'v>,
-}
-
-/// The optima in a direction with what marks them, those that matter least first.
-pub fn marked<'m>(motions: &'m Motions<'_>, best: &Best) -> Vec<(Symbol, &'m Candidate)> {
-    let of_all = &best.of_all;
-    let each =
-        [(LEAST, of_all.lowest_cost_of_transport), (KNEE, of_all.knee), (FASTEST, of_all.fastest)];
-    let found = each.into_iter().filter_map(|(symbol, place)| Some((symbol, place?)));
-    found.map(|(symbol, place)| (symbol, motions.at(place))).collect()
 }
 
 /// The optima of each front and direction with their speeds, their prices by the output `price`, and what varies over the axes `free`.
