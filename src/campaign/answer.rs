@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::capsule::Output;
 use crate::tradeoff::Direction;
 
+use super::count::{count, counted};
 use super::motion_row::Row;
 use super::robustness::Tolerances;
 
@@ -16,13 +17,18 @@ pub struct Answer {
     pub of: Output,
     /// The motions that are compared.
     pub direction: Direction,
+    /// The conditions that its cases, and the motions between them, keep, in the form of [`Condition::normal`](crate::store::Condition::normal).
+    pub conditions: Vec<String>,
+    /// The most of the price that may be spent (SI), and the least speed that is wanted [m/s], if they were given. They choose among
+    /// the motions of the front and leave none out.
+    pub limits: [Option<f64>; 2],
     /// Cases of the file.
     pub cases: usize,
     /// How many take no part, by the reason.
     pub left_out: BTreeMap<String, usize>,
     /// The speed up to which a motion counts as at rest [m/s], and how many do or move the other way.
     pub at_rest: (f64, usize),
-    /// What a search between the cases has brought, if it was asked for.
+    /// What searches between the cases have brought, if there were any.
     pub refined: Option<Gain>,
     /// The optima.
     pub named: Vec<Named>,
@@ -32,6 +38,8 @@ pub struct Answer {
     pub top: Vec<Row>,
     /// The tolerances that the motions were judged under, if any.
     pub tolerances: Option<Tolerances>,
+    /// Conditions that cannot be judged of a draw, which the counts of draws leave out.
+    pub not_judged: Vec<String>,
     /// The motions of the front, by their places, that are on the front of the prices and speeds that tolerances leave; empty where none are
     /// asked for.
     pub robust_front: Vec<usize>,
@@ -52,17 +60,45 @@ impl Answer {
 }
 
 /// What a search for motions between the cases has brought.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Gain {
-    /// Searches.
-    pub searches: usize,
+    /// The searches.
+    pub searched: Searched,
     /// Motions that they have led to.
     pub found: usize,
-    /// The number by which starts were drawn.
-    pub seed: u64,
+    /// The number by which starts were drawn; none of searches that were kept before.
+    pub seed: Option<u64>,
+    /// How many points were drawn over the ranges, and from how many of them searches began: those that settle to a periodic motion in
+    /// the direction asked for; none of searches that were kept before.
+    pub drawn: Option<[usize; 2]>,
     /// The area that the front of the cases dominates up to the dearest price of both fronts, and that of the whole front, in
     /// units of speed and price.
     pub hypervolumes: [f64; 2],
+}
+
+/// Searches for motions between the cases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Searched {
+    /// Their number.
+    pub searches: usize,
+    /// Motions and points that they have begun with.
+    pub starts: usize,
+    /// Orbits that they have led to and that do not count: plain integration from them does not lead back, or they do not keep the
+    /// conditions.
+    pub unsettled: usize,
+    /// The directions in which speed was sought.
+    pub directions: Vec<Direction>,
+}
+
+impl Searched {
+    /// How many from how many starts, and for which directions.
+    pub fn in_words(&self) -> String {
+        let Searched { searches, starts, directions, .. } = self;
+        let directions: Vec<&str> = directions.iter().map(|it| it.name()).collect();
+        let plural = if *searches == 1 { "" } else { "es" };
+        let (searches, starts) = (count(*searches), counted(*starts, "start"));
+        format!("{searches} search{plural} from {starts} ({})", directions.join(", "))
+    }
 }
 
 /// An optimum.

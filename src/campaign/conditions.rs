@@ -1,8 +1,11 @@
 //! What conditions on cases ask of the motions between them.
 
+use std::collections::BTreeSet;
+
 use serde_json::{Value, json};
 
-use crate::capsule::{Outputs, Parameter};
+use crate::capsule::{Outputs, Parameter, Parameters};
+use crate::orbit::Outcome;
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};
 use crate::tradeoff::{Limit, MOST_LIMITS, SMOOTH, Side};
@@ -13,8 +16,14 @@ const KEPT: f64 = 1e-8;
 /// Conditions on motions between the cases.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Conditions {
+    /// All conditions in the form of [`Condition::normal`], each once, in their order.
+    pub normal: Vec<String>,
     /// Limits of outputs.
     pub limits: Vec<Limit>,
+    /// What the period may be, each with its limit [cycles].
+    pub periods: Vec<(Comparison, f64)>,
+    /// Whether motions may not be periodic, so that none can be sought.
+    pub excludes_periodic: bool,
     /// Bounds of parameters (SI).
     pub bounds: Vec<(Parameter, Side, f64)>,
 }
@@ -25,7 +34,7 @@ impl Conditions {
     ///
     /// Fails with all conditions that cannot be kept between the cases.
     pub fn of(conditions: &[Condition]) -> Result<Conditions, Vec<String>> {
-        let mut found = Conditions::default();
+        let mut found = Conditions { normal: normal(conditions), ..Conditions::default() };
         let mut faults = Vec::new();
         for condition in conditions {
             if let Err(fault) = found.add(condition) {
@@ -48,7 +57,13 @@ impl Conditions {
             Comparison::Equal => &[Side::Lower, Side::Upper],
             Comparison::Unequal => &[],
         };
-        if name == OUTCOME.name || name == PERIOD.name {
+        if name == PERIOD.name {
+            self.periods.push((condition.comparison, *limit));
+            return Ok(());
+        }
+        if name == OUTCOME.name {
+            let code = condition.code(Outcome::Periodic.name());
+            self.excludes_periodic |= !condition.comparison.holds(code, *limit);
             return Ok(());
         }
         if let Some(parameter) = Parameter::named(name) {
@@ -85,6 +100,21 @@ impl Conditions {
         })
     }
 
+    /// Whether a search may begin with a motion that has these parameters and this period: limits of outputs, to which a search comes back,
+    /// may be exceeded.
+    pub fn may_begin(&self, parameters: &Parameters, period: u64) -> bool {
+        let is_within = |(parameter, side, value): &(Parameter, Side, f64)| match side {
+            Side::Lower => parameters[*parameter] >= *value,
+            Side::Upper => parameters[*parameter] <= *value,
+        };
+        let periods = self.periods.iter();
+        !self.excludes_periodic
+            && self.bounds.iter().all(is_within)
+            && periods
+                .into_iter()
+                .all(|(comparison, limit)| comparison.holds(period as f64, *limit))
+    }
+
     /// Whether outputs keep all limits.
     pub fn allow(&self, outputs: &Outputs) -> bool {
         self.limits.iter().all(|limit| {
@@ -95,13 +125,12 @@ impl Conditions {
 
     /// All of them in JSON; nothing of none.
     pub fn described(&self) -> Option<Value> {
-        let sign = |side: Side| if side == Side::Upper { "<=" } else { ">=" };
-        let bounds = self.bounds.iter().map(|it| (it.0.symbol(), it.1, it.2));
-        let limits = self.limits.iter().map(|it| (it.output.name(), it.side, it.value));
-        let all: Vec<Value> = bounds
-            .chain(limits)
-            .map(|(name, side, value)| json!([name, sign(side), value]))
-            .collect();
-        (!all.is_empty()).then_some(Value::Array(all))
+        (!self.normal.is_empty()).then(|| json!(self.normal))
     }
+}
+
+/// Conditions in the form of [`Condition::normal`], each once, in their order: those who ask for the same have the same.
+pub(super) fn normal(conditions: &[Condition]) -> Vec<String> {
+    let found: BTreeSet<String> = conditions.iter().map(Condition::normal).collect();
+    found.into_iter().collect()
 }

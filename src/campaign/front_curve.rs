@@ -2,15 +2,22 @@
 
 use serde_json::{Value, json};
 
-use crate::capsule::{AsPrinted, Filippov, Parameter, Reading, Switching};
+use crate::capsule::{AsPrinted, Filippov, Output, Parameter, Reading, Switching};
 use crate::tradeoff::{Goal, best};
 
 use super::error::CampaignError;
 use super::refined_front::Refinement;
-use super::refined_motion::RefinedMotion;
+use super::refined_motion::{Led, RefinedMotion};
 
 /// Neighbours on the front differ in price by no more than the range of prices over this.
 const PARTS: f64 = 64.0;
+/// From so many motions other prices are sought, at most.
+const LADDERS: usize = 24;
+/// Prices over the whole range of the front.
+const RUNGS: usize = 6;
+/// Prices below the cheapest, each this share of the one before; a motion is followed until there is none for the price.
+const BELOW: f64 = 0.85;
+const LOWER: i32 = 12;
 /// A price is kept to this share.
 const KEEPS: f64 = 1e-8;
 
@@ -39,6 +46,39 @@ impl Refinement<'_> {
         all.filter_map(|(from, prices)| Some(Gap { from: from?, prices })).collect()
     }
 
+    /// From motions found, beside or behind the front, to prices over the whole range of it: a family that is behind the front at one price
+    /// may be the best at another.
+    ///
+    /// The motions are those nearest to the front by the speed at their price, at most [`LADDERS`]; the prices are [`RUNGS`] from the
+    /// cheapest to the dearest of all, each as many times dearer than the one before, and lower ones down to a seventh of the cheapest.
+    pub fn ladders<'m>(&self, front: &[(f64, f64)], found: &'m [RefinedMotion]) -> Vec<Gap<'m>> {
+        let price = |it: &RefinedMotion| it.outputs[self.of];
+        let known = front.iter().map(|it| it.0).chain(found.iter().map(price));
+        let known = known.filter(|it| it.is_finite() && *it > 0.0);
+        let [low, high] =
+            known.fold([f64::INFINITY, 0.0_f64], |[low, high], it| [low.min(it), high.max(it)]);
+        let share = |it: &RefinedMotion| {
+            let last = front.partition_point(|of_front| of_front.0 <= price(it));
+            let speed = self.direction.of(it.outputs[Output::ProgressionSpeed]);
+            last.checked_sub(1).map_or(f64::INFINITY, |last| speed / front[last].1)
+        };
+        let mut nearest: Vec<&RefinedMotion> = found.iter().collect();
+        nearest.sort_by(|a, b| share(b).total_cmp(&share(a)));
+        nearest.truncate(LADDERS);
+        let rung = |number: usize| low * (high / low).powf(number as f64 / (RUNGS - 1) as f64);
+        let lower = |number: i32| low * BELOW.powi(number);
+        let mut rungs: Vec<f64> = Vec::new();
+        if high > low {
+            rungs.extend((1..=LOWER).rev().map(lower).chain((0..RUNGS).map(rung)));
+        }
+        let both = |from: &'m RefinedMotion| {
+            let (below, above): (Vec<f64>, Vec<f64>) =
+                rungs.iter().partition(|rung| **rung < price(from));
+            [below.into_iter().rev().collect(), above].map(|prices| Gap { from, prices })
+        };
+        nearest.into_iter().flat_map(both).filter(|gap| !gap.prices.is_empty()).collect()
+    }
+
     /// The motions that are followed into gaps of the front, in their order; calls `done` after each gap.
     ///
     /// # Method
@@ -52,7 +92,7 @@ impl Refinement<'_> {
         gaps: &[Gap<'_>],
         threads: Option<usize>,
         done: impl Fn() + Sync,
-    ) -> Result<Vec<RefinedMotion>, CampaignError> {
+    ) -> Result<Led, CampaignError> {
         self.each(threads, gaps.len(), done, |number| {
             let gap = &gaps[number];
             self.kept.kept_or_found(&self.described_gap(gap), || {
@@ -79,19 +119,19 @@ impl Refinement<'_> {
         }))
     }
 
-    fn follow<R: Reading>(&self, gap: &Gap<'_>) -> Vec<RefinedMotion> {
+    fn follow<R: Reading>(&self, gap: &Gap<'_>) -> Led {
         let from = gap.from;
         let family = self.family_of::<R>((from.parameters.clone(), from.phase), from.period);
         let mut last = family.orbit(&family.shares(), &from.section);
-        let mut motions = Vec::new();
+        let mut led = Led::default();
         for price in &gap.prices {
             let Some(at) = last else { break };
             let goal = Goal::Speed { direction: self.direction, budget: Some((self.of, *price)) };
             let found = best(&family, at, goal);
             let kept = found.filter(|it| it.at.outputs[self.of] <= price * (1.0 + KEEPS));
-            motions.extend(kept.as_ref().and_then(|it| self.settled(&family, it, from.from)));
+            kept.iter().for_each(|it| led.add(self.settled(&family, it, from.from)));
             last = kept.map(|it| it.at);
         }
-        motions
+        led
     }
 }

@@ -15,18 +15,20 @@ use crate::store::{Archive, LineFile, provenance, read_lines};
 use crate::study::Study;
 
 use super::error::CampaignError;
-use super::refined_motion::{RefinedMotion, Slopes, distinct};
+use super::refined_motion::{Led, RefinedMotion, Slopes, Start};
 
 /// The extension of the file, beside that of the results.
 const EXTENSION: &str = "searches";
 /// The form of the lines; the number is increased with every change.
-const FORMAT: &str = "capsulemap searches 1";
+const FORMAT: &str = "capsulemap searches 2";
+/// How the form begins in every version.
+const ANY_FORMAT: &str = "capsulemap searches ";
 
 /// Searches that are done.
 #[derive(Debug, Default)]
 pub struct KeptSearches {
     /// What each has led to, by what it begins with and looks for.
-    known: BTreeMap<String, Vec<RefinedMotion>>,
+    known: BTreeMap<String, Led>,
     /// Where further ones are kept.
     file: Option<LineFile>,
 }
@@ -77,9 +79,9 @@ impl KeptSearches {
         self.known.is_empty()
     }
 
-    /// The motions found, each once, in an order that does not depend on that of the searches.
-    pub fn motions(&self) -> Vec<RefinedMotion> {
-        distinct(self.known.values().flatten().cloned().collect())
+    /// Each search in JSON, with what it has led to.
+    pub(super) fn each(&self) -> impl Iterator<Item = (&String, &Led)> {
+        self.known.iter()
     }
 
     /// The options of the refinements whose searches are kept, the direction first.
@@ -97,15 +99,17 @@ impl KeptSearches {
     pub(super) fn kept_or_found(
         &self,
         what: &Value,
-        search: impl FnOnce() -> Result<Vec<RefinedMotion>, CampaignError>,
-    ) -> Result<Vec<RefinedMotion>, CampaignError> {
+        search: impl FnOnce() -> Result<Led, CampaignError>,
+    ) -> Result<Led, CampaignError> {
         if let Some(known) = self.known.get(&what.to_string()) {
             return Ok(known.clone());
         }
         let found = search()?;
         if let Some(file) = &self.file {
-            let found: Vec<Written> = found.iter().map(Written::of).collect();
-            file.add(&json!({ "search": what, "found": found }).to_string())?;
+            let Led { motions, unsettled } = &found;
+            let motions: Vec<Written> = motions.iter().map(Written::of).collect();
+            let line = json!({ "search": what, "found": motions, "unsettled": unsettled });
+            file.add(&line.to_string())?;
         }
         Ok(found)
     }
@@ -113,8 +117,7 @@ impl KeptSearches {
 
 /// The option of the conditions that a search has kept.
 fn conditions(what: &Value) -> Option<String> {
-    let part = |it: &Value| Some(format!("{} {} {}", it[0].as_str()?, it[1].as_str()?, it[2]));
-    let parts: Option<Vec<String>> = what["where"].as_array()?.iter().map(part).collect();
+    let parts: Option<Vec<&str>> = what["where"].as_array()?.iter().map(Value::as_str).collect();
     Some(format!(" --where \"{}\"", parts?.join(" and ")))
 }
 
@@ -133,12 +136,17 @@ fn searches(
     lines: &[String],
     (archive, study): (&Archive, &Study),
     path: &Path,
-) -> Result<BTreeMap<String, Vec<RefinedMotion>>, CampaignError> {
+) -> Result<BTreeMap<String, Led>, CampaignError> {
     let other = |what| CampaignError::OtherSearches { path: path.to_owned(), what };
     let Some((first, rest)) = lines.split_first() else { return Ok(BTreeMap::new()) };
     let first: Value =
         serde_json::from_str(first).map_err(|_| other("something else than searches"))?;
     let now = head(archive, study);
+    let is_older = first["format"] != now["format"]
+        && first["format"].as_str().is_some_and(|it| it.starts_with(ANY_FORMAT));
+    if is_older {
+        return Err(other("searches by another scheme, of another version of the program"));
+    }
     for (key, what) in [
         ("format", "something else than searches"),
         ("fingerprint", "searches of another study"),
@@ -152,9 +160,11 @@ fn searches(
     let mut known = BTreeMap::new();
     for line in rest {
         let damaged = || other("a line that is damaged");
-        let Line { search, found } = serde_json::from_str(line).map_err(|_| damaged())?;
+        let Line { search, found, unsettled } =
+            serde_json::from_str(line).map_err(|_| damaged())?;
         let motions: Option<_> = found.into_iter().map(|it| it.motion(study)).collect();
-        known.insert(search.to_string(), motions.ok_or_else(damaged)?);
+        let motions = motions.ok_or_else(damaged)?;
+        known.insert(search.to_string(), Led { motions, unsettled });
     }
     Ok(known)
 }
@@ -164,12 +174,13 @@ fn searches(
 struct Line {
     search: Value,
     found: Vec<Written>,
+    unsettled: usize,
 }
 
 /// A motion as it is written.
 #[derive(Serialize, Deserialize)]
 struct Written {
-    from: usize,
+    from: Start,
     parameters: BTreeMap<String, Real>,
     section: [f64; 3],
     phase: f64,

@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use crate::capsule::{
-    AsPrinted, CapsuleSystem, Case, Filippov, Output, Outputs, Parameter, Parameters, Reading,
-    Section, State, Switching, settle_case,
+    AsPrinted, CapsuleSystem, Case, Filippov, Orbit, Output, Outputs, Parameter, Parameters,
+    Reading, Section, State, Switching, settle_case,
 };
 use crate::orbit::{Outcome, Protocol};
 use crate::run::{Machine, on_all_threads};
@@ -12,32 +12,30 @@ use crate::store::Archive;
 use crate::store::catalogue::SECTION;
 use crate::study::{Coordinate, Study};
 use crate::tradeoff::{
-    Best, Candidate, Direction, Family, Goal, MOST_FREE, OperatingPoint, Optima, best, left,
-    sensitivity,
+    Best, Candidate, Direction, Family, Goal, MOST_FREE, OperatingPoint, best, left, sensitivity,
 };
 
 use super::conditions::Conditions;
+use super::conditions_of_draws::OfDraws;
 use super::error::CampaignError;
 use super::kept_searches::KeptSearches;
 use super::motion_row::Row;
-use super::refined_motion::{RefinedMotion, Slopes, distinct, words};
+use super::refined_motion::{DrawnMotion, Led, RefinedMotion, Slopes, Start, distinct, words};
 use super::replay::Replay;
 use super::report::silent;
 
-/// Cases from which each optimum is sought, the best first.
-const STARTS: usize = 8;
-/// As many more are drawn from all that move.
-const DRAWN: usize = 24;
-
+/// An orbit that is settled to has the speed and the price of the one that was found to this share.
+const AGREES: f64 = 1e-6;
 /// A motion that is better by less than this share is the case from which it was sought.
 const LEAST_GAIN: f64 = 1e-9;
 
 /// A search for a better motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
-    /// The case that it begins with.
-    from: usize,
-    goal: Goal,
+    /// What it begins with.
+    pub from: Start,
+    /// What it makes small or large.
+    pub goal: Goal,
 }
 
 /// A periodic motion: its parameters, and a point of its orbit.
@@ -66,8 +64,16 @@ pub struct Refinement<'a> {
     pub of: Output,
     /// The direction in which speed counts.
     pub direction: Direction,
+    /// A number for each case that differs between kinds of motions; empty where nothing is sought.
+    pub kinds: Vec<u64>,
+    /// Speed up to which a motion is at rest [m/s].
+    pub at_rest: f64,
     /// What is asked of motions between the cases.
     pub conditions: Conditions,
+    /// What is asked of motions under tolerances.
+    pub asked: OfDraws,
+    /// The most of the output that may be spent, if that is given (SI).
+    pub budget: Option<f64>,
     /// Number of the drawing of starts.
     pub seed: u64,
     /// Searches that are done already, and where further ones are kept.
@@ -89,73 +95,28 @@ impl Refinement<'_> {
         free.collect()
     }
 
-    /// The searches among the motions of the file: from each periodic motion of the front, the most speed for no more than its
-    /// price; from the fastest ones, from those with the least energy per metre, and from some drawn by the seed, the most
-    /// speed and the least energy per metre. Each once.
-    pub fn searches(&self, candidates: &[Candidate], optima: &Optima) -> Vec<Search> {
-        let (direction, of) = (self.direction, self.of);
-        let is_periodic = |at: &usize| self.periods[candidates[*at].case] > 0.0;
-        let speed = |at: usize| direction.of(candidates[at].speed);
-        let moving: Vec<usize> = (0..candidates.len())
-            .filter(|at| is_periodic(at) && speed(*at) > optima.at_rest)
-            .collect();
-        let first = |key: &dyn Fn(usize) -> f64| -> Vec<usize> {
-            let mut order = moving.clone();
-            order.sort_by(|a, b| key(*a).total_cmp(&key(*b)));
-            order.truncate(STARTS);
-            order
-        };
-        let drawn = self.drawn(&moving);
-        let fastest = Goal::Speed { direction, budget: None };
-        let cheapest = Goal::Least(Output::EnergyPerMetre);
-        let of_front = optima.front.iter().copied().filter(is_periodic).map(|at| {
-            let most = candidates[at].price;
-            (at, Goal::Speed { direction, budget: Some((of, most)) })
-        });
-        let faster = first(&|at| -speed(at)).into_iter().chain(drawn.iter().copied());
-        let cheaper =
-            first(&|at| candidates[at].energy_per_metre).into_iter().chain(drawn.iter().copied());
-        let all =
-            of_front.chain(faster.map(|at| (at, fastest))).chain(cheaper.map(|at| (at, cheapest)));
-        let mut searches: Vec<Search> = Vec::new();
-        for search in all.map(|(at, goal)| Search { from: candidates[at].case, goal }) {
-            if !searches.contains(&search) {
-                searches.push(search);
-            }
-        }
-        searches
-    }
-
-    /// Some of the motions, by the seed.
-    fn drawn(&self, moving: &[usize]) -> Vec<usize> {
-        let mut random = fastrand::Rng::with_seed(self.seed);
-        let count = if moving.is_empty() { 0 } else { DRAWN };
-        (0..count).map(|_| moving[random.usize(..moving.len())]).collect()
-    }
-
-    /// The motions to which searches lead, in their order, each once; calls `done` after each search.
+    /// What searches lead to, in their order, each motion once, from cases and from `drawn` motions; calls `done` after each search.
     ///
     /// # Method
     ///
-    /// See [`best`]. The motion found is settled anew from its section point, as [`settle_case`] does, and counts if it is
-    /// periodic with the same period, which near the loss of its stability it may be too slow for. Every search is by itself:
-    /// neither threads nor order matter.
+    /// See [`best`] and [`settled`](Self::settled). Every search is by itself: neither threads nor order matter.
     ///
     /// Fails if the file cannot be read or a case cannot be computed again.
     pub fn run(
         &self,
         searches: &[Search],
+        drawn: &[DrawnMotion],
         threads: Option<usize>,
         done: impl Fn() + Sync,
-    ) -> Result<Vec<RefinedMotion>, CampaignError> {
-        let found = self.each(threads, searches.len(), done, |number| {
+    ) -> Result<Led, CampaignError> {
+        let Led { motions, unsettled } = self.each(threads, searches.len(), done, |number| {
             let search = &searches[number];
             self.kept.kept_or_found(&self.described(search), || match self.study.base.switching {
-                Switching::Filippov => self.search::<Filippov>(search),
-                Switching::AsPrinted => self.search::<AsPrinted>(search),
+                Switching::Filippov => self.search::<Filippov>(search, drawn),
+                Switching::AsPrinted => self.search::<AsPrinted>(search, drawn),
             })
         })?;
-        Ok(distinct(found))
+        Ok(Led { motions: distinct(motions), unsettled })
     }
 
     /// What a search depends on, beside the results.
@@ -166,7 +127,10 @@ impl Refinement<'_> {
                 let most = budget.map(|(_, most)| most);
                 json!({ "from": from, "moving": direction.name(), "of": of, "most": most })
             }
-            Goal::Least(output) => json!({ "from": from, "least": output.name(), "of": of }),
+            Goal::Least(output) => {
+                let moving = self.direction.name();
+                json!({ "from": from, "moving": moving, "least": output.name(), "of": of })
+            }
         })
     }
 
@@ -178,48 +142,93 @@ impl Refinement<'_> {
         search
     }
 
-    /// The motions that each of some searches leads to, in the order of the searches; calls `done` after each.
+    /// What each of some searches leads to, in the order of the searches; calls `done` after each.
     pub(super) fn each(
         &self,
         threads: Option<usize>,
         count: usize,
         done: impl Fn() + Sync,
-        search: impl Fn(usize) -> Result<Vec<RefinedMotion>, CampaignError> + Sync,
-    ) -> Result<Vec<RefinedMotion>, CampaignError> {
+        search: impl Fn(usize) -> Result<Led, CampaignError> + Sync,
+    ) -> Result<Led, CampaignError> {
         let found = on_all_threads(threads, count, |number| {
             let found = search(number);
             done();
             found
         })?;
-        let found: Result<Vec<Vec<RefinedMotion>>, CampaignError> = found.into_iter().collect();
-        Ok(found?.into_iter().flatten().collect())
+        let mut all = Led::default();
+        for led in found {
+            let Led { motions, unsettled } = led?;
+            all.motions.extend(motions);
+            all.unsettled += unsettled;
+        }
+        Ok(all)
     }
 
-    /// The motion that a search leads to, if any.
-    fn search<R: Reading>(&self, search: &Search) -> Result<Vec<RefinedMotion>, CampaignError> {
-        let case = search.from;
-        let Some((family, first)) = self.family::<R>(case)? else { return Ok(Vec::new()) };
+    /// What a search leads to.
+    fn search<R: Reading>(
+        &self,
+        search: &Search,
+        drawn: &[DrawnMotion],
+    ) -> Result<Led, CampaignError> {
+        let begun = match search.from {
+            Start::Case(case) => self.family::<R>(case)?,
+            Start::Drawn { drawn: number, .. } => self.drawn_family(drawn, number),
+        };
+        let Some((family, first)) = begun else { return Ok(Led::default()) };
         let before = first.outputs;
+        let is_drawn = matches!(search.from, Start::Drawn { .. });
         let found = best(&family, first, search.goal);
+        // A case that is the best already is among the motions as it is.
         let gain = |it: &Best| self.gain(search.goal, [&before, &it.at.outputs]);
-        let found = found.filter(|it| gain(it) >= LEAST_GAIN);
-        Ok(found.and_then(|it| self.settled(&family, &it, case)).into_iter().collect())
+        let found = found.filter(|it| is_drawn || gain(it) >= LEAST_GAIN);
+        let mut led = Led::default();
+        found.into_iter().for_each(|it| led.add(self.settled(&family, &it, search.from)));
+        Ok(led)
     }
 
-    /// The best orbit of a family, settled anew from its section point; none where it is not the same then or
-    /// does not keep the conditions.
+    /// The family of the orbit of a drawn motion, with the orbit; none where there is none.
+    fn drawn_family<R: Reading>(
+        &self,
+        drawn: &[DrawnMotion],
+        number: usize,
+    ) -> Option<(Family<R>, OperatingPoint)> {
+        let motion = drawn.iter().find(|it| it.number == number)?;
+        let begins_at = (motion.parameters.clone(), self.study.section_phase);
+        let family = self.family_of(begins_at, motion.period);
+        let first = family.orbit(&family.shares(), &motion.section)?;
+        Some((family, first))
+    }
+
+    /// The best orbit of a family as a motion; none where plain integration from its section point does not lead to it, or it does
+    /// not keep the conditions.
+    ///
+    /// # Method
+    ///
+    /// The motion that starts at the section point is settled twice: as cases are by default, whose outputs are told, and without
+    /// leaps, so that every cycle is integrated. Both must be periodic with the period of the family, and have the speed and the price
+    /// of the orbit to 1e-6. Near the loss of its stability an orbit may be too slow for that.
     pub(super) fn settled<R: Reading>(
         &self,
         family: &Family<R>,
         found: &Best,
-        from: usize,
+        from: Start,
     ) -> Option<RefinedMotion> {
         let system = family.at(&found.at.shares);
         let [r, y1, y2] = found.at.section;
         let (start, phase) = (State { r, y1, x2: 0.0, y2 }, system.phase);
         let again = Case::at_section(system.parameters.clone(), start, phase);
-        let orbit = settle_case(&again, &self.protocol());
-        let is_same = orbit.outcome == Outcome::Periodic && orbit.period == family.period;
+        let protocol = self.protocol();
+        let orbit = settle_case(&again, &protocol);
+        let plain = settle_case(&again, &Protocol { accelerate: false, ..protocol });
+        let agrees = |orbit: &Orbit, output: Output| {
+            let [told, known] = [orbit.outputs[output], found.at.outputs[output]];
+            (told - known).abs() <= AGREES * known.abs()
+        };
+        let is_found = |it: &Orbit| {
+            let is_periodic = it.outcome == Outcome::Periodic && it.period == family.period;
+            is_periodic && [Output::ProgressionSpeed, self.of].iter().all(|of| agrees(it, *of))
+        };
+        let is_same = is_found(&orbit) && is_found(&plain);
         let slopes = Slopes {
             sensitivity: self.sensitivity(&system, &found.at, family.period),
             stationarity: Some(found.stationarity),

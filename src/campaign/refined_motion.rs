@@ -1,5 +1,7 @@
 //! A motion between the cases of a study: where it is, what it gives, and what keeps it from being better.
 
+use serde::{Deserialize, Serialize};
+
 use crate::capsule::{Output, Outputs, Parameter, Parameters, Section};
 use crate::study::Coordinate;
 use crate::tradeoff::{Candidate, Family, Hold, Side};
@@ -7,11 +9,41 @@ use crate::tradeoff::{Candidate, Family, Hold, Side};
 /// Said of a motion whose search has not converged.
 const NOT_CONVERGED: &str = "not converged";
 
+/// What a search begins with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Start {
+    /// The motion of a case of the file.
+    Case(usize),
+    /// The motion that a point of the ranges settles to from rest.
+    Drawn {
+        /// The number by which points are drawn.
+        seed: u64,
+        /// Its number among them.
+        drawn: usize,
+    },
+}
+
+/// A periodic motion that a drawn point settles to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnMotion {
+    /// The number of the point.
+    pub number: usize,
+    /// Its parameters.
+    pub parameters: Parameters,
+    /// A section point of its orbit (SI).
+    pub section: Section,
+    /// Its period [cycles].
+    pub period: u64,
+    /// Its outputs (SI).
+    pub outputs: Outputs,
+}
+
 /// A motion of the refined front.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefinedMotion {
-    /// The case whose orbit was followed to it.
-    pub from: usize,
+    /// The motion that was followed to it.
+    pub from: Start,
     /// Its parameters.
     pub parameters: Parameters,
     /// Its section point (SI).
@@ -65,6 +97,25 @@ pub struct Slopes {
     pub stationarity: Option<f64>,
     /// What keeps it from being better, in words.
     pub held_by: Vec<String>,
+}
+
+/// What searches have led to.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Led {
+    /// Motions to which plain integration leads, and that keep the conditions.
+    pub motions: Vec<RefinedMotion>,
+    /// How many orbits were found that are none of these.
+    pub unsettled: usize,
+}
+
+impl Led {
+    /// Adds an orbit that was found: a motion, or none.
+    pub(super) fn add(&mut self, found: Option<RefinedMotion>) {
+        match found {
+            Some(motion) => self.motions.push(motion),
+            None => self.unsettled += 1,
+        }
+    }
 }
 
 /// Motions that agree in these to this share are one.

@@ -111,6 +111,10 @@ pub enum Stage {
     Continuing,
     /// Cases are computed again; a step is a case.
     Repeating,
+    /// Points between the cases are drawn and settled; a step is a point.
+    Starting,
+    /// From motions found other prices are sought; a step is a motion and a side.
+    Climbing,
     /// Better motions are sought between the cases; a step is a search.
     Searching,
     /// The refined front is followed; a step is a gap of it.

@@ -6,9 +6,12 @@ use crate::capsule::Parameter;
 pub const SLOWER: f64 = 0.05;
 
 /// By how much parameters may be off, and how many sets of them are drawn.
+///
+/// A tolerance t is the half width of an even distribution: the parameter is its value times 1 + t u, where u is drawn evenly from -1
+/// to 1, independently for each parameter. The standard deviation is t over the root of 3.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tolerances {
-    /// The greatest relative deviation of each parameter named, between 0 and 1; every one within it is as likely.
+    /// The greatest relative deviation of each parameter named, between 0 and 1.
     pub each: Vec<(Parameter, f64)>,
     /// How many sets are drawn.
     pub draws: usize,
@@ -28,6 +31,28 @@ pub struct Robustness {
     pub speed: f64,
     /// The price that 5 % of the draws exceed (SI); infinite where more of them have none.
     pub price: f64,
+    /// How many draws keep the conditions that can be judged of a draw, if there are such conditions; one that is undecided or has failed
+    /// keeps none.
+    pub meet_conditions: Option<usize>,
+    /// How many take no more than the budget, if there is one.
+    pub within_budget: Option<usize>,
+    /// How many do both, if both are asked for.
+    pub meet_both: Option<usize>,
+}
+
+/// What a draw of a motion under tolerances gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Draw {
+    /// Its speed in the direction asked for [m/s]; not a number where it has none.
+    pub speed: f64,
+    /// Its price (SI); not a number where it has none.
+    pub price: f64,
+    /// Whether it settles to the same period.
+    pub is_kept: bool,
+    /// Whether it keeps the conditions, if there are any that can be judged.
+    pub meets_conditions: Option<bool>,
+    /// Whether it takes no more than the budget, if there is one.
+    pub is_within_budget: Option<bool>,
 }
 
 impl Tolerances {
@@ -42,29 +67,38 @@ impl Tolerances {
 }
 
 impl Robustness {
-    /// From the speeds in the direction asked for and the prices of all draws, of those that have none not a number, and the number
-    /// that keep the motion.
+    /// From all draws.
     ///
     /// # Method
     ///
     /// The quantiles are order statistics: of n draws the one of rank n/20 rounded up, the least counted as 1, so that no draw
     /// is interpolated.
-    pub fn of(speeds: &[f64], prices: &[f64], kept: usize) -> Robustness {
-        let draws = speeds.len();
+    pub fn of(all: &[Draw]) -> Robustness {
+        let draws = all.len();
         let rank = ((SLOWER * draws as f64).ceil() as usize).clamp(1, draws.max(1)) - 1;
         let lowest = |values: Vec<f64>| {
             let mut values = values;
             values.sort_by(f64::total_cmp);
             values.get(rank).copied().unwrap_or(f64::NAN)
         };
-        let or_worst = |value: &f64| if value.is_nan() { f64::NEG_INFINITY } else { *value };
+        let or_worst = |value: f64| if value.is_nan() { f64::NEG_INFINITY } else { value };
+        let kept = all.iter().filter(|draw| draw.is_kept).count();
         Robustness {
             draws,
             kept: kept as f64 / draws as f64,
-            speed: lowest(speeds.iter().map(or_worst).collect()),
-            price: -lowest(prices.iter().map(|price| or_worst(&-price)).collect()),
+            speed: lowest(all.iter().map(|draw| or_worst(draw.speed)).collect()),
+            price: -lowest(all.iter().map(|draw| or_worst(-draw.price)).collect()),
+            meet_conditions: counted(all, |draw| draw.meets_conditions),
+            within_budget: counted(all, |draw| draw.is_within_budget),
+            meet_both: counted(all, |draw| Some(draw.meets_conditions? && draw.is_within_budget?)),
         }
     }
+}
+
+/// How many draws do something; none where it was not asked of them.
+fn counted(all: &[Draw], does: impl Fn(&Draw) -> Option<bool>) -> Option<usize> {
+    let does: Option<Vec<bool>> = all.iter().map(does).collect();
+    does.filter(|it| !it.is_empty()).map(|it| it.into_iter().filter(|does| *does).count())
 }
 
 #[cfg(test)]
@@ -73,14 +107,28 @@ mod tests {
 
     #[test]
     fn quantiles_are_draws_and_those_without_a_value_are_the_worst() {
-        let speeds: Vec<f64> = (1..=100).rev().map(f64::from).collect();
-        let found = Robustness::of(&speeds, &speeds, 90);
+        let draw = |number: u32| Draw {
+            speed: f64::from(number),
+            price: f64::from(number),
+            is_kept: number <= 90,
+            meets_conditions: Some(number <= 60),
+            is_within_budget: Some(number > 50),
+        };
+        let draws: Vec<Draw> = (1..=100).rev().map(draw).collect();
+        let found = Robustness::of(&draws);
         assert_eq!((found.speed, found.price, found.kept), (5.0, 96.0, 0.9));
-        let mut with_failures = speeds.clone();
-        with_failures[..5].fill(f64::NAN);
-        let found = Robustness::of(&with_failures, &with_failures, 0);
+        let counts = [found.meet_conditions, found.within_budget, found.meet_both];
+        assert_eq!(counts, [Some(60), Some(50), Some(10)]);
+        let failed = |draw: &Draw| match draw.speed > 95.0 {
+            true => Draw { speed: f64::NAN, price: f64::NAN, meets_conditions: None, ..*draw },
+            false => Draw { meets_conditions: None, ..*draw },
+        };
+        let with_failures: Vec<Draw> = draws.iter().map(failed).collect();
+        let found = Robustness::of(&with_failures);
         assert_eq!((found.speed, found.price), (f64::NEG_INFINITY, f64::INFINITY));
-        assert_eq!(Robustness::of(&[2.0], &[3.0], 1).speed, 2.0);
+        let counts = [found.meet_conditions, found.within_budget, found.meet_both];
+        assert_eq!(counts, [None, Some(50), None]);
+        assert_eq!(Robustness::of(&draws[98..99]).speed, 2.0);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::error::CampaignError;
 use super::motion_row::Row;
 use super::refined_front::{Refinement, Whereabouts};
 use super::report::{Event, Reports, Stage};
-use super::robustness::{Robustness, Tolerances};
+use super::robustness::{Draw, Robustness, Tolerances};
 
 impl Refinement<'_> {
     /// What tolerances leave of each of some motions, none where it does not repeat; calls `done` after each motion.
@@ -45,24 +45,28 @@ impl Refinement<'_> {
 
     /// What is left of a motion in draws with these factors of its parameters.
     fn under(&self, motion: &Whereabouts, draws: &[Vec<(Parameter, f64)>]) -> Robustness {
-        let (mut speeds, mut prices, mut kept) = (Vec::new(), Vec::new(), 0);
-        for factors in draws {
+        let draw = |factors: &Vec<(Parameter, f64)>| {
             let mut parameters = motion.parameters.clone();
             for (parameter, factor) in factors {
                 parameters[*parameter] *= factor;
             }
             let [r, y1, y2] = motion.section;
             let start = State { r, y1, x2: 0.0, y2 };
-            let orbit =
-                settle_case(&Case::at_section(parameters, start, motion.phase), &self.protocol());
+            let case = Case::at_section(parameters, start, motion.phase);
+            let orbit = settle_case(&case, &self.protocol());
             let counts = takes_part(orbit.outcome.name());
             let outputs = if counts { orbit.outputs } else { Outputs::unknown() };
-            speeds.push(self.direction.of(outputs[Output::ProgressionSpeed]));
-            prices.push(outputs[self.of]);
-            kept +=
-                usize::from(orbit.outcome == Outcome::Periodic && orbit.period == motion.period);
-        }
-        Robustness::of(&speeds, &prices, kept)
+            let price = outputs[self.of];
+            let meets = self.asked.met(&case.parameters, &orbit);
+            Draw {
+                speed: self.direction.of(outputs[Output::ProgressionSpeed]),
+                price,
+                is_kept: orbit.outcome == Outcome::Periodic && orbit.period == motion.period,
+                meets_conditions: meets.map(|it| it && counts),
+                is_within_budget: self.budget.map(|most| price <= most),
+            }
+        };
+        Robustness::of(&draws.iter().map(draw).collect::<Vec<_>>())
     }
 }
 

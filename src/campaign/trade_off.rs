@@ -12,14 +12,18 @@ use crate::tradeoff::{
 
 use super::answer::{Answer, Gain, Named};
 use super::bounding::bound;
-use super::conditions::Conditions;
+use super::conditions::{Conditions, normal};
+use super::conditions_of_draws::OfDraws;
 use super::error::CampaignError;
+use super::kept_fronts::KeptFront;
 use super::kept_searches::KeptSearches;
 use super::motion_row::{Row, Rows};
 use super::refined_front::Refinement;
-use super::refined_motion::{RefinedMotion, distinct};
-use super::report::{Event, Report, Reports, Stage};
+use super::refined_motion::RefinedMotion;
+use super::refinement_starts::kinds;
+use super::report::{Report, Reports};
 use super::robustness::Tolerances;
+use super::sought::Sought;
 use super::spread::add_errors;
 use super::study_source::study_of;
 use super::tolerance_draws::judge;
@@ -62,10 +66,17 @@ pub struct TradeOff<'a> {
 pub enum Between<'a> {
     /// None.
     Nothing,
-    /// Those that are known.
-    Known(&'a KeptSearches),
-    /// Those that are found by searches which are not done yet, with the number by which starts are drawn.
-    Sought(&'a KeptSearches, u64),
+    /// Those that searches under the same conditions have found.
+    Known(&'a KeptFront),
+    /// Those that searches find.
+    Sought {
+        /// The searches that are done, and where further ones are kept.
+        kept: &'a KeptSearches,
+        /// The number by which starts are drawn.
+        seed: u64,
+        /// How many points of the ranges are drawn as starts.
+        points: usize,
+    },
 }
 
 /// The cases of a file, and what is asked of them.
@@ -73,6 +84,8 @@ struct Asked<'a> {
     request: &'a TradeOff<'a>,
     /// Number of cases.
     cases: usize,
+    /// The conditions on the cases.
+    conditions: Vec<String>,
     rows: &'a Rows,
     /// Those that take part.
     candidates: &'a [Candidate],
@@ -105,19 +118,29 @@ impl TradeOff<'_> {
         let study = self.needs_orbits().then(|| study_of(self.archive, self.file)).transpose()?;
         let none = KeptSearches::default();
         let between = self.between_cases(&conditions)?;
+        let optima = best_of(&found.all, self.direction, self.at_rest);
+        let is_sought = matches!(self.between, Between::Sought { .. });
+        let kinds = is_sought.then(|| kinds(&table)).transpose()?;
         let asked = Asked {
             request: self,
             cases: table.cases(),
+            conditions: normal(&conditions),
             rows: &rows,
             candidates: &found.all,
-            optima: best_of(&found.all, self.direction, self.at_rest),
-            refinement: study.as_ref().map(|study| self.refinement(study, (&rows, between), &none)),
+            optima: optima.clone(),
+            refinement: study.as_ref().map(|study| Refinement {
+                asked: OfDraws::of(&conditions),
+                at_rest: optima.at_rest,
+                kinds: kinds.unwrap_or_default(),
+                ..self.refinement(study, (&rows, between), &none)
+            }),
         };
         let reports = Reports::new(report);
-        let (searches, between) = asked.between(&reports)?;
-        let all = with_refined((asked.cases, &found.all), &between, self.of);
-        let motions = Motions { asked: &asked, between: &between, all };
-        let mut answer = Answer { left_out: found.left_out, ..motions.answer(searches)? };
+        let sought = asked.between(&reports)?;
+        let between = sought.as_ref().map_or(&[][..], |it| &it.motions);
+        let all = with_refined((asked.cases, &found.all), between, self.of);
+        let motions = Motions { asked: &asked, between, all };
+        let mut answer = Answer { left_out: found.left_out, ..motions.answer(sought.as_ref())? };
         if let Some(refinement) = &asked.refinement {
             add_errors(&mut answer, refinement, self.threads)?;
         }
@@ -134,7 +157,7 @@ impl TradeOff<'_> {
     ///
     /// Fails if the conditions cannot be kept between the cases, or the price is not one that a search can make less.
     fn between_cases(&self, conditions: &[Condition]) -> Result<Conditions, CampaignError> {
-        if !matches!(self.between, Between::Sought(..)) {
+        if !matches!(self.between, Between::Sought { .. }) {
             return Ok(Conditions::default());
         }
         let found = Conditions::of(conditions);
@@ -177,8 +200,8 @@ impl TradeOff<'_> {
         none: &'r KeptSearches,
     ) -> Refinement<'r> {
         let kept = match self.between {
-            Between::Nothing => none,
-            Between::Known(kept) | Between::Sought(kept, _) => kept,
+            Between::Nothing | Between::Known(_) => none,
+            Between::Sought { kept, .. } => kept,
         };
         Refinement {
             study,
@@ -186,16 +209,21 @@ impl TradeOff<'_> {
             periods: rows.periods(study.cases()),
             of: self.of,
             direction: self.direction,
+            kinds: Vec::new(),
+            at_rest: 0.0,
             conditions,
-            seed: self.seed(),
+            asked: OfDraws::default(),
+            budget: self.budget,
+            seed: self.seed().unwrap_or_default(),
             kept,
         }
     }
 
-    fn seed(&self) -> u64 {
+    /// The number by which starts are drawn; none where none are.
+    fn seed(&self) -> Option<u64> {
         match self.between {
-            Between::Sought(_, seed) => seed,
-            _ => 0,
+            Between::Sought { seed, .. } => Some(seed),
+            _ => None,
         }
     }
 
@@ -222,59 +250,32 @@ impl TradeOff<'_> {
 }
 
 impl Asked<'_> {
-    /// The motions between the cases that take part, with the number of searches if they were sought.
-    fn between(
-        &self,
-        reports: &Reports<'_>,
-    ) -> Result<(Option<usize>, Vec<RefinedMotion>), CampaignError> {
+    /// The motions between the cases that take part, with the searches that have found them; none where none were sought.
+    fn between(&self, reports: &Reports<'_>) -> Result<Option<Sought>, CampaignError> {
         match (&self.refinement, self.request.between) {
-            (_, Between::Known(kept)) => Ok((None, kept.motions())),
-            (Some(refinement), Between::Sought(..)) => {
+            (_, Between::Known(KeptFront { searched, motions, .. })) => {
+                let (searched, motions) = (searched.clone(), motions.clone());
+                Ok(Some(Sought { searched, drawn: None, motions }))
+            }
+            (Some(refinement), Between::Sought { points, .. }) => {
                 let free = refinement.free().len();
                 if !(1..=MOST_FREE).contains(&free) {
                     let fault =
                         format!("{free} parameters vary; 1 to {MOST_FREE} can be refined over");
                     return Err(self.request.fault(fault));
                 }
-                let (searches, motions) = self.sought(refinement, reports)?;
-                Ok((Some(searches), motions))
+                let threads = self.request.threads;
+                let (cases, optima) = (self.candidates, &self.optima);
+                refinement.sought(cases, optima, points, threads, reports).map(Some)
             }
-            _ => Ok((None, Vec::new())),
+            _ => Ok(None),
         }
-    }
-
-    /// Searches between the cases: how many, and what they led to.
-    fn sought(
-        &self,
-        refinement: &Refinement<'_>,
-        reports: &Reports<'_>,
-    ) -> Result<(usize, Vec<RefinedMotion>), CampaignError> {
-        let threads = self.request.threads;
-        let searches = refinement.searches(self.candidates, &self.optima);
-        reports.send(Event::Begun(Stage::Searching, searches.len()))?;
-        let step = || reports.step(Stage::Searching);
-        let found = refinement.run(&searches, threads, step)?;
-        reports.send(Event::Ended(Stage::Searching))?;
-        let count = refinement.periods.len();
-        let all = with_refined((count, self.candidates), &found, refinement.of);
-        let front = best_of(&all, refinement.direction, Some(self.optima.at_rest)).front;
-        let on_front = |&at: &usize| {
-            let refined = all[at].case.checked_sub(count).map(|place| &found[place]);
-            (all[at].price, refined)
-        };
-        let gaps = refinement.gaps(&front.iter().map(on_front).collect::<Vec<_>>());
-        reports.send(Event::Begun(Stage::Following, gaps.len()))?;
-        let step = || reports.step(Stage::Following);
-        let followed = refinement.followed(&gaps, threads, step)?;
-        reports.send(Event::Ended(Stage::Following))?;
-        let begun = searches.len() + gaps.len();
-        Ok((begun, distinct([found, followed].concat())))
     }
 }
 
 impl Motions<'_> {
-    /// What is best among them, before tolerances; with what so many searches have brought, if there were any.
-    fn answer(&self, searches: Option<usize>) -> Result<Answer, CampaignError> {
+    /// What is best among them, before tolerances; with what searches have brought, if there were any.
+    fn answer(&self, sought: Option<&Sought>) -> Result<Answer, CampaignError> {
         let Motions { asked, between, all } = self;
         let request = asked.request;
         let best = best_of(all, request.direction, Some(asked.optima.at_rest));
@@ -283,8 +284,9 @@ impl Motions<'_> {
         let named = |(name, at): (&'static str, Option<usize>)| -> Result<Named, CampaignError> {
             Ok(Named { name, row: at.map(row).transpose()? })
         };
-        let gain = |searches: usize| Gain {
-            searches,
+        let gain = |sought: &Sought| Gain {
+            searched: sought.searched.clone(),
+            drawn: sought.drawn,
             found: between.len(),
             seed: request.seed(),
             hypervolumes: request.hypervolumes([(&asked.optima, asked.candidates), (&best, all)]),
@@ -294,14 +296,20 @@ impl Motions<'_> {
             file: request.file.display().to_string(),
             of: request.of,
             direction: request.direction,
+            conditions: asked.conditions.clone(),
+            limits: [request.budget, request.speed],
             cases: asked.cases,
             left_out: BTreeMap::new(),
             at_rest: (best.at_rest, all.len() - moving.len()),
-            refined: searches.map(gain),
+            refined: sought.map(gain),
             named: request.named(&best, all).into_iter().map(named).collect::<Result<_, _>>()?,
             front: rows(&best.front)?,
             top: rows(&moving[..moving.len().min(request.top)])?,
             tolerances: request.under.cloned(),
+            not_judged: asked
+                .refinement
+                .as_ref()
+                .map_or(Vec::new(), |it| it.asked.not_judged.clone()),
             robust_front: Vec::new(),
         })
     }

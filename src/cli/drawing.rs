@@ -4,7 +4,7 @@ use clap::ValueEnum;
 
 use super::failure::Failure;
 use super::terminal::notify;
-use crate::campaign::{KeptSearches, RefinedMotion, searches_path, study_of};
+use crate::campaign::{KeptFront, KeptSearches, searches_path, study_of};
 use crate::figure::{
     FigureError, Files, Format, Measured, Needs, Place, Shown, draw, needs, variables,
 };
@@ -64,15 +64,15 @@ pub fn draw_each(
     Failure::all(failures).map_or(Ok(()), Err)
 }
 
-/// The motions that a refinement has found between the cases of a file.
-fn refined(archive: &Archive) -> Result<Vec<RefinedMotion>, Failure> {
+/// What refinements have found between the cases of a file.
+fn refined(archive: &Archive) -> Result<Vec<KeptFront>, Failure> {
     let path = searches_path(archive.path());
     if !path.exists() {
         return Ok(Vec::new());
     }
     let study = study_of(archive, archive.path())?;
     match KeptSearches::read(archive, &study) {
-        Ok(kept) => Ok(kept.motions()),
+        Ok(kept) => Ok(kept.fronts(archive)?),
         Err(error) => {
             notify(&format!("{error}; they are not shown"));
             Ok(Vec::new())

@@ -20,6 +20,7 @@ mod fit_report;
 mod identify;
 mod inspect;
 mod join;
+mod optima_notes;
 mod optima_text;
 mod phases;
 mod progress;

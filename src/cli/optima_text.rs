@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Map, Value, json};
 
+use super::optima_notes::{counts_of_draws, write_limits, write_starts, write_tolerances};
 use super::readable::{count, counted};
 use crate::campaign::{
     Answer, Gain, Margin, MarginEnd, Margins, Named, Robustness, Row, Slopes, Tolerances,
@@ -22,9 +23,20 @@ pub fn json(answer: &Answer) -> Value {
     object.insert("cases".to_owned(), json!(answer.cases));
     object.insert("left_out".to_owned(), json!(answer.left_out));
     object.insert("speed_at_rest".to_owned(), json!(answer.at_rest.0));
-    if let Some(Gain { searches, found, seed, hypervolumes: [of_cases, whole] }) = answer.refined {
+    object.insert("where".to_owned(), json!(answer.conditions));
+    let [budget, least_speed] = answer.limits;
+    object.insert("budget".to_owned(), json!(budget));
+    object.insert("least_speed".to_owned(), json!(least_speed));
+    if let Some(Gain { searched, found, seed, drawn, hypervolumes: [of_cases, whole] }) =
+        &answer.refined
+    {
         let gain = json!({
-            "searches": searches,
+            "scope": "local",
+            "searches": searched.searches,
+            "starts": searched.starts,
+            "points_drawn": drawn.map(|[points, _]| points),
+            "points_searched_from": drawn.map(|[_, begun]| begun),
+            "unsettled": searched.unsettled,
             "found": found,
             "seed": seed,
             "hypervolume_of_cases": of_cases,
@@ -39,7 +51,14 @@ pub fn json(answer: &Answer) -> Value {
     if let Some(Tolerances { each, draws, seed }) = &answer.tolerances {
         let each: Map<String, Value> =
             each.iter().map(|(it, most)| (it.symbol().to_owned(), json!(most))).collect();
-        let asked = json!({ "each": each, "draws": draws, "seed": seed });
+        let asked = json!({
+            "each": each,
+            "each_is": "half width",
+            "distribution": "uniform",
+            "draws": draws,
+            "seed": seed,
+            "conditions_not_judged": answer.not_judged,
+        });
         object.insert("tolerances".to_owned(), asked);
         object.insert("robust_front".to_owned(), json!(answer.robust_front));
     }
@@ -88,6 +107,9 @@ fn json_of_row(row: &Row, of: Output) -> Value {
             "kept": it.kept,
             "speed_of_slowest_5_percent": it.speed,
             "price_of_dearest_5_percent": it.price,
+            "meet_conditions": it.meet_conditions,
+            "within_budget": it.within_budget,
+            "meet_conditions_within_budget": it.meet_both,
         })
     });
     point.insert("robustness".to_owned(), json!(robustness));
@@ -134,6 +156,10 @@ pub fn csv(answer: &Answer) -> String {
         "kept",
         "speed_of_slowest_5_percent",
         "price_of_dearest_5_percent",
+        "draws",
+        "meet_conditions",
+        "within_budget",
+        "meet_conditions_within_budget",
         "replay",
     ];
     let header: Vec<&str> = fixed.into_iter().chain(rest).chain(names).chain(more).collect();
@@ -154,6 +180,9 @@ pub fn csv(answer: &Answer) -> String {
             optional(row.share),
         ];
         let robustness = |of: fn(&Robustness) -> f64| optional(row.robustness.as_ref().map(of));
+        let counted_draws = |of: fn(&Robustness) -> Option<usize>| {
+            optional(row.robustness.as_ref().and_then(of).map(|it| it as f64))
+        };
         let more = [
             format!("{:?}", row.energy_per_metre),
             optional(row.errors.map(|it| it.speed)),
@@ -163,6 +192,10 @@ pub fn csv(answer: &Answer) -> String {
             robustness(|it| it.kept),
             robustness(|it| it.speed),
             robustness(|it| it.price),
+            robustness(|it| it.draws as f64),
+            counted_draws(|it| it.meet_conditions),
+            counted_draws(|it| it.within_budget),
+            counted_draws(|it| it.meet_both),
             // A command has commas.
             format!("\"{}\"", row.replay.replace('"', "\"\"")),
         ];
@@ -191,28 +224,36 @@ pub fn table(answer: &Answer) -> String {
         "\n{} left out at rest (no faster than {speed:.1e} m/s){against}",
         count(slow)
     );
-    if let Some(Gain { searches, found, hypervolumes: [of_cases, whole], .. }) = answer.refined {
+    if let Some(Gain { searched, found, drawn, hypervolumes: [of_cases, whole], .. }) =
+        &answer.refined
+    {
         let gain = 100.0 * (whole / of_cases - 1.0);
         let grows = match gain.is_finite() {
             true => format!("; the area that the front dominates grows by {gain:.3} %"),
             false => String::new(),
         };
-        let found = counted(found, "motion");
-        let searches = if searches == 1 {
-            "1 search".to_owned()
-        } else {
-            format!("{} searches", count(searches))
-        };
-        let _ = writeln!(text, "{searches} between the cases led to {found}{grows}");
+        let (searches, found) = (searched.in_words(), counted(*found, "motion"));
+        let _ = writeln!(
+            text,
+            "{searches} between the cases led to {found}{grows}; each search is local: a better motion may lie elsewhere"
+        );
+        write_starts(&mut text, searched, *drawn);
     }
+    let condition = match answer.conditions.is_empty() {
+        true => String::new(),
+        false => format!(" where {}", answer.conditions.join(" and ")),
+    };
     let _ = writeln!(
         text,
-        "Pareto front of {} ({}) and {}: {}\n",
+        "Pareto front of {} ({}) and {}{condition}: {}",
         Output::ProgressionSpeed.name(),
         answer.direction.name(),
         answer.of.name(),
         counted(answer.front.len(), "motion")
     );
+    write_limits(&mut text, answer);
+    write_tolerances(&mut text, answer);
+    text.push('\n');
     if answer.front.is_empty() {
         return text;
     }
@@ -272,12 +313,18 @@ fn write_row(text: &mut String, answer: &Answer, what: &str, row: &Row) {
     let robust = row.robustness.map_or(String::new(), |it| {
         let (kept, speed) = (100.0 * it.kept, 1e3 * it.speed);
         format!(
-            "; under tolerances 95 % of the draws reach {speed:.4} mm/s or more {}, 95 % take {:.4e} {} or less, {kept:.1} % keep the period",
+            "; under tolerances 95 % of the draws reach {speed:.4} mm/s or more {}, 95 % take {:.4e} {} or less, {kept:.1} % keep the period{}",
             answer.direction.adverb(),
             it.price,
-            answer.of.unit()
+            answer.of.unit(),
+            counts_of_draws(&it)
         )
     });
+    let is_not_judged = answer.tolerances.is_some() && row.period.is_none();
+    let robust = match is_not_judged {
+        true => "; not judged under tolerances, as it does not repeat".to_owned(),
+        false => robust,
+    };
     let basin =
         row.share.map_or(String::new(), |share| format!(", {:.1} % of the starts", 100.0 * share));
     let varied = row.coordinates.iter().filter(|(.., varies)| *varies);

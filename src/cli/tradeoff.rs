@@ -61,8 +61,13 @@ pub struct Tradeoff {
     /// Search for better motions between the cases, over the parameters that vary, within their ranges (at most 6).
     #[arg(long)]
     refine: bool,
-    /// Tolerances of parameters, as "k2 = 5 %, mu_s = 10 %": tells for the optima and the front the speed that 95 of 100 draws
-    /// reach, the cost that 95 of 100 do not exceed, and the share that keeps the period.
+    /// Points drawn over the ranges and settled from rest, from which searches begin besides the cases.
+    #[arg(long, value_name = "NUMBER", default_value_t = 256, requires = "refine",
+        value_parser = clap::value_parser!(u32).range(..=100_000))]
+    starts: u32,
+    /// Tolerances of parameters, as "k2 = 5 %, mu_s = 10 %": 5 % is the half width of an even (uniform) distribution, within which each
+    /// parameter is drawn by itself. Tells for the periodic optima and motions of the front the speed that 95 of 100 draws reach, the
+    /// cost that 95 of 100 do not exceed, the share that keeps the period, and how many draws keep `--where` and `--budget`.
     #[arg(long, value_name = "TOLERANCES")]
     tolerances: Option<String>,
     /// How many sets of parameters are drawn within the tolerances.
@@ -73,7 +78,7 @@ pub struct Tradeoff {
     /// stability, and where its events change on the way.
     #[arg(long)]
     margins: bool,
-    /// Seed of the random draws: of tolerances, and of the cases that a search begins with besides the best ones.
+    /// Seed of the random draws: of tolerances, and of the points and cases that searches begin with besides the best cases.
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
     /// Delete the searches that are kept beside the file, and begin anew.
@@ -123,7 +128,11 @@ impl Tradeoff {
             under: request.tolerances.as_ref(),
             margins: self.margins,
             threads,
-            between: kept.as_ref().map_or(Between::Nothing, |it| Between::Sought(it, self.seed)),
+            between: kept.as_ref().map_or(Between::Nothing, |kept| Between::Sought {
+                kept,
+                seed: self.seed,
+                points: self.starts as usize,
+            }),
         };
         let stages = Stages::default();
         let answer = trade_off.answer(&|event| {

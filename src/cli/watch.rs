@@ -124,7 +124,7 @@ impl<'a> Watch<'a> {
 
 /// Progress of each stage, once it has begun.
 #[derive(Default)]
-pub struct Stages([OnceLock<Progress>; 8]);
+pub struct Stages([OnceLock<Progress>; 10]);
 
 impl Stages {
     /// Shows the events of stages, and no others.
@@ -148,6 +148,8 @@ fn what(stage: Stage) -> &'static str {
         Stage::Writing => "parts written",
         Stage::Continuing => "branches",
         Stage::Repeating => "cases",
+        Stage::Starting => "points between the cases",
+        Stage::Climbing => "motions at other prices",
         Stage::Searching => "searches between the cases",
         Stage::Following => "gaps of the front",
         Stage::Drawing => "motions under tolerances",

@@ -5,32 +5,35 @@ use super::numbers::{number, percent, unit};
 use super::optimum::{Drawings, Undrawn, drawings};
 use super::request::Request;
 use crate::campaign::{
-    Answer, Between, CampaignError, KeptSearches, Margins, Named, Row, TradeOff, silent,
+    Answer, Between, CampaignError, Gain, KeptFront, Margins, Named, Row, TradeOff, silent,
 };
 use crate::capsule::{Output, Parameter};
 use crate::study::Study;
 use crate::tradeoff::Direction;
 
-/// Writes the optima in a direction, of the cases and of the motions between them that are known.
+/// Writes the optima in a direction, of the cases and of what was found between them, if anything was sought: those that keep its
+/// conditions.
 pub fn write_optima(
     page: &mut Page,
-    (request, study, kept): (&Request<'_>, &Study, &KeptSearches),
+    (request, study, front): (&Request<'_>, &Study, Option<&KeptFront>),
     direction: Direction,
 ) -> Result<(), CampaignError> {
     let Request { archive, file, of } = *request;
-    page.heading(&format!("Moving {}", direction.name()));
+    let condition = front.map(KeptFront::condition).filter(|it| !it.is_empty());
+    let under = condition.as_ref().map_or(String::new(), |it| format!(", where {it}"));
+    page.heading(&format!("Moving {}{under}", direction.name()));
     let trade_off = TradeOff {
         archive,
         file,
         of,
         direction,
-        conditions: None,
+        conditions: condition.as_deref(),
         at_rest: None,
         budget: None,
         speed: None,
         top: 0,
         slopes: false,
-        between: Between::Known(kept),
+        between: front.map_or(Between::Nothing, Between::Known),
         under: None,
         margins: true,
         threads: None,
@@ -55,21 +58,20 @@ pub fn write_optima(
     let replays: Vec<&str> = named.iter().map(|(_, row)| row.replay.as_str()).collect();
     page.text("To compute them again:");
     page.verbatim(&replays.join("\n"));
-    write_motions(page, &named, (study, direction))
+    write_motions(page, &named, (study, &format!("{}{under}", direction.name())))
 }
 
 /// Draws the motions of the optima.
 fn write_motions(
     page: &mut Page,
     named: &[(String, Row)],
-    (study, direction): (&Study, Direction),
+    (study, moving): (&Study, &str),
 ) -> Result<(), CampaignError> {
     let laws = (study.base.resistance, study.base.switching);
     for (name, row) in named {
         match drawings(row, (&study.protocol, laws)) {
             Ok(Some(Drawings { pictures, cycles })) => {
-                let direction = direction.name();
-                let caption = format!("{name}, {direction}: {cycles} cycles of the drive");
+                let caption = format!("{name}, {moving}: {cycles} cycles of the drive");
                 page.pictures(&pictures, &caption);
             }
             Ok(None) => page.note(&format!("{name}: does not repeat, and is not drawn.")),
@@ -90,9 +92,22 @@ fn front_in_words(answer: &Answer) -> String {
     } else {
         format!(" Cases left out: {}.", left_out.join(", "))
     };
+    let condition = match answer.conditions.is_empty() {
+        true => String::new(),
+        false => format!(" where {}", answer.conditions.join(" and ")),
+    };
+    let searched = match &answer.refined {
+        Some(Gain { searched, found, .. }) => format!(
+            " Between the cases {} led to {found} motions under these conditions; each search is local, and a better motion may lie \
+             elsewhere.",
+            searched.in_words()
+        ),
+        None => " No motion was sought between the cases.".to_owned(),
+    };
     format!(
-        "The Pareto front of progression speed and {} has {} motions, {between} of them between the cases.{left_out} \
+        "The Pareto front of progression speed ({}) and {}{condition} has {} motions, {between} of them between the cases.{searched}{left_out} \
          Motions of no more than {:.1e} m/s count as at rest.",
+        answer.direction.name(),
         answer.of.name(),
         answer.front.len(),
         answer.at_rest.0

@@ -4,7 +4,7 @@ use super::html::Page;
 use super::numbers::{number, unit};
 use super::optima::write_optima;
 use super::request::Request;
-use crate::campaign::{CampaignError, KeptSearches, quoted, study_of};
+use crate::campaign::{CampaignError, KeptFront, KeptSearches, quoted, study_of};
 use crate::capsule::Parameter;
 use crate::figure::{FigureError, Picture, Shown, picture, variables};
 use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
@@ -35,11 +35,18 @@ pub fn report(request: &Request<'_>) -> Result<String, CampaignError> {
         }
         kept => kept?,
     };
-    let report = Report { request, study: &study, kept: &kept };
+    let fronts = kept.fronts(archive)?;
+    let report = Report { request, study: &study, kept: &kept, fronts: &fronts };
     report.write_figures(&mut page)?;
     page.part("Optima");
+    let without = fronts.iter().find(|front| front.conditions.is_empty());
     for direction in DIRECTIONS {
-        write_optima(&mut page, (request, &study, &kept), direction)?;
+        write_optima(&mut page, (request, &study, without), direction)?;
+    }
+    for front in fronts.iter().filter(|front| !front.conditions.is_empty()) {
+        for direction in DIRECTIONS.into_iter().filter(|it| front.has_sought(*it)) {
+            write_optima(&mut page, (request, &study, Some(front)), direction)?;
+        }
     }
     report.write_cases(&mut page)?;
     report.write_parameters(&mut page);
@@ -52,6 +59,7 @@ struct Report<'a> {
     request: &'a Request<'a>,
     study: &'a Study,
     kept: &'a KeptSearches,
+    fronts: &'a [KeptFront],
 }
 
 impl Report<'_> {
@@ -123,8 +131,8 @@ impl Report<'_> {
     fn drawn(&self, drawing: &Drawing) -> Result<Result<Picture, FigureError>, CampaignError> {
         let shown = variables(drawing);
         let dataset = self.request.archive.labelled(|name| shown.contains(name))?;
-        let refined = if drawing.kind.keys().between { self.kept.motions() } else { Vec::new() };
-        Ok(picture(Shown { dataset: &dataset, refined: &refined, measured: None }, drawing))
+        let refined = if drawing.kind.keys().between { self.fronts } else { &[] };
+        Ok(picture(Shown { dataset: &dataset, refined, measured: None }, drawing))
     }
 
     /// The study, where the results come from, and how to cite and to repeat them.
@@ -147,8 +155,9 @@ impl Report<'_> {
         page.verbatim(&commands.join("\n"));
         if !self.kept.is_empty() {
             page.note(&format!(
-                "{} motions between the cases are known, from {} searches.",
-                self.kept.motions().len(),
+                "{} motions between the cases are known, from {} searches; motions under different conditions are counted apart. \
+                 The commands above make the searches of the default `--starts` and `--seed` alone.",
+                self.fronts.iter().map(|front| front.motions.len()).sum::<usize>(),
                 self.kept.len()
             ));
         }

@@ -59,6 +59,7 @@ mod ticks;
 mod track;
 mod trade_off;
 mod trade_off_cells;
+mod trade_off_fronts;
 mod trade_off_maps;
 mod trade_off_motions;
 mod trade_off_table;

@@ -1,6 +1,6 @@
 //! What figures are drawn from: results, motions found between their cases, and measured points.
 
-use crate::campaign::RefinedMotion;
+use crate::campaign::KeptFront;
 use crate::store::dataset::Dataset;
 
 /// What figures are drawn from.
@@ -8,8 +8,8 @@ use crate::store::dataset::Dataset;
 pub struct Shown<'a> {
     /// Results.
     pub dataset: &'a Dataset,
-    /// Motions that were found between their cases.
-    pub refined: &'a [RefinedMotion],
+    /// What was found between their cases, apart by the conditions that were kept.
+    pub refined: &'a [KeptFront],
     /// Points that were measured.
     pub measured: Option<&'a Measured>,
 }

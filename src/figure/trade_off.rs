@@ -1,7 +1,7 @@
 //! Progression speed against an energy or the power that it takes, and the best of both.
 
 use super::axis::AxisRequest;
-use super::canvas::{Canvas, Drawn, Stroke};
+use super::canvas::{Canvas, Drawn};
 use super::category;
 use super::cloud::{self, Dot};
 use super::data::Value;
@@ -13,17 +13,16 @@ use super::outcome;
 use super::page::{NO_ROOM, PageRequest, PanelRequest};
 use super::paint::Paint;
 use super::panel::{Panel, Pointing};
-use super::style::{
-    BLUE, CURVE_WIDTH, FAINT_INK, INK, MINOR_WIDTH, ONE_COLUMN, UNDECIDED_DOT, VERMILION,
-};
+use super::style::{BLUE, FAINT_INK, ONE_COLUMN, UNDECIDED_DOT};
 use super::text::Text;
+use super::trade_off_fronts::{Front, marked};
 use super::trade_off_motions::{Best, Motions};
-use super::trade_off_table::{BETWEEN, OPEN, marked, table};
+use super::trade_off_table::{BETWEEN, OPEN, table};
 use super::view::View;
 use crate::capsule::Output;
 use crate::store::catalogue::{self, DRAW};
 use crate::study::{Coordinate, Drawing};
-use crate::tradeoff::{Candidate, Direction};
+use crate::tradeoff::Candidate;
 
 /// The energy shown, unless another is asked for.
 const ENERGY: catalogue::Entry = catalogue::Entry::of_output(Output::WorkPositive);
@@ -33,8 +32,6 @@ pub const SPEED: catalogue::Entry = catalogue::Entry::of_output(Output::Progress
 const PER_METRE: catalogue::Entry = catalogue::Entry::of_output(Output::EnergyPerMetre);
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
-/// The directions, each with a front and optima of its own.
-pub const DIRECTIONS: [Direction; 2] = [Direction::Forward, Direction::Backward];
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
@@ -62,9 +59,8 @@ struct TradeOff<'v, 'a> {
     /// Price and speed shown per SI unit.
     factors: [f64; 2],
     free: &'v [&'a str],
-    motions: Motions<'a>,
-    /// The best in each direction.
-    best: [Best; 2],
+    /// The fronts with the motions that they are among: that without conditions first.
+    fronts: Vec<Front<'a>>,
     /// The colours of the cases.
     paint: Option<Paint>,
 }
@@ -73,12 +69,11 @@ struct TradeOff<'v, 'a> {
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let price = price(view.drawing);
     let free = view.free_axes();
-    let motions = Motions::of(view, price, &free)?;
-    let best = DIRECTIONS.map(|direction| motions.best(direction).shown(view));
+    let fronts = Front::all(view, price, &free)?;
     let paint = paint(view, &free)?;
     let factors = [price, SPEED.name].map(|name| view.quantity(name).factor);
-    let shown = TradeOff { view, price, factors, free: &free, motions, best, paint };
-    let table = table((view, &free), price, (&shown.motions, &shown.best))?;
+    let shown = TradeOff { view, price, factors, free: &free, fronts, paint };
+    let table = table((view, &free), price, &shown.fronts)?;
     let bar = |height: f64| shown.paint.as_ref().map_or(0.0, |it| it.room(height));
     let page = PageRequest { right_room: &bar, ..shown.request(&table) };
     let (mut canvas, panels) = page.lay_out();
@@ -94,6 +89,11 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 }
 
 impl TradeOff<'_, '_> {
+    /// All cases, with what was found between them without conditions.
+    fn motions(&self) -> &Motions<'_> {
+        &self.fronts[0].motions
+    }
+
     /// Price and speed of a motion in the units of the figure.
     fn place(&self, (price, speed): (f64, f64)) -> (f64, f64) {
         let [of_price, of_speed] = self.factors;
@@ -108,7 +108,7 @@ impl TradeOff<'_, '_> {
 
     fn draw(&self, canvas: &mut Canvas, panel: &Panel) {
         panel.mark_zero(canvas);
-        let motions = &self.motions;
+        let motions = self.motions();
         let crowding = motions.cases().len() as f64;
         let dot = |case: &Candidate| {
             let own = |paint: &Paint| paint.colour(case.case).unwrap_or(UNDECIDED_DOT);
@@ -129,67 +129,54 @@ impl TradeOff<'_, '_> {
             let rows = ours.map(|it| (self.place((it.price, it.speed)), value(it)));
             panel.record_values(canvas, &format!("{name}{told}"), rows);
         }
-        // That of all motions lies over that of the cases, which it is where no motion between them is better.
-        let mut curve = |front: &[(f64, f64)], stroke: Stroke| {
-            let line = stairs(&front.iter().map(|it| self.place(*it)).collect::<Vec<_>>());
-            if line.len() > 1 {
-                panel.curve(canvas, &line, stroke);
-            }
-        };
-        for best in &self.best {
-            if motions.between() > 0 {
-                curve(&best.front_of_cases, Stroke::solid(INK, MINOR_WIDTH));
-            }
-            curve(&best.front, Stroke::solid(VERMILION, CURVE_WIDTH));
-        }
-        for best in &self.best {
-            let fronts =
-                [(&best.front, "Pareto front"), (&best.front_of_cases, "that of the cases alone")];
-            for (front, name) in fronts {
-                panel.record(canvas, name, front.iter().map(|it| self.place(*it)));
-            }
-            for (symbol, motion) in marked(motions, best) {
-                let (x, y) = self.place((motion.price, motion.speed));
-                if panel.holds(x, y) {
-                    panel.record(canvas, symbol.words, [(x, y)]);
-                    symbol.draw(canvas, panel.place(x, y));
-                }
-            }
+        for front in &self.fronts {
+            front.draw(canvas, panel, |it| self.place(it));
         }
     }
 
     /// What the figure shows and leaves out, in a sentence kept inside its files.
     fn about(&self) -> String {
         let shows = self.view.about(&[SPEED.name.to_owned(), self.price.to_owned()], self.free);
-        let motions = &self.motions;
+        let motions = self.motions();
         let aperiodic = motions.aperiodic();
+        let between: Vec<String> = self.fronts.iter().map(Front::about).collect();
+        let not_shown: usize = match self.free.len() == self.view.axes().len() {
+            true => 0,
+            false => self.view.refined.iter().map(|it| it.motions.len()).sum(),
+        };
+        let not_shown = match not_shown {
+            0 => String::new(),
+            count => format!(
+                "; {count} motions found between the cases are not shown where an axis is held"
+            ),
+        };
         format!(
-            "{shows}; {} periodic cases, {aperiodic} others as means over their cycles, {} without values, {} periodic motions \
-             between the cases; the fronts are of motions that are not undecided and move faster than {:.1e} m/s",
+            "{shows}; {} periodic cases, {aperiodic} others as means over their cycles, {} without values, {}{not_shown}; the fronts \
+             are of motions that are not undecided and move faster than {:.1e} m/s",
             motions.cases().len() - aperiodic,
             motions.left_out,
-            motions.between(),
+            between.join("; "),
             motions.at_rest
         )
     }
 
     /// What the marks mean, and how many cases are shown otherwise or not at all.
-    fn legend(&self) -> Vec<Entry> {
+    fn legend<'s>(&'s self) -> Vec<Entry> {
         let mut legend = Vec::new();
-        let motions = &self.motions;
+        let motions = self.motions();
         let said = |what: String| Text::plain(&what);
-        if self.best.iter().any(|best| best.front.len() > 1) {
-            let line = Mark::Line(Stroke::solid(VERMILION, CURVE_WIDTH));
-            legend.push((line, said("Pareto front".to_owned())));
-            if motions.between() > 0 {
-                let line = Mark::Line(Stroke::solid(INK, MINOR_WIDTH));
-                legend.push((line, said("that of the cases alone".to_owned())));
-            }
-        }
-        let optima = self.best.iter().flat_map(|best| marked(motions, best));
-        let between: Vec<_> = optima.filter_map(|(_, motion)| motions.refined(motion)).collect();
-        if !between.is_empty() {
-            legend.push((Mark::Nothing, said(format!("{BETWEEN} between the cases"))));
+        legend.extend(self.fronts.iter().flat_map(Front::legend));
+        let refined = |front: &'s Front<'_>, best: &'s Best| {
+            let optima = marked(&front.motions, best).into_iter();
+            optima.filter_map(|(_, motion)| front.motions.refined(motion)).collect::<Vec<_>>()
+        };
+        let all = self.fronts.iter().flat_map(|front| front.best.iter().map(move |it| (front, it)));
+        let between: Vec<_> = all.flat_map(|(front, best)| refined(front, best)).collect();
+        if self.fronts.iter().any(|front| front.motions.between() > 0) {
+            legend.push((
+                Mark::Nothing,
+                said(format!("{BETWEEN} between the cases, by local search")),
+            ));
         }
         if between.iter().any(|it| it.is_open()) {
             legend.push((Mark::Nothing, said(format!("{OPEN} not converged"))));
@@ -207,8 +194,9 @@ impl TradeOff<'_, '_> {
     }
 
     fn request(&self, table: &Table) -> PageRequest<'_> {
-        let (view, motions) = (self.view, &self.motions);
-        let fronts = self.best.iter().flat_map(|best| best.front.iter().copied());
+        let (view, motions) = (self.view, self.motions());
+        let best = self.fronts.iter().flat_map(|front| &front.best);
+        let fronts = best.flat_map(|best| best.front.iter().copied());
         let cases = motions.cases().iter().map(|it| (it.price, it.speed));
         let (prices, speeds): (Vec<f64>, Vec<f64>) =
             cases.chain(fronts).map(|it| self.place(it)).unzip();
@@ -240,16 +228,4 @@ fn paint(view: &View<'_>, free: &[&str]) -> Result<Option<Paint>, FigureError> {
     };
     let cases = free.iter().map(|axis| view.coordinate_values(axis).len()).product();
     Paint::of((view, std::slice::from_ref(view)), name, (free, cases)).map(Some)
-}
-
-/// The front as stairs: up to the next case, the last one stays the best.
-fn stairs(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let mut line = Vec::new();
-    for (at, (energy, speed)) in front.iter().enumerate() {
-        if at > 0 {
-            line.push((*energy, front[at - 1].1));
-        }
-        line.push((*energy, *speed));
-    }
-    line
 }

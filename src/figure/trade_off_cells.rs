@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::error::FigureError;
 use super::plane::Plane;
 use super::shown::Shown;
-use super::trade_off::{DIRECTIONS, SPEED, price};
-use super::trade_off_motions::Motions;
+use super::trade_off::{SPEED, price};
+use super::trade_off_motions::{DIRECTIONS, Motions};
 use super::view::View;
 use crate::study::Drawing;
 use crate::tradeoff::Direction;
@@ -44,7 +44,7 @@ pub fn trade_off_cells<'a>(
     let view = View::new(shown.into(), drawing)?;
     let plane = Plane::of(&view, "a map")?;
     let free = plane.free();
-    let motions = Motions::of(&view, price(drawing), &free)?;
+    let motions = Motions::of(&view, (price(drawing), &free), None)?;
     let cells = cells(&plane);
     let mut left_out = BTreeMap::new();
     if motions.left_out > 0 {

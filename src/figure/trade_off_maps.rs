@@ -15,10 +15,11 @@ use super::raster::Fill;
 use super::style::{INK, PAPER, TWO_COLUMNS};
 use super::symbol::Symbol;
 use super::text::Text;
-use super::trade_off::{DIRECTIONS, KIND as TRADE_OFF, SPEED, price};
-use super::trade_off_motions::{Best, Motions, value_of};
-use super::trade_off_table::marked;
+use super::trade_off::{KIND as TRADE_OFF, SPEED, price};
+use super::trade_off_fronts::marked;
+use super::trade_off_motions::{Best, DIRECTIONS, Motions, value_of};
 use super::view::View;
+use crate::campaign::KeptFront;
 use crate::study::Coordinate;
 use crate::tradeoff::Candidate;
 
@@ -59,7 +60,10 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let plane = Plane::of(view, "maps of a trade-off")?;
     let price = price(view.drawing);
     let free = view.free_axes();
-    let motions = Motions::of(view, price, &free)?;
+    let under = |it: &&KeptFront| !it.conditions.is_empty();
+    let alone = view.refined.iter().find(|it| !under(it));
+    let motions = Motions::of(view, (price, &free), alone.filter(|_| is_whole(view, &free)))?;
+    let others: Vec<&KeptFront> = view.refined.iter().filter(under).collect();
     let best = DIRECTIONS.map(|direction| motions.best(direction));
     let axes = [plane.x_name, plane.y_name];
     let [forward, backward] = [0, 1].map(|it| best[it].front.len());
@@ -119,10 +123,30 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let among = if over.is_empty() { String::new() } else { format!(" over {}", over.join(", ")) };
     Ok(canvas.finish(&format!(
         "{about}; in each cell over {} the fastest motion{among}, aperiodic ones by their means; the fronts have {forward} \
-         motions forward and {backward} backward, {} periodic motions between the cases take part",
+         motions forward and {backward} backward, {} periodic motions between the cases take part{}{}",
         axes.join(", "),
-        motions.between()
+        motions.between(),
+        motions.searched().map_or(String::new(), |it| format!(
+            ", found by local search: {}; better ones may lie elsewhere",
+            it.in_words()
+        )),
+        not_shown(&others)
     )))
+}
+
+/// Whether no axis is held, along which motions between the cases may lie anywhere.
+fn is_whole(view: &View<'_>, free: &[&str]) -> bool {
+    free.len() == view.axes().len()
+}
+
+/// How many motions were found under conditions, which the maps do not show; nothing of none.
+fn not_shown(others: &[&KeptFront]) -> String {
+    let motions: usize = others.iter().map(|it| it.motions.len()).sum();
+    let conditions: Vec<String> = others.iter().map(|it| it.condition()).collect();
+    match motions {
+        0 => String::new(),
+        _ => format!("; {motions} that were found where {} are not shown", conditions.join("; ")),
+    }
 }
 
 /// Where the motions of the fronts, and the optima, are over two axes.

@@ -3,12 +3,15 @@
 use super::error::FigureError;
 use super::outcome::Outcomes;
 use super::view::View;
-use crate::campaign::RefinedMotion;
+use crate::campaign::{KeptFront, RefinedMotion, Searched};
 use crate::capsule::Output;
 use crate::store::catalogue::DRAW;
 use crate::store::takes_part;
 use crate::study::Coordinate;
 use crate::tradeoff::{Candidate, Direction, Optima, optima, speed_at_rest};
+
+/// The directions, each with a front and optima of its own.
+pub const DIRECTIONS: [Direction; 2] = [Direction::Forward, Direction::Backward];
 
 /// The motions of a figure.
 pub struct Motions<'a> {
@@ -21,6 +24,8 @@ pub struct Motions<'a> {
     count: usize,
     /// The outcome of each case.
     outcomes: Outcomes<'a>,
+    /// What is shown of the motions between the cases, and the conditions of the front; none where nothing was sought.
+    sought: Option<&'a KeptFront>,
     refined: &'a [RefinedMotion],
     /// How many cases have no outputs.
     pub left_out: usize,
@@ -41,6 +46,12 @@ pub struct Best {
 }
 
 impl Best {
+    /// No motion at all.
+    pub fn none(direction: Direction) -> Best {
+        let (front_of_cases, front) = (Vec::new(), Vec::new());
+        Best { direction, of_all: Optima::default(), front_of_cases, front }
+    }
+
     /// Without what the request hides.
     pub fn shown(mut self, view: &View<'_>) -> Best {
         if !view.shows("fronts") {
@@ -57,9 +68,13 @@ impl Best {
 }
 
 impl<'a> Motions<'a> {
-    /// The motions of a view over the axes `free`, with the output `price`; those between the cases only where no axis is held, as
-    /// they may lie anywhere along it.
-    pub fn of(view: &View<'a>, price: &str, free: &[&str]) -> Result<Motions<'a>, FigureError> {
+    /// The motions of a view over the axes `free`, with the output `price`, that make fronts under the conditions of `sought`, or
+    /// without any; those between the cases only where no axis is held, as they may lie anywhere along it.
+    pub fn of(
+        view: &View<'a>,
+        (price, free): (&str, &[&str]),
+        sought: Option<&'a KeptFront>,
+    ) -> Result<Motions<'a>, FigureError> {
         let Some(output) = Output::named(price) else {
             return Err(view.unfit(format!("`{price}` is no output of a motion")));
         };
@@ -81,12 +96,12 @@ impl<'a> Motions<'a> {
             all.filter(|it| it.price.is_finite() && it.speed.is_finite()).collect();
         let of_cases = all.len();
         let at_rest = speed_at_rest(all.iter().map(|it| it.speed));
-        let refined = if free.len() == view.axes().len() { view.refined } else { &[] };
+        let refined = sought.map_or(&[][..], |it| &it.motions);
         let numbered = refined.iter().enumerate();
         all.extend(numbered.map(|(place, motion)| motion.candidate(count + place, output)));
         let outcomes = Outcomes::over(view, free)?;
         let left_out = count - of_cases;
-        Ok(Motions { all, of_cases, count, outcomes, refined, left_out, at_rest })
+        Ok(Motions { all, of_cases, count, outcomes, sought, refined, left_out, at_rest })
     }
 
     /// The cases that have both outputs.
@@ -114,9 +129,21 @@ impl<'a> Motions<'a> {
         motion.case >= self.count || self.outcomes.periodic(motion.case)
     }
 
-    /// Whether a motion may be among the best: it is no case that is undecided or failed.
+    /// Whether a motion may be among the best: it is no case that is undecided or failed, or does not keep the conditions.
     pub fn counts(&self, motion: &Candidate) -> bool {
-        self.outcome(motion).is_none_or(takes_part)
+        let is_case = motion.case < self.count;
+        let keeps = self.sought.is_none_or(|it| !is_case || it.has(motion.case));
+        keeps && self.outcome(motion).is_none_or(takes_part)
+    }
+
+    /// The conditions of the front, in one text; none where there are none.
+    pub fn condition(&self) -> Option<String> {
+        self.sought.map(KeptFront::condition).filter(|it| !it.is_empty())
+    }
+
+    /// The searches between the cases; none where there were none.
+    pub fn searched(&self) -> Option<&'a Searched> {
+        self.sought.map(|it| &it.searched)
     }
 
     /// The outcome of a motion that is a case, if it is known.

@@ -4,8 +4,9 @@ use super::error::FigureError;
 use super::header::Mark;
 use super::optima_table::{Row, Table};
 use super::quantity::Quantity;
-use super::symbol::{FASTEST, KNEE, LEAST, Symbol};
+use super::symbol::Symbol;
 use super::text::Text;
+use super::trade_off_fronts::{Front, marked};
 use super::trade_off_motions::{Best, Motions, coordinates, value_of};
 use super::view::View;
 use crate::campaign::RefinedMotion;
@@ -29,28 +30,22 @@ struct Column<'v> {
     cell: Cell<'v>,
 }
 
-/// The optima in a direction with what marks them, those that matter least first.
-pub fn marked<'m>(motions: &'m Motions<'_>, best: &Best) -> Vec<(Symbol, &'m Candidate)> {
-    let of_all = &best.of_all;
-    let each =
-        [(LEAST, of_all.lowest_cost_of_transport), (KNEE, of_all.knee), (FASTEST, of_all.fastest)];
-    let found = each.into_iter().filter_map(|(symbol, place)| Some((symbol, place?)));
-    found.map(|(symbol, place)| (symbol, motions.at(place))).collect()
-}
-
-/// The optima in each direction with their speeds, their prices by the output `price`, and what varies over the axes `free`.
+/// The optima of each front and direction with their speeds, their prices by the output `price`, and what varies over the axes `free`.
 pub fn table(
     (view, free): (&View<'_>, &[&str]),
     price: &str,
-    (motions, best): (&Motions<'_>, &[Best]),
+    fronts: &[Front<'_>],
 ) -> Result<Table, FigureError> {
     let columns = columns(view, price, free)?;
     let mut table = Table::default();
-    for best in best {
+    let each = fronts.iter().flat_map(|front| front.best.iter().map(move |best| (front, best)));
+    for (front, best) in each {
+        let motions = &front.motions;
         for (symbol, motion) in marked(motions, best).into_iter().rev() {
             let refined = motions.refined(motion);
             let cells = columns.iter().map(|column| (column.cell)(motion, refined)).collect();
-            let name = Text::plain(&name(symbol, motions, (best, motion)));
+            let letter = front.letter.map_or(String::new(), |letter| format!(" ({letter})"));
+            let name = Text::plain(&(name(symbol, motions, (best, motion)) + &letter));
             table.rows.push(Row { mark: Mark::Symbol(symbol), name, cells });
         }
     }

@@ -13,7 +13,7 @@ use super::shown::{Measured, Shown};
 use super::style::POINTS_PER_MM;
 use super::unit::ShownUnit;
 use super::varied::varied;
-use crate::campaign::RefinedMotion;
+use crate::campaign::KeptFront;
 use crate::capsule::{Output, Parameter};
 use crate::store::catalogue::{self, DIRECTION, DRAW, Entry, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
@@ -33,8 +33,8 @@ const COLUMNS: usize = 4;
 pub struct View<'a> {
     /// The results.
     pub dataset: &'a Dataset,
-    /// Motions that were found between their cases.
-    pub refined: &'a [RefinedMotion],
+    /// What was found between their cases, apart by the conditions that were kept.
+    pub refined: &'a [KeptFront],
     /// Points that were measured.
     pub measured: Option<&'a Measured>,
     /// The request.

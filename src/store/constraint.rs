@@ -50,9 +50,35 @@ const SIGNS: [(&str, Comparison); 7] = [
     ("=", Comparison::Equal),
 ];
 
+impl Condition {
+    /// The code of a category of what it is on; not a number where it has none.
+    pub fn code(&self, name: &str) -> f64 {
+        let found = self.column.flags.iter().find(|(_, flag)| flag == name);
+        found.map_or(f64::NAN, |(code, _)| *code as f64)
+    }
+
+    /// The condition in one form, which [`conditions`] reads again: name, sign, and the limit in SI or the name of a category.
+    pub fn normal(&self) -> String {
+        let Condition { name, column, comparison, limit, .. } = self;
+        let sign = comparison.sign();
+        let flag = column.flags.iter().find(|(code, _)| *code as f64 == *limit);
+        match flag {
+            Some((_, flag)) => format!("{name} {sign} {flag}"),
+            None if column.unit == Dimension::Number.unit() => format!("{name} {sign} {limit:?}"),
+            None => format!("{name} {sign} {limit:?} {}", column.unit),
+        }
+    }
+}
+
 impl Comparison {
+    /// The sign in which it is written.
+    pub fn sign(self) -> &'static str {
+        let found = SIGNS.iter().rfind(|(_, comparison)| *comparison == self);
+        found.map_or("", |(sign, _)| sign)
+    }
+
     /// Whether it is so; of what is not known it is not.
-    fn holds(self, value: f64, limit: f64) -> bool {
+    pub fn holds(self, value: f64, limit: f64) -> bool {
         match self {
             Comparison::Less => value < limit,
             Comparison::AtMost => value <= limit,

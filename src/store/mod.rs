@@ -38,7 +38,7 @@ pub use block_folder::{BlockFolder, Company, by_outcome, packed_bytes};
 pub use branches::{add_branches, drop_branches, has_branches, has_cases, keep_branches};
 pub use candidates::{Candidates, candidates, takes_part};
 pub use case_table::{CaseTable, Column};
-pub use constraint::{Comparison, Condition, conditions, quantity};
+pub use constraint::{Comparison, Condition, conditions, fulfils, quantity};
 pub use dataset::{Dataset, Values, Variable};
 pub use decode::Archive;
 pub use difference::difference;

@@ -15,7 +15,9 @@ use super::program::WorkDir;
 const STUDY: &str = "[parameters]\nk2 = \"20 kN/m\"\ndelta = \"3 mm\"\n\
      [[axes]]\nname = \"p_d\"\nfrom = \"7 N\"\nto = \"8 N\"\npoints = 6\n\
      [[axes]]\nname = \"omega\"\nfrom = \"50 rad/s\"\nto = \"65 rad/s\"\npoints = 16\n";
-const REFINE: [&str; 4] = ["tradeoff", "results/study/study.h5", "--refine", "--json"];
+/// Few points are drawn, so that many refinements take little time.
+const REFINE: [&str; 6] =
+    ["tradeoff", "results/study/study.h5", "--refine", "--starts", "8", "--json"];
 const SEARCHES: &str = "results/study/study.searches";
 
 fn swept(study: &str) -> WorkDir {

@@ -1,0 +1,73 @@
+//! What conditions on cases ask of a motion under tolerances, which has parameters, outputs, a period and an outcome of its own.
+
+use crate::capsule::{Orbit, Output, Parameter, Parameters};
+use crate::store::catalogue::{OUTCOME, PERIOD};
+use crate::store::{Comparison, Condition};
+
+/// Conditions as far as they can be judged of a draw.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct OfDraws {
+    judged: Vec<(Quantity, Condition)>,
+    /// Those on something else: a start, an attractor, a count of cycles, and the like.
+    pub not_judged: Vec<String>,
+}
+
+/// A limit is kept to this share of it.
+const KEPT: f64 = 1e-8;
+
+/// What a condition is on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Quantity {
+    Parameter(Parameter),
+    Output(Output),
+    Period,
+    Outcome,
+}
+
+impl Quantity {
+    fn named(name: &str) -> Option<Quantity> {
+        match name {
+            _ if name == PERIOD.name => Some(Quantity::Period),
+            _ if name == OUTCOME.name => Some(Quantity::Outcome),
+            _ => Parameter::named(name)
+                .map(Quantity::Parameter)
+                .or_else(|| Output::named(name).map(Quantity::Output)),
+        }
+    }
+}
+
+impl OfDraws {
+    /// The conditions, those that cannot be judged apart.
+    pub fn of(conditions: &[Condition]) -> OfDraws {
+        let mut found = OfDraws::default();
+        for condition in conditions {
+            match Quantity::named(&condition.name) {
+                Some(quantity) => found.judged.push((quantity, condition.clone())),
+                None => found.not_judged.push(condition.normal()),
+            }
+        }
+        found
+    }
+
+    /// Whether a draw keeps those that can be judged; none where there is none. Limits may be reached, as by motions between the cases,
+    /// which lie on them.
+    pub fn met(&self, parameters: &Parameters, orbit: &Orbit) -> Option<bool> {
+        let holds = |(quantity, condition): &(Quantity, Condition)| {
+            let value = match quantity {
+                Quantity::Parameter(parameter) => parameters[*parameter],
+                Quantity::Output(output) => orbit.outputs[*output],
+                Quantity::Period => orbit.period as f64,
+                Quantity::Outcome => condition.code(orbit.outcome.name()),
+            };
+            keeps(condition, value)
+        };
+        (!self.judged.is_empty()).then(|| self.judged.iter().all(holds))
+    }
+}
+
+/// Whether a number keeps a condition, or reaches its limit but for rounding.
+fn keeps(condition: &Condition, value: f64) -> bool {
+    let Condition { comparison, limit, .. } = condition;
+    let is_reached = (value - limit).abs() <= KEPT * limit.abs().max(value.abs());
+    comparison.holds(value, *limit) || (*comparison != Comparison::Unequal && is_reached)
+}

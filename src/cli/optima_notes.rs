@@ -1,0 +1,83 @@
+//! What the table of a trade-off says before its rows: starts of searches, tolerances, and limits that choose motions.
+
+use std::fmt::Write;
+
+use super::readable::{count, counted};
+use crate::campaign::{Answer, Robustness, Searched, Tolerances};
+
+/// How many points were drawn as starts, and what was found and does not count.
+pub fn write_starts(text: &mut String, searched: &Searched, drawn: Option<[usize; 2]>) {
+    if let Some([points, begun]) = drawn {
+        let points = counted(points, "point");
+        let _ = writeln!(
+            text,
+            "{points} drawn over the ranges and settled from rest: {} of them gave starts, the other starts are cases",
+            count(begun)
+        );
+    }
+    if searched.unsettled > 0 {
+        let found = counted(searched.unsettled, "orbit");
+        let _ = writeln!(
+            text,
+            "{found} found do not count: plain integration does not lead to them, or they do not keep the conditions"
+        );
+    }
+}
+
+/// What tolerances are, and what of the conditions cannot be judged under them.
+pub fn write_tolerances(text: &mut String, answer: &Answer) {
+    let Some(Tolerances { each, draws, seed }) = &answer.tolerances else { return };
+    let half_widths: Vec<String> = each
+        .iter()
+        .map(|(it, most)| format!("{} \u{b1} {} %", it.symbol(), percent(*most)))
+        .collect();
+    let _ = writeln!(
+        text,
+        "tolerances: {}, half widths of even distributions (standard deviations are these over \u{221a}3), independent; {draws} draws, \
+         seed {seed}",
+        half_widths.join(", ")
+    );
+    if !answer.not_judged.is_empty() {
+        let conditions = answer.not_judged.join(" and ");
+        let _ = writeln!(text, "not judged of the draws, which have no such number: {conditions}");
+    }
+}
+
+/// How many draws keep the conditions and the budget.
+pub fn counts_of_draws(robustness: &Robustness) -> String {
+    let Robustness { draws, meet_conditions, within_budget, meet_both, .. } = robustness;
+    let told = |count: &Option<usize>, does: &str| {
+        count.map_or(String::new(), |count| format!(", {count} of {draws} draws {does}"))
+    };
+    [
+        told(meet_conditions, "keep the conditions"),
+        told(within_budget, "keep to the budget"),
+        told(meet_both, "do both"),
+    ]
+    .concat()
+}
+
+/// What may be spent and what speed is wanted, which choose motions of the front.
+pub fn write_limits(text: &mut String, answer: &Answer) {
+    let [budget, speed] = answer.limits;
+    if let Some(most) = budget {
+        let (of, unit) = (answer.of.name(), answer.of.unit());
+        let _ = writeln!(
+            text,
+            "budget: {of} of {most:e} {unit} at most, which leaves no motion out of the front"
+        );
+    }
+    if let Some(least) = speed {
+        let _ = writeln!(
+            text,
+            "speed wanted: {} mm/s at least, which leaves no motion out of the front",
+            1e3 * least
+        );
+    }
+}
+
+/// A share in percent, without what rounding adds.
+fn percent(share: f64) -> String {
+    let text = format!("{:.9}", 100.0 * share);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
