@@ -13,8 +13,8 @@ KILLS=100 cargo test --release --test it -- runs_that_are_killed --nocapture
 echo "== 20 000 periods, computed again with a tenth of the tolerances and ten times the budget"
 CASES=20000 cargo test --release --test it -- certificates --nocapture
 
-echo "== leaping against waiting in 200 000 cases"
-CASES=200000 cargo test --release --test it -- acceleration --nocapture
+echo "== settling against integration alone: 200 000 cases, and 5000 starts of each of 41 capsules with several attractors"
+CASES=200000 CAPSULES=41 STARTS=5000 cargo test --release --test it -- acceleration --nocapture
 
 echo "== periods and defects of 10 000 cases of each law over the whole box, and a second integrator on 3000"
 CASES=10000 cargo test --release --test it -- wide_box --nocapture

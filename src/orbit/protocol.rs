@@ -88,7 +88,8 @@ pub struct Protocol {
     pub points: usize,
     /// Impacts kept at most, by an observer that notes them.
     pub impact_points: usize,
-    /// Whether to leap to where the section tends, once it is clear, rather than wait until it is there.
+    /// Whether a motion is followed only until it is proven to lead to the orbit to which its section seems to tend, rather
+    /// than until the section repeats.
     pub accelerate: bool,
     /// Time history to keep.
     pub history: Option<HistorySpan>,

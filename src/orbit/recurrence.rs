@@ -9,7 +9,7 @@ use super::extrapolation::WINDOW;
 /// A recurrence this many times closer than asked for needs no proof that it still converges.
 const EXACT: f64 = 1e-2;
 /// Points are kept so that a limit can be told for periods up to this.
-const LONGEST_LEAP: usize = 64;
+const LONGEST_TOLD: usize = 64;
 /// A longer period is nearer than a shorter one if its distance is below this share.
 const DISTINCT: f64 = 0.1;
 /// A motion below this share of the largest one seen is measured against that largest one.
@@ -51,20 +51,13 @@ impl<const D: usize> Recurrence<D> {
             tolerance,
             longest,
             metric,
-            memory: (2 * longest).max((WINDOW - 1) * longest.min(LONGEST_LEAP)) + 1,
+            memory: (2 * longest).max((WINDOW - 1) * longest.min(LONGEST_TOLD)) + 1,
             points: VecDeque::new(),
             repeats: vec![0; longest + 1],
             largest: 0.0,
             scale: 0.0,
             nearest: None,
         }
-    }
-
-    /// Forgets the points met, and goes on from another.
-    pub fn restart(&mut self, point: [f64; D]) {
-        self.points.clear();
-        self.repeats.fill(0);
-        self.meet(point);
     }
 
     /// The number of cycles after which the last point is nearest to an earlier one, and how near, relative
