@@ -12,13 +12,15 @@ use super::measuring::{MeasureRequest, Measured};
 use super::measuring_all::measured_side_by_side;
 use super::passage::{Integrator, Passage, PlainRequest, ReturnRequest};
 use super::passages::passages;
-use super::returns::PlainReturn;
+use super::returns::{PlainReturns, plain_returns};
 
 /// Room for the stack of a computation [bytes]; only what is used is taken.
 const STACK: usize = 4 << 20;
 
 /// Motions that a lane follows one after the other.
 const EACH_LANE: usize = 8;
+/// Returns without derivatives that take as long as one with them.
+const PLAIN: usize = 6;
 /// Computations that wait at a time at most, as each has a stack.
 const MOST: usize = 256;
 
@@ -33,7 +35,7 @@ enum Request<M: System<D>, const D: usize> {
 enum Answer<M: System<D>, const D: usize> {
     Returned(Returned<M, D>),
     Measured(Measured<M, D>),
-    Plain(Vec<Option<PlainReturn<M::Event, D>>>),
+    Plain(PlainReturns<M::Event, D>),
 }
 /// A computation that waits for an answer; the first time it is resumed for nothing.
 type Computation<M, T, const D: usize> =
@@ -50,7 +52,7 @@ pub struct Batch<M: System<D>, T, const D: usize> {
     returns: Vec<(Computation<M, T, D>, ReturnRequest<M, D>)>,
     /// Computations that wait for their cycles to be measured.
     measures: Vec<(Computation<M, T, D>, MeasureRequest<M, D>)>,
-    /// Computations that wait for returns without derivatives, each for enough to fill the lanes.
+    /// Computations that wait for returns without derivatives, each for many.
     plain: Vec<(Computation<M, T, D>, PlainRequest<M, D>)>,
     stacks: Vec<DefaultStack>,
 }
@@ -79,7 +81,7 @@ impl<M: System<D>, const D: usize> Integrator<M, D> for Waiting<'_, M, D> {
         }
     }
 
-    fn plain_returns(&self, request: PlainRequest<M, D>) -> Vec<Option<PlainReturn<M::Event, D>>> {
+    fn plain_returns(&self, request: PlainRequest<M, D>) -> PlainReturns<M::Event, D> {
         match self.0.suspend(Request::Plain(request)) {
             Some(Answer::Plain(returns)) => returns,
             _ => panic!("the computation goes on with the returns"),
@@ -125,10 +127,15 @@ impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
         Batch { instructions, returns, measures, plain, stacks: Vec::new() }
     }
 
-    /// How many motions wait of the kind of which most do.
+    /// How many wait for what most of them wait for; returns without derivatives count by the number that take as long as
+    /// one with them.
     pub fn waiting(&self) -> usize {
-        let plain = 2 * self.instructions.lanes_of_a_vector() * self.plain.len();
-        self.returns.len().max(self.measures.len()).max(plain)
+        self.returns.len().max(self.measures.len()).max(self.plain_waiting())
+    }
+
+    fn plain_waiting(&self) -> usize {
+        let points: usize = self.plain.iter().map(|(_, it)| it.points.len()).sum();
+        points.div_ceil(PLAIN)
     }
 
     /// Begins a computation; its result, if it asks for nothing.
@@ -150,10 +157,10 @@ impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
     /// computations that end with it.
     pub fn advance(&mut self) -> Vec<T> {
         let most = EACH_LANE * self.instructions.lanes_of_a_vector();
-        let (computations, answers): (Vec<_>, Vec<_>) = if !self.plain.is_empty() {
-            let (computations, requests) = first(&mut self.plain, most);
-            let returned = requests.iter().map(|it| Answer::Plain(it.answer(self.instructions)));
-            (computations, returned.collect())
+        let (computations, answers): (Vec<_>, Vec<_>) = if self.plain_waiting() >= self.waiting() {
+            let (computations, requests): (Vec<_>, Vec<_>) = self.plain.drain(..).unzip();
+            let returned = plain_returns(self.instructions, &requests);
+            (computations, returned.into_iter().map(Answer::Plain).collect())
         } else if self.returns.len() >= self.measures.len() {
             let (computations, requests) = first(&mut self.returns, most);
             let returned = passages(self.instructions, &requests.iter().collect::<Vec<_>>());

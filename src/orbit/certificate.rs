@@ -4,7 +4,7 @@
 use crate::flow::System;
 
 use super::Protocol;
-use super::matrix::{Complex, eigenvalues};
+use super::matrix::{Complex, Matrix, eigenvalues};
 use super::neutral::{Neutral, close_neutral, may_be_neutral};
 use super::newton::{Closed, close};
 use super::passage::{Integrator, image};
@@ -83,6 +83,8 @@ pub struct Certified<const D: usize> {
     pub section: [f64; D],
     /// Its multipliers, the largest magnitude first [-].
     pub multipliers: [Complex; D],
+    /// The derivative of the return map over the period at that point.
+    pub jacobian: Matrix<D>,
     /// The direction of the family that it belongs to, if it does.
     pub neutral: Option<[f64; D]>,
     /// Cycles followed to find it.
@@ -132,8 +134,8 @@ pub fn certify<M: System<D>, const D: usize>(
                 followed += it.cycles;
                 let multipliers = with_one(eigenvalues(&it.jacobian));
                 let neutral = Some(it.direction);
-                let Neutral { point, residual, moved, first_residual, .. } = it;
-                Found { point, residual, moved, first_residual, multipliers, neutral }
+                let Neutral { point, residual, moved, first_residual, jacobian, .. } = it;
+                Found { point, residual, moved, first_residual, multipliers, jacobian, neutral }
             }
         };
         let within = settled
@@ -145,8 +147,9 @@ pub fn certify<M: System<D>, const D: usize>(
         // A motion that only approaches an orbit, and is not on it to rounding, does not stay near one that repels.
         let stays = period == repeats_after && settled.within <= protocol.recurrence;
         if closes && (found.attracts() || stays) {
-            let Found { point: section, multipliers, neutral, .. } = found;
-            return Some(Certified { period, section, multipliers, neutral, cycles: followed });
+            let Found { point: section, multipliers, jacobian, neutral, .. } = found;
+            let cycles = followed;
+            return Some(Certified { period, section, multipliers, jacobian, neutral, cycles });
         }
     }
     None
@@ -159,13 +162,14 @@ struct Found<const D: usize> {
     moved: f64,
     first_residual: f64,
     multipliers: [Complex; D],
+    jacobian: Matrix<D>,
     neutral: Option<[f64; D]>,
 }
 
 impl<const D: usize> Found<D> {
     fn isolated(closed: &Closed<D>, multipliers: [Complex; D]) -> Self {
-        let Closed { point, residual, moved, first_residual, .. } = *closed;
-        Found { point, residual, moved, first_residual, multipliers, neutral: None }
+        let Closed { point, residual, moved, first_residual, jacobian, .. } = *closed;
+        Found { point, residual, moved, first_residual, multipliers, jacobian, neutral: None }
     }
 
     /// The multipliers across the family, or all.

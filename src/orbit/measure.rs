@@ -6,7 +6,7 @@ use crate::lane::Dual;
 use super::aperiodic::{Aperiodic, Departure, follow_aperiodic};
 use super::certificate::certify;
 use super::exponent::BATCHES;
-use super::matrix::Complex;
+use super::matrix::{Complex, Matrix};
 use super::measuring::{Kept, MeasureRequest, Measured};
 use super::neighbourhood::{Neighbourhood, OrbitPoint};
 use super::passage::{Integrator, OneByOne, PlainRequest, image};
@@ -141,7 +141,7 @@ fn judge<M: System<D>, const D: usize>(
         Found::Repeats(settled) => {
             let section = trajectory.section();
             match certified(trajectory, case, (&section, settled), protocol, integrator) {
-                Some(verdict) => Ok(verdict),
+                Some((verdict, _)) => Ok(verdict),
                 None => judge(trajectory, case, Found::Aperiodic, protocol, integrator),
             }
         }
@@ -154,10 +154,12 @@ fn judge<M: System<D>, const D: usize>(
             let here = (trajectory.motion(), trajectory.progress);
             let periodic = recurs.and_then(|settled| {
                 let last = &aperiodic.last;
-                let found = certified(trajectory, case, (last, settled), protocol, integrator)?;
+                let found = certified(trajectory, case, (last, settled), protocol, integrator);
+                let (found, jacobian) = found?;
                 let is_family = found.certificate.neutral.is_some();
                 let leads = is_family || {
-                    let home = home(trajectory, case, (&found, last), protocol, integrator);
+                    let home =
+                        home(trajectory, case, (&found, &jacobian, last), protocol, integrator);
                     home.is_some_and(|home| home.contains(last))
                 };
                 leads.then_some(found)
@@ -211,9 +213,9 @@ pub(super) fn told<M: System<D>, const D: usize>(
     let here = trajectory.section();
     let limit = (&foretold.limit, foretold.nearly);
     let orbit = certified(trajectory, case, limit, protocol, integrator);
-    let isolated = orbit.filter(|it| it.certificate.neutral.is_none());
-    let Some(orbit) = isolated else { return Told::Unproven(None) };
-    match home(trajectory, case, (&orbit, &here), protocol, integrator) {
+    let isolated = orbit.filter(|(it, _)| it.certificate.neutral.is_none());
+    let Some((orbit, jacobian)) = isolated else { return Told::Unproven(None) };
+    match home(trajectory, case, (&orbit, &jacobian, &here), protocol, integrator) {
         Some(home) if home.contains(&here) => Told::Leads(orbit),
         home => {
             let orbit = ClosedOrbit { verdict: orbit, point: trajectory.section() };
@@ -227,7 +229,7 @@ pub(super) fn told<M: System<D>, const D: usize>(
 fn home<M: System<D>, const D: usize>(
     trajectory: &Moving<'_, M, D>,
     case: &Case<M, D>,
-    (orbit, held): (&Verdict<D>, &[f64; D]),
+    (orbit, jacobian, held): (&Verdict<D>, &Matrix<D>, &[f64; D]),
     protocol: &Protocol,
     integrator: &dyn Integrator<M, D>,
 ) -> Option<Neighbourhood<D>> {
@@ -236,23 +238,26 @@ fn home<M: System<D>, const D: usize>(
     let mut points = vec![trajectory.section()];
     append_points(system, &mut points, orbit.period as usize, protocol.tolerance)?;
     let away = |point: &[f64; D]| metric.distance(point, held);
-    let point = points.into_iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
-    let jacobian = image(integrator, system, &point, &cycles).ok()?.jacobian;
+    let place = (0..points.len()).min_by(|&a, &b| away(&points[a]).total_cmp(&away(&points[b])))?;
+    let point = points[place];
+    let jacobian = match place {
+        0 => *jacobian,
+        _ => image(integrator, system, &point, &cycles).ok()?.jacobian,
+    };
     Neighbourhood::holding(&OrbitPoint { point, jacobian }, &metric, held, |points| {
-        let points = points.to_vec();
         integrator.plain_returns(PlainRequest { system: system.clone(), points, cycles })
     })
 }
 
-/// The verdict on a section that repeats: periodic if Newton's method closes the orbit within the steps left, else
-/// none.
+/// The verdict on a section that repeats, with the derivative of the return map over the period: periodic if Newton's
+/// method closes the orbit within the steps left, else none.
 fn certified<M: System<D>, const D: usize>(
     trajectory: &mut Moving<'_, M, D>,
     case: &Case<M, D>,
     (section, settled): (&[f64; D], Settled),
     protocol: &Protocol,
     integrator: &dyn Integrator<M, D>,
-) -> Option<Verdict<D>> {
+) -> Option<(Verdict<D>, Matrix<D>)> {
     let progress = &mut trajectory.progress;
     let steps = |cycles: u64| progress.mean_steps().saturating_mul(cycles);
     if steps(settled.repeats_after as u64) > progress.steps_left(protocol.max_steps) {
@@ -262,7 +267,8 @@ fn certified<M: System<D>, const D: usize>(
     progress.steps_before = progress.steps_before.saturating_add(steps(orbit.cycles));
     progress.cycles += orbit.cycles;
     trajectory.leap(orbit.section);
-    Some(Verdict::periodic(orbit.period, (orbit.multipliers, orbit.neutral), settled.size))
+    let multipliers = (orbit.multipliers, orbit.neutral);
+    Some((Verdict::periodic(orbit.period, multipliers, settled.size), orbit.jacobian))
 }
 
 /// The periodic orbit with these multipliers from a point of it, measured over its period.

@@ -7,7 +7,7 @@ use super::matrix::{Matrix, eigenvalues};
 use super::passage::{Passage, ReturnRequest};
 use super::passages::passages;
 use super::return_map::Cycles;
-use super::returns::PlainReturn;
+use super::returns::PlainReturns;
 
 /// The first radius that is tried, as a share of the size of the orbit.
 const WIDEST: f64 = 0.25;
@@ -150,21 +150,21 @@ impl<const D: usize> Neighbourhood<D> {
         orbit: &OrbitPoint<D>,
         metric: &Metric<D>,
         held: &[f64; D],
-        mut returns_of: impl FnMut(&[[f64; D]]) -> Vec<Option<PlainReturn<E, D>>>,
+        mut returns_of: impl FnMut(Vec<[f64; D]>) -> PlainReturns<E, D>,
     ) -> Option<Self> {
-        let own = returns_of(&[orbit.point]).pop()??;
-        let linear = LinearMap::of(orbit, metric, &own.end)?;
+        let linear = LinearMap::of(orbit, metric)?;
         let lattice = lattice(&linear.at_rest);
         let mut radius = WIDER * linear.norm.size(&linear.away(held)) / SAFETY;
         for _ in 0..=SMALLER_RADII {
-            let points: Vec<[f64; D]> = [radius, 0.5 * radius]
-                .iter()
-                .flat_map(|radius| lattice.iter().map(|it| linear.point(it, *radius)))
-                .collect();
-            let returns = returns_of(&points);
+            let mut points = vec![orbit.point];
+            for radius in [radius, 0.5 * radius] {
+                points.extend(lattice.iter().map(|it| linear.point(it, radius)));
+            }
+            let returns = returns_of(points.clone());
+            let own = returns.first()?.as_ref()?;
             let passes = points.iter().zip(&returns).all(|(point, back)| {
                 let back = back.as_ref().filter(|back| back.events == own.events);
-                back.is_some_and(|back| linear.leads(point, &back.end))
+                back.is_some_and(|back| linear.leads(point, &back.end, &own.end))
             });
             if passes {
                 return Some(linear.neighbourhood(SAFETY * radius));
@@ -186,11 +186,10 @@ struct LinearMap<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> LinearMap<'a, D> {
-    /// That of an orbit's point, whose image is known; none where it does not shrink every difference.
-    fn of(orbit: &OrbitPoint<D>, metric: &'a Metric<D>, image: &[f64; D]) -> Option<Self> {
+    /// That of an orbit's point; none where it does not shrink every difference.
+    fn of(orbit: &OrbitPoint<D>, metric: &'a Metric<D>) -> Option<Self> {
         let OrbitPoint { point: centre, jacobian } = *orbit;
-        let at_rest =
-            std::array::from_fn(|i| centre[i] == 0.0 && image[i] == 0.0 && jacobian[i] == [0.0; D]);
+        let at_rest = std::array::from_fn(|i| centre[i] == 0.0 && jacobian[i] == [0.0; D]);
         let map = scaled(&jacobian, metric, &at_rest);
         let norm = Norm::of(&map)?;
         Some(LinearMap { centre, metric, at_rest, map, norm })
@@ -207,9 +206,11 @@ impl<'a, const D: usize> LinearMap<'a, D> {
         std::array::from_fn(|i| self.centre[i] + radius * along[i] / self.metric.scales[i])
     }
 
-    /// Whether a point is led to another nearly as the linear map leads it.
-    fn leads(&self, point: &[f64; D], image: &[f64; D]) -> bool {
-        let (from, to) = (self.away(point), self.away(image));
+    /// Whether a point is led to its image nearly as the linear map leads it from the orbit's point, whose image is known,
+    /// too.
+    fn leads(&self, point: &[f64; D], image: &[f64; D], own: &[f64; D]) -> bool {
+        let from = self.away(point);
+        let to: [f64; D] = std::array::from_fn(|i| self.metric.scales[i] * (image[i] - own[i]));
         let rest = std::array::from_fn(|i| {
             to[i] - self.map[i].iter().zip(&from).map(|(a, x)| a * x).sum::<f64>()
         });

@@ -9,7 +9,7 @@ use super::extrema::{Extremum, SignChanges, Turns, nearest};
 use super::matrix::Matrix;
 use super::measuring::{MeasureRequest, Measured, measured_alone};
 use super::return_map::{Cycles, Image, returned};
-use super::returns::{PlainReturn, plain_returns};
+use super::returns::{PlainReturns, plain_returns};
 
 /// A return that is asked for.
 #[derive(Debug, Clone)]
@@ -63,8 +63,8 @@ pub trait Integrator<M: System<D>, const D: usize>: Debug {
     fn passage(&self, request: ReturnRequest<M, D>) -> Result<Passage<M::Event, D>, Reason>;
     /// The cycles that are to be measured.
     fn measured(&self, request: MeasureRequest<M, D>) -> Measured<M, D>;
-    /// Several returns without derivatives, each none where the motion cannot be followed so far.
-    fn plain_returns(&self, request: PlainRequest<M, D>) -> Vec<Option<PlainReturn<M::Event, D>>>;
+    /// Several returns without derivatives.
+    fn plain_returns(&self, request: PlainRequest<M, D>) -> PlainReturns<M::Event, D>;
 }
 
 /// Returns without derivatives that are asked for.
@@ -76,16 +76,6 @@ pub struct PlainRequest<M, const D: usize> {
     pub points: Vec<[f64; D]>,
     /// How many cycles, and how closely.
     pub cycles: Cycles,
-}
-
-impl<M: System<D>, const D: usize> PlainRequest<M, D> {
-    /// The returns, by these instructions.
-    pub(super) fn answer(
-        &self,
-        instructions: Instructions,
-    ) -> Vec<Option<PlainReturn<M::Event, D>>> {
-        plain_returns(instructions, &self.system, &self.points, &self.cycles)
-    }
 }
 
 /// The image of a section point under the return map of `system`.
@@ -127,8 +117,8 @@ impl<M: System<D>, const D: usize> Integrator<M, D> for OneByOne {
         measured_alone(request)
     }
 
-    fn plain_returns(&self, request: PlainRequest<M, D>) -> Vec<Option<PlainReturn<M::Event, D>>> {
-        request.answer(Instructions::Scalar)
+    fn plain_returns(&self, request: PlainRequest<M, D>) -> PlainReturns<M::Event, D> {
+        plain_returns(Instructions::Scalar, &[request]).swap_remove(0)
     }
 }
 

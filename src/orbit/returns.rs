@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::flow::{Event, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
 use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
-use super::return_map::Cycles;
+use super::passage::PlainRequest;
 use super::{Case, Machine};
 
 /// The last section points of a case.
@@ -34,8 +34,9 @@ pub fn returns<M: System<D>, const D: usize>(
 ) -> Vec<Returns<D>> {
     let nothing = Returns { points: Vec::new(), failure: None };
     let (taken, found) = (AtomicUsize::new(0), Mutex::new(vec![nothing; cases.len()]));
+    let waited = &vec![waited as usize; cases.len()];
     machine.share_out(cases.len(), |share, instructions| {
-        let (waited, events) = (waited as usize, false);
+        let events = false;
         let crowd = Crowd { cases, taken: &taken, share, waited, kept, events, tolerance };
         let own = instructions.run(crowd);
         let mut found = found.lock().expect("no thread has panicked");
@@ -46,6 +47,9 @@ pub fn returns<M: System<D>, const D: usize>(
     found.into_inner().expect("no thread has panicked")
 }
 
+/// Returns without derivatives, each none where the motion cannot be followed so far.
+pub type PlainReturns<E, const D: usize> = Vec<Option<PlainReturn<E, D>>>;
+
 /// A return without derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlainReturn<E, const D: usize> {
@@ -55,30 +59,37 @@ pub struct PlainReturn<E, const D: usize> {
     pub events: Vec<E>,
 }
 
-/// Where some section points of a system return to after so many cycles; none where the motion cannot be followed so
-/// far.
+/// The returns of each request of systems that are alike ([`System::is_alike`]), none where a motion cannot be followed
+/// so far; as many motions at a time as there are lanes, whichever request they are of.
 ///
-/// Guarantees: the same bits by any instructions.
+/// Guarantees: the same bits by any instructions, and whatever the other requests.
 ///
 /// # Panics
-/// Where the processor does not have the instructions.
+/// Where two systems are not alike or two tolerances differ, or the processor does not have the instructions.
 pub fn plain_returns<M: System<D>, const D: usize>(
     instructions: Instructions,
-    system: &M,
-    points: &[[f64; D]],
-    cycles: &Cycles,
-) -> Vec<Option<PlainReturn<M::Event, D>>> {
-    let case = |point: &[f64; D]| Case::new(system.clone(), M::Single::state(*point));
-    let cases: Vec<_> = points.iter().map(case).collect();
+    requests: &[PlainRequest<M, D>],
+) -> Vec<PlainReturns<M::Event, D>> {
+    let Some(tolerance) = requests.first().map(|it| it.cycles.tolerance) else {
+        return Vec::new();
+    };
+    let (mut cases, mut waited) = (Vec::new(), Vec::new());
+    for PlainRequest { system, points, cycles } in requests {
+        assert_eq!(cycles.tolerance, tolerance, "one tolerance serves all lanes");
+        let case = |point: &[f64; D]| Case::new(system.clone(), M::Single::state(*point));
+        cases.extend(points.iter().map(case));
+        waited.resize(cases.len(), cycles.count.saturating_sub(1) as usize);
+    }
     let (taken, share, kept, events) = (AtomicUsize::new(0), usize::MAX, 1, true);
-    let (waited, tolerance) = (cycles.count.saturating_sub(1) as usize, cycles.tolerance);
-    let crowd = Crowd { cases: &cases, taken: &taken, share, waited, kept, events, tolerance };
-    let mut found: Vec<_> = points.iter().map(|_| None).collect();
+    let (cases, waited) = (&cases, &waited);
+    let crowd = Crowd { cases, taken: &taken, share, waited, kept, events, tolerance };
+    let mut found: PlainReturns<M::Event, D> = cases.iter().map(|_| None).collect();
     for (index, returns, events) in instructions.run(crowd) {
         let end = returns.points.last().filter(|_| returns.failure.is_none());
         found[index] = end.map(|end| PlainReturn { end: *end, events });
     }
-    found
+    let mut found = found.into_iter();
+    requests.iter().map(|it| found.by_ref().take(it.points.len()).collect()).collect()
 }
 
 /// The cases, and how many of them any thread has taken.
@@ -87,7 +98,8 @@ struct Crowd<'a, M: System<D>, const D: usize> {
     taken: &'a AtomicUsize,
     /// Lanes that are filled at the beginning, so that a few cases are not all with one thread.
     share: usize,
-    waited: usize,
+    /// Cycles that each case is followed before its points are kept.
+    waited: &'a [usize],
     kept: usize,
     /// Whether events are noted.
     events: bool,
@@ -161,10 +173,11 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
                 } else if arrived >> lane & 1 != 0 {
                     occupant.steps = 0;
                     occupant.cycles += 1;
-                    if occupant.cycles > self.waited {
+                    let waited = self.waited[occupant.index];
+                    if occupant.cycles > waited {
                         occupant.points.push(M::Single::point(&motion.state.lane(lane)));
                     }
-                    if occupant.cycles < self.waited + self.kept {
+                    if occupant.cycles < waited + self.kept {
                         continue;
                     }
                     let points = std::mem::take(&mut occupant.points);

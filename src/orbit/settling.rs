@@ -15,6 +15,8 @@ const NEAR: f64 = 1e-3;
 const FAR: f64 = 1e-2;
 /// At a distance of so many recurrence tolerances it is not worth telling: waiting is as short.
 const CLOSE: f64 = 10.0;
+/// The approach takes so many times longer than a proof that is worth it, as proofs may fail.
+const WORTH: f64 = 2.0;
 /// Orbits that are foretold in one case at most.
 const FORETOLD: u32 = 4;
 
@@ -117,7 +119,7 @@ impl<const D: usize> Settling<D> {
     /// The orbit that the section seems to tend to, where that is worth a proof.
     ///
     /// The proof follows twice as many points as the lattice of a neighbourhood has, each for a period; at a steady rate
-    /// the distance falls to the tolerance in so many periods, and that must be more.
+    /// the distance falls to the tolerance in so many periods, and that must be more by a factor.
     fn foretold(&self) -> Option<Foretold<D>> {
         let (k, distance) = self.recurrence.nearest()?;
         if distance > NEAR || distance <= CLOSE * self.tolerance {
@@ -128,7 +130,7 @@ impl<const D: usize> Settling<D> {
         let proof = 2.0 * libm::pow(3.0, (0..D).filter(moves).count() as f64);
         let step = |i: usize| self.metric.distance(&points[i], &points[i + 1]);
         let rate = libm::log(step(0) / step(WINDOW - 2)) / (WINDOW - 2) as f64;
-        if rate * proof > libm::log(distance / self.tolerance) {
+        if rate * WORTH * proof > libm::log(distance / self.tolerance) {
             return None;
         }
         let limit = limit(&points)?;
