@@ -76,9 +76,10 @@ impl<const D: usize> Settling<D> {
         }
     }
 
-    /// The same for a case that need not be followed further than into one of these neighbourhoods.
+    /// The same for a case that need not be followed further than into one of these neighbourhoods; they are wider than what
+    /// is worth to be foretold.
     pub fn until(self, neighbourhoods: Arc<Vec<Neighbourhood<D>>>) -> Self {
-        Settling { neighbourhoods: Some(neighbourhoods), ..self }
+        Settling { neighbourhoods: Some(neighbourhoods), foretold_left: 0, ..self }
     }
 
     /// Takes note that the motion is not proven to lead to the orbit that was foretold; it is where it comes into this
