@@ -8,10 +8,10 @@ use crate::campaign::{Answer, Robustness, Searched, Tolerances};
 /// How many points were drawn as starts, and what was found and does not count.
 pub fn write_starts(text: &mut String, searched: &Searched, drawn: Option<[usize; 2]>) {
     if let Some([points, begun]) = drawn {
-        let points = counted(points, "point");
+        let points = counted(points, "drawn point");
         let _ = writeln!(
             text,
-            "{points} drawn over the ranges and settled from rest: {} of them gave starts, the other starts are cases",
+            "{points} over the ranges, settled from rest: {} of them gave starts, the other starts are cases",
             count(begun)
         );
     }

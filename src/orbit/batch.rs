@@ -10,9 +10,9 @@ use crate::lane::Instructions;
 
 use super::measuring::{MeasureRequest, Measured};
 use super::measuring_all::measured_side_by_side;
-use super::passage::{Integrator, Passage, PlainRequest, ReturnRequest};
+use super::passage::{Integrator, Passage, PlainRequest, PlainReturns, ReturnRequest};
 use super::passages::passages;
-use super::returns::{PlainReturns, plain_returns};
+use super::returns::plain_returns;
 
 /// Room for the stack of a computation [bytes]; only what is used is taken.
 const STACK: usize = 4 << 20;

@@ -151,22 +151,10 @@ fn judge<M: System<D>, const D: usize>(
             let outcome = aperiodic.outcome();
             // A period too long for the recurrence of sections, or one that is approached slowly.
             let recurs = aperiodic.recurs.filter(|_| outcome != Outcome::Chaotic);
-            let here = (trajectory.motion(), trajectory.progress);
             let periodic = recurs.and_then(|settled| {
-                let last = &aperiodic.last;
-                let found = certified(trajectory, case, (last, settled), protocol, integrator);
-                let (found, jacobian) = found?;
-                let is_family = found.certificate.neutral.is_some();
-                let leads = is_family || {
-                    let home =
-                        home(trajectory, case, (&found, &jacobian, last), protocol, integrator);
-                    home.is_some_and(|home| home.contains(last))
-                };
-                leads.then_some(found)
+                certified(trajectory, case, (&aperiodic.last, settled), protocol, integrator)
             });
-            if periodic.is_none() {
-                trajectory.go_on(here.0, here.1);
-            }
+            let periodic = periodic.map(|(verdict, _)| verdict);
             Ok(periodic.unwrap_or_else(|| Verdict {
                 outcome,
                 period: 0,

@@ -2,6 +2,7 @@
 
 mod case;
 pub mod certificate;
+mod ending;
 mod batch;
 pub mod exponent;
 pub mod extrema;

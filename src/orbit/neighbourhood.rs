@@ -4,10 +4,9 @@ use crate::flow::{Metric, System};
 use crate::lane::Instructions;
 
 use super::matrix::{Matrix, eigenvalues};
-use super::passage::{Passage, ReturnRequest};
+use super::passage::{Passage, PlainReturns, ReturnRequest};
 use super::passages::passages;
 use super::return_map::Cycles;
-use super::returns::PlainReturns;
 
 /// The first radius that is tried, as a share of the size of the orbit.
 const WIDEST: f64 = 0.25;

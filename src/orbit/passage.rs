@@ -3,13 +3,12 @@
 use std::fmt::Debug;
 
 use crate::flow::{Event, Reason, Step, Stroboscopic, Switched, System};
-use crate::lane::{Dual, Instructions, Lane, Mask, Series, series};
+use crate::lane::{Dual, Lane, Mask, Series, series};
 
 use super::extrema::{Extremum, SignChanges, Turns, nearest};
 use super::matrix::Matrix;
 use super::measuring::{MeasureRequest, Measured, measured_alone};
 use super::return_map::{Cycles, Image, returned};
-use super::returns::{PlainReturns, plain_returns};
 
 /// A return that is asked for.
 #[derive(Debug, Clone)]
@@ -78,6 +77,18 @@ pub struct PlainRequest<M, const D: usize> {
     pub cycles: Cycles,
 }
 
+/// Returns without derivatives, each none where the motion cannot be followed so far.
+pub type PlainReturns<E, const D: usize> = Vec<Option<PlainReturn<E, D>>>;
+
+/// A return without derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlainReturn<E, const D: usize> {
+    /// The section point.
+    pub end: [f64; D],
+    /// The events in order.
+    pub events: Vec<E>,
+}
+
 /// The image of a section point under the return map of `system`.
 pub fn image<M: System<D>, const D: usize>(
     integrator: &dyn Integrator<M, D>,
@@ -118,8 +129,21 @@ impl<M: System<D>, const D: usize> Integrator<M, D> for OneByOne {
     }
 
     fn plain_returns(&self, request: PlainRequest<M, D>) -> PlainReturns<M::Event, D> {
-        plain_returns(Instructions::Scalar, &[request]).swap_remove(0)
+        let PlainRequest { system, points, cycles } = request;
+        points.iter().map(|point| plain_return::<M, D>(&system.single(), *point, &cycles)).collect()
     }
+}
+
+/// A return in plain numbers, if the motion can be followed so far.
+fn plain_return<M: System<D>, const D: usize>(
+    system: &M::Single,
+    point: [f64; D],
+    cycles: &Cycles,
+) -> Option<PlainReturn<M::Event, D>> {
+    let mut events = Vec::new();
+    let end =
+        returned(system, point, cycles, |step| events.extend(M::Event::from_code(step.event)));
+    Some(PlainReturn { end: end.ok()?, events })
 }
 
 /// What a motion passes until its return.

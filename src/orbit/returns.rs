@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::flow::{Event, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
 use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
-use super::passage::PlainRequest;
+use super::passage::{PlainRequest, PlainReturn, PlainReturns};
 use super::{Case, Machine};
 
 /// The last section points of a case.
@@ -45,18 +45,6 @@ pub fn returns<M: System<D>, const D: usize>(
         }
     });
     found.into_inner().expect("no thread has panicked")
-}
-
-/// Returns without derivatives, each none where the motion cannot be followed so far.
-pub type PlainReturns<E, const D: usize> = Vec<Option<PlainReturn<E, D>>>;
-
-/// A return without derivatives.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlainReturn<E, const D: usize> {
-    /// The section point.
-    pub end: [f64; D],
-    /// The events in order.
-    pub events: Vec<E>,
 }
 
 /// The returns of each request of systems that are alike ([`System::is_alike`]), none where a motion cannot be followed

@@ -7,10 +7,10 @@ use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
 use super::aperiodic::follow_aperiodic_side_by_side;
 use super::batch::Batch;
+use super::ending::End;
 use super::known_orbits::KnownOrbits;
 use super::measure::Found;
 use super::passage::Integrator;
-use super::settle::End;
 use super::settling::Settling;
 use super::trajectory::Progress;
 use super::underway::{Conclusion, Finding, Underway};

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use crate::flow::{Motion, Stroboscopic, System};
 
+use super::ending::{End, find_period};
 use super::known_orbits::KnownOrbits;
 use super::measure::{ClosedOrbit, Found, Told, conclude, told};
 use super::passage::{Integrator, OneByOne};
-use super::settle::{End, find_period};
 use super::settling::Settling;
 use super::trajectory::Progress;
 use super::{Case, Failure, OrbitOf, Protocol, Trajectory};
