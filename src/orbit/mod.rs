@@ -2,7 +2,7 @@
 
 mod case;
 pub mod certificate;
-mod ending;
+mod case_end;
 mod batch;
 pub mod exponent;
 pub mod extrema;

@@ -7,7 +7,7 @@ use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
 
 use super::aperiodic::follow_aperiodic_side_by_side;
 use super::batch::Batch;
-use super::ending::End;
+use super::case_end::End;
 use super::known_orbits::KnownOrbits;
 use super::measure::Found;
 use super::passage::Integrator;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::flow::{Motion, Stroboscopic, System};
 
-use super::ending::{End, find_period};
+use super::case_end::{End, find_period};
 use super::known_orbits::KnownOrbits;
 use super::measure::{ClosedOrbit, Found, Told, conclude, told};
 use super::passage::{Integrator, OneByOne};
