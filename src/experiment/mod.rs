@@ -1,17 +1,24 @@
 //! Experiments beside the simulation: recordings, smoothing, identification, comparison.
 
 pub mod agreement;
+mod beginning;
 pub mod comparison;
 pub mod course;
+mod course_residuals;
+pub mod covariance;
 pub mod drive_phase;
+mod effort;
 pub mod estimate;
 pub mod explanation;
+mod first_sample;
 pub mod free_parameter;
 pub mod free_vibration;
 pub mod friction;
 pub mod identification;
+mod in_threads;
 pub mod least_squares;
 pub mod line;
+pub mod loss;
 pub mod misfit;
 pub mod motion_fit;
 mod periodogram;
