@@ -2,6 +2,7 @@
 
 use super::course::{Course, Recorded, Weights};
 use super::course_residuals::{by_signal, motions, residuals, signals};
+use super::drift::{Drift, drifts};
 pub use super::effort::Effort;
 use super::effort::search;
 use super::estimate::Estimate;
@@ -52,6 +53,8 @@ pub struct MotionFit {
     pub starts: [usize; 2],
     /// Of each recording, whether its capsule is taken to rest at the first sample, as that describes it as well.
     pub rests: Vec<bool>,
+    /// The drift of each signal of each recording, where the data tell it.
+    pub drifts: Vec<Drift>,
 }
 
 /// The parameters within their bounds that bring the simulation nearest to the `recordings`.
@@ -119,6 +122,7 @@ pub fn fit_motion(
         samples: fit.degrees_of_freedom + fit.parameters.len(),
         starts,
         rests: courses.iter().map(Course::rests).collect(),
+        drifts: drifts(&courses, free, effort, &fit),
     })
 }
 
