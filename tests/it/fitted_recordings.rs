@@ -54,11 +54,8 @@ struct Bench {
 }
 
 /// What is fitted, and within which bounds.
-const FREE: [(Parameter, f64, f64); 3] = [
-    (Parameter::K2, 0.4, 2.5),
-    (Parameter::MuD, 0.3, 1.8),
-    (Parameter::C, 0.3, 2.0),
-];
+const FREE: [(Parameter, f64, f64); 3] =
+    [(Parameter::K2, 0.4, 2.5), (Parameter::MuD, 0.3, 1.8), (Parameter::C, 0.3, 2.0)];
 
 impl Bench {
     fn new(capsule: OwnCapsule) -> Bench {
@@ -112,9 +109,8 @@ impl Bench {
             }
         }
         let OwnCapsule { p_d, omega, .. } = self.capsule;
-        let force = |t: &f64| {
-            p_d * (omega * (t + seen[0].t)).cos() + DRIVE_NOISE * normal(&mut random)
-        };
+        let force =
+            |t: &f64| p_d * (omega * (t + seen[0].t)).cos() + DRIVE_NOISE * normal(&mut random);
         let force: Vec<f64> = times.iter().map(force).collect();
         let phase = harmonic(&times, &force).expect("a drive").phase;
         let mut parameters = self.truth();
