@@ -26,9 +26,7 @@ pub struct OwnCapsule {
 pub struct OwnState {
     pub t: f64,
     pub r: f64,
-    pub y1: f64,
     pub x2: f64,
-    pub y2: f64,
     pub a1: f64,
 }
 
@@ -95,8 +93,8 @@ impl OwnCapsule {
             }
             if step >= steps(settle) {
                 let a1 = self.rates(t, state, direction)[1];
-                let [r, y1, x2, y2] = state;
-                all.push(OwnState { t, r, y1, x2, y2, a1 });
+                let [r, _, x2, _] = state;
+                all.push(OwnState { t, r, x2, a1 });
             }
             state = self.step(t, state, direction);
             if state[3] * direction < 0.0 {
