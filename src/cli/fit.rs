@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::files;
-use super::fit_report::{as_json, table};
+use super::fit_report::{as_json, table, warnings as warnings_of};
 use super::identify::shown;
 use super::synthesize::case_of;
 use super::terminal::print;
@@ -27,10 +27,14 @@ Examples:
   capsulemap fit a.csv b.csv --study a.toml --study b.toml --vary \"v_s=0.05 m/s..1 m/s\" --output fitted.toml
 
 Each recording has its own study, or all have one; its first case says how the rig was set. The drive must be recorded (column \
-drive or current), as it gives the phase, whose error is in those of the parameters. Records are taken as they are: an offset of \
-a sensor is one of the motion. A study whose omega is not that of the recorded drive is refused. Intervals are those of the profile likelihood; a parameter that these data leave open \
+drive or current), as it gives the phase, whose error is in those of the parameters. The start is unknown: r and y1, x2 where it is \
+recorded or follows from x1 and r, and y2, about what the record has of it or, where that is nothing, among all speeds that the capsule \
+can have; rest is tried beside them, and a note says where it is taken. Records are taken as they are: an offset of \
+a sensor is one of the motion, and a signal that drifts against the fitted motion by more than four standard errors is warned of. \
+A study whose omega is not that of the recorded drive is refused. Intervals are those of the profile likelihood; a parameter that these data leave open \
 within its bounds is called one-sided or not determined. The misfit is the standard deviation of the residuals over the noise, which is \
-that of the third differences of the residuals. Outliers are samples more than five times the noise from the fit; with --robust the \
+that of the third differences of the residuals. Outliers are samples more than five times the noise from the fit; with --robust they count \
+little, errors and intervals are scaled by Huber's formula for such fits, and the \
 misfit is that of the others, by the median.";
 
 /// A residual of this many standard deviations of the noise begins to count less, with --robust.
@@ -94,7 +98,6 @@ impl Fit {
         let read = (0..self.recordings.len()).map(|i| self.recorded(i));
         let (recorded, warnings): (Vec<Recorded>, Vec<Option<String>>) =
             read.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
-        let warnings: Vec<String> = warnings.into_iter().flatten().collect();
         let loss = if self.robust { Loss::SoftL1(ROBUST) } else { Loss::Squares };
         let effort = Effort {
             loss,
@@ -106,11 +109,14 @@ impl Fit {
         if let Some(output) = &self.output {
             files::put(output, &parameter_file(&self.identified(&fit), &[]))?;
         }
+        let names = self.names();
+        let of_fit = warnings_of(&fit, &varied, &names, self.robust);
+        let warnings: Vec<String> = warnings.into_iter().flatten().chain(of_fit).collect();
         if self.json {
-            return print(&format!("{:#}\n", as_json(&fit, &warnings)));
+            return print(&format!("{:#}\n", as_json(&fit, &names, &warnings)));
         }
-        let warnings = warnings.iter().map(|it| format!("warning: {it}\n"));
-        let mut text: String = warnings.chain([table(&fit, &varied, self.robust)]).collect();
+        let mut text = table(&fit, &varied, &names, self.robust);
+        text.extend(warnings.iter().map(|it| format!("warning: {it}\n")));
         if let Some(output) = &self.output {
             text += &format!("{}\n", output.display());
         }
@@ -152,9 +158,12 @@ impl Fit {
         Ok((recorded, warning))
     }
 
+    fn names(&self) -> Vec<String> {
+        self.recordings.iter().map(|it| it.display().to_string()).collect()
+    }
+
     fn identified(&self, fit: &MotionFit) -> Vec<Identified> {
-        let names: Vec<String> =
-            self.recordings.iter().map(|it| it.display().to_string()).collect();
+        let names = self.names();
         let one = |it: &crate::experiment::Fitted| Identified {
             constant: Constant::Parameter(it.parameter),
             estimate: it.estimate,

@@ -2,43 +2,102 @@
 
 use serde_json::json;
 
+use super::identify::shown;
 use super::varied::Varied;
-use crate::capsule::Parameter;
-use crate::experiment::{Fitted, MotionFit, Verdict};
+use crate::capsule::{Dimension, Parameter};
+use crate::experiment::{Drift, Fitted, MotionFit, Verdict};
 
 /// A misfit above this is told.
 const LARGE: f64 = 1.5;
 
 /// The fit in lines.
-pub fn table(fit: &MotionFit, varied: &[Varied], is_robust: bool) -> String {
-    let mut text = String::new();
-    for (it, varied) in fit.fitted.iter().zip(varied) {
-        text += &told_of(it, varied);
-    }
-    for (it, varied) in fit.fitted.iter().zip(varied) {
-        if it.verdict != Verdict::NotDetermined {
-            text += &varied.told_of_bound("", it.bound);
-        }
-    }
-    if !fit.combined.is_empty() {
-        let names: Vec<&str> = fit.combined.iter().map(|it| it.symbol()).collect();
-        text += &format!(
-            "note: of {} only combinations are determined: changed together they leave the motion as it is; hold one of them\n",
-            names.join(", ")
-        );
-    }
+pub fn table(fit: &MotionFit, varied: &[Varied], names: &[String], is_robust: bool) -> String {
+    let pairs = fit.fitted.iter().zip(varied);
+    let mut text: String = pairs.map(|(it, varied)| told_of(it, varied)).collect();
     if let Some((a, b, value)) = strongest(fit) {
         text +=
             &format!("strongest correlation {value:+.2}, of {} and {}\n", a.symbol(), b.symbol());
     }
     text += &told_of_misfit(fit, is_robust);
+    text.extend(notes(fit, names).iter().map(|it| format!("note: {it}\n")));
+    text
+}
+
+/// What is to be known of a fit, beside its warnings.
+fn notes(fit: &MotionFit, names: &[String]) -> Vec<String> {
+    let mut notes = Vec::new();
+    if !fit.combined.is_empty() {
+        let names: Vec<&str> = fit.combined.iter().map(|it| it.symbol()).collect();
+        notes.push(format!(
+            "of {} only combinations are determined: changed together they leave the motion as it is; hold one of them",
+            names.join(", ")
+        ));
+    }
     if fit.fitted.iter().any(|it| it.parameter == Parameter::MuS) {
         let mut idle: Vec<String> =
             fit.motions.iter().filter_map(|it| it.parameters.idle_static_friction()).collect();
         idle.dedup();
-        idle.iter().for_each(|why| text += &format!("note: {why}\n"));
+        notes.extend(idle);
     }
-    text
+    let resting = names.iter().zip(&fit.rests).filter(|it| *it.1);
+    notes.extend(resting.map(|(name, _)| {
+        format!("{name}: the capsule is taken to rest at the first sample, which describes the record as well as any speed")
+    }));
+    notes
+}
+
+/// What makes a fit doubtful.
+pub fn warnings(
+    fit: &MotionFit,
+    varied: &[Varied],
+    names: &[String],
+    is_robust: bool,
+) -> Vec<String> {
+    let on_bound = fit
+        .fitted
+        .iter()
+        .zip(varied)
+        .filter(|(it, _)| it.verdict != Verdict::NotDetermined)
+        .filter_map(|(it, varied)| varied.bound_warning(it.bound));
+    let mut warnings: Vec<String> = on_bound.collect();
+    let clear = fit.drifts.iter().filter(|it| it.is_clear());
+    warnings.extend(clear.map(|it| told_of_drift(it, &names[it.recording])));
+    let misfit = &fit.misfit;
+    let told = if is_robust { misfit.robust } else { misfit.value };
+    if misfit.is_coarse {
+        warnings.push(
+            "the records change too much from sample to sample for their noise to be told from the motion; errors rest on the \
+             residuals alone"
+                .to_owned(),
+        );
+    }
+    if !is_robust && misfit.value > LARGE && 2 * misfit.lone >= misfit.outliers.max(1) {
+        warnings.push(
+            "few samples have most of the misfit; --robust lets outliers count little".to_owned(),
+        );
+    } else if told > LARGE {
+        warnings.push(
+            "the model does not describe the records to their noise; errors are those of the best fit, not of the truth"
+                .to_owned(),
+        );
+    }
+    warnings
+}
+
+/// A drift in a sentence.
+fn told_of_drift(it: &Drift, name: &str) -> String {
+    let (scale, unit) = match it.signal.dimension() {
+        Dimension::Length => (1e3, "mm/s".to_owned()),
+        other => (1.0, format!("{}/s", other.unit())),
+    };
+    let (rate, error) = (scale * it.rate, scale * it.standard_error);
+    format!(
+        "{name}: {} drifts against the fitted motion by {} {unit} (standard error {}), which moves the parameters and is not in \
+         their errors; where its sensor drifts take that out of the record",
+        it.signal.name(),
+        shown(rate, error),
+        shown(error, error)
+    )
 }
 
 /// A parameter in a line.
@@ -57,7 +116,7 @@ fn told_of(it: &Fitted, varied: &Varied) -> String {
     format!("{symbol:<6}{value}{unit}, standard error {error}, 95 %: {least} to {greatest}\n")
 }
 
-/// The misfit, with what it says of model and records.
+/// The misfit, and how many samples are outliers.
 fn told_of_misfit(fit: &MotionFit, is_robust: bool) -> String {
     let [same, starts] = fit.starts;
     let misfit = &fit.misfit;
@@ -74,16 +133,6 @@ fn told_of_misfit(fit: &MotionFit, is_robust: bool) -> String {
         text +=
             &format!("{outliers} {samples} {are} more than five times the noise from the fit\n");
     }
-    if misfit.is_coarse {
-        text += "warning: the records change too much from sample to sample for their noise to be told from the motion; errors rest \
-                 on the residuals alone\n";
-    }
-    if !is_robust && misfit.value > LARGE && 2 * misfit.lone >= misfit.outliers.max(1) {
-        text +=
-            "warning: few samples have most of the misfit; --robust lets outliers count little\n";
-    } else if told > LARGE {
-        text += "warning: the model does not describe the records to their noise; errors are those of the best fit, not of the truth\n";
-    }
     text
 }
 
@@ -98,7 +147,7 @@ fn strongest(fit: &MotionFit) -> Option<(Parameter, Parameter, f64)> {
 }
 
 /// The fit as JSON.
-pub fn as_json(fit: &MotionFit, warnings: &[String]) -> serde_json::Value {
+pub fn as_json(fit: &MotionFit, names: &[String], warnings: &[String]) -> serde_json::Value {
     let one = |(it, profile): (&Fitted, &Vec<[f64; 2]>)| {
         json!({
             "name": it.parameter.symbol(),
@@ -109,6 +158,15 @@ pub fn as_json(fit: &MotionFit, warnings: &[String]) -> serde_json::Value {
             "verdict": it.verdict.to_string(),
             "on_bound": it.bound.map(|it| it.name()),
             "profile": profile,
+        })
+    };
+    let drift = |it: &Drift| {
+        json!({
+            "recording": names[it.recording],
+            "signal": it.signal.name(),
+            "unit": format!("{}/s", it.signal.dimension().unit()),
+            "rate": it.rate,
+            "standard_error": it.standard_error,
         })
     };
     let combined = fit.combined.iter().map(|it| it.symbol());
@@ -123,6 +181,9 @@ pub fn as_json(fit: &MotionFit, warnings: &[String]) -> serde_json::Value {
         "samples": fit.samples,
         "starts_here": fit.starts[0],
         "starts": fit.starts[1],
+        "rests_at_first_sample": fit.rests,
+        "drifts": fit.drifts.iter().map(drift).collect::<Vec<_>>(),
+        "notes": notes(fit, names),
         "warnings": warnings,
     })
 }

@@ -40,15 +40,21 @@ impl Varied {
 
     /// What is said of a best value on a bound.
     pub fn told_of_bound(&self, before: &str, bound: Option<Side>) -> String {
-        let Some(side) = bound else { return String::new() };
+        let warning = self.bound_warning(bound);
+        warning.map_or_else(String::new, |it| format!("{before}warning: {it}\n"))
+    }
+
+    /// That a best value lies on a bound, if it does.
+    pub fn bound_warning(&self, bound: Option<Side>) -> Option<String> {
+        let side = bound?;
         let (symbol, name) = (self.free.parameter.symbol(), side.name());
         let value = match side {
             Side::Least => &self.bounds[0],
             Side::Greatest => &self.bounds[1],
         };
-        format!(
-            "{before}warning: {symbol} is best at the {name} value allowed, {value}: the true one may lie beyond; widen the bounds\n"
-        )
+        Some(format!(
+            "{symbol} is best at the {name} value allowed, {value}: the true one may lie beyond; widen the bounds"
+        ))
     }
 }
 

@@ -1,14 +1,22 @@
 //! A recorded history of the motion, and what is unknown of its start.
 
+use super::beginning::{Beginning, REACH, Reading, first_window};
 use super::free_vibration::noise;
 use super::least_squares::Bounds;
 use super::line::line;
+use super::recording::median;
 use super::sampled::{Direction, Signal, Started};
-use super::smoothing::{Window, smoothed};
-use crate::capsule::{Parameters, State};
+use super::smoothing::smoothed;
+use crate::capsule::{Parameter, Parameters, State};
 
-/// Standard deviations within which the start is looked for about its estimate from the record.
-const REACH: f64 = 60.0;
+/// Velocities of the capsule at the first sample that are tried: how many, of either sign where it is not measured.
+const TRIED: u32 = 16;
+/// They lie within so many standard errors of a measured one.
+const TRIED_REACH: f64 = 8.0;
+/// Where it is not measured each is this share of the next.
+const TRIED_SHARE: f64 = 0.7;
+/// The capsule may be so many times as fast as the relative motion and the drive alone would make it.
+const FASTEST: f64 = 10.0;
 
 /// A recorded history.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,10 +56,14 @@ pub struct Course<'r> {
     pub units: Vec<f64>,
     /// The noise of each signal by its third differences, and the least that is taken for noise.
     pub noise: Vec<[f64; 2]>,
+    /// Velocities of the capsule at the first sample that are tried, rising [m/s].
+    pub speeds: Vec<f64>,
+    /// Whether the record has that velocity: by y2, by x2, by x1 and r, or by y1 and r.
+    pub is_speed_measured: bool,
 }
 
 impl<'r> Course<'r> {
-    /// The start as the first samples have it.
+    /// The start as the first samples have it; the velocity of the capsule is unknown within what it can be where they say nothing of it.
     ///
     /// Fails where neither r, nor x1 and x2, is recorded, or a signal does not vary.
     pub fn new(recorded: &'r Recorded, weights: Weights) -> Result<Self, String> {
@@ -59,12 +71,12 @@ impl<'r> Course<'r> {
             let size = values.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
             (1e-9 * size).max(f64::MIN_POSITIVE)
         };
-        let both = recorded.signals.iter().map(|(_, values)| {
+        let noises = recorded.signals.iter().map(|(_, values)| {
             let least = least(values);
             [noise(values).max(least), least]
         });
-        let both: Vec<[f64; 2]> = both.collect();
-        let noise: Vec<f64> = both.iter().map(|it| it[0]).collect();
+        let noises: Vec<[f64; 2]> = noises.collect();
+        let noise: Vec<f64> = noises.iter().map(|it| it[0]).collect();
         let units = match weights {
             Weights::Noise => noise.clone(),
             Weights::Spread => {
@@ -73,40 +85,80 @@ impl<'r> Course<'r> {
         };
         varies(&recorded.signals)?;
         let begin = |signal: Signal| begin(recorded, &noise, signal);
-        let x2 = begin(Signal::X2);
-        let r = match (begin(Signal::R), begin(Signal::X1), x2) {
-            (Some(r), ..) => r,
-            (None, Some(x1), Some(x2)) => x1.less(x2),
-            _ => {
-                return Err(
-                    "neither r, nor x1 and x2, is recorded: the start is unknown".to_owned()
-                );
-            }
+        let (r, x1, x2) = (begin(Signal::R), begin(Signal::X1), begin(Signal::X2));
+        let both = |a: Option<Beginning>, b: Option<Beginning>| Some(a?.less(b?));
+        let Some(r) = r.or(both(x1, x2)) else {
+            return Err("neither r, nor x1 and x2, is recorded: the start is unknown".to_owned());
         };
-        // A capsule whose displacement is not recorded may be anywhere, and is taken to rest.
-        let x2 = x2.unwrap_or_default();
-        let y2 = x2.velocity;
-        let start = State { r: r.value, y1: r.velocity + y2, x2: x2.value, y2 };
-        let about = |value: f64, error: f64| Bounds {
-            least: value - REACH * error,
-            greatest: value + REACH * error,
-        };
-        let y1_error = r.velocity_error.hypot(x2.velocity_error);
+        // A capsule whose displacement is not recorded may be anywhere.
+        let x2 = x2.or(both(x1, Some(r)).filter(|_| x1.is_some()));
+        let y1 = begin(Signal::Y1).map(|it| it.level);
+        let measured = begin(Signal::Y2).map(|it| it.level).or(x2.map(|it| it.rate));
+        let measured = measured.or(y1.map(|it| it.less(r.rate)));
+        let y2 = measured.unwrap_or(Reading { value: 0.0, error: fastest(recorded) / REACH });
+        let y1 = y1.unwrap_or(r.rate.plus(y2));
+        let level = x2.map_or(0.0, |it| it.level.value);
+        let start = State { r: r.level.value, y1: y1.value, x2: level, y2: y2.value };
         let mut unknown = vec![
-            (Direction::StartR, about(r.value, r.error)),
-            (Direction::StartY1, about(start.y1, y1_error)),
+            (Direction::StartR, r.level.bounds()),
+            (Direction::StartY1, y1.bounds()),
+            (Direction::StartY2, y2.bounds()),
         ];
-        if x2.error > 0.0 {
-            unknown.push((Direction::StartX2, about(x2.value, x2.error)));
-            unknown.push((Direction::StartY2, about(y2, x2.velocity_error)));
-        }
+        unknown.extend(x2.map(|it| (Direction::StartX2, it.level.bounds())));
         if recorded.phase_error > 0.0 {
-            unknown.push((Direction::StartPhase, about(recorded.phase, recorded.phase_error)));
+            let phase = Reading { value: recorded.phase, error: recorded.phase_error };
+            unknown.push((Direction::StartPhase, phase.bounds()));
         }
         let guess =
             Started { parameters: recorded.parameters.clone(), start, phase: recorded.phase };
-        Ok(Course { recorded, guess, unknown, units, noise: both })
+        let speeds = match measured {
+            Some(it) => speeds_about(it),
+            None => speeds_up_to(REACH * y2.error),
+        };
+        let is_speed_measured = measured.is_some();
+        let noise = noises;
+        Ok(Course { recorded, guess, unknown, units, noise, speeds, is_speed_measured })
     }
+
+    /// Whether the phase of the drive is an unknown, with a datum of its own.
+    pub fn fits_phase(&self) -> bool {
+        self.unknown.iter().any(|it| it.0 == Direction::StartPhase)
+    }
+
+    /// Whether the capsule is taken to rest at the first sample.
+    pub fn rests(&self) -> bool {
+        self.unknown.iter().all(|it| it.0 != Direction::StartY2)
+    }
+}
+
+/// The speeds that are tried about a measured one.
+fn speeds_about(speed: Reading) -> Vec<f64> {
+    let count = f64::from(TRIED);
+    let share = |i: u32| (2.0 * f64::from(i) + 1.0) / count - 1.0;
+    (0..TRIED).map(|i| speed.value + TRIED_REACH * speed.error * share(i)).collect()
+}
+
+/// Speeds of either sign up to the largest, each a share of the next, as the record says nothing of their size.
+fn speeds_up_to(largest: f64) -> Vec<f64> {
+    let sizes = (0..TRIED).map(|i| largest * TRIED_SHARE.powi(i as i32));
+    let mut speeds: Vec<f64> = sizes.flat_map(|it| [-it, it]).collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds
+}
+
+/// A speed that the capsule hardly exceeds [m/s]: some times the usual relative velocity of the record, by its median, which spikes do
+/// not change, and the speed that the drive alone would give both bodies.
+fn fastest(recorded: &Recorded) -> f64 {
+    let parameters = &recorded.parameters;
+    let mass = parameters[Parameter::M1] + parameters[Parameter::M2];
+    let by_drive = parameters[Parameter::Pd] / (mass * parameters[Parameter::Omega]);
+    let r = recorded.signals.iter().find(|it| it.0 == Signal::R).map(|it| it.1.as_slice());
+    let rates = r.and_then(|r| smoothed(&recorded.times, r, first_window(r.len()), 1).ok());
+    let relative = rates.map_or(0.0, |it| {
+        let sizes: Vec<f64> = it.iter().map(|rate| rate.abs()).collect();
+        median(&sizes)
+    });
+    FASTEST * (relative + by_drive)
 }
 
 /// Fails where the values of a signal are all equal.
@@ -120,42 +172,10 @@ pub fn varies(signals: &[(Signal, Vec<f64>)]) -> Result<(), String> {
     })
 }
 
-/// A signal at the first sample of a record, with its rate and the standard errors of both.
-#[derive(Debug, Clone, Copy, Default)]
-struct Beginning {
-    value: f64,
-    error: f64,
-    velocity: f64,
-    velocity_error: f64,
-}
-
-impl Beginning {
-    fn less(self, other: Beginning) -> Beginning {
-        Beginning {
-            value: self.value - other.value,
-            error: self.error.hypot(other.error),
-            velocity: self.velocity - other.velocity,
-            velocity_error: self.velocity_error.hypot(other.velocity_error),
-        }
-    }
-}
-
-/// A signal's beginning, by a parabola through its first samples; none where it is not recorded.
+/// A signal's beginning; none where it is not recorded.
 fn begin(recorded: &Recorded, noise: &[f64], signal: Signal) -> Option<Beginning> {
     let place = recorded.signals.iter().position(|(its, _)| *its == signal)?;
-    let values = &recorded.signals[place].1;
-    let samples = 7.min((values.len() - 1) | 1);
-    let window = Window { samples, order: 2.min(samples - 1) };
-    let read = |derivative| smoothed(&recorded.times, values, window, derivative).ok();
-    let span = recorded.times[samples - 1] - recorded.times[0];
-    let error = noise[place];
-    // The standard errors of a parabola through seven even samples at its end are 0.87 and about 4.7 over the span.
-    Some(Beginning {
-        value: read(0)?[0],
-        error,
-        velocity: read(1)?[0],
-        velocity_error: 4.7 * error / span,
-    })
+    Beginning::of(&recorded.times, &recorded.signals[place].1, noise[place])
 }
 
 /// The standard deviation of a record about its line.

@@ -87,11 +87,11 @@ pub fn harmonic(times: &[f64], values: &[f64]) -> Result<Harmonic, String> {
     let by = [-times[0], b / square, -a / square];
     let amplitude = square.sqrt();
     let freedom = fit.degrees_of_freedom;
-    let deviation = fit.residual_deviation();
     let error = |by: &[f64; 3]| {
-        let row =
-            |i: usize| (0..3).map(|j| by[i] * fit.unit_covariance[(i, j)] * by[j]).sum::<f64>();
-        deviation * (0..3).map(row).sum::<f64>().max(0.0).sqrt()
+        let row = |i: usize| {
+            (0..3).map(|j| by[i] * fit.covariance.covariance[(i, j)] * by[j]).sum::<f64>()
+        };
+        (0..3).map(row).sum::<f64>().max(0.0).sqrt()
     };
     let phase = (-b).atan2(a) - omega * times[0];
     let phase = phase - TAU * (phase / TAU).round();
@@ -104,7 +104,7 @@ pub fn harmonic(times: &[f64], values: &[f64]) -> Result<Harmonic, String> {
             freedom,
         ),
         mean,
-        scatter: deviation,
+        scatter: fit.residual_deviation(),
     })
 }
 

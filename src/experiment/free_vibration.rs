@@ -315,7 +315,7 @@ fn fall(turns: &Turns, (noise, samples): (f64, usize)) -> Result<(Estimate, Vec<
     let fit = fit(&model, &start, &Search::free(3)).ok_or(none)?;
     let deviation = noise * turns.height_deviation;
     let spread = spread(fit.sum_of_squares, fit.degrees_of_freedom, (deviation, samples));
-    let error = fit.unit_covariance[(1, 1)].sqrt() * spread;
+    let error = fit.covariance.inverse_curvature[(1, 1)].sqrt() * spread;
     let heights = turns.numbers.iter().map(|it| fit.parameters[0] * wave(*it, &fit.parameters).1);
     let heights = heights.map(f64::abs).collect();
     Ok((Estimate::of_student(fit.parameters[1], error, samples), heights))

@@ -3,6 +3,9 @@
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
+use super::covariance::{Covariance, Data};
+pub use super::loss::Loss;
+
 /// Residuals at some parameters, with their derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Residuals {
@@ -44,17 +47,6 @@ impl Bounds {
     }
 }
 
-/// How residuals are weighed.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Loss {
-    /// By their squares.
-    #[default]
-    Squares,
-    /// By their squares up to about this size, and linearly beyond, so that outliers count little:
-    /// `2 a^2 (sqrt(1 + (f/a)^2) - 1)`.
-    SoftL1(f64),
-}
-
 /// How a fit ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Termination {
@@ -75,11 +67,8 @@ pub struct Fit {
     pub sum_of_squares: f64,
     /// Data less parameters.
     pub degrees_of_freedom: usize,
-    /// The covariance of the parameters with residuals of unit variance, `(J^T J)^-1`; of a parameter that the data do not
-    /// determine, or that lies on a bound, the row and the column are infinite and zero: it is left out of the others'.
-    pub unit_covariance: DMatrix<f64>,
-    /// Whether a parameter has an effect that others of them undo, so that only combinations are determined.
-    pub is_combined: Vec<bool>,
+    /// What the data say of the parameters together; one that lies on a bound is left out.
+    pub covariance: Covariance,
     /// How it ended.
     pub termination: Termination,
 }
@@ -87,7 +76,7 @@ pub struct Fit {
 impl Fit {
     /// Whether only combinations of a parameter with others are determined.
     pub fn is_open(&self, parameter: usize) -> bool {
-        self.is_combined[parameter]
+        self.covariance.is_combined[parameter]
     }
 
     /// The standard deviation of the residuals, estimated from them.
@@ -97,7 +86,7 @@ impl Fit {
 
     /// The standard error of a parameter, with the scatter estimated from the residuals.
     pub fn standard_error(&self, parameter: usize) -> f64 {
-        self.unit_covariance[(parameter, parameter)].sqrt() * self.residual_deviation()
+        self.covariance.covariance[(parameter, parameter)].sqrt()
     }
 }
 
@@ -108,6 +97,8 @@ pub struct Search {
     pub bounds: Vec<Bounds>,
     /// How residuals are weighed.
     pub loss: Loss,
+    /// How many data in turn have one distribution, where outliers count little; all have where it is empty.
+    pub groups: Vec<usize>,
     /// Evaluations of the model per parameter at most.
     pub patience: usize,
     /// The search ends where a step changes the sum of squares or the parameters by less than this share.
@@ -120,6 +111,7 @@ impl Search {
         Search {
             bounds: vec![Bounds::NONE; parameters],
             loss: Loss::Squares,
+            groups: Vec::new(),
             patience: 1000,
             tolerance: 1e-15,
         }
@@ -135,8 +127,6 @@ const FIRST_STEPS: [f64; 4] = [100.0, 1.0, 0.1, 0.01];
 const SAME: f64 = 1e-9;
 /// A residual where the model has no value.
 const REFUSED: f64 = 1e100;
-/// A direction of the scaled Jacobian below this share of the largest is not determined.
-const DETERMINED: f64 = 1e-10;
 
 /// The parameters near `start` at which the sum of squares of the residuals is least.
 ///
@@ -246,12 +236,18 @@ impl<M: Model> Problem<'_, M> {
             .zip(&self.search.bounds)
             .map(|(&value, it)| it.holds(value))
             .collect();
-        let (unit_covariance, is_combined) = unit_covariance(&held.slopes, &on_bound);
+        // The covariance is that of the residuals as they are, not as the loss weighs them.
+        let plain = match self.search.loss {
+            Loss::Squares => None,
+            Loss::SoftL1(_) => self.model.residuals(&parameters),
+        };
+        let plain = plain.as_ref().unwrap_or(&held);
+        let groups = &self.search.groups;
+        let data = Data { values: &plain.values, slopes: &plain.slopes, groups };
         Fit {
             sum_of_squares: held.values.iter().map(|it| it * it).sum(),
             degrees_of_freedom: held.values.len().saturating_sub(parameters.len()),
-            unit_covariance,
-            is_combined,
+            covariance: Covariance::new(data, self.search.loss, &on_bound),
             parameters,
             termination,
         }
@@ -301,44 +297,4 @@ fn weighed(mut residuals: Residuals, loss: Loss) -> Residuals {
         slopes.iter_mut().for_each(|it| *it *= slope);
     }
     residuals
-}
-
-/// `(J^T J)^-1` over the parameters that the data determine, see [`Fit::unit_covariance`], and whether only combinations of each
-/// are determined.
-fn unit_covariance(slopes: &[Vec<f64>], left_out: &[bool]) -> (DMatrix<f64>, Vec<bool>) {
-    let count = left_out.len();
-    let mut covariance = DMatrix::zeros(count, count);
-    let mut is_combined = vec![false; count];
-    let norm =
-        |column: usize| slopes.iter().map(|row| row[column] * row[column]).sum::<f64>().sqrt();
-    let norms: Vec<f64> = (0..count).map(norm).collect();
-    let (kept, others): (Vec<usize>, Vec<usize>) =
-        (0..count).partition(|&i| !left_out[i] && norms[i] > 0.0);
-    others.into_iter().for_each(|i| covariance[(i, i)] = f64::INFINITY);
-    if kept.is_empty() || slopes.len() < kept.len() {
-        kept.into_iter().for_each(|i| covariance[(i, i)] = f64::INFINITY);
-        return (covariance, is_combined);
-    }
-    // Columns of unit length, so that units do not matter.
-    let scaled = DMatrix::from_fn(slopes.len(), kept.len(), |row, column| {
-        slopes[row][kept[column]] / norms[kept[column]]
-    });
-    let svd = scaled.svd(false, true);
-    let Some(directions) = svd.v_t else { return (covariance, is_combined) };
-    let largest = svd.singular_values.max();
-    for (value, direction) in svd.singular_values.iter().zip(directions.row_iter()) {
-        let is_open = *value <= DETERMINED * largest;
-        for (i, &row) in kept.iter().enumerate() {
-            for (j, &column) in kept.iter().enumerate() {
-                let share = direction[i] * direction[j] / (norms[row] * norms[column]);
-                if !is_open {
-                    covariance[(row, column)] += share / (value * value);
-                } else if i == j && direction[i].abs() > 1e-6 {
-                    covariance[(row, row)] = f64::INFINITY;
-                    is_combined[row] = true;
-                }
-            }
-        }
-    }
-    (covariance, is_combined)
 }

@@ -1,17 +1,25 @@
 //! Experiments beside the simulation: recordings, smoothing, identification, comparison.
 
 pub mod agreement;
+mod beginning;
 pub mod comparison;
 pub mod course;
+mod course_residuals;
+pub mod covariance;
+pub mod drift;
 pub mod drive_phase;
+mod effort;
 pub mod estimate;
 pub mod explanation;
+mod first_sample;
 pub mod free_parameter;
 pub mod free_vibration;
 pub mod friction;
 pub mod identification;
+mod in_threads;
 pub mod least_squares;
 pub mod line;
+pub mod loss;
 pub mod misfit;
 pub mod motion_fit;
 mod periodogram;
@@ -30,6 +38,7 @@ pub mod synthesis;
 pub use agreement::{Difference, Doubt};
 pub use comparison::{Comparison, compare};
 pub use course::{Recorded, Weights};
+pub use drift::Drift;
 pub use drive_phase::{Frequencies, Harmonic, harmonic};
 pub use estimate::Estimate;
 pub use explanation::{Explanation, explain};

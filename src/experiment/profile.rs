@@ -71,8 +71,8 @@ const NEAR: f64 = 1e-3;
 /// # Method
 ///
 /// The parameter is held at other values and the others are fitted again, each time from where they were last. The interval
-/// ends where the sum of squares S has grown by `t^2 S/n`, with Student's t for the n degrees of freedom of the fit. The
-/// end is bracketed by steps of growing length and found by interpolation of the root of what S has grown by, which is nearly
+/// ends where the sum of squares S has grown by `t^2 S/n`, with Student's t for the n degrees of freedom of the fit; where outliers
+/// count little, by `t^2` times the ratio of the variance of the parameter to the inverse of half the curvature of S. The end is bracketed by steps of growing length and found by interpolation of the root of what S has grown by, which is nearly
 /// straight, to a thousandth of its distance.
 ///
 /// # Source
@@ -194,8 +194,8 @@ impl<M: Model> Walk<'_, M> {
                 })
             }
         };
-        let allowed = student(self.best.degrees_of_freedom).powi(2) * self.best.sum_of_squares
-            / self.best.degrees_of_freedom as f64;
+        let allowed = student(self.best.degrees_of_freedom).powi(2)
+            * self.best.covariance.growth_of(self.which);
         let grown = sum.map_or(f64::INFINITY, |sum| (sum - self.best.sum_of_squares) / allowed);
         self.points.borrow_mut().push([value, grown]);
         grown

@@ -1,34 +1,54 @@
 //! Where the search for the parameters of recorded histories begins.
 
 use super::course::Course;
+use super::first_sample::{misfits_at_speeds, with_speed};
 use super::free_parameter::Free;
-use super::least_squares::Bounds;
+use super::least_squares::{Bounds, Loss};
+use super::sampled::Started;
 
 /// Where the search begins: the values of the first recording, then points of a Halton sequence within the bounds.
-pub(super) fn starts(courses: &[Course<'_>], free: &[Free], count: usize) -> Vec<Vec<f64>> {
+pub(super) fn starts(
+    courses: &[Course<'_>],
+    free: &[Free],
+    count: usize,
+    loss: Loss,
+) -> Vec<Vec<f64>> {
     const PRIMES: [u32; 14] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43];
-    let of_starts: Vec<f64> = courses
-        .iter()
-        .flat_map(|course| {
-            course.unknown.iter().map(|(direction, _)| course.guess.value(*direction))
-        })
-        .collect();
-    let start = |index: usize| {
-        let value = |(i, free): (usize, &Free)| {
-            let Bounds { least, greatest } = free.bounds;
-            match index {
-                0 => courses[0].guess.parameters[free.parameter].clamp(least, greatest),
-                _ => {
-                    least
-                        + (greatest - least)
-                            * radical_inverse(index as u32, PRIMES[i % PRIMES.len()])
-                }
+    let value = |index: usize, i: usize, free: &Free| {
+        let Bounds { least, greatest } = free.bounds;
+        match index {
+            0 => courses[0].guess.parameters[free.parameter].clamp(least, greatest),
+            _ => {
+                let share = radical_inverse(index as u32, PRIMES[i % PRIMES.len()]);
+                least + (greatest - least) * share
             }
-        };
-        let parameters = free.iter().enumerate().map(value);
-        parameters.chain(of_starts.iter().copied()).collect()
+        }
+    };
+    let start = |index: usize| {
+        let pairs = free.iter().enumerate();
+        let mut unknowns: Vec<f64> = pairs.map(|(i, free)| value(index, i, free)).collect();
+        let parameters = unknowns.clone();
+        for course in courses {
+            let motion = begun(course, free, &parameters, loss);
+            unknowns.extend(course.unknown.iter().map(|(direction, _)| motion.value(*direction)));
+        }
+        unknowns
     };
     (0..count.max(1)).map(start).collect()
+}
+
+/// The motion of a recording as its search begins with these parameters: at the speed that describes it best, where none is measured.
+fn begun(course: &Course<'_>, free: &[Free], parameters: &[f64], loss: Loss) -> Started {
+    let mut motion = course.guess.clone();
+    for (free, value) in free.iter().zip(parameters) {
+        motion.parameters[free.parameter] = *value;
+    }
+    if course.is_speed_measured {
+        return motion;
+    }
+    let misfits = misfits_at_speeds(course, &motion, loss);
+    let best = misfits.iter().min_by(|a, b| a.misfit.total_cmp(&b.misfit));
+    best.map_or(motion.clone(), |it| with_speed(&motion, it.speed))
 }
 
 /// The digits of `index` in a base, mirrored at the point.

@@ -1,4 +1,4 @@
-//! What a fit prints: units and digits of its bounds and estimates, the misfit beside the noise, and outliers.
+//! What a fit prints: units and digits of its bounds and estimates, the misfit beside the noise, outliers, drifts, and all warnings as JSON.
 
 use std::fs;
 
@@ -81,4 +81,55 @@ fn outliers_are_counted_and_the_robust_misfit_is_that_of_the_others() {
         let crosses = |side: bool| profile.iter().any(|it| (it[1].as_f64() >= Some(1.0)) == side);
         assert!(profile.len() >= 5 && crosses(true) && crosses(false), "{found}");
     }
+}
+
+#[test]
+fn a_drift_is_told_by_signal_and_unit_and_every_warning_is_in_the_json() {
+    let work = rig("3");
+    let vary = ["--vary", "k2=1 kN/m..5 kN/m,mu_d=0.1..0.6,c=1..8"];
+    let (text, found) = both(&work, &vary);
+    assert!(!text.contains("warning") && found["warnings"] == serde_json::json!([]), "{text}");
+    let recorded = fs::read_to_string(work.path("rig/motion.csv")).expect("recorded");
+    let header = recorded.lines().next().expect("a header");
+    assert!(header.starts_with("t [s],x2 [m],r [m]"), "{header}");
+    for (column, signal) in [(1, "x2"), (2, "r")] {
+        // 0.1 mm/s.
+        let drifted = recorded.lines().enumerate().map(|(i, row)| {
+            let mut cells: Vec<String> = row.split(',').map(str::to_owned).collect();
+            if i > 0 {
+                let number = |cell: &String| cell.parse::<f64>().expect("a number");
+                cells[column] = format!("{:e}", number(&cells[column]) + 1e-4 * number(&cells[0]));
+            }
+            cells.join(",") + "\n"
+        });
+        fs::write(work.path("rig/motion.csv"), drifted.collect::<String>()).expect("written");
+        let (text, found) = both(&work, &vary);
+        let line = text.lines().find(|it| it.contains("drifts against the fitted motion"));
+        let line = line.unwrap_or_else(|| panic!("no drift: {text}"));
+        assert!(line.starts_with(&format!("warning: rig/motion.csv: {signal} drifts")), "{line}");
+        assert!(line.contains(" mm/s (standard error "), "{line}");
+        let drifts = found["drifts"].as_array().expect("drifts");
+        let own = drifts.iter().find(|it| it["signal"] == signal).expect("that of the signal");
+        let of = |key: &str| own[key].as_f64().expect("a number");
+        assert!((of("rate") - 1e-4).abs() < 4.0 * of("standard_error"), "{own}");
+        assert_eq!(own["unit"], "m/s", "{own}");
+        assert!(found["drifts"].as_array().is_some_and(|it| it.len() == 3), "{found}");
+        fs::write(work.path("rig/motion.csv"), &recorded).expect("written");
+    }
+    // A bound, too, is in the JSON.
+    both(&work, &["--vary", "k2=3 kN/m..5 kN/m"]);
+}
+
+/// A fit as text and as JSON, whose warnings are the same.
+fn both(work: &WorkDir, more: &[&str]) -> (String, serde_json::Value) {
+    let text = told(work, more);
+    let found = work.run(&[&FIT[..], more, &["--json"]].concat()).json();
+    let warnings = found["warnings"].as_array().expect("warnings").clone();
+    let warnings: Vec<&str> = warnings.iter().map(|it| it.as_str().expect("text")).collect();
+    let told: Vec<&str> = text.lines().filter_map(|it| it.strip_prefix("warning: ")).collect();
+    assert_eq!(warnings, told, "{text}");
+    if more.iter().any(|it| it.contains("=3 kN/m")) {
+        assert!(told.iter().any(|it| it.contains("least value allowed")), "{text}");
+    }
+    (text, found)
 }
