@@ -326,10 +326,11 @@ impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
         self.system.put(lane, system);
         self.motion.put(lane, motion);
         self.periods = self.periods.with_lane(lane, system.period());
-        // A case that goes on has taken some steps of its cycle.
-        let taken = case.as_ref().map_or(0, |case| case.progress.steps);
-        self.cycle_began[lane] = self.steps - taken;
-        self.deadline = if taken > 0 { 0 } else { self.deadline };
+        // A case that goes on has taken some steps of its cycle, and of those that it may take.
+        let Progress { steps, steps_before, .. } =
+            case.as_ref().map_or_else(Progress::default, |case| case.progress);
+        self.cycle_began[lane] = self.steps - steps;
+        self.deadline = if steps + steps_before > 0 { 0 } else { self.deadline };
         self.occupied &= !(1 << lane);
         self.occupied |= u64::from(case.is_some()) << lane;
         self.occupants[lane] = case;
