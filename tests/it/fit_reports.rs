@@ -86,7 +86,7 @@ fn outliers_are_counted_and_the_robust_misfit_is_that_of_the_others() {
 #[test]
 fn a_drift_is_told_by_signal_and_unit_and_every_warning_is_in_the_json() {
     let work = rig("3");
-    let vary = ["--vary", "k2=1 kN/m..5 kN/m,mu_d=0.1..0.6,c=1..8"];
+    let vary = ["--vary", "k2=1 kN/m..5 kN/m,mu_d=0.1..0.6,c=1 N s/m..8 N s/m"];
     let (text, found) = both(&work, &vary);
     assert!(!text.contains("warning") && found["warnings"] == serde_json::json!([]), "{text}");
     let recorded = fs::read_to_string(work.path("rig/motion.csv")).expect("recorded");

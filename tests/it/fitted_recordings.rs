@@ -24,6 +24,8 @@ enum Sensors {
     All,
     /// r and a1.
     WithoutX2,
+    /// All, without spikes, by the robust loss.
+    Robust,
     /// All, but one sample of r in fifty is off by up to 20 mm, by the robust loss.
     Spikes,
     /// x1 and r, from a place that is not the origin.
@@ -33,7 +35,7 @@ enum Sensors {
 impl Sensors {
     fn signals(self) -> &'static [(Signal, f64)] {
         match self {
-            Sensors::All | Sensors::Spikes => {
+            Sensors::All | Sensors::Robust | Sensors::Spikes => {
                 &[(Signal::X2, 10e-6), (Signal::R, 20e-6), (Signal::A1, 0.1)]
             }
             Sensors::WithoutX2 => &[(Signal::R, 20e-6), (Signal::A1, 0.1)],
@@ -42,7 +44,10 @@ impl Sensors {
     }
 
     fn effort(self) -> Effort {
-        let loss = if self == Sensors::Spikes { Loss::SoftL1(2.0) } else { Loss::Squares };
+        let loss = match self {
+            Sensors::Robust | Sensors::Spikes => Loss::SoftL1(2.0),
+            _ => Loss::Squares,
+        };
         Effort { loss, weights: Weights::Noise, starts: 1, threads: 1 }
     }
 }
@@ -187,6 +192,11 @@ fn intervals_without_x2_hold_the_truth() {
 #[test]
 fn intervals_of_records_with_spikes_hold_the_truth() {
     Bench::new(OwnCapsule::FIG5).check(Sensors::Spikes, 24);
+}
+
+#[test]
+fn intervals_by_the_robust_loss_hold_the_truth_without_spikes() {
+    Bench::new(OwnCapsule::FIG5).check(Sensors::Robust, 24);
 }
 
 #[test]
