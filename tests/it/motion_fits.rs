@@ -106,8 +106,9 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
 
 #[test]
 fn combinations_and_bounds_are_told() {
-    let record = recorded(&Parameters::default(), 0.7, 1000.0, 4.0, 1);
-    // Gravity and friction act through their product alone.
+    // Below 2 mu_d mu_s has no effect, so that gravity and friction act through their product alone.
+    let parameters = Parameters::with(&[(Parameter::MuS, 0.2)]);
+    let record = recorded(&parameters, 0.7, 1000.0, 4.0, 1);
     let fit = fit_motion(
         std::slice::from_ref(&record),
         &free(&[(Parameter::G, 5.0, 15.0), (Parameter::MuD, 0.1, 0.6)]),
