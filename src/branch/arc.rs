@@ -1,6 +1,6 @@
 //! The arc between two neighbouring solutions, and the special solutions on it.
 
-use super::arclength::{CurvePoint, Equations, Plane, between, corrected, dot, moved};
+use super::arclength::{CurvePoint, Equations, Plane, between, corrected, dot, moved, norm};
 
 /// Trials of a search at most.
 const TRIALS: usize = 120;
@@ -39,13 +39,26 @@ impl<'a, const U: usize, E: Equations<U>> Arc<'a, U, E> {
     }
 
     /// The solution at a distance between two others, near the straight line from one to the other.
-    fn within(
+    pub fn within(
         &self,
         [a, b]: [&Placed<U, E::Seen>; 2],
         distance: f64,
     ) -> Option<Placed<U, E::Seen>> {
         let share = (distance - a.0) / (b.0 - a.0);
         self.at(distance, &moved(&a.1.at, share, &between(&a.1.at, &b.1.at)))
+    }
+
+    /// The solution in the middle of two others, with its distance from the cubic through these along their tangents.
+    ///
+    /// None where there is none near, as between two solutions of different curves.
+    pub fn middle(&self, [a, b]: [&Placed<U, E::Seen>; 2]) -> Option<(Placed<U, E::Seen>, f64)> {
+        let chord = between(&a.1.at, &b.1.at);
+        let bend = between(&b.1.tangent, &a.1.tangent);
+        let expected = moved(&moved(&a.1.at, 0.5, &chord), 0.125 * norm(&chord), &bend);
+        let distance = dot(&self.normal, &between(&self.start, &expected));
+        let middle = self.at(distance, &expected)?;
+        let away = norm(&between(&expected, &middle.1.at));
+        Some((middle, away))
     }
 
     /// The solution at a distance beyond another, near its tangent.

@@ -11,8 +11,11 @@ use super::periodic::Periodic;
 pub type Doubled<'a, M, const D: usize, const U: usize> =
     (Orbits<'a, M, D, U>, [OrbitPoint<<M as System<D>>::Event, D, U>; 2]);
 
-/// First steps off the branch that are tried, as shares of the longest.
-const FIRST_STEPS: [f64; 7] = [0.1, 0.03, 0.3, 0.01, 1e-3, 1e-4, 1e-5];
+/// First steps off the branch that are tried: short, so that nothing happens on them.
+const FIRST_STEPS: [f64; 9] = [1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-4, 1e-3, 3e-3, 1e-2];
+/// How far the first orbit is from where the step leads, as a share of the step: where no step is so short that the branch
+/// hardly bends on it, the shortest on which it is found at all is taken.
+const CORRECTIONS: [f64; 2] = [0.1, 1.0];
 /// On an orbit of twice the period half of it leads to the other side: nearly two steps away.
 const OTHER_SIDE: f64 = 1.0;
 
@@ -24,22 +27,22 @@ const OTHER_SIDE: f64 = 1.0;
 pub fn doubled<'a, M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<'a, M, D, U>,
     at: &OrbitPoint<M::Event, D, U>,
-    longest: f64,
 ) -> Option<Doubled<'a, M, D, U>> {
     let direction = annihilated(&shifted(&at.seen.jacobian, 1.0))?;
     let twice = orbits.with_period(2 * orbits.family.period);
     let tangent: [f64; U] = std::array::from_fn(|i| *direction.get(i).unwrap_or(&0.0));
     let linear = twice.at(&at.at).ok()?;
     let start = CurvePoint { at: at.at, tangent, rows: linear.rows, seen: linear.seen };
-    FIRST_STEPS.into_iter().find_map(|share| {
-        let length = share * longest;
-        let predicted = moved(&at.at, length, &tangent);
-        let plane = Plane::through(&predicted, tangent);
-        let (met, _) = corrected(&twice, &plane, &predicted, &tangent)?;
-        let near = norm(&between(&predicted, &met.at)) <= length;
-        let apart = twice.halfway(&met.at)?;
-        let across = -dot(&apart, &direction) >= OTHER_SIDE * length;
-        (near && across).then(|| (twice.clone(), [start.clone(), met]))
+    CORRECTIONS.into_iter().find_map(|most| {
+        FIRST_STEPS.into_iter().find_map(|length| {
+            let predicted = moved(&at.at, length, &tangent);
+            let plane = Plane::through(&predicted, tangent);
+            let (met, _) = corrected(&twice, &plane, &predicted, &tangent)?;
+            let near = norm(&between(&predicted, &met.at)) <= most * length;
+            let apart = twice.halfway(&met.at)?;
+            let across = -dot(&apart, &direction) >= OTHER_SIDE * length;
+            (near && across).then(|| (twice.clone(), [start.clone(), met]))
+        })
     })
 }
 

@@ -93,7 +93,7 @@ fn leave<M: System<D>, const D: usize, const U: usize>(
     let mut doublings = doublings(&followed[parent].half);
     while let Some((place, at)) = doublings.pop() {
         let orbits = &followed[parent].orbits;
-        let Some((twice, first)) = doubled(orbits, &at, request.longest_step) else { continue };
+        let Some((twice, first)) = doubled(orbits, &at) else { continue };
         let mut half = HalfBranch::new(first.to_vec());
         let goal = Goal::at(&twice, &half.points[0]);
         half.follow(&twice, &mut control(request, &twice), request.most_points, &goal);

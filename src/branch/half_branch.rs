@@ -4,14 +4,15 @@ use crate::flow::{Event, System};
 
 use super::End;
 use super::across::across_section;
-use super::arc::NARROW;
 use super::arclength::{Equations, Linear, between, norm};
 use super::corner::{is_corner, rounded};
 use super::grazing::{Passed, past_grazing};
+use super::merger::{is_merged, merger};
 use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 use super::periodic::{Goal, Periodic, passes};
 use super::special::{Sought, special_orbits};
 use super::step_control::{Advance, StepControl};
+use super::whole_step::{special_orbits_of_shortest, special_orbits_of_whole};
 
 /// Corners that are passed on half of a branch at most.
 const CORNERS: usize = 40;
@@ -19,8 +20,10 @@ const CORNERS: usize = 40;
 const RETRACED: usize = 40;
 /// Orbits closer together than this are one.
 const ONE: f64 = 1e-12;
-/// A branch merges with the one it left at a doubling that lies no more than so many steps from its end.
-const MERGES: f64 = 1.5;
+/// A branch merges with the one it left at a doubling that lies no farther from its end.
+const MERGES: f64 = 1e-4;
+/// A step that does not add up is halved down to this share of the longest.
+const LEAST: f64 = 1e-6;
 
 /// How a branch goes on where no step along its tangent leads on.
 enum Onward<E, const D: usize, const U: usize> {
@@ -41,8 +44,6 @@ pub struct HalfBranch<E, const D: usize, const U: usize> {
     pub end: End,
     /// Which of the doublings it ends at.
     pub merged: Option<usize>,
-    /// Length of the last step, or of the one that would have passed a merger.
-    last_step: f64,
     /// Corners that may still be passed.
     corners: usize,
     /// Which special orbits are located.
@@ -53,16 +54,8 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
     /// A half branch that begins with these orbits.
     pub fn new(points: Vec<OrbitPoint<E, D, U>>) -> Self {
         let (special_orbits, end) = (Vec::new(), End::MostPoints);
-        let (merged, last_step) = (None, 0.0);
-        HalfBranch {
-            points,
-            special_orbits,
-            end,
-            merged,
-            last_step,
-            corners: CORNERS,
-            sought: Sought::All(NARROW),
-        }
+        let (merged, sought) = (None, Sought::Every);
+        HalfBranch { points, special_orbits, end, merged, corners: CORNERS, sought }
     }
 
     /// The same without a look round corners, with changes of events located to the share `narrow` of a step.
@@ -106,10 +99,14 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
             advance => (last.clone(), advance),
         };
         match advance {
-            Advance::Inside(next) => self.add(orbits, &from, next, goal),
-            Advance::AtBound(next) => match self.add(orbits, &from, next, goal) {
-                None | Some(End::Stopped) => Some(End::Bound),
-                end => end,
+            Advance::Inside(next) => match self.add(orbits, control, &from, next, goal) {
+                Added::Halved | Added::GoesOn => None,
+                Added::Ends(end) => Some(end),
+            },
+            Advance::AtBound(next) => match self.add(orbits, control, &from, next, goal) {
+                Added::Halved => None,
+                Added::GoesOn | Added::Ends(End::Stopped) => Some(End::Bound),
+                Added::Ends(end) => Some(end),
             },
             Advance::Nowhere if last.seen.is_smallest() => Some(End::Equilibrium),
             Advance::Nowhere if is_corner(orbits, &last) => Some(End::Corner),
@@ -143,8 +140,11 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
             return Some(Onward::Turns(from, advance));
         }
         let Passed { touching, beyond } = past_grazing(orbits, last)?;
-        let end = beyond.is_none().then_some(End::Corner);
-        let next = beyond.unwrap_or_else(|| touching.point.clone());
+        // Orbits may become those of half their period in the grazing: beyond it are the same, half a period later.
+        let merges = is_merged(orbits, [&last.at, &touching.point.at]);
+        let beyond = if merges { Err(End::Merged) } else { beyond.ok_or(End::Corner) };
+        let end = beyond.as_ref().err().copied();
+        let next = beyond.unwrap_or_else(|_| touching.point.clone());
         self.special_orbits.push((self.points.len() - 1, touching));
         self.points.push(next);
         Some(Onward::Leaps(end))
@@ -176,7 +176,7 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
             images.map(|image| (*place, image, norm(&between(&last.at, &image))))
         });
         let Some((place, image, away)) = ends.min_by(|a, b| a.2.total_cmp(&b.2)) else { return };
-        if away <= MERGES * self.last_step
+        if away <= MERGES
             && let Ok(Linear { rows, seen, .. }) = orbits.at(&image)
         {
             (self.merged, self.end) = (Some(place), End::Merged);
@@ -184,29 +184,56 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         }
     }
 
-    /// Adds the next orbit and what happens before it; why the branch ends with it, if it does.
+    /// Adds the next orbit and what happens before it, unless the step does not add up, which then is halved.
     fn add<M: System<D, Event = E>>(
         &mut self,
         orbits: &Orbits<M, D, U>,
+        control: &mut StepControl<U>,
         from: &OrbitPoint<E, D, U>,
         next: OrbitPoint<E, D, U>,
         goal: &Goal<U, Seen<E, D, U>>,
-    ) -> Option<End> {
-        self.last_step = norm(&between(&from.at, &next.at));
-        if orbits.halves(&from.at, &next.at) {
-            return Some(End::Merged);
-        }
+    ) -> Added {
         let before = self.points.len() - 1;
-        let closing = goal.met(orbits, [from, &next], before);
-        let end = closing.is_some().then_some(End::Closed);
-        let next = closing.unwrap_or(next);
-        let found = special_orbits(orbits, from, &next, self.sought);
+        let mut end = None;
+        // Up to where special orbits are looked for.
+        let (mut next, mut until) = (next.clone(), next);
+        if orbits.halves(&from.at, &next.at) {
+            match merger(orbits, from, &next) {
+                Some(_) if self.sought != Sought::Every => return Added::Ends(End::Merged),
+                Some(merger) if merger.is_near => {
+                    (next, until, end) = (merger.at, merger.before, Some(End::Merged));
+                }
+                _ if control.halve(LEAST).is_some() => return Added::Halved,
+                _ => {}
+            }
+        } else if let Some(closing) = goal.met(orbits, [from, &next], before) {
+            (next, until, end) = (closing.clone(), closing, Some(End::Closed));
+        }
+        let found = match self.sought {
+            Sought::Every => special_orbits_of_whole(orbits, from, &until),
+            sought => Some(special_orbits(orbits, from, &until, sought)),
+        };
+        let found = match found {
+            Some(found) => found,
+            None if control.halve(LEAST).is_some() => return Added::Halved,
+            None => special_orbits_of_shortest(orbits, from, &until),
+        };
         self.special_orbits.extend(found.into_iter().map(|special| (before, special)));
         if norm(&between(&from.at, &next.at)) > ONE {
             self.points.push(next);
-            return end;
+            return end.map_or(Added::GoesOn, Added::Ends);
         }
         // Steps no longer than rounding lead nowhere.
-        end.or(Some(End::Stopped))
+        Added::Ends(end.unwrap_or(End::Stopped))
     }
+}
+
+/// What came of an orbit that was to be added to a branch.
+enum Added {
+    /// The step is halved.
+    Halved,
+    /// The branch goes on.
+    GoesOn,
+    /// It ends with the orbit.
+    Ends(End),
 }

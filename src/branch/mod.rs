@@ -12,12 +12,14 @@ mod follow;
 mod grazing;
 mod half_branch;
 mod locus;
+mod merger;
 mod orbits;
 mod periodic;
 mod scales;
 mod segment;
 mod special;
 mod step_control;
+mod whole_step;
 
 pub use curve::is_followed;
 pub use direct::{Linearised, leads_to, linearised};
@@ -91,16 +93,19 @@ pub enum SpecialKind {
     Grazing,
     /// The sequence of events changes in another way.
     EventSequence,
+    /// What happens could not be resolved by the shortest step: a special point may lie between the orbits on its two sides.
+    Unresolved,
 }
 
 impl SpecialKind {
     /// Every kind by its name in files, in the order of declaration.
-    pub const NAMES: [(&str, SpecialKind); 5] = [
+    pub const NAMES: [(&str, SpecialKind); 6] = [
         ("fold", SpecialKind::Fold),
         ("period-doubling", SpecialKind::PeriodDoubling),
         ("neimark-sacker", SpecialKind::NeimarkSacker),
         ("grazing", SpecialKind::Grazing),
         ("event-sequence", SpecialKind::EventSequence),
+        ("unresolved", SpecialKind::Unresolved),
     ];
 }
 

@@ -12,10 +12,10 @@ const CHANGES: usize = 16;
 /// A pair of multipliers is so near to the unit circle where it is found to pass it.
 const NEAR: f64 = 1e-5;
 /// A located orbit is known along the arc to this share of it: the rounding of a test function.
-const RESOLVED: f64 = 1e-12;
+pub(super) const RESOLVED: f64 = 1e-12;
 
 /// The test function of a special orbit of this kind: it changes its sign there.
-fn test<E: Event, const D: usize, const U: usize>(
+pub(super) fn test<E: Event, const D: usize, const U: usize>(
     kind: SpecialKind,
     point: &OrbitPoint<E, D, U>,
 ) -> f64 {
@@ -27,12 +27,14 @@ fn test<E: Event, const D: usize, const U: usize>(
 }
 
 /// The kinds that have a smooth test function.
-const SMOOTH: [SpecialKind; 3] =
+pub(super) const SMOOTH: [SpecialKind; 3] =
     [SpecialKind::Fold, SpecialKind::PeriodDoubling, SpecialKind::NeimarkSacker];
 
 /// Which special orbits are located.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sought {
+    /// All, where each step adds up.
+    Every,
     /// All; where events change without a grazing to this share of the arc.
     All(f64),
     /// Folds alone.
@@ -69,14 +71,14 @@ pub fn special_orbits<M: System<D>, const D: usize, const U: usize>(
 }
 
 /// Whether the pair of multipliers whose product is nearest to one is complex.
-fn turns<E: Event, const D: usize, const U: usize>(seen: &Seen<E, D, U>) -> bool {
+pub(super) fn turns<E: Event, const D: usize, const U: usize>(seen: &Seen<E, D, U>) -> bool {
     let multipliers = seen.multipliers();
     let complex = multipliers.iter().filter(|multiplier| multiplier.im != 0.0);
     complex.map(|multiplier| (multiplier.abs() - 1.0).abs()).any(|away| away < NEAR)
 }
 
 /// An orbit with its place on the arc.
-type OnArc<E, const D: usize, const U: usize> = Placed<U, Seen<E, D, U>>;
+pub(super) type OnArc<E, const D: usize, const U: usize> = Placed<U, Seen<E, D, U>>;
 
 /// Where the sequence of events changes.
 fn changes<M: System<D>, const D: usize, const U: usize>(
@@ -88,18 +90,48 @@ fn changes<M: System<D>, const D: usize, const U: usize>(
     let arc = Arc::from(orbits, begins);
     let (mut found, mut last) = (Vec::new(), from.clone());
     while last.1.seen.events != to.1.seen.events && found.len() < CHANGES {
-        let before = last.1.seen.events.clone();
-        let same = |point: &OrbitPoint<M::Event, D, U>| point.seen.events == before;
-        let [a, b] = arc.change([&last, &to], same, narrow);
-        let rounding = RESOLVED * (to.0 - from.0);
-        let grazing = touching(&orbits.exactly(), &arc, [&a, &b], [from.0, to.0]);
-        let (kind, (distance, point), uncertainty) = match grazing {
-            Some(touching) => (SpecialKind::Grazing, touching, rounding),
-            None => (SpecialKind::EventSequence, a.clone(), b.0 - a.0 + rounding),
-        };
-        let is_stable_beyond = b.1.seen.is_stable();
-        found.push(SpecialOrbit { kind, distance, uncertainty, point, is_stable_beyond });
-        last = b;
+        let change = Change::first(&arc, [&last, &to], narrow);
+        found.push(change.special(orbits, &arc, [from.0, to.0]));
+        last = change.after;
     }
     found
+}
+
+/// A change of the sequence of events on an arc.
+pub(super) struct Change<E, const D: usize, const U: usize> {
+    /// The last orbit before it.
+    pub before: OnArc<E, D, U>,
+    /// The first one after it.
+    pub after: OnArc<E, D, U>,
+}
+
+impl<E: Event, const D: usize, const U: usize> Change<E, D, U> {
+    /// The first between two orbits, to the share `narrow` of their distance.
+    pub(super) fn first<M: System<D, Event = E>>(
+        arc: &Arc<'_, U, Orbits<'_, M, D, U>>,
+        ends: [&OnArc<E, D, U>; 2],
+        narrow: f64,
+    ) -> Self {
+        let events = &ends[0].1.seen.events;
+        let [before, after] = arc.change(ends, |point| point.seen.events == *events, narrow);
+        Change { before, after }
+    }
+
+    /// What happens there, on an arc of this range.
+    pub(super) fn special<M: System<D, Event = E>>(
+        &self,
+        orbits: &Orbits<'_, M, D, U>,
+        arc: &Arc<'_, U, Orbits<'_, M, D, U>>,
+        range: [f64; 2],
+    ) -> SpecialOrbit<E, D, U> {
+        let Change { before, after } = self;
+        let rounding = RESOLVED * (range[1] - range[0]);
+        let grazing = touching(&orbits.exactly(), arc, [before, after], range);
+        let (kind, (distance, point), uncertainty) = match grazing {
+            Some(touching) => (SpecialKind::Grazing, touching, rounding),
+            None => (SpecialKind::EventSequence, before.clone(), after.0 - before.0 + rounding),
+        };
+        let is_stable_beyond = after.1.seen.is_stable();
+        SpecialOrbit { kind, distance, uncertainty, point, is_stable_beyond }
+    }
 }

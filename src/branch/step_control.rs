@@ -72,6 +72,8 @@ pub struct StepControl<const U: usize> {
     pub longest: f64,
     /// The next step.
     pub next: f64,
+    /// The last step.
+    pub last: f64,
     /// A shorter step, relative to the longest, is none.
     pub shortest: f64,
     /// An easy step is followed by one longer by this factor.
@@ -89,6 +91,7 @@ impl<const U: usize> StepControl<U> {
             bounds,
             longest,
             next: 0.1 * longest,
+            last: 0.0,
             shortest: SHORTEST,
             lengthen: LENGTHEN,
             attempts: usize::MAX,
@@ -107,6 +110,7 @@ impl<const U: usize> StepControl<U> {
             self.attempts -= 1;
             match self.attempt(equations, from, self.next) {
                 Some((advance, taken)) => {
+                    self.last = self.next;
                     if taken <= EASY_AND_HARD[0] {
                         self.next = (self.next * self.lengthen).min(self.longest);
                     } else if taken >= EASY_AND_HARD[1] {
@@ -119,6 +123,11 @@ impl<const U: usize> StepControl<U> {
         }
         self.next = CORNER * self.longest;
         Advance::Nowhere
+    }
+
+    /// Halves the last step, which is to be taken again; none where it is shorter than this share of the longest.
+    pub fn halve(&mut self, least: f64) -> Option<()> {
+        (self.last > least * self.longest).then(|| self.next = SHORTEN * self.last)
     }
 
     /// The solution one step of this length along the tangent, and the steps of Newton that it took.

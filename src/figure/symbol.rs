@@ -38,7 +38,14 @@ enum Shape {
 const RADIUS: f64 = 2.4;
 
 /// The symbols, those that matter least first: the later are drawn over the earlier.
-pub const SYMBOLS: [Symbol; 5] = [
+pub const SYMBOLS: [Symbol; 6] = [
+    Symbol {
+        name: "unresolved",
+        words: "unresolved",
+        shape: Shape::Square,
+        colour: FAINT_INK,
+        dash: Dash::Dotted,
+    },
     Symbol {
         name: "event-sequence",
         words: "event sequence",

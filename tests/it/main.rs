@@ -116,6 +116,7 @@ mod tolerances;
 mod trade_offs;
 mod tradeoff;
 mod unbounded;
+mod whole_branches;
 mod wide_box;
 mod wrong_inputs;
 mod written_figures;

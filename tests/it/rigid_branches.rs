@@ -13,7 +13,7 @@ use super::draws::Random;
 // Of the example only its system is used here, not its program.
 #[path = "../../examples/impact_oscillator.rs"]
 #[allow(dead_code)]
-mod impact_oscillator;
+pub mod impact_oscillator;
 
 use impact_oscillator::Impactor;
 

@@ -1,0 +1,205 @@
+//! Whether a step of a branch adds up: whether all that happens between its two orbits is found.
+
+use crate::flow::{Event, System};
+
+use super::SpecialKind;
+use super::arc::{Arc, NARROW};
+use super::arclength::{between, dot, norm};
+use super::orbits::{OrbitPoint, Orbits, SpecialOrbit};
+use super::periodic::Periodic;
+use super::special::{Change, OnArc, RESOLVED, SMOOTH, Sought, special_orbits, test, turns};
+
+/// The orbit in the middle of a step is so near to the cubic through its ends, relative to the step.
+const BENT: f64 = 0.02;
+/// A part of an arc that is shorter than this is none.
+const NONE: f64 = 1e-9;
+/// A test function that has no root comes no nearer to zero between its values than this share of what it changes by.
+const AWAY: f64 = 0.25;
+/// An extremum with a smaller margin touches its surface.
+const TOUCHES: f64 = 1e-9;
+/// Where an orbit merges with one of half its period the branch turns to the other half of its orbits. The share of the
+/// parameter in its tangent is then known to this over the square of the displacement over half the period.
+const ROUNDING: f64 = 1e-13;
+/// A shorter step may hold several changes of the events, which are then told one by one.
+const SHORT: f64 = 1e-6;
+/// Changes of the event sequence in such a step at most.
+const CHANGES: usize = 16;
+
+/// The special orbits between two neighbouring orbits, in order; none where the step does not add up and has to be halved.
+///
+/// Method: the step is cut where the sequence of events changes, so that the return map is smooth on each part. On each, the
+/// orbit in the middle must lie near the cubic through the ends and have their events; a margin and every test function may
+/// have no more roots than their values at the three orbits show, as judged by the parabola through these; and each root is
+/// located. Test functions jump between parts alone, so that no jump hides a root.
+/// Breaks: where within a smooth part a test function turns twice or an event sequence changes and changes back, and the
+/// orbit in the middle shows neither. A fold so near to a period doubling that rounding
+/// decides the sign of the tangent is not told from it.
+pub fn special_orbits_of_whole<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    from: &OrbitPoint<M::Event, D, U>,
+    to: &OrbitPoint<M::Event, D, U>,
+) -> Option<Vec<SpecialOrbit<M::Event, D, U>>> {
+    let exact = orbits.exactly();
+    let step = WholeStep::of(&exact, [from, to]);
+    let mut found = step.special()?;
+    found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+    Some(found)
+}
+
+/// The same of a step that is not halved any more, where what is not located is told as unresolved.
+pub fn special_orbits_of_shortest<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    from: &OrbitPoint<M::Event, D, U>,
+    to: &OrbitPoint<M::Event, D, U>,
+) -> Vec<SpecialOrbit<M::Event, D, U>> {
+    let mut found = special_orbits(orbits, from, to, Sought::All(NARROW));
+    // Where the events change, a test function may jump.
+    let has_changed = from.seen.events != to.seen.events;
+    let exact = orbits.exactly();
+    let step = WholeStep::of(&exact, [from, to]);
+    let ends = step.ends.each_ref();
+    let is_missing = |kind: &SpecialKind| {
+        test(*kind, from) * test(*kind, to) < 0.0
+            && found.iter().all(|it| it.kind != *kind)
+            && (*kind != SpecialKind::Fold || step.is_known(ends, to))
+    };
+    if !has_changed && SMOOTH.iter().any(is_missing) {
+        let uncertainty = norm(&between(&from.at, &to.at));
+        let (kind, distance, point) = (SpecialKind::Unresolved, 0.5 * uncertainty, to.clone());
+        let is_stable_beyond = to.seen.is_stable();
+        found.push(SpecialOrbit { kind, distance, uncertainty, point, is_stable_beyond });
+    }
+    found
+}
+
+/// Special orbits, as far as they are known to be all.
+type All<E, const D: usize, const U: usize> = Option<Vec<SpecialOrbit<E, D, U>>>;
+
+/// A step with the arc on which its orbits lie.
+struct WholeStep<'a, 'b, M: System<D>, const D: usize, const U: usize> {
+    orbits: &'a Orbits<'b, M, D, U>,
+    arc: Arc<'a, U, Orbits<'b, M, D, U>>,
+    ends: [OnArc<M::Event, D, U>; 2],
+}
+
+impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, D, U> {
+    fn of(orbits: &'a Orbits<'b, M, D, U>, ends: [&OrbitPoint<M::Event, D, U>; 2]) -> Self {
+        let arc = Arc::from(orbits, ends[0]);
+        let ends = ends.map(|point| arc.place(point));
+        WholeStep { orbits, arc, ends }
+    }
+
+    /// The places of its ends on the arc.
+    fn range(&self) -> [f64; 2] {
+        self.ends.each_ref().map(|it| it.0)
+    }
+
+    fn special(&self) -> All<M::Event, D, U> {
+        let [from, to] = &self.ends;
+        let mut found = Vec::new();
+        let mut last = from.clone();
+        while last.1.seen.events != to.1.seen.events {
+            let is_short = norm(&between(&from.1.at, &to.1.at)) <= SHORT;
+            if found.len() >= if is_short { CHANGES } else { 1 } {
+                return None;
+            }
+            let change = Change::first(&self.arc, [&last, to], NARROW);
+            found.extend(self.smooth([&last, &change.before])?);
+            found.push(change.special(self.orbits, &self.arc, self.range()));
+            last = change.after;
+        }
+        found.extend(self.smooth([&last, to])?);
+        Some(found)
+    }
+
+    /// Whether a fold between two orbits is far enough from an orbit of half its period for its tangent to be known.
+    fn is_known(
+        &self,
+        ends: [&OnArc<M::Event, D, U>; 2],
+        point: &OrbitPoint<M::Event, D, U>,
+    ) -> bool {
+        let slopes = ends.map(|it| test(SpecialKind::Fold, &it.1).abs());
+        let is_known = |apart: [f64; D]| slopes[0].max(slopes[1]) * dot(&apart, &apart) > ROUNDING;
+        self.orbits.halfway(&point.at).is_none_or(is_known)
+    }
+
+    /// Those of a part on which the events are the same.
+    fn smooth(&self, ends: [&OnArc<M::Event, D, U>; 2]) -> All<M::Event, D, U> {
+        let length = norm(&between(&ends[0].1.at, &ends[1].1.at));
+        if length <= NONE {
+            return Some(Vec::new());
+        }
+        let (middle, away) = self.arc.middle(ends)?;
+        let is_same = middle.1.seen.events == ends[0].1.seen.events && away <= BENT * length;
+        let part = SmoothPart { places: [ends[0], &middle, ends[1]] };
+        if !is_same || !part.keeps_its_margin() {
+            return None;
+        }
+        let mut found = Vec::new();
+        for kind in SMOOTH {
+            let Some(half) = part.root(kind)? else { continue };
+            let (ends, size) = (part.half(half), self.range());
+            let ((distance, point), apart) = self.arc.zero(ends, |it| test(kind, it))?;
+            let is_told = match kind {
+                SpecialKind::NeimarkSacker => turns(&point.seen),
+                SpecialKind::Fold => self.is_known(ends, &point),
+                _ => true,
+            };
+            if is_told {
+                let uncertainty = apart + RESOLVED * (size[1] - size[0]);
+                let is_stable_beyond = false;
+                found.push(SpecialOrbit { kind, distance, uncertainty, point, is_stable_beyond });
+            }
+        }
+        Some(found)
+    }
+}
+
+/// A part of a step on which the events are the same: its ends, and the orbit in the middle.
+struct SmoothPart<'a, E, const D: usize, const U: usize> {
+    places: [&'a OnArc<E, D, U>; 3],
+}
+
+impl<'a, E: Event, const D: usize, const U: usize> SmoothPart<'a, E, D, U> {
+    /// The ends of its first half, or of its second.
+    fn half(&self, number: usize) -> [&'a OnArc<E, D, U>; 2] {
+        [self.places[number], self.places[number + 1]]
+    }
+
+    /// Which half holds the only root of a test function, if one does; none where it may have more roots than its three values
+    /// show.
+    fn root(&self, kind: SpecialKind) -> Option<Option<usize>> {
+        let values = self.places.map(|it| test(kind, &it.1));
+        match [values[0] * values[1] < 0.0, values[1] * values[2] < 0.0] {
+            [true, true] => None,
+            [true, false] => Some(Some(0)),
+            [false, true] => Some(Some(1)),
+            [false, false] => stays_away(&values).then_some(None),
+        }
+    }
+
+    /// Whether the extremum that is nearest to its surface stays on its side.
+    ///
+    /// Another extremum may become the nearest, on the other side of the surface. Where one touches at an end, a change of the
+    /// events has been located there.
+    fn keeps_its_margin(&self) -> bool {
+        let values = self.places.map(|it| it.1.seen.margin.map(|margin| margin.value));
+        let [Some(first), Some(middle), Some(last)] = values else { return true };
+        let is_one = first * middle > 0.0 && middle * last > 0.0;
+        let touches = first.abs().min(last.abs()) <= TOUCHES;
+        !is_one || touches || stays_away(&[first, middle, last])
+    }
+}
+
+/// Whether the parabola through three values of one sign, evenly spaced, keeps clear of zero.
+fn stays_away([first, middle, last]: &[f64; 3]) -> bool {
+    let slope = 0.5 * (last - first);
+    // The vertex is this far from the middle, in halves of the part.
+    let vertex = -slope / (first - 2.0 * middle + last);
+    if vertex.is_nan() || vertex.abs() >= 1.0 {
+        return true;
+    }
+    let extreme = middle + 0.5 * slope * vertex;
+    let range = (first - extreme).abs().max((last - extreme).abs());
+    extreme * middle > 0.0 && extreme.abs() >= AWAY * range
+}
