@@ -63,18 +63,25 @@ impl Beginning {
     /// Where more than three of the first nine samples are outliers.
     pub fn of(times: &[f64], values: &[f64], noise: f64) -> Option<Beginning> {
         let kept = without_outliers(times, values, noise);
+        let beginning = *times.first()?;
         let times: Vec<f64> = kept.iter().map(|&i| times[i]).collect();
         let values: Vec<f64> = kept.iter().map(|&i| values[i]).collect();
         let window = first_window(values.len());
         let line = |derivative| smoothed(&times, &values, window, derivative).ok();
-        let (levels, rates) = (line(0)?, line(1)?);
+        let (levels, rates, curvatures) = (line(0)?[0], line(1)?[0], line(2)?[0]);
         let span = times[window.samples - 1] - times[0];
-        // From the first sample that is kept back to the first one.
-        let back = times[0];
-        // The standard errors of a parabola through seven even samples at its end are 0.87 and about 4.7 over the span.
-        let rate = Reading { value: rates[0], error: 4.7 * noise / span };
-        let level =
-            Reading { value: levels[0] - back * rates[0], error: noise.hypot(back * rate.error) };
+        // The parabola goes on from the first sample that is kept back to the first one, where the errors add up at most.
+        let back = times[0] - beginning;
+        // A parabola through seven even samples has standard errors of 0.87, 4.7 over the span and 7.9 over its square there.
+        let per_time = noise / span;
+        let rate = Reading {
+            value: rates - back * curvatures,
+            error: per_time * (4.7 + 7.9 * back / span),
+        };
+        let level = Reading {
+            value: levels - back * (rates - 0.5 * back * curvatures),
+            error: noise + back * rate.error,
+        };
         Some(Beginning { level, rate })
     }
 
@@ -147,8 +154,8 @@ mod tests {
             let mut values = clean.clone();
             off.iter().for_each(|&i| values[i] += 5e-3 * (1.0 + i as f64));
             let found = Beginning::of(&times, &values, 1e-6).expect("long enough");
-            assert!((found.rate.value - (0.3 - 40.0 * times[off.len()])).abs() < 0.09, "{off:?}");
-            assert!((found.level.value - 1e-3).abs() < 1e-4, "{off:?} {found:?}");
+            assert!((found.rate.value - 0.3).abs() < 1e-9, "{off:?} {found:?}");
+            assert!((found.level.value - 1e-3).abs() < 1e-12, "{off:?} {found:?}");
         }
     }
 }
