@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::branch::{SegmentEnd, SpecialValue, segment};
+use crate::branch::{PeriodicOrbit, SegmentEnd, SpecialValue, succession};
 use crate::flow::System;
 use crate::orbit::passage::OneByOne;
 
-use super::link::{Links, Neighbours, Unseen, doubles};
+use super::link::{Links, Neighbours, is_reached};
 use super::table::{Executor, Table};
 
 /// A periodic attractor of one cell that is seen again in a later one, but in none between them.
@@ -22,10 +22,9 @@ pub struct Bridge<const D: usize> {
 
 /// The bridges of a line, in order.
 ///
-/// Method: an orbit that is stable at the next cell, where no case shows it, is continued from cell to cell
-/// until one has it, or until it ends or becomes unstable. One that has doubled its period is continued past
-/// cells that show nothing new, as cases settle slowly there. `between` gives what is held between a cell and the
-/// next.
+/// Method: an orbit that is stable at the next cell, where no case shows it, is continued from cell to cell, see
+/// [`succession`], until one has it, or until it ends or becomes unstable. `between` gives what is held between a cell
+/// and the next.
 pub fn bridges<M: System<D>, const D: usize>(
     cells: &[Arc<Table<D>>],
     links: &[Links<D>],
@@ -35,7 +34,7 @@ pub fn bridges<M: System<D>, const D: usize>(
     let unseen = links.iter().enumerate().flat_map(|(at, links)| {
         links.unseen.iter().map(move |(place, unseen)| ([at, *place], unseen))
     });
-    let unseen: Vec<([usize; 2], &Unseen<D>)> = unseen.collect();
+    let unseen: Vec<([usize; 2], &PeriodicOrbit<D>)> = unseen.collect();
     let crossed = executor.map(0..unseen.len(), |number| {
         let (from, unseen) = unseen[number];
         cross(cells, links, from, unseen.clone(), &between)
@@ -54,28 +53,23 @@ fn cross<M: System<D>, const D: usize>(
     cells: &[Arc<Table<D>>],
     links: &[Links<D>],
     from: [usize; 2],
-    mut here: Unseen<D>,
+    mut here: PeriodicOrbit<D>,
     between: impl Fn(usize) -> Option<Neighbours<M, D>>,
 ) -> Option<Bridge<D>> {
     let mut special = Vec::new();
     for at in from[0] + 1..links.len() {
         let Neighbours { along, protocol, values, .. } = between(at)?;
-        let was_stable = here.orbit.is_stable();
-        let found = segment(&OneByOne, &along, (here.orbit.value, &here.orbit.points), values[1])?;
+        let found = succession(&OneByOne, &along, (here.value, &here.points), values[1])?;
         let SegmentEnd::Reached(orbit) = found.end else { return None };
-        here.orbit = orbit;
-        if was_stable {
-            here.doubled |= doubles(&found.special);
-            special.extend(found.special);
-        }
-        let metric = along.metric(here.orbit.value);
+        here = orbit;
+        special.extend(found.special);
+        let metric = along.metric(here.value);
         let next = &cells[at + 1].attractors;
         let is_new = |place: usize| links[at].pairs.iter().all(|pair| pair[1] != place);
-        if let Some(place) = next.iter().position(|it| here.belongs_to(it, &metric, &protocol)) {
+        if let Some(place) = next.iter().position(|it| is_reached(&here, it, &metric, &protocol)) {
             return is_new(place).then_some(Bridge { from, to: [at + 1, place], special });
         }
-        let something_new = || (0..next.len()).any(is_new);
-        if !here.is_continued() || (!here.orbit.is_stable() && something_new()) {
+        if !here.is_stable() {
             return None;
         }
     }

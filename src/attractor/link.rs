@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::branch::{
     Along, Linearised, PeriodicOrbit, SegmentEnd, SpecialKind, SpecialValue, leads_to, linearised,
-    segment,
+    succession,
 };
 use crate::flow::{Metric, System};
 use crate::orbit::matrix::least_from_one;
@@ -21,8 +21,8 @@ pub struct Links<const D: usize> {
     pub pairs: Vec<[usize; 2]>,
     /// Special points of attractors of this cell, by place, and of the next.
     pub special: [Vec<(usize, SpecialValue<D>)>; 2],
-    /// Orbits of this cell, by place, that continue at the next one, where no case shows them.
-    pub unseen: Vec<(usize, Unseen<D>)>,
+    /// Orbits at the next cell, stable there, in which attractors of this one go on, by place, but that no case shows.
+    pub unseen: Vec<(usize, PeriodicOrbit<D>)>,
 }
 
 impl<const D: usize> Default for Links<D> {
@@ -38,37 +38,18 @@ impl<const D: usize> Links<D> {
     }
 }
 
-/// An orbit at a value of the parameter where no case shows the attractor that it belongs to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Unseen<const D: usize> {
-    /// The orbit.
-    pub orbit: PeriodicOrbit<D>,
-    /// Whether it has lost its stability by a period doubling, so that the attractor is of twice the period.
-    pub doubled: bool,
-}
-
-impl<const D: usize> Unseen<D> {
-    /// Whether it is worth continuing.
-    pub fn is_continued(&self) -> bool {
-        self.doubled || self.orbit.is_stable()
-    }
-
-    /// Whether the attractor at the same parameters is its own.
-    pub fn belongs_to(
-        &self,
-        attractor: &Attractor<D>,
-        metric: &Metric<D>,
-        protocol: &Protocol,
-    ) -> bool {
-        let Attractor { outcome, points, bound, size, .. } = attractor;
-        let Unseen { orbit, doubled } = self;
-        let from_one = least_from_one(&orbit.multipliers);
-        let own = relative_bound(orbit.residual, from_one, protocol).max(bound / size);
-        let own_size = metric.largest(&orbit.points);
-        *outcome == Outcome::Periodic
-            && (coincide(&orbit.points, points, bound + own * own_size, metric)
-                || (*doubled && straddles(points, &orbit.points, metric)))
-    }
+/// Whether an orbit that was continued to the parameters of an attractor is that attractor.
+pub(super) fn is_reached<const D: usize>(
+    orbit: &PeriodicOrbit<D>,
+    attractor: &Attractor<D>,
+    metric: &Metric<D>,
+    protocol: &Protocol,
+) -> bool {
+    let Attractor { outcome, points, bound, size, .. } = attractor;
+    let from_one = least_from_one(&orbit.multipliers);
+    let own = relative_bound(orbit.residual, from_one, protocol).max(bound / size);
+    let own_size = metric.largest(&orbit.points);
+    *outcome == Outcome::Periodic && coincide(&orbit.points, points, bound + own * own_size, metric)
 }
 
 /// The attractors of the two cells, by place, whose orbits are known not to be one in the other cell.
@@ -105,9 +86,9 @@ pub struct Neighbours<M: System<D>, const D: usize> {
 impl<M: System<D>, const D: usize> Neighbours<M, D> {
     /// Links the attractors of the two cells.
     ///
-    /// Periodic orbits by continuation, the shortest first, to the other cell; where an orbit has lost
-    /// its stability at a period doubling in between, it continues in the orbit of twice the period that lies
-    /// on both sides of it. What is left by the cases that inherit their start, see `Neighbours::inherit`.
+    /// Periodic ones by continuation to the other cell, see [`succession`]. Those that do not repeat by the cases that
+    /// inherit their start, see `Neighbours::inherit`. Where a periodic attractor cannot be continued, and is not found
+    /// by continuation from the other cell either, it is not linked, and listed as unresolved.
     ///
     /// `linear` are the attractors of both cells by place, as [`linear_orbits`] has them.
     pub fn link(
@@ -115,18 +96,29 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         integrator: &dyn Integrator<M, D>,
         linear: [&LinearOrbits<M, D>; 2],
     ) -> Links<D> {
-        let mut links = Links::default();
-        let mut apart = Apart::default();
-        for (side, place) in self.periodic() {
-            if links.has(side, place) {
-                continue;
+        let (mut links, mut apart) = (Links::default(), Apart::default());
+        let periodic = self.periodic();
+        for &(side, place) in &periodic {
+            if !links.has(side, place)
+                && let Some(other) = self.direct(side, place, &links, linear)
+            {
+                links.pairs.push(pair(side, place, other));
             }
-            match self.direct(side, place, &links, linear) {
-                Some(other) => links.pairs.push(pair(side, place, other)),
-                None => self.continued(integrator, (side, place), &mut links, &mut apart),
+        }
+        let mut lost = Vec::new();
+        for (side, place) in periodic {
+            if !links.has(side, place)
+                && !self.continued(integrator, (side, place), &mut links, &mut apart)
+            {
+                lost.push((side, place));
             }
         }
         self.inherit(&mut links, &apart);
+        for (side, place) in lost {
+            if !links.has(side, place) {
+                links.special[side].push((place, self.unresolved(side, place)));
+            }
+        }
         links.pairs.sort_unstable();
         links
     }
@@ -147,40 +139,55 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         linear[1 - side].iter().enumerate().find(is_next).map(|(place, _)| place)
     }
 
-    /// Continues an orbit to the other cell and notes its special points.
+    /// Continues a periodic attractor to the other cell and notes its special points; whether it is known how it goes on.
     fn continued(
         &self,
         integrator: &dyn Integrator<M, D>,
         (side, place): (usize, usize),
         links: &mut Links<D>,
         apart: &mut Apart,
-    ) {
+    ) -> bool {
         let points = &self.cells[side].attractors[place].points;
         let [from, to] = [self.values[side], self.values[1 - side]];
-        let found = segment(integrator, &self.along, (from, points), to);
-        let Some(found) = found else { return };
-        let doubled = doubles(&found.special);
+        let Some(found) = succession(integrator, &self.along, (from, points), to) else {
+            return false;
+        };
         links.special[side].extend(found.special.into_iter().map(|it| (place, it)));
         match found.end {
             SegmentEnd::Reached(orbit) => {
-                let here = Unseen { orbit, doubled };
-                match self.successor(side, links, &here) {
+                match self.successor(side, links, &orbit) {
                     Some(other) => links.pairs.push(pair(side, place, other)),
-                    None => {
-                        apart.unseen[side].extend(here.orbit.is_stable().then_some(place));
-                        if side == 0 && here.is_continued() {
-                            links.unseen.push((place, here));
-                        }
+                    None if orbit.is_stable() => {
+                        apart.unseen[side].push(place);
+                        links.unseen.extend((side == 0).then_some((place, orbit)));
                     }
+                    None => {}
                 }
+                true
             }
-            SegmentEnd::Ended => apart.ended[side].push(place),
-            SegmentEnd::Merged | SegmentEnd::Lost => {}
+            SegmentEnd::Ended => {
+                apart.ended[side].push(place);
+                true
+            }
+            SegmentEnd::Merged | SegmentEnd::Lost => false,
         }
     }
 
-    /// The periodic attractors by side and place, the shortest periods first: beside a period doubling it
-    /// is the shorter orbit that continues, while the longer one ends.
+    /// Note that it is not known how a periodic attractor goes on between the two cells.
+    fn unresolved(&self, side: usize, place: usize) -> SpecialValue<D> {
+        let [from, to] = self.values;
+        let points = &self.cells[side].attractors[place].points;
+        SpecialValue {
+            kind: SpecialKind::Unresolved,
+            value: 0.5 * (from + to),
+            uncertainty: 0.5 * (to - from).abs(),
+            period: points.len() as u64,
+            section: points[0],
+            is_stable_beyond: false,
+        }
+    }
+
+    /// The periodic attractors by side and place, the shortest periods first, which take least to continue.
     fn periodic(&self) -> Vec<(usize, usize)> {
         let mut all: Vec<(usize, usize, usize)> = Vec::new();
         for (side, cell) in self.cells.iter().enumerate() {
@@ -192,11 +199,11 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         all.into_iter().map(|(_, side, place)| (side, place)).collect()
     }
 
-    /// The attractor of the other cell that belongs to an orbit that was continued to it.
-    fn successor(&self, side: usize, links: &Links<D>, here: &Unseen<D>) -> Option<usize> {
-        let metric = self.along.metric(here.orbit.value);
+    /// The attractor of the other cell that is the orbit that was continued to it.
+    fn successor(&self, side: usize, links: &Links<D>, orbit: &PeriodicOrbit<D>) -> Option<usize> {
+        let metric = self.along.metric(orbit.value);
         let is_next = |(place, other): &(usize, &Attractor<D>)| {
-            !links.has(1 - side, *place) && here.belongs_to(other, &metric, &self.protocol)
+            !links.has(1 - side, *place) && is_reached(orbit, other, &metric, &self.protocol)
         };
         let mut others = self.cells[1 - side].attractors.iter().enumerate();
         others.find(is_next).map(|(place, _)| place)
@@ -207,8 +214,8 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
     /// Two attractors are one if the upward cases lead from the first to the second and the downward ones
     /// back; where starts are inherited in one direction only, if they lead so and neither orbit ends on
     /// the way; where in none, if both are the only ones left that do not repeat. An orbit that
-    /// is known to be stable at the other value is no other attractor there. It breaks where a case
-    /// falls from one such attractor to another beside it in both directions.
+    /// is known to be stable at the other value is no other attractor there, and two that repeat are never linked so. It
+    /// breaks where a case falls from one such attractor to another beside it in both directions.
     fn inherit(&self, links: &mut Links<D>, apart: &Apart) {
         let mut pairs = match &self.inherited {
             [Some(upward), Some(downward)] => {
@@ -220,7 +227,11 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
                 pairs.iter().filter(|pair| !ends(pair)).copied().collect()
             }
         };
+        let repeats = |side: usize, place: usize| {
+            self.cells[side].attractors[place].outcome == Outcome::Periodic
+        };
         pairs.retain(|pair| !Apart::among(&apart.unseen, pair));
+        pairs.retain(|[a, b]| !(repeats(0, *a) && repeats(1, *b)));
         for [a, b] in pairs {
             if !links.has(0, a) && !links.has(1, b) {
                 links.pairs.push([a, b]);
@@ -262,27 +273,4 @@ pub fn linear_orbits<M: System<D>, const D: usize>(
     let periodic = |it: &Attractor<D>| it.outcome == Outcome::Periodic;
     let linear = |it: &Attractor<D>| linearised(integrator, along, (value, &it.points));
     cell.attractors.iter().map(|it| periodic(it).then(|| linear(it))?).collect()
-}
-
-/// Whether a period doubling is among special points.
-pub fn doubles<const D: usize>(special: &[SpecialValue<D>]) -> bool {
-    special.iter().any(|it| it.kind == SpecialKind::PeriodDoubling)
-}
-
-/// Whether an orbit of twice the period lies on both sides of the shorter one, up to where they begin, as
-/// it does beside a period doubling.
-fn straddles<const D: usize>(
-    longer: &[[f64; D]],
-    shorter: &[[f64; D]],
-    metric: &Metric<D>,
-) -> bool {
-    let k = shorter.len();
-    let beside = |shift: usize| {
-        (0..k).all(|i| {
-            let (a, b) = (&longer[(i + shift) % k], &longer[(i + shift) % k + k]);
-            let middle = std::array::from_fn(|j| 0.5 * (a[j] + b[j]));
-            metric.distance(&middle, &shorter[i]) < 0.5 * metric.distance(a, b)
-        })
-    };
-    longer.len() == 2 * k && (0..k).any(beside)
 }

@@ -18,7 +18,7 @@ pub use edge::{EdgeSearch, LeadTo, Met, Saddle};
 pub use final_motion::FinalMotion;
 pub use identity::{Attractor, coincide};
 pub use integrity::{Integrity, integrity};
-pub use link::{LinearOrbits, Links, Neighbours, Unseen, linear_orbits};
+pub use link::{LinearOrbits, Links, Neighbours, linear_orbits};
 pub use share::{Label, Share, shares_of_draws, shares_of_grid};
 pub use shock::{Shock, minimal_critical_shock};
 pub use table::{Executor, Serial, Table, attractors_of};

@@ -4,9 +4,8 @@ use crate::flow::{Stroboscopic, Switched, System};
 use crate::lane::{Lane, Mask};
 use crate::orbit::return_map::{Cycles, returned};
 
-use super::arclength::{CurvePoint, dot, norm, unit};
+use super::arclength::{CurvePoint, Equations, dot, norm, unit};
 use super::family::Family;
-use super::orbits::{OrbitPoint, Orbits};
 use super::scales::seeded;
 use super::step_control::{Advance, StepControl};
 
@@ -64,27 +63,41 @@ impl<M: System<D>, const D: usize> Family<M, D> {
     }
 }
 
-/// The first orbit beyond the instant of the section, where the branch reaches it with an event that moves the
+/// Solutions whose first unknowns are a section point and whose last ones are parameters.
+#[derive(Debug, Clone, Copy)]
+pub struct Unknowns<'a, M: System<D>, const D: usize, const U: usize> {
+    /// The motions.
+    pub family: &'a Family<M, D>,
+    /// Units of the unknowns.
+    pub units: &'a [f64; U],
+    /// The parameters.
+    pub free: &'a [M::Parameter],
+}
+
+/// The first solution beyond the instant of the section, where the curve reaches it with an event that moves the
 /// section point.
 ///
 /// Method: the orbit from the section point on the other side of the event is the same orbit; the direction of the
-/// branch there is that of its derivatives along the branch.
-pub fn across_section<M: System<D>, const D: usize, const U: usize>(
-    orbits: &Orbits<M, D, U>,
+/// curve there is that of its derivatives along the curve.
+pub fn across_section<M: System<D>, E: Equations<U>, const D: usize, const U: usize>(
+    equations: &E,
+    unknowns: &Unknowns<'_, M, D, U>,
     control: &StepControl<U>,
-    last: &OrbitPoint<M::Event, D, U>,
-) -> Option<Advance<OrbitPoint<M::Event, D, U>>> {
-    let seeded = seeded(&last.at, &orbits.units);
+    last: &CurvePoint<U, E::Seen>,
+) -> Option<Advance<CurvePoint<U, E::Seen>>> {
+    let Unknowns { family, units, free } = unknowns;
+    let seeded = seeded(&last.at, units);
     let point = std::array::from_fn(|i| seeded[i]);
-    let Across { point, time } = orbits.family.across(point, &[(orbits.along, seeded[D])])?;
+    let free: Vec<_> = free.iter().enumerate().map(|(i, it)| (*it, seeded[D + i])).collect();
+    let Across { point, time } = family.across(point, &free)?;
     let (mut at, mut ahead) = (last.at, last.tangent);
     let mut jump: f64 = 0.0;
     for i in 0..D {
-        at[i] = point[i].value / orbits.units[i];
-        ahead[i] = dot(&point[i].gradient, &last.tangent) / orbits.units[i];
+        at[i] = point[i].value / units[i];
+        ahead[i] = dot(&point[i].gradient, &last.tangent) / units[i];
         jump = jump.max((at[i] - last.at[i]).abs());
     }
-    // The event comes to the instant of the section after this length along the branch.
+    // The event comes to the instant of the section after this length along the curve.
     let away = -time.value / dot(&time.gradient, &last.tangent);
     if jump < JUMPS || away.is_nan() || away < -BEYOND[0] * control.longest {
         return None;
@@ -93,6 +106,6 @@ pub fn across_section<M: System<D>, const D: usize, const U: usize>(
     let start = CurvePoint { at, tangent: unit(&ahead), ..last.clone() };
     BEYOND.into_iter().find_map(|beyond| {
         let length = away + beyond * control.longest;
-        control.attempt(orbits, &start, length).map(|(advance, _)| advance)
+        control.attempt(equations, &start, length).map(|(advance, _)| advance)
     })
 }

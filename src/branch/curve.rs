@@ -2,10 +2,11 @@
 
 use crate::flow::System;
 
-use super::arclength::{CurvePoint, Plane, between, corrected, norm, tangent};
+use super::across::{Unknowns, across_section};
+use super::arclength::{CurvePoint, Plane, between, corrected, dot, norm, tangent};
 use super::corner::is_corner;
 use super::locus::{Locus, LocusPoint, Touch};
-use super::orbits::Orbits;
+use super::orbits::{Orbits, STEEPEST};
 use super::periodic::{Goal, Periodic, passes};
 use super::step_control::{Advance, Bounds, StepControl};
 use super::{Curve, End, Request, Special, SpecialKind};
@@ -14,15 +15,26 @@ use super::{Curve, End, Request, Special, SpecialKind};
 const AT_SPECIAL: f64 = 1e-9;
 /// Points of a curve closer together than this are one.
 const ONE: f64 = 1e-12;
+/// Grazings are followed beside the surface, at this margin on one side or the other, relative to the first coordinate.
+const BESIDE: [f64; 2] = [1e-7, -1e-7];
+/// An orbit that touches a rigid surface has half its period if that leads so near to where it began.
+const MERGED: f64 = 1e-5;
 /// A step across an orbit of half the period is shortened to this share of the longest.
 const ACROSS: f64 = 0.03;
+/// In such a step the displacement over half the period may turn round so fast, per length of the step; in a shorter one faster.
+const GENTLE: f64 = 10.0;
+/// Where the displacement over half the period still turns round in a shorter step, it jumps: an event passes the instant of the
+/// section there.
+const LEAST: f64 = 1e-6;
 
 /// A curve with the orbits on it.
 #[derive(Debug, Clone)]
 pub struct Trace<M: System<D>, const D: usize, const W: usize> {
     locus: Locus<M, D, W>,
     through: (usize, usize),
+    /// The solutions that were followed, and the special orbits that they stand for.
     points: Vec<[f64; W]>,
+    special: Vec<[f64; W]>,
     ends: [End; 2],
 }
 
@@ -30,7 +42,7 @@ impl<M: System<D>, const D: usize, const W: usize> Trace<M, D, W> {
     /// What is kept of it.
     pub fn curve(&self) -> Curve {
         let value = |at: &[f64; W]| [D, D + 1].map(|i| at[i] * self.locus.units[i]);
-        let points = self.points.iter().map(value).collect();
+        let points = self.special.iter().map(value).collect();
         let (kind, period) = (self.locus.kind, self.locus.family.period);
         Curve { kind, through: self.through, period, points, ends: self.ends }
     }
@@ -42,6 +54,9 @@ impl<M: System<D>, const D: usize, const W: usize> Trace<M, D, W> {
         self.points.windows(2).any(|ends| images.iter().any(|image| through(ends, &image.at)))
     }
 }
+
+/// A solution, and the special orbit that it stands for.
+type Both<const W: usize> = ([f64; W], [f64; W]);
 
 /// Whether special points of a kind are followed as curves.
 pub fn is_followed(kind: SpecialKind) -> bool {
@@ -70,8 +85,21 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
     let along = orbits.units[D];
     let units = std::array::from_fn(|i| *orbits.units.get(i).unwrap_or(&width));
     let free = [request.along, second];
-    let locus = Locus { family: orbits.family.clone(), free, units, kind: special.kind };
-    let start = start(&locus, special, value)?;
+    let mut family = orbits.family.clone();
+    family.period = period(orbits, special);
+    let locus = |margin: f64| {
+        let (family, kind) = (family.clone(), special.kind);
+        Locus { family, free, units, kind, margin }
+    };
+    let begun = |margin: &f64| {
+        let locus = locus(*margin);
+        let start = start(&locus, special, value)?;
+        Some((locus, start))
+    };
+    let margins: &[f64] = if special.kind == SpecialKind::Grazing { &BESIDE } else { &[0.0] };
+    // On the side without the impact the return map of a rigid surface is smooth.
+    let impacts = |(_, start): &(_, LocusPoint<W>)| start.seen.map_or(0, |touch| touch.impacts);
+    let (locus, start) = margins.iter().filter_map(begun).min_by_key(impacts)?;
     let alike = |trace: &Trace<M, D, W>| {
         (trace.locus.kind, trace.locus.period()) == (locus.kind, locus.period())
     };
@@ -83,8 +111,26 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
         .with(D + 1, range.map(|end| end / width));
     let control = StepControl::new(bounds, request.longest_step);
     let (points, ends) = both_directions(&locus, &start, control, request.most_points);
-    traces.push(Trace { locus, through, points, ends });
+    let [points, special] = points.into_iter().fold([Vec::new(), Vec::new()], |mut all, it| {
+        all[0].push(it.0);
+        all[1].push(it.1);
+        all
+    });
+    traces.push(Trace { locus, through, points, special, ends });
     Some(traces.len() - 1)
+}
+
+/// The period of a special orbit: half that of the branch where it merges in a grazing, and no other orbit lies on its curve.
+fn period<M: System<D>, O, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    special: &Special<O, D>,
+) -> u64 {
+    let merges = || {
+        let at = orbits.unknowns(special.point.section.first()?, special.point.parameter);
+        Some(norm(&orbits.halfway(&at)?) <= MERGED)
+    };
+    let is_half = special.kind == SpecialKind::Grazing && merges().unwrap_or(false);
+    orbits.family.period / if is_half { 2 } else { 1 }
 }
 
 /// The special point as a point of its curve, with the tangent there.
@@ -101,7 +147,7 @@ fn start<M: System<D>, O, const D: usize, const W: usize>(
     });
     let plane = Plane::fixing(D + 1, at[D + 1]);
     let (start, _) = corrected(locus, &plane, &at, &plane.normal)?;
-    let away = between(&at, &start.at);
+    let away = between(&at, &locus.special(&start, &plane.normal)?);
     let near = |i: usize| away[i].abs() <= AT_SPECIAL * at[i].abs().max(1.0);
     let tangent = tangent(start.rows, &plane.normal)?;
     (0..W).all(near).then_some(CurvePoint { tangent, ..start })
@@ -113,7 +159,7 @@ fn both_directions<M: System<D>, const D: usize, const W: usize>(
     start: &LocusPoint<W>,
     control: StepControl<W>,
     most: usize,
-) -> (Vec<[f64; W]>, [End; 2]) {
+) -> (Vec<Both<W>>, [End; 2]) {
     let back = turned(start);
     let (mut points, last, end) =
         one_direction(locus, &back, control, most.div_ceil(2), &Goal::at(locus, &back));
@@ -141,31 +187,61 @@ fn one_direction<M: System<D>, const D: usize, const W: usize>(
     mut control: StepControl<W>,
     most: usize,
     goal: &Goal<W, Option<Touch>>,
-) -> (Vec<[f64; W]>, LocusPoint<W>, End) {
-    let mut points = vec![start.at];
+) -> (Vec<Both<W>>, LocusPoint<W>, End) {
+    let bounds = control.bounds;
+    // Of a point at a bound the special orbit lies there, too.
+    let both = |point: &LocusPoint<W>, at_bound: bool| {
+        let bound =
+            |i: &usize| at_bound && [bounds.low[*i], bounds.high[*i]].contains(&point.at[*i]);
+        let fixed = (D..W).find(bound);
+        let normal = fixed.map_or(point.tangent, |i| Plane::fixing(i, point.at[i]).normal);
+        (point.at, locus.special(point, &normal).unwrap_or(point.at))
+    };
+    // The special point that it was begun from lies on it.
+    let begun = locus.special(start, &Plane::fixing(D + 1, start.at[D + 1]).normal);
+    let mut points = vec![(start.at, begun.unwrap_or(start.at))];
     let mut last = start.clone();
+    let Locus { family, units, free, .. } = locus;
     while points.len() < most {
-        let advance = control.advance(locus, &last);
+        let mut advance = control.advance(locus, &last);
+        let mut has_jumped = false;
+        if matches!(advance, Advance::Nowhere)
+            && let Some(beyond) =
+                across_section(locus, &Unknowns { family, units, free }, &control, &last)
+        {
+            (advance, has_jumped) = (beyond, true);
+        }
         let at_bound = matches!(advance, Advance::AtBound(_));
         let (Advance::Inside(next) | Advance::AtBound(next)) = advance else {
             let end = dead_end(locus, &last);
             return (points, last, end);
         };
+        if has_jumped {
+            points.push(both(&next, at_bound));
+            last = next;
+            if at_bound {
+                return (points, last, End::Bound);
+            }
+            continue;
+        }
         if let Some(goal) = goal.met(locus, [&last, &next], points.len()) {
-            points.push(goal.at);
+            points.push(both(&goal, false));
             return (points, goal, End::Closed);
         }
         let step = norm(&between(&last.at, &next.at));
-        if comes_back(locus, &last, &next) {
+        if let Some(apart) = comes_back(locus, &last, &next) {
+            let [short, shortest] = [ACROSS, LEAST].map(|share| step <= share * control.longest);
             // The curve turns where its orbits halve, which a short step comes near enough.
-            if step <= ACROSS * control.longest {
+            if short && apart <= if shortest { STEEPEST } else { GENTLE } * step {
                 return (points, last, End::Merged);
             }
-            control.next = 0.5 * step;
-            continue;
+            if !shortest {
+                control.next = 0.5 * step;
+                continue;
+            }
         }
         if step > ONE {
-            points.push(next.at);
+            points.push(both(&next, at_bound));
         }
         last = next;
         if at_bound {
@@ -193,13 +269,18 @@ fn dead_end<M: System<D>, const D: usize, const W: usize>(
     }
 }
 
-/// Whether a curve passes an orbit of half the period and leads back as the other half of its orbits.
+/// Whether a curve seems to pass an orbit of half the period, and to lead back as the other half of its orbits: then by how much
+/// the displacement over half the period changes. At a merger it vanishes, so that this goes down with the step.
 ///
 /// A grazing does not: half a period later another extremum touches.
 fn comes_back<M: System<D>, const D: usize, const W: usize>(
     locus: &Locus<M, D, W>,
     from: &LocusPoint<W>,
     to: &LocusPoint<W>,
-) -> bool {
-    locus.kind != SpecialKind::Grazing && locus.halves(&from.at, &to.at)
+) -> Option<f64> {
+    if locus.kind == SpecialKind::Grazing {
+        return None;
+    }
+    let (before, after) = (locus.halfway(&from.at)?, locus.halfway(&to.at)?);
+    (dot(&before, &after) < 0.0).then(|| norm(&between(&before, &after)))
 }

@@ -14,6 +14,8 @@ use super::segment::{Along, LEAST_MOVE};
 
 /// The orbit foretold by one from its derivatives may be so far from the other, relative to the distance of the two.
 const CORRECTION: f64 = 0.05;
+/// The other orbit may be so far from where the trapezoidal rule leads, from the directions at both, relative to the distance.
+const TRAPEZOID: f64 = 0.005;
 /// The cosine of the angle between the directions of the branch at the two orbits is at least this.
 const LEAST_COSINE: f64 = 0.98;
 
@@ -93,9 +95,9 @@ fn carried<const D: usize>(
 /// Whether the branch through an orbit leads to another one of the same period, and no special point lies between.
 ///
 /// Method: the first step of [`segment`](super::segment()) with its end known. What a step asks of the orbit that it
-/// meets is asked of the other one, more strictly: that it lies where the derivatives foretell, that the branch keeps
-/// its direction, and that no test function changes its sign. A step that leads there by itself asks no more, so that
-/// the answer is that of the segment; where it is no, nothing is said.
+/// meets is asked of the other one, more strictly: that it lies where the derivatives foretell, those of the first orbit
+/// and those of both, that the branch keeps its direction, and that no test function changes its sign. Where the answer is
+/// no, nothing is said.
 /// Breaks: where a segment does, which does not see what happens twice within a step.
 pub fn leads_to<M: System<D>, const D: usize>(
     along: &Along<M, D>,
@@ -149,13 +151,16 @@ impl<E, const D: usize> Step<'_, E, D> {
         tests.iter().all(|test| test(a) * test(b) > 0.0)
     }
 
-    /// Whether the other orbit, begun at another of its points, lies where this one foretells, in a direction that
-    /// stays.
+    /// Whether the other orbit, begun at another of its points, lies where this one foretells and where the two do, in a
+    /// direction that stays.
     fn is_foretold(&self, shift: usize) -> bool {
         let (from, to) = (self.from, self.to);
         let change = to.value - from.value;
         let [here, there] = [from.slopes[0], to.slopes[shift]].map(|it| it.map(|x| x * change));
-        let apart = std::array::from_fn(|i| to.points[shift][i] - from.points[0][i] - here[i]);
+        let apart = |by: &dyn Fn(usize) -> f64| {
+            let apart = std::array::from_fn(|i| to.points[shift][i] - from.points[0][i] - by(i));
+            self.length(&apart)
+        };
         let section = self.length(&here);
         // The units of a segment: the parameter changes as the section does, within limits.
         let parameter = section.max(LEAST_MOVE);
@@ -163,7 +168,8 @@ impl<E, const D: usize> Step<'_, E, D> {
         let inner = self.inner(&here, &there) + parameter * parameter;
         section <= 1.0
             && inner >= LEAST_COSINE * lengths[0] * lengths[1]
-            && self.length(&apart) <= CORRECTION * lengths[0]
+            && apart(&|i| here[i]) <= CORRECTION * lengths[0]
+            && apart(&|i| 0.5 * (here[i] + there[i])) <= TRAPEZOID * lengths[0]
     }
 
     /// Whether the orbits repeat after no part of their period, and the step leads to no point half a period later.

@@ -25,6 +25,8 @@ pub struct Passage<L, const D: usize> {
     pub end: [L; D],
     /// The local extrema until then of the coordinate that may touch a surface, in order.
     pub extrema: Vec<Extremum<L>>,
+    /// How often the surface is met that an extremum may touch.
+    pub impacts: usize,
 }
 
 impl<M: System<D>, const D: usize> Family<M, D> {
@@ -53,7 +55,23 @@ impl<M: System<D>, const D: usize> Family<M, D> {
         let end = returned(&system, point, &cycles, |step| {
             passing.see_alone(&system, step, &mut changes);
         })?;
-        Ok(Passage { end, extrema: passing.extrema })
+        let impacts = passing.events.iter().filter(|event| event.is_impact()).count();
+        Ok(Passage { end, extrema: passing.extrema, impacts })
+    }
+
+    /// How long the longest cycle of an autonomous motion takes, as a share of the time for which a return is waited for; none
+    /// where the motion does not return.
+    pub fn longest_cycle(&self, point: [f64; D], free: &[(M::Parameter, f64)]) -> Option<f64> {
+        let system = self.with_free(free);
+        let (mut longest, mut elapsed) = (0.0_f64, 0.0);
+        let cycles = Cycles { count: self.period, tolerance: self.tolerance };
+        let end = returned(&system, point, &cycles, |step| {
+            elapsed += step.length;
+            if step.arrives {
+                longest = longest.max(std::mem::take(&mut elapsed));
+            }
+        });
+        end.ok().map(|_: [f64; D]| longest / system.period())
     }
 }
 

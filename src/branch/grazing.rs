@@ -1,6 +1,7 @@
 //! Grazing orbits: those that just touch the surface of an impact, and how a branch goes on beyond them.
 
-use crate::flow::System;
+use crate::flow::{Event, System};
+use crate::orbit::matrix::solve;
 
 use super::SpecialKind;
 use super::arc::{Arc, Placed};
@@ -14,9 +15,15 @@ const TOUCHES: f64 = 1e-13;
 /// A rigid grazing is passed from this margin on one side to as much on the other: the slope of the return map grows
 /// as one over its root, and with it the rounding.
 const CLOSE: f64 = 1e-9;
+/// The margin of the first orbit that is looked for on the other side. Nearer to the surface Newton's method, which gets there
+/// by the root of the margin, meets motions of the wrong side on its way.
+const BEYOND: [f64; 4] = [CLOSE, 1e-7, 1e-5, 1e-3];
 /// Where no step leads on, the margin of an orbit that is about to touch: of one that does not meet the surface, and
 /// of one that meets it, near which the return map is too steep for steps.
 const ABOUT_TO_TOUCH: [f64; 2] = [1e-6, 1e-2];
+/// The margin that is tried next, as a share of the last, and the greatest such share.
+const SHARE: f64 = 0.1;
+const MOST: f64 = 0.7;
 /// Beyond a grazing the margin grows by this factor until steps can be taken.
 const GROWS: f64 = 4.0;
 
@@ -56,7 +63,7 @@ pub fn grazed<M: System<D>, const D: usize, const U: usize>(
 }
 
 /// The orbit on the same side of a grazing with a margin no more than `least`, approached by orbits that each have a
-/// tenth of the last one's.
+/// tenth of the last one's, or more where that is too far for Newton's method.
 fn with_margins_down_to<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
     from: &OrbitPoint<M::Event, D, U>,
@@ -64,11 +71,30 @@ fn with_margins_down_to<M: System<D>, const D: usize, const U: usize>(
 ) -> Option<OrbitPoint<M::Event, D, U>> {
     let mut left = from.seen.margin?.value;
     let mut here = from.clone();
+    let mut share = SHARE;
     while left.abs() > least {
-        left *= 0.1;
-        here = with_margin(orbits, &here, left)?;
+        let next = with_margin(orbits, &here, share * left);
+        match next.or_else(|| with_margin(orbits, &by_root(&here, share * left)?, share * left)) {
+            Some(next) => (here, left, share) = (next, share * left, SHARE),
+            None if share < MOST => share = share.sqrt(),
+            None => return None,
+        }
     }
     (here.seen.events == from.seen.events).then_some(here)
+}
+
+/// Where an orbit beside a rigid surface leads to as its margin changes to a value: it is smooth in the root of the margin.
+fn by_root<E: Event, const D: usize, const U: usize>(
+    from: &OrbitPoint<E, D, U>,
+    value: f64,
+) -> Option<OrbitPoint<E, D, U>> {
+    let margin = from.seen.margin?;
+    let (mut rows, mut by) = (from.rows, [0.0; U]);
+    (rows[U - 1], by[U - 1]) = (margin.gradient, value - margin.value);
+    let linear = solve(rows, by)?;
+    let roots = [margin.value, value].map(|it| it.abs().sqrt());
+    let at = moved(&from.at, 2.0 * roots[0] / (roots[0] + roots[1]), &linear);
+    Some(CurvePoint { at, ..from.clone() })
 }
 
 /// The orbit near another whose nearest local extremum is so far from the surface that it may touch: a maximum
@@ -114,8 +140,10 @@ pub fn past_grazing<M: System<D>, const D: usize, const U: usize>(
     let orbits = &orbits.exactly();
     let close = with_margins_down_to(orbits, last, CLOSE)?;
     let left = close.seen.margin?.value;
-    let other = displaced(orbits, &close, -CLOSE.copysign(left))
-        .filter(|it| it.seen.impacts() != close.seen.impacts());
+    let other = BEYOND.into_iter().find_map(|margin| {
+        displaced(orbits, &close, -margin.copysign(left))
+            .filter(|it| it.seen.impacts() != close.seen.impacts())
+    });
     let without =
         [Some(&close), other.as_ref()].into_iter().flatten().min_by_key(|it| it.seen.impacts())?;
     let point = with_margins_down_to(orbits, without, TOUCHES)?;

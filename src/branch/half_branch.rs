@@ -3,7 +3,8 @@
 use crate::flow::{Event, System};
 
 use super::End;
-use super::across::across_section;
+use super::across::{Unknowns, across_section};
+use super::arc::NARROW;
 use super::arclength::{Equations, Linear, between, norm};
 use super::corner::{is_corner, rounded};
 use super::grazing::{Passed, past_grazing};
@@ -54,13 +55,18 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
     /// A half branch that begins with these orbits.
     pub fn new(points: Vec<OrbitPoint<E, D, U>>) -> Self {
         let (special_orbits, end) = (Vec::new(), End::MostPoints);
-        let (merged, sought) = (None, Sought::Every);
+        let (merged, sought) = (None, Sought::Every(NARROW));
         HalfBranch { points, special_orbits, end, merged, corners: CORNERS, sought }
     }
 
     /// The same without a look round corners, with changes of events located to the share `narrow` of a step.
     pub fn coarse(self, narrow: f64) -> Self {
-        HalfBranch { corners: 0, sought: Sought::All(narrow), ..self }
+        HalfBranch { corners: 0, sought: Sought::Every(narrow), ..self }
+    }
+
+    /// Whether it ends before a merger, whose place then is not located.
+    fn is_coarse(&self) -> bool {
+        self.sought != Sought::Every(NARROW)
     }
 
     /// Follows the branch on until it ends, closes at `goal` or has `most` orbits.
@@ -109,6 +115,7 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
                 Added::Ends(end) => Some(end),
             },
             Advance::Nowhere if last.seen.is_smallest() => Some(End::Equilibrium),
+            Advance::Nowhere if orbits.takes_longest(&last) => Some(End::LongestWait),
             Advance::Nowhere if is_corner(orbits, &last) => Some(End::Corner),
             Advance::Nowhere => Some(End::Stopped),
         }
@@ -123,7 +130,8 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         last: &OrbitPoint<E, D, U>,
     ) -> Option<Onward<E, D, U>> {
         self.corners -= 1;
-        match across_section(orbits, control, last) {
+        let (family, units, free) = (&orbits.family, &orbits.units, &[orbits.along][..]);
+        match across_section(orbits, &Unknowns { family, units, free }, control, last) {
             Some(Advance::Inside(next)) => {
                 self.points.push(next);
                 return Some(Onward::Leaps(None));
@@ -199,7 +207,7 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         let (mut next, mut until) = (next.clone(), next);
         if orbits.halves(&from.at, &next.at) {
             match merger(orbits, from, &next) {
-                Some(_) if self.sought != Sought::Every => return Added::Ends(End::Merged),
+                Some(_) if self.is_coarse() => return Added::Ends(End::Merged),
                 Some(merger) if merger.is_near => {
                     (next, until, end) = (merger.at, merger.before, Some(End::Merged));
                 }
@@ -210,7 +218,7 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
             (next, until, end) = (closing.clone(), closing, Some(End::Closed));
         }
         let found = match self.sought {
-            Sought::Every => special_orbits_of_whole(orbits, from, &until),
+            Sought::Every(narrow) => special_orbits_of_whole(orbits, from, &until, narrow),
             sought => Some(special_orbits(orbits, from, &until, sought)),
         };
         let found = match found {

@@ -2,7 +2,7 @@
 
 use crate::flow::{Reason, System};
 use crate::lane::{Dual, Lane};
-use crate::orbit::matrix::expanded_determinant;
+use crate::orbit::matrix::{expanded_determinant, solve};
 
 use super::SpecialKind;
 use super::arclength::{CurvePoint, Equations, Linear};
@@ -27,6 +27,8 @@ pub struct Touch {
     time: f64,
     /// How far from there the next extremum is [cycles].
     alone: f64,
+    /// How often the orbit meets the surface.
+    pub impacts: usize,
 }
 
 /// An orbit on a curve, and how it touches its surface, if it is a grazing.
@@ -44,6 +46,8 @@ pub struct Locus<M: System<D>, const D: usize, const W: usize> {
     pub units: [f64; W],
     /// The kind.
     pub kind: SpecialKind,
+    /// Of grazings: the margin at which they are followed, in units of the first coordinate.
+    pub margin: f64,
 }
 
 /// Where an orbit returns to, the test, and how it touches its surface.
@@ -58,14 +62,27 @@ impl<M: System<D>, const D: usize, const W: usize> Locus<M, D, W> {
     fn grazing(&self, at: &[f64; W]) -> Result<Tested<D, W>, Reason> {
         let seeded = seeded(at, &self.units);
         let point = std::array::from_fn(|i| seeded[i]);
-        let Passage { end, extrema, .. } = self.family.passage(point, &self.free(&seeded))?;
+        let Passage { end, extrema, impacts } = self.family.passage(point, &self.free(&seeded))?;
         let touch = nearest(&extrema).ok_or(Reason::NotFinite)?;
         let away =
             |other: &Extremum<Dual<f64, W>>| apart(touch.time, other.time, self.family.period);
         let others = extrema.iter().filter(|other| other.time != touch.time);
         let alone = others.map(away).fold(f64::INFINITY, f64::min);
-        let seen = Touch { time: touch.time, alone };
-        Ok((end, touch.margin / Dual::splat(self.units[0]), Some(seen)))
+        let seen = Touch { time: touch.time, alone, impacts };
+        let left = touch.margin / Dual::splat(self.units[0]) - Dual::splat(self.margin);
+        Ok((end, left, Some(seen)))
+    }
+
+    /// The special orbit that a solution stands for, on a plane of this normal: of grazings the one that touches, beside which
+    /// they are followed.
+    ///
+    /// Method: along the derivatives, by the margin; the error is of second order in it.
+    pub fn special(&self, point: &LocusPoint<W>, normal: &[f64; W]) -> Option<[f64; W]> {
+        let (mut rows, mut by) = (point.rows, [0.0; W]);
+        rows[W - 1] = *normal;
+        by[D] = self.margin;
+        let step = solve(rows, by)?;
+        Some(std::array::from_fn(|i| point.at[i] - step[i]))
     }
 
     /// Whether the extremum that touches is about to vanish, with another that it meets.

@@ -25,7 +25,9 @@ pub use curve::is_followed;
 pub use direct::{Linearised, leads_to, linearised};
 pub use family::cyclic;
 pub use follow::follow;
-pub use segment::{Along, ONE_VALUE, PeriodicOrbit, Segment, SegmentEnd, SpecialValue, segment};
+pub use segment::{
+    Along, ONE_VALUE, PeriodicOrbit, Segment, SegmentEnd, SpecialValue, segment, succession,
+};
 
 use crate::flow::{Reason, System};
 use crate::orbit::OrbitOf;
@@ -142,11 +144,13 @@ pub enum End {
     Stopped,
     /// Orbits of an autonomous system shrink onto an equilibrium there: a Hopf bifurcation.
     Equilibrium,
+    /// Orbits of an autonomous system take as long there as a return is waited for.
+    LongestWait,
 }
 
 impl End {
     /// Every reason by its name in files, in the order of declaration.
-    pub const NAMES: [(&str, End); 8] = [
+    pub const NAMES: [(&str, End); 9] = [
         ("edge-of-range", End::Bound),
         ("closed", End::Closed),
         ("half-period", End::Merged),
@@ -155,6 +159,7 @@ impl End {
         ("touch-vanishes", End::Vanishes),
         ("stopped", End::Stopped),
         ("equilibrium", End::Equilibrium),
+        ("longest-wait", End::LongestWait),
     ];
 }
 

@@ -1,6 +1,6 @@
 //! The equations of a periodic orbit in one parameter, and the test functions of special orbits.
 
-use crate::flow::{Event, Reason, System};
+use crate::flow::{Event, Reason, Switched, System};
 use crate::lane::Dual;
 use crate::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 use crate::orbit::passage::{Integrator, ReturnRequest};
@@ -37,6 +37,9 @@ pub const STEEPEST: f64 = 1e3;
 /// An autonomous orbit smaller than this, relative to the units, cannot be told from an equilibrium that attracts
 /// weakly: its residual would be rounding.
 const SMALLEST: f64 = 1e-4;
+/// An autonomous orbit with a cycle that takes more than this share of the time for which a return is waited for comes back
+/// too late a little farther on.
+const LONGEST: f64 = 0.999;
 /// Pairs of two of six coordinates.
 const MOST_PAIRS: usize = 15;
 
@@ -50,6 +53,8 @@ pub struct Seen<E, const D: usize, const U: usize> {
     /// Distance of the local extremum that is nearest to the surface that it may touch, in units of the first
     /// coordinate, with its derivatives along the unknowns.
     pub margin: Option<Dual<f64, U>>,
+    /// Distances of all local extrema, in order.
+    pub margins: Vec<f64>,
     /// How far an autonomous motion gets from where it begins, relative to the units; infinite for a driven one.
     pub excursion: f64,
 }
@@ -101,6 +106,17 @@ impl<M: System<D>, const D: usize, const U: usize> Orbits<'_, M, D, U> {
             Some(std::array::from_fn(|i| at[i] + step.get(i).unwrap_or(&0.0)))
         };
         std::iter::successors(Some(*at), next).take(self.family.period as usize).collect()
+    }
+}
+
+impl<M: System<D>, const D: usize, const U: usize> Orbits<'_, M, D, U> {
+    /// Whether a cycle of an autonomous orbit takes nearly as long as it may.
+    pub fn takes_longest(&self, point: &OrbitPoint<M::Event, D, U>) -> bool {
+        let longest = || {
+            self.family
+                .longest_cycle(self.section(&point.at), &[(self.along, self.parameter(&point.at))])
+        };
+        M::Single::AUTONOMOUS && longest().is_some_and(|longest| longest > LONGEST)
     }
 }
 
@@ -158,7 +174,8 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<'_, M
             Dual { value: in_unit(margin.value), gradient }
         });
         let excursion = passage.excursion / system.metric().size(&self.section(&[1.0; U]));
-        let seen = Seen { jacobian, events: cyclic(&passage.events), margin, excursion };
+        let margins = passage.margins.into_iter().map(in_unit).collect();
+        let seen = Seen { jacobian, events: cyclic(&passage.events), margin, margins, excursion };
         Ok(Linear { residual, rows, seen })
     }
 

@@ -4,7 +4,8 @@ use crate::flow::{Metric, System};
 use crate::orbit::matrix::Complex;
 use crate::orbit::passage::Integrator;
 
-use super::arclength::{Plane, ROUNDING, between, corrected, norm, tangent};
+use super::arclength::{Plane, ROUNDING, between, corrected, dot, moved, norm, tangent};
+use super::doubling::doubled;
 use super::family::Family;
 use super::grazing::grazed;
 use super::half_branch::HalfBranch;
@@ -34,6 +35,10 @@ pub(super) const LEAST_MOVE: f64 = 1e-4;
 const SAME: f64 = 1e-6;
 /// An unstable orbit is not worth steps shorter than this share of the distance.
 const SHORTEST: f64 = 1e-3;
+/// An attractor is followed through so many doublings and mergers at most.
+const CHANGES_OF_PERIOD: usize = 4;
+/// Beyond a merger the shorter orbit is begun by this share of the distance on, where its stability is not rounding.
+const BEYOND: f64 = 1e-6;
 
 /// What is held while one parameter varies.
 #[derive(Debug, Clone)]
@@ -116,14 +121,36 @@ pub struct Segment<const D: usize> {
 /// points, to another value; none where the orbit does not close.
 ///
 /// Method: pseudo-arclength continuation as in [`follow`](super::follow()), which tells a fold from an orbit that
-/// cannot be followed, with the distance of the two values as unit of the parameter. It goes on past the loss of
-/// stability, as the orbit at the other value may be that of a neighbouring segment. Two special points of one kind
-/// that undo each other between two orbits of the segment are not seen, such as two folds very near each other.
+/// cannot be followed, with the distance of the two values as unit of the parameter. Every step has to add up, or is
+/// halved. It goes on past the loss of stability, as the orbit at the other value may be that of a neighbouring segment.
 pub fn segment<M: System<D>, const D: usize>(
     integrator: &dyn Integrator<M, D>,
     along: &Along<M, D>,
     from: (f64, &[[f64; D]]),
     to: f64,
+) -> Option<Segment<D>> {
+    segment_of(integrator, along, from, (to, 0))
+}
+
+/// The way of an attractor that begins with a periodic orbit, see [`segment`]: where the orbit doubles its period, it goes on
+/// with the doubled orbit if that is stable beyond, and where it merges with one of half its period, with that one.
+///
+/// An orbit that is stable again at the other value, after it has lost its stability, is the attractor as well. Where the
+/// attractor changes its period more than four times, it is lost.
+pub fn succession<M: System<D>, const D: usize>(
+    integrator: &dyn Integrator<M, D>,
+    along: &Along<M, D>,
+    from: (f64, &[[f64; D]]),
+    to: f64,
+) -> Option<Segment<D>> {
+    segment_of(integrator, along, from, (to, CHANGES_OF_PERIOD))
+}
+
+fn segment_of<M: System<D>, const D: usize>(
+    integrator: &dyn Integrator<M, D>,
+    along: &Along<M, D>,
+    from: (f64, &[[f64; D]]),
+    to: (f64, usize),
 ) -> Option<Segment<D>> {
     match const { D } {
         1 => segment_with::<M, D, 2>(integrator, along, from, to),
@@ -140,7 +167,7 @@ fn segment_with<M: System<D>, const D: usize, const U: usize>(
     integrator: &dyn Integrator<M, D>,
     along: &Along<M, D>,
     (from, points): (f64, &[[f64; D]]),
-    to: f64,
+    (to, changes): (f64, usize),
 ) -> Option<Segment<D>> {
     let Along { system, parameter, tolerance } = along;
     let family =
@@ -158,17 +185,67 @@ fn segment_with<M: System<D>, const D: usize, const U: usize>(
     let moves = norm(&start.tangent.map(|part| part / start.tangent[D])).powi(2) - 1.0;
     walk.orbits.units[D] = width / moves.sqrt().clamp(LEAST_MOVE, 1.0);
     let start = walk.start(section)?;
-    Some(walk.segment(start))
+    let (mut found, mut onward) = walk.segment(start);
+    for _ in 0..changes {
+        let Some(next) = onward.and_then(|it| it.begin(&walk)) else { return Some(found) };
+        let (later, further) = next.0.segment(next.1);
+        found.special.extend(later.special);
+        (found.end, onward, walk) = (later.end, further, next.0);
+    }
+    if changes > 0 && onward.is_some() {
+        found.end = SegmentEnd::Lost;
+    }
+    Some(found)
 }
 
+/// Where an attractor goes on that an orbit has ceased to be.
+enum Onward<'a, M: System<D>, const D: usize, const U: usize> {
+    /// With the orbit of twice the period, from this doubling on.
+    Doubled(OrbitPoint<M::Event, D, U>),
+    /// With the orbit of half the period, on this way, from its doubling on.
+    Merged(Walk<'a, M, D, U>, OrbitPoint<M::Event, D, U>),
+}
+
+impl<'a, M: System<D>, const D: usize, const U: usize> Onward<'a, M, D, U> {
+    /// The way of that orbit from the first one on; none where it is not stable there.
+    fn begin(
+        self,
+        before: &Walk<'a, M, D, U>,
+    ) -> Option<(Walk<'a, M, D, U>, OrbitPoint<M::Event, D, U>)> {
+        let ahead = (before.to - before.from).signum();
+        let (walk, start) = match self {
+            Onward::Doubled(at) => {
+                let (orbits, [at, first]) = doubled(&before.orbits, &at)?;
+                let sign = dot(&first.tangent, &between(&at.at, &first.at)).signum();
+                let tangent = first.tangent.map(|part| sign * part);
+                (Walk { orbits, ..*before }, OrbitPoint { tangent, ..first })
+            }
+            Onward::Merged(walk, at) => {
+                let by = walk.in_units(BEYOND * (walk.to - walk.from));
+                let guess = moved(&at.at, by / at.tangent[D], &at.tangent);
+                let mut toward = [0.0; U];
+                toward[D] = ahead;
+                let plane = Plane::fixing(D, guess[D]);
+                let (start, _) = corrected(&walk.orbits, &plane, &guess, &toward)?;
+                (walk, start)
+            }
+        };
+        (start.seen.is_stable() && start.tangent[D] * ahead > 0.0).then_some((walk, start))
+    }
+}
+
+/// The segment of an orbit, and where the attractor goes on that it has ceased to be.
+type Followed<'a, M, const D: usize, const U: usize> = (Segment<D>, Option<Onward<'a, M, D, U>>);
+
 /// The way from one value of the parameter to another.
+#[derive(Clone)]
 struct Walk<'a, M: System<D>, const D: usize, const U: usize> {
     orbits: Orbits<'a, M, D, U>,
     from: f64,
     to: f64,
 }
 
-impl<M: System<D>, const D: usize, const U: usize> Walk<'_, M, D, U> {
+impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
     /// The value of the parameter in its unit on the way.
     fn in_units(&self, value: f64) -> f64 {
         value / self.orbits.units[D]
@@ -186,13 +263,15 @@ impl<M: System<D>, const D: usize, const U: usize> Walk<'_, M, D, U> {
     }
 
     /// The segment from its first orbit on.
-    fn segment(&self, start: OrbitPoint<M::Event, D, U>) -> Segment<D> {
+    fn segment(&self, start: OrbitPoint<M::Event, D, U>) -> Followed<'a, M, D, U> {
         let mut control = self.control();
         let mut is_stable = start.seen.is_stable();
         let ahead = start.tangent[D].signum();
         let mut half = HalfBranch::new(vec![start]).coarse(COARSE);
         let mut special = Vec::new();
-        loop {
+        // The doubling at which the orbit has ceased to be stable.
+        let mut onward = None;
+        let end = loop {
             if !is_stable {
                 control.shortest = SHORTEST;
                 // Of an unstable orbit only the end of its branch matters.
@@ -203,18 +282,22 @@ impl<M: System<D>, const D: usize, const U: usize> Walk<'_, M, D, U> {
             for (_, orbit) in &half.special_orbits[known..] {
                 let value = special_value(&self.orbits, orbit);
                 if orbit.kind == SpecialKind::Fold {
-                    let doubling = self.doubling_at(orbit, &value);
-                    let end =
-                        if doubling.is_some() { SegmentEnd::Merged } else { SegmentEnd::Ended };
-                    special.push(doubling.unwrap_or(value));
-                    return Segment { special, end };
+                    let Some((doubling, merged)) = self.doubling_at(orbit, &value) else {
+                        special.push(value);
+                        return (Segment { special, end: SegmentEnd::Ended }, onward);
+                    };
+                    special.push(doubling);
+                    return (Segment { special, end: SegmentEnd::Merged }, Some(merged));
                 }
                 if is_stable {
                     special.push(value);
+                    if orbit.kind == SpecialKind::PeriodDoubling {
+                        onward = Some(Onward::Doubled(orbit.point.clone()));
+                    }
                 }
                 is_stable &= orbit.is_stable_beyond;
             }
-            let Some(last) = half.points.last() else { break };
+            let Some(last) = half.points.last() else { break SegmentEnd::Lost };
             // Where derivatives jump, a branch may turn back without a fold.
             if last.tangent[D] * ahead <= 0.0 {
                 if is_stable && half.special_orbits.len() == known {
@@ -222,23 +305,33 @@ impl<M: System<D>, const D: usize, const U: usize> Walk<'_, M, D, U> {
                     let step = norm(&between(&before.at, &last.at));
                     special.push(self.discontinuity(before, step));
                 }
-                return Segment { special, end: SegmentEnd::Ended };
+                break SegmentEnd::Ended;
             }
             is_stable &= last.seen.is_stable();
             match end {
                 Some(End::Bound) => {
-                    return Segment { special, end: SegmentEnd::Reached(self.reached(last)) };
+                    let reached = self.reached(last);
+                    onward = onward.filter(|_| !reached.is_stable());
+                    break SegmentEnd::Reached(reached);
                 }
-                _ if control.attempts == 0 => break,
+                _ if control.attempts == 0 => break SegmentEnd::Lost,
                 None => {}
-                Some(_) => {
-                    let (found, end) = self.ended(last, is_stable);
-                    special.extend(found);
-                    return Segment { special, end };
-                }
+                Some(_) => match self.merged(last) {
+                    Some((doubling, merged)) => {
+                        special.extend(doubling);
+                        onward = onward.or(merged);
+                        break SegmentEnd::Merged;
+                    }
+                    None if is_stable => {
+                        let StepControl { shortest, longest, .. } = self.control();
+                        special.push(self.discontinuity(last, shortest * longest));
+                        break SegmentEnd::Ended;
+                    }
+                    None => break SegmentEnd::Lost,
+                },
             }
-        }
-        Segment { special, end: SegmentEnd::Lost }
+        };
+        (Segment { special, end }, onward)
     }
 
     /// Steps that begin with the whole way.
@@ -263,23 +356,16 @@ impl<M: System<D>, const D: usize, const U: usize> Walk<'_, M, D, U> {
         }
     }
 
-    /// What happens where no step leads on from an orbit, and how the segment ends.
-    ///
-    /// It is a period doubling if the orbit runs into one of half its period, which then is located on that
-    /// shorter orbit; else its events change, at a discontinuity of the return map.
-    fn ended(
+    /// The period doubling at which an orbit, from which no step leads on, merges with one of half its period, and where that
+    /// goes on, as far as they are found; none where there is no such orbit.
+    fn merged(
         &self,
         last: &OrbitPoint<M::Event, D, U>,
-        is_stable: bool,
-    ) -> (Option<SpecialValue<D>>, SegmentEnd<D>) {
-        if let Some((shorter, start)) = self.half_period(last) {
-            return (shorter.doubling(start), SegmentEnd::Merged);
-        }
-        if !is_stable {
-            return (None, SegmentEnd::Lost);
-        }
-        let StepControl { shortest, longest, .. } = self.control();
-        (Some(self.discontinuity(last, shortest * longest)), SegmentEnd::Ended)
+    ) -> Option<(Option<SpecialValue<D>>, Option<Onward<'a, M, D, U>>)> {
+        let (shorter, start) = self.half_period(last)?;
+        let doubling = shorter.doubling(start);
+        let value = doubling.as_ref().map(|it| special_value(&shorter.orbits, it));
+        Some((value, doubling.map(|it| Onward::Merged(shorter, it.point))))
     }
 
     /// The special point of an orbit at which the return map is discontinuous, within so much of the way.
@@ -317,21 +403,21 @@ impl<M: System<D>, const D: usize, const U: usize> Walk<'_, M, D, U> {
         Some((Walk { orbits, from: self.from, to: self.to }, OrbitPoint { tangent, ..met }))
     }
 
-    /// The period doubling at which an orbit seems to fold, if it does: beyond it are the same orbits, half a period
-    /// later.
+    /// The period doubling at which an orbit seems to fold, if it does, and where the shorter orbit goes on: beyond it are the
+    /// same orbits, half a period later.
     fn doubling_at(
         &self,
         fold: &SpecialOrbit<M::Event, D, U>,
         value: &SpecialValue<D>,
-    ) -> Option<SpecialValue<D>> {
-        let (shorter, start) = self.half_period(&fold.point)?;
-        let doubling = shorter.doubling(start)?;
+    ) -> Option<(SpecialValue<D>, Onward<'a, M, D, U>)> {
+        let (doubling, onward) = self.merged(&fold.point)?;
+        let (doubling, onward) = (doubling?, onward?);
         let near = SAME * (self.to - self.from).abs();
-        ((doubling.value - value.value).abs() <= near).then_some(doubling)
+        ((doubling.value - value.value).abs() <= near).then_some((doubling, onward))
     }
 
     /// The first period doubling from an orbit on.
-    fn doubling(&self, start: OrbitPoint<M::Event, D, U>) -> Option<SpecialValue<D>> {
+    fn doubling(&self, start: OrbitPoint<M::Event, D, U>) -> Option<SpecialOrbit<M::Event, D, U>> {
         let mut control = self.control();
         let mut half = HalfBranch::new(vec![start]).coarse(COARSE);
         while control.attempts > 0 {
@@ -339,7 +425,7 @@ impl<M: System<D>, const D: usize, const U: usize> Walk<'_, M, D, U> {
             let mut special = half.special_orbits.iter();
             let doubling = special.find(|(_, it)| it.kind == SpecialKind::PeriodDoubling);
             if let Some((_, orbit)) = doubling {
-                return Some(special_value(&self.orbits, orbit));
+                return Some(orbit.clone());
             }
             if end.is_some() {
                 return None;

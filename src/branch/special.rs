@@ -33,10 +33,10 @@ pub(super) const SMOOTH: [SpecialKind; 3] =
 /// Which special orbits are located.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sought {
-    /// All, where each step adds up.
-    Every,
-    /// All; where events change without a grazing to this share of the arc.
-    All(f64),
+    /// All, where each step adds up; where events change without a grazing to this share of the arc.
+    Every(f64),
+    /// All that two neighbouring orbits show; where events change likewise.
+    Shown(f64),
     /// Folds alone.
     Folds,
 }
@@ -63,7 +63,7 @@ pub fn special_orbits<M: System<D>, const D: usize, const U: usize>(
             holds.then_some(SpecialOrbit { kind, distance, uncertainty, point, is_stable_beyond })
         })
         .collect();
-    if let Sought::All(narrow) = sought {
+    if let Sought::Shown(narrow) = sought {
         found.extend(changes(orbits, from, ends, narrow));
     }
     found.sort_by(|a, b| a.distance.total_cmp(&b.distance));

@@ -22,6 +22,8 @@ const TOUCHES: f64 = 1e-9;
 const ROUNDING: f64 = 1e-13;
 /// A shorter step may hold several changes of the events, which are then told one by one.
 const SHORT: f64 = 1e-6;
+/// Changes of the event sequence that are no farther apart are one.
+const ONE_PLACE: f64 = 1e-10;
 /// Changes of the event sequence in such a step at most.
 const CHANGES: usize = 16;
 
@@ -38,9 +40,10 @@ pub fn special_orbits_of_whole<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
     from: &OrbitPoint<M::Event, D, U>,
     to: &OrbitPoint<M::Event, D, U>,
+    narrow: f64,
 ) -> Option<Vec<SpecialOrbit<M::Event, D, U>>> {
     let exact = orbits.exactly();
-    let step = WholeStep::of(&exact, [from, to]);
+    let step = WholeStep { narrow, ..WholeStep::of(&exact, [from, to]) };
     let mut found = step.special()?;
     found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
     Some(found)
@@ -52,7 +55,7 @@ pub fn special_orbits_of_shortest<M: System<D>, const D: usize, const U: usize>(
     from: &OrbitPoint<M::Event, D, U>,
     to: &OrbitPoint<M::Event, D, U>,
 ) -> Vec<SpecialOrbit<M::Event, D, U>> {
-    let mut found = special_orbits(orbits, from, to, Sought::All(NARROW));
+    let mut found = special_orbits(orbits, from, to, Sought::Shown(NARROW));
     // Where the events change, a test function may jump.
     let has_changed = from.seen.events != to.seen.events;
     let exact = orbits.exactly();
@@ -80,13 +83,15 @@ struct WholeStep<'a, 'b, M: System<D>, const D: usize, const U: usize> {
     orbits: &'a Orbits<'b, M, D, U>,
     arc: Arc<'a, U, Orbits<'b, M, D, U>>,
     ends: [OnArc<M::Event, D, U>; 2],
+    /// Where events change without a grazing, the place is known to this share of the arc.
+    narrow: f64,
 }
 
 impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, D, U> {
     fn of(orbits: &'a Orbits<'b, M, D, U>, ends: [&OrbitPoint<M::Event, D, U>; 2]) -> Self {
         let arc = Arc::from(orbits, ends[0]);
         let ends = ends.map(|point| arc.place(point));
-        WholeStep { orbits, arc, ends }
+        WholeStep { orbits, arc, ends, narrow: NARROW }
     }
 
     /// The places of its ends on the arc.
@@ -103,9 +108,15 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
             if found.len() >= if is_short { CHANGES } else { 1 } {
                 return None;
             }
-            let change = Change::first(&self.arc, [&last, to], NARROW);
+            let change = Change::first(&self.arc, [&last, to], self.narrow);
             found.extend(self.smooth([&last, &change.before])?);
-            found.push(change.special(self.orbits, &self.arc, self.range()));
+            let special = change.special(self.orbits, &self.arc, self.range());
+            match found.last_mut().filter(|_| change.before.0 - last.0 <= ONE_PLACE) {
+                // Of a symmetric motion two events change at once, which rounding may tell apart.
+                Some(known) if known.kind == SpecialKind::EventSequence => *known = special,
+                Some(_) if special.kind == SpecialKind::EventSequence => {}
+                _ => found.push(special),
+            }
             last = change.after;
         }
         found.extend(self.smooth([&last, to])?);
@@ -132,7 +143,7 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
         let (middle, away) = self.arc.middle(ends)?;
         let is_same = middle.1.seen.events == ends[0].1.seen.events && away <= BENT * length;
         let part = SmoothPart { places: [ends[0], &middle, ends[1]] };
-        if !is_same || !part.keeps_its_margin() {
+        if !is_same || !part.keeps_its_margins() {
             return None;
         }
         let mut found = Vec::new();
@@ -178,17 +189,41 @@ impl<'a, E: Event, const D: usize, const U: usize> SmoothPart<'a, E, D, U> {
         }
     }
 
-    /// Whether the extremum that is nearest to its surface stays on its side.
+    /// Whether every extremum stays on its side of the surface that it may touch.
     ///
-    /// Another extremum may become the nearest, on the other side of the surface. Where one touches at an end, a change of the
-    /// events has been located there.
-    fn keeps_its_margin(&self) -> bool {
-        let values = self.places.map(|it| it.1.seen.margin.map(|margin| margin.value));
-        let [Some(first), Some(middle), Some(last)] = values else { return true };
-        let is_one = first * middle > 0.0 && middle * last > 0.0;
-        let touches = first.abs().min(last.abs()) <= TOUCHES;
-        !is_one || touches || stays_away(&[first, middle, last])
+    /// Where extrema appear or vanish it is asked of the nearest one alone. Where one touches at an end, a change of the events
+    /// has been located there.
+    fn keeps_its_margins(&self) -> bool {
+        let [first, middle, last] = self.places.map(|it| &it.1.seen.margins[..]);
+        if [middle.len(), last.len()] != [first.len(); 2] {
+            let nearest = self.places.map(|it| it.1.seen.margin.map(|margin| margin.value));
+            let [Some(first), Some(middle), Some(last)] = nearest else { return true };
+            return keeps_its_side(&[first, middle, last]);
+        }
+        // An extremum that passes the instant of the section is the last where it was the first.
+        let turns = [middle, last].map(|there| turn(first, there));
+        (0..first.len()).all(|i| {
+            let [middle, last] = [(middle, turns[0]), (last, turns[1])]
+                .map(|(there, turn)| there[(i + turn) % there.len()]);
+            keeps_its_side(&[first[i], middle, last])
+        })
     }
+}
+
+/// By how many places a cyclic list is turned against another that it resembles.
+fn turn(a: &[f64], b: &[f64]) -> usize {
+    let apart = |turn: &usize| -> f64 {
+        (0..a.len()).map(|i| (a[i] - b[(i + turn) % b.len()]).abs()).sum()
+    };
+    (0..b.len()).min_by(|x, y| apart(x).total_cmp(&apart(y))).unwrap_or(0)
+}
+
+/// Whether an extremum with these margins at three places evenly apart stays on its side of the surface.
+fn keeps_its_side(values: &[f64; 3]) -> bool {
+    let [first, middle, last] = values;
+    let is_one = first * middle > 0.0 && middle * last > 0.0;
+    let touches = first.abs().min(last.abs()) <= TOUCHES;
+    !is_one || touches || stays_away(values)
 }
 
 /// Whether the parabola through three values of one sign, evenly spaced, keeps clear of zero.

@@ -134,6 +134,7 @@ fn end_text(end: End) -> Option<&'static str> {
         End::Corner => Some("at a corner of the return map"),
         End::Vanishes => Some("where its touch of the stop vanishes"),
         End::Equilibrium => Some("at an equilibrium"),
+        End::LongestWait => Some("where an orbit takes longest"),
         End::Stopped => Some("where it cannot be continued further"),
     }
 }

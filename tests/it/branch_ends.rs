@@ -1,12 +1,13 @@
 //! Why branches end where they do, and how little that depends on how the first orbit was found.
 
-use capsulemap::branch::{End, SpecialKind};
+use capsulemap::branch::{self, End, SpecialKind};
 use capsulemap::capsule::branch::{Branch, follow};
 use capsulemap::capsule::{Parameter, Parameters, State, settle};
-use capsulemap::orbit::{Outcome, Protocol};
+use capsulemap::orbit::{self, Case, Outcome, Protocol};
 
 use super::branch::{assert_closed, moving, quiet, relative, request};
 use super::branch_curves::folding;
+use super::contract::systems::belt::Belt;
 
 #[test]
 fn a_branch_says_why_it_ends() {
@@ -94,4 +95,36 @@ fn a_branch_does_not_turn_back_onto_itself_at_a_corner() {
     assert!(relative(special[0].point.parameter, 0.7373639061) < 1e-8);
     assert_eq!(*ends, [End::Bound, End::Corner]);
     assert!(relative(points[points.len() - 1].parameter, 0.7373639075) < 1e-8);
+}
+
+/// On a slow belt the mass sticks for about 2 a / v, until the spring is stretched to the friction at rest.
+#[test]
+fn a_branch_whose_orbits_take_longer_and_longer_ends_at_the_longest_wait() {
+    let slow = Belt { c: 0.1, a: 0.5, s: 0.01, v: 0.1 };
+    let found = orbit::settle(&Case::new(slow, [1.0, 0.0]), &Protocol::default());
+    assert_eq!((found.outcome, found.period), (Outcome::Periodic, 1));
+    let mut last = Vec::new();
+    for longest_step in [0.01, 0.05, 0.2] {
+        let request = branch::Request {
+            system: slow,
+            section: found.section[0],
+            period: 1,
+            along: "v",
+            range: [1e-3, 0.2],
+            doublings: 0,
+            second: None,
+            longest_step,
+            most_points: 2000,
+            tolerance: 1e-12,
+        };
+        let found = branch::follow(&request).expect("a branch");
+        let branch = &found.branches[0];
+        assert_eq!(branch.ends, [End::LongestWait, End::Bound], "{longest_step}");
+        last.push(branch.points[0].parameter);
+    }
+    // The return takes 100 there: the belt stretches the spring by nearly 2 a, which gave way as the mass slipped.
+    assert!(
+        last.iter().all(|v| (0.009..0.01).contains(v) && relative(*v, last[0]) < 1e-6),
+        "{last:?}"
+    );
 }

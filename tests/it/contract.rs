@@ -6,7 +6,7 @@ mod maps;
 mod orbits;
 mod steps;
 mod subject;
-mod systems;
+pub mod systems;
 
 use capsulemap::flow::{Field, Motion, Step, Stroboscopic};
 

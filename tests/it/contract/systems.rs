@@ -14,7 +14,7 @@ use super::{lanes, maps, orbits, steps};
 // Of an example only its system is used here, not its program.
 #[path = "../../../examples/belt.rs"]
 #[allow(dead_code)]
-mod belt;
+pub mod belt;
 #[path = "../../../examples/duffing.rs"]
 #[allow(dead_code)]
 mod duffing;
