@@ -16,6 +16,9 @@ CASES=20000 cargo test --release --test it -- certificates --nocapture
 echo "== settling against integration alone: 200 000 cases, and 5000 starts of each of 41 capsules with several attractors"
 CASES=200000 CAPSULES=41 STARTS=5000 cargo test --release --test it -- acceleration --nocapture
 
+echo "== branches of 300 capsules by other steps, ranges, section phases and points of the orbit; numbers along 100 axes against four times as many points"
+CAPSULES=300 AXES=100 cargo test --release --test it -- random_branches no_number --nocapture
+
 echo "== periods and defects of 10 000 cases of each law over the whole box, and a second integrator on 3000"
 CASES=10000 cargo test --release --test it -- wide_box --nocapture
 

@@ -10,7 +10,8 @@ use super::family::cyclic;
 use super::orbits::{STEEPEST, shifted, torus};
 use super::periodic::HALVES;
 use super::scales::units;
-use super::segment::{Along, LEAST_MOVE};
+use super::segment::Along;
+use super::walk::LEAST_MOVE;
 
 /// The orbit foretold by one from its derivatives may be so far from the other, relative to the distance of the two.
 const CORRECTION: f64 = 0.05;

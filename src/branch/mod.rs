@@ -19,15 +19,16 @@ mod scales;
 mod segment;
 mod special;
 mod step_control;
+mod succession;
+mod walk;
 mod whole_step;
 
 pub use curve::is_followed;
 pub use direct::{Linearised, leads_to, linearised};
 pub use family::cyclic;
 pub use follow::follow;
-pub use segment::{
-    Along, ONE_VALUE, PeriodicOrbit, Segment, SegmentEnd, SpecialValue, segment, succession,
-};
+pub use segment::{Along, ONE_VALUE, PeriodicOrbit, Segment, SegmentEnd, SpecialValue};
+pub use succession::{segment, succession};
 
 use crate::flow::{Reason, System};
 use crate::orbit::OrbitOf;

@@ -53,8 +53,8 @@ pub struct Seen<E, const D: usize, const U: usize> {
     /// Distance of the local extremum that is nearest to the surface that it may touch, in units of the first
     /// coordinate, with its derivatives along the unknowns.
     pub margin: Option<Dual<f64, U>>,
-    /// Distances of all local extrema, in order.
-    pub margins: Vec<f64>,
+    /// Each local extremum: when it is met after the section [cycles], and its distance.
+    pub margins: Vec<(f64, f64)>,
     /// How far an autonomous motion gets from where it begins, relative to the units; infinite for a driven one.
     pub excursion: f64,
 }
@@ -174,7 +174,7 @@ impl<M: System<D>, const D: usize, const U: usize> Equations<U> for Orbits<'_, M
             Dual { value: in_unit(margin.value), gradient }
         });
         let excursion = passage.excursion / system.metric().size(&self.section(&[1.0; U]));
-        let margins = passage.margins.into_iter().map(in_unit).collect();
+        let margins = passage.margins.into_iter().map(|(time, it)| (time, in_unit(it))).collect();
         let seen = Seen { jacobian, events: cyclic(&passage.events), margin, margins, excursion };
         Ok(Linear { residual, rows, seen })
     }

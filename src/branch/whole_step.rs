@@ -5,6 +5,7 @@ use crate::flow::{Event, System};
 use super::SpecialKind;
 use super::arc::{Arc, NARROW};
 use super::arclength::{between, dot, norm};
+use super::family::apart;
 use super::orbits::{OrbitPoint, Orbits, SpecialOrbit};
 use super::periodic::Periodic;
 use super::special::{Change, OnArc, RESOLVED, SMOOTH, Sought, special_orbits, test, turns};
@@ -143,7 +144,7 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
         let (middle, away) = self.arc.middle(ends)?;
         let is_same = middle.1.seen.events == ends[0].1.seen.events && away <= BENT * length;
         let part = SmoothPart { places: [ends[0], &middle, ends[1]] };
-        if !is_same || !part.keeps_its_margins() {
+        if !is_same || !part.keeps_its_margins(self.orbits.period()) {
             return None;
         }
         let mut found = Vec::new();
@@ -189,33 +190,33 @@ impl<'a, E: Event, const D: usize, const U: usize> SmoothPart<'a, E, D, U> {
         }
     }
 
-    /// Whether every extremum stays on its side of the surface that it may touch.
+    /// Whether every extremum that is there at all three places stays on its side of the surface that it may touch, and the
+    /// nearest one at each.
     ///
-    /// Where extrema appear or vanish it is asked of the nearest one alone. Where one touches at an end, a change of the events
-    /// has been located there.
-    fn keeps_its_margins(&self) -> bool {
-        let [first, middle, last] = self.places.map(|it| &it.1.seen.margins[..]);
-        if [middle.len(), last.len()] != [first.len(); 2] {
-            let nearest = self.places.map(|it| it.1.seen.margin.map(|margin| margin.value));
-            let [Some(first), Some(middle), Some(last)] = nearest else { return true };
-            return keeps_its_side(&[first, middle, last]);
+    /// Where one touches at an end, a change of the events has been located there.
+    fn keeps_its_margins(&self, period: u64) -> bool {
+        let nearest = self.places.map(|it| it.1.seen.margin.map(|margin| margin.value));
+        if let [Some(first), Some(middle), Some(last)] = nearest
+            && !keeps_its_side(&[first, middle, last])
+        {
+            return false;
         }
-        // An extremum that passes the instant of the section is the last where it was the first.
-        let turns = [middle, last].map(|there| turn(first, there));
-        (0..first.len()).all(|i| {
-            let [middle, last] = [(middle, turns[0]), (last, turns[1])]
-                .map(|(there, turn)| there[(i + turn) % there.len()]);
-            keeps_its_side(&[first[i], middle, last])
+        let [first, middle, last] = self.places.map(|it| &it.1.seen.margins[..]);
+        let same = |here: &(f64, f64), there| {
+            let other = next_in_time(there, here.0, period)?;
+            (next_in_time(middle, other.0, period)? == here).then_some(other.1)
+        };
+        middle.iter().all(|here| match (same(here, first), same(here, last)) {
+            (Some(first), Some(last)) => keeps_its_side(&[first, here.1, last]),
+            _ => true,
         })
     }
 }
 
-/// By how many places a cyclic list is turned against another that it resembles.
-fn turn(a: &[f64], b: &[f64]) -> usize {
-    let apart = |turn: &usize| -> f64 {
-        (0..a.len()).map(|i| (a[i] - b[(i + turn) % b.len()]).abs()).sum()
-    };
-    (0..b.len()).min_by(|x, y| apart(x).total_cmp(&apart(y))).unwrap_or(0)
+/// Of some extrema the one nearest to a time.
+fn next_in_time(extrema: &[(f64, f64)], time: f64, period: u64) -> Option<&(f64, f64)> {
+    let away = |it: &&(f64, f64)| apart(it.0, time, period);
+    extrema.iter().min_by(|a, b| away(a).total_cmp(&away(b)))
 }
 
 /// Whether an extremum with these margins at three places evenly apart stays on its side of the surface.

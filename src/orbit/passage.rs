@@ -40,8 +40,8 @@ pub struct Passage<E, const D: usize> {
     pub events: Vec<E>,
     /// How far the local extremum that is nearest to the surface that it may touch is below it.
     pub margin: Option<Margin<D>>,
-    /// How far each local extremum is, in order.
-    pub margins: Vec<f64>,
+    /// Each local extremum: when it is met after the section [cycles], and how far it is below the surface.
+    pub margins: Vec<(f64, f64)>,
     /// How far an autonomous motion gets from where it begins, in the units of the metric; infinite for a driven one,
     /// which need not move to return.
     pub excursion: f64,
@@ -281,7 +281,7 @@ pub(super) fn told<E, const D: usize, const U: usize>(
         by_parameter: end.map(|it| it.gradient[D]),
         events: passing.events,
         margin,
-        margins: passing.extrema.iter().map(|extremum| extremum.margin.value).collect(),
+        margins: passing.extrema.iter().map(|it| (it.time, it.margin.value)).collect(),
         excursion,
     }
 }

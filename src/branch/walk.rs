@@ -1,0 +1,292 @@
+//! The way of an orbit from one value of a parameter to another, and where its attractor goes on.
+
+use crate::flow::System;
+
+use super::arclength::{Plane, between, corrected, dot, moved, norm, tangent};
+use super::doubling::doubled;
+use super::grazing::grazed;
+use super::half_branch::HalfBranch;
+use super::orbits::{OrbitPoint, Orbits, SpecialOrbit};
+use super::periodic::{Goal, Periodic};
+use super::segment::{ONE_VALUE, PeriodicOrbit, Segment, SegmentEnd, SpecialValue};
+use super::special::Sought;
+use super::step_control::{Bounds, StepControl};
+use super::{End, SpecialKind};
+
+/// Where events change without a grazing, the place is known to this share of a step.
+const COARSE: f64 = 1e-6;
+/// Cycles of the orbits of a segment at most: where a long orbit ends is not worth more.
+const CYCLES: u64 = 800;
+/// The longest step, in units of the way: where section and parameter change alike it is the whole way.
+const WHOLE: f64 = 1.5;
+/// An easy step is followed by one longer by this factor: most orbits change little over the whole way.
+const LENGTHEN: f64 = 4.0;
+/// Orbits of a segment at most, and at most where the orbit is long.
+const MOST_AND_FEW: [u64; 2] = [200, 16];
+/// A section that moves less over the way, relative to the motion, counts as if it moved so far.
+pub const LEAST_MOVE: f64 = 1e-4;
+/// A fold and a period doubling nearer than this share of the way are one.
+const SAME: f64 = 1e-6;
+/// An unstable orbit is not worth steps shorter than this share of the distance.
+const SHORTEST: f64 = 1e-3;
+/// Beyond a merger the shorter orbit is begun by this share of the distance on, where its stability is not rounding.
+const BEYOND: f64 = 1e-6;
+
+/// Where an attractor goes on that an orbit has ceased to be.
+pub enum Onward<'a, M: System<D>, const D: usize, const U: usize> {
+    /// With the orbit of twice the period, from this doubling on.
+    Doubled(OrbitPoint<M::Event, D, U>),
+    /// With the orbit of half the period, on this way, from its doubling on.
+    Merged(Walk<'a, M, D, U>, OrbitPoint<M::Event, D, U>),
+}
+
+impl<'a, M: System<D>, const D: usize, const U: usize> Onward<'a, M, D, U> {
+    /// The way of that orbit from the first one on; none where it is not stable there.
+    pub fn begin(
+        self,
+        before: &Walk<'a, M, D, U>,
+    ) -> Option<(Walk<'a, M, D, U>, OrbitPoint<M::Event, D, U>)> {
+        let ahead = (before.to - before.from).signum();
+        let (walk, start) = match self {
+            Onward::Doubled(at) => {
+                let (orbits, [at, first]) = doubled(&before.orbits, &at)?;
+                let sign = dot(&first.tangent, &between(&at.at, &first.at)).signum();
+                let tangent = first.tangent.map(|part| sign * part);
+                (Walk { orbits, ..*before }, OrbitPoint { tangent, ..first })
+            }
+            Onward::Merged(walk, at) => {
+                let by = walk.in_units(BEYOND * (walk.to - walk.from));
+                let guess = moved(&at.at, by / at.tangent[D], &at.tangent);
+                let mut toward = [0.0; U];
+                toward[D] = ahead;
+                let plane = Plane::fixing(D, guess[D]);
+                let (start, _) = corrected(&walk.orbits, &plane, &guess, &toward)?;
+                (walk, start)
+            }
+        };
+        (start.seen.is_stable() && start.tangent[D] * ahead > 0.0).then_some((walk, start))
+    }
+}
+
+/// The segment of an orbit, and where the attractor goes on that it has ceased to be.
+pub type Followed<'a, M, const D: usize, const U: usize> =
+    (Segment<D>, Option<Onward<'a, M, D, U>>);
+
+/// The way from one value of the parameter to another.
+#[derive(Clone)]
+pub struct Walk<'a, M: System<D>, const D: usize, const U: usize> {
+    /// The orbits.
+    pub orbits: Orbits<'a, M, D, U>,
+    /// The value at which it begins.
+    pub from: f64,
+    /// The value to which it leads.
+    pub to: f64,
+}
+
+impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
+    /// The value of the parameter in its unit on the way.
+    fn in_units(&self, value: f64) -> f64 {
+        value / self.orbits.units[D]
+    }
+
+    /// The orbit near a section point at the value where the way begins, with its tangent ahead.
+    pub fn start(&self, section: &[f64; D]) -> Option<OrbitPoint<M::Event, D, U>> {
+        let mut ahead = [0.0; U];
+        ahead[D] = (self.to - self.from).signum();
+        let guess = self.orbits.unknowns(section, self.from);
+        let plane = Plane::fixing(D, guess[D]);
+        let (start, _) = corrected(&self.orbits, &plane, &guess, &ahead)?;
+        let tangent = tangent(start.rows, &ahead)?;
+        Some(OrbitPoint { tangent, ..start })
+    }
+
+    /// The segment from its first orbit on.
+    pub fn segment(&self, start: OrbitPoint<M::Event, D, U>) -> Followed<'a, M, D, U> {
+        let mut control = self.control();
+        let mut is_stable = start.seen.is_stable();
+        let ahead = start.tangent[D].signum();
+        let mut half = HalfBranch::new(vec![start]).coarse(COARSE);
+        let mut special = Vec::new();
+        // The doubling at which the orbit has ceased to be stable.
+        let mut onward = None;
+        let end = loop {
+            if !is_stable {
+                control.shortest = SHORTEST;
+                // Of an unstable orbit only the end of its branch matters.
+                half.sought = Sought::Folds;
+            }
+            let known = half.special_orbits.len();
+            let end = half.advance(&self.orbits, &mut control, &Goal::none());
+            for (_, orbit) in &half.special_orbits[known..] {
+                let value = special_value(&self.orbits, orbit);
+                if orbit.kind == SpecialKind::Fold {
+                    let Some((doubling, merged)) = self.doubling_at(orbit, &value) else {
+                        special.push(value);
+                        return (Segment { special, end: SegmentEnd::Ended }, onward);
+                    };
+                    special.push(doubling);
+                    return (Segment { special, end: SegmentEnd::Merged }, Some(merged));
+                }
+                if is_stable {
+                    special.push(value);
+                    if orbit.kind == SpecialKind::PeriodDoubling {
+                        onward = Some(Onward::Doubled(orbit.point.clone()));
+                    }
+                }
+                is_stable &= orbit.is_stable_beyond;
+            }
+            let Some(last) = half.points.last() else { break SegmentEnd::Lost };
+            // Where derivatives jump, a branch may turn back without a fold.
+            if last.tangent[D] * ahead <= 0.0 {
+                if is_stable && half.special_orbits.len() == known {
+                    let before = &half.points[half.points.len().saturating_sub(2)];
+                    let step = norm(&between(&before.at, &last.at));
+                    special.push(self.discontinuity(before, step));
+                }
+                break SegmentEnd::Ended;
+            }
+            is_stable &= last.seen.is_stable();
+            match end {
+                Some(End::Bound) => {
+                    let reached = self.reached(last);
+                    onward = onward.filter(|_| !reached.is_stable());
+                    break SegmentEnd::Reached(reached);
+                }
+                _ if control.attempts == 0 => break SegmentEnd::Lost,
+                None => {}
+                Some(_) => match self.merged(last) {
+                    Some((doubling, merged)) => {
+                        special.extend(doubling);
+                        onward = onward.or(merged);
+                        break SegmentEnd::Merged;
+                    }
+                    None if is_stable => {
+                        let StepControl { shortest, longest, .. } = self.control();
+                        special.push(self.discontinuity(last, shortest * longest));
+                        break SegmentEnd::Ended;
+                    }
+                    None => break SegmentEnd::Lost,
+                },
+            }
+        };
+        (Segment { special, end }, onward)
+    }
+
+    /// Steps that begin with the whole way.
+    fn control(&self) -> StepControl<U> {
+        let [low, high] = [self.from.min(self.to), self.from.max(self.to)];
+        let bounds = Bounds::none().with(D, [low, high].map(|end| self.in_units(end)));
+        let longest = WHOLE * self.in_units(high - low);
+        let [most, few] = MOST_AND_FEW;
+        let attempts = (CYCLES / self.orbits.family.period).clamp(few, most) as usize;
+        let new = StepControl::new(bounds, longest);
+        StepControl { next: longest, lengthen: LENGTHEN, attempts, ..new }
+    }
+
+    /// The orbit at the end of the way.
+    fn reached(&self, last: &OrbitPoint<M::Event, D, U>) -> PeriodicOrbit<D> {
+        let points = self.orbits.section_points(&last.at);
+        PeriodicOrbit {
+            value: self.to,
+            points: points.iter().map(|at| self.orbits.section(at)).collect(),
+            multipliers: last.seen.multipliers(),
+            residual: self.orbits.displacement(&last.at).map_or(f64::NAN, |apart| norm(&apart)),
+        }
+    }
+
+    /// The period doubling at which an orbit, from which no step leads on, merges with one of half its period, and where that
+    /// goes on, as far as they are found; none where there is no such orbit.
+    fn merged(
+        &self,
+        last: &OrbitPoint<M::Event, D, U>,
+    ) -> Option<(Option<SpecialValue<D>>, Option<Onward<'a, M, D, U>>)> {
+        let (shorter, start) = self.half_period(last)?;
+        let doubling = shorter.doubling(start);
+        let value = doubling.as_ref().map(|it| special_value(&shorter.orbits, it));
+        Some((value, doubling.map(|it| Onward::Merged(shorter, it.point))))
+    }
+
+    /// The special point of an orbit at which the return map is discontinuous, within so much of the way.
+    fn discontinuity(&self, at: &OrbitPoint<M::Event, D, U>, within: f64) -> SpecialValue<D> {
+        let (kind, point, uncertainty) = match grazed(&self.orbits, at) {
+            Some(point) => (SpecialKind::Grazing, point, ONE_VALUE),
+            None => (SpecialKind::EventSequence, at.clone(), within),
+        };
+        let distance = norm(&between(&at.at, &point.at));
+        let special = SpecialOrbit { kind, distance, uncertainty, point, is_stable_beyond: false };
+        special_value(&self.orbits, &special)
+    }
+
+    /// The way of the orbit of half the period in the middle of an orbit, if there is one, towards its period
+    /// doubling, with the orbit where it begins.
+    fn half_period(
+        &self,
+        last: &OrbitPoint<M::Event, D, U>,
+    ) -> Option<(Self, OrbitPoint<M::Event, D, U>)> {
+        let apart = self.orbits.halfway(&last.at)?;
+        let orbits = self.orbits.with_period(self.orbits.period() / 2);
+        let middle =
+            std::array::from_fn(|i| last.at[i] + 0.5 * apart.get(i).copied().unwrap_or(0.0));
+        let plane = Plane::fixing(D, last.at[D]);
+        let (met, _) = corrected(&orbits, &plane, &middle, &last.tangent)?;
+        if norm(&between(&middle, &met.at)) >= 0.5 * norm(&apart) {
+            return None;
+        }
+        // The longer orbit exists where the shorter one is unstable. Near the doubling the two are hard to tell
+        // apart, so that it may lie before or behind.
+        let toward = if met.seen.doubling() < 0.0 { 1.0 } else { -1.0 };
+        let mut ahead = [0.0; U];
+        ahead[D] = toward * (self.to - self.from).signum();
+        let tangent = tangent(met.rows, &ahead)?;
+        Some((Walk { orbits, from: self.from, to: self.to }, OrbitPoint { tangent, ..met }))
+    }
+
+    /// The period doubling at which an orbit seems to fold, if it does, and where the shorter orbit goes on: beyond it are the
+    /// same orbits, half a period later.
+    fn doubling_at(
+        &self,
+        fold: &SpecialOrbit<M::Event, D, U>,
+        value: &SpecialValue<D>,
+    ) -> Option<(SpecialValue<D>, Onward<'a, M, D, U>)> {
+        let (doubling, onward) = self.merged(&fold.point)?;
+        let (doubling, onward) = (doubling?, onward?);
+        let near = SAME * (self.to - self.from).abs();
+        ((doubling.value - value.value).abs() <= near).then_some((doubling, onward))
+    }
+
+    /// The first period doubling from an orbit on.
+    fn doubling(&self, start: OrbitPoint<M::Event, D, U>) -> Option<SpecialOrbit<M::Event, D, U>> {
+        let mut control = self.control();
+        let mut half = HalfBranch::new(vec![start]).coarse(COARSE);
+        while control.attempts > 0 {
+            let end = half.advance(&self.orbits, &mut control, &Goal::none());
+            let mut special = half.special_orbits.iter();
+            let doubling = special.find(|(_, it)| it.kind == SpecialKind::PeriodDoubling);
+            if let Some((_, orbit)) = doubling {
+                return Some(orbit.clone());
+            }
+            if end.is_some() {
+                return None;
+            }
+        }
+        None
+    }
+}
+
+/// A special orbit by the value of its parameter.
+fn special_value<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    orbit: &SpecialOrbit<M::Event, D, U>,
+) -> SpecialValue<D> {
+    let SpecialOrbit { kind, uncertainty, point, is_stable_beyond, .. } = orbit;
+    let value = orbits.parameter(&point.at);
+    let along = uncertainty * point.tangent[D].abs() * orbits.units[D];
+    SpecialValue {
+        kind: *kind,
+        value,
+        uncertainty: along + ONE_VALUE * orbits.family.period as f64 * value.abs(),
+        period: orbits.family.period,
+        section: orbits.section(&point.at),
+        is_stable_beyond: *is_stable_beyond,
+    }
+}
