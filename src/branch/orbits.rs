@@ -110,13 +110,13 @@ impl<M: System<D>, const D: usize, const U: usize> Orbits<'_, M, D, U> {
 }
 
 impl<M: System<D>, const D: usize, const U: usize> Orbits<'_, M, D, U> {
-    /// Whether a cycle of an autonomous orbit takes nearly as long as it may.
+    /// Whether a cycle of an autonomous orbit takes nearly as long as it may, or to rounding too long.
     pub fn takes_longest(&self, point: &OrbitPoint<M::Event, D, U>) -> bool {
         let longest = || {
             self.family
                 .longest_cycle(self.section(&point.at), &[(self.along, self.parameter(&point.at))])
         };
-        M::Single::AUTONOMOUS && longest().is_some_and(|longest| longest > LONGEST)
+        M::Single::AUTONOMOUS && longest().is_none_or(|longest| longest > LONGEST)
     }
 }
 

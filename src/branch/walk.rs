@@ -118,7 +118,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
             let known = half.special_orbits.len();
             let end = half.advance(&self.orbits, &mut control, &Goal::none());
             for (_, orbit) in &half.special_orbits[known..] {
-                let value = special_value(&self.orbits, orbit);
+                let value = self.special_value(orbit);
                 if orbit.kind == SpecialKind::Fold {
                     let Some((doubling, merged)) = self.doubling_at(orbit, &value) else {
                         special.push(value);
@@ -202,7 +202,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
     ) -> Option<(Option<SpecialValue<D>>, Option<Onward<'a, M, D, U>>)> {
         let (shorter, start) = self.half_period(last)?;
         let doubling = shorter.doubling(start);
-        let value = doubling.as_ref().map(|it| special_value(&shorter.orbits, it));
+        let value = doubling.as_ref().map(|it| shorter.special_value(it));
         Some((value, doubling.map(|it| Onward::Merged(shorter, it.point))))
     }
 
@@ -214,7 +214,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
         };
         let distance = norm(&between(&at.at, &point.at));
         let special = SpecialOrbit { kind, distance, uncertainty, point, is_stable_beyond: false };
-        special_value(&self.orbits, &special)
+        self.special_value(&special)
     }
 
     /// The way of the orbit of half the period in the middle of an orbit, if there is one, towards its period
@@ -271,22 +271,21 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
         }
         None
     }
-}
 
-/// A special orbit by the value of its parameter.
-fn special_value<M: System<D>, const D: usize, const U: usize>(
-    orbits: &Orbits<M, D, U>,
-    orbit: &SpecialOrbit<M::Event, D, U>,
-) -> SpecialValue<D> {
-    let SpecialOrbit { kind, uncertainty, point, is_stable_beyond, .. } = orbit;
-    let value = orbits.parameter(&point.at);
-    let along = uncertainty * point.tangent[D].abs() * orbits.units[D];
-    SpecialValue {
-        kind: *kind,
-        value,
-        uncertainty: along + ONE_VALUE * orbits.family.period as f64 * value.abs(),
-        period: orbits.family.period,
-        section: orbits.section(&point.at),
-        is_stable_beyond: *is_stable_beyond,
+    /// A special orbit by the value of its parameter.
+    fn special_value(&self, orbit: &SpecialOrbit<M::Event, D, U>) -> SpecialValue<D> {
+        let SpecialOrbit { kind, uncertainty, point, is_stable_beyond, .. } = orbit;
+        let Walk { orbits, from, to } = self;
+        let (value, period) = (orbits.parameter(&point.at), orbits.family.period);
+        let along = uncertainty * point.tangent[D].abs() * orbits.units[D];
+        let rounding = ONE_VALUE * period as f64 * value.abs().max((to - from).abs());
+        SpecialValue {
+            kind: *kind,
+            value,
+            uncertainty: along + rounding,
+            period,
+            section: orbits.section(&point.at),
+            is_stable_beyond: *is_stable_beyond,
+        }
     }
 }
