@@ -83,10 +83,16 @@ fn segment_with<M: System<D>, const D: usize, const U: usize>(
     let start = walk.start(section)?;
     let (mut found, mut onward) = walk.segment(start);
     for _ in 0..changes {
-        let Some(next) = onward.and_then(|it| it.begin(&walk)) else { return Some(found) };
-        let (later, further) = next.0.segment(next.1);
-        found.special.extend(later.special);
-        (found.end, onward, walk) = (later.end, further, next.0);
+        let Some(begun) = onward.map(|it| it.begin(&walk)) else { return Some(found) };
+        match begun {
+            Some(Some((next, start))) => {
+                let (later, further) = next.segment(start);
+                found.special.extend(later.special);
+                (found.end, onward, walk) = (later.end, further, next);
+            }
+            Some(None) => return Some(found),
+            None => return Some(Segment { end: SegmentEnd::Lost, ..found }),
+        }
     }
     if changes > 0 && onward.is_some() {
         found.end = SegmentEnd::Lost;

@@ -41,11 +41,8 @@ pub enum Onward<'a, M: System<D>, const D: usize, const U: usize> {
 }
 
 impl<'a, M: System<D>, const D: usize, const U: usize> Onward<'a, M, D, U> {
-    /// The way of that orbit from the first one on; none where it is not stable there.
-    pub fn begin(
-        self,
-        before: &Walk<'a, M, D, U>,
-    ) -> Option<(Walk<'a, M, D, U>, OrbitPoint<M::Event, D, U>)> {
+    /// The way of that orbit from the first one on, if it is stable there; none where no such orbit is found.
+    pub fn begin(self, before: &Walk<'a, M, D, U>) -> Option<Option<Begun<'a, M, D, U>>> {
         let ahead = (before.to - before.from).signum();
         let (walk, start) = match self {
             Onward::Doubled(at) => {
@@ -64,9 +61,14 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Onward<'a, M, D, U> {
                 (walk, start)
             }
         };
-        (start.seen.is_stable() && start.tangent[D] * ahead > 0.0).then_some((walk, start))
+        let is_stable = start.seen.is_stable() && start.tangent[D] * ahead > 0.0;
+        Some(is_stable.then_some((walk, start)))
     }
 }
+
+/// A way with its first orbit.
+type Begun<'a, M, const D: usize, const U: usize> =
+    (Walk<'a, M, D, U>, OrbitPoint<<M as System<D>>::Event, D, U>);
 
 /// The segment of an orbit, and where the attractor goes on that it has ceased to be.
 pub type Followed<'a, M, const D: usize, const U: usize> =
