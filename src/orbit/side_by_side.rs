@@ -1,5 +1,6 @@
 //! Many cases side by side in the lanes of one thread, each lane refilled the moment its case settles.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::flow::{Motion, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
@@ -49,13 +50,13 @@ pub fn settle_side_by_side<M: System<D>, const D: usize>(
         queue,
         aperiodic: Vec::new(),
         concluding: Batch::new(instructions),
-        ready: Vec::new(),
+        ready: VecDeque::new(),
         least,
     };
     let mut left = instructions.run(supply);
     if halves {
-        let Left { moving: ready, aperiodic, queue } = left;
-        let (concluding, least) = (Batch::new(instructions), WORTHWHILE);
+        let Left { moving, aperiodic, queue } = left;
+        let (concluding, least, ready) = (Batch::new(instructions), WORTHWHILE, moving.into());
         let supply = Supply { instructions, protocol, queue, aperiodic, concluding, ready, least };
         left = instructions.run_on_a_vector(supply);
     }
@@ -82,8 +83,8 @@ struct Supply<'a, M: System<D>, const D: usize> {
     aperiodic: Vec<Underway<M, D>>,
     /// Cases that are being certified and measured.
     concluding: Batch<M, Conclusion<M, D>, D>,
-    /// Cases that could depart, or go on, had they a lane.
-    ready: Vec<Underway<M, D>>,
+    /// Cases that could depart, or go on, had they a lane; the first has waited longest, so that none waits for ever.
+    ready: VecDeque<Underway<M, D>>,
     /// With no more than one lane in so many at work, the lanes are left.
     least: usize,
 }
@@ -131,14 +132,14 @@ impl<'a, M: System<D>, const D: usize> Work for Supply<'a, M, D> {
 
 impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
     /// What is left, with the cases that are `moving`.
-    fn left(mut self, mut moving: Vec<Underway<M, D>>) -> Left<'a, M, D> {
-        moving.append(&mut self.ready);
+    fn left(self, mut moving: Vec<Underway<M, D>>) -> Left<'a, M, D> {
+        moving.extend(self.ready);
         Left { moving, aperiodic: self.aperiodic, queue: self.queue }
     }
 
     fn next(&mut self, done: Option<(usize, OrbitOf<M, D>)>) -> Option<Underway<M, D>> {
         if done.is_none()
-            && let Some(ready) = self.ready.pop()
+            && let Some(ready) = self.ready.pop_front()
         {
             return Some(ready);
         }
