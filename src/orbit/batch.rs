@@ -21,6 +21,8 @@ const STACK: usize = 4 << 20;
 const EACH_LANE: usize = 8;
 /// Returns without derivatives that take as long as one with them.
 const PLAIN: usize = 6;
+/// What some wait for is passed over at most so many times: among endlessly many others they would wait for ever.
+const PATIENCE: usize = 32;
 /// Computations that wait at a time at most, as each has a stack.
 const MOST: usize = 256;
 
@@ -30,6 +32,13 @@ enum Request<M: System<D>, const D: usize> {
     Return(ReturnRequest<M, D>),
     Measure(MeasureRequest<M, D>),
     Plain(PlainRequest<M, D>),
+}
+/// What is answered together.
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    Plain,
+    Return,
+    Measure,
 }
 /// What it is given for it.
 enum Answer<M: System<D>, const D: usize> {
@@ -54,6 +63,8 @@ pub struct Batch<M: System<D>, T, const D: usize> {
     measures: Vec<(Computation<M, T, D>, MeasureRequest<M, D>)>,
     /// Computations that wait for returns without derivatives, each for many.
     plain: Vec<(Computation<M, T, D>, PlainRequest<M, D>)>,
+    /// How many times in a row each kind has been passed over while some waited for it.
+    passed_over: [usize; 3],
     stacks: Vec<DefaultStack>,
 }
 
@@ -124,7 +135,7 @@ impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
     /// No computations yet.
     pub fn new(instructions: Instructions) -> Self {
         let (returns, measures, plain) = (Vec::new(), Vec::new(), Vec::new());
-        Batch { instructions, returns, measures, plain, stacks: Vec::new() }
+        Batch { instructions, returns, measures, plain, passed_over: [0; 3], stacks: Vec::new() }
     }
 
     /// How many wait for what most of them wait for; returns without derivatives count by the number that take as long as
@@ -153,25 +164,43 @@ impl<M: System<D>, T: 'static, const D: usize> Batch<M, T, D> {
         self.resume(coroutine, None)
     }
 
-    /// Answers those that have waited longest for what most wait for, a few for each lane; the results of the
-    /// computations that end with it.
+    /// Answers those that have waited longest for what most wait for, or for what has been passed over too often, a few for
+    /// each lane; the results of the computations that end with it.
     pub fn advance(&mut self) -> Vec<T> {
         let most = EACH_LANE * self.instructions.lanes_of_a_vector();
-        let (computations, answers): (Vec<_>, Vec<_>) = if self.plain_waiting() >= self.waiting() {
-            let (computations, requests): (Vec<_>, Vec<_>) = self.plain.drain(..).unzip();
-            let returned = plain_returns(self.instructions, &requests);
-            (computations, returned.into_iter().map(Answer::Plain).collect())
-        } else if self.returns.len() >= self.measures.len() {
-            let (computations, requests) = first(&mut self.returns, most);
-            let returned = passages(self.instructions, &requests.iter().collect::<Vec<_>>());
-            (computations, returned.into_iter().map(Answer::Returned).collect())
-        } else {
-            let (computations, requests) = first(&mut self.measures, most);
-            let measured = measured_side_by_side(self.instructions, requests);
-            (computations, measured.into_iter().map(Answer::Measured).collect())
+        let (computations, answers): (Vec<_>, Vec<_>) = match self.next_kind() {
+            Kind::Plain => {
+                let (computations, requests): (Vec<_>, Vec<_>) = self.plain.drain(..).unzip();
+                let returned = plain_returns(self.instructions, &requests);
+                (computations, returned.into_iter().map(Answer::Plain).collect())
+            }
+            Kind::Return => {
+                let (computations, requests) = first(&mut self.returns, most);
+                let returned = passages(self.instructions, &requests.iter().collect::<Vec<_>>());
+                (computations, returned.into_iter().map(Answer::Returned).collect())
+            }
+            Kind::Measure => {
+                let (computations, requests) = first(&mut self.measures, most);
+                let measured = measured_side_by_side(self.instructions, requests);
+                (computations, measured.into_iter().map(Answer::Measured).collect())
+            }
         };
         let resumed = computations.into_iter().zip(answers);
         resumed.filter_map(|(it, answer)| self.resume(it, Some(answer))).collect()
+    }
+
+    /// What is answered next: what most wait for, but for what has been passed over too often while some waited for it.
+    fn next_kind(&mut self) -> Kind {
+        let kinds = [Kind::Plain, Kind::Return, Kind::Measure];
+        let waiting = [self.plain_waiting(), self.returns.len(), self.measures.len()];
+        let overdue = (0..kinds.len()).find(|kind| self.passed_over[*kind] >= PATIENCE);
+        let most = || (0..kinds.len()).rev().max_by_key(|kind| waiting[*kind]);
+        let chosen = overdue.or_else(most).expect("there are kinds");
+        for (kind, passed_over) in self.passed_over.iter_mut().enumerate() {
+            let is_passed_over = kind != chosen && waiting[kind] > 0;
+            *passed_over = if is_passed_over { *passed_over + 1 } else { 0 };
+        }
+        kinds[chosen]
     }
 
     fn resume(
