@@ -23,8 +23,9 @@ const RETRACED: usize = 40;
 const ONE: f64 = 1e-12;
 /// A branch merges with the one it left at a doubling that lies no farther from its end.
 const MERGES: f64 = 1e-4;
-/// A step that does not add up is halved down to this share of the longest.
+/// A step that does not add up is halved down to this share of the longest, and on a coarse branch to this.
 const LEAST: f64 = 1e-6;
+const LEAST_OF_COARSE: f64 = 1e-3;
 
 /// How a branch goes on where no step along its tangent leads on.
 enum Onward<E, const D: usize, const U: usize> {
@@ -49,6 +50,8 @@ pub struct HalfBranch<E, const D: usize, const U: usize> {
     corners: usize,
     /// Which special orbits are located.
     pub sought: Sought,
+    /// A step that does not add up is halved down to this share of the longest.
+    least: f64,
 }
 
 impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
@@ -56,12 +59,13 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
     pub fn new(points: Vec<OrbitPoint<E, D, U>>) -> Self {
         let (special_orbits, end) = (Vec::new(), End::MostPoints);
         let (merged, sought) = (None, Sought::Every(NARROW));
-        HalfBranch { points, special_orbits, end, merged, corners: CORNERS, sought }
+        HalfBranch { points, special_orbits, end, merged, corners: CORNERS, sought, least: LEAST }
     }
 
-    /// The same without a look round corners, with changes of events located to the share `narrow` of a step.
+    /// The same without a look round corners, with changes of events located to the share `narrow` of a step, and with fewer
+    /// halvings: where events change too often to be told one by one, the branch matters, and not each change.
     pub fn coarse(self, narrow: f64) -> Self {
-        HalfBranch { corners: 0, sought: Sought::Every(narrow), ..self }
+        HalfBranch { corners: 0, sought: Sought::Every(narrow), least: LEAST_OF_COARSE, ..self }
     }
 
     /// Whether it ends before a merger, whose place then is not located.
@@ -211,7 +215,7 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
                 Some(merger) if merger.is_near => {
                     (next, until, end) = (merger.at, merger.before, Some(End::Merged));
                 }
-                _ if control.halve(LEAST).is_some() => return Added::Halved,
+                _ if control.halve(self.least).is_some() => return Added::Halved,
                 _ => {}
             }
         } else if let Some(closing) = goal.met(orbits, [from, &next], before) {
@@ -223,8 +227,8 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         };
         let found = match found {
             Some(found) => found,
-            None if control.halve(LEAST).is_some() => return Added::Halved,
-            None => special_orbits_of_shortest(orbits, from, &until),
+            None if control.halve(self.least).is_some() => return Added::Halved,
+            None => special_orbits_of_shortest(orbits, from, &until, self.sought),
         };
         self.special_orbits.extend(found.into_iter().map(|special| (before, special)));
         if norm(&between(&from.at, &next.at)) > ONE {

@@ -55,8 +55,10 @@ pub fn special_orbits_of_shortest<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
     from: &OrbitPoint<M::Event, D, U>,
     to: &OrbitPoint<M::Event, D, U>,
+    sought: Sought,
 ) -> Vec<SpecialOrbit<M::Event, D, U>> {
-    let mut found = special_orbits(orbits, from, to, Sought::Shown(NARROW));
+    let narrow = if let Sought::Every(narrow) = sought { narrow } else { NARROW };
+    let mut found = special_orbits(orbits, from, to, Sought::Shown(narrow));
     // Where the events change, a test function may jump.
     let has_changed = from.seen.events != to.seen.events;
     let exact = orbits.exactly();
