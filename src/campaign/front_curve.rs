@@ -49,7 +49,7 @@ impl Refinement<'_> {
     /// From motions found, beside or behind the front, to prices over the whole range of it: a family that is behind the front at one price
     /// may be the best at another.
     ///
-    /// The motions are those nearest to the front by the speed at their price, at most [`LADDERS`]; the prices are [`RUNGS`] from the
+    /// The motions are those nearest to the front by the speed at their price, at most `LADDERS`; the prices are `RUNGS` from the
     /// cheapest to the dearest of all, each as many times dearer than the one before, and lower ones down to a seventh of the cheapest.
     pub fn ladders<'m>(&self, front: &[(f64, f64)], found: &'m [RefinedMotion]) -> Vec<Gap<'m>> {
         let price = |it: &RefinedMotion| it.outputs[self.of];

@@ -99,7 +99,7 @@ impl Refinement<'_> {
     ///
     /// # Method
     ///
-    /// See [`best`] and [`settled`](Self::settled). Every search is by itself: neither threads nor order matter.
+    /// See [`best`] and `settled`. Every search is by itself: neither threads nor order matter.
     ///
     /// Fails if the file cannot be read or a case cannot be computed again.
     pub fn run(
