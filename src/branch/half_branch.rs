@@ -62,10 +62,11 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         HalfBranch { points, special_orbits, end, merged, corners: CORNERS, sought, least: LEAST }
     }
 
-    /// The same without a look round corners, with changes of events located to the share `narrow` of a step, and with fewer
-    /// halvings: where events change too often to be told one by one, the branch matters, and not each change.
-    pub fn coarse(self, narrow: f64) -> Self {
-        HalfBranch { corners: 0, sought: Sought::Every(narrow), least: LEAST_OF_COARSE, ..self }
+    /// The same without a look round corners, where these special orbits are located. Where steps have to add up they are halved
+    /// less: where events change too often to be told one by one, the branch matters, and not each change.
+    pub fn coarse(self, sought: Sought) -> Self {
+        let least = if matches!(sought, Sought::Every(_)) { LEAST_OF_COARSE } else { LEAST };
+        HalfBranch { corners: 0, sought, least, ..self }
     }
 
     /// Whether it ends before a merger, whose place then is not located.

@@ -8,7 +8,8 @@ use super::family::Family;
 use super::orbits::Orbits;
 use super::scales::units;
 use super::segment::{Along, Segment, SegmentEnd};
-use super::walk::{LEAST_MOVE, Walk};
+use super::special::Sought;
+use super::walk::{COARSE, LEAST_MOVE, Walk};
 
 /// An attractor is followed through so many doublings and mergers at most.
 const CHANGES_OF_PERIOD: usize = 4;
@@ -17,8 +18,9 @@ const CHANGES_OF_PERIOD: usize = 4;
 /// points, to another value; none where the orbit does not close.
 ///
 /// Method: pseudo-arclength continuation as in [`follow`](super::follow()), which tells a fold from an orbit that
-/// cannot be followed, with the distance of the two values as unit of the parameter. Every step has to add up, or is
-/// halved. It goes on past the loss of stability, as the orbit at the other value may be that of a neighbouring segment.
+/// cannot be followed, with the distance of the two values as unit of the parameter. It goes on past the loss of stability,
+/// as the orbit at the other value may be that of a neighbouring segment.
+/// Breaks: two special points of one kind that undo each other between two orbits of the segment are not seen.
 pub fn segment<M: System<D>, const D: usize>(
     integrator: &dyn Integrator<M, D>,
     along: &Along<M, D>,
@@ -31,6 +33,7 @@ pub fn segment<M: System<D>, const D: usize>(
 /// The way of an attractor that begins with a periodic orbit, see [`segment`]: where the orbit doubles its period, it goes on
 /// with the doubled orbit if that is stable beyond, and where it merges with one of half its period, with that one.
 ///
+/// Every step has to add up, or is halved, down to a thousandth of the way.
 /// An orbit that is stable again at the other value, after it has lost its stability, is the attractor as well. Where the
 /// attractor changes its period more than four times, it is lost.
 pub fn succession<M: System<D>, const D: usize>(
@@ -74,7 +77,8 @@ fn segment_with<M: System<D>, const D: usize, const U: usize>(
     let units: [f64; U] = std::array::from_fn(|i| *section.get(i).unwrap_or(&width));
     let along = *parameter;
     let orbits = Orbits { family, integrator, along, units, oriented: true, exact: ROUNDING };
-    let mut walk = Walk { orbits, from, to };
+    let sought = if changes > 0 { Sought::Every(COARSE) } else { Sought::Shown(COARSE) };
+    let mut walk = Walk { orbits, from, to, sought };
     let section = points.first()?;
     let start = walk.start(section)?;
     // Section and parameter count alike, or a fold is a bend too sharp for steps of the parameter's length.

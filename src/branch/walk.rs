@@ -14,7 +14,7 @@ use super::step_control::{Bounds, StepControl};
 use super::{End, SpecialKind};
 
 /// Where events change without a grazing, the place is known to this share of a step.
-const COARSE: f64 = 1e-6;
+pub const COARSE: f64 = 1e-6;
 /// Cycles of the orbits of a segment at most: where a long orbit ends is not worth more.
 const CYCLES: u64 = 800;
 /// The longest step, in units of the way: where section and parameter change alike it is the whole way.
@@ -83,6 +83,8 @@ pub struct Walk<'a, M: System<D>, const D: usize, const U: usize> {
     pub from: f64,
     /// The value to which it leads.
     pub to: f64,
+    /// Which special orbits are located while the orbit is stable.
+    pub sought: Sought,
 }
 
 impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
@@ -107,7 +109,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
         let mut control = self.control();
         let mut is_stable = start.seen.is_stable();
         let ahead = start.tangent[D].signum();
-        let mut half = HalfBranch::new(vec![start]).coarse(COARSE);
+        let mut half = HalfBranch::new(vec![start]).coarse(self.sought);
         let mut special = Vec::new();
         // The doubling at which the orbit has ceased to be stable.
         let mut onward = None;
@@ -240,7 +242,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
         let mut ahead = [0.0; U];
         ahead[D] = toward * (self.to - self.from).signum();
         let tangent = tangent(met.rows, &ahead)?;
-        Some((Walk { orbits, from: self.from, to: self.to }, OrbitPoint { tangent, ..met }))
+        Some((Walk { orbits, ..*self }, OrbitPoint { tangent, ..met }))
     }
 
     /// The period doubling at which an orbit seems to fold, if it does, and where the shorter orbit goes on: beyond it are the
@@ -259,7 +261,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
     /// The first period doubling from an orbit on.
     fn doubling(&self, start: OrbitPoint<M::Event, D, U>) -> Option<SpecialOrbit<M::Event, D, U>> {
         let mut control = self.control();
-        let mut half = HalfBranch::new(vec![start]).coarse(COARSE);
+        let mut half = HalfBranch::new(vec![start]).coarse(self.sought);
         while control.attempts > 0 {
             let end = half.advance(&self.orbits, &mut control, &Goal::none());
             let mut special = half.special_orbits.iter();
@@ -277,7 +279,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
     /// A special orbit by the value of its parameter.
     fn special_value(&self, orbit: &SpecialOrbit<M::Event, D, U>) -> SpecialValue<D> {
         let SpecialOrbit { kind, uncertainty, point, is_stable_beyond, .. } = orbit;
-        let Walk { orbits, from, to } = self;
+        let Walk { orbits, from, to, .. } = self;
         let (value, period) = (orbits.parameter(&point.at), orbits.family.period);
         let along = uncertainty * point.tangent[D].abs() * orbits.units[D];
         let rounding = ONE_VALUE * period as f64 * value.abs().max((to - from).abs());
