@@ -23,7 +23,7 @@ const FOLDS: [f64; 2] = [15100.3915, 17368.3133];
 /// Where period 2 doubles [N/m].
 const DOUBLES: f64 = 43742.26;
 /// Axes that are drawn, and how many points they have.
-const AXES: usize = 10;
+const AXES: usize = 4;
 const POINTS: usize = 25;
 /// The axis that tells more has so many times as many intervals.
 const FINER: usize = 4;
