@@ -6,6 +6,7 @@ use super::across::{Unknowns, across_section};
 use super::arclength::{CurvePoint, Plane, between, corrected, dot, norm, tangent};
 use super::corner::is_corner;
 use super::locus::{Locus, LocusPoint, Touch};
+use super::merger::HALF;
 use super::orbits::{Orbits, STEEPEST};
 use super::periodic::{Goal, Periodic, passes};
 use super::step_control::{Advance, Bounds, StepControl};
@@ -17,8 +18,6 @@ const AT_SPECIAL: f64 = 1e-9;
 const ONE: f64 = 1e-12;
 /// Grazings are followed beside the surface, at this margin on one side or the other, relative to the first coordinate.
 const BESIDE: [f64; 2] = [1e-7, -1e-7];
-/// An orbit that touches a rigid surface has half its period if that leads so near to where it began.
-const MERGED: f64 = 1e-5;
 /// A step across an orbit of half the period is shortened to this share of the longest.
 const ACROSS: f64 = 0.03;
 /// In such a step the displacement over half the period may turn round so fast, per length of the step; in a shorter one faster.
@@ -111,11 +110,7 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
         .with(D + 1, range.map(|end| end / width));
     let control = StepControl::new(bounds, request.longest_step);
     let (points, ends) = both_directions(&locus, &start, control, request.most_points);
-    let [points, special] = points.into_iter().fold([Vec::new(), Vec::new()], |mut all, it| {
-        all[0].push(it.0);
-        all[1].push(it.1);
-        all
-    });
+    let (points, special) = points.into_iter().unzip();
     traces.push(Trace { locus, through, points, special, ends });
     Some(traces.len() - 1)
 }
@@ -127,7 +122,7 @@ fn period<M: System<D>, O, const D: usize, const U: usize>(
 ) -> u64 {
     let merges = || {
         let at = orbits.unknowns(special.point.section.first()?, special.point.parameter);
-        Some(norm(&orbits.halfway(&at)?) <= MERGED)
+        Some(norm(&orbits.halfway(&at)?) <= HALF)
     };
     let is_half = special.kind == SpecialKind::Grazing && merges().unwrap_or(false);
     orbits.family.period / if is_half { 2 } else { 1 }

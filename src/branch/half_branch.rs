@@ -223,13 +223,12 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
             (next, until, end) = (closing.clone(), closing, Some(End::Closed));
         }
         let found = match self.sought {
-            Sought::Every(narrow) => special_orbits_of_whole(orbits, from, &until, narrow),
-            sought => Some(special_orbits(orbits, from, &until, sought)),
-        };
-        let found = match found {
-            Some(found) => found,
-            None if control.halve(self.least).is_some() => return Added::Halved,
-            None => special_orbits_of_shortest(orbits, from, &until, self.sought),
+            Sought::Every(narrow) => match special_orbits_of_whole(orbits, from, &until, narrow) {
+                Some(found) => found,
+                None if control.halve(self.least).is_some() => return Added::Halved,
+                None => special_orbits_of_shortest(orbits, from, &until, narrow),
+            },
+            sought => special_orbits(orbits, from, &until, sought),
         };
         self.special_orbits.extend(found.into_iter().map(|special| (before, special)));
         if norm(&between(&from.at, &next.at)) > ONE {

@@ -8,7 +8,7 @@ use super::orbits::{OrbitPoint, Orbits};
 use super::periodic::Periodic;
 
 /// The two halves of the period differ by less at a merger, or by a smaller share of what they did before.
-const HALF: f64 = 1e-5;
+pub const HALF: f64 = 1e-5;
 const OF_BEFORE: f64 = 1e-2;
 /// Where they differ by less at the beginning of a step, nothing else happens on it but what is located.
 const NEAR: f64 = 2e-3;

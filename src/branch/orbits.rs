@@ -107,9 +107,7 @@ impl<M: System<D>, const D: usize, const U: usize> Orbits<'_, M, D, U> {
         };
         std::iter::successors(Some(*at), next).take(self.family.period as usize).collect()
     }
-}
 
-impl<M: System<D>, const D: usize, const U: usize> Orbits<'_, M, D, U> {
     /// Whether a cycle of an autonomous orbit takes nearly as long as it may, or to rounding too long.
     pub fn takes_longest(&self, point: &OrbitPoint<M::Event, D, U>) -> bool {
         let longest = || {

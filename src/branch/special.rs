@@ -8,7 +8,7 @@ use super::grazing::touching;
 use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 
 /// Changes of the event sequence between two neighbouring orbits at most.
-const CHANGES: usize = 16;
+pub(super) const CHANGES: usize = 16;
 /// A pair of multipliers is so near to the unit circle where it is found to pass it.
 const NEAR: f64 = 1e-5;
 /// A located orbit is known along the arc to this share of it: the rounding of a test function.

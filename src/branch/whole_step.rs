@@ -3,12 +3,14 @@
 use crate::flow::{Event, System};
 
 use super::SpecialKind;
-use super::arc::{Arc, NARROW};
+use super::arc::Arc;
 use super::arclength::{between, dot, norm};
 use super::family::apart;
 use super::orbits::{OrbitPoint, Orbits, SpecialOrbit};
 use super::periodic::Periodic;
-use super::special::{Change, OnArc, RESOLVED, SMOOTH, Sought, special_orbits, test, turns};
+use super::special::{
+    CHANGES, Change, OnArc, RESOLVED, SMOOTH, Sought, special_orbits, test, turns,
+};
 
 /// The orbit in the middle of a step is so near to the cubic through its ends, relative to the step.
 const BENT: f64 = 0.02;
@@ -25,8 +27,6 @@ const ROUNDING: f64 = 1e-13;
 const SHORT: f64 = 1e-6;
 /// Changes of the event sequence that are no farther apart are one.
 const ONE_PLACE: f64 = 1e-10;
-/// Changes of the event sequence in such a step at most.
-const CHANGES: usize = 16;
 
 /// The special orbits between two neighbouring orbits, in order; none where the step does not add up and has to be halved.
 ///
@@ -44,7 +44,7 @@ pub fn special_orbits_of_whole<M: System<D>, const D: usize, const U: usize>(
     narrow: f64,
 ) -> Option<Vec<SpecialOrbit<M::Event, D, U>>> {
     let exact = orbits.exactly();
-    let step = WholeStep { narrow, ..WholeStep::of(&exact, [from, to]) };
+    let step = WholeStep::of(&exact, [from, to], narrow);
     let mut found = step.special()?;
     found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
     Some(found)
@@ -55,14 +55,13 @@ pub fn special_orbits_of_shortest<M: System<D>, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
     from: &OrbitPoint<M::Event, D, U>,
     to: &OrbitPoint<M::Event, D, U>,
-    sought: Sought,
+    narrow: f64,
 ) -> Vec<SpecialOrbit<M::Event, D, U>> {
-    let narrow = if let Sought::Every(narrow) = sought { narrow } else { NARROW };
     let mut found = special_orbits(orbits, from, to, Sought::Shown(narrow));
     // Where the events change, a test function may jump.
     let has_changed = from.seen.events != to.seen.events;
     let exact = orbits.exactly();
-    let step = WholeStep::of(&exact, [from, to]);
+    let step = WholeStep::of(&exact, [from, to], narrow);
     let ends = step.ends.each_ref();
     let is_missing = |kind: &SpecialKind| {
         test(*kind, from) * test(*kind, to) < 0.0
@@ -91,10 +90,14 @@ struct WholeStep<'a, 'b, M: System<D>, const D: usize, const U: usize> {
 }
 
 impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, D, U> {
-    fn of(orbits: &'a Orbits<'b, M, D, U>, ends: [&OrbitPoint<M::Event, D, U>; 2]) -> Self {
+    fn of(
+        orbits: &'a Orbits<'b, M, D, U>,
+        ends: [&OrbitPoint<M::Event, D, U>; 2],
+        narrow: f64,
+    ) -> Self {
         let arc = Arc::from(orbits, ends[0]);
         let ends = ends.map(|point| arc.place(point));
-        WholeStep { orbits, arc, ends, narrow: NARROW }
+        WholeStep { orbits, arc, ends, narrow }
     }
 
     /// The places of its ends on the arc.
@@ -108,10 +111,12 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
         let mut last = from.clone();
         while last.1.seen.events != to.1.seen.events {
             let is_short = norm(&between(&from.1.at, &to.1.at)) <= SHORT;
-            if found.len() >= if is_short { CHANGES } else { 1 } {
+            let change = Change::first(&self.arc, [&last, to], self.narrow);
+            // Of a longer step nothing more is looked at where another change follows.
+            let goes_on = change.after.1.seen.events != to.1.seen.events;
+            if goes_on && !is_short || found.len() >= CHANGES {
                 return None;
             }
-            let change = Change::first(&self.arc, [&last, to], self.narrow);
             found.extend(self.smooth([&last, &change.before])?);
             let special = change.special(self.orbits, &self.arc, self.range());
             match found.last_mut().filter(|_| change.before.0 - last.0 <= ONE_PLACE) {

@@ -7,20 +7,10 @@ use capsulemap::lane::Instructions;
 use capsulemap::orbit::passage::OneByOne;
 use capsulemap::orbit::{Outcome, Protocol};
 
-use super::draws::{self, Random};
+use super::draws::{self, ALONG, Random};
 
 /// Capsules of each law.
 const CAPSULES: usize = 400;
-/// The parameters along which neighbours are drawn.
-const ALONG: [Parameter; 6] = [
-    Parameter::Omega,
-    Parameter::Pd,
-    Parameter::K2,
-    Parameter::Delta,
-    Parameter::C,
-    Parameter::MuS,
-];
-
 /// The same capsule with another value of a parameter, started where the first has settled.
 fn neighbour(case: &Case, orbit: &Orbit, parameter: Parameter, factor: f64) -> Case {
     let mut next = case.clone();

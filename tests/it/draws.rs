@@ -6,6 +6,16 @@ use capsulemap::orbit::{Machine, Protocol};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
+/// The parameters along which neighbours and axes are drawn.
+pub const ALONG: [Parameter; 6] = [
+    Parameter::Omega,
+    Parameter::Pd,
+    Parameter::K2,
+    Parameter::Delta,
+    Parameter::C,
+    Parameter::MuS,
+];
+
 /// Uniform random numbers.
 pub struct Random(ChaCha8Rng);
 

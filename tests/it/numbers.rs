@@ -9,10 +9,10 @@ use capsulemap::branch::SpecialKind;
 use capsulemap::capsule::{Filippov, Orbit, Parameter, Parameters, Resistance};
 use capsulemap::flow::System;
 use capsulemap::orbit::Outcome;
-use capsulemap::run::{self, Attractors, Machine, Record};
+use capsulemap::run::{self, Attractors, FinalMotions, Machine, Record};
 use capsulemap::study::{Axis, CaseSet, Coordinate, Direction, Grid, Inherit, Study};
 
-use super::draws::{self, Random};
+use super::draws::{self, ALONG, Random};
 
 /// The capsule of the issue at 40 rad/s.
 const CAPSULE_P: &str = "[parameters]\nc = \"0.44 N s/m\"\nmu_s = 0.437\nmu_d = 0.2185\n\
@@ -31,6 +31,7 @@ const FINER: usize = 4;
 struct Swept {
     study: Study,
     records: Vec<Record>,
+    final_motions: FinalMotions,
     attractors: Attractors,
 }
 
@@ -48,7 +49,7 @@ impl Swept {
         let final_motions = run::final_motions(&study, &records);
         let attractors = run::attractors(&study, &final_motions, Machine::default(), || ())
             .expect("the threads start");
-        Swept { study, records, attractors }
+        Swept { study, records, final_motions, attractors }
     }
 
     /// The value of the axis that varies first, the period and the number of each periodic case.
@@ -97,23 +98,12 @@ fn a_basin_that_has_vanished_does_not_revive() {
     assert_eq!(numbers(&|k2, _| k2 > FOLDS[1]), of_two);
 }
 
-/// The parameters along which axes are drawn.
-const ALONG: [Parameter; 6] = [
-    Parameter::Omega,
-    Parameter::Pd,
-    Parameter::K2,
-    Parameter::Delta,
-    Parameter::C,
-    Parameter::MuS,
-];
-
 impl Swept {
     /// The orbits on which the cases of a cell of a line in both directions end, with their numbers.
     fn orbits(&self, at: usize) -> Vec<(Attractor<3>, u32)> {
-        let final_motions = run::final_motions(&self.study, &self.records);
         let system = self.study.case(2 * at).read::<Filippov>().system;
         let orbit = |case: usize| {
-            let motion = final_motions.get(case)?;
+            let motion = self.final_motions.get(case)?;
             let found = Attractor::of(case, &system, &motion, &self.study.protocol)?;
             let number = self.attractors.of_case[case]?;
             (found.outcome == Outcome::Periodic).then_some((found, number))
