@@ -87,8 +87,8 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
     /// Links the attractors of the two cells.
     ///
     /// Periodic ones by continuation to the other cell, see [`succession`]. Those that do not repeat by the cases that
-    /// inherit their start, see `Neighbours::inherit`. Where a periodic attractor cannot be continued, and is not found
-    /// by continuation from the other cell either, it is not linked, and listed as unresolved.
+    /// inherit their start, see `Neighbours::inherit`. An attractor that is linked by neither is listed as unresolved, unless
+    /// continuation has shown how it goes on.
     ///
     /// `linear` are the attractors of both cells by place, as [`linear_orbits`] has them.
     pub fn link(
@@ -105,7 +105,7 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
                 links.pairs.push(pair(side, place, other));
             }
         }
-        let mut lost = Vec::new();
+        let mut lost = self.aperiodic();
         for (side, place) in periodic {
             if !links.has(side, place)
                 && !self.continued(integrator, (side, place), &mut links, &mut apart)
@@ -173,18 +173,31 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         }
     }
 
-    /// Note that it is not known how a periodic attractor goes on between the two cells.
+    /// Note that it is not known how an attractor goes on between the two cells. One that does not repeat has no period,
+    /// and no section point of its own.
     fn unresolved(&self, side: usize, place: usize) -> SpecialValue<D> {
         let [from, to] = self.values;
-        let points = &self.cells[side].attractors[place].points;
+        let Attractor { outcome, points, .. } = &self.cells[side].attractors[place];
+        let orbit = points.first().filter(|_| *outcome == Outcome::Periodic);
         SpecialValue {
             kind: SpecialKind::Unresolved,
             value: 0.5 * (from + to),
             uncertainty: 0.5 * (to - from).abs(),
-            period: points.len() as u64,
-            section: points[0],
+            period: orbit.map_or(0, |_| points.len() as u64),
+            section: orbit.copied().unwrap_or([f64::NAN; D]),
             is_stable_beyond: false,
         }
+    }
+
+    /// The attractors that do not repeat, by side and place.
+    fn aperiodic(&self) -> Vec<(usize, usize)> {
+        let sides = self.cells.iter().enumerate();
+        let all = sides.flat_map(|(side, cell)| {
+            let attractors = cell.attractors.iter().enumerate();
+            attractors.map(move |(place, it)| (side, place, it.outcome))
+        });
+        let aperiodic = all.filter(|(.., outcome)| *outcome != Outcome::Periodic);
+        aperiodic.map(|(side, place, _)| (side, place)).collect()
     }
 
     /// The periodic attractors by side and place, the shortest periods first, which take least to continue.

@@ -59,7 +59,7 @@ fn follow_with<M: System<D>, const D: usize, const U: usize, const W: usize>(
     request: &Request<M, D>,
 ) -> Result<FoundOf<M, D>, NotFollowed> {
     let (orbits, first) = first_orbit::<M, D, U>(request)?;
-    let mut found = Found { branches: Vec::new(), curves: Vec::new() };
+    let mut found = Found { branches: Vec::new(), curves: Vec::new(), not_left: Vec::new() };
     let (half, beginning) = both_directions(request, &orbits, first);
     let mut followed = vec![Followed { orbits, level: 0, half, beginning }];
     found.branches.push(branch(&followed[0], None));
@@ -93,7 +93,10 @@ fn leave<M: System<D>, const D: usize, const U: usize>(
     let mut doublings = doublings(&followed[parent].half);
     while let Some((place, at)) = doublings.pop() {
         let orbits = &followed[parent].orbits;
-        let Some((twice, first)) = doubled(orbits, &at) else { continue };
+        let Some((twice, first)) = doubled(orbits, &at) else {
+            found.not_left.push((parent, place));
+            continue;
+        };
         let mut half = HalfBranch::new(first.to_vec());
         let goal = Goal::at(&twice, &half.points[0]);
         half.follow(&twice, &mut control(request, &twice), request.most_points, &goal);

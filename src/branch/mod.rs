@@ -11,6 +11,7 @@ mod family;
 mod follow;
 mod grazing;
 mod half_branch;
+mod limited;
 mod locus;
 mod merger;
 mod orbits;
@@ -201,6 +202,9 @@ pub struct Found<O, const D: usize> {
     pub branches: Vec<Branch<O, D>>,
     /// Curves in two parameters, where a second was asked for.
     pub curves: Vec<Curve>,
+    /// Period doublings off which no orbit of twice the period was found, though it was asked for: the branch, and which of
+    /// its special points.
+    pub not_left: Vec<(usize, usize)>,
 }
 
 /// Why nothing could be followed.
@@ -241,6 +245,7 @@ impl<O, const D: usize> Found<O, D> {
             special: it.special.into_iter().map(special).collect(),
             ends: it.ends,
         };
-        Found { branches: self.branches.into_iter().map(branch).collect(), curves: self.curves }
+        let branches = self.branches.into_iter().map(branch).collect();
+        Found { branches, curves: self.curves, not_left: self.not_left }
     }
 }

@@ -78,8 +78,6 @@ pub struct StepControl<const U: usize> {
     pub shortest: f64,
     /// An easy step is followed by one longer by this factor.
     pub lengthen: f64,
-    /// Steps that may still be attempted.
-    pub attempts: usize,
 }
 
 type Met<const U: usize, E> = CurvePoint<U, <E as Equations<U>>::Seen>;
@@ -94,7 +92,6 @@ impl<const U: usize> StepControl<U> {
             last: 0.0,
             shortest: SHORTEST,
             lengthen: LENGTHEN,
-            attempts: usize::MAX,
         }
     }
 
@@ -106,8 +103,7 @@ impl<const U: usize> StepControl<U> {
         equations: &E,
         from: &Met<U, E>,
     ) -> Advance<Met<U, E>> {
-        while self.next >= self.shortest * self.longest && self.attempts > 0 {
-            self.attempts -= 1;
+        while self.next >= self.shortest * self.longest {
             match self.attempt(equations, from, self.next) {
                 Some((advance, taken)) => {
                     self.last = self.next;

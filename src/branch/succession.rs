@@ -5,11 +5,12 @@ use crate::orbit::passage::Integrator;
 
 use super::arclength::{ROUNDING, norm};
 use super::family::Family;
+use super::limited::Limited;
 use super::orbits::Orbits;
 use super::scales::units;
 use super::segment::{Along, Segment, SegmentEnd};
 use super::special::Sought;
-use super::walk::{COARSE, LEAST_MOVE, Walk};
+use super::walk::{COARSE, CYCLES, LEAST_MOVE, Walk};
 
 /// An attractor is followed through so many doublings and mergers at most.
 const CHANGES_OF_PERIOD: usize = 4;
@@ -76,9 +77,11 @@ fn segment_with<M: System<D>, const D: usize, const U: usize>(
     let section = units(system, (*parameter, range), points);
     let units: [f64; U] = std::array::from_fn(|i| *section.get(i).unwrap_or(&width));
     let along = *parameter;
+    let limited = &Limited::to(CYCLES, integrator);
+    let integrator = limited;
     let orbits = Orbits { family, integrator, along, units, oriented: true, exact: ROUNDING };
     let sought = if changes > 0 { Sought::Every(COARSE) } else { Sought::Shown(COARSE) };
-    let mut walk = Walk { orbits, from, to, sought };
+    let mut walk = Walk { orbits, from, to, sought, limited };
     let section = points.first()?;
     let start = walk.start(section)?;
     // Section and parameter count alike, or a fold is a bend too sharp for steps of the parameter's length.
@@ -88,15 +91,13 @@ fn segment_with<M: System<D>, const D: usize, const U: usize>(
     let (mut found, mut onward) = walk.segment(start);
     for _ in 0..changes {
         let Some(begun) = onward.map(|it| it.begin(&walk)) else { return Some(found) };
-        match begun {
-            Some(Some((next, start))) => {
-                let (later, further) = next.segment(start);
-                found.special.extend(later.special);
-                (found.end, onward, walk) = (later.end, further, next);
-            }
-            Some(None) => return Some(found),
-            None => return Some(Segment { end: SegmentEnd::Lost, ..found }),
+        let Some(begun) = begun else { return Some(Segment { end: SegmentEnd::Lost, ..found }) };
+        if !begun.is_stable {
+            return Some(found);
         }
+        let (later, further) = begun.walk.segment(begun.start);
+        found.special.extend(later.special);
+        (found.end, onward, walk) = (later.end, further, begun.walk);
     }
     if changes > 0 && onward.is_some() {
         found.end = SegmentEnd::Lost;

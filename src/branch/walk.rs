@@ -6,6 +6,7 @@ use super::arclength::{Plane, between, corrected, dot, moved, norm, tangent};
 use super::doubling::doubled;
 use super::grazing::grazed;
 use super::half_branch::HalfBranch;
+use super::limited::Limited;
 use super::orbits::{OrbitPoint, Orbits, SpecialOrbit};
 use super::periodic::{Goal, Periodic};
 use super::segment::{ONE_VALUE, PeriodicOrbit, Segment, SegmentEnd, SpecialValue};
@@ -15,14 +16,12 @@ use super::{End, SpecialKind};
 
 /// Where events change without a grazing, the place is known to this share of a step.
 pub const COARSE: f64 = 1e-6;
-/// Cycles of the orbits of a segment at most: where a long orbit ends is not worth more.
-const CYCLES: u64 = 800;
+/// Cycles that are computed for a segment at most: where an attractor ends is not worth more.
+pub const CYCLES: u64 = 3000;
 /// The longest step, in units of the way: where section and parameter change alike it is the whole way.
 const WHOLE: f64 = 1.5;
 /// An easy step is followed by one longer by this factor: most orbits change little over the whole way.
 const LENGTHEN: f64 = 4.0;
-/// Orbits of a segment at most, and at most where the orbit is long.
-const MOST_AND_FEW: [u64; 2] = [200, 16];
 /// A section that moves less over the way, relative to the motion, counts as if it moved so far.
 pub const LEAST_MOVE: f64 = 1e-4;
 /// A fold and a period doubling nearer than this share of the way are one.
@@ -41,8 +40,8 @@ pub enum Onward<'a, M: System<D>, const D: usize, const U: usize> {
 }
 
 impl<'a, M: System<D>, const D: usize, const U: usize> Onward<'a, M, D, U> {
-    /// The way of that orbit from the first one on, if it is stable there; none where no such orbit is found.
-    pub fn begin(self, before: &Walk<'a, M, D, U>) -> Option<Option<Begun<'a, M, D, U>>> {
+    /// The way of that orbit, with the first one; none where no such orbit is found.
+    pub fn begin(self, before: &Walk<'a, M, D, U>) -> Option<Begun<'a, M, D, U>> {
         let ahead = (before.to - before.from).signum();
         let (walk, start) = match self {
             Onward::Doubled(at) => {
@@ -62,13 +61,19 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Onward<'a, M, D, U> {
             }
         };
         let is_stable = start.seen.is_stable() && start.tangent[D] * ahead > 0.0;
-        Some(is_stable.then_some((walk, start)))
+        Some(Begun { walk, start, is_stable })
     }
 }
 
 /// A way with its first orbit.
-type Begun<'a, M, const D: usize, const U: usize> =
-    (Walk<'a, M, D, U>, OrbitPoint<<M as System<D>>::Event, D, U>);
+pub struct Begun<'a, M: System<D>, const D: usize, const U: usize> {
+    /// The way.
+    pub walk: Walk<'a, M, D, U>,
+    /// The orbit.
+    pub start: OrbitPoint<M::Event, D, U>,
+    /// Whether it is stable, and lies ahead.
+    pub is_stable: bool,
+}
 
 /// The segment of an orbit, and where the attractor goes on that it has ceased to be.
 pub type Followed<'a, M, const D: usize, const U: usize> =
@@ -85,6 +90,8 @@ pub struct Walk<'a, M: System<D>, const D: usize, const U: usize> {
     pub to: f64,
     /// Which special orbits are located while the orbit is stable.
     pub sought: Sought,
+    /// What follows the orbits.
+    pub limited: &'a Limited<'a, M, D>,
 }
 
 impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
@@ -104,76 +111,20 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
         Some(OrbitPoint { tangent, ..start })
     }
 
-    /// The segment from its first orbit on.
+    /// The segment from its first orbit on; lost where the integrator is spent.
     pub fn segment(&self, start: OrbitPoint<M::Event, D, U>) -> Followed<'a, M, D, U> {
-        let mut control = self.control();
-        let mut is_stable = start.seen.is_stable();
-        let ahead = start.tangent[D].signum();
-        let mut half = HalfBranch::new(vec![start]).coarse(self.sought);
-        let mut special = Vec::new();
-        // The doubling at which the orbit has ceased to be stable.
-        let mut onward = None;
-        let end = loop {
-            if !is_stable {
-                control.shortest = SHORTEST;
-                // Of an unstable orbit only the end of its branch matters.
-                half.sought = Sought::Folds;
+        let mut stretch = Stretch::new(self, start);
+        loop {
+            let known = stretch.special.len();
+            let end = stretch.advance(self);
+            if self.limited.is_spent() {
+                stretch.special.truncate(known);
+                return (Segment { special: stretch.special, end: SegmentEnd::Lost }, None);
             }
-            let known = half.special_orbits.len();
-            let end = half.advance(&self.orbits, &mut control, &Goal::none());
-            for (_, orbit) in &half.special_orbits[known..] {
-                let value = self.special_value(orbit);
-                if orbit.kind == SpecialKind::Fold {
-                    let Some((doubling, merged)) = self.doubling_at(orbit, &value) else {
-                        special.push(value);
-                        return (Segment { special, end: SegmentEnd::Ended }, onward);
-                    };
-                    special.push(doubling);
-                    return (Segment { special, end: SegmentEnd::Merged }, Some(merged));
-                }
-                if is_stable {
-                    special.push(value);
-                    if orbit.kind == SpecialKind::PeriodDoubling {
-                        onward = Some(Onward::Doubled(orbit.point.clone()));
-                    }
-                }
-                is_stable &= orbit.is_stable_beyond;
+            if let Some(end) = end {
+                return (Segment { special: stretch.special, end }, stretch.onward);
             }
-            let Some(last) = half.points.last() else { break SegmentEnd::Lost };
-            // Where derivatives jump, a branch may turn back without a fold.
-            if last.tangent[D] * ahead <= 0.0 {
-                if is_stable && half.special_orbits.len() == known {
-                    let before = &half.points[half.points.len().saturating_sub(2)];
-                    let step = norm(&between(&before.at, &last.at));
-                    special.push(self.discontinuity(before, step));
-                }
-                break SegmentEnd::Ended;
-            }
-            is_stable &= last.seen.is_stable();
-            match end {
-                Some(End::Bound) => {
-                    let reached = self.reached(last);
-                    onward = onward.filter(|_| !reached.is_stable());
-                    break SegmentEnd::Reached(reached);
-                }
-                _ if control.attempts == 0 => break SegmentEnd::Lost,
-                None => {}
-                Some(_) => match self.merged(last) {
-                    Some((doubling, merged)) => {
-                        special.extend(doubling);
-                        onward = onward.or(merged);
-                        break SegmentEnd::Merged;
-                    }
-                    None if is_stable => {
-                        let StepControl { shortest, longest, .. } = self.control();
-                        special.push(self.discontinuity(last, shortest * longest));
-                        break SegmentEnd::Ended;
-                    }
-                    None => break SegmentEnd::Lost,
-                },
-            }
-        };
-        (Segment { special, end }, onward)
+        }
     }
 
     /// Steps that begin with the whole way.
@@ -181,10 +132,8 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
         let [low, high] = [self.from.min(self.to), self.from.max(self.to)];
         let bounds = Bounds::none().with(D, [low, high].map(|end| self.in_units(end)));
         let longest = WHOLE * self.in_units(high - low);
-        let [most, few] = MOST_AND_FEW;
-        let attempts = (CYCLES / self.orbits.family.period).clamp(few, most) as usize;
         let new = StepControl::new(bounds, longest);
-        StepControl { next: longest, lengthen: LENGTHEN, attempts, ..new }
+        StepControl { next: longest, lengthen: LENGTHEN, ..new }
     }
 
     /// The orbit at the end of the way.
@@ -262,7 +211,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
     fn doubling(&self, start: OrbitPoint<M::Event, D, U>) -> Option<SpecialOrbit<M::Event, D, U>> {
         let mut control = self.control();
         let mut half = HalfBranch::new(vec![start]).coarse(self.sought);
-        while control.attempts > 0 {
+        while !self.limited.is_spent() {
             let end = half.advance(&self.orbits, &mut control, &Goal::none());
             let mut special = half.special_orbits.iter();
             let doubling = special.find(|(_, it)| it.kind == SpecialKind::PeriodDoubling);
@@ -290,6 +239,106 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
             period,
             section: orbits.section(&point.at),
             is_stable_beyond: *is_stable_beyond,
+        }
+    }
+}
+
+/// A segment as far as it has come.
+struct Stretch<'a, M: System<D>, const D: usize, const U: usize> {
+    half: HalfBranch<M::Event, D, U>,
+    control: StepControl<U>,
+    /// The sign of the parameter in the tangent that leads to the other value.
+    ahead: f64,
+    /// Whether all its orbits are stable.
+    is_stable: bool,
+    special: Vec<SpecialValue<D>>,
+    /// From the period doubling on at which the orbit has ceased to be stable, say.
+    onward: Option<Onward<'a, M, D, U>>,
+}
+
+impl<'a, M: System<D>, const D: usize, const U: usize> Stretch<'a, M, D, U> {
+    fn new(walk: &Walk<'a, M, D, U>, start: OrbitPoint<M::Event, D, U>) -> Self {
+        let (ahead, is_stable) = (start.tangent[D].signum(), start.seen.is_stable());
+        let half = HalfBranch::new(vec![start]).coarse(walk.sought);
+        let (control, special, onward) = (walk.control(), Vec::new(), None);
+        Stretch { half, control, ahead, is_stable, special, onward }
+    }
+
+    /// Adds the next orbit, and says how the segment ends if it does.
+    fn advance(&mut self, walk: &Walk<'a, M, D, U>) -> Option<SegmentEnd<D>> {
+        if !self.is_stable {
+            self.control.shortest = SHORTEST;
+            // Of an unstable orbit only the end of its branch matters.
+            self.half.sought = Sought::Folds;
+        }
+        let known = self.half.special_orbits.len();
+        let end = self.half.advance(&walk.orbits, &mut self.control, &Goal::none());
+        let found = self.half.special_orbits[known..].to_vec();
+        if let Some(end) = found.iter().find_map(|(_, orbit)| self.passes(walk, orbit)) {
+            return Some(end);
+        }
+        let Some(last) = self.half.points.last() else { return Some(SegmentEnd::Lost) };
+        // Where derivatives jump, a branch may turn back without a fold.
+        if last.tangent[D] * self.ahead <= 0.0 {
+            if self.is_stable && found.is_empty() {
+                let before = &self.half.points[self.half.points.len().saturating_sub(2)];
+                let step = norm(&between(&before.at, &last.at));
+                self.special.push(walk.discontinuity(before, step));
+            }
+            return Some(SegmentEnd::Ended);
+        }
+        self.is_stable &= last.seen.is_stable();
+        match end? {
+            End::Bound => {
+                let reached = walk.reached(last);
+                self.onward = self.onward.take().filter(|_| !reached.is_stable());
+                Some(SegmentEnd::Reached(reached))
+            }
+            _ => Some(self.stops(walk)),
+        }
+    }
+
+    /// Notes a special orbit on the way, and says whether the segment ends there.
+    fn passes(
+        &mut self,
+        walk: &Walk<'a, M, D, U>,
+        orbit: &SpecialOrbit<M::Event, D, U>,
+    ) -> Option<SegmentEnd<D>> {
+        let value = walk.special_value(orbit);
+        if orbit.kind == SpecialKind::Fold {
+            let Some((doubling, merged)) = walk.doubling_at(orbit, &value) else {
+                self.special.push(value);
+                return Some(SegmentEnd::Ended);
+            };
+            self.special.push(doubling);
+            self.onward = Some(merged);
+            return Some(SegmentEnd::Merged);
+        }
+        if self.is_stable {
+            self.special.push(value);
+            if orbit.kind == SpecialKind::PeriodDoubling {
+                self.onward = Some(Onward::Doubled(orbit.point.clone()));
+            }
+        }
+        self.is_stable &= orbit.is_stable_beyond;
+        None
+    }
+
+    /// How it ends where no step leads on.
+    fn stops(&mut self, walk: &Walk<'a, M, D, U>) -> SegmentEnd<D> {
+        let Some(last) = self.half.points.last() else { return SegmentEnd::Lost };
+        match walk.merged(last) {
+            Some((doubling, merged)) => {
+                self.special.extend(doubling);
+                self.onward = self.onward.take().or(merged);
+                SegmentEnd::Merged
+            }
+            None if self.is_stable => {
+                let StepControl { shortest, longest, .. } = walk.control();
+                self.special.push(walk.discontinuity(last, shortest * longest));
+                SegmentEnd::Ended
+            }
+            None => SegmentEnd::Lost,
         }
     }
 }

@@ -52,6 +52,12 @@ fn write_found(text: &mut String, continuation: &Continuation, found: &Found) {
         );
         write_branch(text, *along, branch);
     }
+    for &(number, special) in &found.not_left {
+        let at = quantity(*along, found.branches[number].special[special].point.parameter);
+        let number = number + 1;
+        let _ =
+            writeln!(text, "  no orbit of twice the period was found off branch {number} at {at}");
+    }
     for curve in &found.curves {
         let Curve { kind, period, points, ends, .. } = curve;
         let (name, points) = (kind_name(*kind), points.len());
@@ -261,7 +267,8 @@ to = \"5 N\"
             points: vec![[4.0, 1.0]; 7],
             ends: [End::MostPoints; 2],
         };
-        let found = Found { branches: vec![branch, ring], curves: vec![curve] };
+        let not_left = vec![(0, 0)];
+        let found = Found { branches: vec![branch, ring], curves: vec![curve], not_left };
         let continued = [Ok(found), Err(NotContinued::NoOrbit)];
         let text = summary(&study, &continued, Path::new("a.h5"), 2.0);
         let expected = "\
@@ -278,6 +285,7 @@ a, branch 2: period 2
   grazing               4.123456789       2      12.500000
   event-sequence        4.123456789       2      12.500000
   event-sequence        4.123456789       2      12.500000
+  no orbit of twice the period was found off branch 1 at 4.123456789 N
   curve of fold, period 1: 7 points, both ends where `most_points` is reached
   no curve through 1 grazing, 2 event-sequence (never continued)
 

@@ -93,7 +93,8 @@ impl EventMarks {
     }
 
     /// The symbols on the panel of a section coordinate, with their places in its units: each at the section point
-    /// of its own orbit. No other output of that orbit is known, and on other panels there are none.
+    /// of its own orbit. No other output of that orbit is known, and on other panels there are none; nor is there a place for
+    /// what happens to a motion that does not repeat.
     pub fn on(&self, view: &View<'_>, output: &str) -> Vec<(Symbol, f64, f64)> {
         let Some(i) = SECTION.iter().position(|entry| entry.name == output) else {
             return Vec::new();
@@ -101,7 +102,8 @@ impl EventMarks {
         let factor = view.quantity(output).factor;
         let place =
             |event: &Event| (event.symbol, event.at * self.factor, event.section[i] * factor);
-        self.events.iter().map(place).collect()
+        let has_place = |event: &&Event| event.section[i].is_finite();
+        self.events.iter().filter(has_place).map(place).collect()
     }
 }
 

@@ -140,7 +140,7 @@ pub fn found() -> Found {
     let bends = [2.0, -1.5, 0.8, 2.6, -2.2, 1.2];
     let curves = (0..first.special.len()).zip(bends).map(|(at, bend)| curve(at, bend)).collect();
     first.special.iter_mut().enumerate().for_each(|(at, special)| special.curve = Some(at));
-    Found { branches: vec![first, doubled], curves }
+    Found { branches: vec![first, doubled], curves, not_left: Vec::new() }
 }
 
 /// What the branches of `STUDY` might lead to.
@@ -148,7 +148,7 @@ pub fn continued() -> Vec<Continued> {
     let orbits = (0..30).map(|step| point(1.0 + 0.1 * f64::from(step), 1, 0.5, 0.3)).collect();
     let ends = [End::Bound; 2];
     let plain = Branch { period: 1, parent: None, points: orbits, special: Vec::new(), ends };
-    let second = Found { branches: vec![plain], curves: Vec::new() };
+    let second = Found { branches: vec![plain], curves: Vec::new(), not_left: Vec::new() };
     vec![Ok(found()), Ok(second), Err(NotContinued::NoOrbit)]
 }
 
