@@ -13,7 +13,7 @@ use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 use super::periodic::{Goal, Periodic, passes};
 use super::special::{Sought, special_orbits};
 use super::step_control::{Advance, StepControl};
-use super::whole_step::{special_orbits_of_shortest, special_orbits_of_whole};
+use super::whole_step::{Flaw, JUMP, special_orbits_of_shortest, special_orbits_of_whole};
 
 /// Corners that are passed on half of a branch at most.
 const CORNERS: usize = 40;
@@ -26,6 +26,9 @@ const MERGES: f64 = 1e-4;
 /// A step that does not add up is halved down to this share of the longest, and on a coarse branch to this.
 const LEAST: f64 = 1e-6;
 const LEAST_OF_COARSE: f64 = 1e-3;
+
+/// A step over a small jump of the return map, which shorter steps end at.
+const LEAP: f64 = 10.0 * JUMP;
 
 /// How a branch goes on where no step along its tangent leads on.
 enum Onward<E, const D: usize, const U: usize> {
@@ -126,8 +129,8 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         }
     }
 
-    /// How the branch goes on where no step leads on: the section point may jump, the branch turn at a corner, or
-    /// pass a rigid grazing.
+    /// How the branch goes on where no step leads on: the return map may jump by little, the section point jump, the branch turn
+    /// at a corner, or pass a rigid grazing.
     fn around<M: System<D, Event = E>>(
         &mut self,
         orbits: &Orbits<M, D, U>,
@@ -135,6 +138,12 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         last: &OrbitPoint<E, D, U>,
     ) -> Option<Onward<E, D, U>> {
         self.corners -= 1;
+        let leap = control.attempt(orbits, last, LEAP).map(|(advance, _)| advance);
+        if let Some(advance @ (Advance::Inside(next) | Advance::AtBound(next))) = &leap
+            && special_orbits_of_whole(orbits, last, next, NARROW).is_ok()
+        {
+            return Some(Onward::Turns(last.clone(), advance.clone()));
+        }
         let (family, units, free) = (&orbits.family, &orbits.units, &[orbits.along][..]);
         match across_section(orbits, &Unknowns { family, units, free }, control, last) {
             Some(Advance::Inside(next)) => {
@@ -224,9 +233,11 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
         }
         let found = match self.sought {
             Sought::Every(narrow) => match special_orbits_of_whole(orbits, from, &until, narrow) {
-                Some(found) => found,
-                None if control.halve(self.least).is_some() => return Added::Halved,
-                None => special_orbits_of_shortest(orbits, from, &until, narrow),
+                Ok(found) => found,
+                // No step is so short that a branch goes on beyond a jump.
+                Err(Flaw::Jump) if control.halve(0.0).is_some() => return Added::Halved,
+                Err(_) if control.halve(self.least).is_some() => return Added::Halved,
+                Err(_) => special_orbits_of_shortest(orbits, from, &until, narrow),
             },
             sought => special_orbits(orbits, from, &until, sought),
         };

@@ -4,6 +4,7 @@ use crate::flow::{Event, System};
 
 use super::SpecialKind;
 use super::arc::{Arc, Placed};
+use super::arclength::{between, norm};
 use super::grazing::touching;
 use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 
@@ -129,7 +130,11 @@ impl<E: Event, const D: usize, const U: usize> Change<E, D, U> {
         let grazing = touching(&orbits.exactly(), arc, [before, after], range);
         let (kind, (distance, point), uncertainty) = match grazing {
             Some(touching) => (SpecialKind::Grazing, touching, rounding),
-            None => (SpecialKind::EventSequence, before.clone(), after.0 - before.0 + rounding),
+            // Along the curve they are farther apart than along the tangent where the arc begins.
+            None => {
+                let apart = norm(&between(&before.1.at, &after.1.at));
+                (SpecialKind::EventSequence, before.clone(), apart + rounding)
+            }
         };
         let is_stable_beyond = after.1.seen.is_stable();
         SpecialOrbit { kind, distance, uncertainty, point, is_stable_beyond }

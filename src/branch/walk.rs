@@ -278,14 +278,8 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Stretch<'a, M, D, U> {
             return Some(end);
         }
         let Some(last) = self.half.points.last() else { return Some(SegmentEnd::Lost) };
-        // Where derivatives jump, a branch may turn back without a fold.
         if last.tangent[D] * self.ahead <= 0.0 {
-            if self.is_stable && found.is_empty() {
-                let before = &self.half.points[self.half.points.len().saturating_sub(2)];
-                let step = norm(&between(&before.at, &last.at));
-                self.special.push(walk.discontinuity(before, step));
-            }
-            return Some(SegmentEnd::Ended);
+            return Some(if found.is_empty() { self.turns(walk) } else { SegmentEnd::Ended });
         }
         self.is_stable &= last.seen.is_stable();
         match end? {
@@ -294,7 +288,10 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Stretch<'a, M, D, U> {
                 self.onward = self.onward.take().filter(|_| !reached.is_stable());
                 Some(SegmentEnd::Reached(reached))
             }
-            _ => Some(self.stops(walk)),
+            _ => {
+                let last = last.clone();
+                Some(self.merges(walk, &last).unwrap_or_else(|| self.stops(walk, &last)))
+            }
         }
     }
 
@@ -324,21 +321,43 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Stretch<'a, M, D, U> {
         None
     }
 
-    /// How it ends where no step leads on.
-    fn stops(&mut self, walk: &Walk<'a, M, D, U>) -> SegmentEnd<D> {
-        let Some(last) = self.half.points.last() else { return SegmentEnd::Lost };
-        match walk.merged(last) {
-            Some((doubling, merged)) => {
-                self.special.extend(doubling);
-                self.onward = self.onward.take().or(merged);
-                SegmentEnd::Merged
-            }
-            None if self.is_stable => {
-                let StepControl { shortest, longest, .. } = walk.control();
-                self.special.push(walk.discontinuity(last, shortest * longest));
-                SegmentEnd::Ended
-            }
-            None => SegmentEnd::Lost,
+    /// How it ends where it turns back without a fold: at a merger, or where derivatives jump.
+    fn turns(&mut self, walk: &Walk<'a, M, D, U>) -> SegmentEnd<D> {
+        let [.., before, last] = &self.half.points[..] else { return SegmentEnd::Lost };
+        let (before, step) = (before.clone(), norm(&between(&before.at, &last.at)));
+        if let Some(end) = self.merges(walk, &before) {
+            return end;
         }
+        if self.is_stable {
+            self.special.push(walk.discontinuity(&before, step));
+        }
+        SegmentEnd::Ended
+    }
+
+    /// How it ends where no step leads on.
+    fn stops(
+        &mut self,
+        walk: &Walk<'a, M, D, U>,
+        last: &OrbitPoint<M::Event, D, U>,
+    ) -> SegmentEnd<D> {
+        if !self.is_stable {
+            return SegmentEnd::Lost;
+        }
+        let StepControl { shortest, longest, .. } = walk.control();
+        // The last step that failed is shorter than two of the shortest.
+        self.special.push(walk.discontinuity(last, 2.0 * shortest * longest));
+        SegmentEnd::Ended
+    }
+
+    /// Whether it ends in an orbit of half its period.
+    fn merges(
+        &mut self,
+        walk: &Walk<'a, M, D, U>,
+        last: &OrbitPoint<M::Event, D, U>,
+    ) -> Option<SegmentEnd<D>> {
+        let (doubling, merged) = walk.merged(last)?;
+        self.special.extend(doubling);
+        self.onward = self.onward.take().or(merged);
+        Some(SegmentEnd::Merged)
     }
 }

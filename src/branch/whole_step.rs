@@ -3,7 +3,7 @@
 use crate::flow::{Event, System};
 
 use super::SpecialKind;
-use super::arc::Arc;
+use super::arc::{Arc, NARROW};
 use super::arclength::{between, dot, norm};
 use super::family::apart;
 use super::orbits::{OrbitPoint, Orbits, SpecialOrbit};
@@ -25,10 +25,25 @@ const TOUCHES: f64 = 1e-9;
 const ROUNDING: f64 = 1e-13;
 /// A shorter step may hold several changes of the events, which are then told one by one.
 const SHORT: f64 = 1e-6;
+/// Where the return map jumps by less, relative to the motion, the branch goes on.
+pub const JUMP: f64 = 1e-5;
+/// A multiplier is so near to the unit circle that rounding may decide on which side it is.
+const ON_CIRCLE: f64 = 1e-10;
+/// An orbit that is no farther from one of half its period has a multiplier that cannot be told from one.
+const BESIDE: f64 = 1e-3;
 /// Changes of the event sequence that are no farther apart are one.
 const ONE_PLACE: f64 = 1e-10;
 
-/// The special orbits between two neighbouring orbits, in order; none where the step does not add up and has to be halved.
+/// Why a step has to be halved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flaw {
+    /// More may happen on it than is located.
+    Unclear,
+    /// The orbits at its ends are of different branches: the return map jumps between them.
+    Jump,
+}
+
+/// The special orbits between two neighbouring orbits, in order, unless the step does not add up.
 ///
 /// Method: the step is cut where the sequence of events changes, so that the return map is smooth on each part. On each, the
 /// orbit in the middle must lie near the cubic through the ends and have their events; a margin and every test function may
@@ -42,12 +57,15 @@ pub fn special_orbits_of_whole<M: System<D>, const D: usize, const U: usize>(
     from: &OrbitPoint<M::Event, D, U>,
     to: &OrbitPoint<M::Event, D, U>,
     narrow: f64,
-) -> Option<Vec<SpecialOrbit<M::Event, D, U>>> {
+) -> Result<Vec<SpecialOrbit<M::Event, D, U>>, Flaw> {
     let exact = orbits.exactly();
     let step = WholeStep::of(&exact, [from, to], narrow);
     let mut found = step.special()?;
+    if found.is_empty() && changes_stability(orbits, from, to) {
+        return Err(Flaw::Unclear);
+    }
     found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-    Some(found)
+    Ok(found)
 }
 
 /// The same of a step that is not halved any more, where what is not located is told as unresolved.
@@ -68,7 +86,8 @@ pub fn special_orbits_of_shortest<M: System<D>, const D: usize, const U: usize>(
             && found.iter().all(|it| it.kind != *kind)
             && (*kind != SpecialKind::Fold || step.is_known(ends, to))
     };
-    if !has_changed && SMOOTH.iter().any(is_missing) {
+    let is_silent = found.is_empty() && changes_stability(orbits, from, to);
+    if is_silent || !has_changed && SMOOTH.iter().any(is_missing) {
         let uncertainty = norm(&between(&from.at, &to.at));
         let (kind, distance, point) = (SpecialKind::Unresolved, 0.5 * uncertainty, to.clone());
         let is_stable_beyond = to.seen.is_stable();
@@ -79,6 +98,27 @@ pub fn special_orbits_of_shortest<M: System<D>, const D: usize, const U: usize>(
 
 /// Special orbits, as far as they are known to be all.
 type All<E, const D: usize, const U: usize> = Option<Vec<SpecialOrbit<E, D, U>>>;
+
+/// Whether two orbits have different numbers of multipliers beyond the unit circle, as far as rounding does not decide, as it
+/// does beside an orbit of half the period.
+///
+/// Where nothing special is found between them two branches may cross, or meet at a corner.
+fn changes_stability<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    from: &OrbitPoint<M::Event, D, U>,
+    to: &OrbitPoint<M::Event, D, U>,
+) -> bool {
+    let beyond = |point: &OrbitPoint<M::Event, D, U>| {
+        let moduli = point.seen.multipliers().map(|it| it.abs());
+        let is_clear = moduli.iter().all(|modulus| (modulus - 1.0).abs() > ON_CIRCLE);
+        is_clear.then(|| moduli.iter().filter(|modulus| **modulus > 1.0).count())
+    };
+    let is_other = beyond(from).zip(beyond(to)).is_some_and(|(from, to)| from != to);
+    let is_far = |point: &OrbitPoint<M::Event, D, U>| {
+        orbits.halfway(&point.at).is_none_or(|apart| norm(&apart) > BESIDE)
+    };
+    is_other && is_far(from) && is_far(to)
+}
 
 /// A step with the arc on which its orbits lie.
 struct WholeStep<'a, 'b, M: System<D>, const D: usize, const U: usize> {
@@ -105,19 +145,22 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
         self.ends.each_ref().map(|it| it.0)
     }
 
-    fn special(&self) -> All<M::Event, D, U> {
+    fn special(&self) -> Result<Vec<SpecialOrbit<M::Event, D, U>>, Flaw> {
         let [from, to] = &self.ends;
         let mut found = Vec::new();
         let mut last = from.clone();
         while last.1.seen.events != to.1.seen.events {
             let is_short = norm(&between(&from.1.at, &to.1.at)) <= SHORT;
             let change = Change::first(&self.arc, [&last, to], self.narrow);
+            if self.jumps(&change) {
+                return Err(Flaw::Jump);
+            }
             // Of a longer step nothing more is looked at where another change follows.
             let goes_on = change.after.1.seen.events != to.1.seen.events;
             if goes_on && !is_short || found.len() >= CHANGES {
-                return None;
+                return Err(Flaw::Unclear);
             }
-            found.extend(self.smooth([&last, &change.before])?);
+            found.extend(self.smooth([&last, &change.before]).ok_or(Flaw::Unclear)?);
             let special = change.special(self.orbits, &self.arc, self.range());
             match found.last_mut().filter(|_| change.before.0 - last.0 <= ONE_PLACE) {
                 // Of a symmetric motion two events change at once, which rounding may tell apart.
@@ -127,8 +170,16 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
             }
             last = change.after;
         }
-        found.extend(self.smooth([&last, to])?);
-        Some(found)
+        found.extend(self.smooth([&last, to]).ok_or(Flaw::Unclear)?);
+        Ok(found)
+    }
+
+    /// Whether the return map jumps where events change, as where a capsule that rests breaks away by more static than kinetic
+    /// friction: then the orbits on both sides are of different branches.
+    fn jumps(&self, change: &Change<M::Event, D, U>) -> bool {
+        let apart = |it: &Change<M::Event, D, U>| norm(&between(&it.before.1.at, &it.after.1.at));
+        let close = || Change::first(&self.arc, [&change.before, &change.after], NARROW);
+        apart(change) > JUMP && apart(&close()) > JUMP
     }
 
     /// Whether a fold between two orbits is far enough from an orbit of half its period for its tangent to be known.

@@ -114,6 +114,7 @@ mod smoothed_records;
 mod store;
 mod stribeck_scan;
 mod study;
+mod successions;
 mod tolerances;
 mod trade_offs;
 mod tradeoff;
