@@ -19,6 +19,9 @@ CASES=200000 CAPSULES=41 STARTS=5000 cargo test --release --test it -- accelerat
 echo "== branches of 300 capsules by other steps, ranges, section phases and points of the orbit; numbers along 100 axes against four times as many points"
 CAPSULES=300 AXES=100 cargo test --release --test it -- random_branches no_number --nocapture
 
+echo "== what the ways of 3000 attractors tell is what branches in small steps tell"
+CAPSULES=3000 cargo test --release --test it -- successions --nocapture
+
 echo "== periods and defects of 10 000 cases of each law over the whole box, and a second integrator on 3000"
 CASES=10000 cargo test --release --test it -- wide_box --nocapture
 

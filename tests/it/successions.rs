@@ -42,7 +42,7 @@ impl<M: System<D>, const D: usize> Integrator<M, D> for Counting {
 }
 
 #[test]
-fn long_ways_are_given_up_and_tell_no_special_point_that_is_none() {
+fn attractors_are_followed_for_so_many_cycles_and_tell_no_special_point_that_is_none() {
     let protocol = Protocol::default();
     let mut random = Random::new(29);
     let capsules = env::var("CAPSULES").map_or(CAPSULES, |it| it.parse().expect("a number"));
