@@ -3,7 +3,7 @@
 
 use capsulemap::branch::{self, End, SpecialKind};
 use capsulemap::capsule::branch::{Request, follow};
-use capsulemap::capsule::{Parameter, Parameters, Resistance, State, settle};
+use capsulemap::capsule::{Case, Parameter, Parameters, Resistance, State, settle, settle_case};
 use capsulemap::orbit::{Outcome, Protocol};
 use rayon::prelude::*;
 
@@ -236,8 +236,16 @@ fn random_branches_are_the_same_by_any_settings() {
     let chosen: Vec<_> = settled.take(capsules).collect();
     let compared = chosen.into_par_iter().map(|(number, parameters, along, share)| {
         let (low, high) = (parameters[along] * (1.0 - share), parameters[along] * (1.0 + share));
+        let settled = settle(&parameters, 0.0, State::default(), &Protocol::default());
         let request = |phase: f64, point: usize| {
-            let orbit = settle(&parameters, phase, State::default(), &Protocol::default());
+            // The same orbit, of which other starts may not lead to.
+            let start = State { x2: 0.0, ..settled.end };
+            let case = Case {
+                start,
+                section_phase: phase,
+                ..Case::at_section(parameters.clone(), start, 0.0)
+            };
+            let orbit = settle_case(&case, &Protocol::default());
             Request {
                 parameters: parameters.clone(),
                 phase,
