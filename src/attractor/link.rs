@@ -97,7 +97,7 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         linear: [&LinearOrbits<M, D>; 2],
     ) -> Links<D> {
         let (mut links, mut apart) = (Links::default(), Apart::default());
-        let periodic = self.periodic();
+        let [periodic, mut lost] = self.by_outcome();
         for &(side, place) in &periodic {
             if !links.has(side, place)
                 && let Some(other) = self.direct(side, place, &links, linear)
@@ -105,7 +105,6 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
                 links.pairs.push(pair(side, place, other));
             }
         }
-        let mut lost = self.aperiodic();
         for (side, place) in periodic {
             if !links.has(side, place)
                 && !self.continued(integrator, (side, place), &mut links, &mut apart)
@@ -189,27 +188,21 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         }
     }
 
-    /// The attractors that do not repeat, by side and place.
-    fn aperiodic(&self) -> Vec<(usize, usize)> {
+    /// The attractors by side and place: the periodic ones, the shortest periods first, which take least to continue, and those
+    /// that do not repeat.
+    fn by_outcome(&self) -> [Vec<(usize, usize)>; 2] {
         let sides = self.cells.iter().enumerate();
-        let all = sides.flat_map(|(side, cell)| {
-            let attractors = cell.attractors.iter().enumerate();
-            attractors.map(move |(place, it)| (side, place, it.outcome))
-        });
-        let aperiodic = all.filter(|(.., outcome)| *outcome != Outcome::Periodic);
-        aperiodic.map(|(side, place, _)| (side, place)).collect()
+        let all = sides
+            .flat_map(|(side, cell)| (0..cell.attractors.len()).map(move |place| (side, place)));
+        let (mut periodic, others): (Vec<_>, Vec<_>) =
+            all.partition(|&(side, place)| self.repeats(side, place));
+        periodic.sort_by_key(|&(side, place)| self.cells[side].attractors[place].points.len());
+        [periodic, others]
     }
 
-    /// The periodic attractors by side and place, the shortest periods first, which take least to continue.
-    fn periodic(&self) -> Vec<(usize, usize)> {
-        let mut all: Vec<(usize, usize, usize)> = Vec::new();
-        for (side, cell) in self.cells.iter().enumerate() {
-            let attractors = cell.attractors.iter().enumerate();
-            let periodic = attractors.filter(|(_, it)| it.outcome == Outcome::Periodic);
-            all.extend(periodic.map(|(place, it)| (it.points.len(), side, place)));
-        }
-        all.sort_unstable();
-        all.into_iter().map(|(_, side, place)| (side, place)).collect()
+    /// Whether an attractor is periodic.
+    fn repeats(&self, side: usize, place: usize) -> bool {
+        self.cells[side].attractors[place].outcome == Outcome::Periodic
     }
 
     /// The attractor of the other cell that is the orbit that was continued to it.
@@ -240,11 +233,8 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
                 pairs.iter().filter(|pair| !ends(pair)).copied().collect()
             }
         };
-        let repeats = |side: usize, place: usize| {
-            self.cells[side].attractors[place].outcome == Outcome::Periodic
-        };
         pairs.retain(|pair| !Apart::among(&apart.unseen, pair));
-        pairs.retain(|[a, b]| !(repeats(0, *a) && repeats(1, *b)));
+        pairs.retain(|[a, b]| !(self.repeats(0, *a) && self.repeats(1, *b)));
         for [a, b] in pairs {
             if !links.has(0, a) && !links.has(1, b) {
                 links.pairs.push([a, b]);

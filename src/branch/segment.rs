@@ -73,7 +73,7 @@ pub enum SegmentEnd<const D: usize> {
     Ended,
     /// Before: it runs into an orbit of half its period, which continues it.
     Merged,
-    /// Before, and it is not known why: the steps became too many, or too short for an unstable orbit.
+    /// Before, and it is not known why: the cycles became too many, or the steps too short for an unstable orbit.
     Lost,
 }
 

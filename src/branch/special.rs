@@ -118,6 +118,11 @@ impl<E: Event, const D: usize, const U: usize> Change<E, D, U> {
         Change { before, after }
     }
 
+    /// How far the two orbits are apart.
+    pub(super) fn width(&self) -> f64 {
+        norm(&between(&self.before.1.at, &self.after.1.at))
+    }
+
     /// What happens there, on an arc of this range.
     pub(super) fn special<M: System<D, Event = E>>(
         &self,
@@ -131,10 +136,7 @@ impl<E: Event, const D: usize, const U: usize> Change<E, D, U> {
         let (kind, (distance, point), uncertainty) = match grazing {
             Some(touching) => (SpecialKind::Grazing, touching, rounding),
             // Along the curve they are farther apart than along the tangent where the arc begins.
-            None => {
-                let apart = norm(&between(&before.1.at, &after.1.at));
-                (SpecialKind::EventSequence, before.clone(), apart + rounding)
-            }
+            None => (SpecialKind::EventSequence, before.clone(), self.width() + rounding),
         };
         let is_stable_beyond = after.1.seen.is_stable();
         SpecialOrbit { kind, distance, uncertainty, point, is_stable_beyond }

@@ -10,17 +10,19 @@ use super::orbits::Orbits;
 use super::scales::units;
 use super::segment::{Along, Segment, SegmentEnd};
 use super::special::Sought;
-use super::walk::{COARSE, CYCLES, LEAST_MOVE, Walk};
+use super::walk::{COARSE, LEAST_MOVE, Walk};
 
 /// An attractor is followed through so many doublings and mergers at most.
 const CHANGES_OF_PERIOD: usize = 4;
+/// Cycles with derivatives that are computed for a segment at most: where an attractor ends is not worth more.
+const CYCLES: u64 = 3000;
 
 /// The segment of a branch from a periodic orbit, given by the value of the parameter there and its section
 /// points, to another value; none where the orbit does not close.
 ///
 /// Method: pseudo-arclength continuation as in [`follow`](super::follow()), which tells a fold from an orbit that
 /// cannot be followed, with the distance of the two values as unit of the parameter. It goes on past the loss of stability,
-/// as the orbit at the other value may be that of a neighbouring segment.
+/// as the orbit at the other value may be that of a neighbouring segment. After 3000 cycles with derivatives it is lost.
 /// Breaks: two special points of one kind that undo each other between two orbits of the segment are not seen.
 pub fn segment<M: System<D>, const D: usize>(
     integrator: &dyn Integrator<M, D>,
@@ -78,8 +80,8 @@ fn segment_with<M: System<D>, const D: usize, const U: usize>(
     let units: [f64; U] = std::array::from_fn(|i| *section.get(i).unwrap_or(&width));
     let along = *parameter;
     let limited = &Limited::to(CYCLES, integrator);
-    let integrator = limited;
-    let orbits = Orbits { family, integrator, along, units, oriented: true, exact: ROUNDING };
+    let orbits =
+        Orbits { family, integrator: limited, along, units, oriented: true, exact: ROUNDING };
     let sought = if changes > 0 { Sought::Every(COARSE) } else { Sought::Shown(COARSE) };
     let mut walk = Walk { orbits, from, to, sought, limited };
     let section = points.first()?;

@@ -16,8 +16,6 @@ use super::{End, SpecialKind};
 
 /// Where events change without a grazing, the place is known to this share of a step.
 pub const COARSE: f64 = 1e-6;
-/// Cycles that are computed for a segment at most: where an attractor ends is not worth more.
-pub const CYCLES: u64 = 3000;
 /// The longest step, in units of the way: where section and parameter change alike it is the whole way.
 const WHOLE: f64 = 1.5;
 /// An easy step is followed by one longer by this factor: most orbits change little over the whole way.

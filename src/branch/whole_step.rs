@@ -48,7 +48,8 @@ pub enum Flaw {
 /// Method: the step is cut where the sequence of events changes, so that the return map is smooth on each part. On each, the
 /// orbit in the middle must lie near the cubic through the ends and have their events; a margin and every test function may
 /// have no more roots than their values at the three orbits show, as judged by the parabola through these; and each root is
-/// located. Test functions jump between parts alone, so that no jump hides a root.
+/// located. Test functions jump between parts alone, so that no jump hides a root. The orbits on the two sides of a cut must not
+/// jump, and where nothing special is found as many multipliers must lie beyond the unit circle at both ends.
 /// Breaks: where within a smooth part a test function turns twice or an event sequence changes and changes back, and the
 /// orbit in the middle shows neither. A fold so near to a period doubling that rounding
 /// decides the sign of the tangent is not told from it.
@@ -153,7 +154,9 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
             let is_short = norm(&between(&from.1.at, &to.1.at)) <= SHORT;
             let change = Change::first(&self.arc, [&last, to], self.narrow);
             if self.jumps(&change) {
-                return Err(Flaw::Jump);
+                // Before it may lie orbits that are not on the arc, as those behind a corner.
+                let adds_up = self.smooth([&last, &change.before]).is_some();
+                return Err(if adds_up { Flaw::Jump } else { Flaw::Unclear });
             }
             // Of a longer step nothing more is looked at where another change follows.
             let goes_on = change.after.1.seen.events != to.1.seen.events;
@@ -177,9 +180,11 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
     /// Whether the return map jumps where events change, as where a capsule that rests breaks away by more static than kinetic
     /// friction: then the orbits on both sides are of different branches.
     fn jumps(&self, change: &Change<M::Event, D, U>) -> bool {
-        let apart = |it: &Change<M::Event, D, U>| norm(&between(&it.before.1.at, &it.after.1.at));
-        let close = || Change::first(&self.arc, [&change.before, &change.after], NARROW);
-        apart(change) > JUMP && apart(&close()) > JUMP
+        if change.width() <= JUMP {
+            return false;
+        }
+        let closer = Change::first(&self.arc, [&change.before, &change.after], NARROW);
+        closer.width() > JUMP
     }
 
     /// Whether a fold between two orbits is far enough from an orbit of half its period for its tangent to be known.

@@ -4,8 +4,8 @@ use capsulemap::attractor::coincide;
 use capsulemap::branch::{Along, Linearised, SegmentEnd, leads_to, linearised, segment};
 use capsulemap::capsule::{Case, Filippov, Orbit, Parameter, Resistance, State};
 use capsulemap::lane::Instructions;
+use capsulemap::orbit::Protocol;
 use capsulemap::orbit::passage::OneByOne;
-use capsulemap::orbit::{Outcome, Protocol};
 
 use super::draws::{self, ALONG, Random};
 
@@ -28,7 +28,7 @@ fn a_branch_that_is_said_to_lead_straight_on_does() {
         let cases = draws::wide(CAPSULES, 84, law);
         let orbits = draws::settled(&cases, &protocol, Instructions::widest());
         let chosen: Vec<(&Case, &Orbit)> =
-            cases.iter().zip(&orbits).filter(|(_, orbit)| is_kept(orbit)).collect();
+            cases.iter().zip(&orbits).filter(|(_, orbit)| draws::is_kept(orbit)).collect();
         let drawn: Vec<(Parameter, f64)> = (0..chosen.len())
             .map(|i| (ALONG[i % ALONG.len()], 1.0 + random.uniform(-1.0, 1.0) * 0.01))
             .collect();
@@ -40,7 +40,7 @@ fn a_branch_that_is_said_to_lead_straight_on_does() {
         let reached = draws::settled(&next, &protocol, Instructions::widest());
         for (i, (case, orbit)) in chosen.into_iter().enumerate() {
             let (parameter, other) = (drawn[i].0, &reached[i]);
-            if !is_kept(other) || other.period != orbit.period {
+            if !draws::is_kept(other) || other.period != orbit.period {
                 continue;
             }
             let system = case.read::<Filippov>().system;
@@ -79,11 +79,4 @@ fn a_branch_that_is_said_to_lead_straight_on_does() {
     }
     println!("{direct} of {} are direct", 2 * pairs);
     assert!(pairs > 500 && direct > pairs, "{direct} of {}", 2 * pairs);
-}
-
-/// Whether an orbit is periodic and stable, and all its points are kept.
-fn is_kept(orbit: &Orbit) -> bool {
-    orbit.outcome == Outcome::Periodic
-        && orbit.certificate.is_stable()
-        && orbit.section.len() == orbit.period as usize
 }

@@ -2,7 +2,7 @@
 
 use capsulemap::capsule::{Case, Orbit, Parameter, Parameters, Resistance, State, settle_all};
 use capsulemap::lane::Instructions;
-use capsulemap::orbit::{Machine, Protocol};
+use capsulemap::orbit::{Machine, Outcome, Protocol};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
@@ -101,4 +101,11 @@ pub fn cases(count: usize, seed: u64) -> Vec<Case> {
 pub fn settled(cases: &[Case], protocol: &Protocol, instructions: Instructions) -> Vec<Orbit> {
     let machine = Machine { threads: Some(1), instructions: Some(instructions) };
     settle_all(cases, protocol, machine)
+}
+
+/// Whether an orbit is periodic and stable, and all its points are kept.
+pub fn is_kept(orbit: &Orbit) -> bool {
+    orbit.outcome == Outcome::Periodic
+        && orbit.certificate.is_stable()
+        && orbit.section.len() == orbit.period as usize
 }

@@ -9,11 +9,11 @@ use capsulemap::capsule::branch::{Request, follow};
 use capsulemap::capsule::{Case, Filippov, Orbit, Parameter};
 use capsulemap::flow::{Reason, System};
 use capsulemap::lane::Instructions;
+use capsulemap::orbit::Protocol;
 use capsulemap::orbit::measuring::{MeasureRequest, Measured};
 use capsulemap::orbit::passage::{
     Integrator, OneByOne, Passage, PlainRequest, PlainReturns, ReturnRequest,
 };
-use capsulemap::orbit::{Outcome, Protocol};
 
 use super::draws::{self, ALONG, Random};
 
@@ -50,7 +50,9 @@ fn attractors_are_followed_for_so_many_cycles_and_tell_no_special_point_that_is_
     // With little damping most ways are long.
     cases.iter_mut().for_each(|case| case.parameters[Parameter::C] *= 0.1);
     let orbits = draws::settled(&cases, &protocol, Instructions::widest());
-    let chosen = cases.iter().zip(&orbits).filter(is_kept);
+    let chosen = cases.iter().zip(&orbits).filter(|(case, orbit)| {
+        draws::is_kept(orbit) && orbit.period <= 4 && case.parameters[Parameter::Pd] > 0.0
+    });
     let (mut lost, mut told) = (0, 0);
     for (i, (case, orbit)) in chosen.enumerate() {
         let parameter = ALONG[i % ALONG.len()];
@@ -120,12 +122,4 @@ fn of_branches(
     let ends = branches.iter().flat_map(|branch| [branch.points.first(), branch.points.last()]);
     let ends = ends.flatten().map(|it| (SpecialKind::EventSequence, it.parameter));
     Some(special.chain(ends).collect())
-}
-
-fn is_kept((case, orbit): &(&Case, &Orbit)) -> bool {
-    orbit.outcome == Outcome::Periodic
-        && orbit.certificate.is_stable()
-        && orbit.section.len() == orbit.period as usize
-        && orbit.period <= 4
-        && case.parameters[Parameter::Pd] > 0.0
 }

@@ -229,14 +229,14 @@ fn random_branches_are_the_same_by_any_settings() {
         };
         (number, case.parameters, along[number % along.len()], Random::new(seed).uniform(0.05, 0.5))
     });
-    let settled = drawn.filter(|(_, parameters, along, _)| {
-        let orbit = settle(parameters, 0.0, State::default(), &Protocol::default());
-        orbit.outcome == Outcome::Periodic && orbit.period <= 4 && parameters[*along] > 0.0
+    let periodic = drawn.filter_map(|(number, parameters, along, share)| {
+        let orbit = settle(&parameters, 0.0, State::default(), &Protocol::default());
+        let is_short = orbit.outcome == Outcome::Periodic && orbit.period <= 4;
+        (is_short && parameters[along] > 0.0).then_some((number, parameters, along, share, orbit))
     });
-    let chosen: Vec<_> = settled.take(capsules).collect();
-    let compared = chosen.into_par_iter().map(|(number, parameters, along, share)| {
+    let chosen: Vec<_> = periodic.take(capsules).collect();
+    let compared = chosen.into_par_iter().map(|(number, parameters, along, share, settled)| {
         let (low, high) = (parameters[along] * (1.0 - share), parameters[along] * (1.0 + share));
-        let settled = settle(&parameters, 0.0, State::default(), &Protocol::default());
         let request = |phase: f64, point: usize| {
             // The same orbit, of which other starts may not lead to.
             let start = State { x2: 0.0, ..settled.end };
