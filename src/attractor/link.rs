@@ -115,7 +115,8 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         self.inherit(&mut links, &apart);
         for (side, place) in lost {
             if !links.has(side, place) {
-                links.special[side].push((place, self.unresolved(side, place)));
+                let unresolved = self.unresolved(&links.special[side], side, place);
+                links.special[side].push((place, unresolved));
             }
         }
         links.pairs.sort_unstable();
@@ -172,18 +173,27 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         }
     }
 
-    /// Note that it is not known how an attractor goes on between the two cells. One that does not repeat has no period,
-    /// and no section point of its own.
-    fn unresolved(&self, side: usize, place: usize) -> SpecialValue<D> {
-        let [from, to] = self.values;
+    /// Note that it is not known how an attractor goes on from the last of its `special` points, or from its own cell, to the
+    /// other cell. One that does not repeat has no period, and no section point of its own.
+    fn unresolved(
+        &self,
+        special: &[(usize, SpecialValue<D>)],
+        side: usize,
+        place: usize,
+    ) -> SpecialValue<D> {
+        let [cell, to] = [self.values[side], self.values[1 - side]];
         let Attractor { outcome, points, .. } = &self.cells[side].attractors[place];
         let orbit = points.first().filter(|_| *outcome == Outcome::Periodic);
+        let own = orbit.map_or((0, [f64::NAN; D]), |point| (points.len() as u64, *point));
+        let last = special.iter().rev().find(|(of, _)| *of == place).map(|(_, last)| last);
+        let (period, section) = last.map_or(own, |last| (last.period, last.section));
+        let from = last.map_or(cell, |last| last.value);
         SpecialValue {
             kind: SpecialKind::Unresolved,
             value: 0.5 * (from + to),
             uncertainty: 0.5 * (to - from).abs(),
-            period: orbit.map_or(0, |_| points.len() as u64),
-            section: orbit.copied().unwrap_or([f64::NAN; D]),
+            period,
+            section,
             is_stable_beyond: false,
         }
     }
@@ -217,29 +227,40 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
 
     /// Links what continuation has left, by the cases that inherit their start.
     ///
-    /// Two attractors are one if the upward cases lead from the first to the second and the downward ones
-    /// back; where starts are inherited in one direction only, if they lead so and neither orbit ends on
-    /// the way; where in none, if both are the only ones left that do not repeat. An orbit that
-    /// is known to be stable at the other value is no other attractor there, and two that repeat are never linked so. It
-    /// breaks where a case falls from one such attractor to another beside it in both directions.
+    /// Two attractors are one if cases lead from one to the other, see `Neighbours::led`, or, where no start is inherited, if
+    /// both are the only ones left that do not repeat. An orbit that is known to be stable at the other value is no other
+    /// attractor there, two that repeat are never linked so, and neither is one to which several lead.
     fn inherit(&self, links: &mut Links<D>, apart: &Apart) {
         let mut pairs = match &self.inherited {
-            [Some(upward), Some(downward)] => {
-                upward.iter().filter(|pair| downward.contains(pair)).copied().collect()
-            }
             [None, None] => self.only_ones(links),
-            [Some(pairs), None] | [None, Some(pairs)] => {
-                let ends = |pair: &&[usize; 2]| Apart::among(&apart.ended, pair);
-                pairs.iter().filter(|pair| !ends(pair)).copied().collect()
+            [upward, downward] => {
+                let [upward, downward] = [upward, downward].map(|it| it.as_deref().unwrap_or(&[]));
+                Self::led(upward, downward, apart)
             }
         };
+        pairs.retain(|[a, b]| !links.has(0, *a) && !links.has(1, *b));
         pairs.retain(|pair| !Apart::among(&apart.unseen, pair));
         pairs.retain(|[a, b]| !(self.repeats(0, *a) && self.repeats(1, *b)));
-        for [a, b] in pairs {
-            if !links.has(0, a) && !links.has(1, b) {
-                links.pairs.push([a, b]);
-            }
+        let shares = |[a, b]: &[usize; 2]| pairs.iter().filter(|[c, d]| a == c || b == d).count();
+        links.pairs.extend(pairs.iter().filter(|pair| shares(pair) == 1));
+    }
+
+    /// The pairs of which cases say that they are one: upward ones lead from the first to the second, and downward ones back.
+    ///
+    /// Where no case of the other direction begins at the attractor that is reached, one direction is enough, unless either
+    /// orbit is known to end between the two values. Breaks: where a case falls from one attractor to another beside it, and one of the other
+    /// direction falls back, or none begins there.
+    fn led(upward: &[[usize; 2]], downward: &[[usize; 2]], apart: &Apart) -> Vec<[usize; 2]> {
+        let goes_back = |pair: &&[usize; 2]| downward.contains(pair);
+        let mut pairs: Vec<[usize; 2]> = upward.iter().filter(goes_back).copied().collect();
+        for (there, back, reached) in [(upward, downward, 1), (downward, upward, 0)] {
+            let is_alone = |pair: &&[usize; 2]| {
+                let begins = |other: &[usize; 2]| other[reached] == pair[reached];
+                !back.iter().any(begins) && !Apart::among(&apart.ended, pair)
+            };
+            pairs.extend(there.iter().filter(is_alone));
         }
+        pairs
     }
 
     /// The attractors that do not repeat, where each cell has just one that is not linked.

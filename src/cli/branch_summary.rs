@@ -61,7 +61,7 @@ fn write_found(text: &mut String, continuation: &Continuation, found: &Found) {
     for curve in &found.curves {
         let Curve { kind, period, points, ends, .. } = curve;
         let (name, points) = (kind_name(*kind), points.len());
-        let ends = shown_ends(*ends);
+        let ends = shown_ends(ends.map(Some));
         let _ = writeln!(text, "  curve of {name}, period {period}: {points} points{ends}");
     }
     if continuation.second.is_some() {
@@ -115,12 +115,12 @@ fn write_branch(text: &mut String, along: Parameter, branch: &Branch) {
     }
 }
 
-/// What is said of two ends; nothing of those at the edge of the range.
-fn shown_ends(ends: [End; 2]) -> String {
-    if ends.contains(&End::Closed) {
+/// Why two ends are there, as far as it is to be said.
+fn shown_ends(ends: [Option<End>; 2]) -> String {
+    if ends.contains(&Some(End::Closed)) {
         return ", closed".to_owned();
     }
-    match ends.map(end_text) {
+    match ends.map(|end| end.map(end_text)) {
         [Some(first), Some(last)] if first == last => format!(", both ends {first}"),
         [first, last] => {
             let told = [("first", first), ("last", last)].map(|(which, words)| {
@@ -131,17 +131,18 @@ fn shown_ends(ends: [End; 2]) -> String {
     }
 }
 
-/// Why an end is none of the range's.
-fn end_text(end: End) -> Option<&'static str> {
+/// Why there is an end.
+fn end_text(end: End) -> &'static str {
     match end {
-        End::Bound | End::Closed => None,
-        End::Merged => Some("at an orbit of half the period"),
-        End::MostPoints => Some("where `most_points` is reached"),
-        End::Corner => Some("at a corner of the return map"),
-        End::Vanishes => Some("where its touch of the stop vanishes"),
-        End::Equilibrium => Some("at an equilibrium"),
-        End::LongestWait => Some("where an orbit takes longest"),
-        End::Stopped => Some("where it cannot be continued further"),
+        End::Bound => "at the edge of the range",
+        End::Closed => "where it began",
+        End::Merged => "at an orbit of half the period",
+        End::MostPoints => "where `most_points` is reached",
+        End::Corner => "at a corner of the return map",
+        End::Vanishes => "where its touch of the stop vanishes",
+        End::Equilibrium => "at an equilibrium",
+        End::LongestWait => "where an orbit takes longest",
+        End::Stopped => "where it cannot be continued further",
     }
 }
 
@@ -157,8 +158,8 @@ fn reach(along: Parameter, branch: &Branch) -> String {
     let closed = branch.ends.contains(&End::Closed);
     let (from, to) = if closed { (least, most) } else { (first.parameter, last.parameter) };
     // Where a branch left another is shown above.
-    let left = if branch.parent.is_some() { End::Bound } else { branch.ends[0] };
-    let ends = shown_ends([left, branch.ends[1]]);
+    let first = branch.parent.is_none().then_some(branch.ends[0]);
+    let ends = shown_ends([first, Some(branch.ends[1])]);
     let beyond = least < from.min(to) || most > from.max(to);
     let range = match beyond {
         true => format!(", over the range {} to {}", quantity(along, least), quantity(along, most)),
@@ -275,7 +276,7 @@ to = \"5 N\"
 a.h5: 2 branches, 8 points in 2.0 s
 
 a, branch 1: period 1, though 2 was asked for
-  3 points, 2 stable, 1 unstable, from 1 N to 3 N, over the range 1 N to 4.123456789 N, last end at a corner of the return map
+  3 points, 2 stable, 1 unstable, from 1 N to 3 N, over the range 1 N to 4.123456789 N, first end at the edge of the range, last end at a corner of the return map
                             p_d [N]  period   speed [mm/s]
   fold                  4.123456789       1      12.500000
 

@@ -81,6 +81,25 @@ fn a_smooth_curve_keeps_its_number_and_a_jump_changes_it() {
 }
 
 #[test]
+fn chaos_beside_a_periodic_orbit_keeps_its_number() {
+    // Upward cases stay on an orbit of one cycle; downward ones come on chaos, where nothing inherits its start upward.
+    let line = Swept::of(&format!(
+        "{}[[axes]]\nname = \"omega\"\nfrom = \"37.6 rad/s\"\nto = \"38.5 rad/s\"\npoints = 10\n\
+         [start]\ninherit = \"omega\"\ndirections = [\"upward\", \"downward\"]\n",
+        CAPSULE_P.replace("omega = \"40 rad/s\"", "k2 = \"86.8 kN/m\"")
+    ));
+    let numbers = |direction: usize, wanted: Outcome| -> Vec<u32> {
+        let cases = (direction..line.records.len()).step_by(2);
+        let cases = cases.filter(|case| line.records[*case].orbit.outcome == wanted);
+        cases.map(|case| line.attractors.of_case[case].expect("a number")).collect()
+    };
+    let (periodic, chaotic) = (numbers(0, Outcome::Periodic), numbers(1, Outcome::Chaotic));
+    assert_eq!((periodic, chaotic), (vec![0; 8], vec![1; 8]));
+    let unresolved = line.attractors.events.iter().filter(|it| it.kind == SpecialKind::Unresolved);
+    assert_eq!(unresolved.count(), 0);
+}
+
+#[test]
 fn a_basin_that_has_vanished_does_not_revive() {
     let starts = "[[axes]]\nname = \"start_r\"\nfrom = \"-8 mm\"\nto = \"4 mm\"\npoints = 10\n\
                   [[axes]]\nname = \"start_y1\"\nfrom = \"-0.8 m/s\"\nto = \"0.8 m/s\"\npoints = 10\n";
