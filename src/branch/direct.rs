@@ -6,7 +6,7 @@ use crate::orbit::passage::{Integrator, ReturnRequest};
 use crate::orbit::return_map::Cycles;
 
 use super::arclength::ROUNDING;
-use super::family::cyclic;
+use super::family::{counterpart, cyclic};
 use super::orbits::{STEEPEST, shifted, torus};
 use super::periodic::HALVES;
 use super::scales::units;
@@ -35,6 +35,8 @@ pub struct Linearised<E, const D: usize> {
     jacobian: Matrix<D>,
     /// Its cyclic sequence of events.
     events: Vec<E>,
+    /// Its local extrema: when they are met after the first point [cycles], and how far they are below the surface.
+    margins: Vec<(f64, f64)>,
 }
 
 /// A periodic orbit with its derivatives, given by the value of the parameter and its section points; none where the
@@ -49,6 +51,7 @@ pub fn linearised<M: System<D>, const D: usize>(
     }
     let mut product: Matrix<D> = shifted(&[[0.0; D]; D], 1.0);
     let (mut events, mut residuals, mut cycles) = (Vec::new(), Vec::new(), Vec::new());
+    let mut margins = Vec::new();
     // How fast the end of the cycles so far moves with the parameter if their beginning does not.
     let mut of_end = [0.0; D];
     for (i, point) in points.iter().enumerate() {
@@ -67,6 +70,7 @@ pub fn linearised<M: System<D>, const D: usize>(
         (product, of_end) = (times(&of_cycle.0, &product), carried(&of_cycle, &of_end));
         cycles.push(of_cycle);
         events.extend(passage.events);
+        margins.extend(passage.margins.into_iter().map(|(time, it)| (i as f64 + time, it)));
     }
     let first = solve(shifted(&product, -1.0), of_end.map(|part| -part))?;
     let later = cycles.iter().scan(first, |slope, cycle| {
@@ -75,7 +79,7 @@ pub fn linearised<M: System<D>, const D: usize>(
         Some(here)
     });
     let (slopes, points, events) = (later.collect(), points.to_vec(), cyclic(&events));
-    Some(Linearised { value, points, slopes, residuals, jacobian: product, events })
+    Some(Linearised { value, points, slopes, residuals, jacobian: product, events, margins })
 }
 
 /// The product of two matrices.
@@ -97,8 +101,8 @@ fn carried<const D: usize>(
 ///
 /// Method: the first step of [`segment`](super::segment()) with its end known. What a step asks of the orbit that it
 /// meets is asked of the other one, more strictly: that it lies where the derivatives foretell, those of the first orbit
-/// and those of both, that the branch keeps its direction, and that no test function changes its sign. Where the answer is
-/// no, nothing is said.
+/// and those of both, that the branch keeps its direction, and that neither a test function nor the distance of an extremum
+/// from its surface changes its sign. Where the answer is no, nothing is said.
 /// Breaks: where a segment does, which does not see what happens twice within a step.
 pub fn leads_to<M: System<D>, const D: usize>(
     along: &Along<M, D>,
@@ -112,7 +116,9 @@ pub fn leads_to<M: System<D>, const D: usize>(
         && from.events == to.events
         && step.keeps_its_signs()
         && [from, to].iter().all(|orbit| step.is_exact(orbit) && step.is_followed(orbit))
-        && (0..to.points.len()).any(|shift| step.is_foretold(shift) && step.is_whole(shift))
+        && (0..to.points.len()).any(|shift| {
+            step.is_foretold(shift) && step.is_whole(shift) && step.crosses_nothing(shift)
+        })
 }
 
 /// The step from one orbit to another, in units of the section.
@@ -171,6 +177,17 @@ impl<E, const D: usize> Step<'_, E, D> {
             && inner >= LEAST_COSINE * lengths[0] * lengths[1]
             && apart(&|i| here[i]) <= CORRECTION * lengths[0]
             && apart(&|i| 0.5 * (here[i] + there[i])) <= TRAPEZOID * lengths[0]
+    }
+
+    /// Whether no extremum crosses its surface: of the same events one may begin where another ceases.
+    fn crosses_nothing(&self, shift: usize) -> bool {
+        let period = self.to.points.len() as u64;
+        let shifted = self.to.margins.iter().map(|(time, it)| (time - shift as f64, *it));
+        let (from, to) = (&self.from.margins, shifted.collect::<Vec<_>>());
+        from.iter().all(|extremum| {
+            let other = counterpart(extremum, [from, &to], period);
+            other.is_none_or(|(_, margin)| extremum.1 * margin > 0.0)
+        })
     }
 
     /// Whether the orbits repeat after no part of their period, and the step leads to no point half a period later.

@@ -81,6 +81,21 @@ pub fn apart(a: f64, b: f64, period: u64) -> f64 {
     apart.min(period as f64 - apart)
 }
 
+/// What an extremum of an orbit, of some with their times and distances, is on another orbit: each of the two is the nearest in
+/// time to the other. None where there is no such one, as where an extremum has appeared.
+pub fn counterpart(
+    extremum: &(f64, f64),
+    [here, there]: [&[(f64, f64)]; 2],
+    period: u64,
+) -> Option<(f64, f64)> {
+    let nearest = |among: &[(f64, f64)], time: f64| {
+        let away = |it: &(f64, f64)| apart(it.0, time, period);
+        among.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)))
+    };
+    let other = nearest(there, extremum.0)?;
+    (nearest(here, other.0)? == *extremum).then_some(other)
+}
+
 /// The sequence of events, begun where it is least: the same wherever on the orbit the section lies.
 pub fn cyclic<E: Event>(events: &[E]) -> Vec<E> {
     let turned = |by: usize| [&events[by..], &events[..by]].concat();

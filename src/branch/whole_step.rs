@@ -5,7 +5,7 @@ use crate::flow::{Event, System};
 use super::SpecialKind;
 use super::arc::{Arc, NARROW};
 use super::arclength::{between, dot, norm};
-use super::family::apart;
+use super::family::counterpart;
 use super::orbits::{OrbitPoint, Orbits, SpecialOrbit};
 use super::periodic::Periodic;
 use super::special::{
@@ -47,9 +47,9 @@ pub enum Flaw {
 ///
 /// Method: the step is cut where the sequence of events changes, so that the return map is smooth on each part. On each, the
 /// orbit in the middle must lie near the cubic through the ends and have their events; a margin and every test function may
-/// have no more roots than their values at the three orbits show, as judged by the parabola through these; and each root is
-/// located. Test functions jump between parts alone, so that no jump hides a root. The orbits on the two sides of a cut must not
-/// jump, and where nothing special is found as many multipliers must lie beyond the unit circle at both ends.
+/// have no more roots than their values at the three orbits show, as judged by the parabola through these, a margin none at all;
+/// and each root is located. Test functions jump between parts alone, so that no jump hides a root. The orbits on the two sides of
+/// a cut must not jump, and where nothing special is found as many multipliers must lie beyond the unit circle at both ends.
 /// Breaks: where within a smooth part a test function turns twice or an event sequence changes and changes back, and the
 /// orbit in the middle shows neither. A fold so near to a period doubling that rounding
 /// decides the sign of the tangent is not told from it.
@@ -265,29 +265,32 @@ impl<'a, E: Event, const D: usize, const U: usize> SmoothPart<'a, E, D, U> {
             return false;
         }
         let [first, middle, last] = self.places.map(|it| &it.1.seen.margins[..]);
-        let same = |here: &(f64, f64), there| {
-            let other = next_in_time(there, here.0, period)?;
-            (next_in_time(middle, other.0, period)? == here).then_some(other.1)
-        };
+        let same = |here, there| counterpart(here, [middle, there], period);
         middle.iter().all(|here| match (same(here, first), same(here, last)) {
-            (Some(first), Some(last)) => keeps_its_side(&[first, here.1, last]),
+            (Some((_, first)), Some((_, last))) => does_not_cross(&[first, here.1, last]),
             _ => true,
         })
     }
 }
 
-/// Of some extrema the one nearest to a time.
-fn next_in_time(extrema: &[(f64, f64)], time: f64, period: u64) -> Option<&(f64, f64)> {
-    let away = |it: &&(f64, f64)| apart(it.0, time, period);
-    extrema.iter().min_by(|a, b| away(a).total_cmp(&away(b)))
+/// Whether an extremum with these margins at three places evenly apart stays on its side of the surface; where the events are the
+/// same, one that does not has crossed it while another did the contrary.
+fn does_not_cross(values: &[f64; 3]) -> bool {
+    touches(values) || is_on_one_side(values) && stays_away(values)
 }
 
-/// Whether an extremum with these margins at three places evenly apart stays on its side of the surface.
+/// The same of the nearest extremum at each place, which are several where they lie on different sides.
 fn keeps_its_side(values: &[f64; 3]) -> bool {
-    let [first, middle, last] = values;
-    let is_one = first * middle > 0.0 && middle * last > 0.0;
-    let touches = first.abs().min(last.abs()) <= TOUCHES;
-    !is_one || touches || stays_away(values)
+    !is_on_one_side(values) || does_not_cross(values)
+}
+
+fn is_on_one_side([first, middle, last]: &[f64; 3]) -> bool {
+    first * middle > 0.0 && middle * last > 0.0
+}
+
+/// Whether an extremum with these margins touches the surface at one of the ends.
+fn touches([first, _, last]: &[f64; 3]) -> bool {
+    first.abs().min(last.abs()) <= TOUCHES
 }
 
 /// Whether the parabola through three values of one sign, evenly spaced, keeps clear of zero.

@@ -217,19 +217,40 @@ impl Shown {
     }
 }
 
+/// A capsule of the wide box by its number, the parameter that its branch goes along, and how far, as a share.
+fn numbered(number: usize) -> (Parameters, Parameter, f64) {
+    let along = [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta, Parameter::C];
+    let seed = 7000 + number as u64;
+    let case = match number % 2 {
+        0 => draws::cases(1, seed).remove(0),
+        _ => draws::wide(1, seed, Resistance::NAMES[number / 2 % 3].1).remove(0),
+    };
+    (case.parameters, along[number % along.len()], Random::new(seed).uniform(0.05, 0.5))
+}
+
+/// Between two gaps one contact begins and another ceases, so that a step over both has the same events at its ends. The
+/// values are those at which the distances of the two extrema, printed along the branch at a step of .0005, pass zero.
+#[test]
+fn two_grazings_are_seen_that_undo_each_other_in_the_events() {
+    let (parameters, along, share) = numbered(213);
+    let range = [1.0 - share, 1.0 + share].map(|it| it * parameters[along]);
+    for longest_step in [0.005, 0.02, 0.1] {
+        let asked = Asked { along, range, longest_step, phase: 0.0, doublings: 0 };
+        let all = special(&parameters, asked, f64::INFINITY);
+        for value in [3.295_168e-3, 3.297_865e-3] {
+            let is = |it: &&(SpecialKind, u64, f64)| {
+                it.0 == SpecialKind::Grazing && (it.2 - value).abs() < 1e-9
+            };
+            assert_eq!(all.iter().filter(is).count(), 1, "{longest_step} {value}: {all:?}");
+        }
+    }
+}
+
 #[test]
 fn random_branches_are_the_same_by_any_settings() {
     let capsules = std::env::var("CAPSULES").map_or(CAPSULES, |it| it.parse().expect("a number"));
-    let along = [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta, Parameter::C];
-    let drawn = (0..).map(|number: usize| {
-        let seed = 7000 + number as u64;
-        let case = match number % 2 {
-            0 => draws::cases(1, seed).remove(0),
-            _ => draws::wide(1, seed, Resistance::NAMES[number / 2 % 3].1).remove(0),
-        };
-        (number, case.parameters, along[number % along.len()], Random::new(seed).uniform(0.05, 0.5))
-    });
-    let periodic = drawn.filter_map(|(number, parameters, along, share)| {
+    let drawn = (0..).map(|number: usize| (number, numbered(number)));
+    let periodic = drawn.filter_map(|(number, (parameters, along, share))| {
         let orbit = settle(&parameters, 0.0, State::default(), &Protocol::default());
         let is_short = orbit.outcome == Outcome::Periodic && orbit.period <= 4;
         (is_short && parameters[along] > 0.0).then_some((number, parameters, along, share, orbit))
