@@ -248,8 +248,8 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
     /// The pairs of which cases say that they are one: upward ones lead from the first to the second, and downward ones back.
     ///
     /// Where no case of the other direction begins at the attractor that is reached, one direction is enough, unless either
-    /// orbit is known to end between the two values. Breaks: where a case falls from one attractor to another beside it, and one of the other
-    /// direction falls back, or none begins there.
+    /// orbit is known to end between the two values. Breaks: where a case falls from one attractor to another beside it, and one
+    /// of the other direction falls back, or none begins there.
     fn led(upward: &[[usize; 2]], downward: &[[usize; 2]], apart: &Apart) -> Vec<[usize; 2]> {
         let goes_back = |pair: &&[usize; 2]| downward.contains(pair);
         let mut pairs: Vec<[usize; 2]> = upward.iter().filter(goes_back).copied().collect();

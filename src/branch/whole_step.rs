@@ -284,6 +284,7 @@ fn keeps_its_side(values: &[f64; 3]) -> bool {
     !is_on_one_side(values) || does_not_cross(values)
 }
 
+/// Whether these margins are all below the surface, or all above it.
 fn is_on_one_side([first, middle, last]: &[f64; 3]) -> bool {
     first * middle > 0.0 && middle * last > 0.0
 }
