@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Writes results/README.md, a gallery: each kind of figure with the part of the study that draws it, and what can be set.
 # Draws the pictures of the latter into results/gallery/ from the studies overview and hysteresis (some two minutes on two
-# cores); with --page it writes the page alone. All pictures of kinds are those of the studies themselves.
+# cores); with --page it writes the page alone. All pictures of kinds are those of the studies themselves, taken from the folders
+# of their results where those are there.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -22,7 +23,7 @@ asked() {
 
 # A kind of figure: kind, what it shows, study, name of the figure, picture.
 kind() {
-    printf '## %s\n\n%s\n\n![%s](%s)\n\n[studies/%s.toml](../studies/%s.toml):\n\n```toml\n%s\n```\n\n' \
+    printf '## %s\n\n%s\n\n![%s](gallery/%s)\n\n[studies/%s.toml](../studies/%s.toml):\n\n```toml\n%s\n```\n\n' \
         "$1" "$2" "$1" "$5" "$3" "$3" "$(asked "$3" "$4")"
 }
 
@@ -52,6 +53,11 @@ else
     cargo build --release
     for study in overview hysteresis fig6; do
         "$program" sweep "studies/$study.toml" --no-figures
+    done
+    # Runs draw into folders that git ignores.
+    for picture in results/gallery/*/*.png; do
+        drawn=results/${picture#results/gallery/}
+        [ ! -f "$drawn" ] || cp "$drawn" "$picture"
     done
 fi
 

@@ -44,7 +44,7 @@ echo "== intervals of fits to motion hold the truth for 92 to 98 in 100 of 300 s
 CAPSULEMAP_SEEDS=300 cargo test --release --test it -- intervals_hold_the_truth fitted_recordings --nocapture
 
 echo "== ten minutes of random study texts, joined files and blocks"
-FUZZ_SECONDS=600 cargo test --release --test it -- any_text_is a_joined_file_with a_block_with_damage --nocapture
+FUZZ_SECONDS=600 cargo test --release --test it -- any_text_is a_joined_file_with a_block_with_damage of_a_file_of_searches --nocapture
 
 echo "== ten million cases in less than 1 GiB: while they are computed, stopped, and while they are joined"
 folder=$(mktemp -d)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Computes the paper's Figs 5, 6 and 7 and its statement that best progression and least energy lie at different parameters
-# (studies/best.toml, some ten minutes on two cores), and draws them into results/paper/, whose pictures are kept in git.
+# (studies/best.toml, some ten minutes on two cores), and draws them into results/paper/, from where scripts/gallery.sh takes the
+# pictures that git keeps.
 # Further arguments go to every sweep and figure, as in: scripts/paper_figures.sh --formats png,svg,pdf
 set -euo pipefail
 cd "$(dirname "$0")/.."

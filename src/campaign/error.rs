@@ -52,7 +52,12 @@ pub enum CampaignError {
         /// The file.
         path: PathBuf,
     },
-    /// The file of kept searches is of another study, other results or another program, or no such file.
+    /// The file in the place of the kept searches is none of this program.
+    NoSearches {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file of kept searches is of another study, other results or another program.
     OtherSearches {
         /// The file.
         path: PathBuf,
@@ -129,7 +134,7 @@ pub enum Cause {
 impl CampaignError {
     /// What it comes from.
     pub fn cause(&self) -> Cause {
-        use StoreError::{Busy, Changed, Held, InUse, NoBlocks, Occupied};
+        use StoreError::{Busy, Changed, Held, InUse, NoBlocks, NoPlace, Occupied};
         match self {
             CampaignError::Path { .. }
             | CampaignError::Study(_)
@@ -140,6 +145,7 @@ impl CampaignError {
             | CampaignError::OtherResults { .. }
             | CampaignError::OtherBranches { .. }
             | CampaignError::OtherSearches { .. }
+            | CampaignError::NoSearches { .. }
             | CampaignError::TradeOff { .. }
             | CampaignError::NoFolder { .. }
             | CampaignError::Missing { .. }
@@ -149,6 +155,7 @@ impl CampaignError {
                 | Held { .. }
                 | InUse { .. }
                 | NoBlocks { .. }
+                | NoPlace { .. }
                 | Occupied { .. },
             ) => Cause::Request,
             CampaignError::Refused { .. }
@@ -182,6 +189,13 @@ impl fmt::Display for CampaignError {
             }
             CampaignError::OtherBranches { path } => {
                 write!(f, "{}: holds branches of a study with another text", path.display())
+            }
+            CampaignError::NoSearches { path } => {
+                let path = path.display();
+                write!(
+                    f,
+                    "{path}: holds something else than searches of this program, whose place it is"
+                )
             }
             CampaignError::OtherSearches { path, what } => {
                 write!(

@@ -2,7 +2,8 @@
 //!
 //! What a search leads to depends on the results, on what it begins with and on what it looks for, and on nothing else. So an
 //! interrupted refinement is taken up where it was, and a second one with another seed repeats nothing. The file is JSON lines:
-//! first what it belongs to, then each search with the motions found, numbers with all the digits that distinguish them.
+//! first what it belongs to, then each search with the motions found, numbers with all the digits that distinguish them, each line
+//! with its checksum. A line that does not fit its own is passed over, and what it held is searched again.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -11,16 +12,17 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::capsule::{Output, Outputs, Parameter};
-use crate::store::{Archive, LineFile, provenance, read_lines};
+use crate::store::{Archive, LineFile, Lines, provenance, read_lines, sealed, unsealed};
 use crate::study::Study;
 
+use super::count::count;
 use super::error::CampaignError;
 use super::refined_motion::{Led, RefinedMotion, Slopes, Start};
 
 /// The extension of the file, beside that of the results.
 const EXTENSION: &str = "searches";
 /// The form of the lines; the number is increased with every change.
-const FORMAT: &str = "capsulemap searches 2";
+const FORMAT: &str = "capsulemap searches 3";
 /// How the form begins in every version.
 const ANY_FORMAT: &str = "capsulemap searches ";
 
@@ -29,6 +31,8 @@ const ANY_FORMAT: &str = "capsulemap searches ";
 pub struct KeptSearches {
     /// What each has led to, by what it begins with and looks for.
     known: BTreeMap<String, Led>,
+    /// Lines that do not fit their checksums, one that is cut short among them.
+    damaged: usize,
     /// Where further ones are kept.
     file: Option<LineFile>,
 }
@@ -45,12 +49,14 @@ impl KeptSearches {
     pub fn read(archive: &Archive, study: &Study) -> Result<KeptSearches, CampaignError> {
         let path = searches_path(archive.path());
         let lines = read_lines(&path)?;
-        Ok(KeptSearches { known: searches(&lines, (archive, study), &path)?, file: None })
+        let (known, damaged) = searches(&lines, (archive, study), &path)?;
+        Ok(KeptSearches { known, damaged, file: None })
     }
 
-    /// As [`read`](Self::read), open for further searches; with `overwrite` what is kept is removed.
+    /// As [`read`](Self::read), open for further searches; with `overwrite` the searches that are kept are removed, whatever they belong
+    /// to.
     ///
-    /// Fails, too, if another process keeps searches there now.
+    /// Fails, too, if another process keeps searches there now. What is no file of searches stays as it is, with `overwrite`, too.
     pub fn open(
         archive: &Archive,
         study: &Study,
@@ -58,15 +64,31 @@ impl KeptSearches {
     ) -> Result<KeptSearches, CampaignError> {
         let path = searches_path(archive.path());
         let (file, mut lines) = LineFile::open(&path)?;
-        if overwrite {
-            file.clear()?;
-            lines.clear();
+        match searches(&lines, (archive, study), &path) {
+            Err(CampaignError::OtherSearches { .. }) | Ok(_) if overwrite => {
+                file.clear()?;
+                lines = Lines::default();
+            }
+            kept => drop(kept?),
         }
-        let known = searches(&lines, (archive, study), &path)?;
-        if lines.is_empty() {
-            file.add(&head(archive, study).to_string())?;
+        let (known, damaged) = searches(&lines, (archive, study), &path)?;
+        if lines.whole.is_empty() {
+            file.add(&head(archive, study))?;
         }
-        Ok(KeptSearches { known, file: Some(file) })
+        Ok(KeptSearches { known, damaged, file: Some(file) })
+    }
+
+    /// How many lines do not fit their checksums, in words; nothing where all of them do.
+    pub fn damage(&self, archive: &Archive) -> Option<String> {
+        (self.damaged > 0).then(|| {
+            let path = searches_path(archive.path());
+            format!(
+                "{}: lines that do not fit their checksums, cut short or changed: {}; they are not used, and a refinement makes their \
+                 searches again",
+                path.display(),
+                count(self.damaged)
+            )
+        })
     }
 
     /// Number of searches.
@@ -109,7 +131,7 @@ impl KeptSearches {
             let Led { motions, unsettled } = &found;
             let motions: Vec<Written> = motions.iter().map(Written::of).collect();
             let line = json!({ "search": what, "found": motions, "unsettled": unsettled });
-            file.add(&line.to_string())?;
+            file.add(&line)?;
         }
         Ok(found)
     }
@@ -131,24 +153,34 @@ fn head(archive: &Archive, study: &Study) -> Value {
     })
 }
 
-/// The searches in the lines of a file.
+/// The searches in the lines of a file, and how many lines do not fit their checksums.
 fn searches(
-    lines: &[String],
+    lines: &Lines,
     (archive, study): (&Archive, &Study),
     path: &Path,
-) -> Result<BTreeMap<String, Led>, CampaignError> {
+) -> Result<(BTreeMap<String, Led>, usize), CampaignError> {
     let other = |what| CampaignError::OtherSearches { path: path.to_owned(), what };
-    let Some((first, rest)) = lines.split_first() else { return Ok(BTreeMap::new()) };
-    let first: Value =
-        serde_json::from_str(first).map_err(|_| other("something else than searches"))?;
     let now = head(archive, study);
+    let Some((first, rest)) = lines.whole.split_first() else {
+        // A kill may have left the beginning of the first line.
+        return match sealed(&now).starts_with(&lines.torn) {
+            true => Ok((BTreeMap::new(), 0)),
+            false => Err(CampaignError::NoSearches { path: path.to_owned() }),
+        };
+    };
+    if !first.contains(ANY_FORMAT) {
+        return Err(CampaignError::NoSearches { path: path.to_owned() });
+    }
+    // An older scheme has no checksums.
+    let read = unsealed(first).unwrap_or_else(|| first.clone());
+    let first: Value = serde_json::from_str(&read).unwrap_or_default();
     let is_older = first["format"] != now["format"]
         && first["format"].as_str().is_some_and(|it| it.starts_with(ANY_FORMAT));
     if is_older {
         return Err(other("searches by another scheme, of another version of the program"));
     }
     for (key, what) in [
-        ("format", "something else than searches"),
+        ("format", "a first line that is damaged"),
         ("fingerprint", "searches of another study"),
         ("results_by", "searches of results of another program"),
         ("searches_by", "searches by another program"),
@@ -157,16 +189,17 @@ fn searches(
             return Err(other(what));
         }
     }
-    let mut known = BTreeMap::new();
-    for line in rest {
-        let damaged = || other("a line that is damaged");
-        let Line { search, found, unsettled } =
-            serde_json::from_str(line).map_err(|_| damaged())?;
-        let motions: Option<_> = found.into_iter().map(|it| it.motion(study)).collect();
-        let motions = motions.ok_or_else(damaged)?;
-        known.insert(search.to_string(), Led { motions, unsettled });
-    }
-    Ok(known)
+    let found: Vec<_> = rest.iter().map(|line| search(line, study)).collect();
+    let damaged = found.iter().filter(|it| it.is_none()).count();
+    let damaged = damaged + usize::from(!lines.torn.is_empty());
+    Ok((found.into_iter().flatten().collect(), damaged))
+}
+
+/// The search in a line, and what it has led to; none where the line has changed.
+fn search(line: &str, study: &Study) -> Option<(String, Led)> {
+    let Line { search, found, unsettled } = serde_json::from_str(&unsealed(line)?).ok()?;
+    let motions: Option<_> = found.into_iter().map(|it| it.motion(study)).collect();
+    Some((search.to_string(), Led { motions: motions?, unsettled }))
 }
 
 /// A search and what it has led to.

@@ -6,8 +6,8 @@ use crate::store;
 
 use super::error::CampaignError;
 
-/// File systems allow 255 bytes, and a file has a longer name until it is finished.
-const LONGEST_NAME: usize = 243;
+/// The longest name of a file of results: that of its report, which ends in .html for .h5, is longer [bytes].
+const LONGEST_NAME: usize = store::LONGEST_NAME - 2;
 /// The folder of files of what has been computed so far, beside the file of results.
 const PARTIAL: &str = "partial";
 /// The extension of the folder of blocks.
@@ -36,26 +36,19 @@ pub fn output_path(study: &Path, output: Option<&Path>) -> Result<PathBuf, Campa
     let unfit = |path: &Path, fault: &str| {
         Err(CampaignError::Path { path: path.to_owned(), fault: fault.to_owned() })
     };
-    if output.to_str().is_none() {
-        return unfit(&output, "the name is not text in UTF-8, as names of HDF5 files are");
+    let whole = std::path::absolute(&output).unwrap_or_else(|_| output.clone());
+    if whole.to_str().is_none() {
+        let why = "the name, or that of a folder it lies in, is not text in UTF-8, as names of HDF5 files are";
+        return unfit(&whole, why);
     }
     let name = output.file_name().map_or(0, |name| name.len());
     if name > LONGEST_NAME {
         return unfit(&output, &format!("the name has {name} bytes; {LONGEST_NAME} are the most"));
     }
-    if output.is_symlink() && !output.exists() {
-        return unfit(&output, "is a link that leads to no file; remove it, or name another file");
-    }
-    if output.exists() && !output.is_file() {
-        let what = if output.is_dir() { "a folder" } else { "not a plain file" };
-        return unfit(&output, &format!("is {what}; name a file"));
-    }
     if output.extension().is_some_and(|extension| extension == BLOCKS) {
         return unfit(&output, "that extension is for the folder of blocks");
     }
-    // Where a link leads, so that not the link is replaced.
-    let output =
-        std::fs::canonicalize(&output).ok().filter(|_| output.is_symlink()).unwrap_or(output);
+    let output = store::place(&output)?;
     let same = |path: &Path| std::fs::canonicalize(path).ok();
     if same(&output).is_some_and(|output| Some(output) == same(study)) {
         return unfit(&output, "is the study itself; name another file");

@@ -8,7 +8,7 @@ use crate::campaign::{KeptFront, KeptSearches, searches_path, study_of};
 use crate::figure::{
     FigureError, Files, Format, Measured, Needs, Place, Shown, draw, needs, variables,
 };
-use crate::store::{Archive, Dataset, has_branches, has_cases};
+use crate::store::{Archive, Dataset, StoreError, has_branches, has_cases};
 use crate::study::{Drawing, DrawingKind};
 
 /// Formats on the command line.
@@ -72,7 +72,10 @@ fn refined(archive: &Archive) -> Result<Vec<KeptFront>, Failure> {
     }
     let study = study_of(archive, archive.path())?;
     match KeptSearches::read(archive, &study) {
-        Ok(kept) => Ok(kept.fronts(archive)?),
+        Ok(kept) => {
+            kept.damage(archive).iter().for_each(|it| notify(it));
+            Ok(kept.fronts(archive)?)
+        }
         Err(error) => {
             notify(&format!("{error}; they are not shown"));
             Ok(Vec::new())
@@ -117,6 +120,7 @@ fn failure(error: FigureError) -> Failure {
         FigureError::Missing { .. } | FigureError::Unfit { .. } | FigureError::Glyph { .. } => {
             Failure::request(error)
         }
+        FigureError::Write { source: StoreError::NoPlace { .. }, .. } => Failure::request(error),
         FigureError::Occupied { .. } => Failure::request(format!(
             "{error}; move it, choose another place, or replace it with --overwrite"
         )),

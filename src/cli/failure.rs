@@ -84,6 +84,7 @@ fn advice(error: &CampaignError) -> String {
             " (name another --output, or delete them with --overwrite)"
         }
         CampaignError::Store(StoreError::Occupied { .. }) => " by --output",
+        CampaignError::NoSearches { .. } => "; it stays as it is: move it away",
         CampaignError::OtherSearches { .. } => "; remove it, or begin anew with --overwrite",
         CampaignError::NoFolder { .. } => "; name another --output",
         CampaignError::Refused { .. } => "; choose a place that you may use with --output",

@@ -10,6 +10,8 @@ use crate::store;
 
 /// Rows that a recording of a motion must have.
 const LEAST_ROWS: usize = 16;
+/// What standard output is called where a file is named.
+const STANDARD_OUTPUT: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
 
 /// The text of a file.
 pub fn text(path: &Path) -> Result<String, Failure> {
@@ -39,12 +41,22 @@ pub fn motion(path: &Path) -> Result<Recording, Failure> {
     recording(path, &known, LEAST_ROWS)
 }
 
-/// Checks that nothing is in the place of a file to be written, unless it may be replaced.
+/// Whether standard output is asked for in place of a file.
+pub fn is_standard_output(path: &Path) -> bool {
+    STANDARD_OUTPUT.iter().any(|name| path == Path::new(name))
+}
+
+/// Checks that nothing is in the place of a file to be written, or a plain file that may be replaced.
 pub fn check_free(path: &Path, overwrite: bool) -> Result<(), Failure> {
+    let shown = path.display();
+    if is_standard_output(path) {
+        let why = "what the command prints goes to standard output; name a file";
+        return Err(Failure::request(format!("{shown}: {why}")));
+    }
+    store::place(path).map_err(Failure::request)?;
     if overwrite || !path.exists() {
         return Ok(());
     }
-    let shown = path.display();
     Err(Failure::request(format!(
         "{shown}: exists; name another --output, or replace it with --overwrite"
     )))

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::arguments::output;
 use super::failure::Failure;
+use super::files;
 use super::terminal::print;
 use crate::capsule::Output;
 use crate::explore::{GENERATOR, Request, report};
@@ -43,17 +44,22 @@ impl Report {
         let of = output("--of", &self.of).map_err(Failure::request)?;
         let archive = store::open(&self.file).map_err(Failure::request)?;
         let page = self.output.clone().unwrap_or_else(|| self.file.with_extension("html"));
-        self.check(&page)?;
+        let prints = files::is_standard_output(&page);
+        if !prints {
+            self.check(&page)?;
+        }
         let html = report(&Request { archive: &archive, file: &self.file, of })?;
-        store::create_folder(store::folder(&page))
-            .and_then(|()| store::put(&page, html.as_bytes()))
-            .map_err(Failure::machine)?;
+        if prints {
+            return print(&html);
+        }
+        files::put(&page, &html)?;
         print(&format!("{}\n", page.display()))
     }
 
     /// Refuses to replace what this program has not written.
     fn check(&self, page: &Path) -> Result<(), Failure> {
         let is_ours = |bytes: &[u8]| String::from_utf8_lossy(bytes).contains(GENERATOR);
+        let page = &store::place(page).map_err(Failure::request)?;
         match std::fs::read(page) {
             Err(said) if said.kind() == std::io::ErrorKind::NotFound => Ok(()),
             Ok(bytes) if self.overwrite || is_ours(&bytes) => Ok(()),

@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::files;
-use super::terminal::print;
+use super::terminal::{notify, print};
 use crate::capsule::Dimension;
 use crate::experiment::{Recording, Signal, Window, smoothed};
 
@@ -36,7 +36,7 @@ pub struct Smooth {
     /// Which derivative to write; 0 is the signal itself.
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=2))]
     derivative: u64,
-    /// The CSV file to write, in SI units.
+    /// The CSV file to write, in SI units; - for standard output.
     #[arg(long, value_name = "FILE.csv")]
     output: PathBuf,
     /// Replace a file that is there.
@@ -49,7 +49,10 @@ impl Smooth {
     pub fn run(&self) -> Result<(), Failure> {
         let length = files::quantity("--window", &self.window, Dimension::Time);
         let length = length.map_err(Failure::request)?;
-        files::check_free(&self.output, self.overwrite)?;
+        let prints = files::is_standard_output(&self.output);
+        if !prints {
+            files::check_free(&self.output, self.overwrite)?;
+        }
         let recording = files::motion(&self.recording)?;
         let sampling = recording.sampling();
         let window = self.window(length, sampling.interval)?;
@@ -62,15 +65,20 @@ impl Smooth {
                 columns.push((heading(name, dimension, self.derivative), values));
             }
         }
-        files::put(&self.output, &csv(recording.required("t"), &columns))?;
-        print(&format!(
-            "{sampling}\nwindow: {} samples, {} s; order {}; derivative {}\n{}\n",
+        let text = csv(recording.required("t"), &columns);
+        let told = format!(
+            "{sampling}\nwindow: {} samples, {} s; order {}; derivative {}",
             window.samples,
             window.samples as f64 * sampling.interval,
             window.order,
             self.derivative,
-            self.output.display()
-        ))
+        );
+        if prints {
+            notify(&told);
+            return print(&text);
+        }
+        files::put(&self.output, &text)?;
+        print(&format!("{told}\n{}\n", self.output.display()))
     }
 
     /// The window whose time is nearest to a length [s], at samples so far apart [s].

@@ -156,6 +156,7 @@ impl Tradeoff {
             }
             Err(error) => Err(error.into()),
             Ok(kept) => {
+                kept.damage(archive).iter().for_each(|it| notify(it));
                 let path = searches_path(archive.path()).display().to_string();
                 if !kept.is_empty() {
                     let count = count(kept.len());

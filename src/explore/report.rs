@@ -29,12 +29,13 @@ pub fn report(request: &Request<'_>) -> Result<String, CampaignError> {
     let study = study_of(archive, file)?;
     let mut page = Page::default();
     let kept = match KeptSearches::read(archive, &study) {
-        Err(error @ CampaignError::OtherSearches { .. }) => {
+        Err(error) => {
             page.note(&format!("Motions between the cases are not shown: {error}."));
             KeptSearches::default()
         }
-        kept => kept?,
+        Ok(kept) => kept,
     };
+    kept.damage(archive).iter().for_each(|it| page.note(&format!("{it}.")));
     let fronts = kept.fronts(archive)?;
     let report = Report { request, study: &study, kept: &kept, fronts: &fronts };
     report.write_figures(&mut page)?;

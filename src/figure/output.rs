@@ -42,11 +42,12 @@ impl Place<'_> {
     /// figure of this program.
     pub fn check(&self, name: &str, has_data: bool) -> Result<(), FigureError> {
         let of_data = has_data.then_some(&Format::Csv);
-        for &format in self.formats.iter().chain(of_data).filter(|_| !self.overwrite) {
+        for &format in self.formats.iter().chain(of_data) {
             let path = self.path(name, format);
-            let is_file = fs::symlink_metadata(&path).map(|it| it.is_file());
-            match is_file.and_then(|is_file| if is_file { fs::read(&path) } else { Ok(Vec::new()) })
-            {
+            store::place(&path)
+                .map_err(|source| FigureError::Write { figure: name.to_string(), source })?;
+            match fs::read(&path) {
+                _ if self.overwrite => {}
                 Ok(bytes) if mark::is_valid(format, &bytes) => {}
                 Err(said) if said.kind() == ErrorKind::NotFound => {}
                 _ => return Err(FigureError::Occupied { figure: name.to_string(), path }),

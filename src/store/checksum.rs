@@ -1,12 +1,14 @@
 //! A checksum behind the last byte of a file, so that damage is found before HDF5 reads the file.
 //!
 //! HDF5 checks its own structure only in part, some versions crash on a damaged file, and plain
-//! numbers carry no checksum at all. Every reader ignores bytes behind the end that HDF5 knows.
-//! A program that opens the file to change it drops the checksum; such a file is refused, as it cannot be told from one
-//! whose end is lost. It guards against damage, not against a person who forges it: HDF5 may crash on a forged file.
+//! numbers carry no checksum at all. HDF5 takes the checksum for a part of the file that nothing refers to (see
+//! [`superblock`](super::superblock)), so that it stays where a program opens the file and closes it. A file that a program has changed
+//! is refused, as it cannot be told from one that is damaged. The checksum guards against damage, not against a person who forges it: HDF5 may crash on a forged file.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
+
+use super::superblock;
 
 /// Mark before the checksum of all bytes before the mark, lowest byte first.
 const MARK: &[u8] = b"capsulemap";
@@ -26,6 +28,23 @@ pub enum Checksum {
     Absent,
 }
 
+/// Makes the image of an HDF5 file end with the checksum, as a part of it.
+pub fn seal(image: &mut Vec<u8>) {
+    superblock::extend(image, CHECKSUM_BYTES);
+    append(image);
+}
+
+/// The same of a file that is open.
+pub fn seal_file(file: &mut File) -> io::Result<()> {
+    let mut head = [0; superblock::HEAD_BYTES];
+    file.rewind()?;
+    file.read_exact(&mut head)?;
+    superblock::extend(&mut head, CHECKSUM_BYTES);
+    file.rewind()?;
+    file.write_all(&head)?;
+    append_to(file)
+}
+
 /// Appends the checksum of `bytes`.
 pub fn append(bytes: &mut Vec<u8>) {
     let sum = crc32fast::hash(bytes);
@@ -34,7 +53,7 @@ pub fn append(bytes: &mut Vec<u8>) {
 }
 
 /// Appends the checksum of all bytes of a file, read again from its beginning.
-pub fn append_to(file: &mut File) -> io::Result<()> {
+fn append_to(file: &mut File) -> io::Result<()> {
     let mut sum = crc32fast::Hasher::new();
     let mut bytes = Vec::new();
     file.rewind()?;

@@ -75,6 +75,13 @@ pub enum StoreError {
         /// The folder of its blocks.
         folder: PathBuf,
     },
+    /// What is at a path, or its name, lets no file be written there.
+    NoPlace {
+        /// The path.
+        path: PathBuf,
+        /// Why not, and what is expected.
+        why: String,
+    },
     /// Another process has the file open and adds to it.
     InUse {
         /// The file.
@@ -184,6 +191,7 @@ impl fmt::Display for StoreError {
                  has finished is kept)",
                 folder.display()
             ),
+            StoreError::NoPlace { path, why } => write!(f, "{}: {why}", path.display()),
             StoreError::InUse { path } => write!(
                 f,
                 "{}: another process adds to it now; wait for it, or stop it and run again (what it has finished is \

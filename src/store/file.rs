@@ -12,6 +12,7 @@ use super::checksum::{self, Checksum};
 use super::decode::Archive;
 use super::faults::faults;
 use super::lock::{Lock, Tried, try_lock};
+use super::plain::place;
 use super::{Dataset, StoreError, difference, encode};
 
 /// How often a folder is tried that another run holds, and the time between two tries: ten minutes in all.
@@ -28,12 +29,13 @@ const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
 /// compared, and only then take the name `path`. After an error nothing is left behind and an
 /// older file is as it was; a reader that has the older one open keeps reading it.
 pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
+    let path = &place(path)?;
     let faults = faults(dataset);
     if !faults.is_empty() {
         return Err(StoreError::Unfit { path: path.to_owned(), faults });
     }
     let mut image = encode::image(dataset, path)?;
-    checksum::append(&mut image);
+    checksum::seal(&mut image);
     let file = filled(begun(path)?, path, &image)?;
     drop(image);
     let unequal = match read(file.path()) {
@@ -52,8 +54,11 @@ pub fn create_folder(folder: &Path) -> Result<(), StoreError> {
         .map_err(|said| StoreError::system(folder, "making the folder", said))
 }
 
-/// Keeps bytes in the file at `path`, replacing an older one only by all of them.
+/// Keeps bytes in the file at `path`, or where a link there leads, replacing an older one only by all of them.
+///
+/// Fails if the system refuses, or if something else than a plain file is in its [place].
 pub fn put(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    let path = &place(path)?;
     let file = begun(path)?;
     // As long as it is locked it is not abandoned; where there are no locks its age tells.
     let _ = try_lock(file.as_file(), Lock::Exclusive);
@@ -75,8 +80,11 @@ fn filled(mut file: NamedTempFile, path: &Path, bytes: &[u8]) -> Result<NamedTem
 }
 
 /// Gives a file that is on the disk its name.
+///
+/// Fails if it would take that of something else than a plain file, or the system refuses.
 pub(super) fn name(file: NamedTempFile, path: &Path) -> Result<(), StoreError> {
     let failed = |doing| move |said| StoreError::system(path, doing, said);
+    let path = &place(path)?;
     file.persist(path).map_err(|refused| failed("giving the file its name")(refused.error))?;
     sync_folder(folder(path)).map_err(failed("forcing the folder to the disk"))
 }
@@ -92,8 +100,8 @@ pub fn open(path: &Path) -> Result<Archive, StoreError> {
         Checksum::Valid => Archive::decode(path),
         Checksum::Invalid => Err(StoreError::Damaged { path: path.to_owned() }),
         Checksum::Absent => {
-            let why = "the checksum at its end is missing: it was cut short, or another program wrote or \
-                       changed it";
+            let why = "the checksum at its end is missing: it was cut short, or another program wrote it or \
+                       added to it";
             Err(StoreError::Foreign { path: path.to_owned(), why: why.to_owned() })
         }
     }

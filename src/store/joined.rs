@@ -12,6 +12,7 @@ use super::decode::{Archive, hyperslab};
 use super::encode::{self, Element, Scales};
 use super::faults::faults;
 use super::file::{folder, temporary};
+use super::plain::place;
 use super::slab::{MOST_NUMBERS, Slab, slabs};
 use super::{Dataset, StoreError, Values, Variable, checksum, difference, file};
 
@@ -47,6 +48,7 @@ pub fn write(
     if !faults.is_empty() {
         return Err(StoreError::Unfit { path: path.to_owned(), faults });
     }
+    let path = &place(path)?;
     let failed = |doing| move |said| StoreError::system(path, doing, said);
     let mut temporary = temporary(path, folder(path)).map_err(failed("starting a new file"))?;
     let encoding = |doing: &'static str| move |said| StoreError::encoding(path, doing, said);
@@ -72,7 +74,7 @@ pub fn write(
     }
     drop(scales);
     file.close().map_err(encoding("completing the file"))?;
-    checksum::append_to(temporary.as_file_mut()).map_err(failed("adding the checksum"))?;
+    checksum::seal_file(temporary.as_file_mut()).map_err(failed("adding the checksum"))?;
     temporary.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
     check(&temporary, frame, (columns, axes), &sums, path)?;
     file::name(temporary, path).map(ControlFlow::Continue)

@@ -21,7 +21,9 @@ mod line_file;
 mod lock;
 mod names;
 mod own_layout;
+mod plain;
 mod slab;
+mod superblock;
 pub mod provenance;
 mod scale;
 pub mod schema;
@@ -48,7 +50,8 @@ pub use file::{
     read, try_to_begin, write,
 };
 pub use join::{Blocks, FailedCase, write_beside_cases};
-pub use line_file::{LineFile, read_lines};
+pub use line_file::{LineFile, Lines, read_lines, sealed, unsealed};
+pub use plain::{LONGEST_NAME, place};
 pub use schema::{dataset, frame, numbers_of_case};
 pub use size::{file_bytes, refined_file_bytes};
 pub use slab::MOST_NUMBERS;

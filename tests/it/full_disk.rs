@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use super::kept_searches::{self, REFINE, SEARCHES};
 use super::program::WorkDir;
 use super::store::say;
 
@@ -96,4 +97,40 @@ fn a_disk_that_fills_stops_the_run_and_room_lets_it_go_on() {
         1,
         "nothing else is left"
     );
+}
+
+#[test]
+fn a_disk_that_fills_stops_a_refinement_and_keeps_its_searches() {
+    let dir = kept_searches::swept(kept_searches::STUDY);
+    let whole = dir.run(&REFINE).done();
+    let all = kept_searches::lines(&dir);
+    let bytes = fs::metadata(dir.path(SEARCHES)).expect("searches").len();
+    // The results go to a disk with room for no search.
+    fs::rename(dir.path("results/study"), dir.path("kept")).expect("it is moved");
+    let Some(disk) = Disk::mount(&dir.path("results/study"), 4096) else {
+        say("SKIPPED: a disk that fills in a refinement (a file system cannot be mounted here)");
+        return;
+    };
+    let size = fs::copy(dir.path("kept/study.h5"), dir.path("results/study/study.h5"));
+    let mut kilobytes = size.expect("a copy").div_ceil(4096) as usize * 4 + 8;
+    disk.resize(kilobytes);
+    let (mut stops, mut kept) = (0, 0);
+    loop {
+        let ran = dir.run(&REFINE);
+        let now = kept_searches::lines(&dir);
+        assert!(now.len() >= kept && now.is_subset(&all), "a search is lost");
+        kept = now.len();
+        if ran.code == 0 {
+            assert_eq!(ran.out, whole.out);
+            break;
+        }
+        stops += 1;
+        assert_eq!((ran.code, ran.out.as_str()), (3, ""), "{}", ran.err);
+        assert!(ran.err.contains("No space left on device"), "{}", ran.err);
+        assert!(!ran.err.contains("panicked"), "{}", ran.err);
+        kilobytes += bytes as usize / 3000 + 4;
+        disk.resize(kilobytes);
+        assert!(stops < 12, "there is room enough: {}", ran.err);
+    }
+    assert!(stops > 1 && kept_searches::lines(&dir) == all, "{stops}");
 }

@@ -49,17 +49,33 @@ fn sweep(dir: &WorkDir, output: &str, more: &[&str]) -> Ran {
 fn names_that_no_file_can_have_are_refused_at_the_start() {
     let dir = place();
     let name = |bytes: usize| format!("{}.h5", "n".repeat(bytes - 3));
-    for bytes in [244, 250, 255, 300] {
+    for bytes in [242, 244, 250, 255, 300] {
         for dry in [&[][..], &["--dry-run"]] {
             let ran = sweep(&dir, &name(bytes), dry);
-            ran.refused(&[&format!("the name has {bytes} bytes; 243 are the most")]);
+            ran.refused(&[&format!("the name has {bytes} bytes; 241 are the most")]);
         }
     }
-    sweep(&dir, &name(243), &["--no-figures"]).done();
+    // What has the name of the file with another extension can be written, too.
+    sweep(&dir, &name(241), &["--no-figures"]).done();
+    dir.run(&["report", &name(241)]).done();
     let mut command = dir.command(&["sweep", "s.toml", "--output"]);
     let ran = Ran::from(command.arg(OsStr::from_bytes(b"a\xffb.h5")).output().expect("it starts"));
-    ran.refused(&["the name is not text in UTF-8"]);
-    assert_eq!(dir.files(), [name(243), "s.toml".to_owned()]);
+    ran.refused(&["is not text in UTF-8"]);
+    let page = name(241).replace(".h5", ".html");
+    assert_eq!(dir.files(), [name(241), page, "s.toml".to_owned()]);
+}
+
+#[test]
+fn a_folder_whose_name_is_no_text_is_refused_before_anything_is_computed() {
+    let dir = place();
+    let folder = dir.folder().join(OsStr::from_bytes(b"a\xffb"));
+    fs::create_dir(&folder).expect("a folder");
+    for (output, dry) in [("s.h5", &[][..]), ("s.h5", &["--dry-run"]), ("deep/s.h5", &[])] {
+        let mut command = dir.command(&["sweep", "../s.toml", "--no-figures", "--output", output]);
+        let ran = Ran::from(command.args(dry).current_dir(&folder).output().expect("it starts"));
+        ran.refused(&["is not text in UTF-8"]);
+        assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 0);
+    }
 }
 
 #[test]
@@ -161,10 +177,10 @@ fn a_figure_replaces_no_file_but_its_own() {
 fn links_and_folders_in_the_place_of_a_figure_are_seen_at_the_start() {
     let dir = place();
     symlink("nothing.svg", dir.path("speed.svg")).expect("a link");
-    sweep(&dir, "s.h5", &[]).refused(&["speed.svg: exists"]);
+    sweep(&dir, "s.h5", &[]).refused(&["speed.svg: is a link that leads to no file"]);
     fs::remove_file(dir.path("speed.svg")).expect("it is removed");
     fs::create_dir(dir.path("speed.svg")).expect("a folder");
-    sweep(&dir, "s.h5", &[]).refused(&["speed.svg: exists"]);
+    sweep(&dir, "s.h5", &[]).refused(&["speed.svg: is a folder"]);
     assert_eq!(dir.files(), ["s.toml", "speed.svg"]);
 }
 

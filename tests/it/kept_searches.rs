@@ -1,26 +1,32 @@
 //! The searches of a refinement are kept as they are done: killed and resumed it ends in the same bytes, and repeats nothing.
 
+use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::fs;
 use std::process::Stdio;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use capsulemap::campaign::{KeptSearches, study_of};
+use capsulemap::store;
+use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
+use super::damage::{Damage, fuzz};
 use super::program::WorkDir;
 
 /// The paper's capsule on a coarse grid over two parameters.
-const STUDY: &str = "[parameters]\nk2 = \"20 kN/m\"\ndelta = \"3 mm\"\n\
+pub const STUDY: &str = "[parameters]\nk2 = \"20 kN/m\"\ndelta = \"3 mm\"\n\
      [[axes]]\nname = \"p_d\"\nfrom = \"7 N\"\nto = \"8 N\"\npoints = 6\n\
      [[axes]]\nname = \"omega\"\nfrom = \"50 rad/s\"\nto = \"65 rad/s\"\npoints = 16\n";
 /// Few points are drawn, so that many refinements take little time.
-const REFINE: [&str; 6] =
+pub const REFINE: [&str; 6] =
     ["tradeoff", "results/study/study.h5", "--refine", "--starts", "8", "--json"];
-const SEARCHES: &str = "results/study/study.searches";
+pub const SEARCHES: &str = "results/study/study.searches";
 
-fn swept(study: &str) -> WorkDir {
+/// A folder with the results of a study.
+pub fn swept(study: &str) -> WorkDir {
     let folder = WorkDir::new();
     folder.put("study.toml", study);
     folder.run(&["sweep", "study.toml"]).done();
@@ -28,7 +34,7 @@ fn swept(study: &str) -> WorkDir {
 }
 
 /// The whole lines of the file of searches, which come in any order, each once.
-fn lines(folder: &WorkDir) -> BTreeSet<String> {
+pub fn lines(folder: &WorkDir) -> BTreeSet<String> {
     let text = fs::read_to_string(folder.path(SEARCHES)).unwrap_or_default();
     let whole = text.rfind('\n').map_or("", |last| &text[..last]);
     whole.lines().map(str::to_owned).collect()
@@ -83,7 +89,6 @@ fn searches_of_something_else_are_refused_and_replaced_only_if_asked_for() {
     folder.put(SEARCHES, torn);
     assert_eq!(folder.run(&REFINE).done().out, whole.out);
     for (kept, said) in [
-        ("anything\n".to_owned(), "holds something else than searches"),
         (
             text.replacen("\"fingerprint\":\"", "\"fingerprint\":\"0", 1),
             "searches of another study",
@@ -92,7 +97,8 @@ fn searches_of_something_else_are_refused_and_replaced_only_if_asked_for() {
             text.replacen("searches_by\":\"", "searches_by\":\"older ", 1),
             "searches by another program",
         ),
-        (text.replacen("\"section\":[", "\"section\":[[", 1), "a line that is damaged"),
+        (text.replacen("\"format\":\"", "\"format\":\"x", 1), "a first line that is damaged"),
+        ("{\"format\":\"capsulemap searches 2\"}\n".to_owned(), "by another scheme"),
     ] {
         folder.put(SEARCHES, &kept);
         folder.run(&REFINE).refused(&[SEARCHES, said, "--overwrite"]);
@@ -100,6 +106,105 @@ fn searches_of_something_else_are_refused_and_replaced_only_if_asked_for() {
     }
     let anew = folder.run(&[&REFINE[..], &["--overwrite"]].concat()).done();
     assert_eq!(anew.out, whole.out);
+}
+
+#[test]
+fn what_is_no_file_of_searches_stays_whatever_is_asked_for() {
+    let folder = swept(STUDY);
+    let anew = [&REFINE[..], &["--overwrite"]].concat();
+    for kept in ["mine\n", "mine, without a line end", "{\"mine\": 1}\r\n{\"two\": 2}\r\n", "\n"] {
+        folder.put(SEARCHES, kept);
+        for command in [&REFINE[..], &anew] {
+            folder.run(command).refused(&[
+                SEARCHES,
+                "something else than searches",
+                "move it away",
+            ]);
+            assert_eq!(fs::read_to_string(folder.path(SEARCHES)).expect("it stays"), kept);
+        }
+    }
+    // What a kill leaves of the first line of its own is no text of others.
+    folder.put(SEARCHES, "{\"fingerprint\":\"");
+    folder.run(&REFINE).done();
+    fs::remove_file(folder.path(SEARCHES)).expect("it is removed");
+    folder.put("mine", "years of work");
+    std::os::unix::fs::symlink(folder.path("mine"), folder.path(SEARCHES)).expect("a link");
+    for command in [&REFINE[..], &anew] {
+        let ran = folder.run(command).done();
+        assert!(ran.err.contains("it is a link, which is not followed here"), "{}", ran.err);
+        assert_eq!(fs::read_to_string(folder.path("mine")).expect("it stays"), "years of work");
+    }
+    fs::remove_file(folder.path(SEARCHES)).expect("it is removed");
+    folder.shell(&format!("mkfifo {SEARCHES}")).done();
+    let figure = ["figure", "results/study/study.h5", "--kind", "trade-off", "--formats", "svg"];
+    for command in [&REFINE[..], &anew, &figure] {
+        let ran = folder.run(command).done();
+        assert!(ran.err.contains("it is not a plain file"), "{command:?}: {}", ran.err);
+    }
+    let page = folder.run(&["report", "results/study/study.h5", "--output", "-"]).done().out;
+    assert!(page.contains("it is not a plain file"), "{page}");
+}
+
+#[test]
+fn a_changed_digit_is_searched_again_and_said() {
+    let folder = swept(STUDY);
+    let whole = folder.run(&REFINE).done();
+    let text = fs::read_to_string(folder.path(SEARCHES)).expect("searches");
+    let begin = text.find('\n').expect("a first line");
+    let digits: Vec<usize> = text
+        .char_indices()
+        .filter(|(at, it)| *at > begin && it.is_ascii_digit())
+        .map(|it| it.0)
+        .collect();
+    for place in digits.iter().step_by(digits.len() / 5) {
+        let mut changed = text.clone().into_bytes();
+        changed[*place] = if changed[*place] == b'9' { b'1' } else { b'9' };
+        folder.put(SEARCHES, changed);
+        let ran = folder.run(&REFINE).done();
+        assert_eq!(ran.out, whole.out);
+        assert!(
+            ran.err.contains("do not fit their checksums, cut short or changed: 1;"),
+            "{}",
+            ran.err
+        );
+    }
+}
+
+#[test]
+fn of_a_file_of_searches_with_damage_no_other_number_is_taken() {
+    let folder = swept(STUDY);
+    folder.run(&REFINE).done();
+    let path = folder.path(SEARCHES);
+    let archive = store::open(&folder.path("results/study/study.h5")).expect("results");
+    let study = study_of(&archive, archive.path()).expect("a study");
+    let motions = |kept: &KeptSearches| -> BTreeSet<String> {
+        let fronts = kept.fronts(&archive).expect("fronts");
+        fronts.iter().flat_map(|it| &it.motions).map(|it| format!("{it:?}")).collect()
+    };
+    let text = fs::read(&path).expect("searches");
+    let whole = KeptSearches::read(&archive, &study).expect("searches");
+    let (all, searches) = (motions(&whole), whole.len());
+    let refused = Cell::new(0);
+    let tried = fuzz(&Damage::any(), |damages| {
+        let mut bytes = text.clone();
+        damages.iter().for_each(|damage| damage.apply(&mut bytes));
+        fs::write(&path, &bytes).expect("it is written");
+        match KeptSearches::read(&archive, &study) {
+            Ok(kept) => {
+                prop_assert!(motions(&kept).is_subset(&all));
+                prop_assert!(
+                    kept.len() == searches
+                        || kept.damage(&archive).is_some()
+                        || text.starts_with(&bytes)
+                );
+            }
+            Err(_) => refused.set(refused.get() + 1),
+        }
+        prop_assert_eq!(fs::read(&path).expect("searches"), bytes);
+        Ok(())
+    });
+    println!("{tried} files of searches, {} refused whole", refused.get());
+    assert!(2 * refused.get() < tried);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use super::kept_searches::{self, REFINE, SEARCHES};
 use super::program::WorkDir;
 use super::store::say;
 
@@ -132,4 +133,34 @@ fn a_kill_at_any_call_costs_nothing_but_time() {
     }
     println!("killed {kills} times, and the same files each time");
     assert!(kills > 30, "{kills}");
+}
+
+/// In the long form `CALLS=200`, as above.
+#[test]
+fn a_kill_at_any_call_of_a_refinement_loses_no_search_that_is_done() {
+    if !can_trace() {
+        say("SKIPPED: kills at the n-th call of a refinement (strace is not there or not allowed)");
+        return;
+    }
+    let asked = std::env::var("CALLS").ok().and_then(|most| most.parse::<usize>().ok());
+    let tried: Vec<usize> = asked.map_or(vec![1, 2, 3, 5, 13], |most| (1..=most).collect());
+    let dir = kept_searches::swept(kept_searches::STUDY);
+    let whole = dir.run(&REFINE).done();
+    let all = kept_searches::lines(&dir);
+    let mut kills = 0;
+    for calls in ["write,pwrite64", "fsync,fdatasync", "ftruncate"] {
+        for &n in &tried {
+            fs::remove_file(dir.path(SEARCHES)).expect("it is there");
+            let ended = !killed(&dir, &REFINE, calls, n);
+            kills += usize::from(!ended);
+            assert!(kept_searches::lines(&dir).is_subset(&all), "killed at {calls} {n}");
+            assert_eq!(dir.run(&REFINE).done().out, whole.out, "killed at {calls} {n}");
+            assert!(kept_searches::lines(&dir) == all, "killed at {calls} {n}");
+            if ended {
+                break;
+            }
+        }
+    }
+    println!("killed {kills} times, and the same searches each time");
+    assert!(kills > 8, "{kills}");
 }

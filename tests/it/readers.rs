@@ -179,6 +179,24 @@ assert len(table) == runs.progression_speed.size
 }
 
 #[test]
+fn libraries_that_open_a_file_to_change_it_and_close_it_leave_it_whole() {
+    let Some(python) = python() else { return };
+    let dir = WorkDir::new();
+    dir.put("hysteresis.toml", CHAOS);
+    dir.run(&["sweep", "hysteresis.toml", "--no-figures"]).done();
+    let path = dir.path("results/hysteresis/hysteresis.h5");
+    let whole = fs::read(&path).expect("results");
+    for (library, opens) in [("h5py", "File"), ("netCDF4", "Dataset")] {
+        let script = format!("import sys, {library}; {library}.{opens}(sys.argv[1], 'a').close()");
+        let mut command = Command::new(&python);
+        let done = command.args(["-c", &script]).arg(&path).output().expect("python runs");
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        assert!(fs::read(&path).expect("results") == whole, "{library}");
+        dir.run(&["inspect", "results/hysteresis/hysteresis.h5"]).done();
+    }
+}
+
+#[test]
 fn what_xarray_adds_to_a_file_is_drawn_on_request() {
     let Some(python) = python() else { return };
     let dir = WorkDir::new();

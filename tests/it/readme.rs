@@ -78,6 +78,20 @@ fn a_click_shows_a_motion(folder: &Path) {
 }
 
 #[test]
+fn no_study_draws_over_a_picture_that_git_keeps() {
+    let kept = Command::new("git").args(["ls-files", "results"]).output().expect("git runs");
+    let kept = String::from_utf8(kept.stdout).expect("names");
+    // Outside a clone there are none.
+    for name in kept.lines().filter(|name| !name.is_empty()) {
+        assert!(name == "results/README.md" || name.starts_with("results/gallery/"), "{name}");
+    }
+    for study in std::fs::read_dir("studies").expect("the studies") {
+        let path = study.expect("an entry").path();
+        assert!(path.file_stem().is_none_or(|stem| stem != "gallery"), "it would draw over it");
+    }
+}
+
+#[test]
 fn the_tests_are_run_as_the_readme_says() {
     let check = std::fs::read_to_string("scripts/check.sh").expect("the list of checks");
     assert!(check.contains(blocks("sh")[1]));

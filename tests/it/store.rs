@@ -266,6 +266,26 @@ fn what_is_not_a_result_is_refused_with_a_message() {
 }
 
 #[test]
+fn a_file_that_hdf5_opens_to_change_and_closes_stays_as_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("r.h5");
+    store::write(&rich(), &path).expect("it is written");
+    let whole = fs::read(&path).expect("a file");
+    for _ in 0..3 {
+        let file = hdf5::File::open_rw(&path).expect("HDF5 opens it");
+        assert!(!file.member_names().expect("names").is_empty());
+        file.close().expect("it closes");
+        assert!(fs::read(&path).expect("a file") == whole);
+    }
+    assert!(store::difference(&rich(), &store::read(&path).expect("it is whole")).is_none());
+    // What is added or changed is seen.
+    let file = hdf5::File::append(&path).expect("HDF5 opens it");
+    file.new_attr::<i32>().create("mine").expect("an attribute").write_scalar(&1).expect("it");
+    file.close().expect("it closes");
+    assert!(store::read(&path).is_err());
+}
+
+#[test]
 fn a_damaged_file_is_refused() {
     let (_folder, path) = place();
     store::write(&rich(), &path).expect("it is written");
