@@ -40,6 +40,8 @@ pub use printed::PrintedCapsule;
 pub use quantity::parse_quantity;
 pub use resistance::{Resistance, Switching};
 pub use settle::{Orbit, outputs, per_cycle, settle, settle_all, settle_as, settle_case};
-pub use simulate::{Event, Sample, Simulation, simulate, simulate_case};
+pub use simulate::{
+    Event, Sample, Simulation, SimulationSize, simulate, simulate_case, simulate_case_within,
+};
 pub use state::{EventKind, Jet, State};
 pub use system::{AsPrinted, CapsuleSystem, Filippov, Reading};

@@ -60,6 +60,15 @@ pub struct Simulation {
     pub failure: Option<Failure>,
 }
 
+/// How much of a motion is followed and kept at most.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SimulationSize {
+    /// Drive cycles from the first section.
+    pub cycles: u64,
+    /// Events.
+    pub events: usize,
+}
+
 /// Follows a case that starts on its section, at `phase` of the drive [rad], as [`simulate_case`] does.
 pub fn simulate(
     parameters: &Parameters,
@@ -74,24 +83,26 @@ pub fn simulate(
 /// Follows the capsule from the start of `case` to the first section, and for `cycles` drive cycles from
 /// there. Times and sums are counted from the start.
 pub fn simulate_case(case: &Case, cycles: u64, tolerance: f64) -> Simulation {
+    simulate_case_within(case, SimulationSize { cycles, events: usize::MAX }, tolerance)
+}
+
+/// The same, and no further than to the last section before which it has no more events than `most` says.
+pub fn simulate_case_within(case: &Case, most: SimulationSize, tolerance: f64) -> Simulation {
     let Case { parameters, section_phase, .. } = case;
     match parameters.switching {
         Switching::Filippov => {
-            simulate_on(&Capsule::single(parameters, *section_phase), case, cycles, tolerance)
+            simulate_on(&Capsule::single(parameters, *section_phase), case, most, tolerance)
         }
-        Switching::AsPrinted => simulate_on(
-            &PrintedCapsule::single(parameters, *section_phase),
-            case,
-            cycles,
-            tolerance,
-        ),
+        Switching::AsPrinted => {
+            simulate_on(&PrintedCapsule::single(parameters, *section_phase), case, most, tolerance)
+        }
     }
 }
 
 fn simulate_on<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
     system: &S,
     case: &Case,
-    cycles: u64,
+    most: SimulationSize,
     tolerance: f64,
 ) -> Simulation {
     let mut account = Account::single(&case.parameters, 0);
@@ -102,9 +113,10 @@ fn simulate_on<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
         if trajectory.is_at_section() {
             section.push(sample(&trajectory, &account));
         }
-        if section.len() as u64 > cycles {
+        if section.len() as u64 > most.cycles {
             break;
         }
+        let before = events.len();
         let begun = trajectory.cycle_began();
         let followed = trajectory.cycle(|step| {
             account.see(system, step);
@@ -115,6 +127,10 @@ fn simulate_on<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
         });
         if let Err(why) = followed {
             failure = Some(why);
+            break;
+        }
+        if events.len() > most.events {
+            events.truncate(before);
             break;
         }
     }

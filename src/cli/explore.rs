@@ -11,7 +11,7 @@ use super::failure::Failure;
 use super::stop::say_when_stopped;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, output_path, read_study};
-use crate::explore::{Server, Source};
+use crate::explore::{PrivateFolder, Server, Source};
 use crate::store::{self, StoreError};
 
 const EXAMPLES: &str = "\
@@ -45,25 +45,25 @@ pub struct Explore {
 impl Explore {
     /// Carries the command out; it ends when the program is stopped.
     pub fn run(&self) -> Result<(), Failure> {
-        let source = self.source()?;
-        let server = Server::bind(self.port).map_err(|said| {
+        let folder = Arc::new(private_folder()?);
+        let source = self.source(folder.clone())?;
+        let server = Server::bind(self.port, folder.clone()).map_err(|said| {
             Failure::request(format!("--port {}: cannot be listened on: {said}", self.port))
         })?;
         let address = server.address().map_err(Failure::machine)?;
-        let closed = source.clone();
         say_when_stopped(move || {
-            closed.close();
+            folder.close();
             "the page has ended".to_owned()
         })?;
         print(&format!("{address}\n"))?;
-        if !self.no_browser && !opened(&address) {
+        if !self.no_browser && !server.redirect().is_ok_and(|page| opened(&page)) {
             notify("no browser could be opened: open the address above by hand; Ctrl-C ends");
         }
         server.run(source).map_err(Failure::machine)
     }
 
-    /// The results to look at.
-    fn source(&self) -> Result<Arc<Source>, Failure> {
+    /// The results to look at; those of a run that is under way are joined in `folder`.
+    fn source(&self, folder: Arc<PrivateFolder>) -> Result<Arc<Source>, Failure> {
         if !is_study(&self.file) {
             if self.output.is_some() {
                 let why = "--output: goes with a study, and the results are named already";
@@ -74,7 +74,7 @@ impl Explore {
         }
         let study = read_study(&self.file)?;
         let output = output_path(&self.file, self.output.as_deref())?;
-        Source::of_study(study, &output).map_err(|error| match error {
+        Source::of_study(study, &output, folder).map_err(|error| match error {
             CampaignError::Store(StoreError::NoBlocks { .. }) => {
                 let arguments = study_arguments(&self.file, self.output.as_deref());
                 let file = self.file.display();
@@ -97,11 +97,22 @@ fn is_study(file: &Path) -> bool {
     file.extension().is_some_and(|it| it.eq_ignore_ascii_case("toml"))
 }
 
-/// Whether the browser of the desktop was started on an address.
-fn opened(address: &str) -> bool {
+/// The folder for what the server keeps while it runs.
+fn private_folder() -> Result<PrivateFolder, Failure> {
+    PrivateFolder::new().map_err(|said| {
+        Failure::from(CampaignError::Refused {
+            folder: std::env::temp_dir(),
+            refused: "no folder can be created there",
+            said,
+        })
+    })
+}
+
+/// Whether the browser of the desktop was started on a page of the disk.
+fn opened(page: &Path) -> bool {
     let program = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
     let begun = Command::new(program)
-        .arg(address)
+        .arg(page)
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::null())

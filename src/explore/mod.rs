@@ -13,4 +13,4 @@ pub use case_json::{case_json, remarks};
 pub use html::GENERATOR;
 pub use report::report;
 pub use request::Request;
-pub use server::{Server, Source};
+pub use server::{PrivateFolder, Server, Source};

@@ -44,6 +44,7 @@ impl From<Breakdown> for Reason {
             Breakdown::NoProgress => Reason::NoProgress,
             Breakdown::NotFinite => Reason::NotFinite,
             Breakdown::NoReturn => Reason::NoReturn,
+            Breakdown::Stopped => Reason::OutOfSteps,
         }
     }
 }

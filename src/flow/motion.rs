@@ -7,6 +7,7 @@ use crate::lane::{Lane, Mask, Series, SideBySide, series};
 use super::guard::{divide_by_time, first_fall, stays_positive};
 use super::pace::longest_step;
 use super::step::Step;
+use super::stop;
 use super::switched::{MAX_GUARDS, Switched, Zeros};
 
 /// So many steps in a row may pass without getting anywhere: simultaneous events need a few.
@@ -50,6 +51,8 @@ pub enum Breakdown {
     NotFinite,
     /// An autonomous system does not come back to its section in time.
     NoReturn,
+    /// The computation is to end.
+    Stopped,
 }
 
 impl fmt::Display for Breakdown {
@@ -58,6 +61,7 @@ impl fmt::Display for Breakdown {
             Breakdown::NoProgress => "events follow each other without time passing",
             Breakdown::NotFinite => "the state is no longer a finite number",
             Breakdown::NoReturn => "the motion does not come back to its section",
+            Breakdown::Stopped => "the computation was ended early",
         })
     }
 }
@@ -153,6 +157,9 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     /// Where a motion cannot go on; [`Motion::breakdown`] tells why.
     #[inline(always)]
     pub fn broken(&self, system: &S) -> L::Mask {
+        if stop::is_asked() {
+            return L::Mask::splat(true);
+        }
         let broken = L::splat(PATIENCE).lt(self.idle) | system.lost(&self.state);
         if S::AUTONOMOUS { broken | system.period().le(self.time) } else { broken }
     }
@@ -167,7 +174,8 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             return Some(Breakdown::NoProgress);
         }
         let is_late = S::AUTONOMOUS && system.period().le(self.time).lane(index);
-        is_late.then_some(Breakdown::NoReturn)
+        let stopped = stop::is_asked().then_some(Breakdown::Stopped);
+        is_late.then_some(Breakdown::NoReturn).or(stopped)
     }
 
     /// The first guard to fall within `length`.

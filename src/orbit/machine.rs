@@ -2,6 +2,7 @@
 
 use std::thread;
 
+use crate::flow::stop;
 use crate::lane::Instructions;
 
 /// Room for the stack of a thread [bytes]: a build without optimisation keeps all that lanes compute with there.
@@ -34,10 +35,14 @@ impl Machine {
         let threads = self.threads.unwrap_or_else(available).clamp(1, cases.max(1));
         let share = cases.div_ceil(threads);
         let instructions = self.instructions_for(share);
+        let stop = stop::current();
         thread::scope(|scope| {
             for _ in 0..threads {
                 let thread = thread::Builder::new().stack_size(STACK);
-                let worker = thread.spawn_scoped(scope, || work(share, instructions));
+                let worker = thread.spawn_scoped(scope, || {
+                    stop::obey(stop.clone());
+                    work(share, instructions);
+                });
                 worker.expect("a thread can be started");
             }
         });

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use crate::attractor::Executor;
 use crate::capsule::{AsPrinted, CapsuleSystem, Case, Filippov, Orbit, Reading, State, Switching};
+use crate::flow::stop;
 use crate::lane::Instructions;
 use crate::orbit::{
     self, KnownOrbits, Machine, OrbitOf, Outcome, Queue, STACK, Underway, settle_all,
@@ -149,7 +150,9 @@ pub(super) fn spread(place: usize, cases: usize) -> usize {
 
 /// So many worker threads; one per core for none.
 pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, RunError> {
-    let mut builder = rayon::ThreadPoolBuilder::new().stack_size(STACK);
+    let stop = stop::current();
+    let obey = move |_| stop::obey(stop.clone());
+    let mut builder = rayon::ThreadPoolBuilder::new().stack_size(STACK).start_handler(obey);
     if let Some(threads) = threads {
         builder = builder.num_threads(threads);
     }

@@ -14,11 +14,14 @@ use super::catalogue::OUTCOME;
 use super::names::*;
 use super::own_layout;
 use super::slab::Slab;
+use super::watched::Watched;
 use super::{Dataset, StoreError, Values, Variable};
 
 /// How often a file is tried that is locked, and the time between two tries.
 const LOCK_TRIES: u32 = 100;
 const LOCK_PAUSE: Duration = Duration::from_millis(100);
+/// What is done when the system is asked about a file.
+const LOOKING: &str = "looking whether the file has changed";
 /// Texts of a fixed length are no longer than this [bytes].
 const LONGEST_TEXT: usize = 1024;
 
@@ -27,6 +30,8 @@ const LONGEST_TEXT: usize = 1024;
 pub struct Archive {
     path: PathBuf,
     file: File,
+    /// The same file as it was checked.
+    checked: Watched,
     /// The coordinates, the attributes and the texts.
     frame: Dataset,
     /// The variables without their numbers, by name.
@@ -34,8 +39,8 @@ pub struct Archive {
 }
 
 impl Archive {
-    /// Opens the HDF5 file at `path`.
-    pub(super) fn decode(path: &Path) -> Result<Archive, StoreError> {
+    /// Opens the HDF5 file at `path`, which was `checked`.
+    pub(super) fn decode(path: &Path, checked: Watched) -> Result<Archive, StoreError> {
         let failed = |doing: String| move |said| StoreError::decoding(path, doing, said);
         let file = opened(path).map_err(failed("opening the file".into()))?;
         check_format(&file, path)?;
@@ -60,7 +65,22 @@ impl Archive {
             labels.insert(name, variable);
         }
         frame.attributes = attributes(&file).map_err(failed("reading the attributes".into()))?;
-        Ok(Archive { path: path.to_owned(), file, frame, labels })
+        // By its path another file may have been opened than the one that was checked.
+        if !checked.is_at(path).map_err(|said| StoreError::system(path, LOOKING, said))? {
+            return Err(StoreError::ChangedSince { path: path.to_owned() });
+        }
+        let archive = Archive { path: path.to_owned(), file, checked, frame, labels };
+        archive.check().map(|()| archive)
+    }
+
+    /// Fails if the file was changed since it was opened; one that replaces it does not change it. What was read before it
+    /// fails may be of both.
+    pub fn check(&self) -> Result<(), StoreError> {
+        let failed = |said| StoreError::system(&self.path, LOOKING, said);
+        match self.checked.is_unchanged().map_err(failed)? {
+            true => Ok(()),
+            false => Err(StoreError::ChangedSince { path: self.path.clone() }),
+        }
     }
 
     /// Where the file is.
@@ -108,12 +128,14 @@ impl Archive {
         if !self.labels.contains_key(name) {
             return Ok(Vec::new());
         }
+        self.check()?;
         let array = self.file.dataset(name).map_err(failed)?;
         let row = |position: &Vec<usize>| {
             let slab = Slab { start: position.clone(), count: vec![1; position.len()] };
             values_of(&array, &slab).map_err(failed)
         };
-        at.iter().map(row).collect()
+        let rows = at.iter().map(row).collect::<Result<_, _>>()?;
+        self.check().map(|()| rows)
     }
 
     /// A variable at the cases of a slab, with what each has several of.
@@ -128,7 +150,9 @@ impl Archive {
     ) -> Result<Option<Variable>, StoreError> {
         let failed = |said| StoreError::decoding(&self.path, format!("reading {name}"), said);
         let Some(label) = self.labels.get(name) else { return Ok(None) };
+        self.check()?;
         let values = self.file.dataset(name).and_then(read).map_err(failed)?;
+        self.check()?;
         Ok(Some(Variable { values, ..label.clone() }))
     }
 

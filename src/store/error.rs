@@ -53,6 +53,11 @@ pub enum StoreError {
         /// The file concerned.
         path: PathBuf,
     },
+    /// The file is not as it was when it was opened and checked.
+    ChangedSince {
+        /// The file concerned.
+        path: PathBuf,
+    },
     /// The blocks in a folder are of another study, or another program wrote them.
     Changed {
         /// The folder.
@@ -162,6 +167,12 @@ impl fmt::Display for StoreError {
                 f,
                 "{}: the file has changed since it was written, its checksum does not fit; restore \
                  a copy or make it again",
+                path.display()
+            ),
+            StoreError::ChangedSince { path } => write!(
+                f,
+                "{}: the file has changed since it was opened and checked, and nothing more is read from it; open it \
+                 anew when no other program writes to it",
                 path.display()
             ),
             StoreError::Changed { folder, changes } => {

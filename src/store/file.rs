@@ -13,6 +13,7 @@ use super::decode::Archive;
 use super::faults::faults;
 use super::lock::{Lock, Tried, try_lock};
 use super::plain::place;
+use super::watched::Watched;
 use super::{Dataset, StoreError, difference, encode};
 
 /// How often a folder is tried that another run holds, and the time between two tries: ten minutes in all.
@@ -96,8 +97,9 @@ pub fn read(path: &Path) -> Result<Dataset, StoreError> {
 
 /// The file of results at `path`, once every byte has been checked.
 pub fn open(path: &Path) -> Result<Archive, StoreError> {
-    match checksum_of(path)? {
-        Checksum::Valid => Archive::decode(path),
+    let (checksum, checked) = checksum_of(path)?;
+    match checksum {
+        Checksum::Valid => Archive::decode(path, checked),
         Checksum::Invalid => Err(StoreError::Damaged { path: path.to_owned() }),
         Checksum::Absent => {
             let why = "the checksum at its end is missing: it was cut short, or another program wrote it or \
@@ -109,12 +111,12 @@ pub fn open(path: &Path) -> Result<Archive, StoreError> {
 
 /// The same, and whether every byte has been checked, which cannot be done of a file that another program has changed.
 pub fn open_changed(path: &Path) -> Result<(Archive, bool), StoreError> {
-    let is_checked = checksum_of(path)? == Checksum::Valid;
-    Archive::decode(path).map(|archive| (archive, is_checked))
+    let (checksum, checked) = checksum_of(path)?;
+    Archive::decode(path, checked).map(|archive| (archive, checksum == Checksum::Valid))
 }
 
-/// What the checksum of the HDF5 file at `path` tells.
-fn checksum_of(path: &Path) -> Result<Checksum, StoreError> {
+/// What the checksum of the HDF5 file at `path` tells, and the file as it was before that.
+fn checksum_of(path: &Path) -> Result<(Checksum, Watched), StoreError> {
     let failed = |said| StoreError::system(path, "opening the file", said);
     // A pipe would be waited for.
     let metadata = std::fs::metadata(path).map_err(failed)?;
@@ -123,7 +125,8 @@ fn checksum_of(path: &Path) -> Result<Checksum, StoreError> {
         let why = format!("it is {what}");
         return Err(StoreError::Foreign { path: path.to_owned(), why });
     }
-    let mut file = File::open(path).map_err(failed)?;
+    let checked = Watched::new(File::open(path).map_err(failed)?).map_err(failed)?;
+    let mut file = checked.file();
     let mut start = Vec::new();
     Read::by_ref(&mut file).take(SIGNATURE.len() as u64).read_to_end(&mut start).map_err(failed)?;
     if start != SIGNATURE {
@@ -131,7 +134,8 @@ fn checksum_of(path: &Path) -> Result<Checksum, StoreError> {
         return Err(StoreError::Foreign { path: path.to_owned(), why });
     }
     file.rewind().map_err(failed)?;
-    checksum::check(file).map_err(failed)
+    let checksum = checksum::check(file).map_err(failed)?;
+    Ok((checksum, checked))
 }
 
 /// The folder of a file.

@@ -31,6 +31,7 @@ mod size;
 mod candidates;
 mod case_table;
 mod checksum;
+mod watched;
 mod constraint;
 pub mod block_file;
 

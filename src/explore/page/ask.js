@@ -2,6 +2,8 @@
 
 /** What is told where nobody answers. */
 const GONE = "capsulemap explore no longer answers; start it again";
+/** The status of what is not shown because another program has changed the file. */
+const CHANGED = 409;
 
 // A browser tells of a connection that is refused or cut by a TypeError.
 const gone = (it) => { throw it instanceof TypeError ? new Error(GONE) : it; };
@@ -10,6 +12,7 @@ async function answered(address, signal) {
   const answer = await fetch(address, { signal, credentials: "same-origin" }).catch(gone);
   if (answer.ok) return answer;
   const told = await answer.json().catch(() => ({ error: `the server answered ${answer.status}` }));
+  if (answer.status === CHANGED) dispatchEvent(new CustomEvent("results-changed", { detail: told.error }));
   throw new Error(told.error);
 }
 
@@ -43,7 +46,7 @@ export async function tradeOff(pairs, signal) {
   return { ...head, prices, speeds: new Float32Array(bytes, begins + 4 * head.count, head.count) };
 }
 
-/** Objects that come line by line; each is given to `take` as it comes. */
+/** Objects that come line by line; each is given to `take` as it comes. The last may say why they end early. */
 export async function lines(path, pairs, take, signal) {
   const reader = (await answered(address(path, pairs), signal)).body.getReader();
   const decoder = new TextDecoder();
@@ -52,7 +55,10 @@ export async function lines(path, pairs, take, signal) {
     const { done, value } = await reader.read().catch(gone);
     const parts = (rest + (done ? "" : decoder.decode(value, { stream: true }))).split("\n");
     rest = done ? "" : parts.pop();
-    parts.filter((line) => line).forEach((line) => take(JSON.parse(line)));
+    for (const it of parts.filter((line) => line).map((line) => JSON.parse(line))) {
+      if (it.end) throw new Error(it.end);
+      take(it);
+    }
     if (done) return;
   }
 }

@@ -361,5 +361,17 @@ async function again() {
   if (page.map) await mapChanged((...keys) => keys.includes("of"));
 }
 
+async function openAnew() {
+  try {
+    await ask.object("/api/anew");
+    location.reload();
+  } catch (it) { fault(it); }
+}
+
+addEventListener("results-changed", ({ detail }) => {
+  fault({ message: detail });
+  by("anew-button").hidden = false;
+});
+pressed("anew-button", openAnew);
 const file = await ask.object("/api/file").catch(fault);
 if (file) await open(file);

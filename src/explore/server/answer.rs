@@ -1,5 +1,8 @@
 //! Answers: JSON, pages, bytes, and refusals with their reason.
 
+use std::path::Path;
+use std::time::Duration;
+
 use axum::body::Body;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -7,7 +10,10 @@ use serde::Serialize;
 use serde_json::json as object;
 
 use crate::figure::FigureError;
+use crate::store::StoreError;
 
+/// The status of what takes too long: a gateway to a computation has waited for it.
+const LATE: StatusCode = StatusCode::GATEWAY_TIMEOUT;
 /// What browsers call a page.
 const HTML: &str = "text/html; charset=utf-8";
 
@@ -44,6 +50,43 @@ impl Refusal {
         Refusal::unfit(why.to_string())
     }
 
+    /// A computation for which there is no place.
+    pub fn busy() -> Refusal {
+        let why = "the program is busy with other computations; ask again when they are done";
+        Refusal::with(StatusCode::SERVICE_UNAVAILABLE, why)
+    }
+
+    /// A computation that takes longer than its budget, with what to do `instead`.
+    pub fn late(budget: Duration, instead: &str) -> Refusal {
+        let seconds = budget.as_secs();
+        let why =
+            format!("it takes longer than the {seconds} s that an answer may take; {instead}");
+        Refusal { status: LATE, why }
+    }
+
+    /// Whether a computation took too long.
+    pub fn is_late(&self) -> bool {
+        self.status == LATE
+    }
+
+    /// Results that cannot be read, most likely because another program has changed them.
+    pub fn unread(error: &StoreError) -> Refusal {
+        match error {
+            StoreError::ChangedSince { path } => Refusal::changed(path),
+            error => Refusal::failed(error.to_string()),
+        }
+    }
+
+    /// Results whose file another program has changed since it was opened.
+    pub fn changed(file: &Path) -> Refusal {
+        let why = format!(
+            "{} has changed since it was opened, so its numbers are not shown; open it anew here, or stop `capsulemap explore` \
+             and start it again",
+            file.display()
+        );
+        Refusal { status: StatusCode::CONFLICT, why }
+    }
+
     /// A fault of the machine or of the file.
     pub fn failed(why: impl Into<String>) -> Refusal {
         Refusal { status: StatusCode::INTERNAL_SERVER_ERROR, why: why.into() }
@@ -51,6 +94,11 @@ impl Refusal {
 }
 
 impl Refusal {
+    /// The refusal as the last line of an answer that comes line by line.
+    pub fn line(self) -> String {
+        object!({ "end": self.why }).to_string()
+    }
+
     /// The refusal as a page, for a person who has typed the address.
     pub fn page(self) -> Response {
         let why = self.why;
@@ -62,6 +110,15 @@ impl Refusal {
         *answer.status_mut() = self.status;
         answer
     }
+}
+
+/// A page that sends a browser on to another address.
+pub fn redirect(address: &str) -> String {
+    format!(
+        "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>capsulemap explore</title>\n\
+         <meta http-equiv=\"refresh\" content=\"0; url={address}\">\n\
+         <p><a href=\"{address}\">capsulemap explore</a></p></html>\n"
+    )
 }
 
 impl IntoResponse for Refusal {

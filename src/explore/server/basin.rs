@@ -4,11 +4,13 @@ use serde_json::{Value, json};
 
 use super::answer::Refusal;
 use super::asked::Asked;
+use super::computations::BUDGET;
 use super::explored::Explored;
 use super::motion::{followed, shown};
 use crate::attractor::{Attractor, Label};
 use crate::capsule::{Case, Output, Parameter, State, settle_case};
 use crate::figure::{label_colour, shown_quantity};
+use crate::flow::stop;
 use crate::orbit::{Machine, Outcome};
 use crate::run::{self, Attractors, Record, run_sample};
 use crate::store::catalogue::{OUTCOME, PERIOD};
@@ -27,6 +29,9 @@ const WIDER: f64 = 2.0;
 const ENDS: [[&str; 2]; 2] = [["start_r_from", "start_r_to"], ["start_y1_from", "start_y1_to"]];
 /// The axes, the faster first.
 const AXES: [Coordinate; 2] = [Coordinate::StartR, Coordinate::StartY1];
+/// What computes a basin that takes too long here.
+pub const INSTEAD: &str =
+    "the study of the basin, which the page hands over, has no such limit: `capsulemap sweep`";
 /// What the page is told of a start whose attractor is not known.
 const UNKNOWN: i64 = -1;
 
@@ -78,8 +83,16 @@ impl Basin {
         &self.study
     }
 
-    /// Sends the grid, and after each pass what is known of the starts, as long as somebody listens.
+    /// Sends the grid, and after each pass what is known of the starts, as long as somebody listens, and why it ends before the
+    /// last where it takes too long.
     pub fn compute(self, send: &dyn Fn(String) -> bool) {
+        self.refine(send);
+        if stop::is_asked() {
+            send(Refusal::late(BUDGET, INSTEAD).line());
+        }
+    }
+
+    fn refine(&self, send: &dyn Fn(String) -> bool) {
         if !send(self.head().to_string()) {
             return;
         }
@@ -103,12 +116,13 @@ impl Basin {
         }
     }
 
-    /// The records of some starts; none if the threads cannot be started.
+    /// The records of some starts; none if the threads cannot be started or are to end.
     fn computed(&self, cases: &[usize]) -> Option<Vec<Record>> {
         // A few starts do not repay a sample of starts that tells their orbits before.
         let early_decision = cases.len() == TOGETHER;
         let study = Study { early_decision, ..self.study.clone() };
-        run_sample(&study, Machine::default(), cases, || ()).ok()
+        let records = run_sample(&study, Machine::default(), cases, || ()).ok();
+        records.filter(|_| !stop::is_asked())
     }
 
     fn head(&self) -> Value {
@@ -127,6 +141,9 @@ impl Basin {
     fn pass(&self, step: usize, records: &[Record]) -> Option<Value> {
         let motions = run::final_motions(&self.study, records);
         let found = run::attractors(&self.study, &motions, Machine::default(), || ()).ok()?;
+        if stop::is_asked() {
+            return None;
+        }
         let label = |case: usize| match found.label(case, &motions) {
             Label::Attractor(number) => i64::from(number),
             _ => UNKNOWN,

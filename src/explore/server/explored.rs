@@ -52,6 +52,17 @@ impl Explored {
         Ok(Explored { archive, file: file.to_owned(), study, last: Mutex::new(None) })
     }
 
+    /// What `answer` gives from the results, if their file is as it was when it was opened and checked: before and after.
+    pub fn answer<T>(
+        &self,
+        answer: impl FnOnce(&Explored) -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        let check = || self.archive.check().map_err(|error| Refusal::unread(&error));
+        check()?;
+        let told = answer(self);
+        check().and(told)
+    }
+
     /// What a figure is drawn from.
     pub fn dataset(&self, drawing: &Drawing) -> Result<Arc<Dataset>, Refusal> {
         self.part(variables(drawing), drawing)
@@ -72,7 +83,7 @@ impl Explored {
         // Of large files not both are held.
         *last = None;
         let dataset = self.archive.labelled_at(&part.1, |name| part.0.contains(name));
-        let dataset = Arc::new(dataset.map_err(|error| Refusal::failed(error.to_string()))?);
+        let dataset = Arc::new(dataset.map_err(|error| Refusal::unread(&error))?);
         *last = Some((part, dataset.clone()));
         Ok(dataset)
     }
@@ -171,9 +182,11 @@ impl Explored {
     }
 
     /// What the file has of an output for the case at a place, if it has it.
-    pub fn kept(&self, position: &[usize], output: Output) -> Option<f64> {
-        let rows = self.archive.rows(output.name(), &[position.to_vec()]).ok()?;
-        rows.first()?.to_real().iter().next().copied().filter(|it| it.is_finite())
+    pub fn kept(&self, position: &[usize], output: Output) -> Result<Option<f64>, Refusal> {
+        let rows = self.archive.rows(output.name(), &[position.to_vec()]);
+        let rows = rows.map_err(|error| Refusal::unread(&error))?;
+        let first = rows.first().and_then(|row| row.to_real().iter().next().copied());
+        Ok(first.filter(|it| it.is_finite()))
     }
 
     /// The first section point of the motion of a case, if it has one.
@@ -181,7 +194,7 @@ impl Explored {
         let mut point = [f64::NAN; 3];
         for (value, entry) in point.iter_mut().zip([SECTION_R, SECTION_Y1, SECTION_Y2]) {
             let rows = self.archive.rows(entry.name, &[position.to_vec()]);
-            let rows = rows.map_err(|error| Refusal::failed(error.to_string()))?;
+            let rows = rows.map_err(|error| Refusal::unread(&error))?;
             let first = rows.first().and_then(|row| row.to_real().iter().next().copied());
             *value = first.unwrap_or(f64::NAN);
         }

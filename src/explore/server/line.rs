@@ -4,8 +4,10 @@ use serde_json::{Value, json};
 
 use super::answer::Refusal;
 use super::asked::Asked;
+use super::computations::BUDGET;
 use super::explored::Explored;
 use crate::capsule::{Case, Orbit, Output, State, settle_all, settle_case};
+use crate::flow::stop;
 use crate::orbit::{Machine, Outcome, Protocol};
 use crate::store::catalogue::{OUTCOME, PERIOD, SECTION_R};
 use crate::study::axis::set;
@@ -26,6 +28,10 @@ const SHOWN: [Output; 3] = [Output::ProgressionSpeed, Output::Power, Output::Lya
 /// Why a line that goes along no axis has no study.
 pub const NO_STUDY: &str = "a study varies one coordinate along an axis, and this line varies several together; a line along one axis \
      has a study and a figure";
+
+/// What computes a line that takes too long here.
+pub const INSTEAD: &str =
+    "the study of the line, which the page hands over, has no such limit: `capsulemap sweep`";
 
 /// A coordinate along the line, with its values.
 type Varied = (Coordinate, Vec<f64>);
@@ -119,7 +125,8 @@ impl Line {
         (0..self.varied[0].1.len()).map(case).collect()
     }
 
-    /// Sends the study or why there is none, and what each case settles to, as long as somebody listens.
+    /// Sends the study or why there is none, and what each case settles to, as long as somebody listens, and why it ends before
+    /// the last where it takes too long.
     pub fn compute(self, send: &dyn Fn(String) -> bool) {
         let study = self.study();
         let why = (self.varied.len() > 1).then_some(NO_STUDY);
@@ -130,6 +137,9 @@ impl Line {
                 false => self.settle(send),
             }
         }
+        if stop::is_asked() {
+            send(Refusal::late(BUDGET, INSTEAD).line());
+        }
     }
 
     /// Settles the cases, each from the start of the study.
@@ -138,6 +148,9 @@ impl Line {
         let shares = shares(cases.len());
         for (part, shares) in cases.chunks(TOGETHER).zip(shares.chunks(TOGETHER)) {
             let orbits = settle_all(part, &self.protocol, Machine::default());
+            if stop::is_asked() {
+                return;
+            }
             for ((share, case), orbit) in shares.iter().zip(part).zip(&orbits) {
                 if !send(told(*share, case, orbit).to_string()) {
                     return;
@@ -157,7 +170,7 @@ impl Line {
                 case.start_phase = case.section_phase;
             }
             let orbit = settle_case(&case, &self.protocol);
-            if !send(told(share, &case, &orbit).to_string()) {
+            if stop::is_asked() || !send(told(share, &case, &orbit).to_string()) {
                 return;
             }
             from = (orbit.outcome != Outcome::Failed).then_some(orbit.end);

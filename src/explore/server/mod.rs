@@ -11,17 +11,20 @@ mod explored;
 mod line;
 mod map;
 mod motion;
+mod private_folder;
 mod saved;
 mod source;
+mod written;
 
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Router;
 use axum::extract::{Path, Query, Request, State};
-use axum::http::HeaderMap;
+use axum::http::{HeaderMap, StatusCode};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::{MethodRouter, get};
@@ -34,15 +37,19 @@ use access::Access;
 use answer::{Refusal, html, json};
 use asked::Asked;
 use basin::Basin;
-use computations::Computations;
+use computations::{Computations, Places};
 use explored::Explored;
 use line::Line;
+pub use private_folder::PrivateFolder;
 pub use source::Source;
+use written::Written;
 
 /// Connections at once; more wait.
 const MOST_CONNECTIONS: usize = 64;
 /// The longest wait for the head of a request.
 const LONGEST_WAIT: Duration = Duration::from_secs(10);
+/// The name of the page on the disk that sends a browser to the server.
+const REDIRECT: &str = "open.html";
 /// The longest head of a request [bytes].
 const LONGEST_HEAD: usize = 16 << 10;
 
@@ -50,6 +57,7 @@ const LONGEST_HEAD: usize = 16 << 10;
 pub struct Server {
     listener: TcpListener,
     access: Arc<Access>,
+    folder: Arc<PrivateFolder>,
 }
 
 /// What every answer is made of.
@@ -57,6 +65,7 @@ pub struct Server {
 struct Shared {
     source: Arc<Source>,
     access: Arc<Access>,
+    folder: Arc<PrivateFolder>,
     computations: Arc<Computations>,
 }
 
@@ -64,14 +73,14 @@ struct Shared {
 type Pairs = Query<Vec<(String, String)>>;
 
 impl Server {
-    /// Listens on a port of 127.0.0.1; on one that is free for 0.
+    /// Listens on a port of 127.0.0.1, on one that is free for 0; what it keeps while it runs lies in `folder`.
     ///
     /// Fails if the port is taken or the system has no randomness.
-    pub fn bind(port: u16) -> io::Result<Server> {
+    pub fn bind(port: u16, folder: Arc<PrivateFolder>) -> io::Result<Server> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
         listener.set_nonblocking(true)?;
         let access = Arc::new(Access::new(listener.local_addr()?.port())?);
-        Ok(Server { listener, access })
+        Ok(Server { listener, access, folder })
     }
 
     /// Where the page is, with the token that opens it once.
@@ -80,14 +89,23 @@ impl Server {
         Ok(format!("http://{address}/open?token={}", self.access.token()))
     }
 
+    /// A page on the disk that sends a browser there, until the token is used: other users of the machine read what programs
+    /// are started with, and cannot read this file.
+    ///
+    /// Fails if it cannot be written.
+    pub fn redirect(&self) -> io::Result<PathBuf> {
+        self.folder.put(REDIRECT, &answer::redirect(&self.address()?))
+    }
+
     /// Answers requests until the process ends.
     ///
     /// Fails if the system takes the listening socket away.
     pub fn run(self, source: Arc<Source>) -> io::Result<()> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-        let shared =
-            Shared { source, access: self.access, computations: Arc::new(Computations::default()) };
-        runtime.block_on(accept(self.listener, router(shared)))
+        let Server { listener, access, folder } = self;
+        let computations = Arc::new(Computations::default());
+        let shared = Shared { source, access, folder, computations };
+        runtime.block_on(accept(listener, router(shared)))
     }
 }
 
@@ -113,7 +131,7 @@ async fn accept(listener: TcpListener, router: Router) -> io::Result<()> {
             connection.timer(TokioTimer::new()).header_read_timeout(LONGEST_WAIT);
             connection.max_buf_size(LONGEST_HEAD);
             // A client that goes away or breaks the protocol ends its own connection alone.
-            let _ = connection.serve_connection(TokioIo::new(stream), service).await;
+            let _ = connection.serve_connection(TokioIo::new(Written::new(stream)), service).await;
             drop(place);
         });
     }
@@ -122,15 +140,16 @@ async fn accept(listener: TcpListener, router: Router) -> io::Result<()> {
 fn router(shared: Shared) -> Router {
     Router::new()
         .route("/", get(page))
-        .route("/open", get(open))
+        .route("/open", get(open).head(looked_at))
         .route("/page/{name}", get(asset))
         .route("/api/file", get(file))
+        .route("/api/anew", get(anew))
         .route("/api/progress", get(progress))
-        .route("/api/map", of_file(map::map))
-        .route("/api/curves", of_file(map::curves))
-        .route("/api/trade-off", of_file(map::trade_off))
-        .route("/api/motion", of_file(|it, asked| Ok(json(&motion::motion(it, asked)?))))
-        .route("/api/figure", of_file(saved::figure))
+        .route("/api/map", of_file(readings, map::map))
+        .route("/api/curves", of_file(readings, map::curves))
+        .route("/api/trade-off", of_file(readings, map::trade_off))
+        .route("/api/motion", of_file(motions, |it, asked| Ok(json(&motion::motion(it, asked)?))))
+        .route("/api/figure", get(figure))
         .route("/api/line", get(line))
         .route("/api/basin", get(basin))
         .fallback(|| async { Refusal::missing() })
@@ -157,7 +176,16 @@ async fn open(State(shared): State<Shared>, headers: HeaderMap, Query(pairs): Pa
     if shared.access.knows(&headers) {
         return Redirect::to("/").into_response();
     }
-    shared.access.open(&pairs).unwrap_or_else(Refusal::page)
+    let opened = shared.access.open(&pairs);
+    if opened.is_ok() {
+        shared.folder.remove(REDIRECT);
+    }
+    opened.unwrap_or_else(Refusal::page)
+}
+
+/// What HEAD is told of the address with the token, which GET alone uses up.
+async fn looked_at() -> StatusCode {
+    StatusCode::NO_CONTENT
 }
 
 async fn asset(Path(name): Path<String>) -> Result<Response, Refusal> {
@@ -167,32 +195,58 @@ async fn asset(Path(name): Path<String>) -> Result<Response, Refusal> {
 async fn file(State(shared): State<Shared>) -> Result<Response, Refusal> {
     let source = shared.source.clone();
     let told = move || {
-        let (running, explored) = (source.progress(), source.explored());
-        Ok(json(&described::described(&explored, running)))
+        let (running, explored) = (source.progress(), source.explored()?);
+        explored.answer(|it| Ok(json(&described::described(it, running))))
     };
-    shared.computations.short(told).await
+    shared.computations.readings.answer(told).await
+}
+
+/// Opens the file anew, after another program has changed it.
+async fn anew(State(shared): State<Shared>) -> Result<Response, Refusal> {
+    let source = shared.source.clone();
+    let open = move || source.open_anew().map(|()| json(&true));
+    shared.computations.readings.answer(open).await
 }
 
 async fn progress(State(shared): State<Shared>) -> Response {
     json(&shared.source.progress())
 }
 
-/// Answers with what is computed from the results.
-fn of_file(answer: fn(&Explored, &Asked) -> Result<Response, Refusal>) -> MethodRouter<Shared> {
+fn motions(computations: &Computations) -> &Places {
+    &computations.motions
+}
+
+fn readings(computations: &Computations) -> &Places {
+    &computations.readings
+}
+
+/// Answers with what is computed from the results, in one of these places.
+fn of_file(
+    places: fn(&Computations) -> &Places,
+    answer: fn(&Explored, &Asked) -> Result<Response, Refusal>,
+) -> MethodRouter<Shared> {
     get(move |State(shared): State<Shared>, Query(pairs): Pairs| async move {
-        let (asked, explored) = (Asked::new(pairs)?, shared.source.explored());
-        shared.computations.short(move || answer(&explored, &asked)).await
+        let (asked, explored) = (Asked::new(pairs)?, shared.source.explored()?);
+        let answer = move || explored.answer(|it| answer(it, &asked));
+        places(&shared.computations).answer(answer).await
     })
 }
 
+async fn figure(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
+    let (asked, explored) = (Asked::new(pairs)?, shared.source.explored()?);
+    let folder = shared.folder.clone();
+    let draw = move || explored.answer(|it| saved::figure(it, &asked, folder.path()));
+    shared.computations.heavy.answer(draw).await
+}
+
 async fn line(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
-    let (asked, explored) = (Asked::new(pairs)?, shared.source.explored());
-    let line = shared.computations.short(move || Line::of(&explored, &asked)).await?;
-    shared.computations.stream(move |send| line.compute(send)).await
+    let (asked, explored) = (Asked::new(pairs)?, shared.source.explored()?);
+    let prepare = move || explored.answer(|it| Line::of(it, &asked));
+    shared.computations.heavy.stream(prepare, Line::compute).await
 }
 
 async fn basin(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
-    let (asked, explored) = (Asked::new(pairs)?, shared.source.explored());
-    let basin = shared.computations.short(move || Basin::of(&explored, &asked)).await?;
-    shared.computations.stream(move |send| basin.compute(send)).await
+    let (asked, explored) = (Asked::new(pairs)?, shared.source.explored()?);
+    let prepare = move || explored.answer(|it| Basin::of(it, &asked));
+    shared.computations.heavy.stream(prepare, Basin::compute).await
 }

@@ -5,12 +5,15 @@ use serde_json::Value;
 
 use super::answer::Refusal;
 use super::asked::Asked;
+use super::computations::{BUDGET, MOTION_BUDGET};
 use super::explored::{Explored, Near};
 use crate::campaign::command;
 use crate::capsule::{
-    ArcPoint, Case, Orbit, Output, Parameter, State, Switching, arc, settle_case, simulate_case,
+    ArcPoint, Case, Orbit, Output, Parameter, Simulation, SimulationSize, State, Switching, arc,
+    settle_case, simulate_case_within,
 };
 use crate::explore::case_json::{case_json, remarks};
+use crate::flow::stop;
 use crate::orbit::{HistorySpan, Outcome, Protocol};
 use crate::store::catalogue::CYCLES;
 use crate::study::Study;
@@ -23,6 +26,11 @@ const MOST_SHOWN: u64 = 8;
 const POINTS: u32 = 150;
 /// Points of half a cycle at least.
 const LEAST_POINTS: u32 = 60;
+/// Points of the histories at most, and events of the simulation: an answer of more than some megabytes is no click.
+const MOST_POINTS: usize = 20_000;
+const MOST_EVENTS: usize = 10_000;
+/// What computes the histories of a motion that takes too long here.
+pub const INSTEAD: &str = "the command of the motion, which the page hands over, has no such limit";
 /// Samples of a cycle in figures.
 const PER_CYCLE: u32 = 400;
 
@@ -65,38 +73,61 @@ struct History {
 
 /// The case that is asked for: what `capsulemap simulate --json` prints of it, its remarks, the command, and the histories of
 /// what it settles to.
+///
+/// Fails if a coordinate is out of its bounds, or it takes longer than a click may.
 pub fn motion(explored: &Explored, asked: &Asked) -> Result<Told, Refusal> {
     asked.only(&[CYCLES.name, "sweep"])?;
     let cycles = asked.count(CYCLES.name, [0, 400], TRANSIENT as usize)? as u64;
     let near = explored.near(&asked.coordinates()?, asked.sweep()?)?;
     let protocol = explored.protocol();
     let Near { case, index, is_exact, .. } = &near;
-    let simulation = simulate_case(case, cycles, protocol.tolerance);
+    let command = format!("{} --cycles {cycles}", command(case, &protocol));
+    let most = SimulationSize { cycles, events: MOST_EVENTS };
+    let simulation = simulate_case_within(case, most, protocol.tolerance);
     let orbit = settle_case(case, &protocol);
+    let history = history(case, &orbit, protocol.tolerance);
+    if stop::is_asked() {
+        let instead = format!("run `{command}`, which has no such limit");
+        return Err(Refusal::late(MOTION_BUDGET, &instead));
+    }
     let mut remarks = remarks(&case.parameters, &orbit);
-    remarks.extend(other_mean(explored, &near, &orbit));
+    remarks.extend(other_mean(explored, &near, &orbit)?);
+    remarks.extend(end_of_simulation(&simulation, cycles));
+    remarks.extend(history.as_ref().and_then(History::end));
     Ok(Told {
         simulate: case_json(&case.parameters, &simulation, &orbit),
         remarks,
-        history: history(case, &orbit, protocol.tolerance),
+        history,
         stroboscopic: orbit.section,
-        command: format!("{} --cycles {cycles}", command(case, &protocol)),
+        command,
         nearest: *index,
         exact: *is_exact,
         start: near.start,
     })
 }
 
+/// Where the simulation ends before its cycles do, and what has all of them.
+fn end_of_simulation(simulation: &Simulation, cycles: u64) -> Option<String> {
+    let followed = simulation.section.len().saturating_sub(1) as u64;
+    (followed < cycles && simulation.failure.is_none()).then(|| {
+        format!(
+            "the numbers here end after {followed} of {cycles} cycles, before event {}; the command has all of them",
+            MOST_EVENTS + 1
+        )
+    })
+}
+
 /// Why the speed of a case of the file is not the one that the file has, where its motion does not repeat.
-fn other_mean(explored: &Explored, near: &Near, orbit: &Orbit) -> Option<String> {
+fn other_mean(explored: &Explored, near: &Near, orbit: &Orbit) -> Result<Option<String>, Refusal> {
     let kept = explored.kept(&near.position, Output::ProgressionSpeed)?;
-    (near.is_exact && orbit.outcome != Outcome::Periodic).then(|| {
+    let differs = near.is_exact && orbit.outcome != Outcome::Periodic;
+    Ok(kept.filter(|_| differs).map(|kept| {
         format!(
             "the file has the speed {:.6} mm/s for this case: of a motion that does not repeat, both are means over some cycles, \
              and these are others",
             1e3 * kept
         )
-    })
+    }))
 }
 
 /// The study of the one case that a request asks for, with the history of what it settles to.
@@ -107,6 +138,9 @@ pub fn study(explored: &Explored, asked: &Asked) -> Result<Study, Refusal> {
     let case = explored.near(&asked.coordinates()?, asked.sweep()?)?.case;
     let protocol = explored.protocol();
     let cycles = shown(&settle_case(&case, &protocol)) as u32;
+    if stop::is_asked() {
+        return Err(Refusal::late(BUDGET, INSTEAD));
+    }
     let history = Some(HistorySpan { cycles, per_cycle: PER_CYCLE, from_start: false });
     Ok(Study {
         base: case.parameters,
@@ -150,7 +184,20 @@ fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
     })
 }
 
-/// The motion from a point of the section, half a cycle after the other.
+impl History {
+    /// Where it ends before its cycles do.
+    fn end(&self) -> Option<String> {
+        let (last, whole) = (self.t.last()?, self.cycles as f64 * self.period);
+        (self.t.len() >= MOST_POINTS).then(|| {
+            format!(
+                "the histories end after {last:.4} s of {whole:.4} s, as they have {} points by then",
+                self.t.len()
+            )
+        })
+    }
+}
+
+/// The motion from a point of the section, half a cycle after the other, as far as the most points.
 pub fn followed(
     case: &Case,
     from: State<f64>,
@@ -170,6 +217,10 @@ pub fn followed(
         let part = arc(&case.parameters, state, phases, count, tolerance).ok()?;
         state = part.last()?.state;
         points.extend(part.into_iter().map(|it| ArcPoint { time: begins + it.time, ..it }));
+        if points.len() >= MOST_POINTS {
+            points.truncate(MOST_POINTS);
+            break;
+        }
     }
     Some(points)
 }

@@ -1,5 +1,6 @@
 //! The figures of views through the drawing code of `capsulemap figure`, as files to be saved.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use axum::http::{HeaderValue, header};
@@ -7,20 +8,23 @@ use axum::response::Response;
 
 use super::answer::{Refusal, bytes};
 use super::asked::Asked;
-use super::basin::Basin;
+use super::basin::{self, Basin};
+use super::computations::BUDGET;
 use super::explored::Explored;
-use super::line::Line;
+use super::line::{self, Line};
 use super::map;
 use super::motion;
 use crate::campaign::results_in_memory;
 use crate::figure::{Format, Place, draw};
+use crate::flow::stop;
 use crate::orbit::Machine;
 use crate::run::run_sample;
 use crate::store::Dataset;
 use crate::study::{Drawing, DrawingKind, Study};
 
-/// The figure that a request asks for as PDF, SVG or PNG; what it shows is computed again where it is not in the file.
-pub fn figure(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
+/// The figure that a request asks for as PDF, SVG or PNG, drawn in a folder that others cannot read; what it shows is computed
+/// again where it is not in the file.
+pub fn figure(explored: &Explored, asked: &Asked, place: &Path) -> Result<Response, Refusal> {
     let (format, content) = format(asked)?;
     let kind = asked.text("kind").unwrap_or_default();
     let known = DrawingKind::NAMES.iter().find(|it| it.0 == kind).map(|it| it.1);
@@ -31,14 +35,14 @@ pub fn figure(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
         }
         Some(kind @ (DrawingKind::History | DrawingKind::PhasePortrait)) => {
             let study = motion::study(explored, asked)?;
-            computed(&study, Drawing::new(kind.name(), kind))?
+            computed(&study, Drawing::new(kind.name(), kind), motion::INSTEAD)?
         }
         Some(DrawingKind::Bifurcation) => {
             let line = Line::of(explored, asked)?;
-            let study = line.study().ok_or_else(|| Refusal::unfit(super::line::NO_STUDY))?;
-            drawn_by(&study)?
+            let study = line.study().ok_or_else(|| Refusal::unfit(line::NO_STUDY))?;
+            drawn_by(&study, line::INSTEAD)?
         }
-        Some(DrawingKind::Basin) => drawn_by(Basin::of(explored, asked)?.study())?,
+        Some(DrawingKind::Basin) => drawn_by(Basin::of(explored, asked)?.study(), basin::INSTEAD)?,
         _ => {
             let why =
                 "kind: map, trade-off, history, phase-portrait, bifurcation or basin is expected";
@@ -46,7 +50,7 @@ pub fn figure(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
         }
     };
     let failed = |said: std::io::Error| Refusal::failed(said.to_string());
-    let folder = tempfile::tempdir().map_err(failed)?;
+    let folder = tempfile::tempdir_in(place).map_err(failed)?;
     let place = Place { folder: folder.path(), formats: &[format], overwrite: false };
     let files = draw(&*results, &drawing, &place).map_err(Refusal::undrawn)?;
     let path = files.paths.first().ok_or_else(|| Refusal::failed("no file was drawn"))?;
@@ -66,19 +70,29 @@ fn format(asked: &Asked) -> Result<(Format, &'static str), Refusal> {
     }
 }
 
-/// The results of a small study, with its own figure.
-fn drawn_by(study: &Study) -> Result<(Arc<Dataset>, Drawing), Refusal> {
+/// The results of a small study, with its own figure; `instead` is what to do where they take too long.
+fn drawn_by(study: &Study, instead: &str) -> Result<(Arc<Dataset>, Drawing), Refusal> {
     let drawing = study.drawings.first().cloned();
-    computed(study, drawing.ok_or_else(|| Refusal::failed("the study has no figure"))?)
+    computed(study, drawing.ok_or_else(|| Refusal::failed("the study has no figure"))?, instead)
 }
 
 /// The results of a small study, with a figure of them.
-fn computed(study: &Study, drawing: Drawing) -> Result<(Arc<Dataset>, Drawing), Refusal> {
+fn computed(
+    study: &Study,
+    drawing: Drawing,
+    instead: &str,
+) -> Result<(Arc<Dataset>, Drawing), Refusal> {
     let chains: Vec<usize> = (0..study.chains()).collect();
     let machine = Machine::default();
     let failed = |why: String| Refusal::failed(why);
+    let in_time = || match stop::is_asked() {
+        true => Err(Refusal::late(BUDGET, instead)),
+        false => Ok(()),
+    };
     let records =
         run_sample(study, machine, &chains, || ()).map_err(|it| failed(it.to_string()))?;
+    in_time()?;
     let results = results_in_memory(study, &records, machine);
+    in_time()?;
     Ok((Arc::new(results.map_err(|it| failed(it.to_string()))?), drawing))
 }

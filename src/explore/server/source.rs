@@ -1,16 +1,19 @@
 //! Where the results come from: a file, or a run that is under way, of which what is computed so far is read again and again.
 
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
-use tempfile::TempDir;
 
+use super::answer::Refusal;
 use super::explored::Explored;
+use super::private_folder::PrivateFolder;
 use crate::campaign::{Campaign, CampaignError, silent};
-use crate::store::Archive;
+use crate::store::{self, Archive};
 use crate::study::Study;
 
 /// Between two looks at the blocks of a run.
@@ -20,13 +23,14 @@ const RARELY: u32 = 4;
 
 /// The results that the page shows now.
 pub struct Source {
+    /// The file, as commands name it.
+    file: PathBuf,
     now: Mutex<Now>,
-    /// The folder of the partial results of a run.
-    folder: Option<PathBuf>,
 }
 
 struct Now {
-    explored: Arc<Explored>,
+    /// None where the file could not be opened anew.
+    explored: Option<Arc<Explored>>,
     run: Option<Run>,
 }
 
@@ -47,7 +51,7 @@ struct Run {
 struct Followed {
     study: Study,
     output: PathBuf,
-    folder: TempDir,
+    folder: Arc<PrivateFolder>,
 }
 
 impl Source {
@@ -55,25 +59,28 @@ impl Source {
     ///
     /// Fails if the text of the study has faults for this version of the program.
     pub fn of_file(archive: Archive, file: &Path) -> Result<Source, CampaignError> {
-        let explored = Arc::new(Explored::new(archive, file)?);
-        Ok(Source { now: Mutex::new(Now { explored, run: None }), folder: None })
+        let explored = Some(Arc::new(Explored::new(archive, file)?));
+        Ok(Source { file: file.to_owned(), now: Mutex::new(Now { explored, run: None }) })
     }
 
     /// The results of a study that go to `output`: all of them, or what its run has computed so far, which is joined again as
-    /// the run goes on.
+    /// the run goes on, into a file in `folder`.
     ///
     /// Fails if nothing of the study has been computed, or its blocks cannot be read or joined.
-    pub fn of_study(study: Study, output: &Path) -> Result<Arc<Source>, CampaignError> {
+    pub fn of_study(
+        study: Study,
+        output: &Path,
+        folder: Arc<PrivateFolder>,
+    ) -> Result<Arc<Source>, CampaignError> {
         let campaign = Campaign::new(&study, output);
         if let Some(whole) = campaign.kept()?.filter(|it| it.archive.has_cases()) {
             return Ok(Arc::new(Source::of_file(whole.archive, output)?));
         }
-        let followed = Followed::new(study, output)?;
-        let explored = Arc::new(followed.joined()?);
+        let followed = Followed { study, output: output.to_owned(), folder };
+        let explored = Some(Arc::new(followed.joined()?));
         let run = followed.run()?;
-        let folder = Some(followed.folder.path().to_owned());
         let now = Mutex::new(Now { explored, run: Some(run) });
-        let source = Arc::new(Source { now, folder });
+        let source = Arc::new(Source { file: output.to_owned(), now });
         // Both end with the process, or when all results are there.
         let (watching, joining, followed) = (source.clone(), source.clone(), Arc::new(followed));
         let watched = followed.clone();
@@ -83,8 +90,11 @@ impl Source {
     }
 
     /// The results as they are now.
-    pub fn explored(&self) -> Arc<Explored> {
-        self.lock().explored.clone()
+    ///
+    /// Fails where their file could not be opened anew.
+    pub fn explored(&self) -> Result<Arc<Explored>, Refusal> {
+        let missing = || Refusal::changed(&self.file);
+        self.lock().explored.clone().ok_or_else(missing)
     }
 
     /// How far the run is; null where all is there.
@@ -94,12 +104,30 @@ impl Source {
         })
     }
 
-    /// Removes the partial results of a run, before the process ends.
-    pub fn close(&self) {
-        if let Some(folder) = &self.folder {
-            // What cannot be removed lies in the system's folder of temporary files.
-            let _ = std::fs::remove_dir_all(folder);
+    /// Opens the file of the results anew and checks it, after another program has changed it.
+    ///
+    /// Fails while what was open is read, and where the file is damaged or its study has faults for this version of the
+    /// program: there are no results then until it can be opened.
+    pub fn open_anew(&self) -> Result<(), Refusal> {
+        // Not locked while the file is read: who asks meanwhile is told that it has changed.
+        let before = {
+            let mut now = self.lock();
+            if now.run.is_some() {
+                // What a run has computed is joined again, into a file of this program's own.
+                return Ok(());
+            }
+            now.explored.take()
+        };
+        // HDF5 gives what it knows of a file as long as that is open anywhere in the process.
+        if let Some(Err(read)) = before.map(Arc::try_unwrap) {
+            self.lock().explored = Some(read);
+            return Err(Refusal::busy());
         }
+        let opened = store::open(&self.file).map_err(CampaignError::from);
+        let explored = opened.and_then(|archive| Explored::new(archive, &self.file));
+        let explored = explored.map_err(|error| Refusal::unfit(error.to_string()))?;
+        self.lock().explored = Some(Arc::new(explored));
+        Ok(())
     }
 
     fn lock(&self) -> std::sync::MutexGuard<'_, Now> {
@@ -111,7 +139,7 @@ impl Source {
         loop {
             thread::sleep(PAUSE);
             if let Some(whole) = followed.whole() {
-                *self.lock() = Now { explored: Arc::new(whole), run: None };
+                *self.lock() = Now { explored: Some(Arc::new(whole)), run: None };
                 return;
             }
             let run = followed.run();
@@ -136,7 +164,7 @@ impl Source {
                 let mut now = self.lock();
                 let Some(run) = now.run else { return };
                 now.run = Some(Run { version: run.version + 1, ..run });
-                now.explored = Arc::new(explored);
+                now.explored = Some(Arc::new(explored));
                 shown = done;
             }
             thread::sleep(RARELY * begun.elapsed());
@@ -145,15 +173,6 @@ impl Source {
 }
 
 impl Followed {
-    fn new(study: Study, output: &Path) -> Result<Followed, CampaignError> {
-        let folder = tempfile::tempdir().map_err(|said| CampaignError::Refused {
-            folder: std::env::temp_dir(),
-            refused: "no folder can be created there",
-            said,
-        })?;
-        Ok(Followed { study, output: output.to_owned(), folder })
-    }
-
     fn campaign(&self) -> Campaign<'_> {
         Campaign::new(&self.study, &self.output)
     }
@@ -161,7 +180,13 @@ impl Followed {
     /// What is computed so far.
     fn joined(&self) -> Result<Explored, CampaignError> {
         let name = self.output.file_name().unwrap_or_default();
-        let joined = self.campaign().join_partial_into(&self.folder.path().join(name), &silent)?;
+        let file = self.folder.path().join(name);
+        let joined = self.campaign().join_partial_into(&file, &silent)?;
+        keep_private(&file).map_err(|said| CampaignError::Refused {
+            folder: self.folder.path().to_owned(),
+            refused: "the partial results cannot be kept from others",
+            said,
+        })?;
         Explored::new(joined.archive, &self.output)
     }
 
@@ -183,4 +208,12 @@ impl Followed {
             version: 0,
         })
     }
+}
+
+/// Lets nobody but its owner read a file.
+fn keep_private(file: &Path) -> io::Result<()> {
+    #[cfg(unix)]
+    return fs::set_permissions(file, std::os::unix::fs::PermissionsExt::from_mode(0o600));
+    #[cfg(not(unix))]
+    fs::metadata(file).map(drop)
 }
