@@ -29,13 +29,13 @@ pub enum Checksum {
 }
 
 /// Makes the image of an HDF5 file end with the checksum, as a part of it.
-pub fn seal(image: &mut Vec<u8>) {
+pub fn include(image: &mut Vec<u8>) {
     superblock::extend(image, CHECKSUM_BYTES);
     append(image);
 }
 
 /// The same of a file that is open.
-pub fn seal_file(file: &mut File) -> io::Result<()> {
+pub fn include_in(file: &mut File) -> io::Result<()> {
     let mut head = [0; superblock::HEAD_BYTES];
     file.rewind()?;
     file.read_exact(&mut head)?;

@@ -36,7 +36,7 @@ pub fn write(dataset: &Dataset, path: &Path) -> Result<(), StoreError> {
         return Err(StoreError::Unfit { path: path.to_owned(), faults });
     }
     let mut image = encode::image(dataset, path)?;
-    checksum::seal(&mut image);
+    checksum::include(&mut image);
     let file = filled(begun(path)?, path, &image)?;
     drop(image);
     let unequal = match read(file.path()) {

@@ -74,7 +74,7 @@ pub fn write(
     }
     drop(scales);
     file.close().map_err(encoding("completing the file"))?;
-    checksum::seal_file(temporary.as_file_mut()).map_err(failed("adding the checksum"))?;
+    checksum::include_in(temporary.as_file_mut()).map_err(failed("adding the checksum"))?;
     temporary.as_file().sync_all().map_err(failed("forcing the file to the disk"))?;
     check(&temporary, frame, (columns, axes), &sums, path)?;
     file::name(temporary, path).map(ControlFlow::Continue)

@@ -201,8 +201,8 @@ mod tests {
         std::fs::create_dir(&path).expect("a folder");
         assert!(LineFile::open(&path).is_err() && read_lines(&path).is_err());
         std::fs::remove_dir(&path).expect("it is removed");
-        let made = std::process::Command::new("mkfifo").arg(&path).status();
-        assert!(made.expect("it runs").success());
+        let created = std::process::Command::new("mkfifo").arg(&path).status();
+        assert!(created.expect("it runs").success());
         assert!(LineFile::open(&path).is_err() && read_lines(&path).is_err());
     }
 }

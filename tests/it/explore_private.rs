@@ -97,7 +97,7 @@ fn partial_results_are_kept_from_others_and_removed_after_a_kill() {
     let explore = ["explore", "many.toml", "--no-browser"];
     let mut killed = Explorer::begun(command(&work, &explore));
     let folder = temporary(&work).pop().expect("a folder");
-    let file = folder.join("many.h5");
+    let file = folder.join("partial/many.h5");
     assert_eq!((mode(&folder), mode(&file)), (0o700, 0o600));
     killed.child.kill().expect("killed");
     killed.child.wait().expect("it has ended");
@@ -108,7 +108,7 @@ fn partial_results_are_kept_from_others_and_removed_after_a_kill() {
     let others = temporary(&work);
     let third = Explorer::begun(command(&work, &["explore", "map.h5", "--no-browser"]));
     assert_eq!(temporary(&work).len(), 2);
-    assert!(others.iter().all(|it| it.join("many.h5").exists()));
+    assert!(others.iter().all(|it| it.join("partial/many.h5").exists()));
     assert_eq!(second.opened().object("/api/file")["cases"], 1200);
     drop(third);
 }

@@ -91,7 +91,6 @@ mod passages;
 mod phases;
 mod poincare;
 mod program;
-mod random_studies;
 mod readers;
 mod reading;
 mod readme;

@@ -22,14 +22,15 @@ const PLACES: [(&str, &str); 8] = [
 fn occupied(dir: &WorkDir, kind: &str, name: &str) -> bool {
     let (kind, path) = match kind.strip_prefix("to-") {
         Some(kind) => {
-            symlink(format!("{name}.behind"), dir.path(name)).expect("a link");
+            let file = name.rsplit('/').next().expect("a name");
+            symlink(format!("{file}.behind"), dir.path(name)).expect("a link");
             (kind, format!("{name}.behind"))
         }
         None => (kind, name.to_owned()),
     };
-    let made = |command: &str| dir.shell(&format!("{command} '{path}'")).code == 0;
+    let created = |command: &str| dir.shell(&format!("{command} '{path}'")).code == 0;
     match kind {
-        "pipe" => made("mkfifo"),
+        "pipe" => created("mkfifo"),
         "socket" => UnixListener::bind(dir.path(&path)).is_ok(),
         // The device that takes everything, under a name of its own: only root makes one.
         "null" => dir.shell(&format!("mknod '{path}' c 1 3 2>/dev/null")).code == 0,
@@ -62,7 +63,7 @@ fn no_command_replaces_what_is_no_plain_file() {
     dir.run(&["sweep", "s.toml", "--output", "r.h5", "--no-figures"]).done();
     dir.run(&["synthesize", "fig5.toml", "--output", "rig", "--cycles", "2"]).done();
     // Each command with an output, by the name of the file that it would write.
-    let fit = ["fit", "rig/motion.csv", "--study", "fig5.toml", "--vary", "k2=2..3 kN/m"];
+    let fit = ["fit", "rig/motion.csv", "--study", "fig5.toml", "--vary", "k2=2 kN/m..3 kN/m"];
     let figure = ["figure", "r.h5", "--kind", "bifurcation", "--formats", "svg"];
     let commands: [(&str, &[&str]); 11] = [
         ("o.h5", &["sweep", "s.toml", "--no-figures", "--output", "o.h5"]),
@@ -127,7 +128,7 @@ fn a_link_to_a_file_leads_there_and_stays() {
     for name in ["-", "/dev/stdout"] {
         let ran = dir.run(&[&smooth[..], &[name]].concat()).done();
         assert!(ran.out == written && ran.err.contains("window: "), "{}", ran.err);
-        let fit = ["fit", "rig/motion.csv", "--study", "fig5.toml", "--vary", "k2=2..3 kN/m"];
+        let fit = ["fit", "rig/motion.csv", "--study", "fig5.toml", "--vary", "k2=2 kN/m..3 kN/m"];
         dir.run(&[&fit[..], &["--output", name]].concat()).refused(&[name, "name a file"]);
     }
     assert!(!dir.path("-").exists());

@@ -56,7 +56,7 @@ export async function lines(path, pairs, take, signal) {
     const parts = (rest + (done ? "" : decoder.decode(value, { stream: true }))).split("\n");
     rest = done ? "" : parts.pop();
     for (const it of parts.filter((line) => line).map((line) => JSON.parse(line))) {
-      if (it.end) throw new Error(it.end);
+      if (it.error) throw new Error(it.error);
       take(it);
     }
     if (done) return;

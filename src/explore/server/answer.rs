@@ -96,7 +96,7 @@ impl Refusal {
 impl Refusal {
     /// The refusal as the last line of an answer that comes line by line.
     pub fn line(self) -> String {
-        object!({ "end": self.why }).to_string()
+        object!({ "error": self.why }).to_string()
     }
 
     /// The refusal as a page, for a person who has typed the address.

@@ -133,12 +133,12 @@ mod tests {
         fs::create_dir(at("capsulemap-explore-left"))?;
         fs::write(at("capsulemap-explore-left").join("b"), "text")?;
         fs::create_dir(at("other"))?;
-        fs::write(at("other").join("c"), "text")?;
+        fs::write(at("other").join("mine"), "text")?;
         symlink(at("other"), at("capsulemap-explore-link"))?;
         fs::write(at("capsulemap-explore-file"), "text")?;
         let second = PrivateFolder::within(place.path())?;
         assert!(!at("capsulemap-explore-left").exists());
-        assert!(file.is_file() && second.path().is_dir() && at("other").join("c").is_file());
+        assert!(file.is_file() && second.path().is_dir() && at("other").join("mine").is_file());
         assert!(at("capsulemap-explore-link").is_symlink());
         assert!(at("capsulemap-explore-file").is_file());
         // Of the user alone, whose folder it is, until it is closed.

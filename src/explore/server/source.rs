@@ -21,6 +21,9 @@ const PAUSE: Duration = Duration::from_secs(2);
 /// Blocks are joined again after so many times as long as the last joining took.
 const RARELY: u32 = 4;
 
+/// The folder of the partial results of a run, in that of the server.
+const PARTIAL: &str = "partial";
+
 /// The results that the page shows now.
 pub struct Source {
     /// The file, as commands name it.
@@ -180,7 +183,8 @@ impl Followed {
     /// What is computed so far.
     fn joined(&self) -> Result<Explored, CampaignError> {
         let name = self.output.file_name().unwrap_or_default();
-        let file = self.folder.path().join(name);
+        // A folder of their own, as who writes results holds the folder, and the server holds its own for as long as it lives.
+        let file = self.folder.path().join(PARTIAL).join(name);
         let joined = self.campaign().join_partial_into(&file, &silent)?;
         keep_private(&file).map_err(|said| CampaignError::Refused {
             folder: self.folder.path().to_owned(),
