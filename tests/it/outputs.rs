@@ -77,7 +77,7 @@ fn no_command_replaces_what_is_no_plain_file() {
             &["identify", "rig", "--m1", "0.11 kg", "--m2", "1.42 kg", "--output", "o.toml"],
         ),
         (
-            "figures/coasting.png",
+            "figures/free-vibration.png",
             &["identify", "rig", "--m1", "0.11 kg", "--m2", "1.42 kg", "--figures", "figures"],
         ),
         ("o.png", &["compare", "rig/motion.csv", "fig5.toml", "--output", "o"]),
