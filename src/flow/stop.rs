@@ -17,7 +17,7 @@ thread_local! {
 pub struct Stop(Arc<AtomicBool>);
 
 impl Stop {
-    /// Ends the computations that run that [obey](obey) it.
+    /// Ends the computations that [obey] it.
     pub fn ask(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
