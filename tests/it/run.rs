@@ -218,10 +218,10 @@ fn one_figure_that_fails_does_not_keep_the_others() {
     let dir = WorkDir::new();
     dir.put("rich.toml", RICH.to_owned() + &rich_figures());
     fs::create_dir_all(dir.path("results/rich/p.svg/in-the-way")).expect("a folder in the way");
-    dir.run(&["sweep", "rich.toml"]).refused(&["figure `p`: results/rich/p.svg: exists"]);
+    dir.run(&["sweep", "rich.toml"]).refused(&["figure `p`: results/rich/p.svg: is a folder"]);
     dir.run(&["sweep", "rich.toml", "--no-figures"]).done();
     let ran = dir.run(&["figure", "results/rich/rich.h5", "--formats", "svg"]);
-    ran.refused(&["figure `p`: results/rich/p.svg: exists"]);
+    ran.refused(&["figure `p`: results/rich/p.svg: is a folder"]);
     let drawn = dir.files().iter().filter(|name| name.ends_with(".svg")).count();
     assert_eq!(drawn, 9);
 }

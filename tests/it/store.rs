@@ -195,11 +195,11 @@ fn a_new_file_replaces_an_older_one() {
 #[test]
 fn a_failing_write_leaves_nothing_behind() {
     let (folder, path) = place();
-    // A folder has the file's name: everything succeeds until the very last step.
+    // A folder has the file's name.
     fs::create_dir(&path).expect("a folder in the way");
     fs::write(path.join("something"), "kept").expect("a file in it");
     let refused = store::write(&rich(), &path).expect_err("a folder is in the way");
-    assert!(matches!(refused, StoreError::System { .. }), "{refused}");
+    assert!(matches!(refused, StoreError::NoPlace { .. }), "{refused}");
     assert_eq!(entries(folder.path()), ["result.nc"]);
     assert_eq!(entries(&path), ["something"]);
 
