@@ -63,16 +63,17 @@ impl KeptSearches {
         overwrite: bool,
     ) -> Result<KeptSearches, CampaignError> {
         let path = searches_path(archive.path());
-        let (file, mut lines) = LineFile::open(&path)?;
-        match searches(&lines, (archive, study), &path) {
+        let (file, lines) = LineFile::open(&path)?;
+        let mut has_head = !lines.whole.is_empty();
+        let (known, damaged) = match searches(&lines, (archive, study), &path) {
             Err(CampaignError::OtherSearches { .. }) | Ok(_) if overwrite => {
                 file.clear()?;
-                lines = Lines::default();
+                has_head = false;
+                (BTreeMap::new(), 0)
             }
-            kept => drop(kept?),
-        }
-        let (known, damaged) = searches(&lines, (archive, study), &path)?;
-        if lines.whole.is_empty() {
+            kept => kept?,
+        };
+        if !has_head {
             file.add(&head(archive, study))?;
         }
         Ok(KeptSearches { known, damaged, file: Some(file) })

@@ -46,8 +46,10 @@ impl Place<'_> {
             let path = self.path(name, format);
             store::place(&path)
                 .map_err(|source| FigureError::Write { figure: name.to_string(), source })?;
+            if self.overwrite {
+                continue;
+            }
             match fs::read(&path) {
-                _ if self.overwrite => {}
                 Ok(bytes) if mark::is_valid(format, &bytes) => {}
                 Err(said) if said.kind() == ErrorKind::NotFound => {}
                 _ => return Err(FigureError::Occupied { figure: name.to_string(), path }),

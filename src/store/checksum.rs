@@ -3,7 +3,8 @@
 //! HDF5 checks its own structure only in part, some versions crash on a damaged file, and plain
 //! numbers carry no checksum at all. HDF5 takes the checksum for a part of the file that nothing refers to (see
 //! [`superblock`](super::superblock)), so that it stays where a program opens the file and closes it. A file that a program has changed
-//! is refused, as it cannot be told from one that is damaged. The checksum guards against damage, not against a person who forges it: HDF5 may crash on a forged file.
+//! is refused, as it cannot be told from one that is damaged. The checksum guards against damage, not against a person who
+//! forges it: HDF5 may crash on a forged file.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
