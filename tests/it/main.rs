@@ -69,6 +69,7 @@ mod kept_branches;
 mod kept_searches;
 mod killed_calls;
 mod lanes;
+mod library_faults;
 mod margins;
 mod mean_errors;
 mod measured_points;
