@@ -23,6 +23,7 @@ pub mod loss;
 pub mod misfit;
 pub mod motion_fit;
 mod periodogram;
+mod polynomial;
 pub mod profile;
 pub mod progression;
 pub mod recorded_period;
@@ -34,6 +35,7 @@ pub mod settled_motion;
 pub mod smoothing;
 pub mod spikes;
 pub mod synthesis;
+mod wide_window;
 
 pub use agreement::{Difference, Doubt};
 pub use comparison::{Comparison, compare};
