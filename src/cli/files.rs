@@ -1,20 +1,20 @@
 //! Reads the files of an experiment and writes new ones, of which none replaces a file that is there.
 
-use std::fs;
 use std::path::Path;
 
 use super::failure::Failure;
+use crate::capsule::printable::printable;
 use crate::capsule::{Dimension, parse_quantity};
 use crate::experiment::{Column, Presence, Recording, Signal};
-use crate::store;
+use crate::store::{self, Pipes};
 
 /// Rows that a recording of a motion must have.
 const LEAST_ROWS: usize = 16;
 
-/// The text of a file.
+/// The text of a file, or of a pipe that the shell has opened.
 pub fn text(path: &Path) -> Result<String, Failure> {
-    let shown = path.display();
-    let bytes = fs::read(path)
+    let shown = printable(path);
+    let bytes = store::read_input(path, Pipes::OfShell)
         .map_err(|error| Failure::request(format!("{shown}: cannot be read: {error}")))?;
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
@@ -25,8 +25,18 @@ pub fn text(path: &Path) -> Result<String, Failure> {
 
 /// The recording in a file, with the columns that are known.
 pub fn recording(path: &Path, known: &[Column], least: usize) -> Result<Recording, Failure> {
-    let name = path.display().to_string();
-    Recording::read(&name, &text(path)?, known, least).map_err(Failure::request)
+    recording_in(&text(path)?, path, known, least)
+}
+
+/// The recording in the text of a file.
+pub fn recording_in(
+    text: &str,
+    path: &Path,
+    known: &[Column],
+    least: usize,
+) -> Result<Recording, Failure> {
+    let name = path.to_string_lossy();
+    Recording::read(&name, text, known, least).map_err(Failure::request)
 }
 
 /// The recording of a motion: times, and any of the signals.
@@ -44,7 +54,7 @@ pub fn check_free(path: &Path, overwrite: bool) -> Result<(), Failure> {
     if overwrite || !path.exists() {
         return Ok(());
     }
-    let shown = path.display();
+    let shown = printable(path);
     Err(Failure::request(format!(
         "{shown}: exists; name another --output, or replace it with --overwrite"
     )))

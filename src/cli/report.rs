@@ -8,6 +8,7 @@ use super::arguments::output;
 use super::failure::Failure;
 use super::terminal::print;
 use crate::capsule::Output;
+use crate::capsule::printable::printable;
 use crate::explore::{GENERATOR, Request, report};
 use crate::store;
 
@@ -48,7 +49,7 @@ impl Report {
         store::create_folder(store::folder(&page))
             .and_then(|()| store::put(&page, html.as_bytes()))
             .map_err(Failure::machine)?;
-        print(&format!("{}\n", page.display()))
+        print(&format!("{}\n", printable(&page)))
     }
 
     /// Refuses to replace what this program has not written.
@@ -59,7 +60,7 @@ impl Report {
             Ok(bytes) if self.overwrite || is_ours(&bytes) => Ok(()),
             _ => Err(Failure::request(format!(
                 "{}: exists and is no report of this program; name another --output, or replace it with --overwrite",
-                page.display()
+                printable(page)
             ))),
         }
     }

@@ -32,6 +32,7 @@ mod recording_file;
 pub mod sampled;
 mod search_starts;
 pub mod settled_motion;
+pub mod simulated_span;
 pub mod smoothing;
 pub mod spikes;
 pub mod synthesis;

@@ -11,6 +11,7 @@ use tempfile::NamedTempFile;
 use super::checksum::{self, Checksum};
 use super::decode::Archive;
 use super::faults::faults;
+use super::input::{Pipes, open_input};
 use super::lock::{Lock, Tried, try_lock};
 use super::{Dataset, StoreError, difference, encode};
 
@@ -108,14 +109,13 @@ pub fn open_changed(path: &Path) -> Result<(Archive, bool), StoreError> {
 /// What the checksum of the HDF5 file at `path` tells.
 fn checksum_of(path: &Path) -> Result<Checksum, StoreError> {
     let failed = |said| StoreError::system(path, "opening the file", said);
-    // A pipe would be waited for.
-    let metadata = std::fs::metadata(path).map_err(failed)?;
-    if !metadata.is_file() {
-        let what = if metadata.is_dir() { "a folder" } else { "not a plain file" };
-        let why = format!("it is {what}");
-        return Err(StoreError::Foreign { path: path.to_owned(), why });
-    }
-    let mut file = File::open(path).map_err(failed)?;
+    let opened = open_input(path, Pipes::Refused);
+    let (mut file, _) = opened.map_err(|said| match said.kind() {
+        io::ErrorKind::InvalidInput => {
+            StoreError::Foreign { path: path.to_owned(), why: format!("it {said}") }
+        }
+        _ => failed(said),
+    })?;
     let mut start = Vec::new();
     Read::by_ref(&mut file).take(SIGNATURE.len() as u64).read_to_end(&mut start).map_err(failed)?;
     if start != SIGNATURE {
