@@ -46,6 +46,10 @@ CAPSULEMAP_SEEDS=300 cargo test --release --test it -- intervals_hold_the_truth 
 echo "== ten minutes of random study texts, joined files and blocks"
 FUZZ_SECONDS=600 cargo test --release --test it -- any_text_is a_joined_file_with a_block_with_damage of_a_file_of_searches --nocapture
 
+echo "== ten minutes of random recordings, and faults in a million rows"
+FUZZ_SECONDS=600 cargo test --release --test it -- any_recording_is_read --nocapture
+ROWS=100000 cargo test --release --test it -- the_time_of_faulty_rows --nocapture
+
 echo "== ten million cases in less than 1 GiB: while they are computed, stopped, and while they are joined"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

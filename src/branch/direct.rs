@@ -40,13 +40,14 @@ pub struct Linearised<E, const D: usize> {
 }
 
 /// A periodic orbit with its derivatives, given by the value of the parameter and its section points; none where the
-/// motion cannot be followed, where a multiplier is one, and of an autonomous system, whose orbits may vanish.
+/// motion cannot be followed, where the system has no such parameter, where a multiplier is one, and of an autonomous
+/// system, whose orbits may vanish.
 pub fn linearised<M: System<D>, const D: usize>(
     integrator: &dyn Integrator<M, D>,
     along: &Along<M, D>,
     (value, points): (f64, &[[f64; D]]),
 ) -> Option<Linearised<M::Event, D>> {
-    if M::Single::AUTONOMOUS {
+    if M::Single::AUTONOMOUS || !along.system.has(along.parameter) {
         return None;
     }
     let mut product: Matrix<D> = shifted(&[[0.0; D]; D], 1.0);

@@ -39,10 +39,15 @@ struct Followed<M: System<D>, const D: usize, const U: usize> {
 /// Follows a branch of periodic orbits both ways from the one that is given, and what leaves it.
 ///
 /// # Errors
-/// Where no periodic orbit is found near the point that is given, or none that a branch goes through.
+/// Where the system has no such parameter, and where no periodic orbit is found near the point that is given, or none that a
+/// branch goes through.
 pub fn follow<M: System<D>, const D: usize>(
     request: &Request<M, D>,
 ) -> Result<FoundOf<M, D>, NotFollowed> {
+    let second = request.second.map(|(parameter, _)| parameter);
+    if [Some(request.along), second].into_iter().flatten().any(|it| !request.system.has(it)) {
+        return Err(NotFollowed::NoParameter);
+    }
     // The unknowns are one more than the coordinates, those of curves two more.
     match const { D } {
         1 => follow_with::<M, D, 2, 3>(request),

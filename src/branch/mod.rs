@@ -219,6 +219,8 @@ pub enum NotFollowed {
     /// A multiplier of the orbit cannot be told from one: it belongs to a family of orbits at one value of the
     /// parameter, along which a branch in the parameter has no direction of its own, or lies in a fold.
     Neutral,
+    /// The system has no parameter of the name that was given, to be followed in or as the second.
+    NoParameter,
 }
 
 impl<O, const D: usize> Found<O, D> {

@@ -18,7 +18,7 @@ const CHANGES_OF_PERIOD: usize = 4;
 const CYCLES: u64 = 3000;
 
 /// The segment of a branch from a periodic orbit, given by the value of the parameter there and its section
-/// points, to another value; none where the orbit does not close.
+/// points, to another value; none where the orbit does not close, or the system has no such parameter.
 ///
 /// Method: pseudo-arclength continuation as in [`follow`](super::follow()), which tells a fold from an orbit that
 /// cannot be followed, with the distance of the two values as unit of the parameter. It goes on past the loss of stability,
@@ -54,6 +54,9 @@ fn segment_of<M: System<D>, const D: usize>(
     from: (f64, &[[f64; D]]),
     to: (f64, usize),
 ) -> Option<Segment<D>> {
+    if !along.system.has(along.parameter) {
+        return None;
+    }
     match const { D } {
         1 => segment_with::<M, D, 2>(integrator, along, from, to),
         2 => segment_with::<M, D, 3>(integrator, along, from, to),

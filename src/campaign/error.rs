@@ -9,6 +9,7 @@ use crate::store::{StoreError, Unusable};
 use crate::study::Faults;
 
 use super::count::{counted, ranges};
+use crate::capsule::printable::printable;
 
 /// A campaign that did not come to its results. Its blocks are kept, whatever the cause.
 #[derive(Debug)]
@@ -172,7 +173,7 @@ impl CampaignError {
 impl fmt::Display for CampaignError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            CampaignError::Path { path, fault } => write!(f, "{}: {fault}", path.display()),
+            CampaignError::Path { path, fault } => write!(f, "{}: {fault}", printable(path)),
             CampaignError::Study(faults) => faults.fmt(f),
             CampaignError::NoBranches => f.write_str("the study asks for no [[branches]]"),
             CampaignError::NoCase { index, cases } => {
@@ -181,17 +182,17 @@ impl fmt::Display for CampaignError {
             }
             CampaignError::NoResults(error) | CampaignError::Store(error) => error.fmt(f),
             CampaignError::Unreadable { path, error } => {
-                write!(f, "{error}\n{} is kept", path.display())
+                write!(f, "{error}\n{} is kept", printable(path))
             }
             CampaignError::OtherResults { path, same_program } => {
                 let other = if *same_program { "study" } else { "version of the program or study" };
-                write!(f, "{}: holds results of another {other}", path.display())
+                write!(f, "{}: holds results of another {other}", printable(path))
             }
             CampaignError::OtherBranches { path } => {
-                write!(f, "{}: holds branches of a study with another text", path.display())
+                write!(f, "{}: holds branches of a study with another text", printable(path))
             }
             CampaignError::NoSearches { path } => {
-                let path = path.display();
+                let path = printable(path);
                 write!(
                     f,
                     "{path}: holds something else than searches of this program, whose place it is"
@@ -201,27 +202,27 @@ impl fmt::Display for CampaignError {
                 write!(
                     f,
                     "{}: holds {what}, not searches of these results by this program",
-                    path.display()
+                    printable(path)
                 )
             }
             CampaignError::TradeOff { path, faults } => {
-                let within = |fault: &String| format!("{}: {fault}", path.display());
+                let within = |fault: &String| format!("{}: {fault}", printable(path));
                 let faults: Vec<String> = faults.iter().map(within).collect();
                 f.write_str(&faults.join("\n"))
             }
             CampaignError::NoFolder { folder, file } => {
-                let (folder, file) = (folder.display(), file.display());
+                let (folder, file) = (printable(folder), printable(file));
                 write!(f, "{folder}: {file} is a file, not a folder")
             }
             CampaignError::Refused { folder, refused, said } => {
-                write!(f, "{}: {refused}: {said}", folder.display())
+                write!(f, "{}: {refused}: {said}", printable(folder))
             }
             CampaignError::Missing { folder, blocks } => {
-                write_missing(f, &folder.display().to_string(), blocks)
+                write_missing(f, &printable(folder).to_string(), blocks)
             }
             CampaignError::Block { file, why } => {
                 let advice = "make it readable or remove it, and run again";
-                write!(f, "{}: {why}; {advice}", file.display())
+                write!(f, "{}: {why}; {advice}", printable(file))
             }
             CampaignError::NotKept { error, .. } => error.fmt(f),
             CampaignError::Run(error) => error.fmt(f),
@@ -241,7 +242,7 @@ fn write_missing(
     write!(f, "{folder}: {} missing: {numbers}", counted(blocks.len(), "block"))?;
     let is_there = |why: &Unusable| !matches!(why, Unusable::Missing);
     for (_, file, why) in blocks.iter().filter(|(.., why)| is_there(why)) {
-        write!(f, "\n{}: {why}", file.display())?;
+        write!(f, "\n{}: {why}", printable(file))?;
     }
     Ok(())
 }

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::capsule::printable::printable;
 use crate::capsule::{Output, Outputs, Parameter};
 use crate::store::{Archive, LineFile, Lines, provenance, read_lines, sealed, unsealed};
 use crate::study::Study;
@@ -86,7 +87,7 @@ impl KeptSearches {
             format!(
                 "{}: lines that do not fit their checksums, cut short or changed: {}; they are not used, and a refinement makes their \
                  searches again",
-                path.display(),
+                printable(&path),
                 count(self.damaged)
             )
         })

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use crate::store::catalogue::STUDY_TEXT;
-use crate::store::{self, Archive};
+use crate::store::{self, Archive, Pipes};
 use crate::study::{Study, include};
 
 use super::error::CampaignError;
+use crate::capsule::printable::printable;
 
 /// The first bytes of an HDF5 file.
 const HDF5: &[u8] = b"\x89HDF";
@@ -15,12 +16,13 @@ const HDF5: &[u8] = b"\x89HDF";
 ///
 /// A parameter file that it includes is looked for beside it; the text of the study then has its values.
 ///
-/// Fails if a file cannot be read or is no text, and with all faults of the study at once.
+/// Fails if a file cannot be read, is no plain file or is no text, and with all faults of the study at once. The study may be a
+/// pipe that the shell has opened, a parameter file may not.
 pub fn read_study(path: &Path) -> Result<Study, CampaignError> {
-    let name = path.display().to_string();
-    let own = text(path)?;
+    let name = path.to_string_lossy();
+    let own = text(path, Pipes::OfShell)?;
     let Some(file) = include::included(&own) else { return Ok(Study::parse(&name, &own)?) };
-    let values = text(&store::folder(path).join(&file))?;
+    let values = text(&store::folder(path).join(&file), Pipes::Refused)?;
     let failed = |fault| CampaignError::Path { path: path.to_owned(), fault };
     let whole = include::include(&own, &file, &values).map_err(failed)?;
     Ok(Study::parse(&name, &whole.text).map_err(|faults| whole.as_written(faults))?)
@@ -30,7 +32,7 @@ pub fn read_study(path: &Path) -> Result<Study, CampaignError> {
 ///
 /// Fails as [`read_study`] does, or if the results cannot be read.
 pub fn read_study_or_results(path: &Path) -> Result<Study, CampaignError> {
-    let begins = std::fs::File::open(path).and_then(|mut file| {
+    let begins = store::open_input(path, Pipes::Refused).and_then(|(mut file, _)| {
         let mut first = [0; HDF5.len()];
         std::io::Read::read_exact(&mut file, &mut first).map(|()| first == HDF5)
     });
@@ -41,9 +43,10 @@ pub fn read_study_or_results(path: &Path) -> Result<Study, CampaignError> {
 }
 
 /// The text of a study file.
-fn text(path: &Path) -> Result<String, CampaignError> {
+fn text(path: &Path, pipes: Pipes) -> Result<String, CampaignError> {
     let failed = |fault| CampaignError::Path { path: path.to_owned(), fault };
-    let bytes = std::fs::read(path).map_err(|error| failed(format!("cannot be read: {error}")))?;
+    let bytes = store::read_input(path, pipes)
+        .map_err(|error| failed(format!("cannot be read: {error}")))?;
     if bytes.starts_with(HDF5) {
         return Err(failed("is a file of results; give the study, a TOML file".to_owned()));
     }
@@ -59,5 +62,5 @@ fn text(path: &Path) -> Result<String, CampaignError> {
 /// Fails if the text of the study, which the file holds, has faults for this version of the program.
 pub fn study_of(archive: &Archive, path: &Path) -> Result<Study, CampaignError> {
     let text = archive.frame().texts.get(STUDY_TEXT).map_or("", String::as_str);
-    Ok(Study::parse(&format!("the study in {}", path.display()), text)?)
+    Ok(Study::parse(&format!("the study in {}", printable(path)), text)?)
 }

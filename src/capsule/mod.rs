@@ -15,6 +15,7 @@ pub mod mean_errors;
 pub mod output;
 pub mod parameter;
 pub mod parameters;
+pub mod printable;
 pub mod printed;
 pub mod quantity;
 pub mod regime;

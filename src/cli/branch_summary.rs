@@ -5,6 +5,7 @@ use std::path::Path;
 
 use crate::branch::{Curve, End, SpecialKind, is_followed};
 use crate::capsule::branch::{Branch, Found, Special};
+use crate::capsule::printable::printable;
 use crate::capsule::{Output, Parameter};
 use crate::run::Continued;
 use crate::study::{Continuation, FirstOrbit, Study};
@@ -15,7 +16,7 @@ pub fn summary(study: &Study, continued: &[Continued], output: &Path, seconds: f
     let branches: usize = found().map(|found| found.branches.len()).sum();
     let points: usize = found().flat_map(|it| &it.branches).map(|it| it.points.len()).sum();
     let plural = if branches == 1 { "branch" } else { "branches" };
-    let shown = output.display();
+    let shown = printable(output);
     let mut text = format!("{shown}: {branches} {plural}, {points} points in {seconds:.1} s\n");
     for (continuation, outcome) in study.branches.iter().zip(continued) {
         match outcome {

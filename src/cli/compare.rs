@@ -8,9 +8,10 @@ use super::compare_report::{as_json, explained, told_of};
 use super::experiment_figures::comparison_plot;
 use super::failure::Failure;
 use super::files;
-use super::synthesize::{case_of, protocol_of};
+use super::synthesize::case_of;
 use super::terminal::print;
 use super::varied::{Varied, threads, varied};
+use crate::capsule::printable::printable;
 use crate::experiment::least_squares::Loss;
 use crate::experiment::{Comparison, Effort, Free, Weights, compare, explain};
 use crate::figure::plot::draw_plot;
@@ -25,6 +26,9 @@ A recording is a CSV file with a column t and any of x2, r, x1, y1, y2, a1, driv
 give the phase; without them the phase with the least differences is taken. The simulation starts on what the case settles to, \
 with x1 and x2 moved by a constant each; offsets of other signals are kept. Events are counted per cycle of the recorded drive, \
 in the longest part of the record without a gap. \
+An interval of more than one and a half times the median one is a gap: gaps are told, and the simulation goes on through them. A record \
+that spans more than 1000 cycles of the drive and ten for each of its samples is refused, and its longest gaps are named, as where the \
+clock was set while it recorded: cut it there, and compare the parts by themselves. \
 The error of a signal is the root mean square of the difference over the standard deviation of the record; that of x1 and x2 \
 is about the record's own mean progression, and the error of their shape, without the difference of the speeds, is told beside it. \
 Spikes of a1 are pulses of the acceleration that stand out of the motion about them; those on the stop that follow each other as the \
@@ -78,9 +82,8 @@ impl Compare {
             return Err(Failure::requests(&faults));
         }
         let recording = files::motion(&self.recording)?;
-        let case = case_of(&self.study, self.case)?;
-        let protocol = protocol_of(&self.study)?;
-        let name = self.recording.display();
+        let (case, protocol) = case_of(&self.study, self.case)?;
+        let name = printable(&self.recording);
         let told = |why: String| Failure::request(format!("{name}: {why}"));
         let comparison = compare(&recording, &case, &protocol).map_err(told)?;
         let effort =
@@ -100,7 +103,7 @@ impl Compare {
             text += &explained(&comparison, it, varied);
         }
         for path in paths {
-            text += &format!("{}\n", path.display());
+            text += &format!("{}\n", printable(&path));
         }
         print(&text)
     }
@@ -119,15 +122,15 @@ impl Compare {
         let Some(name) = stem.map(|it| it.to_string_lossy().into_owned()) else {
             return Err(Failure::request(format!(
                 "--output {}: expected a file",
-                output.display()
+                printable(output)
             )));
         };
         let place =
             Place { folder, formats: &[Format::Png, Format::Pdf], overwrite: self.overwrite };
         let about = format!(
             "{} beside the simulation of {}",
-            self.recording.display(),
-            self.study.display()
+            printable(&self.recording),
+            printable(&self.study)
         );
         let files = draw_plot(&comparison_plot(&name, comparison, &about, self.cycles), &place)
             .map_err(Failure::request)?;

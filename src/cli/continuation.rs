@@ -13,6 +13,7 @@ use super::watch::Watch;
 use crate::campaign::{
     BranchesDone, Campaign, CampaignError, Event, Kept, output_path, read_study,
 };
+use crate::capsule::printable::printable;
 use crate::figure::Place;
 use crate::run::{Machine, NotContinued};
 use crate::store::{self, add_branches, folder};
@@ -50,7 +51,7 @@ pub struct Continue {
 impl Continue {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let name = self.study.display().to_string();
+        let name = printable(&self.study).to_string();
         let study = read_study(&self.study)?;
         if study.branches.is_empty() {
             let message = format!("{name}: asks for no [[branches]]; studies/README.md shows how");
@@ -67,7 +68,7 @@ impl Continue {
         let watch = Watch::new(&self.study, &study);
         let done = campaign.continue_branches(&|event| match event {
             Event::Before { .. } => {
-                let shown = output.display();
+                let shown = printable(&output);
                 notify(&format!(
                     "{shown}: branches are there already, by this program from this study"
                 ));
@@ -110,6 +111,6 @@ impl Continue {
         let nothing = vec![Err(NotContinued::NoOrbit); study.branches.len()];
         add_branches(&mut dataset, study, &nothing);
         let drawn = rehearse(&dataset, &study.drawings, place);
-        drawn.map_err(|failure| failure.within(&self.study.display().to_string()))
+        drawn.map_err(|failure| failure.within(&printable(&self.study).to_string()))
     }
 }

@@ -5,6 +5,7 @@ use clap::ValueEnum;
 use super::failure::Failure;
 use super::terminal::notify;
 use crate::campaign::{KeptFront, KeptSearches, searches_path, study_of};
+use crate::capsule::printable::printable;
 use crate::figure::{
     FigureError, Files, Format, Measured, Needs, Place, Shown, draw, needs, variables,
 };
@@ -103,7 +104,7 @@ fn draw_all(shown: Shown<'_>, drawings: &[Drawing], place: &Place<'_>) -> Result
             Ok(Files { paths, .. }) if paths.is_empty() => {}
             Ok(Files { paths, notes }) => {
                 let names: Vec<String> =
-                    paths.iter().map(|path| path.display().to_string()).collect();
+                    paths.iter().map(|path| printable(path).to_string()).collect();
                 notify(&names.join(" "));
                 for note in notes {
                     notify(&format!("  figure `{}`: {note}", drawing.name));

@@ -6,6 +6,7 @@ use super::failure::Failure;
 use super::readable::{count, counted, estimated, size, time};
 use super::terminal::print;
 use crate::campaign::{BlockStatus, Campaign, Probe, memory, probe, silent};
+use crate::capsule::printable::printable;
 use crate::figure::variables;
 use crate::run::{Estimate, Machine, has_attractors};
 use crate::store;
@@ -54,7 +55,7 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
          room   {} for the blocks until they are joined, {} for the file{beside}\n  \
          memory about {computing} while cases are computed, {joining} while they are joined{figures}\n  \
          estimated from {} in {}, computed in {}; nothing was written\n",
-        output.display(),
+        printable(output),
         size_or_not(probe.bytes * left),
         size_or_not(probe.file_bytes),
         counted(probe.cases, "case"),

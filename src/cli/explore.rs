@@ -11,6 +11,7 @@ use super::failure::Failure;
 use super::stop::say_when_stopped;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, output_path, read_study};
+use crate::capsule::printable::printable;
 use crate::explore::{PrivateFolder, Server, Source};
 use crate::store::{self, StoreError};
 
@@ -77,7 +78,7 @@ impl Explore {
         Source::of_study(study, &output, folder).map_err(|error| match error {
             CampaignError::Store(StoreError::NoBlocks { .. }) => {
                 let arguments = study_arguments(&self.file, self.output.as_deref());
-                let file = self.file.display();
+                let file = printable(&self.file);
                 Failure::request(format!(
                     "{file}: nothing is computed yet; `capsulemap sweep {arguments}` begins"
                 ))

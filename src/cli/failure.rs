@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use super::readable::blocks_kept;
 use crate::campaign::{CampaignError, Cause};
+use crate::capsule::printable::printable;
 use crate::store::StoreError;
 
 /// A command that was not carried out.
@@ -57,7 +58,7 @@ impl fmt::Display for Failure {
 impl From<CampaignError> for Failure {
     fn from(error: CampaignError) -> Self {
         if let CampaignError::TradeOff { path, faults } = error {
-            let within = |fault: &String| format!("{}: {fault}", path.display());
+            let within = |fault: &String| format!("{}: {fault}", printable(&path));
             return Failure::requests(&faults.iter().map(within).collect::<Vec<_>>());
         }
         let message = format!("{error}{}", advice(&error));
@@ -95,7 +96,7 @@ fn advice(error: &CampaignError) -> String {
         CampaignError::NotKept { blocks, folder, .. } => {
             return format!(
                 "\ncapsulemap: {}",
-                blocks_kept(*blocks, &folder.display().to_string())
+                blocks_kept(*blocks, &printable(folder).to_string())
             );
         }
         _ => "",

@@ -12,6 +12,7 @@ use super::failure::Failure;
 use super::files;
 use super::terminal::notify;
 use crate::campaign::study_of;
+use crate::capsule::printable::printable;
 use crate::capsule::{Dimension, Output};
 use crate::experiment::{Column, Presence};
 use crate::figure::{Measured, Place};
@@ -122,7 +123,7 @@ impl Figure {
         }
         let (archive, is_checked) = store::open_changed(&self.file).map_err(Failure::request)?;
         if !is_checked {
-            let path = self.file.display();
+            let path = printable(&self.file);
             notify(&format!(
                 "{path}: another program has changed it; what is drawn is not checked"
             ));
@@ -263,7 +264,7 @@ fn dimension(archive: &Archive, name: &str) -> Result<Dimension, String> {
 fn studied(archive: &Archive, file: &Path) -> Result<Vec<Drawing>, Failure> {
     let drawings = study_of(archive, file)?.drawings;
     if drawings.is_empty() {
-        let message = format!("{}: its study asks for no figures; name a --kind", file.display());
+        let message = format!("{}: its study asks for no figures; name a --kind", printable(file));
         return Err(Failure::request(message));
     }
     Ok(drawings)

@@ -1,22 +1,22 @@
 //! Reads the files of an experiment and writes new ones, of which none replaces a file that is there.
 
-use std::fs;
 use std::path::Path;
 
 use super::failure::Failure;
+use crate::capsule::printable::printable;
 use crate::capsule::{Dimension, parse_quantity};
 use crate::experiment::{Column, Presence, Recording, Signal};
-use crate::store;
+use crate::store::{self, Pipes};
 
 /// Rows that a recording of a motion must have.
 const LEAST_ROWS: usize = 16;
 /// What standard output is called where a file is named.
 const STANDARD_OUTPUT: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
 
-/// The text of a file.
+/// The text of a file, or of a pipe that the shell has opened.
 pub fn text(path: &Path) -> Result<String, Failure> {
-    let shown = path.display();
-    let bytes = fs::read(path)
+    let shown = printable(path);
+    let bytes = store::read_input(path, Pipes::OfShell)
         .map_err(|error| Failure::request(format!("{shown}: cannot be read: {error}")))?;
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
@@ -27,8 +27,18 @@ pub fn text(path: &Path) -> Result<String, Failure> {
 
 /// The recording in a file, with the columns that are known.
 pub fn recording(path: &Path, known: &[Column], least: usize) -> Result<Recording, Failure> {
-    let name = path.display().to_string();
-    Recording::read(&name, &text(path)?, known, least).map_err(Failure::request)
+    recording_in(&text(path)?, path, known, least)
+}
+
+/// The recording in the text of a file.
+pub fn recording_in(
+    text: &str,
+    path: &Path,
+    known: &[Column],
+    least: usize,
+) -> Result<Recording, Failure> {
+    let name = path.to_string_lossy();
+    Recording::read(&name, text, known, least).map_err(Failure::request)
 }
 
 /// The recording of a motion: times, and any of the signals.
@@ -48,7 +58,7 @@ pub fn is_standard_output(path: &Path) -> bool {
 
 /// Checks that nothing is in the place of a file to be written, or a plain file that may be replaced.
 pub fn check_free(path: &Path, overwrite: bool) -> Result<(), Failure> {
-    let shown = path.display();
+    let shown = printable(path);
     if is_standard_output(path) {
         let why = "what the command prints goes to standard output; name a file";
         return Err(Failure::request(format!("{shown}: {why}")));

@@ -12,10 +12,12 @@ use super::synthesize::case_of;
 use super::terminal::print;
 use super::varied::{Varied, threads, varied};
 use crate::capsule::Parameter;
+use crate::capsule::printable::printable;
 use crate::experiment::comparison::signals_of;
 use crate::experiment::course::varies;
 use crate::experiment::identification::parameter_file;
 use crate::experiment::least_squares::Loss;
+use crate::experiment::simulated_span::check_span;
 use crate::experiment::{
     Constant, Effort, Free, Frequencies, Harmonic, Identified, MotionFit, Recorded, Recording,
     Weights, fit_motion, harmonic,
@@ -118,7 +120,7 @@ impl Fit {
         let mut text = table(&fit, &varied, &names, self.robust);
         text.extend(warnings.iter().map(|it| format!("warning: {it}\n")));
         if let Some(output) = &self.output {
-            text += &format!("{}\n", output.display());
+            text += &format!("{}\n", printable(output));
         }
         print(&text)
     }
@@ -126,10 +128,12 @@ impl Fit {
     /// A recording as the fit takes it, and a warning of its frequency.
     fn recorded(&self, index: usize) -> Result<(Recorded, Option<String>), Failure> {
         let path = &self.recordings[index];
-        let told = |why: String| Failure::request(format!("{}: {why}", path.display()));
+        let told = |why: String| Failure::request(format!("{}: {why}", printable(path)));
         let recording = files::motion(path)?;
-        let case = case_of(&self.study[index.min(self.study.len() - 1)], 0)?;
+        let (case, _) = case_of(&self.study[index.min(self.study.len() - 1)], 0)?;
         let (times, signals) = signals_of(&recording).map_err(told)?;
+        let period = case.parameters.drive_period();
+        check_span(&times, &recording.sampling(), period).map_err(told)?;
         varies(&signals).map_err(told)?;
         let drive = drive(&recording).ok_or_else(|| {
             told(
@@ -138,12 +142,12 @@ impl Fit {
             )
         })?;
         let drive = harmonic(&times, drive).map_err(told)?;
-        let span = self.cycles as f64 * case.parameters.drive_period();
+        let span = self.cycles as f64 * period;
         let omega = case.parameters[Parameter::Omega];
         let fault = frequencies(&drive, omega);
         let warning = match drive.beside(omega, span) {
             Frequencies::Same => None,
-            Frequencies::Apart => Some(format!("{}: {fault}", path.display())),
+            Frequencies::Apart => Some(format!("{}: {fault}", printable(path))),
             Frequencies::Differ => return Err(told(fault)),
         };
         let count = times.partition_point(|time| *time <= span);
@@ -159,7 +163,7 @@ impl Fit {
     }
 
     fn names(&self) -> Vec<String> {
-        self.recordings.iter().map(|it| it.display().to_string()).collect()
+        self.recordings.iter().map(|it| printable(it).to_string()).collect()
     }
 
     fn identified(&self, fit: &MotionFit) -> Vec<Identified> {

@@ -9,11 +9,13 @@ use super::experiment_figures::evidence_plot;
 use super::failure::Failure;
 use super::files;
 use super::terminal::print;
+use crate::capsule::printable::printable;
 use crate::capsule::{Dimension, Parameter};
 use crate::experiment::estimate::{decimals, significant};
 use crate::experiment::identification::{
     Evidence, Other, impossible_rows, parameter_file, remarks,
 };
+use crate::experiment::recording::MOST_TOLD;
 use crate::experiment::{Estimate, Given, Identified, Recording, Test, Verdict, identify};
 use crate::figure::plot::{Plot, draw_plot};
 use crate::figure::{Format, Place};
@@ -124,7 +126,7 @@ impl Identify {
             text += &format!("note: {remark}\n");
         }
         for path in written {
-            text += &format!("{}\n", path.display());
+            text += &format!("{}\n", printable(&path));
         }
         print(&text)
     }
@@ -144,13 +146,13 @@ impl Identify {
         let names = Test::ALL.map(|it| format!("{}.csv", it.name())).join(", ");
         Err(Failure::request(match &self.folder {
             Some(folder) if !folder.exists() => {
-                format!("{}: there is no such folder", folder.display())
+                format!("{}: there is no such folder", printable(folder))
             }
             Some(file) if file.is_file() => format!(
                 "{}: is a file, and a folder with some of {names} is expected; an option says what a file is, as --pull FILE",
-                file.display()
+                printable(file)
             ),
-            Some(folder) => format!("{}: holds none of {names}", folder.display()),
+            Some(folder) => format!("{}: holds none of {names}", printable(folder)),
             None => format!(
                 "no recording is given; expected a folder with some of {names}, or an option for each"
             ),
@@ -172,7 +174,7 @@ impl Identify {
                     (None, Some((test, path))) => faults.push(
                         format!(
                             "{option}: missing; {} needs the {}, as \"{} kg\"",
-                            path.display(),
+                            printable(path),
                             parameter.meaning(),
                             if parameter == Parameter::M1 { 0.11 } else { 0.53 },
                         ) + &format!(" ({} test)", test.name()),
@@ -210,18 +212,22 @@ impl Identify {
 
 /// Reads a recording and identifies its constants.
 fn read(test: Test, path: &Path, given: &Given) -> Result<Found, Failure> {
-    let recording = files::recording(path, &test.columns(), test.least_rows())?;
+    let text = files::text(path)?;
+    let recording = files::recording_in(&text, path, &test.columns(), test.least_rows())?;
     let impossible = impossible_rows(test, &recording);
     if !impossible.is_empty() {
-        let text = files::text(path)?;
-        let faults: Vec<String> = impossible
-            .iter()
-            .map(|(row, why)| format!("{}: line {}: {why}", path.display(), line_of(&text, *row)))
+        let told = impossible.iter().take(MOST_TOLD);
+        let mut faults: Vec<String> = told
+            .map(|(row, why)| format!("{}: line {}: {why}", printable(path), line_of(&text, *row)))
             .collect();
+        let more = impossible.len() - faults.len();
+        if more > 0 {
+            faults.push(format!("{}: and {more} faults more", printable(path)));
+        }
         return Err(Failure::requests(&faults));
     }
     let (identified, evidence) = identify(test, &recording, given)
-        .map_err(|why| Failure::request(format!("{}: {why}", path.display())))?;
+        .map_err(|why| Failure::request(format!("{}: {why}", printable(path))))?;
     Ok(Found { test, recording, identified, evidence })
 }
 

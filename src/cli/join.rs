@@ -11,6 +11,7 @@ use super::failure::Failure;
 use super::terminal::notify;
 use super::watch::Watch;
 use crate::campaign::{Campaign, Event, output_path, read_study};
+use crate::capsule::printable::printable;
 use crate::figure::Place;
 use crate::store;
 
@@ -59,7 +60,7 @@ impl Join {
         let watch = Watch::new(&self.study, &study);
         let report = |event: Event<'_>| match event {
             Event::Before { .. } => {
-                notify(&format!("{}: is there, whole, from this study", output.display()));
+                notify(&format!("{}: is there, whole, from this study", printable(&output)));
                 ControlFlow::Continue(())
             }
             other => watch.hear(other),

@@ -9,6 +9,7 @@ use super::failure::Failure;
 use super::files;
 use super::terminal::print;
 use crate::capsule::Output;
+use crate::capsule::printable::printable;
 use crate::explore::{GENERATOR, Request, report};
 use crate::store;
 
@@ -53,7 +54,7 @@ impl Report {
             return print(&html);
         }
         files::put(&page, &html)?;
-        print(&format!("{}\n", page.display()))
+        print(&format!("{}\n", printable(&page)))
     }
 
     /// Refuses to replace what this program has not written.
@@ -65,7 +66,7 @@ impl Report {
             Ok(bytes) if self.overwrite || is_ours(&bytes) => Ok(()),
             _ => Err(Failure::request(format!(
                 "{}: exists and is no report of this program; name another --output, or replace it with --overwrite",
-                page.display()
+                printable(page)
             ))),
         }
     }

@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::phases::Phases;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
+use crate::capsule::printable::printable;
 use crate::capsule::{
     Case, Dimension, Orbit, Output, Parameter, Parameters, Resistance, Simulation, State,
     Switching, settle_case, simulate_case,
@@ -121,7 +122,7 @@ impl Simulate {
         let index = self.case.unwrap_or(0);
         let replay = Replay::new(&study, index).map_err(|error| match error {
             CampaignError::NoCase { index, cases } => {
-                Failure::request(format!("--case {index}: {} has {cases} cases", path.display()))
+                Failure::request(format!("--case {index}: {} has {cases} cases", printable(path)))
             }
             other => other.into(),
         })?;

@@ -9,6 +9,7 @@ use super::failure::Failure;
 use super::files;
 use super::terminal::{notify, print};
 use crate::capsule::Dimension;
+use crate::capsule::printable::printable;
 use crate::experiment::{Recording, Signal, Window, smoothed};
 
 const EXAMPLES: &str = "\
@@ -78,13 +79,14 @@ impl Smooth {
             return print(&text);
         }
         files::put(&self.output, &text)?;
-        print(&format!("{told}\n{}\n", self.output.display()))
+        print(&format!("{told}\n{}\n", printable(&self.output)))
     }
 
     /// The window whose time is nearest to a length [s], at samples so far apart [s].
     fn window(&self, length: f64, interval: f64) -> Result<Window, Failure> {
         let half = (0.5 * (length / interval - 1.0)).round().max(0.0);
-        let (samples, order) = (2 * half as usize + 1, self.order as usize);
+        // A number too large for a size is the largest one.
+        let (samples, order) = ((half as usize).saturating_mul(2) | 1, self.order as usize);
         if order >= samples {
             let why = format!(
                 "--window: {} are {samples} samples, and a polynomial of order {order} needs more than {order}",
@@ -112,7 +114,7 @@ impl Smooth {
             let (from, derivative) = (times[part.start], self.derivative as usize);
             let part = smoothed(&times[part.clone()], &values[part], window, derivative);
             all.extend(part.map_err(|why| {
-                let name = self.recording.display();
+                let name = printable(&self.recording);
                 Failure::request(format!("{name}: the part from t = {from} s: {why}"))
             })?);
         }

@@ -10,6 +10,7 @@ use super::readable::{count, counted, estimated, rate, size, time};
 use super::summary::outcomes;
 use super::terminal::print;
 use crate::campaign::{BlockStatus, Campaign, CampaignError, block_path, output_path, read_study};
+use crate::capsule::printable::printable;
 use crate::store::Archive;
 use crate::store::provenance::CREATED;
 use crate::study::Study;
@@ -52,7 +53,7 @@ impl Status {
             text.push_str(&whole(&output, &kept.archive));
         }
         if text.is_empty() && file.is_ok() {
-            text = format!("{}: nothing is there yet\n", block_path(&output).display());
+            text = format!("{}: nothing is there yet\n", printable(&block_path(&output)));
         }
         print(&text)?;
         file.map(drop)
@@ -66,14 +67,14 @@ fn whole(output: &Path, archive: &Archive) -> String {
         true => "all cases",
         false => "branches only",
     };
-    format!("{}: {holds}, written {created}\n", output.display())
+    format!("{}: {holds}, written {created}\n", printable(output))
 }
 
 /// A run that is not finished; `arguments` name its study and output.
 fn unfinished(study: &Study, blocks: &BlockStatus, arguments: &str) -> String {
     let done = count(blocks.done.len());
     let all = count(study.blocks());
-    let shown = blocks.folder.display();
+    let shown = printable(&blocks.folder);
     let cases = count(blocks.cases());
     let (wanted, bytes) = (count(study.cases()), size(blocks.bytes as f64));
     let mut text = format!("{shown}: {done} of {all} blocks, {cases} of {wanted} cases, {bytes}\n");
@@ -91,7 +92,7 @@ fn unfinished(study: &Study, blocks: &BlockStatus, arguments: &str) -> String {
         text.push_str(&format!("{} by {maker}\n", counted(*blocks, "block")));
     }
     for (file, why) in &blocks.faults {
-        text.push_str(&format!("{}: {why}\n", file.display()));
+        text.push_str(&format!("{}: {why}\n", printable(file)));
     }
     text
 }

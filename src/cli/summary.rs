@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::readable::{count, counted};
+use crate::capsule::printable::printable;
 use crate::orbit::Outcome;
 use crate::store::{Blocks, StoreError, Summary, by_outcome};
 use crate::study::Study;
@@ -19,7 +20,7 @@ pub fn summary(
     blocks: &Blocks<'_>,
 ) -> Result<String, StoreError> {
     let summaries = blocks.summaries();
-    let shown = output.display();
+    let shown = printable(output);
     let cases = summaries.iter().map(|block| block.cases).sum();
     let summaries = if study.refine.is_some() { vec![of_computed(blocks)?] } else { summaries };
     let cycles = summaries.iter().map(|block| block.cycles).sum::<u64>() as usize;
@@ -38,7 +39,7 @@ pub fn summary(
         let _ = writeln!(text, "  {:<14} {}", "missing", count(missing));
     }
     for failed in blocks.failures(FAILURES_SHOWN)? {
-        let (index, path) = (failed.index, path.display());
+        let (index, path) = (failed.index, printable(path));
         let _ =
             writeln!(text, "  case {index} failed: {}, at t = {:e} s", failed.reason, failed.time);
         let _ = write!(text, "    replay: capsulemap simulate --study {path} --case {index}");

@@ -13,6 +13,7 @@ use super::slurm;
 use super::terminal::notify;
 use super::watch::Watch;
 use crate::campaign::{Campaign, Complete, Done, Event, Task, output_path, read_study};
+use crate::capsule::printable::printable;
 use crate::figure::Place;
 use crate::lane::Instructions;
 use crate::run::{AttractorTable, Attractors, has_attractors};
@@ -92,7 +93,7 @@ impl Sweep {
         let done = campaign.run(task, &|event| match event {
             Event::Before { same_text } => {
                 let source = if same_text { "this study" } else { "a study with the same cases" };
-                let shown = output.display();
+                let shown = printable(&output);
                 notify(&format!("{shown}: already computed, by this program from {source}"));
                 ControlFlow::Continue(())
             }
@@ -117,7 +118,7 @@ impl Sweep {
             return Ok(());
         }
         let drawn = rehearse(&without_cases(study), &study.drawings, place);
-        drawn.map_err(|failure| failure.within(&self.study.display().to_string()))
+        drawn.map_err(|failure| failure.within(&printable(&self.study).to_string()))
     }
 
     /// Which part of the study to compute.
@@ -144,7 +145,7 @@ impl Sweep {
 
     /// The end of a task.
     fn part_with(&self, task: Task, blocks: &Path) {
-        let shown = blocks.display();
+        let shown = printable(blocks);
         let join = study_arguments(&self.study, self.output.as_deref());
         notify(&format!(
             "{task}: its blocks are in {shown}; once all tasks are done: capsulemap join {join}"

@@ -9,6 +9,7 @@ use super::failure::Failure;
 use super::files;
 use super::terminal::print;
 use crate::campaign::{CampaignError, Replay, read_study_or_results};
+use crate::capsule::printable::printable;
 use crate::capsule::{Case, Dimension, Parameters, State, settle_case};
 use crate::experiment::synthesis::recorded;
 use crate::experiment::{Laboratory, Sensor, Signal, SimpleTests, Started, Test, simple_tests};
@@ -90,7 +91,7 @@ impl Synthesize {
         if !faults.is_empty() {
             return Err(Failure::requests(&faults));
         }
-        let case = case_of(&self.study, self.case)?;
+        let (case, _) = case_of(&self.study, self.case)?;
         let paths: Vec<PathBuf> = Test::ALL
             .map(Test::name)
             .into_iter()
@@ -111,7 +112,7 @@ impl Synthesize {
         let mut text = String::new();
         for (path, content) in paths.iter().zip(tests.into_iter().chain([motion])) {
             files::put(path, &content)?;
-            text += &format!("{}\n", path.display());
+            text += &format!("{}\n", printable(path));
         }
         print(&text)
     }
@@ -186,21 +187,16 @@ fn settled(parameters: &Parameters, start: State<f64>, phase: f64) -> Started {
     Started { parameters: parameters.clone(), start: State { x2: 0.0, ..end }, phase }
 }
 
-/// A case of a study or of a file of results.
-pub fn case_of(path: &Path, index: usize) -> Result<Case, Failure> {
+/// A case of a study or of a file of results, and the protocol of the study.
+pub fn case_of(path: &Path, index: usize) -> Result<(Case, Protocol), Failure> {
     let study = read_study_or_results(path)?;
     let replay = Replay::new(&study, index).map_err(|error| match error {
         CampaignError::NoCase { index, cases } => {
-            Failure::request(format!("--case {index}: {} has {cases} cases", path.display()))
+            Failure::request(format!("--case {index}: {} has {cases} cases", printable(path)))
         }
         other => other.into(),
     })?;
-    Ok(replay.as_asked())
-}
-
-/// The protocol of a study or of a file of results.
-pub fn protocol_of(path: &Path) -> Result<Protocol, Failure> {
-    Ok(read_study_or_results(path)?.protocol)
+    Ok((replay.as_asked(), study.protocol))
 }
 
 fn noise_of(sensors: &[Sensor], signal: Signal) -> f64 {

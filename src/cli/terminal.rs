@@ -11,6 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::failure::Failure;
+use crate::capsule::printable::{is_obeyed, numbered};
 
 /// Messages that wait to be written at most; those beyond are dropped, and counted.
 const MOST_WAITING: usize = 4096;
@@ -98,15 +99,12 @@ fn write_line(line: &str) {
 /// A text in which a terminal finds nothing to obey: control characters, but for the ends of lines and tabs, and those
 /// that change the direction of a text are shown by their numbers, as JSON writes them.
 fn visible(text: &str) -> Cow<'_, str> {
-    let obeyed = |c: char| {
-        let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-        turns || (c.is_control() && c != '\n' && c != '\t')
-    };
+    let obeyed = |c: char| is_obeyed(c) && c != '\n' && c != '\t';
     if !text.contains(obeyed) {
         return Cow::Borrowed(text);
     }
     let shown = |c: char| match obeyed(c) {
-        true => format!("\\u{:04x}", u32::from(c)),
+        true => numbered(c),
         false => c.to_string(),
     };
     // The end of a line as Windows writes it.

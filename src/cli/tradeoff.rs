@@ -15,6 +15,7 @@ use super::watch::Stages;
 use crate::campaign::{
     Between, CampaignError, KeptSearches, Tolerances, TradeOff, searches_path, study_of,
 };
+use crate::capsule::printable::printable;
 use crate::capsule::{Dimension, Output, Parameter};
 use crate::store::{self, Archive, StoreError, quantity};
 use crate::study::document::unknown;
@@ -157,7 +158,7 @@ impl Tradeoff {
             Err(error) => Err(error.into()),
             Ok(kept) => {
                 kept.damage(archive).iter().for_each(|it| notify(it));
-                let path = searches_path(archive.path()).display().to_string();
+                let path = printable(&searches_path(archive.path())).to_string();
                 if !kept.is_empty() {
                     let count = count(kept.len());
                     notify(&format!("{path}: what {count} searches have led to is kept"));

@@ -11,6 +11,7 @@ use super::readable::{count, counted};
 use super::terminal::{notify, print};
 use super::watch::Stages;
 use crate::campaign::{Event, Sample, Verified, verify};
+use crate::capsule::printable::printable;
 use crate::lane::Instructions;
 
 const EXAMPLES: &str = "\
@@ -50,7 +51,7 @@ impl Verify {
         let machine = machine(self.threads, self.instructions)?;
         let seed = self.seed.unwrap_or_else(|| fastrand::u64(..));
         let sample = Sample { cases: self.cases as usize, seed };
-        let (shown, stages) = (self.file.display(), Stages::default());
+        let (shown, stages) = (printable(&self.file), Stages::default());
         let verified = verify(&self.file, sample, machine, &|event| {
             match event {
                 Event::OtherProgram { theirs, ours } => {

@@ -12,6 +12,7 @@ use super::stop::say_when_stopped;
 use super::summary::summary;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Event, Stage, Survey};
+use crate::capsule::printable::printable;
 use crate::store::Blocks;
 use crate::study::Study;
 
@@ -70,13 +71,13 @@ impl<'a> Watch<'a> {
             }
             Event::Block(block) => blocks.into_iter().for_each(|it| it.block(block)),
             Event::Again { file, why } => {
-                notify(&format!("{}: {why}; it is computed again", file.display()));
+                notify(&format!("{}: {why}; it is computed again", printable(file)));
             }
             Event::LeftOut { file, why } => {
-                notify(&format!("{}: {why}; it is left out", file.display()));
+                notify(&format!("{}: {why}; it is left out", printable(file)));
             }
             Event::Waiting { folder } => {
-                let shown = folder.display();
+                let shown = printable(folder);
                 notify(&format!("{shown}: another run writes results there; it is waited for"));
             }
             Event::Surveyed(survey) => return self.survey(&survey),
@@ -86,7 +87,7 @@ impl<'a> Watch<'a> {
                 notify(&format!("{cases} computed in {took}"));
             }
             Event::Joining { folder } => {
-                let place = folder.display().to_string();
+                let place = printable(folder).to_string();
                 return say_when_stopped(move || {
                     format!("all is kept in {place}; the same command joins it")
                 });
@@ -100,7 +101,7 @@ impl<'a> Watch<'a> {
     /// Says which blocks are there, and begins to show the progress of the others.
     fn survey(&self, survey: &Survey<'_>) -> Result<(), Failure> {
         let (kept, all) = (survey.kept.len(), survey.blocks);
-        let place = survey.folder.display().to_string();
+        let place = printable(survey.folder).to_string();
         if kept > 0 {
             notify(&format!("{place}: {} of {} blocks are done and kept", count(kept), count(all)));
         }
@@ -117,7 +118,7 @@ impl<'a> Watch<'a> {
     fn joined(&self, path: &Path, blocks: &Blocks<'_>) -> Result<(), Failure> {
         let summary = summary((self.path, self.study), path, blocks).map_err(Failure::machine)?;
         print(&summary)?;
-        let shown = path.display().to_string();
+        let shown = printable(path).to_string();
         say_when_stopped(move || format!("{shown} is whole; the same command draws its figures"))
     }
 }

@@ -10,6 +10,7 @@ use super::recorded_period::period_of;
 use super::recording::{Recording, Sampling};
 use super::sampled::{Signal, Started, sampled};
 use super::settled_motion::{Settled, TOLERANCE};
+use super::simulated_span::check_span;
 use super::spikes::{Spikes, contact_period, contacts, per_cycle, spikes};
 use crate::capsule::{Case, Output, Parameter};
 use crate::orbit::{Outcome, Protocol};
@@ -114,16 +115,21 @@ pub fn signals_of(recording: &Recording) -> Result<(Vec<f64>, Vec<Measured>), St
 /// The phase is that of the recorded drive (force, or current, which is in phase with it); where neither is recorded it is the
 /// phase that makes the differences of the first twenty cycles least. The simulation begins on its attractor at that phase, and x2 at
 /// the record's mean over the first cycle.
+///
+/// Fails where the record spans more cycles than its samples allow (`check_span`), lacks what is compared, or the simulation
+/// cannot be followed.
 pub fn compare(
     recording: &Recording,
     case: &Case,
     protocol: &Protocol,
 ) -> Result<Comparison, String> {
     let (times, signals) = signals_of(recording)?;
+    let period = case.parameters.drive_period();
+    let sampling = recording.sampling();
+    check_span(&times, &sampling, period)?;
     let driven = recording.column("drive").or(recording.column("current"));
     let harmonic = driven.map(|values| harmonic(&times, values)).transpose()?;
     let settled = Settled::new(case, protocol)?;
-    let period = case.parameters.drive_period();
     let cycle = harmonic.as_ref().map_or(period, |it| TAU / it.omega.value);
     let record = Record { times: &times, signals: &signals, period, cycle };
     let phase = match &harmonic {
@@ -141,7 +147,7 @@ pub fn compare(
         }
         None => None,
     };
-    Ok(record.told(recording.sampling(), &settled, (drive, motion), differences))
+    Ok(record.told(sampling, &settled, (drive, motion), differences))
 }
 
 /// The root of the sum of the squares of the errors of some signals, displacements without their progressions.

@@ -145,7 +145,10 @@ impl<'r> Integrated<'r> {
         let is_gap = |pair: &&[f64]| pair[1] - pair[0] > GAP * self.interval;
         let gaps: Vec<&[f64]> = self.times.windows(2).filter(is_gap).collect();
         let parts = (0..count).map(|i| [i, i + 1].map(|it| first + it as f64 * length));
-        let is_whole = |part: &[f64; 2]| !gaps.iter().any(|it| it[0] < part[1] && it[1] > part[0]);
+        let is_whole = |part: &[f64; 2]| {
+            let next = gaps.partition_point(|it| it[1] <= part[0]);
+            gaps.get(next).is_none_or(|it| it[0] >= part[1])
+        };
         let mean = |[from, to]: [f64; 2]| {
             (0.5 * (from + to), (self.integral(to) - self.integral(from)) / (to - from))
         };

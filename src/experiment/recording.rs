@@ -4,9 +4,12 @@ use std::fmt;
 use std::ops::Range;
 
 use crate::capsule::Dimension;
+use crate::capsule::printable::one_line;
 
-/// So many faults of a file are told; of the others their number.
-const MOST_TOLD: usize = 20;
+/// So many faults of a file are kept and told; the others are counted.
+pub const MOST_TOLD: usize = 20;
+/// So many gaps of a record are named; the others are counted.
+const MOST_GAPS: usize = 5;
 /// An interval this many times the median one is a gap.
 pub const GAP: f64 = 1.5;
 /// Intervals that differ from the median one by more than this share of it are uneven.
@@ -37,21 +40,24 @@ pub enum Presence {
 pub struct RecordingFaults {
     /// The file.
     pub source: String,
-    /// Line, counted from 1, and what is wrong there; no line where the whole file is meant.
+    /// The first twenty: line, counted from 1, and what is wrong there; no line where the whole file is meant.
     pub faults: Vec<(Option<u64>, String)>,
+    /// How many there are in all.
+    pub count: usize,
 }
 
 impl fmt::Display for RecordingFaults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let count = self.faults.len();
-        write!(f, "{}: {count} {}", self.source, if count == 1 { "fault" } else { "faults" })?;
-        for (line, message) in self.faults.iter().take(MOST_TOLD) {
+        let RecordingFaults { source, faults, count } = self;
+        let plural = if *count == 1 { "fault" } else { "faults" };
+        write!(f, "{}: {count} {plural}", one_line(source))?;
+        for (line, message) in faults {
             match line {
                 Some(line) => write!(f, "\n  line {line}: {message}")?,
                 None => write!(f, "\n  {message}")?,
             }
         }
-        match count.saturating_sub(MOST_TOLD) {
+        match count.saturating_sub(faults.len()) {
             0 => Ok(()),
             more => write!(f, "\n  and {more} more"),
         }
@@ -161,9 +167,15 @@ impl fmt::Display for Sampling {
         match self.gaps.as_slice() {
             [] => Ok(()),
             [(begins, length)] => write!(f, "; a gap of {length:.4} s at t = {begins:.6} s"),
-            [(begins, length), ..] => {
-                let count = self.gaps.len();
-                write!(f, "; {count} gaps, the first of {length:.4} s at t = {begins:.6} s")
+            gaps => {
+                let told =
+                    |(begins, length): &(f64, f64)| format!("{length:.4} s at t = {begins:.6} s");
+                let named: Vec<String> = gaps.iter().take(MOST_GAPS).map(told).collect();
+                write!(f, "; {} gaps, of {}", gaps.len(), named.join(", "))?;
+                match gaps.len().saturating_sub(MOST_GAPS) {
+                    0 => Ok(()),
+                    more => write!(f, " and {more} more"),
+                }
             }
         }
     }

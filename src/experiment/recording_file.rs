@@ -2,17 +2,21 @@
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use super::recording::{Column, Presence, Recording, RecordingFaults};
+use super::recording::{Column, MOST_TOLD, Presence, Recording, RecordingFaults};
 use crate::capsule::Dimension;
+use crate::capsule::printable::excerpt;
 use crate::capsule::quantity::{expectation, unit};
+
+/// So many columns of a header are named at most.
+const MOST_COLUMNS: usize = 20;
 
 impl Recording {
     /// Reads the columns that are `known` from the text of a file; other columns are left out. Where `known` has a
     /// column of times, they must increase. Lines that begin with `#` are comments.
     ///
-    /// Fails with all faults at once: a column that is missing, is given twice or has another unit than its dimension
-    /// allows, a cell that is not a finite number, a row of another length, times that do not increase, fewer than `least`
-    /// rows.
+    /// Fails with all faults at once, of which the first twenty are kept and the others counted: a column that is missing, is
+    /// given twice or has another unit than its dimension allows, a cell that is not a finite number or has more than one line,
+    /// a row of another length, times that do not increase, fewer than `least` rows. The time grows as the text does.
     pub fn read(
         source: &str,
         text: &str,
@@ -20,11 +24,12 @@ impl Recording {
         least: usize,
     ) -> Result<Recording, RecordingFaults> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut reading = Reading { faults: Vec::new(), known, text };
+        let mut reading = Reading { faults: Vec::new(), count: 0, known, text };
         let recording = reading.recording(source, least);
-        match reading.faults.is_empty() {
-            true => Ok(recording),
-            false => Err(RecordingFaults { source: source.to_owned(), faults: reading.faults }),
+        let Reading { faults, count, .. } = reading;
+        match count {
+            0 => Ok(recording),
+            _ => Err(RecordingFaults { source: source.to_owned(), faults, count }),
         }
     }
 }
@@ -37,21 +42,28 @@ struct Found {
 }
 
 struct Reading<'k> {
+    /// The first faults.
     faults: Vec<(Option<u64>, String)>,
+    /// How many there are.
+    count: usize,
     known: &'k [Column],
     text: &'k str,
 }
 
 impl Reading<'_> {
-    /// Notes a fault of the row at this byte.
-    fn fault(&mut self, at: u64, message: String) {
-        self.faults.push((Some(self.line(at)), message));
+    /// Notes a fault of the row at this byte, if it is among the first: to count lines and to put words together for each of
+    /// many would take long.
+    fn fault(&mut self, at: u64, message: impl FnOnce(&Self) -> String) {
+        self.count += 1;
+        if self.faults.len() < MOST_TOLD {
+            self.faults.push((Some(self.line(at)), message(self)));
+        }
     }
 
     /// The line of the row at this byte, before which the reader may have left out lines.
     fn line(&self, at: u64) -> u64 {
         let (before, after) = self.text.split_at(at as usize);
-        let is_left_out = |line: &&str| line.trim().is_empty() || line.starts_with('#');
+        let is_left_out = |line: &&str| line.is_empty() || line.starts_with('#');
         let left_out = after.lines().take_while(is_left_out).count();
         (before.matches('\n').count() + left_out + 1) as u64
     }
@@ -73,19 +85,28 @@ impl Reading<'_> {
         for record in records {
             let at = place_of(&record);
             places.push(at);
+            // A quote that is not closed would make one cell of all rows that follow.
+            if record.iter().any(|cell| cell.contains(['\n', '\r'])) {
+                self.fault(at, |_| {
+                    "a cell has more than one line; a quote is not closed".to_owned()
+                });
+                continue;
+            }
             if record.len() != header.len() {
-                self.fault(at, row_length(&record, header.len()));
+                self.fault(at, |_| row_length(&record, header.len()));
                 continue;
             }
             for (found, (_, values)) in found.iter().zip(&mut columns) {
-                match number(&record[found.place]) {
-                    Ok(value) => values.push(value * found.size),
-                    Err(why) => self.fault(at, format!("{}: {why}", found.column.name)),
+                match finite(&record[found.place], found.size) {
+                    Some(value) => values.push(value),
+                    None => self.fault(at, |_| {
+                        format!("{}: {}", found.column.name, unreadable(&record[found.place]))
+                    }),
                 }
             }
         }
         let recording = Recording { source: source.to_owned(), columns, rows: places.len() };
-        if self.faults.is_empty() {
+        if self.count == 0 {
             self.rows(&recording, &places, least);
         }
         recording
@@ -101,16 +122,15 @@ impl Reading<'_> {
                 continue;
             };
             if all.iter().any(|found| found.column == column) {
-                self.fault(at, format!("the column {name} stands twice"));
+                self.fault(at, |_| format!("the column {name} stands twice"));
+                continue;
             }
             match unit(its_unit, column.dimension) {
                 Some((_, size)) => all.push(Found { column, place, size }),
                 None => {
                     let expected = expectation(column.dimension);
-                    self.fault(
-                        at,
-                        format!("\"{cell}\": expected {expected}, as {}", example(column)),
-                    );
+                    let (cell, example) = (excerpt(cell), example(column));
+                    self.fault(at, |_| format!("\"{cell}\": expected {expected}, as {example}"));
                     all.push(Found { column, place, size: 1.0 });
                 }
             }
@@ -118,13 +138,10 @@ impl Reading<'_> {
         for column in self.known {
             let is_there = all.iter().any(|found| found.column == *column);
             if !is_there && column.presence == Presence::Required {
-                let columns: Vec<&str> = header.iter().collect();
                 let (name, example) = (column.name, example(*column));
-                let found = match columns.as_slice() {
-                    [] => "the file is empty".to_owned(),
-                    columns => format!("the columns are {}", columns.join(", ")),
-                };
-                self.fault(at, format!("no column {name}; expected {example}; {found}"));
+                self.fault(at, |_| {
+                    format!("no column {name}; expected {example}; {}", columns_of(header))
+                });
             }
         }
         all
@@ -136,17 +153,19 @@ impl Reading<'_> {
             let rows = recording.rows();
             let are = if rows == 1 { "row" } else { "rows" };
             let message = format!("{rows} {are} of numbers; at least {least} are needed");
+            self.count += 1;
             self.faults.push((None, message));
         }
         let Some(times) = recording.column("t") else { return };
         for (i, pair) in times.windows(2).enumerate() {
             if pair[1] <= pair[0] {
-                let before = self.line(places[i]);
-                let message = format!(
-                    "t = {} s does not come after {} s in line {before}; times must increase",
-                    pair[1], pair[0]
-                );
-                self.fault(places[i + 1], message);
+                self.fault(places[i + 1], |reading| {
+                    let before = reading.line(places[i]);
+                    format!(
+                        "t = {} s does not come after {} s in line {before}; times must increase",
+                        pair[1], pair[0]
+                    )
+                });
             }
         }
     }
@@ -178,6 +197,19 @@ fn name_and_unit(cell: &str) -> (&str, &str) {
     (cell, "")
 }
 
+/// The columns of a header, as many as a line shows.
+fn columns_of(header: &StringRecord) -> String {
+    if header.is_empty() {
+        return "the file is empty".to_owned();
+    }
+    let first: Vec<_> = header.iter().take(MOST_COLUMNS).map(excerpt).collect();
+    let more = match header.len().saturating_sub(MOST_COLUMNS) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("the columns are {}{more}", first.join(", "))
+}
+
 /// How a column may stand in a header.
 fn example(column: Column) -> String {
     match column.dimension {
@@ -196,20 +228,27 @@ fn row_length(record: &StringRecord, expected: usize) -> String {
     format!("{} {cells}, but the header has {expected}{hint}", record.len())
 }
 
-/// The finite number in a cell.
-fn number(cell: &str) -> Result<f64, String> {
+/// The number in a cell times the size of its unit, if both are finite.
+fn finite(cell: &str, size: f64) -> Option<f64> {
+    let value = cell.parse::<f64>().ok()?;
+    Some(value * size).filter(|value| value.is_finite())
+}
+
+/// Why there is no finite number in a cell.
+fn unreadable(cell: &str) -> String {
+    let shown = excerpt(cell);
     match cell.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(format!(
-            "\"{cell}\" is not a finite number; a row that lacks a value must be left out"
-        )),
+        Ok(value) if value.is_finite() => format!("\"{shown}\" is too large for SI units"),
+        Ok(_) => {
+            format!("\"{shown}\" is not a finite number; a row that lacks a value must be left out")
+        }
         Err(_) if cell.is_empty() => {
-            Err("has no value; a row that lacks a value must be left out".to_owned())
+            "has no value; a row that lacks a value must be left out".to_owned()
         }
         Err(_) if cell.replace(',', ".").parse::<f64>().is_ok() => {
-            Err(format!("\"{cell}\" has a decimal comma; expected a decimal point"))
+            format!("\"{shown}\" has a decimal comma; expected a decimal point")
         }
-        Err(_) => Err(format!("\"{cell}\" is not a number")),
+        Err(_) => format!("\"{shown}\" is not a number"),
     }
 }
 
@@ -264,6 +303,12 @@ mod tests {
             ("t [s],x2 [m]\n0,1\n1\n", Some(3), "1 cell, but the header has 2"),
             ("t [s],x2 [m]\n0,1\n0,2\n", Some(3), "t = 0 s does not come after 0 s in line 2"),
             ("t [s],x2 [m]\n0,1\n", None, "1 row of numbers; at least 2 are needed"),
+            (
+                "t [s],x2 [m]\n0,1\n1,\"2\n2,3\n",
+                Some(3),
+                "a cell has more than one line; a quote is not closed",
+            ),
+            ("t [s],x2 [m]\n0,1\n1,a\u{1b}\n", Some(3), "x2: \"a\\u001b\" is not a number"),
             ("t [s],t [s],x2 [m]\n0,0,1\n1,1,2\n", Some(1), "the column t stands twice"),
             ("", Some(1), "no column t; expected \"t [s]\"; the file is empty"),
         ] {
@@ -279,6 +324,17 @@ mod tests {
         let faults = read("t [s],x2 [V]\nx,1\n1,y\n").expect_err("faults");
         assert_eq!(faults.faults.len(), 3, "{faults}");
         assert!(faults.to_string().starts_with("rig.csv: 3 faults\n  line 1: \"x2 [V]\""));
+    }
+
+    #[test]
+    fn the_first_twenty_faults_are_told_and_all_are_counted() {
+        for (rows, row) in [(1000, "a,b\n"), (2000, "0,1\n")] {
+            let faults = read(&format!("t [s],x2 [m]\n{}", row.repeat(rows))).expect_err("faults");
+            assert_eq!(faults.count, if rows == 1000 { 2000 } else { 1999 });
+            let told = faults.to_string();
+            assert_eq!(told.lines().count(), 22, "{told}");
+            assert!(told.ends_with(&format!("and {} more", faults.count - 20)), "{told}");
+        }
     }
 
     #[test]

@@ -1,5 +1,11 @@
 //! Smooths a signal and differentiates it, by polynomials through moving windows.
 
+use super::polynomial::Polynomial;
+use super::wide_window;
+
+/// Windows of more samples are fitted many at once: the time of a fit of each would grow with the window.
+const WIDE: usize = 512;
+
 /// A window of samples and the polynomial that is fitted in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Window {
@@ -42,7 +48,8 @@ impl std::fmt::Display for Unsuitable {
 /// In the window around each sample a polynomial is fitted by least squares and evaluated at the sample; the samples of the
 /// first and the last half window are read from the polynomial of the first and of the last whole window. The
 /// polynomial is a sum of polynomials that are orthogonal over the times of the window, so that neither its order
-/// nor uneven times cost digits.
+/// nor uneven times cost digits. Wide windows share the sums over the samples that they have together, so that the time does not grow
+/// with the window.
 ///
 /// # Source
 ///
@@ -66,18 +73,19 @@ pub fn smoothed(
     let half = window.samples / 2;
     let last = values.len() - window.samples;
     let mut smooth = Vec::with_capacity(values.len());
-    let mut fitted = None;
-    for (i, &time) in times.iter().enumerate() {
-        let begins = i.saturating_sub(half).min(last);
-        if fitted.as_ref().is_none_or(|(at, _)| *at != begins) {
-            let range = begins..begins + window.samples;
-            fitted = Some((
-                begins,
-                Polynomial::fit(&times[range.clone()], &values[range], window.order),
-            ));
-        }
-        let (_, polynomial) = fitted.as_ref().expect("a polynomial was fitted above");
-        smooth.push(polynomial.derivative(derivative, time));
+    let mut read = |begins: usize, polynomial: &Polynomial| {
+        let from = if begins == 0 { 0 } else { begins + half };
+        let to = if begins == last { values.len() } else { begins + half + 1 };
+        let at = times[from..to].iter();
+        smooth.extend(at.map(|&time| polynomial.derivative(derivative, time)));
+    };
+    if window.samples > WIDE {
+        wide_window::polynomials(times, values, window.samples, window.order, &mut read);
+        return Ok(smooth);
+    }
+    for begins in 0..=last {
+        let range = begins..begins + window.samples;
+        read(begins, &Polynomial::fit(&times[range.clone()], &values[range], window.order));
     }
     Ok(smooth)
 }
@@ -96,76 +104,6 @@ fn check(times: &[f64], values: &[f64], window: Window) -> Result<(), Unsuitable
         return Err(Unsuitable::TooShort);
     }
     Ok(())
-}
-
-/// A polynomial as a sum of polynomials `P` that are orthogonal over the samples that it was fitted to:
-/// `P[k+1](u) = (u - shift[k]) P[k](u) - weight[k] P[k-1](u)`, with times `u` from -1 to 1.
-struct Polynomial {
-    centre: f64,
-    scale: f64,
-    shifts: Vec<f64>,
-    weights: Vec<f64>,
-    coefficients: Vec<f64>,
-}
-
-impl Polynomial {
-    fn fit(times: &[f64], values: &[f64], order: usize) -> Self {
-        let ends = [times[0], times[times.len() - 1]];
-        let centre = 0.5 * (ends[0] + ends[1]);
-        let scale = if ends[1] > ends[0] { 2.0 / (ends[1] - ends[0]) } else { 1.0 };
-        let at: Vec<f64> = times.iter().map(|time| (time - centre) * scale).collect();
-        let (mut before, mut this) = (vec![0.0; at.len()], vec![1.0; at.len()]);
-        let mut rest = values.to_vec();
-        let mut square_before = 1.0;
-        let mut polynomial = Polynomial {
-            centre,
-            scale,
-            shifts: Vec::new(),
-            weights: Vec::new(),
-            coefficients: Vec::new(),
-        };
-        for k in 0..=order {
-            let square = sum(&this, &this);
-            // What is left after the lower orders, rather than the values, loses fewer digits.
-            let coefficient = sum(&rest, &this) / square;
-            let shift = (0..at.len()).map(|i| at[i] * this[i] * this[i]).sum::<f64>() / square;
-            let weight = if k == 0 { 0.0 } else { square / square_before };
-            for i in 0..at.len() {
-                rest[i] -= coefficient * this[i];
-                let next = (at[i] - shift) * this[i] - weight * before[i];
-                (before[i], this[i]) = (this[i], next);
-            }
-            square_before = square;
-            polynomial.coefficients.push(coefficient);
-            polynomial.shifts.push(shift);
-            polynomial.weights.push(weight);
-        }
-        polynomial
-    }
-
-    /// Its derivative of this order (0 is its value) at `time`.
-    fn derivative(&self, order: usize, time: f64) -> f64 {
-        let u = (time - self.centre) * self.scale;
-        // The derivatives of two neighbouring polynomials, from order zero up.
-        let mut before = vec![0.0; order + 1];
-        let mut this = before.clone();
-        this[0] = 1.0;
-        let mut total = 0.0;
-        for (k, coefficient) in self.coefficients.iter().enumerate() {
-            total += coefficient * this[order];
-            let next = |d: usize| {
-                let lower = if d == 0 { 0.0 } else { d as f64 * this[d - 1] };
-                lower + (u - self.shifts[k]) * this[d] - self.weights[k] * before[d]
-            };
-            let after = (0..=order).map(next).collect();
-            before = std::mem::replace(&mut this, after);
-        }
-        total * self.scale.powi(order as i32)
-    }
-}
-
-fn sum(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]
@@ -218,6 +156,50 @@ mod tests {
         assert_eq!(refused(&times, window(3, 3)), Unsuitable::OrderTooHigh);
         assert_eq!(refused(&times, window(5, 2)), Unsuitable::TooShort);
         assert_eq!(refused(&[0.0, 1.0, 1.0], window(3, 2)), Unsuitable::Times);
+    }
+
+    #[test]
+    fn wide_windows_give_what_each_fit_gives() {
+        let uneven = |i: usize| 1e-3 * (i as f64 + 0.4 * (1.7 * i as f64).sin());
+        let times: Vec<f64> = (0..9000).map(|i| 5.0 + uneven(i)).collect();
+        let noise = |i: usize| (i * i * 31 % 101) as f64 / 50.0 - 1.0;
+        let wave = |t: f64| 1e3 + 7.0 * t + (3.0 * t).sin();
+        let values: Vec<f64> = times.iter().enumerate().map(|(i, t)| wave(*t) + noise(i)).collect();
+        for (samples, order, derivative) in
+            [(513, 3, 0), (1501, 0, 0), (1501, 3, 1), (2001, 6, 2), (4001, 12, 0), (8999, 5, 1)]
+        {
+            let window = Window { samples, order };
+            let found = smoothed(&times, &values, window, derivative).expect("suitable");
+            assert_eq!(found.len(), times.len());
+            let (half, last) = (samples / 2, times.len() - samples);
+            let per_time = 1.0 / (times[samples - 1] - times[0]);
+            for (i, found) in found.iter().enumerate().step_by(37) {
+                let begins = i.saturating_sub(half).min(last);
+                let range = begins..begins + samples;
+                let fit = Polynomial::fit(&times[range.clone()], &values[range], order);
+                let direct = fit.derivative(derivative, times[i]);
+                // Rounding of the values, as the polynomial has it at the ends of its window.
+                let steepness = (2.0 * (order * order) as f64).max(1.0).powi(derivative as i32);
+                let allowed = 1e-11 * 1e3 * steepness * per_time.powi(derivative as i32);
+                assert!((found - direct).abs() < allowed, "{window:?} {i}: {found} {direct}");
+            }
+        }
+    }
+
+    #[test]
+    fn polynomials_are_kept_in_wide_windows_where_samples_crowd() {
+        // Of each ten samples nine lie within a thousandth of the tenth's distance.
+        let time = |i: usize| (i / 10) as f64 + 1e-4 * (i % 10) as f64;
+        let times: Vec<f64> = (0..6000).map(time).collect();
+        let cubic = |t: f64| 3.0 - t + 2e-3 * t * t - 1e-6 * t * t * t;
+        let values: Vec<f64> = times.iter().map(|&t| cubic(t)).collect();
+        for samples in [601, 2001] {
+            let window = Window { samples, order: 3 };
+            let smooth = smoothed(&times, &values, window, 0).expect("suitable");
+            for (found, t) in smooth.iter().zip(&times) {
+                assert!((found - cubic(*t)).abs() < 1e-9, "{samples} {t}: {found}");
+            }
+        }
     }
 
     /// `savgol_filter(y, 7, 3, deriv=d, delta=0.5, mode="interp")` of SciPy 1.17.1, by derivative.

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::capsule::printable::printable;
 use crate::store::StoreError;
 use crate::study::document::nearest;
 
@@ -86,7 +87,7 @@ impl fmt::Display for FigureError {
             FigureError::Occupied { figure, path } => write!(
                 f,
                 "figure `{figure}`: {}: exists, and capsulemap did not draw it or it was changed since; it is not replaced",
-                path.display()
+                printable(path)
             ),
         }
     }

@@ -17,7 +17,7 @@ pub const STEPS_PER_CYCLE: u64 = 200_000;
 pub enum Reason {
     /// Events follow each other without time passing.
     NoProgress = 1,
-    /// The state is no longer a finite number.
+    /// The state, or a guard that is watched, is no longer a finite number.
     NotFinite,
     /// A single cycle takes too many steps.
     TooManySteps,

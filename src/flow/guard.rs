@@ -85,7 +85,7 @@ pub fn first_fall<L: Lane>(guard: &mut Series<L>, length: L, watched: L::Mask) -
     Fall { length: h, falls }
 }
 
-/// Where `guard` provably is positive on all of [0, length].
+/// Where `guard` provably is positive on all of [0, length], which one that is not finite nowhere is.
 #[inline(always)]
 pub fn stays_positive<L: Lane>(guard: &Series<L>, length: L::Plain) -> L::Mask {
     let sums = Sums::new(|k| guard[k].plain(), length);
@@ -131,12 +131,14 @@ impl<L: Lane> Sums<L> {
     fn quadratic_part_positive(&self, [g0, g1, g2]: [L; 3], h: L) -> L::Mask {
         let two = L::splat(2.0);
         let at_end = g0 + h * (g1 + h * g2);
-        let ends = g0.min(at_end);
+        // The lesser of two numbers would pass over one that is not a number.
+        let ends_clear =
+            self.value.lt(g0) & self.value.lt(at_end) & at_end.lt(L::splat(f64::INFINITY));
         let vertex_inside = g1.lt(L::splat(0.0)) & L::splat(0.0).lt(g1 + two * g2 * h);
         // The minimum is g0 - g1^2 / (4 g2), compared without the division.
         let excess = (g0 - self.value) * (L::splat(4.0) * g2);
         let vertex_clear = (g1 * g1).lt(excess);
-        self.value.lt(ends) & (!vertex_inside | vertex_clear)
+        ends_clear & (!vertex_inside | vertex_clear)
     }
 
     /// Whether the first and whether the second derivative keeps its sign on [0, h].
@@ -365,6 +367,16 @@ mod tests {
     fn a_tangency_is_no_fall() {
         assert_eq!(fall_of(&[0.25, -1.0, 1.0]), None);
         assert_eq!(fall_of(&[0.0; 3]), None);
+    }
+
+    #[test]
+    fn a_guard_that_is_not_finite_is_nowhere_positive() {
+        assert!(stays_positive(&guard(&[1.0, 0.5]), 1.0));
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for terms in [[bad, 0.5, 0.0], [1.0, bad, 0.0], [1.0, 0.5, bad]] {
+                assert!(!stays_positive(&guard(&terms), 1.0), "{terms:?}");
+            }
+        }
     }
 
     #[test]

@@ -28,6 +28,7 @@ pub struct Motion<L: Lane, S: Switched<L>> {
     /// Which field acts.
     pub mode: S::Mode,
     zeros: Zeros<L>,
+    /// Steps in a row that got nowhere; infinitely many where a guard is no finite number.
     idle: L,
     /// The sign of the section's function of an autonomous system; zero until it is known.
     side: L,
@@ -47,7 +48,7 @@ impl<L: Lane, S: Switched<L>> Copy for Motion<L, S> {}
 pub enum Breakdown {
     /// Events follow each other without time passing.
     NoProgress,
-    /// The state is no longer a finite number.
+    /// The state, or a guard that is watched, is no longer a finite number.
     NotFinite,
     /// An autonomous system does not come back to its section in time.
     NoReturn,
@@ -59,7 +60,7 @@ impl fmt::Display for Breakdown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Breakdown::NoProgress => "events follow each other without time passing",
-            Breakdown::NotFinite => "the state is no longer a finite number",
+            Breakdown::NotFinite => "the state or a guard is no longer a finite number",
             Breakdown::NoReturn => "the motion does not come back to its section",
             Breakdown::Stopped => "the computation was ended early",
         })
@@ -129,6 +130,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
         }
         let idles = length.le(until * L::splat(STANDSTILL)) & length.lt(left);
         self.idle = L::select(idles, self.idle + L::splat(1.0), L::splat(0.0));
+        self.idle = L::select(end.unknown, L::splat(f64::INFINITY), self.idle);
         step.event = end.switch(system, self);
         step.arrives = if S::AUTONOMOUS { self.pass_section(&end) } else { until.le(self.time) };
     }
@@ -167,7 +169,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     /// What keeps the motion in lane `index` from going on, if anything.
     #[inline(always)]
     pub fn breakdown(&self, system: &S, index: usize) -> Option<Breakdown> {
-        if system.lost(&self.state).lane(index) {
+        if system.lost(&self.state).lane(index) || self.idle.lane(index) == f64::INFINITY {
             return Some(Breakdown::NotFinite);
         }
         if L::splat(PATIENCE).lt(self.idle).lane(index) {
@@ -185,7 +187,8 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
     #[inline(always)]
     fn locate(&mut self, system: &S, step: &mut Step<L, S>, length: L::Plain) -> StepEnd<L> {
         let none = L::Plain::splat(-1.0);
-        let mut end = StepEnd { length, guard: none, root: L::from_plain(length) };
+        let unknown = L::Mask::splat(false);
+        let mut end = StepEnd { length, guard: none, root: L::from_plain(length), unknown };
         let mut open = self.open_guards(system, step, length);
         loop {
             let mut chosen = none;
@@ -202,6 +205,7 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             for (term, of_chosen) in plain.iter_mut().zip(&step.chosen) {
                 *term = of_chosen.plain();
             }
+            end.unknown = end.unknown | (takes_part & !series::is_finite(&plain));
             let fall = first_fall(&mut plain, end.length, takes_part);
             let sooner = fall.length.lt(end.length);
             end.guard = L::Plain::select(sooner, none, end.guard);
@@ -331,6 +335,8 @@ struct StepEnd<L: Lane> {
     guard: L::Plain,
     /// The same length as the root that it is, where a guard falls.
     root: L,
+    /// Where a guard is no finite number, so that nothing is known of where it falls.
+    unknown: L::Mask,
 }
 
 impl<L: Lane> StepEnd<L> {

@@ -11,7 +11,8 @@
 /// `examples/relief_valve.rs` has one that chooses between two sections.
 ///
 /// # Panics
-/// The system does where it is asked for a parameter that it does not have.
+/// The system does where it is asked for the value of a parameter that it does not have; what is asked for by a request, as
+/// that of [`branch::follow`](crate::branch::follow()), is an error there ([`System::has`](crate::flow::System::has)).
 #[macro_export]
 macro_rules! own_system {
     (
@@ -67,6 +68,9 @@ macro_rules! own_system {
                 of: impl Fn(&'static str) -> L,
             ) -> $name<L $(, $constant)?> {
                 $name { $($parameter: of(stringify!($parameter))),* }
+            }
+            fn has(&self, parameter: &'static str) -> bool {
+                [$(stringify!($parameter)),*].contains(&parameter)
             }
             fn value(&self, parameter: &'static str) -> f64 {
                 $(if parameter == stringify!($parameter) {

@@ -122,6 +122,9 @@ pub trait Switched<L: Lane> {
     }
 
     /// Writes guard `which` into `guard`: positive while `mode` lasts, ends it where it falls through zero.
+    ///
+    /// A coefficient that is no finite number ends the case, with the reason `not finite`
+    /// ([`Breakdown::NotFinite`](super::Breakdown::NotFinite)): where the guard falls is then unknown.
     #[inline(always)]
     fn guard(&self, _which: usize, _mode: &Self::Mode, _jet: &Self::Jet, _guard: &mut Series<L>) {}
 

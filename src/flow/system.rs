@@ -43,6 +43,10 @@ pub trait System<const D: usize>: Clone + PartialEq + Debug + Send + Sync + 'sta
     fn single(&self) -> Self::Single;
     /// The system with the value of each parameter as `of` gives it.
     fn system<L: Lane>(&self, of: impl Fn(Self::Parameter) -> L) -> Self::In<L>;
+    /// Whether it has a parameter of this name; each is had where names are an enum.
+    fn has(&self, _parameter: Self::Parameter) -> bool {
+        true
+    }
     /// The value of a parameter.
     fn value(&self, parameter: Self::Parameter) -> f64;
     /// The same with another value of a parameter.

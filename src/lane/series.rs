@@ -27,6 +27,15 @@ pub fn zero<L: Lane>() -> Series<L> {
     [L::splat(0.0); ORDER + 1]
 }
 
+/// Where every coefficient is a finite number.
+#[inline(always)]
+pub fn is_finite<L: Lane>(series: &Series<L>) -> L::Mask {
+    let zero = L::splat(0.0);
+    // Zero times what is not finite is not a number, nor is a sum with it.
+    let sum = series.iter().fold(zero, |sum, term| sum + *term * zero);
+    sum.le(zero)
+}
+
 /// The polynomial at time `h`.
 #[inline(always)]
 pub fn value<L: Lane>(series: &Series<L>, h: L) -> L {
@@ -272,6 +281,18 @@ pub fn shifted<L: Lane>(series: &Series<L>, shift: L) -> Series<L> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_coefficient_that_is_not_finite_is_seen() {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for place in 0..=ORDER {
+                let mut series: Series<f64> = [1e300; ORDER + 1];
+                assert!(is_finite(&series));
+                series[place] = bad;
+                assert!(!is_finite(&series), "{place} {bad}");
+            }
+        }
+    }
 
     #[test]
     fn polynomial_algebra_agrees_with_itself_by_another_route() {

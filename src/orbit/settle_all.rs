@@ -17,7 +17,8 @@ use super::underway::Underway;
 /// Method: every thread fills its lanes from one list; the last cases, too few to fill a vector, are followed
 /// one by one, by whichever thread is free. Cases that are not alike ([`System::is_alike`]) are settled
 /// group after group. Guarantees: the bits of [`super::settle`], on any number of threads and by any
-/// instructions.
+/// instructions. A case whose state or one of whose watched guards is no finite number is a record with its failure
+/// ([`Reason::NotFinite`](crate::flow::Reason::NotFinite)), never a periodic motion.
 ///
 /// # Panics
 /// Where the processor does not have the instructions that `machine` asks for.

@@ -78,8 +78,10 @@ fn continue_one(continuation: &Continuation, protocol: &Protocol) -> Continued {
     };
     let request = continuation.request(section, period, protocol.tolerance);
     branch::follow(&request).map_err(|why| match why {
-        // A study has seen to it that the range holds the value.
-        NotFollowed::NoOrbit | NotFollowed::OutOfRange => NotContinued::NoOrbit,
+        // A study has seen to it that the range holds the value, and names parameters of the capsule alone.
+        NotFollowed::NoOrbit | NotFollowed::OutOfRange | NotFollowed::NoParameter => {
+            NotContinued::NoOrbit
+        }
         NotFollowed::Failed(reason) => NotContinued::Failed(reason),
         NotFollowed::Neutral => NotContinued::Neutral,
     })

@@ -1,5 +1,6 @@
 //! What can go wrong when a dataset is kept or read back, said so that a person can act on it.
 
+use crate::capsule::printable::printable;
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -138,88 +139,88 @@ impl fmt::Display for StoreError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             StoreError::Unfit { path, faults } => {
-                write!(f, "{}: the dataset cannot be stored:", path.display())?;
+                write!(f, "{}: the dataset cannot be stored:", printable(path))?;
                 faults.iter().try_for_each(|fault| write!(f, "\n  {fault}"))
             }
             StoreError::System { path, doing, said } => {
-                write!(f, "{}: {doing}: {said}; {}", path.display(), remedy(said.kind()))
+                write!(f, "{}: {doing}: {said}; {}", printable(path), remedy(said.kind()))
             }
             StoreError::Encoding { path, doing, said } => write!(
                 f,
                 "{}: {doing}: {said}; nothing was written: free some memory and run again, and \
                  report it if it happens twice (on a network disk without locks set \
                  HDF5_USE_FILE_LOCKING=FALSE)",
-                path.display()
+                printable(path)
             ),
             StoreError::Decoding { path, doing, said } => write!(
                 f,
                 "{}: {doing}: {said}; the file may be cut short, damaged or changed by another \
                  program: restore a copy or make it again (on a network disk without locks set \
                  HDF5_USE_FILE_LOCKING=FALSE)",
-                path.display()
+                printable(path)
             ),
             StoreError::Foreign { path, why } => write!(
                 f,
                 "{}: not a result of capsulemap: {why}; give a file that capsulemap wrote",
-                path.display()
+                printable(path)
             ),
             StoreError::Damaged { path } => write!(
                 f,
                 "{}: the file has changed since it was written, its checksum does not fit; restore \
                  a copy or make it again",
-                path.display()
+                printable(path)
             ),
             StoreError::ChangedSince { path } => write!(
                 f,
                 "{}: the file has changed since it was opened and checked, and nothing more is read from it; open it \
                  anew when no other program writes to it",
-                path.display()
+                printable(path)
             ),
             StoreError::Changed { folder, changes } => {
-                write!(f, "{}: holds blocks of another run: ", folder.display())?;
+                write!(f, "{}: holds blocks of another run: ", printable(folder))?;
                 changes.iter().try_for_each(|change| writeln!(f, "{change}"))?;
                 write!(
                     f,
                     "they are kept, and not mixed with others: go back to the study and program that they \
                      belong to (the study is in {}), choose another place, or delete them",
-                    folder.join("begun.toml").display()
+                    printable(&folder.join("begun.toml"))
                 )
             }
             StoreError::Occupied { folder } => write!(
                 f,
                 "{}: is where the blocks of this study go, and holds other things; move them, or \
                  choose another place",
-                folder.display()
+                printable(folder)
             ),
             StoreError::NoBlocks { folder } => write!(
                 f,
                 "{}: no blocks of this study are there; compute them first",
-                folder.display()
+                printable(folder)
             ),
             StoreError::Busy { folder } => write!(
                 f,
                 "{}: another run computes this study now; wait for it, or stop it and run again (what it \
                  has finished is kept)",
-                folder.display()
+                printable(folder)
             ),
-            StoreError::NoPlace { path, why } => write!(f, "{}: {why}", path.display()),
+            StoreError::NoPlace { path, why } => write!(f, "{}: {why}", printable(path)),
             StoreError::InUse { path } => write!(
                 f,
                 "{}: another process adds to it now; wait for it, or stop it and run again (what it has finished is \
                  kept)",
-                path.display()
+                printable(path)
             ),
             StoreError::Held { folder } => write!(
                 f,
                 "{}: another run has been writing results there for ten minutes; run again when it is done (what \
                  is finished is kept)",
-                folder.display()
+                printable(folder)
             ),
             StoreError::Unequal { path, difference } => write!(
                 f,
                 "{}: what was written does not read back the same: {difference}; the new file was \
                  discarded and an older one kept: check the disk and run again",
-                path.display()
+                printable(path)
             ),
         }
     }

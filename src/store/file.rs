@@ -11,6 +11,7 @@ use tempfile::NamedTempFile;
 use super::checksum::{self, Checksum};
 use super::decode::Archive;
 use super::faults::faults;
+use super::input::{Pipes, open_input};
 use super::lock::{Lock, Tried, try_lock};
 use super::plain::place;
 use super::watched::Watched;
@@ -118,14 +119,14 @@ pub fn open_changed(path: &Path) -> Result<(Archive, bool), StoreError> {
 /// What the checksum of the HDF5 file at `path` tells, and the file as it was before that.
 fn checksum_of(path: &Path) -> Result<(Checksum, Watched), StoreError> {
     let failed = |said| StoreError::system(path, "opening the file", said);
-    // A pipe would be waited for.
-    let metadata = std::fs::metadata(path).map_err(failed)?;
-    if !metadata.is_file() {
-        let what = if metadata.is_dir() { "a folder" } else { "not a plain file" };
-        let why = format!("it is {what}");
-        return Err(StoreError::Foreign { path: path.to_owned(), why });
-    }
-    let checked = Watched::new(File::open(path).map_err(failed)?).map_err(failed)?;
+    let opened = open_input(path, Pipes::Refused);
+    let (file, _) = opened.map_err(|said| match said.kind() {
+        io::ErrorKind::InvalidInput => {
+            StoreError::Foreign { path: path.to_owned(), why: format!("it {said}") }
+        }
+        _ => failed(said),
+    })?;
+    let checked = Watched::new(file).map_err(failed)?;
     let mut file = checked.file();
     let mut start = Vec::new();
     Read::by_ref(&mut file).take(SIGNATURE.len() as u64).read_to_end(&mut start).map_err(failed)?;

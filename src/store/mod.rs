@@ -15,6 +15,7 @@ mod error;
 mod faults;
 mod file;
 mod flat;
+mod input;
 mod join;
 mod joined;
 mod line_file;
@@ -50,6 +51,7 @@ pub use file::{
     create_folder, discard_abandoned, discard_unfinished, folder, hold, open, open_changed, put,
     read, try_to_begin, write,
 };
+pub use input::{Pipes, open_input, read_input};
 pub use join::{Blocks, FailedCase, write_beside_cases};
 pub use line_file::{LineFile, Lines, read_lines, sealed, unsealed};
 pub use plain::{LONGEST_NAME, place};

@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::capsule::{Allowed, Dimension};
 
+use crate::capsule::printable::one_line;
 use crate::capsule::quantity::{expectation, parse_in};
 
 /// Characters of a line that are shown at most.
@@ -36,16 +37,16 @@ pub struct Faults {
 impl fmt::Display for Faults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let plural = if self.faults.len() == 1 { "fault" } else { "faults" };
-        write!(f, "{}: {} {plural}", self.file, self.faults.len())?;
+        write!(f, "{}: {} {plural}", one_line(&self.file), self.faults.len())?;
         for Fault { line, key, message } in &self.faults {
             write!(f, "\n  ")?;
             if let Some(line) = line {
                 write!(f, "line {line}: ")?;
             }
             if !key.is_empty() {
-                write!(f, "{key}: ")?;
+                write!(f, "{}: ", one_line(key))?;
             }
-            write!(f, "{message}")?;
+            f.write_str(&one_line(message))?;
         }
         Ok(())
     }

@@ -7,6 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::document::Faults;
 use crate::capsule::Parameter;
+use crate::capsule::printable::one_line;
 
 /// The key by which a study names its parameter file.
 pub const KEY: &str = "include";
@@ -33,17 +34,25 @@ pub fn included(text: &str) -> Option<String> {
 
 /// The study with the parameters of the `file`, whose text is `parameters`, except those that it sets itself or varies.
 ///
-/// Fails with what is wrong in the parameter file.
+/// Fails with what is wrong in the parameter file, which may include no other.
 pub fn include(study: &str, file: &str, parameters: &str) -> Result<Included, String> {
+    let shown = one_line(file);
     let (given, errors) = DeTable::parse_recoverable(parameters);
     if let Some(error) = errors.first() {
         let at = error.span().map_or(0, |span| span.start.min(parameters.len()));
         let line = parameters[..at].matches('\n').count() + 1;
-        return Err(format!("{file}: line {line}: {}", error.message()));
+        return Err(format!("{shown}: line {line}: {}", error.message()));
+    }
+    let line_of = |at: usize| parameters[..at].matches('\n').count() + 1;
+    if let Some((key, _)) = given.get_ref().get_key_value(KEY) {
+        let line = line_of(key.span().start);
+        return Err(format!(
+            "{shown}: line {line}: {KEY}: a parameter file may include no other; put the values of that one here"
+        ));
     }
     let Some(DeValue::Table(values)) = given.get_ref().get("parameters").map(Spanned::get_ref)
     else {
-        return Err(format!("{file}: has no table [parameters]"));
+        return Err(format!("{shown}: has no table [parameters]"));
     };
     let (document, _) = DeTable::parse_recoverable(study);
     let document = document.get_ref();
@@ -51,14 +60,15 @@ pub fn include(study: &str, file: &str, parameters: &str) -> Result<Included, St
     let mut lines = Vec::new();
     for (key, value) in values.iter() {
         let symbol = key.get_ref();
-        let line = parameters[..key.span().start].matches('\n').count() + 1;
+        let line = line_of(key.span().start);
         if Parameter::named(symbol).is_none() {
             return Err(format!(
-                "{file}: line {line}: parameters.{symbol}: is no parameter of the capsule"
+                "{shown}: line {line}: parameters.{}: is no parameter of the capsule",
+                one_line(symbol)
             ));
         }
         if !own.iter().any(|it| it == symbol) {
-            lines.push(format!("{symbol} = {} # from {file}", &parameters[value.span()]));
+            lines.push(format!("{symbol} = {} # from {shown}", &parameters[value.span()]));
         }
     }
     Ok(put_in(study, file, &lines))
@@ -111,7 +121,7 @@ impl Included {
             match fault.line {
                 Some(line) if self.lines.contains(&line) => {
                     fault.line = None;
-                    fault.message = format!("{} (in {})", fault.message, self.file);
+                    fault.message = format!("{} (in {})", fault.message, one_line(&self.file));
                 }
                 Some(line) if line >= self.lines.end => fault.line = Some(line - self.lines.len()),
                 _ => {}

@@ -88,3 +88,38 @@ fn a_record_of_x2_alone_has_its_period_and_an_error_of_its_speed() {
     let error = found["speed_recorded_error"].as_f64().expect("known");
     assert!((0.2e-6..1.2e-6).contains(&error), "{error}");
 }
+
+#[test]
+fn a_jump_of_the_clock_is_named_and_not_simulated() {
+    let (work, lines) = rig();
+    let jumped = |from: f64, by: f64| {
+        let row = |line: &String| {
+            let (time, rest) = line.split_once(',')?;
+            let time: f64 = time.parse().ok()?;
+            Some(format!("{},{rest}", if time < from { time } else { time + by }))
+        };
+        let rows = lines[1..].iter().filter_map(row);
+        [lines[0].clone()].into_iter().chain(rows).collect::<Vec<_>>().join("\n") + "\n"
+    };
+    work.put("jump.csv", jumped(0.8, 1.8e9));
+    for arguments in [
+        &["compare", "jump.csv", "fig5.toml"][..],
+        &["fit", "jump.csv", "--study", "fig5.toml", "--vary", "k2=1 kN/m..10 kN/m"],
+    ] {
+        let begun = std::time::Instant::now();
+        work.run(arguments).refused(&[
+            "jump.csv: a gap of 1800000000",
+            "s at t = 0.799",
+            "cut the file there",
+        ]);
+        assert!(begun.elapsed().as_secs() < 60, "{arguments:?}");
+    }
+    // One that can be simulated is, and every gap is told with its place and its length.
+    work.put("short.csv", jumped(0.8, 3.0));
+    let found = work.run(&["compare", "short.csv", "fig5.toml", "--json"]).done().json();
+    let gap = &found["gaps"][0];
+    assert!((gap[0].as_f64().expect("a time") - 0.799).abs() < 1e-6, "{found}");
+    assert!((gap[1].as_f64().expect("a length") - 3.001).abs() < 1e-6, "{found}");
+    let told = work.run(&["compare", "short.csv", "fig5.toml"]).done().out;
+    assert!(told.contains("a gap of 3.0010 s at t = 0.799000 s"), "{told}");
+}

@@ -1,6 +1,7 @@
 //! The house rules, checked on the source as text: the order of the floors and what each may use.
 
 mod names;
+mod paths;
 
 use std::fs;
 use std::path::{Path, PathBuf};

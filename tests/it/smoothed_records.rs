@@ -66,6 +66,7 @@ fn what_cannot_be_smoothed_is_refused_and_nothing_is_written() {
         (&["--window", "10 mm"][..], "--window"),
         (&["--window", "20 ms"], "a polynomial of order 3 needs more than 3"),
         (&["--window", "5 s"], "fewer samples than the window"),
+        (&["--window", "1e300 s"], "fewer samples than the window"),
         (&["--window", "110 ms", "--order", "0", "--derivative", "1"], "--derivative"),
     ] {
         let arguments = [&["smooth", "record.csv", "--output", "smooth.csv"], options].concat();

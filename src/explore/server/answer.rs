@@ -9,6 +9,7 @@ use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use serde_json::json as object;
 
+use crate::capsule::printable::printable;
 use crate::figure::FigureError;
 use crate::store::StoreError;
 
@@ -82,7 +83,7 @@ impl Refusal {
         let why = format!(
             "{} has changed since it was opened, so its numbers are not shown; open it anew here, or stop `capsulemap explore` \
              and start it again",
-            file.display()
+            printable(file)
         );
         Refusal { status: StatusCode::CONFLICT, why }
     }
