@@ -99,6 +99,7 @@ mod refinement;
 mod refinement_starts;
 mod regression;
 mod report;
+mod rest;
 mod rig;
 mod rigid_branches;
 mod rigid_curves;
