@@ -87,6 +87,7 @@ mod passages;
 mod phases;
 mod poincare;
 mod program;
+mod random_studies;
 mod readers;
 mod reading;
 mod readme;
