@@ -43,6 +43,9 @@ SIDE=1000 cargo test --release --test it -- a_refined_basin_is_the_full_one --no
 echo "== intervals of fits to motion hold the truth for 92 to 98 in 100 of 300 seeds"
 CAPSULEMAP_SEEDS=300 cargo test --release --test it -- intervals_hold_the_truth fitted_recordings --nocapture
 
+echo "== 2000 random studies of starts, shares, tolerances and margins, without drive and without friction among them, end in time"
+STUDIES=2000 cargo test --release --test it -- random_studies --nocapture
+
 echo "== ten minutes of random study texts, joined files and blocks"
 FUZZ_SECONDS=600 cargo test --release --test it -- any_text_is a_joined_file_with a_block_with_damage of_a_file_of_searches --nocapture
 

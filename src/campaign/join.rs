@@ -169,6 +169,7 @@ impl Campaign<'_> {
         let linked = || reports.step(Stage::Linking);
         let attractors = run::attractors(self.study, &states, self.machine, linked)?;
         let mut table = run::attractor_table(self.study, &attractors, &states, self.machine)?;
+        drop(states);
         // Those of a refined study that are followed lie near the boundaries, and take longer than the others would.
         if !table.rows.is_empty() && self.study.refine.is_none() {
             let cycles = blocks.verdicts()?.into_iter().map(|(case, _, cycles)| (case, cycles));

@@ -2,16 +2,19 @@
 
 use crate::run::{FinalMotion, MapPoint, TILES_TOGETHER, has_attractors};
 use crate::store::{MOST_NUMBERS, numbers_of_case};
-use crate::study::{Refine, Study};
+use crate::study::{CaseSet, Refine, Study};
 
 /// What the program itself takes, with its libraries and tables [bytes]; measured by `scripts/memory.sh`.
 const PROGRAM: f64 = 3e7;
-/// Numbers are held twice while they are packed, or written and compared.
+/// Numbers of a block are held twice while they are packed.
 const COPIES: f64 = 2.0;
+/// What is held of a block that is joined: of where it was computed, and of each of its variables [bytes].
+const MAKER: f64 = 1.5e3;
+const PLACE: f64 = 1e2;
 /// Bytes of a number.
 const NUMBER: f64 = 8.0;
 
-/// The most memory that a campaign holds [bytes], to within a factor of about two.
+/// The most memory that a campaign holds [bytes], to within a factor of 1.5.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Memory {
     /// While cases are computed.
@@ -20,19 +23,25 @@ pub struct Memory {
     pub joining: f64,
 }
 
-/// The memory that a campaign of `study` takes on so many threads.
+/// The memory that a campaign of `study` takes on so many threads, where `most` cases are computed of a block.
 ///
-/// Method: the numbers of the blocks that are computed, of the final motions among which attractors are searched, and of the slab
-/// that is written are counted.
-pub fn memory(study: &Study, threads: usize) -> Memory {
+/// Method: the numbers of the blocks that are computed, of the final motions among which attractors are searched, of what was
+/// drawn, and of the slab that is written are counted.
+pub fn memory(study: &Study, threads: usize, most: usize) -> Memory {
     let cases = study.cases() as f64;
     let numbers = numbers_of_case(study);
     let all = numbers.values().sum::<usize>() as f64;
     let widest = numbers.values().copied().max().unwrap_or(0) as f64;
-    let blocks = 0..study.blocks();
-    let block = blocks.map(|block| study.cases_of_block(block)).max().unwrap_or(0) as f64;
     let together = if study.refine.is_some() { TILES_TOGETHER } else { threads };
-    let blocks_held = together as f64 * block * all * NUMBER * COPIES;
+    let together = together.min(study.blocks()) as f64;
+    let blocks_held = together * most as f64 * all * NUMBER * COPIES;
+    let heads = study.blocks() as f64 * (MAKER + PLACE * numbers.len() as f64);
+    let drawn = match &study.case_set {
+        // Of each draw its number, too.
+        CaseSet::Draws(draws) => cases * (draws.ranges.len() + 1) as f64 * NUMBER,
+        CaseSet::Grid(_) => 0.0,
+    };
+    // The labels as they are found, and as they are written.
     let labels = if has_attractors(study) { cases * NUMBER * COPIES } else { 0.0 };
     let inferring = match &study.refine {
         // Labels, and what is inferred, of nearly all cases.
@@ -45,12 +54,12 @@ pub fn memory(study: &Study, threads: usize) -> Memory {
     let linking = match has_attractors(study) {
         // Labels of the cases in turn by tile, by attractor and as they are written.
         true if study.refine.is_some() => 3.0 * cases * size_of::<Option<u32>>() as f64,
-        true => cases * (size_of::<Option<FinalMotion>>() + size_of::<Option<u32>>()) as f64,
+        true => cases * (size_of::<Option<FinalMotion>>() + 2 * size_of::<Option<u32>>()) as f64,
         false => 0.0,
     };
-    let slab = (cases * widest).min(MOST_NUMBERS as f64) * NUMBER * COPIES;
+    let slab = (cases * widest).min(MOST_NUMBERS as f64) * NUMBER;
     Memory {
         computing: PROGRAM + blocks_held,
-        joining: PROGRAM + inferring + linking.max(slab + labels),
+        joining: PROGRAM + heads + drawn + inferring + linking.max(slab + labels),
     }
 }

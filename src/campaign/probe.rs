@@ -22,6 +22,8 @@ const NUMBERS: usize = 4_000_000;
 const PARTS: usize = 8;
 const PART: usize = 16;
 const SPREAD: Duration = Duration::from_secs(5);
+/// So many times longer a probe of a refined study takes at most, of which nothing is known before a tile is done.
+const PATIENCE: u32 = 12;
 
 /// What a probe has found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,6 +36,8 @@ pub struct Probe {
     pub time: Duration,
     /// Time that all cases would take on the same machine [s]; none if no case was done.
     pub seconds: Option<Estimate>,
+    /// The most cases that are computed of a block: of a tile of a refined study those that it has needed.
+    pub most: usize,
     /// Size of all blocks [bytes]; NaN if no case was done.
     pub bytes: f64,
     /// Size of the file of results without attractors, curves of special points and optima [bytes]; NaN if no case, or no
@@ -55,6 +59,8 @@ struct Found {
     tiles: Vec<(Vec<usize>, Vec<Record>)>,
     every_tile: usize,
     tiles_met: usize,
+    /// The most cases that a tile has needed.
+    most: usize,
 }
 
 /// Computes blocks of `study`, spread over it, for about `span`, and writes nothing.
@@ -78,6 +84,7 @@ pub fn probe(
         tiles,
         every_tile: 1,
         tiles_met: 0,
+        most: 0,
     });
     let begun = Instant::now();
     let lock = || found.lock().unwrap_or_else(|it| it.into_inner());
@@ -87,7 +94,7 @@ pub fn probe(
         lock().add(block, (study.refine.is_none()).then_some(cases), record);
         // Of a refined study the cases that it will have are known once a tile is done.
         let is_known = study.refine.is_none() || lock().forecast.done().0 > 0;
-        match begun.elapsed() < if is_known { span } else { 2 * span } {
+        match begun.elapsed() < if is_known { span } else { PATIENCE * span } {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),
         }
@@ -175,6 +182,7 @@ impl Found {
 
     /// Notes a tile that is done.
     fn keep_tile(&mut self, study: &Study, tile: usize, records: Vec<Record>) {
+        self.most = self.most.max(records.len());
         if self.tiles_met.is_multiple_of(self.every_tile) {
             self.tiles.push((study.block_cases(tile), records));
         }
@@ -208,6 +216,9 @@ impl Found {
             None => file_bytes(study, &self.records)?,
             Some(_) => refined_file_bytes(study, &self.tiles, kept)?,
         };
-        Ok(Probe { cases, blocks: self.blocks.len(), time, seconds, bytes, file_bytes })
+        let sizes = (0..study.blocks()).map(|block| study.cases_of_block(block));
+        let most = if self.most > 0 { self.most } else { sizes.max().unwrap_or(0) };
+        let blocks = self.blocks.len();
+        Ok(Probe { cases, blocks, time, seconds, most, bytes, file_bytes })
     }
 }

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::progress::{NOT_KNOWN, tells_the_rest};
 use super::readable::{count, counted, estimated, rate};
 use super::terminal::{in_turn, notify};
 use crate::run::{Forecast, Record};
@@ -105,10 +106,15 @@ impl BlockProgress {
         let (then, before) = state.recent.front().copied().unwrap_or((self.begun, 0));
         let now = (done - before) as f64 / then.elapsed().as_secs_f64();
         let pace = seconds / (cycles - state.before.1) as f64;
-        let left = state.forecast.seconds_left(pace).filter(|left| left.value.is_finite());
+        let known = tells_the_rest(
+            self.begun.elapsed(),
+            done - state.before.0,
+            self.total[1] - state.before.0,
+        );
+        let left = state.forecast.seconds_left(pace).filter(|it| known && it.value.is_finite());
         let cases_left = self.total[1] - done;
         let left = match left {
-            None => "time left not known yet".to_owned(),
+            None => NOT_KNOWN.to_owned(),
             Some(left) if left.value < LAST && (1..=FEW).contains(&cases_left) => {
                 format!("the last {} are computed", counted(cases_left, "case"))
             }

@@ -38,7 +38,7 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
     };
     let scaled = |it: Estimate| Estimate { value: it.value * left, error: it.error * left };
     let (cases, all) = (count(study.cases()), counted(study.blocks(), "block"));
-    let memory = memory(study, count_threads(machine));
+    let memory = memory(study, count_threads(machine), probe.most);
     let [computing, joining] = [memory.computing, memory.joining].map(size);
     let whole = probe.seconds.map(scaled).map_or("not known".to_owned(), estimated);
     let threads = counted(count_threads(machine), "thread");

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::readable::time;
 use super::terminal::{in_turn, notify};
 
 /// Before the first line of a log, as quick work needs none.
@@ -14,6 +15,30 @@ const FIRST_LINE: Duration = Duration::from_secs(2);
 const TICK: Duration = Duration::from_millis(100);
 /// Between two lines of a log at least.
 const LINE_INTERVAL: Duration = Duration::from_secs(10);
+
+/// No time left is told before so much has passed.
+const TOLD_AFTER: Duration = Duration::from_secs(5);
+/// Nor before so many are done, and one in so many of all: the first to be done are seldom like the others.
+const TOLD_FROM: usize = 8;
+const TOLD_SHARE: usize = 100;
+
+/// Whether what `done` of `total` have taken says how long the rest will take.
+pub fn tells_the_rest(elapsed: Duration, done: usize, total: usize) -> bool {
+    let enough = done >= TOLD_FROM.max(total.div_ceil(TOLD_SHARE));
+    done == total || (elapsed >= TOLD_AFTER && enough)
+}
+
+/// What is said where that is not so.
+pub const NOT_KNOWN: &str = "time left not known yet";
+
+/// The time that the rest of `total` takes at the pace of those `done`, in words.
+fn left(elapsed: Duration, done: usize, total: usize) -> String {
+    if !tells_the_rest(elapsed, done, total) {
+        return NOT_KNOWN.to_owned();
+    }
+    let each = elapsed.as_secs_f64() / done.max(1) as f64;
+    format!("{} left", time((total - done) as f64 * each))
+}
 
 /// Shows how many are done, how fast, and how long the rest will take.
 pub struct Progress {
@@ -34,7 +59,7 @@ impl Progress {
     pub fn new(total: usize, what: &'static str) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let style = ProgressStyle::with_template(&format!(
-                "{{wide_bar}} {{human_pos}}/{{human_len}} {what}, {{per_sec}}, {{eta_precise}} left"
+                "{{wide_bar}} {{human_pos}}/{{human_len}} {what}, {{per_sec}}, {{msg}}"
             ))
             .unwrap_or_else(|_| ProgressStyle::default_bar());
             ProgressBar::new(total as u64).with_style(style)
@@ -54,15 +79,18 @@ impl Progress {
         }
         if let Some(bar) = self.bar.clone() {
             lines.next = elapsed + TICK;
-            let done = lines.done as u64;
-            in_turn(Box::new(move || bar.set_position(done)));
+            let (done, left) = (lines.done as u64, left(elapsed, lines.done, self.total));
+            in_turn(Box::new(move || {
+                bar.set_position(done);
+                bar.set_message(left);
+            }));
         } else {
             lines.next = elapsed + LINE_INTERVAL;
             let rate = lines.done as f64 / elapsed.as_secs_f64();
-            let left = (self.total - lines.done) as f64 / rate;
             let (done, total, what) = (lines.done, self.total, self.what);
+            let left = left(elapsed, done, total);
             let decimals = if rate < 10.0 { 2 } else { 0 };
-            notify(&format!("{done}/{total} {what}, {rate:.decimals$} a second, {left:.0} s left"));
+            notify(&format!("{done}/{total} {what}, {rate:.decimals$} a second, {left}"));
         }
     }
 
@@ -72,5 +100,23 @@ impl Progress {
             in_turn(Box::new(move || bar.finish_and_clear()));
         }
         self.begun.elapsed()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_time_is_told_before_it_means_something() {
+        let after = |seconds: f64, done| left(Duration::from_secs_f64(seconds), done, 34_160);
+        // One link in four seconds said that all would take a day and a half, when they took seconds.
+        for (seconds, done) in [(3.8, 1), (60.0, 1), (60.0, 341), (4.9, 20_000)] {
+            assert_eq!(after(seconds, done), NOT_KNOWN, "{done} after {seconds} s");
+        }
+        assert_eq!(after(60.0, 3416), format!("{} left", time(540.0)));
+        assert_eq!(after(0.5, 34_160), format!("{} left", time(0.0)));
+        let few = |done| tells_the_rest(Duration::from_secs(60), done, 20);
+        assert_eq!([few(1), few(7), few(8), few(20)], [false, false, true, true]);
     }
 }

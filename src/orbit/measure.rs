@@ -12,6 +12,7 @@ use super::neighbourhood::{Neighbourhood, OrbitPoint};
 use super::passage::{Integrator, OneByOne, PlainRequest, image};
 use super::precision::{GRAZES, STANDS_STILL, same, sound};
 use super::recurrence::Settled;
+use super::rest::from_rest;
 use super::return_map::{Cycles, append_points};
 use super::settling::Foretold;
 use super::{
@@ -248,10 +249,14 @@ fn certified<M: System<D>, const D: usize>(
 ) -> Option<(Verdict<D>, Matrix<D>)> {
     let progress = &mut trajectory.progress;
     let steps = |cycles: u64| progress.mean_steps().saturating_mul(cycles);
-    if steps(settled.repeats_after as u64) > progress.steps_left(protocol.max_steps) {
+    let steps_left = progress.steps_left(protocol.max_steps);
+    if steps(settled.repeats_after as u64) > steps_left {
         return None;
     }
     let orbit = certify(&case.system, section, &settled, protocol, integrator)?;
+    let cycles = protocol.max_cycles.min(steps_left / progress.mean_steps().max(1));
+    let rest = from_rest(&case.system, (&orbit, &settled), cycles, protocol, integrator);
+    let (orbit, settled) = rest.unwrap_or((orbit, settled));
     progress.steps_before = progress.steps_before.saturating_add(steps(orbit.cycles));
     progress.cycles += orbit.cycles;
     trajectory.leap(orbit.section);

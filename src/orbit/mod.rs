@@ -22,6 +22,7 @@ pub mod passages;
 pub mod precision;
 mod protocol;
 pub mod recurrence;
+mod rest;
 pub mod return_map;
 mod returns;
 pub mod settle;

@@ -59,17 +59,17 @@ impl<const D: usize> Neighbourhood<D> {
     }
 
     /// That of the point at which an orbit of a system begins; none where the orbit is not stable, its period is longer than
-    /// 16 cycles, or no ellipsoid passes.
+    /// 16 cycles, no ellipsoid passes, or the point is the origin, which has no size to begin the search with.
     pub fn of<M: System<D>>(
         system: &M,
         (centre, period): ([f64; D], u64),
         instructions: Instructions,
         tolerance: f64,
     ) -> Option<Self> {
-        if period > LONGEST {
+        let metric = system.metric();
+        if period > LONGEST || metric.size(&centre) == 0.0 {
             return None;
         }
-        let metric = system.metric();
         let cycles = Cycles { count: period, tolerance };
         let request = |point: [f64; D]| ReturnRequest {
             system: system.clone(),

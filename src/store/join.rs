@@ -97,12 +97,16 @@ impl<'a> Blocks<'a> {
 
     /// What the cases have settled to, as far as they have been computed.
     pub fn final_motions(&self) -> Result<FinalMotions, StoreError> {
-        let mut known = Vec::new();
-        for file in &self.files {
-            known.extend(self.cases_of(file)?.into_iter().zip(final_states(file)?));
-        }
-        known.extend(self.between.iter().map(|it| (it.index, final_motion(&it.orbit))));
-        Ok(FinalMotions::of(self.study, known.into_iter()))
+        let mut failed = None;
+        let of_file = |file| Ok(self.cases_of(file)?.into_iter().zip(final_states(file)?));
+        // Block by block, so that no second list of all cases is held.
+        let known = self.files.iter().map_while(|file| {
+            let of_file: Result<_, StoreError> = of_file(file);
+            of_file.map_err(|said| failed = Some(said)).ok()
+        });
+        let between = self.between.iter().map(|it| (it.index, final_motion(&it.orbit)));
+        let motions = FinalMotions::of(self.study, known.flatten().chain(between));
+        failed.map_or(Ok(motions), Err)
     }
 
     /// The cases that have been computed, each once, with their outcomes, by their numbers in files, and the cycles for which they

@@ -1,5 +1,6 @@
 //! How large the file of results will be, by a sample of its cases.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::Path;
 
@@ -63,15 +64,22 @@ impl Sample<'_> {
     fn file_bytes(&self, factor: f64) -> Result<f64, StoreError> {
         let cases = self.study.cases();
         let blank = |cases| Sample { cases, records: Vec::new(), places: Vec::new(), ..*self };
+        // What stands in the file of a study without cases, as the values that were drawn, is there for all of them.
+        let of_frame: BTreeSet<String> = schema::frame(self.study).variables.into_keys().collect();
         let without = bytes(&blank(0).dataset())?;
         // An array that is compressed takes room even where all its numbers are the same.
         let same = blank(cases.min(COMPRESSED_CASES)).dataset();
         let beside = bytes(&same)? - without;
         let coordinates = same.coordinates.iter().filter(|(name, _)| name == CASE);
-        let plain = coordinates.map(|(_, it)| it).chain(same.variables.values()).map(plain_bytes);
+        let variables = same.variables.iter().filter(|(name, _)| !of_frame.contains(*name));
+        let coordinates = coordinates.map(|(_, it)| it);
+        let plain = coordinates.chain(variables.map(|(_, it)| it)).map(plain_bytes);
         let beside = (beside - plain.sum::<usize>() as f64).max(0.0);
         let mut numbers = 0.0;
-        for variable in self.dataset().variables.values() {
+        for (name, variable) in &self.dataset().variables {
+            if of_frame.contains(name) {
+                continue;
+            }
             let per_case = byte_count(variable) as f64 / self.cases as f64;
             let all = per_case * cases as f64;
             let is_plain = all < COMPRESSED_FROM_BYTES as f64;

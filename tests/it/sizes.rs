@@ -19,6 +19,11 @@ fn axes([slow, fast]: [usize; 2]) -> String {
     )
 }
 
+/// So many draws from the ranges of these axes.
+fn draws(count: usize) -> String {
+    format!("[draws]\ncount = {count}\n{}", axes([0, 0]).replace("points = 0\n", ""))
+}
+
 fn parsed(text: &str) -> Study {
     Study::parse("study.toml", text).unwrap_or_else(|faults| panic!("{faults}"))
 }
@@ -42,8 +47,10 @@ fn written(study: &Study, records: &[Record]) -> f64 {
 
 #[test]
 fn a_sample_of_the_cases_tells_the_size_of_the_file() {
-    for points in ["", "points = 1\nimpact_points = 0\n"] {
-        let study = parsed(&format!("{PARAMETERS}{points}{}", axes([40, 100])));
+    let few = "points = 1\nimpact_points = 0\n";
+    let studies = [("", axes([40, 100])), (few, axes([40, 100])), (few, draws(4000))];
+    for (points, cases) in studies {
+        let study = parsed(&format!("{PARAMETERS}{points}{cases}"));
         let records = computed(&study);
         let exact = written(&study, &records);
         // The checksum at its end is the only difference.
@@ -68,13 +75,14 @@ fn a_tile_tells_the_size_of_the_file_of_a_refined_map() {
     assert!((estimate / exact - 1.0).abs() < 0.1, "{estimate} {exact}");
 }
 
-/// The number before "for the file" in what a dry run says [bytes].
-fn said(out: &str) -> f64 {
-    let (before, _) = out.split_once(" for the file").unwrap_or_else(|| panic!("{out}"));
+/// The size before these words in what a dry run says [bytes].
+fn said(out: &str, words: &str) -> f64 {
+    let (before, _) = out.split_once(words).unwrap_or_else(|| panic!("{out}"));
     let words: Vec<&str> = before.split_whitespace().rev().take(2).collect();
     let factor = match words[0] {
         "kB" => 1e3,
         "MB" => 1e6,
+        "GB" => 1e9,
         other => panic!("{other}: {out}"),
     };
     factor * words[1].parse::<f64>().unwrap_or_else(|_| panic!("{out}"))
@@ -84,14 +92,69 @@ fn said(out: &str) -> f64 {
 fn a_dry_run_tells_the_size_of_the_file_that_the_run_writes() {
     let dir = WorkDir::new();
     let inherit = "[start]\ninherit = \"omega\"\n";
-    let studies = [("a", "", [3, 60]), ("b", inherit, [3, 60]), ("c", "", [2, 2])];
-    for (name, start, count) in studies {
+    let studies = [
+        ("a", "", axes([3, 60])),
+        ("b", inherit, axes([3, 60])),
+        ("c", "", axes([2, 2])),
+        ("d", "", draws(180)),
+    ];
+    for (name, start, cases) in studies {
         let [study, file] = ["toml", "h5"].map(|end| format!("{name}.{end}"));
-        dir.put(&study, format!("{PARAMETERS}{start}{}", axes(count)));
+        dir.put(&study, format!("{PARAMETERS}{start}{cases}"));
         let sweep = ["sweep", &study, "--output", &file];
-        let said = said(&dir.run(&[&sweep[..], &["--dry-run"]].concat()).done().out);
+        let out = dir.run(&[&sweep[..], &["--dry-run"]].concat()).done().out;
+        let said = said(&out, " for the file");
         dir.run(&sweep).done();
         let size = std::fs::metadata(dir.path(&file)).expect("a file").len() as f64;
-        assert!((said / size - 1.0).abs() < 0.1, "{said} {size} {count:?} {start}");
+        assert!((said / size - 1.0).abs() < 0.1, "{said} {size} {cases} {start}");
     }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_dry_run_tells_the_memory_of_the_run() {
+    let dir = WorkDir::new();
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/memory.sh");
+    let one = "[parameters]\np_d = \"4 N\"\nomega = \"60 rad/s\"\nk2 = \"18.96 kN/m\"\ndelta = \"1.5 mm\"\n";
+    let start = |name: &str, ends: [&str; 2], points: &str| {
+        let [from, to] = ends;
+        format!("[[axes]]\nname = \"{name}\"\nfrom = \"{from}\"\nto = \"{to}\"\n{points}\n")
+    };
+    let starts = |points: &str| {
+        start("start_r", ["-2 mm", "2 mm"], points)
+            + &start("start_y1", ["-0.3 m/s", "0.3 m/s"], points)
+    };
+    let history = "[history]\ncycles = 5\nsamples_per_cycle = 100\n";
+    let studies = [
+        ("refined", format!("{one}[basin]\nrefine = true\n{}", starts("points = 257"))),
+        ("draws", format!("{one}[draws]\ncount = 3000\n{}", starts(""))),
+        ("grid", format!("{PARAMETERS}{history}{}", axes([20, 30]))),
+    ];
+    // The program and its tables, without a study.
+    let bare = {
+        dir.put("bare.toml", format!("{PARAMETERS}{}", axes([1, 2])));
+        most_memory(&dir, script, "bare")
+    };
+    for (name, study) in studies {
+        dir.put(&format!("{name}.toml"), study);
+        let file = format!("{name}.toml");
+        let out = dir.run(&["sweep", &file, "--dry-run"]).done().out;
+        let phases = [" while cases are computed", " while they are joined"];
+        let [computing, joining] = phases.map(|words| said(&out, words));
+        let (told, held) = (computing.max(joining), most_memory(&dir, script, name));
+        // A program without optimisation is larger itself than the estimate has it.
+        let told = told + (bare - 3e7).max(0.0);
+        let factor = told / held;
+        assert!((1.0 / 1.5..=1.5).contains(&factor), "{name}: {told} {held}\n{out}");
+    }
+}
+
+/// The most memory that a sweep holds [bytes].
+#[cfg(target_os = "linux")]
+fn most_memory(dir: &WorkDir, script: &str, name: &str) -> f64 {
+    let command = format!("'{script}' \"$0\" sweep {name}.toml --output {name}.h5 --no-figures");
+    let err = dir.shell(&command).done().err;
+    let (_, said) = err.split_once("memory.sh: at most ").unwrap_or_else(|| panic!("{err}"));
+    let number = said.split_whitespace().next().and_then(|it| it.parse::<f64>().ok());
+    number.unwrap_or_else(|| panic!("{err}")) * f64::from(1 << 20)
 }

@@ -1,0 +1,107 @@
+//! Random valid studies over the whole box, without drive and without friction among them: each ends in time, and in order.
+
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use capsulemap::capsule::{Parameter, Resistance, State};
+use capsulemap::orbit::Protocol;
+use capsulemap::study::{Axis, CaseSet, Coordinate, Grid, Spacing, Study};
+
+use super::draws::{self, ALONG, Random};
+use super::program::{Ran, WorkDir};
+
+/// No study of so few cases takes so long, on a machine that does ten other things.
+const LIMIT: Duration = Duration::from_secs(120);
+/// What is asked of a study: which starts lead where, also along a parameter, and what tolerances and margins leave of its optima.
+const KINDS: [&str; 4] = ["starts", "shares", "tolerances", "margins"];
+
+/// A study of a kind by its number.
+fn drawn(number: usize) -> (&'static str, Study) {
+    let seed = 37_000 + number as u64;
+    let kind = KINDS[number % KINDS.len()];
+    let law = Resistance::NAMES[number / KINDS.len() % Resistance::NAMES.len()].1;
+    let case = draws::wide(1, seed, law).remove(0);
+    let mut random = Random::new(seed);
+    let mut base = case.parameters;
+    // More often than the box has them.
+    if random.uniform(0.0, 1.0) < 0.2 {
+        base[Parameter::Pd] = 0.0;
+    }
+    if random.uniform(0.0, 1.0) < 0.2 {
+        (base[Parameter::MuS], base[Parameter::MuD]) = (0.0, 0.0);
+    }
+    let axis = |coordinate, from: f64, to: f64, points| Axis {
+        coordinate,
+        values: Spacing::Linear.values(from, to, points),
+    };
+    let starts = [(Coordinate::StartY1, 1.0), (Coordinate::StartR, 1e-2)]
+        .map(|(it, most)| axis(it, -random.uniform(0.0, most), random.uniform(0.0, most), 5));
+    let parameter = ALONG[(random.uniform(0.0, 1.0) * ALONG.len() as f64) as usize];
+    let (low, value) = (base[parameter] * random.uniform(0.5, 1.0), base[parameter]);
+    let along = axis(Coordinate::Parameter(parameter), low, 1.2 * value + 1e-3, 5);
+    let axes = match kind {
+        "starts" => starts.to_vec(),
+        "shares" => [vec![along], starts.to_vec()].concat(),
+        _ => vec![along],
+    };
+    let study = Study {
+        base,
+        start: State { x2: 0.0, ..case.start },
+        start_phase: case.start_phase,
+        section_phase: case.section_phase,
+        case_set: CaseSet::Grid(Grid { axes, inherit: None }),
+        protocol: Protocol {
+            max_cycles: 300,
+            exponent_cycles: 16,
+            measured_cycles: 4,
+            ..Protocol::default()
+        },
+        ..Study::default()
+    };
+    (kind, study.validated("a study").expect("it is valid"))
+}
+
+/// Runs the program to its end; fails if it takes longer than the limit.
+fn run(dir: &WorkDir, arguments: &[&str], about: &str) -> Ran {
+    let mut command = dir.command(arguments);
+    let quiet = command.stdout(Stdio::null()).stderr(Stdio::null());
+    let (mut child, begun) = (quiet.spawn().expect("it starts"), Instant::now());
+    let ended = loop {
+        if let Some(ended) = child.try_wait().expect("a process") {
+            break ended;
+        }
+        if begun.elapsed() > LIMIT {
+            child.kill().expect("it is ended");
+            panic!("{arguments:?} has not ended after {LIMIT:?}: {about}");
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    };
+    let code = ended.code().unwrap_or_else(|| panic!("{arguments:?}: {ended}: {about}"));
+    Ran { code, out: String::new(), err: String::new() }
+}
+
+/// In the long form `STUDIES=2000`.
+#[test]
+fn random_studies_end_in_time_and_in_order() {
+    let wanted = std::env::var("STUDIES").ok().and_then(|it| it.parse().ok()).unwrap_or(24);
+    let dir = WorkDir::new();
+    let mut longest = Duration::ZERO;
+    for number in 0..wanted {
+        let (kind, study) = drawn(number);
+        let about = format!("{number}, {kind}:\n{}", study.text);
+        dir.put("s.toml", &study.text);
+        let begun = Instant::now();
+        let sweep = ["sweep", "s.toml", "--output", "s.h5", "--no-figures", "--overwrite"];
+        assert_eq!(run(&dir, &sweep, &about).code, 0, "{about}");
+        let more: &[&str] = match kind {
+            "tolerances" => {
+                &["tradeoff", "s.h5", "--tolerances", "k2 = 5 %, c = 10 %", "--draws", "20"]
+            }
+            "margins" => &["tradeoff", "s.h5", "--margins"],
+            _ => &["inspect", "s.h5", "--json"],
+        };
+        assert_eq!(run(&dir, more, &about).code, 0, "{more:?}: {about}");
+        longest = longest.max(begun.elapsed());
+    }
+    println!("{wanted} studies, the longest {:.1} s", longest.as_secs_f64());
+}
