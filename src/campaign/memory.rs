@@ -1,12 +1,12 @@
 //! How much memory a campaign takes, estimated from what it holds.
 
-use crate::run::{FinalMotion, MapPoint, TILES_TOGETHER, has_attractors};
+use crate::run::{FinalMotion, MapPoint, Record, TILES_TOGETHER, has_attractors};
 use crate::store::{MOST_NUMBERS, numbers_of_case};
 use crate::study::{CaseSet, Refine, Study};
 
 /// What the program itself takes, with its libraries and tables [bytes]; measured by `scripts/memory.sh`.
 const PROGRAM: f64 = 3e7;
-/// Numbers of a block are held twice while they are packed.
+/// Numbers of a block are held twice more while they are packed, and labels twice.
 const COPIES: f64 = 2.0;
 /// What is held of a block that is joined: of where it was computed, and of each of its variables [bytes].
 const MAKER: f64 = 1.5e3;
@@ -23,18 +23,24 @@ pub struct Memory {
     pub joining: f64,
 }
 
-/// The memory that a campaign of `study` takes on so many threads, where `most` cases are computed of a block.
+/// The memory that a campaign of `study` takes on so many threads, where `most` cases are computed of a block, and blocks that are
+/// not done yet have so many cases that are.
 ///
-/// Method: the numbers of the blocks that are computed, of the final motions among which attractors are searched, of what was
-/// drawn, and of the slab that is written are counted.
-pub fn memory(study: &Study, threads: usize, most: usize) -> Memory {
+/// Method: the records of these cases, the numbers of the blocks that are packed, of the final motions among which attractors
+/// are searched, of what was drawn, and of the slab that is written are counted.
+pub fn memory(study: &Study, threads: usize, (most, unfinished): (usize, usize)) -> Memory {
     let cases = study.cases() as f64;
     let numbers = numbers_of_case(study);
     let all = numbers.values().sum::<usize>() as f64;
     let widest = numbers.values().copied().max().unwrap_or(0) as f64;
-    let together = if study.refine.is_some() { TILES_TOGETHER } else { threads };
-    let together = together.min(study.blocks()) as f64;
-    let blocks_held = together * most as f64 * all * NUMBER * COPIES;
+    // Tiles are refined together, and packed one after the other.
+    let (computed, packed) = match study.refine {
+        Some(_) => (most * TILES_TOGETHER.min(study.blocks()), most),
+        None => (unfinished.max(most), most * threads),
+    };
+    let [computed, packed] = [computed, packed].map(|it| (it as f64).min(cases));
+    let records = computed * (size_of::<Record>() as f64 + all * NUMBER);
+    let packing = packed * all * NUMBER * COPIES;
     let heads = study.blocks() as f64 * (MAKER + PLACE * numbers.len() as f64);
     let drawn = match &study.case_set {
         // Of each draw its number, too.
@@ -59,7 +65,7 @@ pub fn memory(study: &Study, threads: usize, most: usize) -> Memory {
     };
     let slab = (cases * widest).min(MOST_NUMBERS as f64) * NUMBER;
     Memory {
-        computing: PROGRAM + blocks_held,
+        computing: PROGRAM + records + packing,
         joining: PROGRAM + heads + drawn + inferring + linking.max(slab + labels),
     }
 }

@@ -33,6 +33,7 @@ pub mod report;
 pub mod request;
 pub mod result_file;
 pub mod robustness;
+mod search_time;
 pub mod share;
 mod sought;
 pub mod spread;

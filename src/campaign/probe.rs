@@ -1,43 +1,59 @@
-//! Computes a few blocks of a study for a short time, to estimate what all would take.
+//! Computes a few parts of a study for a short time, to estimate what all would take.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use crate::run::{Estimate, Forecast, Machine, Record, run_blocks, run_sample};
+use crate::run::{
+    Estimate, Forecast, Machine, Record, RunError, run_blocks, run_sample, run_tiles,
+};
 use crate::store::{file_bytes, numbers_of_case, packed_bytes, refined_file_bytes};
-use crate::study::{CaseSet, Direction, Study, spread};
+use crate::study::{CaseSet, Direction, Refinement, Study, spread};
 
 use super::error::CampaignError;
 use super::report::{Event, Report, Reports};
+use super::search_time::search_seconds;
 
 /// Records whose size is measured.
 const WEIGHED: usize = 4096;
 /// Records are kept in runs of so many neighbours, as equal numbers beside each other are compressed.
 const RUN: usize = 128;
+/// Runs that are computed together, which fill the lanes.
+const RUNS_TOGETHER: usize = 4;
 /// Numbers in the tiles of a refined study whose size in the file is measured, at most.
 const NUMBERS: usize = 4_000_000;
-/// Parts of the axis along which starts are inherited, the cases of each, and the time after which none is begun.
+/// Parts of the axis along which starts are inherited, and the cases of each.
 const PARTS: usize = 8;
 const PART: usize = 16;
-const SPREAD: Duration = Duration::from_secs(5);
+/// The time after which neither a part nor a run is begun whose size is measured.
+const SPREAD: Duration = Duration::from_secs(3);
+/// Coarse cells along each side of a tile that is probed, by the number of axes of a refined grid.
+const SIDES: [usize; 5] = [8, 4, 2, 1, 1];
 /// So many times longer a probe of a refined study takes at most, of which nothing is known before a tile is done.
 const PATIENCE: u32 = 12;
+/// Reading a block takes about so much of the time that packing it takes.
+const UNPACKING: f64 = 0.3;
 
 /// What a probe has found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Probe {
     /// Cases that it has computed.
     pub cases: usize,
-    /// Blocks that it has begun.
+    /// Blocks that it has begun, or tiles of a refined study, which are smaller than its blocks.
     pub blocks: usize,
     /// The time it took.
     pub time: Duration,
     /// Time that all cases would take on the same machine [s]; none if no case was done.
     pub seconds: Option<Estimate>,
-    /// The most cases that are computed of a block: of a tile of a refined study those that it has needed.
+    /// Time that the search for attractors would take after that [s]; none if there is none.
+    pub searching: Option<Estimate>,
+    /// Time that joining the blocks and writing the file would take after that [s]; NaN if no case was done.
+    pub writing: f64,
+    /// The most cases that are computed of a block: of a tile of a refined study those that it needs.
     pub most: usize,
+    /// The most cases that were done at a time of blocks that were not.
+    pub unfinished: usize,
     /// Size of all blocks [bytes]; NaN if no case was done.
     pub bytes: f64,
     /// Size of the file of results without attractors, curves of special points and optima [bytes]; NaN if no case, or no
@@ -45,25 +61,72 @@ pub struct Probe {
     pub file_bytes: f64,
 }
 
+/// What is sampled of a study: its blocks, or of one that is refined tiles that are much smaller than its blocks, of which
+/// the first few would be most of the study.
+struct Parts<'a> {
+    study: &'a Study,
+    tiles: Option<Refinement>,
+}
+
+impl Parts<'_> {
+    fn of(study: &Study) -> Parts<'_> {
+        let side = SIDES[study.shape().len().clamp(1, SIDES.len()) - 1];
+        Parts { study, tiles: study.refinement().map(|it| it.with_tiles_of(side)) }
+    }
+
+    fn count(&self) -> usize {
+        self.tiles.as_ref().map_or_else(|| self.study.blocks(), Refinement::tiles)
+    }
+
+    /// Number of cases of a part.
+    fn count_cases(&self, part: usize) -> usize {
+        match &self.tiles {
+            None => self.study.cases_of_block(part),
+            Some(tiles) => tiles.count(part),
+        }
+    }
+
+    /// Runs all parts in an order that spreads them over the study, until one of the two says to stop.
+    fn run(
+        &self,
+        machine: Machine,
+        done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
+        finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()> + Sync,
+    ) -> Result<(), RunError> {
+        let order = spread(self.count());
+        match &self.tiles {
+            None => run_blocks(self.study, machine, &order, done, finished),
+            Some(tiles) => run_tiles(self.study, machine, (tiles, &order), done, finished),
+        }
+    }
+}
+
 /// The state of a probe.
-struct Found {
+struct Found<'a> {
+    parts: Parts<'a>,
     forecast: Forecast,
-    /// Blocks that have been begun.
-    blocks: BTreeSet<usize>,
+    /// Cases that are done of the blocks or tiles that have been begun.
+    begun: BTreeMap<usize, usize>,
+    /// Cases that are done of blocks that are not, and the most of them at a time.
+    unfinished: [usize; 2],
+    /// Cases that have been computed, and their cycles; of tiles also those on their boundary, which belong to others.
+    computed: (usize, u64),
     /// Those of the cases met that are weighed, one in so `every` many.
     records: Vec<Record>,
     every: usize,
-    met: usize,
     /// Those of the tiles of a refined study that are weighed, one in so `every_tile` many: their cases, and the records of
     /// those computed.
     tiles: Vec<(Vec<usize>, Vec<Record>)>,
     every_tile: usize,
     tiles_met: usize,
-    /// The most cases that a tile has needed.
-    most: usize,
+    /// Cases of the tiles that are done which had to be computed.
+    needed: usize,
 }
 
-/// Computes blocks of `study`, spread over it, for about `span`, and writes nothing.
+/// Computes parts of `study`, spread over it, for about `span`, and searches for the attractors of a few; writes nothing.
+///
+/// Method: the time that cases take goes with their cycles, see [`Forecast`]; that of the search for attractors is measured
+/// on parts of the study; writing takes as long as packing and unpacking the numbers, which is measured on a sample.
 ///
 /// Fails if the computation cannot be started.
 pub fn probe(
@@ -73,49 +136,66 @@ pub fn probe(
     report: &Report<'_>,
 ) -> Result<Probe, CampaignError> {
     let reports = Reports::new(report);
-    let forecast = Forecast::new(study.cases());
-    let (blocks, records, tiles) = (BTreeSet::new(), Vec::new(), Vec::new());
     let found = Mutex::new(Found {
-        forecast,
-        blocks,
-        records,
+        parts: Parts::of(study),
+        forecast: Forecast::new(study.cases()),
+        begun: BTreeMap::new(),
+        unfinished: [0, 0],
+        computed: (0, 0),
+        records: Vec::new(),
         every: 1,
-        met: 0,
-        tiles,
+        tiles: Vec::new(),
         every_tile: 1,
         tiles_met: 0,
-        most: 0,
+        needed: 0,
     });
     let begun = Instant::now();
     let lock = || found.lock().unwrap_or_else(|it| it.into_inner());
-    let each = |block: usize, record: &Record| {
-        let cases = study.cases_of_block(block);
-        reports.note(Event::Case { block, cases, record })?;
-        lock().add(block, (study.refine.is_none()).then_some(cases), record);
+    let parts = Parts::of(study);
+    let each = |part: usize, record: &Record| {
+        let cases = parts.count_cases(part);
+        reports.note(Event::Case { block: part, cases, record })?;
+        lock().add(part, record);
         // Of a refined study the cases that it will have are known once a tile is done.
-        let is_known = study.refine.is_none() || lock().forecast.done().0 > 0;
+        let is_known = study.refine.is_none() || lock().tiles_met > 0;
         match begun.elapsed() < if is_known { span } else { PATIENCE * span } {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),
         }
     };
-    let whole = |block: usize, records: Vec<Record>| {
-        if study.refine.is_some() {
-            let cycles = records.iter().map(|record| record.orbit.cycles).sum();
-            let mut found = lock();
-            found.forecast.complete(block, study.cases_of_block(block), cycles);
-            found.keep_tile(study, block, records);
-        }
+    let whole = |part: usize, records: Vec<Record>| {
+        lock().keep_tile(part, records);
         ControlFlow::Continue(())
     };
-    run_blocks(study, machine, &spread(study.blocks()), each, whole)?;
+    parts.run(machine, each, whole)?;
     reports.check()?;
     let time = begun.elapsed();
     let mut found = found.into_inner().unwrap_or_else(|it| it.into_inner());
-    if study.inherit().is_some() && found.met < study.cases() {
-        found.records = spread_cases(study, machine)?;
+    if study.refine.is_none() && found.computed.0 < study.cases() {
+        found.records = match study.inherit() {
+            Some(_) => spread_cases(study, machine)?,
+            None => spread_runs(study, machine)?,
+        };
     }
-    found.estimate(study, time)
+    let searching = search_seconds(study, machine, span)?;
+    reports.check()?;
+    found.estimate(time, searching)
+}
+
+/// Cases of a study whose starts are not inherited, in runs of neighbours that lie spread over it: of what a probe has done when
+/// its time is over, those that take long are missing, whose histories are compressed least.
+fn spread_runs(study: &Study, machine: Machine) -> Result<Vec<Record>, CampaignError> {
+    let begun = Instant::now();
+    let mut records = Vec::new();
+    for runs in spread(study.cases().div_ceil(RUN)).chunks(RUNS_TOGETHER) {
+        if begun.elapsed() > SPREAD || records.len() >= WEIGHED {
+            break;
+        }
+        let cases = |run: &usize| run * RUN..((run + 1) * RUN).min(study.cases());
+        let cases: Vec<usize> = runs.iter().flat_map(cases).collect();
+        records.extend(run_sample(study, machine, &cases, || ())?);
+    }
+    Ok(records)
 }
 
 /// Cases of chains that lie spread over a study whose starts are inherited: what a probe has computed of the chains is
@@ -161,18 +241,26 @@ fn spread_cases(study: &Study, machine: Machine) -> Result<Vec<Record>, Campaign
     Ok(records)
 }
 
-impl Found {
-    /// Notes a record of a block of so many cases; without their number it does not count as one of them.
-    fn add(&mut self, block: usize, cases: Option<usize>, record: &Record) {
-        if let Some(cases) = cases {
-            self.forecast.add(block, cases, (1, record.orbit.cycles));
+impl Found<'_> {
+    /// Notes a record of a part.
+    fn add(&mut self, part: usize, record: &Record) {
+        let cycles = record.orbit.cycles;
+        if self.parts.tiles.is_none() {
+            self.forecast.add(part, self.parts.count_cases(part), (1, cycles));
         }
-        self.blocks.insert(block);
+        let done = self.begun.entry(part).or_default();
+        *done += 1;
+        let [now, most] = &mut self.unfinished;
+        *now += 1;
+        *most = (*most).max(*now);
+        if *done == self.parts.count_cases(part) {
+            *now -= *done;
+        }
+        self.computed = (self.computed.0 + 1, self.computed.1 + cycles);
         let is_kept = |every: usize, index: usize| (index / RUN).is_multiple_of(every);
         if is_kept(self.every, record.index) {
             self.records.push(record.clone());
         }
-        self.met += 1;
         // The first cases of all chains are not like the others.
         if self.records.len() > 2 * WEIGHED {
             self.every *= 2;
@@ -180,14 +268,20 @@ impl Found {
         }
     }
 
-    /// Notes a tile that is done.
-    fn keep_tile(&mut self, study: &Study, tile: usize, records: Vec<Record>) {
-        self.most = self.most.max(records.len());
+    /// Notes a tile of a refined study that is done; of any other study nothing.
+    fn keep_tile(&mut self, tile: usize, records: Vec<Record>) {
+        let Some(refinement) = &self.parts.tiles else { return };
+        let cases = refinement.cases(tile);
+        let own = records.iter().filter(|it| cases.binary_search(&it.index).is_ok());
+        let (needed, cycles) =
+            own.fold((0, 0), |(count, cycles), it| (count + 1, cycles + it.orbit.cycles));
+        self.needed += needed;
+        self.forecast.complete(tile, cases.len(), cycles);
         if self.tiles_met.is_multiple_of(self.every_tile) {
-            self.tiles.push((study.block_cases(tile), records));
+            self.tiles.push((cases, records));
         }
         self.tiles_met += 1;
-        let of_case: usize = numbers_of_case(study).values().sum();
+        let of_case: usize = numbers_of_case(self.parts.study).values().sum();
         let cases = |tiles: &[(Vec<usize>, Vec<Record>)]| -> usize {
             tiles.iter().map(|(cases, _)| cases.len()).sum()
         };
@@ -200,25 +294,48 @@ impl Found {
     }
 
     /// The estimate for all cases.
-    fn estimate(mut self, study: &Study, time: Duration) -> Result<Probe, CampaignError> {
-        let (cases, cycles) = self.forecast.done();
+    fn estimate(
+        mut self,
+        time: Duration,
+        searching: Option<Estimate>,
+    ) -> Result<Probe, CampaignError> {
+        let study = self.parts.study;
+        let (cases, cycles) = self.computed;
         let pace = time.as_secs_f64() / cycles as f64;
         let scaled = |it: Estimate| Estimate { value: it.value * pace, error: it.error * pace };
         let seconds = self.forecast.cycles().map(scaled);
         self.records.sort_by_key(|record| record.index);
         self.records.dedup_by_key(|record| record.index);
+        // Of a refined study fewer cases are kept than there are.
+        let kept = match self.parts.tiles {
+            Some(_) => self.needed as f64 / self.forecast.done().0 as f64,
+            None => 1.0,
+        };
+        let factor = kept * study.cases() as f64 / self.records.len() as f64;
+        let begun = Instant::now();
         let packed = packed_bytes(study, &self.records).map_err(CampaignError::Packing)?;
-        let weighed = packed as f64 / self.records.len() as f64;
-        // Of a refined study fewer are kept than there are.
-        let kept = if study.refine.is_some() { self.met as f64 / cases as f64 } else { 1.0 };
-        let bytes = weighed * kept * study.cases() as f64;
+        let packing = begun.elapsed().as_secs_f64();
+        let bytes = packed as f64 * factor;
+        let begun = Instant::now();
         let file_bytes = match study.refine {
             None => file_bytes(study, &self.records)?,
             Some(_) => refined_file_bytes(study, &self.tiles, kept)?,
         };
+        let writing = begun.elapsed().as_secs_f64() + UNPACKING * packing;
         let sizes = (0..study.blocks()).map(|block| study.cases_of_block(block));
-        let most = if self.most > 0 { self.most } else { sizes.max().unwrap_or(0) };
-        let blocks = self.blocks.len();
-        Ok(Probe { cases, blocks, time, seconds, most, bytes, file_bytes })
+        let largest = sizes.max().unwrap_or(0) as f64;
+        let most = if kept.is_finite() { (kept * largest).ceil() as usize } else { 0 };
+        Ok(Probe {
+            cases,
+            blocks: self.begun.len(),
+            time,
+            seconds,
+            searching,
+            writing: writing * factor,
+            most,
+            unfinished: self.unfinished[1],
+            bytes,
+            file_bytes,
+        })
     }
 }

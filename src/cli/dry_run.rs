@@ -36,13 +36,11 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
             counted(blocks.cases(), "case")
         ),
     };
-    let scaled = |it: Estimate| Estimate { value: it.value * left, error: it.error * left };
     let (cases, all) = (count(study.cases()), counted(study.blocks(), "block"));
-    let memory = memory(study, count_threads(machine), probe.most);
+    let memory = memory(study, count_threads(machine), (probe.most, probe.unfinished));
     let [computing, joining] = [memory.computing, memory.joining].map(size);
-    let whole = probe.seconds.map(scaled).map_or("not known".to_owned(), estimated);
-    let threads = counted(count_threads(machine), "thread");
-    let more = if has_attractors(study) { ", and more to search for attractors" } else { "" };
+    let seconds = seconds(probe, left, count_threads(machine));
+    let more = if study.branches.is_empty() { "" } else { ", and more for branches" };
     let beside = match (has_attractors(study), study.branches.is_empty()) {
         (true, true) => ", and more for attractors",
         (false, false) => ", and more for branches",
@@ -51,7 +49,7 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
     };
     let figures = figures(study).map_or(String::new(), |it| format!(", {} for a figure", size(it)));
     format!(
-        "{}\n  cases  {cases} in {all}\n{done}  time   {whole} with {threads}{more}\n  \
+        "{}\n  cases  {cases} in {all}\n{done}  time   {seconds}{more}\n  \
          room   {} for the blocks until they are joined, {} for the file{beside}\n  \
          memory about {computing} while cases are computed, {joining} while they are joined{figures}\n  \
          estimated from {} in {}, computed in {}; nothing was written\n",
@@ -59,8 +57,25 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
         size_or_not(probe.bytes * left),
         size_or_not(probe.file_bytes),
         counted(probe.cases, "case"),
-        counted(probe.blocks, "block"),
+        counted(probe.blocks, if study.refine.is_some() { "tile" } else { "block" }),
         time(probe.time.as_secs_f64())
+    )
+}
+
+/// The time of what is `left` of the cases, as a part of all, and of what comes after them, in words.
+fn seconds(probe: &Probe, left: f64, threads: usize) -> String {
+    let threads = counted(threads, "thread");
+    let Some(all) = probe.seconds else { return format!("not known with {threads}") };
+    let cases = Estimate { value: all.value * left, error: all.error * left };
+    let searching = probe.searching;
+    let whole = cases.value + searching.map_or(0.0, |it| it.value) + probe.writing;
+    let attractors = searching.map(|it| format!("{} to search for attractors, ", estimated(it)));
+    format!(
+        "about {} with {threads}: {} for the cases, {}{} to write the file",
+        time(whole),
+        estimated(cases),
+        attractors.unwrap_or_default(),
+        time(probe.writing)
     )
 }
 

@@ -34,6 +34,7 @@ mod stop;
 mod summary;
 mod synthesize;
 mod sweep;
+mod target;
 mod terminal;
 mod tradeoff;
 mod varied;

@@ -6,8 +6,7 @@ use clap::Args;
 
 use super::arguments::output;
 use super::failure::Failure;
-use super::files;
-use super::terminal::print;
+use super::target::Target;
 use crate::capsule::Output;
 use crate::capsule::printable::printable;
 use crate::explore::{GENERATOR, Request, report};
@@ -45,16 +44,8 @@ impl Report {
         let of = output("--of", &self.of).map_err(Failure::request)?;
         let archive = store::open(&self.file).map_err(Failure::request)?;
         let page = self.output.clone().unwrap_or_else(|| self.file.with_extension("html"));
-        let prints = files::is_standard_output(&page);
-        if !prints {
-            self.check(&page)?;
-        }
-        let html = report(&Request { archive: &archive, file: &self.file, of })?;
-        if prints {
-            return print(&html);
-        }
-        files::put(&page, &html)?;
-        print(&format!("{}\n", printable(&page)))
+        let target = Target::of(&page, |page| self.check(page))?;
+        target.put(&report(&Request { archive: &archive, file: &self.file, of })?, &[])
     }
 
     /// Refuses to replace what this program has not written.

@@ -1,13 +1,13 @@
 //! `capsulemap smooth`: the signals of a recording, smoothed or differentiated.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::failure::Failure;
 use super::files;
-use super::terminal::{notify, print};
+use super::target::Target;
 use crate::capsule::Dimension;
 use crate::capsule::printable::printable;
 use crate::experiment::{Recording, Signal, Window, smoothed};
@@ -50,10 +50,8 @@ impl Smooth {
     pub fn run(&self) -> Result<(), Failure> {
         let length = files::quantity("--window", &self.window, Dimension::Time);
         let length = length.map_err(Failure::request)?;
-        let prints = files::is_standard_output(&self.output);
-        if !prints {
-            files::check_free(&self.output, self.overwrite)?;
-        }
+        let check = |path: &Path| files::check_free(path, self.overwrite);
+        let target = Target::of(&self.output, check)?;
         let recording = files::motion(&self.recording)?;
         let sampling = recording.sampling();
         let window = self.window(length, sampling.interval)?;
@@ -68,18 +66,13 @@ impl Smooth {
         }
         let text = csv(recording.required("t"), &columns);
         let told = format!(
-            "{sampling}\nwindow: {} samples, {} s; order {}; derivative {}",
+            "window: {} samples, {} s; order {}; derivative {}",
             window.samples,
             window.samples as f64 * sampling.interval,
             window.order,
             self.derivative,
         );
-        if prints {
-            notify(&told);
-            return print(&text);
-        }
-        files::put(&self.output, &text)?;
-        print(&format!("{told}\n{}\n", printable(&self.output)))
+        target.put(&text, &[sampling.to_string(), told])
     }
 
     /// The window whose time is nearest to a length [s], at samples so far apart [s].

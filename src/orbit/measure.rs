@@ -257,6 +257,9 @@ fn certified<M: System<D>, const D: usize>(
     let cycles = protocol.max_cycles.min(steps_left / progress.mean_steps().max(1));
     let rest = from_rest(&case.system, (&orbit, &settled), cycles, protocol, integrator);
     let (orbit, settled) = rest.unwrap_or((orbit, settled));
+    if steps(orbit.cycles) > steps_left {
+        return None;
+    }
     progress.steps_before = progress.steps_before.saturating_add(steps(orbit.cycles));
     progress.cycles += orbit.cycles;
     trajectory.leap(orbit.section);

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 
 use super::cases::{Record, RunError, run_chains};
-use super::refined::run_refined;
+use super::refined::run_tiles;
 use crate::orbit::Machine;
 use crate::study::Study;
 
@@ -23,8 +23,8 @@ pub fn run_blocks(
     done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
     finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
-    if study.refine.is_some() {
-        return run_refined(study, machine, blocks, done, finished);
+    if let Some(refinement) = study.refinement() {
+        return run_tiles(study, machine, (&refinement, blocks), done, finished);
     }
     let mut ends = Vec::with_capacity(blocks.len());
     for &block in blocks {

@@ -28,5 +28,5 @@ pub use final_motion::{FinalMotion, FinalMotions, final_motion, final_motions};
 pub use forecast::{Estimate, Forecast};
 pub use inferred_sample::{InferredSample, check_cases, check_starts};
 pub use map_point::{InferredCases, MapPoint, infer_cases, within};
-pub use refined::{TILES_TOGETHER, complete_basin, complete_map};
+pub use refined::{TILES_TOGETHER, complete_basin, complete_map, run_tiles};
 pub use shares_along::{SharesAt, shares_along};

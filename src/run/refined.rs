@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use crate::attractor::{Label, Table};
 use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Switching};
-use crate::study::{Refine, Refining, Study};
+use crate::study::{Refine, Refinement, Refining, Study};
 
 use super::cases::{Known, Rayon, Record, RunError, check, known_orbits, pool, run_as};
 use super::infer::{are_alike, label};
@@ -15,23 +15,25 @@ use super::{FinalMotion, FinalMotions, Machine, final_motion};
 /// Tiles that are refined together: enough that their cases fill the lanes, and all that is lost by a kill.
 pub const TILES_TOGETHER: usize = 16;
 
-/// Runs the `blocks` of a refined study, which are tiles, each named once, on `machine`.
+/// Runs some `tiles` of a refined study, each named once, on `machine`; of its own `refinement` they are its blocks.
 ///
 /// Tells `done` of each record with the number of its block, and hands the records that a tile has needed, those on the whole
 /// of its boundary among them, to `finished`; until one of the two says to stop. Which cases a tile needs depends on the study
 /// alone.
-pub(super) fn run_refined(
+pub fn run_tiles(
     study: &Study,
     machine: Machine,
-    blocks: &[usize],
+    (refinement, tiles): (&Refinement, &[usize]),
     done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
     finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
     check(machine)?;
     match study.base.switching {
-        Switching::Filippov => Runner::<Filippov>::new(study, machine)?.run(blocks, done, finished),
+        Switching::Filippov => {
+            Runner::<Filippov>::new(study, machine)?.run(refinement, tiles, done, finished)
+        }
         Switching::AsPrinted => {
-            Runner::<AsPrinted>::new(study, machine)?.run(blocks, done, finished)
+            Runner::<AsPrinted>::new(study, machine)?.run(refinement, tiles, done, finished)
         }
     }
     Ok(())
@@ -160,27 +162,28 @@ impl<'a, R: Reading> Runner<'a, R> {
 
     fn run(
         &self,
-        blocks: &[usize],
+        refinement: &Refinement,
+        numbers: &[usize],
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
         finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()>,
     ) {
+        let tiles = (refinement, numbers);
         match self.study.refine {
-            Some(Refine::Attractors) => self.run_by::<ByAttractor>(blocks, done, finished),
-            Some(Refine::Outputs(_)) => self.run_by::<ByOutputs>(blocks, done, finished),
+            Some(Refine::Attractors) => self.run_by::<ByAttractor>(tiles, done, finished),
+            Some(Refine::Outputs(_)) => self.run_by::<ByOutputs>(tiles, done, finished),
             None => {}
         }
     }
 
     fn run_by<S: Sorting<R> + Default>(
         &self,
-        blocks: &[usize],
+        (refinement, numbers): (&Refinement, &[usize]),
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
         finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()>,
     ) {
-        let Some(refinement) = self.study.refinement() else { return };
-        for numbers in blocks.chunks(TILES_TOGETHER) {
+        for numbers in numbers.chunks(TILES_TOGETHER) {
             let tile = |&number| Set::<S, R> {
-                refining: Refining::tile(&refinement, number, S::ALIKE),
+                refining: Refining::tile(refinement, number, S::ALIKE),
                 sorting: S::default(),
                 records: Vec::new(),
             };

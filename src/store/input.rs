@@ -48,8 +48,8 @@ pub fn open_input(path: &Path, pipes: Pipes) -> io::Result<(File, u64)> {
         return Ok((file, ALL));
     }
     let advice = match pipes {
-        Pipes::Refused => "",
-        Pipes::OfShell => "; a pipe may be given as <(command) alone",
+        Pipes::OfShell if !metadata.is_dir() => "; a pipe may be given as <(command) alone",
+        _ => "",
     };
     let why = format!("is {}{advice}", what_it_is(&metadata));
     Err(io::Error::new(io::ErrorKind::InvalidInput, why))
@@ -113,8 +113,8 @@ mod tests {
         std::fs::write(&path, "text").expect("it is written");
         assert_eq!(read_input(&path, Pipes::Refused).expect("it is read"), b"text");
         let fifo = folder.path().join("fifo");
-        let made = std::process::Command::new("mkfifo").arg(&fifo).status().expect("mkfifo");
-        assert!(made.success());
+        let ended = std::process::Command::new("mkfifo").arg(&fifo).status().expect("mkfifo");
+        assert!(ended.success());
         let refused =
             |path: &Path, pipes| read_input(path, pipes).expect_err("refused").to_string();
         for pipes in [Pipes::Refused, Pipes::OfShell] {

@@ -80,6 +80,11 @@ impl Refinement {
         Refinement { last, spacing, side: TILE[dimension].max(spacing) }
     }
 
+    /// The same with tiles of so many coarse cells along each axis: many and small, as a sample wants them.
+    pub fn with_tiles_of(&self, cells: usize) -> Refinement {
+        Refinement { side: cells * self.spacing, ..self.clone() }
+    }
+
     /// Tiles along each axis.
     fn tiles_along(&self) -> Position {
         self.last.map(|last| last.div_ceil(self.side).max(1))

@@ -159,6 +159,68 @@ fn hostile_requests_are_refused_and_the_server_lives() {
     assert_eq!(explorer.object("/api/file")["cases"], 4);
 }
 
+/// Heads of requests that no address may answer, with the statuses that refuse them; `{cookie}` is that of the page.
+const NO_ACCESS: &[(&str, &[u16])] = &[
+    ("GET {address} HTTP/1.1\r\nHost: example.org\r\nCookie: {cookie}\r\n", &[403]),
+    (
+        "GET {address} HTTP/1.1\r\nHost: 127.0.0.1.example.org:{port}\r\nCookie: {cookie}\r\n",
+        &[403],
+    ),
+    ("GET {address} HTTP/1.1\r\nHost: 0.0.0.0:{port}\r\nCookie: {cookie}\r\n", &[403]),
+    ("GET {address} HTTP/1.1\r\nCookie: {cookie}\r\n", &[400, 403]),
+    (
+        "GET {address} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: http://example.org\r\nCookie: {cookie}\r\n",
+        &[403],
+    ),
+    (
+        "GET {address} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: null\r\nCookie: {cookie}\r\n",
+        &[403],
+    ),
+    (
+        "GET {address} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nSec-Fetch-Site: cross-site\r\nCookie: {cookie}\r\n",
+        &[403],
+    ),
+    (
+        "GET {address} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nSec-Fetch-Site: same-site\r\nCookie: {cookie}\r\n",
+        &[403],
+    ),
+    ("GET {address} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n", &[403]),
+    (
+        "GET {address} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: capsulemap-{port}=00\r\n",
+        &[403],
+    ),
+    ("POST {address} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n", &[405]),
+    ("PUT {address} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nCookie: {cookie}\r\n", &[405]),
+];
+
+#[test]
+fn no_address_of_the_server_answers_without_access() {
+    let work = WorkDir::new();
+    let mut explorer = explorer(&work);
+    // All that it answers, by its own text, so that none is forgotten here.
+    let source = include_str!("../../src/explore/server/mod.rs");
+    let routes = source.split(".route(\"").skip(1).filter_map(|it| it.split('"').next());
+    let addresses: Vec<String> = routes.map(|it| it.replace("{name}", "page.js")).collect();
+    assert!(addresses.len() >= 13, "{addresses:?}");
+    let mut checks = 0;
+    for address in &addresses {
+        for (head, allowed) in NO_ACCESS {
+            let request = head.replace("{address}", address);
+            let request = request.replace("{port}", &explorer.port.to_string());
+            let request = request.replace("{cookie}", &explorer.cookie);
+            let sent = request.clone() + "Connection: close\r\n\r\n";
+            let answered = explorer.raw(sent.as_bytes()).expect("an answer");
+            // An address that cannot be understood without its question is refused for that, too.
+            let is_refused =
+                allowed.contains(&answered.status) || address == "/open" && answered.status == 400;
+            assert!(is_refused, "{request}: {}", answered.head);
+            checks += 1;
+        }
+    }
+    println!("{checks} requests without access, all refused");
+    assert!(explorer.lives());
+}
+
 #[test]
 fn every_answer_says_what_the_page_may_do() {
     let work = WorkDir::new();

@@ -12,7 +12,8 @@ use super::program::{Ran, WorkDir};
 
 /// No study of so few cases takes so long, on a machine that does ten other things.
 const LIMIT: Duration = Duration::from_secs(120);
-/// What is asked of a study: which starts lead where, also along a parameter, and what tolerances and margins leave of its optima.
+/// What is asked of a study: which starts lead where, also along a parameter with the erosion of each basin, and what tolerances and
+/// margins leave of its optima.
 const KINDS: [&str; 4] = ["starts", "shares", "tolerances", "margins"];
 
 /// A study of a kind by its number.

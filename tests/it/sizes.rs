@@ -110,6 +110,21 @@ fn a_dry_run_tells_the_size_of_the_file_that_the_run_writes() {
     }
 }
 
+/// Tiles of a probe are smaller than those of the run, of which the first few are nearly all of a study.
+#[test]
+fn a_dry_run_of_a_refined_study_tells_its_size_after_a_part_of_it() {
+    let dir = WorkDir::new();
+    let few = "points = 1\nimpact_points = 0\n";
+    let refine = "[map]\nrefine = { progression_speed = \"1 mm/s\" }\n";
+    dir.put("s.toml", format!("{PARAMETERS}{few}{refine}{}", axes([129, 129])));
+    let out = dir.run(&["sweep", "s.toml", "--dry-run"]).done().out;
+    assert!(out.contains(" for the cases, ") && out.contains(" to write the file\n"), "{out}");
+    dir.run(&["sweep", "s.toml", "--output", "s.h5", "--no-figures"]).done();
+    let size = std::fs::metadata(dir.path("s.h5")).expect("a file").len() as f64;
+    let factor = said(&out, " for the file") / size;
+    assert!((1.0 / 1.5..=1.5).contains(&factor), "{factor}: {out}");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_dry_run_tells_the_memory_of_the_run() {

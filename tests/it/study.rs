@@ -137,7 +137,7 @@ fn a_faulty_study_is_reported_by_the_program_and_leaves_nothing() {
         .refused(&["1 fault\n", "line 6: duplicate key, in: omega = \"3 Hz\""]);
     dir.run(&["sweep", "binary.toml"]).refused(&["binary.toml: line 3: is not text in UTF-8"]);
     dir.run(&["sweep", "absent.toml"]).refused(&["absent.toml: cannot be read: No such file"]);
-    dir.run(&["sweep", "folder.toml"]).refused(&["folder.toml: cannot be read: Is a directory"]);
+    dir.run(&["sweep", "folder.toml"]).refused(&["folder.toml: cannot be read: is a folder"]);
     assert_eq!(dir.files(), before);
 }
 

@@ -1,0 +1,137 @@
+//! How long the search for the attractors of a study takes, measured on parts of it.
+
+use std::time::{Duration, Instant};
+
+use crate::run::{
+    Estimate, Machine, attractor_table, attractors, final_motions, has_attractors, links,
+    run_sample,
+};
+use crate::study::layout::linked_axis;
+use crate::study::{CaseSet, Study, spread};
+
+use super::error::CampaignError;
+
+/// Parts that are spread along the axis of the attractors, the values of each, and the pairs of neighbouring cells of each,
+/// which fill the lanes.
+const PARTS: usize = 8;
+const VALUES: usize = 16;
+const PAIRS: usize = 256;
+/// Starts of a cell of a part, at most.
+const STARTS: usize = 576;
+
+/// The time that the search for attractors of `study` takes [s], or none if it has none; no part is begun after `span`.
+///
+/// Method: parts that have neighbouring values of the axis along which attractors are linked, and fewer lines and starts; time
+/// goes with the pairs of neighbouring cells. Where there is no such axis, fewer starts lead to the same attractors, of which
+/// the table takes nearly all the time.
+pub(super) fn search_seconds(
+    study: &Study,
+    machine: Machine,
+    span: Duration,
+) -> Result<Option<Estimate>, CampaignError> {
+    if !has_attractors(study) {
+        return Ok(None);
+    }
+    let begun = Instant::now();
+    let mut found = Vec::new();
+    for number in spread(if links(study) > 0 { PARTS } else { 1 }) {
+        if begun.elapsed() > span && !found.is_empty() {
+            break;
+        }
+        let part = part(study, number);
+        let chains: Vec<usize> = (0..part.chains()).collect();
+        let motions = final_motions(&part, &run_sample(&part, machine, &chains, || ())?);
+        let begun = Instant::now();
+        let attractors = attractors(&part, &motions, machine, || ())?;
+        attractor_table(&part, &attractors, &motions, machine)?;
+        let whole = links(study).max(1) as f64 / links(&part).max(1) as f64;
+        found.push(begun.elapsed().as_secs_f64() * whole);
+    }
+    Ok(Some(mean(&found)))
+}
+
+/// A part of `study` by its number.
+fn part(study: &Study, number: usize) -> Study {
+    let mut part = Study { refine: None, ..study.clone() };
+    match &mut part.case_set {
+        CaseSet::Draws(draws) => draws.count = draws.count.min(STARTS),
+        CaseSet::Grid(grid) => {
+            let linked = linked_axis(study);
+            let starts = grid.axes.iter().filter(|axis| axis.coordinate.is_start()).count();
+            let lines = grid.axes.len() - starts - usize::from(linked.is_some());
+            for (place, axis) in grid.axes.iter_mut().enumerate() {
+                let values = &axis.values;
+                axis.values = match () {
+                    () if Some(place) == linked => {
+                        let length = VALUES.min(values.len());
+                        let first = number * (values.len() - length) / (PARTS - 1);
+                        values[first..first + length].to_vec()
+                    }
+                    () if axis.coordinate.is_start() => thinned(values, root(STARTS, starts), 0.5),
+                    () => {
+                        let offset = (number as f64 + 0.5) / PARTS as f64;
+                        thinned(values, root(PAIRS / VALUES, lines), offset)
+                    }
+                };
+            }
+        }
+    }
+    part
+}
+
+/// The largest number whose power of so many is at most `most`.
+fn root(most: usize, axes: usize) -> usize {
+    (1..).take_while(|it: &usize| it.pow(axes.max(1) as u32) <= most).last().unwrap_or(1)
+}
+
+/// At most so many of the values, evenly spaced, from an offset in the first of the spaces on.
+fn thinned(values: &[f64], most: usize, offset: f64) -> Vec<f64> {
+    if values.len() <= most {
+        return values.to_vec();
+    }
+    let space = values.len() as f64 / most as f64;
+    (0..most).map(|it| values[((it as f64 + offset) * space) as usize]).collect()
+}
+
+/// The mean, with its standard error where there are enough.
+fn mean(numbers: &[f64]) -> Estimate {
+    let count = numbers.len() as f64;
+    let value = numbers.iter().sum::<f64>() / count;
+    let squares: f64 = numbers.iter().map(|it| (it - value).powi(2)).sum();
+    let error = if count > 2.0 { (squares / (count * (count - 1.0))).sqrt() } else { f64::NAN };
+    Estimate { value, error }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_have_neighbouring_values_and_few_lines_and_starts() {
+        let axis = |name: &str, to: &str, points: usize| {
+            format!(
+                "[[axes]]\nname = \"{name}\"\nfrom = \"0.1 {to}\"\nto = \"9 {to}\"\npoints = {points}\n"
+            )
+        };
+        let text = [
+            "[parameters]\nk2 = \"18.96 kN/m\"\ndelta = \"1.5 mm\"\n".to_owned(),
+            axis("p_d", "N", 50),
+            axis("omega", "rad/s", 300),
+            axis("start_r", "mm", 40),
+            axis("start_y1", "m/s", 40),
+            "[start]\ninherit = \"omega\"\n".to_owned(),
+        ]
+        .concat();
+        let study = Study::parse("study.toml", &text).unwrap_or_else(|faults| panic!("{faults}"));
+        for number in 0..PARTS {
+            let part = part(&study, number);
+            assert_eq!(part.shape()[..4], [16, 16, 24, 24]);
+            let (few, all) = (&part.axes()[1].values, &study.axes()[1].values);
+            let first = all.iter().position(|it| it == &few[0]).expect("one of all");
+            assert_eq!(few[..], all[first..first + VALUES]);
+            assert_eq!(first == 284, number == PARTS - 1, "{first}");
+        }
+        assert_eq!([root(16, 1), root(16, 2), root(17, 3), root(1, 0)], [16, 4, 2, 1]);
+        assert_eq!(thinned(&[1.0, 2.0, 3.0, 4.0], 2, 0.5), [2.0, 4.0]);
+    }
+}
