@@ -174,8 +174,9 @@ fn searches(
         return Err(CampaignError::NoSearches { path: path.to_owned() });
     }
     // An older scheme has no checksums.
-    let read = unsealed(first).unwrap_or_else(|| first.clone());
-    let first: Value = serde_json::from_str(&read).unwrap_or_default();
+    let head = unsealed(first);
+    let is_damaged = head.is_none();
+    let first: Value = serde_json::from_str(head.as_ref().unwrap_or(first)).unwrap_or_default();
     let is_older = first["format"] != now["format"]
         && first["format"].as_str().is_some_and(|it| it.starts_with(ANY_FORMAT));
     if is_older {
@@ -193,7 +194,7 @@ fn searches(
     }
     let found: Vec<_> = rest.iter().map(|line| search(line, study)).collect();
     let damaged = found.iter().filter(|it| it.is_none()).count();
-    let damaged = damaged + usize::from(!lines.torn.is_empty());
+    let damaged = damaged + usize::from(!lines.torn.is_empty()) + usize::from(is_damaged);
     Ok((found.into_iter().flatten().collect(), damaged))
 }
 

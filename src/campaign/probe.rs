@@ -32,8 +32,8 @@ const SPREAD: Duration = Duration::from_secs(3);
 const SIDES: [usize; 5] = [8, 4, 2, 1, 1];
 /// So many times longer a probe of a refined study takes at most, of which nothing is known before a tile is done.
 const PATIENCE: u32 = 12;
-/// Reading a block takes about so much of the time that packing it takes.
-const UNPACKING: f64 = 0.3;
+/// Blocks are joined in about so many times the time that packing them takes: they are unpacked, and packed again.
+const JOINING: f64 = 1.3;
 
 /// What a probe has found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,7 +126,7 @@ struct Found<'a> {
 /// Computes parts of `study`, spread over it, for about `span`, and searches for the attractors of a few; writes nothing.
 ///
 /// Method: the time that cases take goes with their cycles, see [`Forecast`]; that of the search for attractors is measured
-/// on parts of the study; writing takes as long as packing and unpacking the numbers, which is measured on a sample.
+/// on parts of the study; that of writing goes with the time in which the numbers of a sample are packed.
 ///
 /// Fails if the computation cannot be started.
 pub fn probe(
@@ -316,12 +316,10 @@ impl Found<'_> {
         let packed = packed_bytes(study, &self.records).map_err(CampaignError::Packing)?;
         let packing = begun.elapsed().as_secs_f64();
         let bytes = packed as f64 * factor;
-        let begun = Instant::now();
         let file_bytes = match study.refine {
             None => file_bytes(study, &self.records)?,
             Some(_) => refined_file_bytes(study, &self.tiles, kept)?,
         };
-        let writing = begun.elapsed().as_secs_f64() + UNPACKING * packing;
         let sizes = (0..study.blocks()).map(|block| study.cases_of_block(block));
         let largest = sizes.max().unwrap_or(0) as f64;
         let most = if kept.is_finite() { (kept * largest).ceil() as usize } else { 0 };
@@ -331,7 +329,7 @@ impl Found<'_> {
             time,
             seconds,
             searching,
-            writing: writing * factor,
+            writing: JOINING * packing * factor,
             most,
             unfinished: self.unfinished[1],
             bytes,

@@ -38,8 +38,7 @@ pub fn output_path(study: &Path, output: Option<&Path>) -> Result<PathBuf, Campa
     };
     let whole = std::path::absolute(&output).unwrap_or_else(|_| output.clone());
     if whole.to_str().is_none() {
-        let why = "the name, or that of a folder it lies in, is not text in UTF-8, as names of HDF5 files are";
-        return unfit(&whole, why);
+        return unfit(&whole, store::NO_TEXT);
     }
     let name = output.file_name().map_or(0, |name| name.len());
     if name > LONGEST_NAME {

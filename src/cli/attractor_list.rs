@@ -17,8 +17,13 @@ use crate::store::{Dataset, Variable};
 const SPEED: Output = Output::ProgressionSpeed;
 const WORK: Output = Output::WorkPositive;
 
-/// The attractors in the order of their numbers, each as an object; empty where the file has no table of them.
+/// The attractors in the order of their numbers, each as an object; empty where the file has no table of them, as that of a study
+/// along a parameter, which has a table for each of its values.
 pub fn attractors(dataset: &Dataset) -> Vec<Value> {
+    let dimensions = dataset.variable(ATTRACTOR_KIND.name).map(|it| it.values.shape().len());
+    if dimensions != Some(1) {
+        return Vec::new();
+    }
     let column = |name: &str| numbers(dataset, name);
     let output = |output: Output| column(&Place::Attractor.name(output.name()));
     let kinds = column(ATTRACTOR_KIND.name);

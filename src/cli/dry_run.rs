@@ -12,8 +12,8 @@ use crate::run::{Estimate, Machine, has_attractors};
 use crate::store;
 use crate::study::Study;
 
-/// Figures that take less memory are not mentioned [bytes].
-const SMALL: f64 = 1e7;
+/// What a figure takes beside the numbers that it shows, with its fonts and its picture in points [bytes].
+const DRAWING: f64 = 4e7;
 /// The probe ends after this time, with what has been begun.
 const PROBE: Duration = Duration::from_secs(5);
 
@@ -47,7 +47,8 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
         (true, false) => ", and more for attractors and branches",
         (false, true) => "",
     };
-    let figures = figures(study).map_or(String::new(), |it| format!(", {} for a figure", size(it)));
+    let figures =
+        figures(study).map_or(String::new(), |it| format!(", {} more for a figure", size(it)));
     format!(
         "{}\n  cases  {cases} in {all}\n{done}  time   {seconds}{more}\n  \
          room   {} for the blocks until they are joined, {} for the file{beside}\n  \
@@ -90,8 +91,7 @@ fn count_threads(machine: Machine) -> usize {
     machine.threads.unwrap_or_else(all)
 }
 
-/// The most memory that a figure of the study takes, which holds the variables that it shows [bytes]; none if that is
-/// nothing beside the program.
+/// The most memory that a figure of the study takes, which holds the variables that it shows [bytes]; none if it has no figure.
 fn figures(study: &Study) -> Option<f64> {
     let of_case = store::numbers_of_case(study);
     let numbers = |name: &str| of_case.get(name).copied().unwrap_or(0) as f64;
@@ -99,5 +99,5 @@ fn figures(study: &Study) -> Option<f64> {
         let shown = variables(drawing);
         shown.iter().map(|name| numbers(name)).sum::<f64>() * study.cases() as f64 * 8.0
     });
-    bytes.max_by(f64::total_cmp).filter(|&bytes| bytes > SMALL)
+    bytes.max_by(f64::total_cmp).map(|bytes| bytes + DRAWING)
 }

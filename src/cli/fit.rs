@@ -98,7 +98,7 @@ impl Fit {
             files::check_free(output, self.overwrite)?;
         }
         let read = (0..self.recordings.len()).map(|i| self.recorded(i));
-        let (recorded, warnings): (Vec<Recorded>, Vec<Option<String>>) =
+        let (recorded, warnings): (Vec<Recorded>, Vec<Vec<String>>) =
             read.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
         let loss = if self.robust { Loss::SoftL1(ROBUST) } else { Loss::Squares };
         let effort = Effort {
@@ -125,15 +125,16 @@ impl Fit {
         print(&text)
     }
 
-    /// A recording as the fit takes it, and a warning of its frequency.
-    fn recorded(&self, index: usize) -> Result<(Recorded, Option<String>), Failure> {
+    /// A recording as the fit takes it, and warnings of its gaps and of its frequency.
+    fn recorded(&self, index: usize) -> Result<(Recorded, Vec<String>), Failure> {
         let path = &self.recordings[index];
         let told = |why: String| Failure::request(format!("{}: {why}", printable(path)));
         let recording = files::motion(path)?;
         let (case, _) = case_of(&self.study[index.min(self.study.len() - 1)], 0)?;
         let (times, signals) = signals_of(&recording).map_err(told)?;
         let period = case.parameters.drive_period();
-        check_span(&times, &recording.sampling(), period).map_err(told)?;
+        let sampling = recording.sampling();
+        check_span(&times, &sampling, period).map_err(told)?;
         varies(&signals).map_err(told)?;
         let drive = drive(&recording).ok_or_else(|| {
             told(
@@ -145,11 +146,19 @@ impl Fit {
         let span = self.cycles as f64 * period;
         let omega = case.parameters[Parameter::Omega];
         let fault = frequencies(&drive, omega);
-        let warning = match drive.beside(omega, span) {
-            Frequencies::Same => None,
-            Frequencies::Apart => Some(format!("{}: {fault}", printable(path))),
+        let mut warnings = Vec::new();
+        if !sampling.gaps.is_empty() {
+            warnings.push(format!(
+                "{}: {sampling}; where the clock was set there, the drive changes its phase: cut the file there and take the parts by \
+                 themselves",
+                printable(path)
+            ));
+        }
+        match drive.beside(omega, span) {
+            Frequencies::Same => {}
+            Frequencies::Apart => warnings.push(format!("{}: {fault}", printable(path))),
             Frequencies::Differ => return Err(told(fault)),
-        };
+        }
         let count = times.partition_point(|time| *time <= span);
         let cut = |values: Vec<f64>| values[..count].to_vec();
         let recorded = Recorded {
@@ -159,7 +168,7 @@ impl Fit {
             phase_error: drive.phase.standard_error,
             signals: signals.into_iter().map(|(signal, values)| (signal, cut(values))).collect(),
         };
-        Ok((recorded, warning))
+        Ok((recorded, warnings))
     }
 
     fn names(&self) -> Vec<String> {

@@ -137,7 +137,9 @@ impl Identify {
             [&self.free_vibration, &self.static_force, &self.pull, &self.coasting, &self.motor];
         let of = |(test, own): (Test, &Option<PathBuf>)| {
             let in_folder = self.folder.as_ref().map(|it| it.join(format!("{}.csv", test.name())));
-            Some((test, own.clone().or(in_folder.filter(|it| it.is_file()))?))
+            // What is no plain file is refused when it is read, rather than taken as absent.
+            let is_there = |path: &PathBuf| path.symlink_metadata().is_ok();
+            Some((test, own.clone().or(in_folder.filter(is_there))?))
         };
         let files: Vec<_> = Test::ALL.into_iter().zip(own).filter_map(of).collect();
         if !files.is_empty() {
@@ -148,8 +150,8 @@ impl Identify {
             Some(folder) if !folder.exists() => {
                 format!("{}: there is no such folder", printable(folder))
             }
-            Some(file) if file.is_file() => format!(
-                "{}: is a file, and a folder with some of {names} is expected; an option says what a file is, as --pull FILE",
+            Some(file) if !file.is_dir() => format!(
+                "{}: is no folder, and one with some of {names} is expected; an option says what a file is, as --pull FILE",
                 printable(file)
             ),
             Some(folder) => format!("{}: holds none of {names}", printable(folder)),

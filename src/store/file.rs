@@ -13,7 +13,7 @@ use super::decode::Archive;
 use super::faults::faults;
 use super::input::{Pipes, open_input};
 use super::lock::{Lock, Tried, try_lock};
-use super::plain::place;
+use super::plain::{NO_TEXT, place};
 use super::watched::Watched;
 use super::{Dataset, StoreError, difference, encode};
 
@@ -119,6 +119,9 @@ pub fn open_changed(path: &Path) -> Result<(Archive, bool), StoreError> {
 /// What the checksum of the HDF5 file at `path` tells, and the file as it was before that.
 fn checksum_of(path: &Path) -> Result<(Checksum, Watched), StoreError> {
     let failed = |said| StoreError::system(path, "opening the file", said);
+    if std::path::absolute(path).is_ok_and(|whole| whole.to_str().is_none()) {
+        return Err(StoreError::NoPlace { path: path.to_owned(), why: NO_TEXT.to_owned() });
+    }
     let opened = open_input(path, Pipes::Refused);
     let (file, _) = opened.map_err(|said| match said.kind() {
         io::ErrorKind::InvalidInput => {

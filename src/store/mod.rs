@@ -54,7 +54,7 @@ pub use file::{
 pub use input::{Pipes, open_input, read_input};
 pub use join::{Blocks, FailedCase, write_beside_cases};
 pub use line_file::{LineFile, Lines, read_lines, sealed, unsealed};
-pub use plain::{LONGEST_NAME, place};
+pub use plain::{LONGEST_NAME, NO_TEXT, place};
 pub use schema::{dataset, frame, numbers_of_case};
 pub use size::{file_bytes, refined_file_bytes};
 pub use slab::MOST_NUMBERS;

@@ -5,9 +5,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::StoreError;
+use crate::capsule::printable::printable;
 
 /// File systems allow names of 255 bytes, and a file has a longer name until it is finished.
 pub const LONGEST_NAME: usize = 243;
+
+/// Why a path is none of a file of results that is not text.
+pub const NO_TEXT: &str =
+    "the name, or that of a folder it lies in, is not text in UTF-8, as names of HDF5 files are";
 
 /// Opens a file of this program's own, which must be a plain one; where a link is in its place, it is not followed.
 pub(super) fn open_own(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
@@ -38,7 +43,14 @@ pub fn place(path: &Path) -> Result<PathBuf, StoreError> {
     if name > LONGEST_NAME {
         return unfit(format!("the name has {name} bytes; {LONGEST_NAME} are the most"));
     }
-    let Ok(found) = std::fs::symlink_metadata(path) else { return Ok(path.to_owned()) };
+    let found = match std::fs::symlink_metadata(path) {
+        Ok(found) => found,
+        Err(said) if said.kind() == io::ErrorKind::NotADirectory => {
+            let file = path.ancestors().skip(1).find(|it| it.exists()).unwrap_or(path);
+            return unfit(format!("{} is a file, not a folder", printable(file)));
+        }
+        Err(_) => return Ok(path.to_owned()),
+    };
     let is_link = found.is_symlink();
     match std::fs::metadata(path) {
         Ok(it) if it.is_file() && is_link => std::fs::canonicalize(path)

@@ -83,7 +83,11 @@ impl Sample<'_> {
             let per_case = byte_count(variable) as f64 / self.cases as f64;
             let all = per_case * cases as f64;
             let is_plain = all < COMPRESSED_FROM_BYTES as f64;
-            numbers += if is_plain { all } else { factor * compressed_bytes(variable) as f64 };
+            numbers += if is_plain {
+                all
+            } else {
+                factor * compressed_bytes(&self.study.shape(), variable) as f64
+            };
         }
         Ok(without + beside + numbers)
     }
@@ -131,17 +135,71 @@ fn element(variable: &Variable) -> Element {
     Element::of(variable, variable.values.range())
 }
 
-/// Bytes of the numbers of a variable as HDF5 compresses them: first the lowest byte of each, then the next.
-fn compressed_bytes(variable: &Variable) -> usize {
+/// Bytes of the numbers of a variable along the cases of a sample as HDF5 compresses them: chunk by chunk, of each first the
+/// lowest byte of each number, then the next.
+///
+/// In the file the cases lie along the axes of the study, `shape`, and a chunk has some values of each; here it has as many
+/// cases.
+fn compressed_bytes(shape: &[usize], variable: &Variable) -> usize {
     let width = element(variable).bytes();
     let numbers: Vec<[u8; 8]> = match &variable.values {
         Values::Real(all) => all.iter().map(|number| number.to_le_bytes()).collect(),
         Values::Integer(all) => all.iter().map(|number| number.to_le_bytes()).collect(),
     };
+    let sample = variable.values.shape();
+    let (cases, of_case) = (sample[0], &sample[1..]);
+    let chunk = encode::chunk_shape(&[shape, of_case].concat(), width);
+    let (together, of_chunk) = chunk.split_at(shape.len());
+    let together = together.iter().product::<usize>().max(1);
+    let size: usize = of_case.iter().product();
+    let mut bytes = 0;
+    for first in (0..cases).step_by(together) {
+        let cases = first..(first + together).min(cases);
+        for places in chunks(of_case, of_chunk) {
+            let of_case = |case: usize| places.iter().map(move |place| case * size + place);
+            let chunk: Vec<[u8; 8]> =
+                cases.clone().flat_map(of_case).map(|place| numbers[place]).collect();
+            bytes += deflated_bytes(&chunk, width);
+        }
+    }
+    bytes
+}
+
+/// The places of an array that lie in each of its chunks.
+fn chunks(shape: &[usize], chunk: &[usize]) -> Vec<Vec<usize>> {
+    let mut all = vec![vec![0]];
+    for (&length, &along) in shape.iter().zip(chunk) {
+        let mut split = Vec::new();
+        for places in &all {
+            for first in (0..length).step_by(along.max(1)) {
+                let part = first..(first + along).min(length);
+                let at = |place: usize| part.clone().map(move |it| place * length + it);
+                split.push(places.iter().copied().flat_map(at).collect());
+            }
+        }
+        all = split;
+    }
+    all
+}
+
+/// Bytes of numbers that are packed together, each of so many bytes.
+fn deflated_bytes(numbers: &[[u8; 8]], width: usize) -> usize {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(u32::from(COMPRESSION)));
     for byte in 0..width {
         let bytes: Vec<u8> = numbers.iter().map(|number| number[byte]).collect();
         encoder.write_all(&bytes).expect("memory takes all");
     }
     encoder.finish().expect("memory takes all").len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_place_lies_in_one_chunk_beside_its_neighbours() {
+        assert_eq!(chunks(&[], &[]), [[0]]);
+        assert_eq!(chunks(&[5], &[2]), [vec![0, 1], vec![2, 3], vec![4]]);
+        assert_eq!(chunks(&[2, 3], &[2, 2]), [vec![0, 1, 3, 4], vec![2, 5]]);
+    }
 }

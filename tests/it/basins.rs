@@ -263,6 +263,9 @@ fn shares_along_a_parameter_end_where_the_motion_does() {
     let periods = dataset.variable("attractor_period").expect("periods").values.to_real();
     assert_eq!(periods.into_iter().collect::<Vec<_>>(), [1.0, 0.0, 1.0, 1.0, 0.0, 1.0]);
     assert!(folder.path("results/study/shares.svg").exists());
+    // A share for each value is no list of attractors.
+    let listed = folder.run(&["inspect", "results/study/study.h5", "--json"]).json();
+    assert_eq!(listed["attractors"].as_array().map_or(0, Vec::len), 0, "{listed}");
     let others = "[[axes]]\nname = \"omega\"\nvalues = [\"149 rad/s\", \"157 rad/s\"]\n\
                   [[axes]]\nname = \"m1\"\nvalues = [\"1 kg\", \"1.1 kg\"]\n\
                   [[figures]]\nname = \"shares\"\nkind = \"shares\"\n";

@@ -79,6 +79,40 @@ fn a_folder_whose_name_is_no_text_is_refused_before_anything_is_computed() {
 }
 
 #[test]
+fn results_in_a_folder_whose_name_is_no_text_are_refused_for_that() {
+    let dir = place();
+    sweep(&dir, "s.h5", &[]).done();
+    let folder = dir.folder().join(OsStr::from_bytes(b"a\xffb"));
+    fs::create_dir(&folder).expect("a folder");
+    fs::copy(dir.path("s.h5"), folder.join("s.h5")).expect("a copy");
+    for command in ["inspect", "report", "verify"] {
+        let mut command = dir.command(&[command, "s.h5"]);
+        let ran = Ran::from(command.current_dir(&folder).output().expect("it starts"));
+        ran.refused(&["is not text in UTF-8"]);
+    }
+}
+
+#[test]
+fn a_file_in_the_place_of_a_folder_is_told_as_one() {
+    let dir = place();
+    sweep(&dir, "s.h5", &[]).done();
+    dir.run(&["synthesize", "s.toml", "--output", "rig"]).done();
+    dir.put("mine", "notes");
+    let smooth = ["smooth", "rig/motion.csv", "--window", "5 ms", "--output", "mine/a.csv"];
+    for command in [
+        &smooth[..],
+        &["synthesize", "s.toml", "--output", "mine"],
+        &["synthesize", "s.toml", "--output", "mine/rig"],
+        &["identify", "rig", "--output", "mine/a.toml"],
+        &["report", "s.h5", "--output", "mine/a.html"],
+        &["figure", "s.h5", "--kind", "map", "--folder", "mine"],
+    ] {
+        dir.run(command).refused(&["mine is a file, not a folder"]);
+    }
+    assert_eq!(fs::read_to_string(dir.path("mine")).expect("it is read"), "notes");
+}
+
+#[test]
 fn links_that_lead_nowhere_are_refused_and_stay() {
     let dir = place();
     symlink("nothing.h5", dir.path("dangling.h5")).expect("a link");

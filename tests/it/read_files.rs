@@ -49,6 +49,19 @@ fn what_does_not_end_is_not_read() {
     assert!(!dir.path("s.h5").exists() && !dir.path("smooth.csv").exists());
 }
 
+/// What it took as absent would be a parameter that is missing without a word.
+#[test]
+fn a_recording_in_a_folder_that_is_no_plain_file_is_not_passed_over() {
+    let dir = place();
+    dir.run(&["synthesize", "s.toml", "--output", "rig"]).done();
+    for place in ["mkfifo rig/pull.csv", "ln -s nowhere rig/pull.csv"] {
+        dir.shell(&format!("rm -f rig/pull.csv && {place}")).done();
+        let ran = within_time(&dir, "identify rig --m1 '0.11 kg' --m2 '0.53 kg'");
+        ran.refused(&["rig/pull.csv"]);
+    }
+    within_time(&dir, "identify fifo").refused(&["fifo: is no folder"]);
+}
+
 #[test]
 fn a_pipe_that_the_shell_has_opened_is_read() {
     let dir = place();

@@ -39,15 +39,15 @@ points = 64
 name = \"start_y1\"
 from = \"-0.4 m/s\"
 to = \"0.4 m/s\"
-points = 512
+points = 1536
 
 [protocol]
 points = 1
 impact_points = 0
 ";
 /// How many blocks that are.
-const BLOCKS: usize = 64;
-/// The tasks that it is computed in.
+const BLOCKS: usize = 192;
+/// The tasks that it is computed in, each of some seconds, so that it can be killed before it ends.
 const TASKS: usize = 8;
 
 /// A file of `scripts/slurm`.
@@ -148,7 +148,7 @@ fn memory_may_be_asked_for_in_either_form_and_studies_have_any_name() {
         return;
     }
     let cluster = Cluster::start();
-    let study = STUDY.replace("points = 512", "points = 2").replace("points = 64", "points = 2");
+    let study = STUDY.replace("points = 1536", "points = 2").replace("points = 64", "points = 2");
     fs::write(cluster.dir().join("-n.toml"), study).expect("a study");
     for (options, field, expected) in [
         (&[][..], "MinMemoryCPU", "1G"),
