@@ -113,23 +113,26 @@ mod tests {
                 "[[axes]]\nname = \"{name}\"\nfrom = \"0.1 {to}\"\nto = \"9 {to}\"\npoints = {points}\n"
             )
         };
-        let text = [
-            "[parameters]\nk2 = \"18.96 kN/m\"\ndelta = \"1.5 mm\"\n".to_owned(),
-            axis("p_d", "N", 50),
-            axis("omega", "rad/s", 300),
-            axis("start_r", "mm", 40),
-            axis("start_y1", "m/s", 40),
-            "[start]\ninherit = \"omega\"\n".to_owned(),
-        ]
-        .concat();
-        let study = Study::parse("study.toml", &text).unwrap_or_else(|faults| panic!("{faults}"));
-        for number in 0..PARTS {
-            let part = part(&study, number);
-            assert_eq!(part.shape()[..4], [16, 16, 24, 24]);
-            let (few, all) = (&part.axes()[1].values, &study.axes()[1].values);
-            let first = all.iter().position(|it| it == &few[0]).expect("one of all");
-            assert_eq!(few[..], all[first..first + VALUES]);
-            assert_eq!(first == 284, number == PARTS - 1, "{first}");
+        let parsed = |axes: &[String]| {
+            let text = "[parameters]\nk2 = \"18.96 kN/m\"\ndelta = \"1.5 mm\"\n".to_owned();
+            let text = text + &axes.concat();
+            Study::parse("study.toml", &text).unwrap_or_else(|faults| panic!("{faults}"))
+        };
+        let inherit = "[start]\ninherit = \"omega\"\n".to_owned();
+        let map = parsed(&[axis("p_d", "N", 50), axis("omega", "rad/s", 300), inherit]);
+        let starts = ["start_r", "start_y1"]
+            .map(|name| axis(name, if name == "start_r" { "mm" } else { "m/s" }, 40));
+        let force = "p_d = \"3 N\"\n".to_owned();
+        let shares = parsed(&[&[force, axis("omega", "rad/s", 300)], &starts[..]].concat());
+        for (study, linked, shape) in [(&map, 1, &[16, 16][..]), (&shares, 0, &[16, 24, 24])] {
+            for number in 0..PARTS {
+                let part = part(study, number);
+                assert_eq!(part.shape()[..shape.len()], *shape);
+                let [few, all] = [&part, study].map(|it| &it.axes()[linked].values);
+                let first = all.iter().position(|it| it == &few[0]).expect("one of all");
+                assert_eq!(few[..], all[first..first + VALUES]);
+                assert_eq!(first == 284, number == PARTS - 1, "{first}");
+            }
         }
         assert_eq!([root(16, 1), root(16, 2), root(17, 3), root(1, 0)], [16, 4, 2, 1]);
         assert_eq!(thinned(&[1.0, 2.0, 3.0, 4.0], 2, 0.5), [2.0, 4.0]);

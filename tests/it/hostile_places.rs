@@ -103,9 +103,9 @@ fn a_file_in_the_place_of_a_folder_is_told_as_one() {
         &smooth[..],
         &["synthesize", "s.toml", "--output", "mine"],
         &["synthesize", "s.toml", "--output", "mine/rig"],
-        &["identify", "rig", "--output", "mine/a.toml"],
+        &["identify", "rig", "--m1", "0.11 kg", "--m2", "0.53 kg", "--output", "mine/a.toml"],
         &["report", "s.h5", "--output", "mine/a.html"],
-        &["figure", "s.h5", "--kind", "map", "--folder", "mine"],
+        &["figure", "s.h5", "--kind", "bifurcation", "--folder", "mine"],
     ] {
         dir.run(command).refused(&["mine is a file, not a folder"]);
     }
