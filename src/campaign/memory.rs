@@ -4,6 +4,8 @@ use crate::run::{FinalMotion, MapPoint, Record, TILES_TOGETHER, has_attractors};
 use crate::store::{MOST_NUMBERS, numbers_of_case};
 use crate::study::{CaseSet, Refine, Study};
 
+use super::probe::Probe;
+
 /// What the program itself takes, with its libraries and tables [bytes]; measured by `scripts/memory.sh`.
 const PROGRAM: f64 = 3e7;
 /// Numbers of a block are held twice more while they are packed, and labels twice.
@@ -23,12 +25,12 @@ pub struct Memory {
     pub joining: f64,
 }
 
-/// The memory that a campaign of `study` takes on so many threads, where `most` cases are computed of a block, and blocks that are
-/// not done yet have so many cases that are.
+/// The memory that a campaign of `study` takes on so many threads, by the cases that a `probe` has found to be held.
 ///
 /// Method: the records of these cases, the numbers of the blocks that are packed, of the final motions among which attractors
 /// are searched, of what was drawn, and of the slab that is written are counted.
-pub fn memory(study: &Study, threads: usize, (most, unfinished): (usize, usize)) -> Memory {
+pub fn memory(study: &Study, threads: usize, probe: &Probe) -> Memory {
+    let &Probe { most, unfinished, .. } = probe;
     let cases = study.cases() as f64;
     let numbers = numbers_of_case(study);
     let all = numbers.values().sum::<usize>() as f64;

@@ -13,7 +13,7 @@ use crate::study::{CaseSet, Direction, Refinement, Study, spread};
 
 use super::error::CampaignError;
 use super::report::{Event, Report, Reports};
-use super::search_time::search_seconds;
+use super::search_time::{PARTS, neighbours, search_seconds};
 
 /// Records whose size is measured.
 const WEIGHED: usize = 4096;
@@ -23,9 +23,6 @@ const RUN: usize = 128;
 const RUNS_TOGETHER: usize = 4;
 /// Numbers in the tiles of a refined study whose size in the file is measured, at most.
 const NUMBERS: usize = 4_000_000;
-/// Parts of the axis along which starts are inherited, and the cases of each.
-const PARTS: usize = 8;
-const PART: usize = 16;
 /// The time after which neither a part nor a run is begun whose size is measured.
 const SPREAD: Duration = Duration::from_secs(3);
 /// Coarse cells along each side of a tile that is probed, by the number of axes of a refined grid.
@@ -103,7 +100,7 @@ impl Parts<'_> {
 
 /// The state of a probe.
 struct Found<'a> {
-    parts: Parts<'a>,
+    parts: &'a Parts<'a>,
     forecast: Forecast,
     /// Cases that are done of the blocks or tiles that have been begun.
     begun: BTreeMap<usize, usize>,
@@ -136,8 +133,9 @@ pub fn probe(
     report: &Report<'_>,
 ) -> Result<Probe, CampaignError> {
     let reports = Reports::new(report);
+    let parts = Parts::of(study);
     let found = Mutex::new(Found {
-        parts: Parts::of(study),
+        parts: &parts,
         forecast: Forecast::new(study.cases()),
         begun: BTreeMap::new(),
         unfinished: [0, 0],
@@ -151,7 +149,6 @@ pub fn probe(
     });
     let begun = Instant::now();
     let lock = || found.lock().unwrap_or_else(|it| it.into_inner());
-    let parts = Parts::of(study);
     let each = |part: usize, record: &Record| {
         let cases = parts.count_cases(part);
         reports.note(Event::Case { block: part, cases, record })?;
@@ -208,7 +205,7 @@ fn spread_cases(study: &Study, machine: Machine) -> Result<Vec<Record>, Campaign
         return Ok(Vec::new());
     };
     let values = &grid.axes[inherit.axis].values;
-    let length = PART.min(values.len());
+    let length = neighbours(values, 0).len();
     let parts = if length < values.len() { PARTS } else { 1 };
     let begun = Instant::now();
     let mut records: Vec<Record> = Vec::new();
@@ -216,9 +213,8 @@ fn spread_cases(study: &Study, machine: Machine) -> Result<Vec<Record>, Campaign
         if begun.elapsed() > SPREAD {
             break;
         }
-        let first = number * (values.len() - length) / (PARTS - 1);
         let mut grid = grid.clone();
-        grid.axes[inherit.axis].values = values[first..first + length].to_vec();
+        grid.axes[inherit.axis].values = neighbours(values, number).to_vec();
         let part = Study { case_set: CaseSet::Grid(grid), ..study.clone() };
         let shape = part.shape();
         let spacing: usize = shape[inherit.axis + 1..].iter().product();

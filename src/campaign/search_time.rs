@@ -11,10 +11,10 @@ use crate::study::{CaseSet, Study, spread};
 
 use super::error::CampaignError;
 
-/// Parts that are spread along the axis of the attractors, the values of each, and the pairs of neighbouring cells of each,
-/// which fill the lanes.
-const PARTS: usize = 8;
+/// Parts that are spread along an axis, and the values of each.
+pub(super) const PARTS: usize = 8;
 const VALUES: usize = 16;
+/// Pairs of neighbouring cells of a part, which fill the lanes.
 const PAIRS: usize = 256;
 /// Starts of a cell of a part, at most.
 const STARTS: usize = 576;
@@ -62,11 +62,7 @@ fn part(study: &Study, number: usize) -> Study {
             for (place, axis) in grid.axes.iter_mut().enumerate() {
                 let values = &axis.values;
                 axis.values = match () {
-                    () if Some(place) == linked => {
-                        let length = VALUES.min(values.len());
-                        let first = number * (values.len() - length) / (PARTS - 1);
-                        values[first..first + length].to_vec()
-                    }
+                    () if Some(place) == linked => neighbours(values, number).to_vec(),
                     () if axis.coordinate.is_start() => thinned(values, root(STARTS, starts), 0.5),
                     () => {
                         let offset = (number as f64 + 0.5) / PARTS as f64;
@@ -77,6 +73,13 @@ fn part(study: &Study, number: usize) -> Study {
         }
     }
     part
+}
+
+/// The values of a part of an axis by its number: neighbours, or all where there are few.
+pub(super) fn neighbours(values: &[f64], number: usize) -> &[f64] {
+    let length = VALUES.min(values.len());
+    let first = number * (values.len() - length) / (PARTS - 1);
+    &values[first..first + length]
 }
 
 /// The largest number whose power of so many is at most `most`.

@@ -37,7 +37,7 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
         ),
     };
     let (cases, all) = (count(study.cases()), counted(study.blocks(), "block"));
-    let memory = memory(study, count_threads(machine), (probe.most, probe.unfinished));
+    let memory = memory(study, count_threads(machine), probe);
     let [computing, joining] = [memory.computing, memory.joining].map(size);
     let seconds = seconds(probe, left, count_threads(machine));
     let more = if study.branches.is_empty() { "" } else { ", and more for branches" };
