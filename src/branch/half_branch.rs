@@ -13,7 +13,9 @@ use super::orbits::{OrbitPoint, Orbits, Seen, SpecialOrbit};
 use super::periodic::{Goal, Periodic, passes};
 use super::special::{Sought, special_orbits};
 use super::step_control::{Advance, StepControl};
-use super::whole_step::{Flaw, JUMP, special_orbits_of_shortest, special_orbits_of_whole};
+use super::whole_step::{
+    Flaw, JUMP, jumps_over, special_orbits_of_shortest, special_orbits_of_whole,
+};
 
 /// Corners that are passed on half of a branch at most.
 const CORNERS: usize = 40;
@@ -237,6 +239,12 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
                 // No step is so short that a branch goes on beyond a jump.
                 Err(Flaw::Jump) if control.halve(0.0).is_some() => return Added::Halved,
                 Err(_) if control.halve(self.least).is_some() => return Added::Halved,
+                // Changes that are not told one by one may hide a jump.
+                Err(_)
+                    if jumps_over(orbits, from, &until, narrow) && control.halve(0.0).is_some() =>
+                {
+                    return Added::Halved;
+                }
                 Err(_) => special_orbits_of_shortest(orbits, from, &until, narrow),
             },
             sought => special_orbits(orbits, from, &until, sought),

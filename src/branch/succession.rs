@@ -36,7 +36,7 @@ pub fn segment<M: System<D>, const D: usize>(
 /// The way of an attractor that begins with a periodic orbit, see [`segment`]: where the orbit doubles its period, it goes on
 /// with the doubled orbit if that is stable beyond, and where it merges with one of half its period, with that one.
 ///
-/// Every step has to add up, or is halved, down to a thousandth of the way.
+/// Every step has to add up, or is halved, down to a thousandth of the way, and further where the return map jumps on it.
 /// An orbit that is stable again at the other value, after it has lost its stability, is the attractor as well. Where the
 /// attractor changes its period more than four times, it is lost.
 pub fn succession<M: System<D>, const D: usize>(

@@ -97,6 +97,24 @@ pub fn special_orbits_of_shortest<M: System<D>, const D: usize, const U: usize>(
     found
 }
 
+/// Whether the return map jumps between two neighbouring orbits, or the events change too often on the step to be looked at one
+/// by one.
+///
+/// A step that does not add up for another reason may still lead over a jump onto another branch.
+pub fn jumps_over<M: System<D>, const D: usize, const U: usize>(
+    orbits: &Orbits<M, D, U>,
+    from: &OrbitPoint<M::Event, D, U>,
+    to: &OrbitPoint<M::Event, D, U>,
+    narrow: f64,
+) -> bool {
+    // What is shorter cannot jump.
+    if norm(&between(&from.at, &to.at)) <= JUMP {
+        return false;
+    }
+    let exact = orbits.exactly();
+    WholeStep::of(&exact, [from, to], narrow).jumps_somewhere()
+}
+
 /// Special orbits, as far as they are known to be all.
 type All<E, const D: usize, const U: usize> = Option<Vec<SpecialOrbit<E, D, U>>>;
 
@@ -175,6 +193,23 @@ impl<'a, 'b, M: System<D>, const D: usize, const U: usize> WholeStep<'a, 'b, M, 
         }
         found.extend(self.smooth([&last, to]).ok_or(Flaw::Unclear)?);
         Ok(found)
+    }
+
+    /// Whether it jumps at one of the changes of its events, or has more of them than are looked at.
+    fn jumps_somewhere(&self) -> bool {
+        let [from, to] = &self.ends;
+        let mut last = from.clone();
+        for _ in 0..CHANGES {
+            if last.1.seen.events == to.1.seen.events {
+                return false;
+            }
+            let change = Change::first(&self.arc, [&last, to], self.narrow);
+            if self.jumps(&change) {
+                return true;
+            }
+            last = change.after;
+        }
+        true
     }
 
     /// Whether the return map jumps where events change, as where a capsule that rests breaks away by more static than kinetic

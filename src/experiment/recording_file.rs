@@ -1,5 +1,7 @@
 //! Reads recordings from CSV, and finds every fault with its line.
 
+use std::io::Read;
+
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::recording::{Column, MOST_TOLD, Presence, Recording, RecordingFaults};
@@ -70,13 +72,15 @@ impl Reading<'_> {
 
     fn recording(&mut self, source: &str, least: usize) -> Recording {
         let text = self.text;
+        // Without a line break at its end the reader takes a last comment for a row, and a quote that is not closed for closed.
+        let whole = text.as_bytes().chain(&b"\n"[..]);
         let mut reader = ReaderBuilder::new()
             .delimiter(delimiter(text))
             .comment(Some(b'#'))
             .flexible(true)
             .trim(Trim::All)
             .has_headers(false)
-            .from_reader(text.as_bytes());
+            .from_reader(whole);
         let mut records = reader.records().map_while(Result::ok);
         let header = records.next().unwrap_or_default();
         let found = self.header(&header);
