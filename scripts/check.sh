@@ -114,7 +114,7 @@ engine_alone() {
     cargo check --no-default-features --lib
     cargo check --no-default-features --examples
     local count
-    count=$(cargo tree --no-default-features --edges normal --prefix none | sort -u | wc -l)
+    count=$(cargo tree -p capsulemap --no-default-features --edges normal --prefix none | sort -u | wc -l)
     echo "the engine alone needs $((count - 1)) crates"
 }
 

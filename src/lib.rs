@@ -155,11 +155,9 @@
 //! saying what it does. Without the feature `cli` the library ends at `tradeoff` and needs neither HDF5 nor
 //! plotters nor clap.
 
-pub mod lane;
-pub mod flow;
-pub mod orbit;
-pub mod branch;
-pub mod attractor;
+#[doc(inline)]
+pub use capsulemap_engine::{attractor, branch, flow, in_lanes, lane, orbit, own_system};
+
 pub mod capsule;
 #[cfg(feature = "cli")]
 pub mod experiment;

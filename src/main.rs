@@ -64,5 +64,5 @@ fn end(bytes: usize) -> ! {
 }
 
 fn main() -> ExitCode {
-    capsulemap::cli::main()
+    capsulemap::cli::main(capsulemap_commit::commit!())
 }

@@ -1,5 +1,7 @@
 //! What the capsule's motion is made of: state, mode, event and the series of a step.
 
+use std::fmt;
+
 use serde::Serialize;
 
 use crate::flow::Event;
@@ -24,6 +26,13 @@ impl State<f64> {
     /// r, y1, x2 and y2.
     pub fn coordinates(&self) -> [f64; 4] {
         [self.r, self.y1, self.x2, self.y2]
+    }
+}
+
+impl fmt::Display for State<f64> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let State { r, y1, x2, y2 } = self;
+        write!(f, "r = {r} m, y1 = {y1} m/s, x2 = {x2} m, y2 = {y2} m/s")
     }
 }
 

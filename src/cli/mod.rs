@@ -121,8 +121,9 @@ enum Command {
     },
 }
 
-/// Runs the program on the command line it was started with.
-pub fn main() -> ExitCode {
+/// Runs the program, built from this commit, on the command line it was started with.
+pub fn main(commit: &'static str) -> ExitCode {
+    provenance::built_from(commit);
     let command = Arguments::parse().command;
     let done = provenance::given_time().map_err(|text| {
         let expected = "expected a whole number of seconds since 1970";

@@ -1,16 +1,26 @@
 //! The provenance of a file: program, commit, time and machine.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Attribute: when a file was made.
 pub const CREATED: &str = "created";
 
+/// The commit that this program is built from.
+static COMMIT: OnceLock<&str> = OnceLock::new();
+
+/// Tells which commit this program is built from, which only the program knows: the library is the same after many commits. Of
+/// several calls the first counts; without one the commit is "unknown".
+pub fn built_from(commit: &'static str) {
+    COMMIT.get_or_init(|| commit);
+}
+
 /// The provenance of what this program writes now on this machine.
 pub fn attributes() -> BTreeMap<String, String> {
     [
         ("source", format!("capsulemap {}", env!("CARGO_PKG_VERSION"))),
-        ("commit", env!("CAPSULEMAP_COMMIT").to_owned()),
+        ("commit", COMMIT.get().copied().unwrap_or("unknown").to_owned()),
         (CREATED, now()),
         ("host_architecture", std::env::consts::ARCH.to_owned()),
         ("host_instruction_set", instruction_set()),

@@ -8,7 +8,7 @@ use capsulemap::store::{self, Dataset, Values, Variable};
 use capsulemap::study::appearance::dimension_of;
 use capsulemap::study::{DrawingKind, Study};
 
-use super::house::{sources, string_length};
+use super::house::{LIBRARY, sources, string_length};
 use super::program::WorkDir;
 
 /// The files that give parameters, starts, outputs and the dimensions of cases their names.
@@ -136,7 +136,7 @@ fn spelled(path: &str, text: &str) -> Vec<String> {
 #[test]
 fn no_other_file_spells_the_name_of_a_variable() {
     let is_free = |path: &str| path.starts_with("src/store/catalogue/") || DEFINING.contains(&path);
-    let all = sources(&["src"]);
+    let all = sources(&LIBRARY);
     let others = all.iter().filter(|source| !is_free(&source.path));
     let faults: Vec<String> = others.flat_map(|it| spelled(&it.path, &it.text)).collect();
     assert!(faults.is_empty(), "names of variables by hand:\n{}", faults.join("\n"));

@@ -1,6 +1,6 @@
 //! Names in the source are words of the field, not words whose meaning a reader has to guess.
 
-use super::{Source, assert_clean, identifiers, sources};
+use super::{FOLDERS, Source, assert_clean, identifiers, sources};
 
 /// Words that are no part of an identifier or a path, also in the plural.
 const FORBIDDEN: [&str; 15] = [
@@ -60,7 +60,7 @@ fn name_faults(source: &Source) -> Vec<String> {
 
 #[test]
 fn names_are_words_of_the_field() {
-    let all = sources(&["src", "tests", "benches"]);
+    let all = sources(&FOLDERS);
     assert!(all.len() > 5, "the source was not found");
     assert_clean(all.iter().flat_map(name_faults).collect());
 }

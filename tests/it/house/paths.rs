@@ -1,6 +1,6 @@
 //! Paths stand in messages by one function, which shows them on one line.
 
-use super::{Source, assert_clean, sources};
+use super::{LIBRARY, Source, assert_clean, sources};
 
 /// Where a path is part of a command for a shell, of a page or of JSON, which have rules of their own.
 const OTHER_RULES: [&str; 3] =
@@ -14,7 +14,7 @@ fn raw_paths(source: &Source) -> Option<String> {
 
 #[test]
 fn paths_are_shown_on_one_line() {
-    assert_clean(sources(&["src"]).iter().filter_map(raw_paths).collect());
+    assert_clean(sources(&LIBRARY).iter().filter_map(raw_paths).collect());
     assert!(raw_paths(&Source::new("src/cli/a.rs", "let shown = path.display();")).is_some());
     assert!(raw_paths(&Source::new("src/cli/a.rs", "let shown = printable(path);")).is_none());
 }

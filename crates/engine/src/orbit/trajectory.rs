@@ -1,5 +1,7 @@
 //! The motion of a case, one cycle at a time.
 
+use std::fmt;
+
 use crate::flow::{Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, cycle};
 
 /// Where and why a case failed.
@@ -11,6 +13,12 @@ pub struct Failure<S> {
     pub time: f64,
     /// Where it was.
     pub state: S,
+}
+
+impl<S: fmt::Display> fmt::Display for Failure<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, at t = {} s, {}", self.reason, self.time, self.state)
+    }
 }
 
 /// How far a case has come.

@@ -8,7 +8,7 @@ use super::Lane;
 /// mode only, have it; [`side_by_side!`](crate::side_by_side) gives it to a struct.
 ///
 /// ```
-/// use capsulemap::lane::{Lane, SideBySide};
+/// use capsulemap_engine::lane::{Lane, SideBySide};
 ///
 /// fn second_lane<L: Lane>(point: &[L; 2]) -> [f64; 2] {
 ///     point.lane(1 % L::WIDTH)
@@ -82,8 +82,8 @@ impl SideBySide for () {
 /// lanes, arrays of numbers), and after `alike` those that have one value for all lanes and are `Copy`.
 ///
 /// ```
-/// use capsulemap::lane::{Lane, SideBySide};
-/// use capsulemap::side_by_side;
+/// use capsulemap_engine::lane::{Lane, SideBySide};
+/// use capsulemap_engine::side_by_side;
 ///
 /// #[derive(Debug, Clone, Copy, PartialEq)]
 /// struct Oscillator<L: Lane> {

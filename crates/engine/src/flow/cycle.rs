@@ -1,5 +1,7 @@
 //! The loop to the end of a cycle.
 
+use std::fmt;
+
 use serde::Serialize;
 
 use crate::lane::{Lane, Mask};
@@ -36,6 +38,18 @@ impl Reason {
         (Reason::NoReturn, "no-return"),
         (Reason::OutOfSteps, "out-of-steps"),
     ];
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Reason::NoProgress => Breakdown::NoProgress.fmt(f),
+            Reason::NotFinite => Breakdown::NotFinite.fmt(f),
+            Reason::NoReturn => Breakdown::NoReturn.fmt(f),
+            Reason::TooManySteps => write!(f, "a drive cycle takes over {STEPS_PER_CYCLE} steps"),
+            Reason::OutOfSteps => f.write_str("the case takes more steps than max_steps allows"),
+        }
+    }
 }
 
 impl From<Breakdown> for Reason {

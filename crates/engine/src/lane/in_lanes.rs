@@ -14,8 +14,8 @@
 /// the compiler inlines as a rule, but need not: prefer loops where lanes are computed.
 ///
 /// ```
-/// use capsulemap::in_lanes;
-/// use capsulemap::lane::Lane;
+/// use capsulemap_engine::in_lanes;
+/// use capsulemap_engine::lane::Lane;
 ///
 /// trait Force<L: Lane> {
 ///     type Place;
