@@ -158,7 +158,9 @@
 #[doc(inline)]
 pub use capsulemap_engine::{attractor, branch, flow, in_lanes, lane, orbit, own_system};
 
-pub mod capsule;
+#[doc(inline)]
+pub use capsulemap_models::{capsule, model, of};
+
 #[cfg(feature = "cli")]
 pub mod experiment;
 pub mod study;

@@ -1,8 +1,7 @@
 //! The margins of the optima of a trade-off: how far their parameters may change.
 
-use crate::branch::Along;
-use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Parameter, Reading, Switching};
-use crate::orbit::return_map::append_points;
+use crate::capsule::Parameter;
+use crate::model::{Along, Setting};
 use crate::run::on_all_threads;
 
 use super::answer::Answer;
@@ -37,27 +36,21 @@ impl Refinement<'_> {
     }
 
     fn around(&self, motion: &Whereabouts) -> Vec<Margins> {
-        match self.study.base.switching {
-            Switching::Filippov => self.around_as::<Filippov>(motion),
-            Switching::AsPrinted => self.around_as::<AsPrinted>(motion),
-        }
-    }
-
-    fn around_as<R: Reading>(&self, motion: &Whereabouts) -> Vec<Margins> {
-        let system = CapsuleSystem::<R>::new(motion.parameters.clone(), motion.phase);
-        let tolerance = self.study.protocol.tolerance;
-        let mut points = vec![motion.section];
-        if append_points(&system, &mut points, motion.period as usize, tolerance).is_none() {
+        let Whereabouts { parameters, section, phase, period } = motion;
+        let (model, tolerance) = (self.study.model(), self.study.protocol.tolerance);
+        let setting = Setting { parameters: parameters.clone(), phase: *phase };
+        let Some(points) = model.section_points(&setting, *section, *period, tolerance) else {
             return Vec::new();
-        }
+        };
         let both = |parameter: Parameter| {
-            let along = Along { system: system.clone(), parameter, tolerance };
-            let value = motion.parameters[parameter];
-            let [down, up] = [-REACH, REACH].map(|by| margin(&along, (value, &points), by * value));
+            let along = Along { setting: setting.clone(), parameter, tolerance };
+            let value = parameters[parameter];
+            let [down, up] =
+                [-REACH, REACH].map(|by| margin(model, &along, (value, &points), by * value));
             Margins { parameter, at: value, down, up }
         };
         let each = Parameter::ALL.iter().copied();
-        each.filter(|parameter| motion.parameters[*parameter] > 0.0).map(both).collect()
+        each.filter(|parameter| parameters[*parameter] > 0.0).map(both).collect()
     }
 }
 

@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::capsule::{AsPrinted, Filippov, Output, Parameter, Reading, Switching};
+use crate::capsule::{Output, Parameter};
+use crate::model::Setting;
 use crate::tradeoff::{Goal, best};
 
 use super::error::CampaignError;
@@ -95,12 +96,7 @@ impl Refinement<'_> {
     ) -> Result<Led, CampaignError> {
         self.each(threads, gaps.len(), done, |number| {
             let gap = &gaps[number];
-            self.kept.kept_or_found(&self.described_gap(gap), || {
-                Ok(match self.study.base.switching {
-                    Switching::Filippov => self.follow::<Filippov>(gap),
-                    Switching::AsPrinted => self.follow::<AsPrinted>(gap),
-                })
-            })
+            self.kept.kept_or_found(&self.described_gap(gap), || Ok(self.follow(gap)))
         })
     }
 
@@ -119,9 +115,10 @@ impl Refinement<'_> {
         }))
     }
 
-    fn follow<R: Reading>(&self, gap: &Gap<'_>) -> Led {
+    fn follow(&self, gap: &Gap<'_>) -> Led {
         let from = gap.from;
-        let family = self.family_of::<R>((from.parameters.clone(), from.phase), from.period);
+        let setting = Setting { parameters: from.parameters.clone(), phase: from.phase };
+        let family = self.family_of(setting, from.period);
         let mut last = family.orbit(&family.shares(), &from.section);
         let mut led = Led::default();
         for price in &gap.prices {

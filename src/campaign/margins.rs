@@ -1,8 +1,8 @@
 //! How far a parameter of a periodic motion may fall and rise before it ends or loses its stability.
 
-use crate::branch::{Along, SegmentEnd, SpecialKind, SpecialValue, segment};
-use crate::capsule::{CapsuleSystem, Parameter, Reading, Section};
-use crate::orbit::passage::OneByOne;
+use crate::branch::{SegmentEnd, SpecialKind, SpecialValue};
+use crate::capsule::{Parameter, Section};
+use crate::model::{Along, Model};
 
 /// Segments in which it is followed each way, so that special points of one segment that undo each other are rare.
 const SEGMENTS: u32 = 25;
@@ -101,13 +101,14 @@ impl Margins {
 ///
 /// # Method
 ///
-/// The branch is continued, see [`segment`], in 25 segments.
+/// The branch is continued, see [`Model::segment`], in 25 segments.
 ///
 /// # Breaks
 ///
 /// Two special points of one kind that undo each other within a segment may both be passed.
-pub fn margin<R: Reading>(
-    along: &Along<CapsuleSystem<R>, 3>,
+pub fn margin(
+    model: &dyn Model,
+    along: &Along,
     (value, points): (f64, &[Section]),
     by: f64,
 ) -> Margin {
@@ -115,7 +116,7 @@ pub fn margin<R: Reading>(
     let mut passed = Vec::new();
     for number in 1..=SEGMENTS {
         let to = value + by * f64::from(number) / f64::from(SEGMENTS);
-        let found = segment(&OneByOne, along, (until, &points), to);
+        let found = model.segment(along, (until, &points), to);
         let Some(found) = found else {
             return Margin { until, end: MarginEnd::NotFollowed, passed };
         };

@@ -3,16 +3,16 @@
 use serde_json::{Value, json};
 
 use crate::capsule::{
-    AsPrinted, CapsuleSystem, Case, Filippov, Orbit, Output, Outputs, Parameter, Parameters,
-    Reading, Section, State, Switching, settle_case,
+    Case, Orbit, Output, Outputs, Parameter, Parameters, Section, State, settle_case,
 };
+use crate::model::Setting;
 use crate::orbit::{Outcome, Protocol};
 use crate::run::{Machine, on_all_threads};
 use crate::store::Archive;
 use crate::store::catalogue::SECTION;
 use crate::study::{Coordinate, Study};
 use crate::tradeoff::{
-    Best, Candidate, Direction, Family, Goal, MOST_FREE, OperatingPoint, best, left, sensitivity,
+    Best, Candidate, Direction, Family, Goal, MOST_FREE, OperatingPoint, best, left,
 };
 
 use super::conditions::Conditions;
@@ -111,10 +111,7 @@ impl Refinement<'_> {
     ) -> Result<Led, CampaignError> {
         let Led { motions, unsettled } = self.each(threads, searches.len(), done, |number| {
             let search = &searches[number];
-            self.kept.kept_or_found(&self.described(search), || match self.study.base.switching {
-                Switching::Filippov => self.search::<Filippov>(search, drawn),
-                Switching::AsPrinted => self.search::<AsPrinted>(search, drawn),
-            })
+            self.kept.kept_or_found(&self.described(search), || self.search(search, drawn))
         })?;
         Ok(Led { motions: distinct(motions), unsettled })
     }
@@ -165,13 +162,9 @@ impl Refinement<'_> {
     }
 
     /// What a search leads to.
-    fn search<R: Reading>(
-        &self,
-        search: &Search,
-        drawn: &[DrawnMotion],
-    ) -> Result<Led, CampaignError> {
+    fn search(&self, search: &Search, drawn: &[DrawnMotion]) -> Result<Led, CampaignError> {
         let begun = match search.from {
-            Start::Case(case) => self.family::<R>(case)?,
+            Start::Case(case) => self.family(case)?,
             Start::Drawn { drawn: number, .. } => self.drawn_family(drawn, number),
         };
         let Some((family, first)) = begun else { return Ok(Led::default()) };
@@ -187,14 +180,15 @@ impl Refinement<'_> {
     }
 
     /// The family of the orbit of a drawn motion, with the orbit; none where there is none.
-    fn drawn_family<R: Reading>(
+    fn drawn_family(
         &self,
         drawn: &[DrawnMotion],
         number: usize,
-    ) -> Option<(Family<R>, OperatingPoint)> {
+    ) -> Option<(Family, OperatingPoint)> {
         let motion = drawn.iter().find(|it| it.number == number)?;
-        let begins_at = (motion.parameters.clone(), self.study.section_phase);
-        let family = self.family_of(begins_at, motion.period);
+        let phase = self.study.section_phase;
+        let setting = Setting { parameters: motion.parameters.clone(), phase };
+        let family = self.family_of(setting, motion.period);
         let first = family.orbit(&family.shares(), &motion.section)?;
         Some((family, first))
     }
@@ -207,16 +201,16 @@ impl Refinement<'_> {
     /// The motion that starts at the section point is settled twice: as cases are by default, whose outputs are told, and without
     /// leaps, so that every cycle is integrated. Both must be periodic with the period of the family, and have the speed and the price
     /// of the orbit to 1e-6. Near the loss of its stability an orbit may be too slow for that.
-    pub(super) fn settled<R: Reading>(
+    pub(super) fn settled(
         &self,
-        family: &Family<R>,
+        family: &Family,
         found: &Best,
         from: Start,
     ) -> Option<RefinedMotion> {
-        let system = family.at(&found.at.shares);
+        let setting = family.at(&found.at.shares);
         let [r, y1, y2] = found.at.section;
-        let (start, phase) = (State { r, y1, x2: 0.0, y2 }, system.phase);
-        let again = Case::at_section(system.parameters.clone(), start, phase);
+        let start = State { r, y1, x2: 0.0, y2 };
+        let again = Case::at_section(setting.parameters.clone(), start, setting.phase);
         let protocol = self.protocol();
         let orbit = settle_case(&again, &protocol);
         let plain = settle_case(&again, &Protocol { accelerate: false, ..protocol });
@@ -230,16 +224,16 @@ impl Refinement<'_> {
         };
         let is_same = is_found(&orbit) && is_found(&plain);
         let slopes = Slopes {
-            sensitivity: self.sensitivity(&system, &found.at, family.period),
+            sensitivity: self.sensitivity(&setting, &found.at, family.period),
             stationarity: Some(found.stationarity),
             held_by: words(&found.held_by, family),
         };
         let counts = is_same && self.conditions.allow(&orbit.outputs);
         counts.then_some(RefinedMotion {
             from,
-            parameters: system.parameters,
+            parameters: setting.parameters,
             section: found.at.section,
-            phase,
+            phase: setting.phase,
             period: family.period,
             outputs: orbit.outputs,
             slopes,
@@ -265,14 +259,7 @@ impl Refinement<'_> {
     ///
     /// Fails if the file cannot be read or the case cannot be computed again.
     pub fn slopes(&self, candidate: &Candidate) -> Result<Slopes, CampaignError> {
-        match self.study.base.switching {
-            Switching::Filippov => self.slopes_as::<Filippov>(candidate),
-            Switching::AsPrinted => self.slopes_as::<AsPrinted>(candidate),
-        }
-    }
-
-    fn slopes_as<R: Reading>(&self, candidate: &Candidate) -> Result<Slopes, CampaignError> {
-        let Some((family, at)) = self.family::<R>(candidate.case)? else {
+        let Some((family, at)) = self.family(candidate.case)? else {
             return Ok(Slopes::default());
         };
         let budget = Some((self.of, candidate.price));
@@ -280,39 +267,36 @@ impl Refinement<'_> {
         let known = (!family.free.is_empty()).then(|| left(&family, &at, goal)).flatten();
         let (stationarity, held_by) = known.unzip();
         Ok(Slopes {
-            sensitivity: self.sensitivity(&family.system, &at, family.period),
+            sensitivity: self.sensitivity(&family.setting, &at, family.period),
             stationarity,
             held_by: words(&held_by.unwrap_or_default(), &family),
         })
     }
 
     /// The family of the orbit of a case, with the orbit; none where it does not repeat or is not stable.
-    fn family<R: Reading>(
-        &self,
-        case: usize,
-    ) -> Result<Option<(Family<R>, OperatingPoint)>, CampaignError> {
+    fn family(&self, case: usize) -> Result<Option<(Family, OperatingPoint)>, CampaignError> {
         let Some(period) = Some(self.periods[case]).filter(|period| *period > 0.0) else {
             return Ok(None);
         };
-        let Case { parameters, section_phase, .. } = self.study.case(case);
+        let setting = Setting::of(&self.study.case(case));
         let Some(section) = self.section(case)? else { return Ok(None) };
-        let family = self.family_of((parameters, section_phase), period as u64);
+        let family = self.family_of(setting, period as u64);
         let first = family.orbit(&family.shares(), &section);
         Ok(first.map(|first| (family, first)))
     }
 
     /// Percent of speed and of price per percent of each parameter.
-    fn sensitivity<R: Reading>(
+    fn sensitivity(
         &self,
-        system: &CapsuleSystem<R>,
+        setting: &Setting,
         at: &OperatingPoint,
         period: u64,
     ) -> Vec<(Parameter, [f64; 2])> {
-        let each = Parameter::ALL.iter().filter(|it| system.parameters[**it] != 0.0);
-        let tolerance = self.study.protocol.tolerance;
+        let each = Parameter::ALL.iter().filter(|it| setting.parameters[**it] != 0.0);
+        let (model, tolerance) = (self.study.model(), self.study.protocol.tolerance);
         each.filter_map(|parameter| {
-            let found = sensitivity(system, (&at.section, period), tolerance, *parameter)?;
-            let value = system.parameters[*parameter];
+            let found = model.sensitivity(setting, &at.section, period, tolerance, *parameter)?;
+            let value = setting.parameters[*parameter];
             let relative = |output: Output| value * found.slopes[output] / found.outputs[output];
             Some((*parameter, [relative(Output::ProgressionSpeed), relative(self.of)]))
         })
@@ -320,18 +304,14 @@ impl Refinement<'_> {
     }
 
     /// The family of orbits over the free parameters that a motion belongs to.
-    pub(super) fn family_of<R: Reading>(
-        &self,
-        (parameters, phase): (Parameters, f64),
-        period: u64,
-    ) -> Family<R> {
+    pub(super) fn family_of(&self, setting: Setting, period: u64) -> Family {
         let mut free = self.free();
         if free.len() > MOST_FREE {
             free.clear();
         }
-        let system = CapsuleSystem::new(parameters, phase);
+        let (model, tolerance) = (self.study.model(), self.study.protocol.tolerance);
         let limits = self.conditions.limits.clone();
-        Family { system, free, limits, period, tolerance: self.study.protocol.tolerance }
+        Family { model, setting, free, limits, period, tolerance }
     }
 
     /// Where a motion is, a case of the file or one between them; none where it does not repeat.

@@ -146,7 +146,7 @@ pub fn distinct(found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {
 }
 
 /// What holds a motion, in words.
-pub(super) fn words<R>(holds: &[Hold], family: &Family<R>) -> Vec<String> {
+pub(super) fn words(holds: &[Hold], family: &Family) -> Vec<String> {
     let in_words = |hold: &Hold| match hold {
         Hold::Interior => "interior".to_owned(),
         Hold::Bound(place, side) => {

@@ -2,13 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::capsule::{
-    Account, AsPrinted, CapsuleSystem, Filippov, Output, Parameter, Reading, Section, Switching,
-    per_cycle, settle_case,
-};
-use crate::flow::System;
-use crate::orbit::Protocol;
-use crate::orbit::return_map::{Cycles, observed};
+use crate::capsule::{Output, settle_case};
+use crate::model::{Batches, Setting};
 use crate::run::{Machine, on_all_threads};
 
 use super::answer::Answer;
@@ -42,40 +37,22 @@ impl Refinement<'_> {
         threads: Option<usize>,
     ) -> Result<Vec<Option<MeanErrors>>, CampaignError> {
         let found =
-            on_all_threads(threads, cases.len(), |number| match self.study.base.switching {
-                Switching::Filippov => self.mean_errors_of::<Filippov>(cases[number]),
-                Switching::AsPrinted => self.mean_errors_of::<AsPrinted>(cases[number]),
-            })?;
+            on_all_threads(threads, cases.len(), |number| self.mean_errors_of(cases[number]))?;
         found.into_iter().collect()
     }
 
-    fn mean_errors_of<R: Reading>(&self, case: usize) -> Result<Option<MeanErrors>, CampaignError> {
+    fn mean_errors_of(&self, case: usize) -> Result<Option<MeanErrors>, CampaignError> {
         let replay = Replay::new(self.study, case)?;
-        let case = replay.as_run(Machine::single(), &silent)?;
-        let end = settle_case(&case, replay.protocol()).end;
-        let system = CapsuleSystem::<R>::new(case.parameters, case.section_phase);
-        Ok(self.of_batches(&system, [end.r, end.y1, end.y2], replay.protocol()))
-    }
-
-    /// The errors of the cycles from a section point on.
-    fn of_batches<R: Reading>(
-        &self,
-        system: &CapsuleSystem<R>,
-        mut point: Section,
-        protocol: &Protocol,
-    ) -> Option<MeanErrors> {
-        let Protocol { measured_cycles, tolerance, .. } = *protocol;
-        let cycles = Cycles { count: measured_cycles.div_ceil(BATCHES), tolerance };
-        let of = |parameter: Parameter| system.parameters[parameter];
-        let (mut speeds, mut prices) = (Vec::new(), Vec::new());
-        for _ in 0..BATCHES {
-            let mut account = Account::new(of, 0);
-            point = observed(&system.system(of), point, &cycles, &mut account).ok()?;
-            let outputs = per_cycle(&account, of, cycles.count as f64);
-            speeds.push(outputs[Output::ProgressionSpeed]);
-            prices.push(outputs[self.of]);
-        }
-        Some(MeanErrors::of(&speeds, &prices))
+        let (case, protocol) = (replay.as_run(Machine::single(), &silent)?, replay.protocol());
+        let end = settle_case(&case, protocol).end;
+        let (setting, from) = (Setting::of(&case), [end.r, end.y1, end.y2]);
+        let cycles = protocol.measured_cycles.div_ceil(BATCHES);
+        let batches = Batches { count: BATCHES, cycles };
+        let found = self.study.model().batches(&setting, from, batches, protocol.tolerance);
+        Ok(found.map(|batches| {
+            let means = |of: Output| batches.iter().map(|it| it[of]).collect::<Vec<_>>();
+            MeanErrors::of(&means(Output::ProgressionSpeed), &means(self.of))
+        }))
     }
 }
 

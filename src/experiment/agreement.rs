@@ -1,7 +1,7 @@
 //! How a recorded and a simulated signal differ: in all, in shape, in sign and in unit.
 
 use super::progression::own_progression;
-use super::sampled::Signal;
+use crate::capsule::sampled::Signal;
 
 /// A signal varies if its standard deviation is above this share of its largest value.
 const VARIES: f64 = 1e-9;

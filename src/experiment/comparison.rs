@@ -8,10 +8,10 @@ use super::drive_phase::{Harmonic, harmonic};
 use super::progression::{Progression, own_progression, progression};
 use super::recorded_period::period_of;
 use super::recording::{Recording, Sampling};
-use super::sampled::{Signal, Started, sampled};
 use super::settled_motion::{Settled, TOLERANCE};
 use super::simulated_span::check_span;
 use super::spikes::{Spikes, contact_period, contacts, per_cycle, spikes};
+use crate::capsule::sampled::{Signal, Started, sampled};
 use crate::capsule::{Case, Output, Parameter};
 use crate::orbit::{Outcome, Protocol};
 

@@ -5,8 +5,8 @@ use super::free_vibration::noise;
 use super::least_squares::Bounds;
 use super::line::line;
 use super::recording::median;
-use super::sampled::{Direction, Signal, Started};
 use super::smoothing::smoothed;
+use crate::capsule::sampled::{Direction, Signal, Started};
 use crate::capsule::{Parameter, Parameters, State};
 
 /// Velocities of the capsule at the first sample that are tried: how many, of either sign where it is not measured.

@@ -4,7 +4,7 @@ use super::course::{Course, Recorded};
 use super::free_parameter::Free;
 use super::least_squares::{Fit, Loss, Residuals};
 use super::misfit::SignalResiduals;
-use super::sampled::{Direction, Signal, Started, sampled};
+use crate::capsule::sampled::{Direction, Signal, Started, sampled};
 
 /// Relative local error of the steps of the simulation.
 const TOLERANCE: f64 = 1e-11;

@@ -6,7 +6,7 @@ use super::covariance::{Covariance, Data};
 use super::effort::{Effort, search};
 use super::free_parameter::Free;
 use super::least_squares::Fit;
-use super::sampled::Signal;
+use crate::capsule::sampled::Signal;
 
 /// A drift of so many standard errors is no chance: of 15 000 signals one is so far off.
 const CLEAR: f64 = 4.0;

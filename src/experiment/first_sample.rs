@@ -6,7 +6,7 @@ use super::effort::{Effort, search};
 use super::free_parameter::Free;
 use super::in_threads::in_threads;
 use super::least_squares::{Fit, Loss, fit_once};
-use super::sampled::{Direction, Started};
+use crate::capsule::sampled::{Direction, Started};
 
 /// A capsule that is taken to rest may add so many variances of the residuals to what is made least.
 const MOVES: f64 = 4.0;

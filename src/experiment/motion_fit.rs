@@ -12,9 +12,9 @@ use super::in_threads::in_threads;
 use super::least_squares::{Fit, Loss, fit_once};
 use super::misfit::{Misfit, misfit, robust_deviation};
 use super::profile::{Profile, Verdict, profile_points};
-use super::sampled::Started;
 use super::search_starts::starts;
 use crate::capsule::Parameter;
+use crate::capsule::sampled::Started;
 
 /// A parameter as fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]

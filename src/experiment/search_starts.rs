@@ -4,7 +4,7 @@ use super::course::Course;
 use super::first_sample::{misfits_at_speeds, with_speed};
 use super::free_parameter::Free;
 use super::least_squares::{Bounds, Loss};
-use super::sampled::Started;
+use crate::capsule::sampled::Started;
 
 /// Where the search begins: the values of the first recording, then points of a Halton sequence within the bounds.
 pub(super) fn starts(

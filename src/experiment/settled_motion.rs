@@ -2,14 +2,11 @@
 
 use super::estimate::Estimate;
 use super::progression::Progression;
-use super::sampled::{Signal, Started, sampled};
 use crate::capsule::drive::reduced;
-use crate::capsule::{
-    Account, AsPrinted, CapsuleSystem, Case, Filippov, Orbit, Output, Parameter, Reading, State,
-    Switching, per_cycle, settle_case,
-};
-use crate::flow::System;
-use crate::orbit::return_map::{Cycles, observed};
+use crate::capsule::sampled::{Signal, Started, sampled};
+use crate::capsule::{Case, Orbit, Output, Parameter, State, settle_case};
+use crate::model::{Batches, Setting};
+use crate::of::model_of;
 use crate::orbit::{Outcome, Protocol};
 
 /// Relative local error of the steps of the simulation.
@@ -43,11 +40,7 @@ impl Settled {
         }
         let value = orbit.outputs[Output::ProgressionSpeed];
         let repeats = orbit.outcome == Outcome::Periodic;
-        let speeds = match case.parameters.switching {
-            _ if repeats => None,
-            Switching::Filippov => batches::<Filippov>(case, &orbit, &protocol),
-            Switching::AsPrinted => batches::<AsPrinted>(case, &orbit, &protocol),
-        };
+        let speeds = if repeats { None } else { batches(case, &orbit, &protocol) };
         let speed = Progression {
             value,
             standard_error: speeds.map(|it| Estimate::mean(&it).standard_error),
@@ -74,16 +67,11 @@ impl Settled {
 }
 
 /// The speeds of batches of cycles from the end of an orbit on; none where it cannot be followed.
-fn batches<R: Reading>(case: &Case, orbit: &Orbit, protocol: &Protocol) -> Option<Vec<f64>> {
-    let count = protocol.measured_cycles.div_ceil(BATCHES);
-    let cycles = Cycles { count, tolerance: protocol.tolerance };
-    let system = CapsuleSystem::<R>::new(case.parameters.clone(), case.section_phase);
-    let of = |parameter: Parameter| system.parameters[parameter];
-    let mut point = [orbit.end.r, orbit.end.y1, orbit.end.y2];
-    let speed = |_| {
-        let mut account = Account::new(of, 0);
-        point = observed(&system.system(of), point, &cycles, &mut account).ok()?;
-        Some(per_cycle(&account, of, count as f64)[Output::ProgressionSpeed])
-    };
-    (0..BATCHES).map(speed).collect()
+fn batches(case: &Case, orbit: &Orbit, protocol: &Protocol) -> Option<Vec<f64>> {
+    let (model, setting) = (model_of(&case.parameters), Setting::of(case));
+    let cycles = protocol.measured_cycles.div_ceil(BATCHES);
+    let from = [orbit.end.r, orbit.end.y1, orbit.end.y2];
+    let batches = Batches { count: BATCHES, cycles };
+    let outputs = model.batches(&setting, from, batches, protocol.tolerance)?;
+    Some(outputs.iter().map(|it| it[Output::ProgressionSpeed]).collect())
 }

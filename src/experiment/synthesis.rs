@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use fastrand::Rng;
 
 use super::friction::coast_down;
-use super::sampled::{Signal, Started, sampled};
+use crate::capsule::sampled::{Signal, Started, sampled};
 use crate::capsule::{Parameter, Parameters};
 use crate::flow::Reason;
 

@@ -103,8 +103,7 @@ impl<'v, 'a> Motion<'v, 'a> {
             _ if name == RELATIVE_VELOCITY.name => both(HISTORY_Y1, HISTORY_Y2, |y1, y2| y1 - y2),
             _ if name == HISTORY_CONTACT.name => self.forces(|forces| forces.contact),
             _ if name == HISTORY_FRICTION.name => {
-                let reading = self.view.dataset.attributes.get(SWITCHING).map(String::as_str);
-                if reading == Some(Switching::AsPrinted.name()) {
+                if !self.parameters()?.switching.balances_at_rest() {
                     let why = "the friction at rest is not that of the equation as printed";
                     return Err(self.view.unfit(why));
                 }
@@ -158,9 +157,7 @@ impl<'v, 'a> Motion<'v, 'a> {
             return Err(self.view.unfit("the results do not name their law of resistance"));
         };
         parameters.resistance = law;
-        if named(SWITCHING) == Some(Switching::AsPrinted.name()) {
-            parameters.switching = Switching::AsPrinted;
-        }
+        parameters.switching = named(SWITCHING).and_then(Switching::named).unwrap_or_default();
         Ok(parameters)
     }
 

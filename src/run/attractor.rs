@@ -1,20 +1,16 @@
 //! Which cases of a study share an attractor, how attractors go on along an axis, and where they change.
 
 use std::cmp::Reverse;
-use std::iter;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
-use crate::attractor::{
-    Attractor, Bridge, Label, Links, Neighbours, Table, bridges, linear_orbits,
-};
-use crate::branch::{Along, ONE_VALUE, SpecialKind, SpecialValue};
-use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Section, Switching};
+use crate::attractor::{Attractor, Bridge, Label, Links, Table};
+use crate::branch::{ONE_VALUE, SpecialKind, SpecialValue};
+use crate::capsule::Section;
 use crate::lane::Instructions;
-use crate::orbit::Batch;
-use crate::orbit::passage::Integrator;
+use crate::model::{Along, Cell, Motions, Neighbours, Setting, Unlinked};
 use crate::study::layout::{Layout, linked_axis};
 use crate::study::{CaseSet, Coordinate, Direction, Study};
 
@@ -116,15 +112,13 @@ pub fn attractors(
         return Ok(Attractors { of_case: vec![None; study.cases()], ..Attractors::default() });
     }
     let instructions = machine.instructions_for(links(study));
-    let mut found = pool(machine.threads)?.install(|| match study.base.switching {
-        Switching::Filippov => find::<Filippov>(study, final_motions, instructions, &linked),
-        Switching::AsPrinted => find::<AsPrinted>(study, final_motions, instructions, &linked),
-    });
+    let mut found =
+        pool(machine.threads)?.install(|| find(study, final_motions, instructions, &linked));
     infer(study, final_motions, &mut found.of_case);
     Ok(found)
 }
 
-fn find<R: Reading>(
+fn find(
     study: &Study,
     final_motions: &FinalMotions,
     instructions: Instructions,
@@ -137,12 +131,12 @@ fn find<R: Reading>(
     let some = LINKS.div_ceil(layout.cells());
     let search = |first: usize| {
         let lines: Vec<Line> = (first..layout.lines().min(first + some)).map(line).collect();
-        let cells: Vec<_> = lines.iter().map(|it| it.cells::<R>(final_motions)).collect();
-        let links = links_of_lines::<R>(&lines, &cells, instructions, &linked);
+        let cells: Vec<_> = lines.iter().map(|it| it.cells(final_motions)).collect();
+        let links = links_of_lines(&lines, &cells, instructions, &linked);
         let of_lines = lines.into_iter().zip(cells).zip(links);
         let events = of_lines.flat_map(|((line, cells), links)| {
-            let between = |at: usize| line.neighbours::<R>(&cells, at);
-            let bridges = bridges(&cells, &links, between, &Rayon);
+            let between = |at: usize| line.neighbours(&cells, at);
+            let bridges = study.model().bridges(&cells, &links, &between, &Rayon);
             let numbers = numbers(&cells, &links, &bridges);
             let events = events(&cells, &links, &bridges, &numbers);
             line.note(&cells, &numbers, &mut of_case.lock().expect("no thread has panicked"));
@@ -161,7 +155,7 @@ fn find<R: Reading>(
 }
 
 /// How the attractors of each cell of some lines go on in the next.
-fn links_of_lines<R: Reading>(
+fn links_of_lines(
     lines: &[Line<'_>],
     cells: &[Vec<Arc<Table<3>>>],
     instructions: Instructions,
@@ -169,37 +163,38 @@ fn links_of_lines<R: Reading>(
 ) -> Vec<Vec<Links<3>>> {
     let length = lines[0].layout.cells();
     let last = length.saturating_sub(1);
+    // Of one cell there are no links, and along another axis than a parameter none leads on.
+    if last == 0 || lines[0].along(0).is_none() {
+        (0..lines.len() * last).for_each(|_| linked());
+        return vec![vec![Links::default(); last]; lines.len()];
+    }
+    let model = lines[0].study.model();
     // The derivatives of an orbit serve its links on both sides.
-    let linear = together(
-        instructions,
-        (0..lines.len() * length).collect(),
-        || (),
-        |place| {
+    let linear = together((0..lines.len() * length).collect(), &|next| {
+        let cell = |place: usize| {
             let (line, at) = (place / length, place % length);
-            let there = (last > 0).then(|| lines[line].along::<R>(at)).flatten();
-            let cell = cells[line][at].clone();
-            move |integrator: &Integration<'_, R>| {
-                let of = |(along, value)| linear_orbits(integrator, &along, value, &cell);
-                Arc::new(there.map(of).unwrap_or_default())
-            }
-        },
-    );
+            let (along, value) = lines[line].along(at)?;
+            Some((place, Cell { along, value, table: cells[line][at].clone() }))
+        };
+        model.linear_orbits(instructions, &mut || cell(next()?))
+    });
+    let linear: Vec<_> = linear.into_iter().map(Arc::new).collect();
     let mut order: Vec<usize> = (0..lines.len() * last).collect();
     // Those begun last end last: let them be short ones, so that no thread goes on alone.
     order.sort_by_cached_key(|place| {
         let (line, at) = (place / last, place % last);
         Reverse(cells[line][at].cycles() + cells[line][at + 1].cycles())
     });
-    let mut links = together(instructions, order, linked, |place| {
-        let (line, at) = (place / last, place % last);
-        let there = lines[line].neighbours::<R>(&cells[line], at);
-        let linear = [at, at + 1].map(|at| linear[line * length + at].clone());
-        move |integrator: &Integration<'_, R>| {
-            let link = |it: Neighbours<_, 3>| it.link(integrator, [&linear[0], &linear[1]]);
-            there.map_or_else(Links::default, link)
-        }
-    })
-    .into_iter();
+    let links = together(order, &|next| {
+        let unlinked = |place: usize| {
+            let (line, at) = (place / last, place % last);
+            let neighbours = lines[line].neighbours(&cells[line], at)?;
+            let linear = [at, at + 1].map(|at| linear[line * length + at].clone());
+            Some((place, Unlinked { neighbours, linear }))
+        };
+        model.links(instructions, &mut || unlinked(next()?), &mut || linked())
+    });
+    let mut links = links.into_iter();
     lines.iter().map(|_| links.by_ref().take(last).collect()).collect()
 }
 
@@ -213,39 +208,34 @@ struct Line<'a> {
 
 impl Line<'_> {
     /// The cells, their cases sorted by attractor.
-    fn cells<R: Reading>(&self, final_motions: &FinalMotions) -> Vec<Arc<Table<3>>> {
+    fn cells(&self, final_motions: &FinalMotions) -> Vec<Arc<Table<3>>> {
         let Line { study, layout, number } = *self;
         let sort = |at: usize| {
             let final_motion = |place: usize| {
                 let case = layout.case(number, at, place);
                 (case, final_motions.get(case))
             };
-            let first = study.case(layout.case(number, at, 0));
-            let system = first.read::<R>().system;
-            let cases = layout.cases();
-            Arc::new(Table::sort(cases, final_motion, &system, &study.protocol, &Rayon))
+            let motions = Motions { count: layout.cases(), at: &final_motion };
+            let setting = Setting::of(&study.case(layout.case(number, at, 0)));
+            Arc::new(study.model().table(&setting, motions, &study.protocol, &Rayon))
         };
         (0..layout.cells()).into_par_iter().map(sort).collect()
     }
 
     /// What is held at a place of the axis, and the value there; none where the axis is no parameter.
-    fn along<R: Reading>(&self, at: usize) -> Option<(Along<CapsuleSystem<R>, 3>, f64)> {
+    fn along(&self, at: usize) -> Option<(Along, f64)> {
         let Line { study, layout, number } = *self;
         let axis = &study.axes()[layout.axis?];
         let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
-        let case = study.case(layout.case(number, at, 0));
-        let (system, tolerance) = (case.read::<R>().system, study.protocol.tolerance);
-        Some((Along { system, parameter, tolerance }, axis.values[at]))
+        let setting = Setting::of(&study.case(layout.case(number, at, 0)));
+        let tolerance = study.protocol.tolerance;
+        Some((Along { setting, parameter, tolerance }, axis.values[at]))
     }
 
     /// The cells at a place of the axis and at the next; none where the axis is no parameter.
-    fn neighbours<R: Reading>(
-        &self,
-        cells: &[Arc<Table<3>>],
-        at: usize,
-    ) -> Option<Neighbours<CapsuleSystem<R>, 3>> {
+    fn neighbours(&self, cells: &[Arc<Table<3>>], at: usize) -> Option<Neighbours> {
         let Line { study, layout, .. } = *self;
-        let (along, value) = self.along::<R>(at)?;
+        let (along, value) = self.along(at)?;
         let values = [value, study.axes()[layout.axis?].values[at + 1]];
         let cells = [at, at + 1].map(|cell| cells[cell].clone());
         let directions = study.inherit().map_or(&[][..], |inherit| &inherit.directions);
@@ -266,32 +256,17 @@ impl Line<'_> {
     }
 }
 
-/// What follows the orbits of the computations of a thread.
-type Integration<'a, R> = dyn Integrator<CapsuleSystem<R>, 3> + 'a;
+/// What a thread computes of the places that it is given one after another, each with its place.
+type OfThread<'a, T> = dyn Fn(&mut dyn FnMut() -> Option<usize>) -> Vec<(usize, T)> + Sync + 'a;
 
-/// Computations on all threads, begun in the order of these places, each by the thread that has room for it; calls `done`
-/// after each. Their results by rising places.
-fn together<R: Reading, T: Send + 'static, C>(
-    instructions: Instructions,
-    places: Vec<usize>,
-    done: impl Fn() + Sync,
-    computation: impl Fn(usize) -> C + Sync,
-) -> Vec<T>
-where
-    C: FnOnce(&Integration<'_, R>) -> T + 'static,
-{
+/// Computations on all threads, begun in the order of these places, each by the thread that has room for it. Their results by
+/// rising places.
+fn together<T: Send>(places: Vec<usize>, of_thread: &OfThread<'_, T>) -> Vec<T> {
     let taken = AtomicUsize::new(0);
-    let next = || places.get(taken.fetch_add(1, Ordering::Relaxed)).copied();
-    let of_thread = |_| {
-        let placed = |place: usize| {
-            let compute = computation(place);
-            move |integrator: &Integration<'_, R>| (place, compute(integrator))
-        };
-        Batch::all(instructions, iter::from_fn(next).map(placed), &done)
-    };
+    let compute = |_| of_thread(&mut || places.get(taken.fetch_add(1, Ordering::Relaxed)).copied());
     let threads = rayon::current_num_threads().min(places.len().div_ceil(LEAST));
     let mut results: Vec<(usize, T)> =
-        (0..threads).into_par_iter().flat_map_iter(of_thread).collect();
+        (0..threads).into_par_iter().flat_map_iter(compute).collect();
     results.sort_by_key(|(place, _)| *place);
     results.into_iter().map(|(_, result)| result).collect()
 }

@@ -4,8 +4,7 @@ use crate::attractor::{
     Attractor, Entropy, Integrity, Share, Uncertainty, entropy, shares_of_draws, shares_of_grid,
     uncertainty,
 };
-use crate::capsule::{AsPrinted, Case, Filippov, Switching};
-use crate::flow::System;
+use crate::capsule::Case;
 use crate::orbit::Outcome;
 use crate::study::{CaseSet, Study};
 
@@ -139,11 +138,7 @@ pub fn attractor_table(
 /// The same, a periodic orbit from its least section point on.
 fn begun_at_least(mut attractor: Attractor<3>, case: &Case) -> Attractor<3> {
     if attractor.outcome == Outcome::Periodic {
-        let metric = match case.parameters.switching {
-            Switching::Filippov => case.read::<Filippov>().system.metric(),
-            Switching::AsPrinted => case.read::<AsPrinted>().system.metric(),
-        };
-        let least = attractor.least_point(&metric);
+        let least = attractor.least_point(&case.parameters.metric());
         attractor.points.rotate_left(least);
     }
     attractor

@@ -1,20 +1,18 @@
 //! The parallel run: chains of cases over all cores, in any order, to the same records.
 
 use std::collections::BTreeMap;
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
 use crate::attractor::Executor;
-use crate::capsule::{AsPrinted, CapsuleSystem, Case, Filippov, Orbit, Reading, State, Switching};
+use crate::capsule::{Case, Orbit, State};
 use crate::flow::stop;
 use crate::lane::Instructions;
-use crate::orbit::{
-    self, KnownOrbits, Machine, OrbitOf, Outcome, Queue, STACK, Underway, settle_all,
-    settle_side_by_side,
-};
+use crate::model::{CaseQueue, Known, Model, Unfinished};
+use crate::orbit::{Machine, Outcome, STACK};
 use crate::study::Study;
 use crate::study::grid::Chain;
 
@@ -80,16 +78,8 @@ pub(super) fn run_chains(
 ) -> Result<(), RunError> {
     check(machine)?;
     let (queue, pool) = ((count, chains), pool(machine.threads)?);
-    match study.base.switching {
-        Switching::Filippov => {
-            let known = known_orbits::<Filippov>(study, machine);
-            run_as(study, machine, queue, (&pool, known), &keep);
-        }
-        Switching::AsPrinted => {
-            let known = known_orbits::<AsPrinted>(study, machine);
-            run_as(study, machine, queue, (&pool, known), &keep);
-        }
-    }
+    let known = known_orbits(study, machine);
+    run_queue(study, machine, queue, (&pool, known.as_ref()), &keep);
     Ok(())
 }
 
@@ -101,15 +91,12 @@ pub(super) fn check(machine: Machine) -> Result<(), RunError> {
     }
 }
 
-/// Orbits that are known before cases are followed, if there are any.
-pub(super) type Known<R> = Option<Arc<KnownOrbits<CapsuleSystem<R>, 3>>>;
-
 /// Runs the chains of a queue on the threads of a pool, see [`run_chains`].
-pub(super) fn run_as<R: Reading>(
+pub(super) fn run_queue(
     study: &Study,
     machine: Machine,
     queue: (usize, Chains<'_>),
-    (pool, known): (&rayon::ThreadPool, Known<R>),
+    (pool, known): (&rayon::ThreadPool, Option<&Known>),
     keep: &(impl Fn(usize, Record) -> ControlFlow<()> + Sync),
 ) {
     let (taken, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
@@ -117,28 +104,23 @@ pub(super) fn run_as<R: Reading>(
     let instructions = machine.instructions_for(share);
     let last_cases = Mutex::default();
     pool.broadcast(|_| {
-        let (links, known) = (BTreeMap::new(), known.clone());
+        let (model, links) = (study.model(), BTreeMap::new());
         let (taken, stopped) = (&taken, &stopped);
-        let worker = Worker { study, queue, taken, stopped, share, keep, links, known };
+        let worker = Worker { study, model, queue, taken, stopped, share, keep, links, known };
         worker.work(instructions, &last_cases);
     });
 }
 
 /// The orbits that a sample of the starts leads to, with their neighbourhoods, where all cases have the same parameters
 /// and enough of them profit; the sample depends on the study alone.
-pub(super) fn known_orbits<R: Reading>(study: &Study, machine: Machine) -> Known<R> {
+pub(super) fn known_orbits(study: &Study, machine: Machine) -> Option<Known> {
     let cases = study.cases();
     let wanted = study.early_decision && study.case_set.varies_starts_alone();
     if !wanted || cases < WORTHWHILE * SAMPLE {
         return None;
     }
-    let sample: Vec<_> =
-        (0..SAMPLE).map(|place| study.case(spread(place, cases)).read::<R>()).collect();
-    let system = sample[0].system.clone();
-    let orbits = settle_all(&sample, &study.protocol, machine);
-    let instructions = machine.instructions_for(SAMPLE);
-    let tolerance = study.protocol.tolerance;
-    Some(Arc::new(KnownOrbits::among(&system, orbits, instructions, tolerance)))
+    let sample: Vec<Case> = (0..SAMPLE).map(|place| study.case(spread(place, cases))).collect();
+    study.model().known_orbits(&sample, &study.protocol, machine)
 }
 
 /// One of so many cases by its place in a sample that is spread evenly over all axes: multiples of the golden section, as equal
@@ -179,8 +161,8 @@ pub(super) struct Rayon;
 const SHARE: usize = 16;
 
 impl Executor for Rayon {
-    fn map<T: Send>(&self, range: Range<usize>, each: impl Fn(usize) -> T + Sync) -> Vec<T> {
-        range.into_par_iter().with_min_len(SHARE).map(&each).collect()
+    fn each(&self, count: usize, each: &(dyn Fn(usize) + Sync)) {
+        (0..count).into_par_iter().with_min_len(SHARE).for_each(each);
     }
 }
 
@@ -191,16 +173,18 @@ pub(super) type Chains<'a> = &'a (dyn Fn(usize) -> (usize, usize) + Sync);
 struct Link {
     block: usize,
     index: usize,
-    case: Case,
+    start: State<f64>,
+    start_phase: f64,
     rest: Chain,
 }
 
-/// A case that has left the lanes unfinished.
-type Unfinished<R> = (Link, Underway<CapsuleSystem<R>, 3>);
+/// A case that has left the lanes unfinished, with what follows it.
+type Left = (Link, Box<dyn Unfinished>);
 
 /// A thread with its part of the queue.
-struct Worker<'a, R: Reading, K> {
+struct Worker<'a, K> {
     study: &'a Study,
+    model: &'a dyn Model,
     /// The length of the queue and what is in it.
     queue: (usize, Chains<'a>),
     /// Chains that have been taken by any thread.
@@ -212,16 +196,11 @@ struct Worker<'a, R: Reading, K> {
     keep: &'a K,
     /// The cases in its lanes, by their index.
     links: BTreeMap<usize, Link>,
-    known: Known<R>,
+    known: Option<&'a Known>,
 }
 
-impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Queue<CapsuleSystem<R>, 3>
-    for Worker<'_, R, K>
-{
-    fn next(
-        &mut self,
-        done: Option<(usize, OrbitOf<CapsuleSystem<R>, 3>)>,
-    ) -> Option<(usize, orbit::Case<CapsuleSystem<R>, 3>)> {
+impl<K: Fn(usize, Record) -> ControlFlow<()>> CaseQueue for Worker<'_, K> {
+    fn next(&mut self, done: Option<(usize, Orbit)>) -> Option<(usize, Case)> {
         let next = match done {
             Some((index, orbit)) => {
                 let link = self.links.remove(&index).expect("the case was in a lane");
@@ -232,20 +211,16 @@ impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Queue<CapsuleSystem<R>
                 self.take()
             }
         };
-        let link = next?;
-        let (index, case) = (link.index, link.case.read());
+        let (link, case) = next?;
+        let index = link.index;
         self.links.insert(index, link);
         Some((index, case))
     }
-
-    fn known(&self) -> Known<R> {
-        self.known.clone()
-    }
 }
 
-impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, R, K> {
+impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     /// The first case of the next chain.
-    fn take(&self) -> Option<Link> {
+    fn take(&self) -> Option<(Link, Case)> {
         let place = self.taken.fetch_add(1, Ordering::Relaxed);
         let (count, chains) = self.queue;
         if place >= count {
@@ -256,22 +231,22 @@ impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, R, K> {
     }
 
     /// Keeps the record of a case and yields the next of its chain.
-    fn follow(
-        &self,
-        Link { block, index, case, rest }: Link,
-        orbit: OrbitOf<CapsuleSystem<R>, 3>,
-    ) -> Option<Link> {
-        let orbit = Orbit::of::<R>(orbit, &case, &self.study.protocol);
+    fn follow(&self, link: Link, orbit: Orbit) -> Option<(Link, Case)> {
+        let Link { block, index, start, start_phase, rest } = link;
         // After a failure the next case starts afresh.
         let settled = (orbit.outcome != Outcome::Failed).then_some(orbit.end);
-        let Case { start, start_phase, .. } = case;
         if (self.keep)(block, Record { index, start, start_phase, orbit }).is_break() {
             self.stopped.store(true, Ordering::Relaxed);
         }
         self.depart(block, rest, settled)
     }
 
-    fn depart(&self, block: usize, mut chain: Chain, from: Option<State<f64>>) -> Option<Link> {
+    fn depart(
+        &self,
+        block: usize,
+        mut chain: Chain,
+        from: Option<State<f64>>,
+    ) -> Option<(Link, Case)> {
         if self.stopped.load(Ordering::Relaxed) {
             return None;
         }
@@ -282,13 +257,14 @@ impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, R, K> {
             case.start = State { x2: case.start.x2, ..from };
             case.start_phase = case.section_phase;
         }
-        Some(Link { block, index, case, rest: chain })
+        let Case { start, start_phase, .. } = case;
+        Some((Link { block, index, start, start_phase, rest: chain }, case))
     }
 
     /// Settles cases in lanes, and then the last ones of all threads by themselves.
-    fn work(mut self, instructions: Instructions, last: &Mutex<Vec<Unfinished<R>>>) {
-        let protocol = &self.study.protocol;
-        let left = settle_side_by_side::<CapsuleSystem<R>, 3>(instructions, protocol, &mut self);
+    fn work(mut self, instructions: Instructions, last: &Mutex<Vec<Left>>) {
+        let (model, protocol, known) = (self.model, &self.study.protocol, self.known);
+        let left = model.settle_queue(instructions, protocol, known, &mut self);
         let lock = || last.lock().expect("no thread has panicked");
         lock().extend(left.into_iter().map(|case| self.part_with(case)));
         loop {
@@ -298,25 +274,21 @@ impl<R: Reading, K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, R, K> {
             if self.stopped.load(Ordering::Relaxed) {
                 break;
             }
-            self.finish_chain(link, case);
+            self.finish_chain(link, case.finish(protocol));
         }
     }
 
     /// A case that leaves the lanes unfinished, with what follows it.
-    fn part_with(&mut self, case: Underway<CapsuleSystem<R>, 3>) -> Unfinished<R> {
+    fn part_with(&mut self, case: Box<dyn Unfinished>) -> Left {
         let link = self.links.remove(&case.number()).expect("the case was in a lane");
         (link, case)
     }
 
-    /// Settles a case by itself, and all that follow it.
-    fn finish_chain(&self, mut link: Link, case: Underway<CapsuleSystem<R>, 3>) {
-        let protocol = &self.study.protocol;
-        let (_, mut orbit) = case.finish(protocol);
-        while let Some(next) = self.follow(link, orbit) {
+    /// Settles all that follow a case, one by one.
+    fn finish_chain(&self, mut link: Link, mut orbit: Orbit) {
+        while let Some((next, case)) = self.follow(link, orbit) {
             link = next;
-            let case = link.case.read::<R>();
-            let next = Underway::new(link.index, case, protocol, self.known.clone());
-            (_, orbit) = next.finish(protocol);
+            orbit = self.model.settle(&case, &self.study.protocol, self.known);
         }
     }
 }

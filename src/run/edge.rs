@@ -2,14 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::attractor::{EdgeSearch, Met, Saddle};
-use crate::capsule::{AsPrinted, Filippov, Reading, Switching};
-use crate::orbit::passage::OneByOne;
+use crate::attractor::{Met, Saddle};
+use crate::model::Setting;
 use crate::orbit::{Machine, Outcome};
 use crate::study::{CaseSet, Coordinate, Study};
 
 use super::Attractors;
-use super::leads::Leads;
 
 /// So many pairs of basins are looked at.
 const PAIRS: usize = 64;
@@ -36,7 +34,7 @@ pub fn has_edges(study: &Study) -> bool {
 
 /// The saddles between the basins of a study, one at most for each two; none is looked for where an attractor does not repeat.
 ///
-/// Method: between two neighbouring starts that lead to different attractors, see [`EdgeSearch::saddle`]. Two neighbouring starts
+/// Method: between two neighbouring starts that lead to different attractors, see [`EdgeSearch::saddle`](crate::attractor::EdgeSearch::saddle). Two neighbouring starts
 /// may have a third basin between them, thinner than the grid: what is met then is between one of the two and the third, and
 /// counts as that, and other neighbours are tried for the two. Breaks: where a third basin lies between all that are tried.
 pub fn edges(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Edge> {
@@ -45,22 +43,9 @@ pub fn edges(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Ed
     if !has_edges(study) || attractors.of_starts.len() < 2 || !all_repeat {
         return Vec::new();
     }
-    match study.base.switching {
-        Switching::Filippov => edges_as::<Filippov>(study, attractors, machine),
-        Switching::AsPrinted => edges_as::<AsPrinted>(study, attractors, machine),
-    }
-}
-
-fn edges_as<R: Reading>(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Edge> {
-    let system = study.case(0).read::<R>().system;
+    let setting = Setting::of(&study.case(0));
     let known = (0..).zip(&attractors.of_starts).collect();
-    let known = Leads::new(system, (&study.protocol, machine), known);
-    let search = EdgeSearch {
-        system: &known.system,
-        protocol: known.protocol(),
-        integrator: &OneByOne,
-        leads: &|points| known.of(points),
-    };
+    let leads = study.model().leads(&setting, &study.protocol, machine, known);
     let point = |case: usize| {
         let start = study.case(case).start;
         [start.r, start.y1, start.y2]
@@ -69,7 +54,7 @@ fn edges_as<R: Reading>(study: &Study, attractors: &Attractors, machine: Machine
     let mut between_others = Vec::new();
     for (between, all) in neighbours(study, attractors).into_iter().take(PAIRS) {
         for cases in spread_out(&all) {
-            let Some(Met { mut sides, saddle }) = search.saddle(cases.map(point)) else {
+            let Some(Met { mut sides, saddle }) = leads.saddle(cases.map(point)) else {
                 break;
             };
             sides.sort_unstable();

@@ -1,10 +1,9 @@
 //! A sample of the cases that are inferred is computed as a check.
 
-use crate::capsule::{AsPrinted, Filippov, Reading, Switching};
+use crate::model::Setting;
 use crate::study::Study;
 
 use super::cases::spread;
-use super::leads::Leads;
 use super::map_point::{InferredCases, MapPoint};
 use super::refined::computed;
 use super::{Attractors, FinalMotions, Machine, Record, RunError, final_motion};
@@ -36,23 +35,20 @@ pub fn check_starts(
         return Ok(None);
     }
     let records = computed(study, &sample, machine)?;
-    let elsewhere = match study.base.switching {
-        Switching::Filippov => elsewhere::<Filippov>(study, &records, attractors, machine),
-        Switching::AsPrinted => elsewhere::<AsPrinted>(study, &records, attractors, machine),
-    };
+    let elsewhere = elsewhere(study, &records, attractors, machine);
     Ok(Some(InferredSample { cases: sample.len(), elsewhere }))
 }
 
 /// How many of some starts do not lead to the attractor that they have.
-fn elsewhere<R: Reading>(
+fn elsewhere(
     study: &Study,
     records: &[Record],
     attractors: &Attractors,
     machine: Machine,
 ) -> usize {
     let known = (0..).zip(&attractors.of_starts).collect();
-    let system = study.case(0).read::<R>().system;
-    let leads = Leads::new(system, (&study.protocol, machine), known);
+    let setting = Setting::of(&study.case(0));
+    let leads = study.model().leads(&setting, &study.protocol, machine, known);
     let goes_elsewhere = |record: &&Record| {
         let number = leads.number(&final_motion(&record.orbit));
         number != attractors.of_case[record.index]

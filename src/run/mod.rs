@@ -10,7 +10,6 @@ pub mod edge;
 pub mod forecast;
 mod infer;
 mod inferred_sample;
-mod leads;
 pub mod map_point;
 mod refined;
 mod room;

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 
 use crate::attractor::{Label, Table};
-use crate::capsule::{AsPrinted, CapsuleSystem, Filippov, Reading, Switching};
+use crate::model::{Known, Motions, Setting};
 use crate::study::{Refine, Refinement, Refining, Study};
 
-use super::cases::{Known, Rayon, Record, RunError, check, known_orbits, pool, run_as};
+use super::cases::{Rayon, Record, RunError, check, known_orbits, pool, run_queue};
 use super::infer::{are_alike, label};
 use super::map_point::MapPoint;
 use super::{FinalMotion, FinalMotions, Machine, final_motion};
@@ -28,14 +28,7 @@ pub fn run_tiles(
     finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
     check(machine)?;
-    match study.base.switching {
-        Switching::Filippov => {
-            Runner::<Filippov>::new(study, machine)?.run(refinement, tiles, done, finished)
-        }
-        Switching::AsPrinted => {
-            Runner::<AsPrinted>::new(study, machine)?.run(refinement, tiles, done, finished)
-        }
-    }
+    Runner::new(study, machine)?.run(refinement, tiles, done, finished);
     Ok(())
 }
 
@@ -48,10 +41,7 @@ pub fn complete_basin(
 ) -> Result<Vec<Record>, RunError> {
     check(machine)?;
     let motions: Vec<(usize, FinalMotion)> = final_motions.known().collect();
-    match study.base.switching {
-        Switching::Filippov => Runner::<Filippov>::new(study, machine)?.complete_basin(&motions),
-        Switching::AsPrinted => Runner::<AsPrinted>::new(study, machine)?.complete_basin(&motions),
-    }
+    Ok(Runner::new(study, machine)?.complete_basin(&motions))
 }
 
 /// Computes what the tiles of a refined map lack, as what crosses their boundaries shows, from what is `known` of the cases that
@@ -62,10 +52,7 @@ pub fn complete_map(
     machine: Machine,
 ) -> Result<Vec<Record>, RunError> {
     check(machine)?;
-    match study.base.switching {
-        Switching::Filippov => Runner::<Filippov>::new(study, machine)?.complete_map(known),
-        Switching::AsPrinted => Runner::<AsPrinted>::new(study, machine)?.complete_map(known),
-    }
+    Ok(Runner::new(study, machine)?.complete_map(known))
 }
 
 /// The records of some cases of a refined study, in the order of their indices.
@@ -77,23 +64,20 @@ pub(super) fn computed(
     check(machine)?;
     let cases: Vec<(usize, usize)> = cases.iter().map(|&case| (case, 0)).collect();
     let proceed = |_, _: &Record| ControlFlow::Continue(());
-    Ok(match study.base.switching {
-        Switching::Filippov => Runner::<Filippov>::new(study, machine)?.compute(&cases, proceed),
-        Switching::AsPrinted => Runner::<AsPrinted>::new(study, machine)?.compute(&cases, proceed),
-    })
+    Ok(Runner::new(study, machine)?.compute(&cases, proceed))
 }
 
 /// What computes the cases of a study on demand.
-struct Runner<'a, R: Reading> {
+struct Runner<'a> {
     study: &'a Study,
     machine: Machine,
     pool: rayon::ThreadPool,
-    system: CapsuleSystem<R>,
-    known: Known<R>,
+    setting: Setting,
+    known: Option<Known>,
 }
 
 /// How the cases that have been computed are told apart.
-trait Sorting<R: Reading>: Sync {
+trait Sorting: Sync {
     /// What is told of a case.
     type Label: Send + Sync;
 
@@ -101,7 +85,7 @@ trait Sorting<R: Reading>: Sync {
     const ALIKE: fn(&Self::Label, &Self::Label) -> bool;
 
     /// The labels of some records.
-    fn labels(&mut self, runner: &Runner<'_, R>, records: &[Record]) -> Vec<Self::Label>;
+    fn labels(&mut self, runner: &Runner<'_>, records: &[Record]) -> Vec<Self::Label>;
 }
 
 /// By the attractors of those that have been met.
@@ -109,24 +93,23 @@ trait Sorting<R: Reading>: Sync {
 struct ByAttractor(Table<3>);
 
 impl ByAttractor {
-    fn of<R: Reading>(
-        &mut self,
-        runner: &Runner<'_, R>,
-        motions: &[(usize, FinalMotion)],
-    ) -> Vec<Label> {
+    fn of(&mut self, runner: &Runner<'_>, motions: &[(usize, FinalMotion)]) -> Vec<Label> {
         let before = self.0.of_case.len();
-        let motion = |place: usize| (motions[place].0, Some(motions[place].1));
-        let (system, protocol) = (&runner.system, &runner.study.protocol);
-        runner.pool.install(|| self.0.extend(motions.len(), motion, system, protocol, &Rayon));
+        let at = &|place: usize| (motions[place].0, Some(motions[place].1));
+        let motions = Motions { count: motions.len(), at };
+        let (model, protocol) = (runner.study.model(), &runner.study.protocol);
+        runner.pool.install(|| {
+            model.extend_table(&mut self.0, &runner.setting, motions, protocol, &Rayon);
+        });
         self.0.of_case[before..].iter().map(|attractor| label(*attractor)).collect()
     }
 }
 
-impl<R: Reading> Sorting<R> for ByAttractor {
+impl Sorting for ByAttractor {
     type Label = Label;
     const ALIKE: fn(&Label, &Label) -> bool = are_alike;
 
-    fn labels(&mut self, runner: &Runner<'_, R>, records: &[Record]) -> Vec<Label> {
+    fn labels(&mut self, runner: &Runner<'_>, records: &[Record]) -> Vec<Label> {
         let motions: Vec<(usize, FinalMotion)> =
             records.iter().map(|it| (it.index, final_motion(&it.orbit))).collect();
         self.of(runner, &motions)
@@ -137,27 +120,27 @@ impl<R: Reading> Sorting<R> for ByAttractor {
 #[derive(Default)]
 struct ByOutputs;
 
-impl<R: Reading> Sorting<R> for ByOutputs {
+impl Sorting for ByOutputs {
     type Label = MapPoint;
     const ALIKE: fn(&MapPoint, &MapPoint) -> bool = MapPoint::is_like;
 
-    fn labels(&mut self, runner: &Runner<'_, R>, records: &[Record]) -> Vec<MapPoint> {
+    fn labels(&mut self, runner: &Runner<'_>, records: &[Record]) -> Vec<MapPoint> {
         records.iter().map(|record| MapPoint::of_record(runner.study, record)).collect()
     }
 }
 
 /// Some cases that are refined together, as far as they have been computed.
-struct Set<S: Sorting<R>, R: Reading> {
+struct Set<S: Sorting> {
     refining: Refining<S::Label>,
     sorting: S,
     records: Vec<Record>,
 }
 
-impl<'a, R: Reading> Runner<'a, R> {
+impl<'a> Runner<'a> {
     fn new(study: &'a Study, machine: Machine) -> Result<Self, RunError> {
-        let known = known_orbits::<R>(study, machine);
-        let system = study.case(0).read::<R>().system;
-        Ok(Runner { study, machine, pool: pool(machine.threads)?, system, known })
+        let known = known_orbits(study, machine);
+        let setting = Setting::of(&study.case(0));
+        Ok(Runner { study, machine, pool: pool(machine.threads)?, setting, known })
     }
 
     fn run(
@@ -175,14 +158,14 @@ impl<'a, R: Reading> Runner<'a, R> {
         }
     }
 
-    fn run_by<S: Sorting<R> + Default>(
+    fn run_by<S: Sorting + Default>(
         &self,
         (refinement, numbers): (&Refinement, &[usize]),
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
         finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()>,
     ) {
         for numbers in numbers.chunks(TILES_TOGETHER) {
-            let tile = |&number| Set::<S, R> {
+            let tile = |&number| Set::<S> {
                 refining: Refining::tile(refinement, number, S::ALIKE),
                 sorting: S::default(),
                 records: Vec::new(),
@@ -200,19 +183,19 @@ impl<'a, R: Reading> Runner<'a, R> {
         }
     }
 
-    fn complete_basin(&self, motions: &[(usize, FinalMotion)]) -> Result<Vec<Record>, RunError> {
+    fn complete_basin(&self, motions: &[(usize, FinalMotion)]) -> Vec<Record> {
         let mut sorting = ByAttractor::default();
         let labels = sorting.of(self, motions);
         let cases = motions.iter().map(|(case, _)| *case);
-        Ok(self.complete(sorting, cases.zip(labels)))
+        self.complete(sorting, cases.zip(labels))
     }
 
-    fn complete_map(&self, known: &[(usize, MapPoint)]) -> Result<Vec<Record>, RunError> {
-        Ok(self.complete(ByOutputs, known.iter().cloned()))
+    fn complete_map(&self, known: &[(usize, MapPoint)]) -> Vec<Record> {
+        self.complete(ByOutputs, known.iter().cloned())
     }
 
     /// What the whole grid lacks, of which some cases are known.
-    fn complete<S: Sorting<R>>(
+    fn complete<S: Sorting>(
         &self,
         sorting: S,
         known: impl Iterator<Item = (usize, S::Label)>,
@@ -220,7 +203,7 @@ impl<'a, R: Reading> Runner<'a, R> {
         let Some(refinement) = self.study.refinement() else { return Vec::new() };
         let mut refining = Refining::whole(&refinement, S::ALIKE);
         known.for_each(|(case, label)| refining.note(case, label));
-        let mut all = [Set::<S, R> { refining, sorting, records: Vec::new() }];
+        let mut all = [Set::<S> { refining, sorting, records: Vec::new() }];
         // Nobody asks to stop.
         let _ = self.refine(&mut all, |_, _| ControlFlow::Continue(()));
         let [Set { mut records, .. }] = all;
@@ -230,9 +213,9 @@ impl<'a, R: Reading> Runner<'a, R> {
 
     /// Computes what some sets of cases need, round by round, until none needs any more, or `done`, which is told of each
     /// record with the place of the first set that wants it, says to stop.
-    fn refine<S: Sorting<R>>(
+    fn refine<S: Sorting>(
         &self,
-        sets: &mut [Set<S, R>],
+        sets: &mut [Set<S>],
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
     ) -> ControlFlow<()> {
         loop {
@@ -276,8 +259,8 @@ impl<'a, R: Reading> Runner<'a, R> {
             told
         };
         let chains = |at: usize| (cases[at].1, cases[at].0);
-        let (study, machine, known) = (self.study, self.machine, self.known.clone());
-        run_as::<R>(study, machine, (cases.len(), &chains), (&self.pool, known), &keep);
+        let (queue, pool) = ((cases.len(), &chains as _), (&self.pool, self.known.as_ref()));
+        run_queue(self.study, self.machine, queue, pool, &keep);
         let mut records = records.into_inner().expect("no thread has panicked");
         records.sort_by_key(|record: &Record| record.index);
         records

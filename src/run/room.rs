@@ -1,8 +1,6 @@
 //! How much room the basins of a grid of starts have.
 
 use crate::attractor::{Integrity, Label, integrity};
-use crate::capsule::{AsPrinted, Filippov, Switching};
-use crate::flow::System;
 use crate::study::{Axis, CaseSet, Coordinate, Study};
 
 /// The grid of the starts of a study, as distances are measured in it: omega r, y1 and y2 [m/s].
@@ -15,11 +13,7 @@ impl Room {
     /// That of the starts of a grid that begin with those of `case`, if all of its axes of starts are coordinates of the section.
     pub(super) fn of(study: &Study, case: usize) -> Option<Room> {
         let CaseSet::Grid(_) = study.case_set else { return None };
-        let first = study.case(case);
-        let metric = match first.parameters.switching {
-            Switching::Filippov => first.read::<Filippov>().system.metric(),
-            Switching::AsPrinted => first.read::<AsPrinted>().system.metric(),
-        };
+        let metric = study.case(case).parameters.metric();
         let names = [Coordinate::StartR, Coordinate::StartY1, Coordinate::StartY2];
         let starts: Vec<&Axis> =
             study.axes().iter().filter(|axis| axis.coordinate.is_start()).collect();

@@ -1,7 +1,7 @@
 //! The shares of the starts that lead to each attractor, along a parameter.
 
 use crate::attractor::{Attractor, Integrity, Label, Share, shares_of_grid};
-use crate::capsule::{AsPrinted, Filippov, Switching};
+use crate::model::Setting;
 use crate::orbit::Outcome;
 use crate::study::layout::Layout;
 use crate::study::{CaseSet, Study};
@@ -78,11 +78,6 @@ pub fn shares_along(
 
 /// The attractor that a case has settled to, followed once more.
 fn attractor_of(study: &Study, case: usize, motion: &FinalMotion) -> Option<Attractor<3>> {
-    let (of, protocol) = (study.case(case), &study.protocol);
-    match of.parameters.switching {
-        Switching::Filippov => Attractor::of(case, &of.read::<Filippov>().system, motion, protocol),
-        Switching::AsPrinted => {
-            Attractor::of(case, &of.read::<AsPrinted>().system, motion, protocol)
-        }
-    }
+    let setting = Setting::of(&study.case(case));
+    study.model().attractor(&setting, case, motion, &study.protocol)
 }

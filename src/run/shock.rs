@@ -1,12 +1,9 @@
 //! The minimal critical shocks of the attractors of a grid of starts.
 
 use crate::attractor::{Attractor, minimal_critical_shock};
-use crate::capsule::{AsPrinted, Filippov, Reading, Switching};
-use crate::flow::System;
+use crate::model::Setting;
 use crate::orbit::{Machine, Outcome};
 use crate::study::Study;
-
-use super::leads::Leads;
 
 /// Section points that are disturbed; of an orbit of a longer period no shock is told.
 const MOST_POINTS: usize = 16;
@@ -22,25 +19,13 @@ pub(super) fn shocks(
     known: &[(u32, &Attractor<3>)],
     machine: Machine,
 ) -> Vec<f64> {
-    match study.base.switching {
-        Switching::Filippov => shocks_as::<Filippov>(study, case, known, machine),
-        Switching::AsPrinted => shocks_as::<AsPrinted>(study, case, known, machine),
-    }
-}
-
-fn shocks_as<R: Reading>(
-    study: &Study,
-    case: usize,
-    known: &[(u32, &Attractor<3>)],
-    machine: Machine,
-) -> Vec<f64> {
     // What does not repeat is told apart less surely, and takes long to follow.
     if known.iter().any(|(_, it)| it.outcome != Outcome::Periodic) {
         return vec![f64::NAN; known.len()];
     }
-    let system = study.case(case).read::<R>().system;
-    let metric = system.metric();
-    let leads = Leads::new(system, (&study.protocol, machine), known.to_vec());
+    let setting = Setting::of(&study.case(case));
+    let metric = setting.parameters.metric();
+    let leads = study.model().leads(&setting, &study.protocol, machine, known.to_vec());
     let is_disturbed = |it: &Attractor<3>| (1..=MOST_POINTS).contains(&it.points.len());
     let shock = |(number, attractor): &(u32, &Attractor<3>)| {
         // To a section point of any other attractor is a shock.

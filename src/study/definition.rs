@@ -5,6 +5,8 @@ use std::hash::Hash;
 use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 
 use crate::capsule::{Case, Output, Parameters, State};
+use crate::model::Model;
+use crate::of::model_of;
 use crate::orbit::Protocol;
 
 use super::grid::Chain;
@@ -121,6 +123,11 @@ impl Study {
         format!("{computed:?}").hash(&mut hasher);
         let Hash128 { h1, h2 } = hasher.finish128();
         format!("{h1:016x}{h2:016x}")
+    }
+
+    /// The model that it asks about.
+    pub fn model(&self) -> &'static dyn Model {
+        model_of(&self.base)
     }
 
     /// Number of cases.

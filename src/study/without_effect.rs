@@ -1,6 +1,6 @@
 //! What varies in a study without effect on its motion, under its law of resistance.
 
-use crate::capsule::{Parameter, Resistance, Switching};
+use crate::capsule::{Parameter, Resistance};
 
 use super::axis::range;
 use super::{Axis, Continuation, Coordinate, Study};
@@ -83,7 +83,7 @@ impl Study {
     /// the friction at the onset of sliding.
     fn least_static_friction(&self, dynamic: f64) -> f64 {
         let factor = self.base.resistance.onset_factor();
-        if self.base.switching == Switching::Filippov { factor * dynamic } else { 0.0 }
+        if self.base.switching.balances_at_rest() { factor * dynamic } else { 0.0 }
     }
 
     /// That static friction has no effect in a part of what is above `low`.

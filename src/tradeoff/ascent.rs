@@ -1,6 +1,5 @@
 //! From an orbit to the best one of its family: stationary within the bounds, or where the family or its outputs have an edge.
 
-use crate::capsule::Reading;
 use crate::orbit::matrix::norm;
 
 use super::beyond::Beyond;
@@ -48,11 +47,11 @@ pub struct Best {
     pub held_by: Vec<Hold>,
 }
 
-struct Ascent<'a, R> {
-    family: &'a Family<R>,
+struct Ascent<'a> {
+    family: &'a Family,
     objective: Objective,
     /// Where events change.
-    beyond: Beyond<'a, R>,
+    beyond: Beyond<'a>,
 }
 
 /// The slope at an orbit.
@@ -90,7 +89,7 @@ struct Step {
 /// # Guarantees
 ///
 /// The orbit is no worse than the first, but for 1e-8 where a surface is passed. Local: another start may lead to a better one.
-pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -> Option<Best> {
+pub fn best(family: &Family, first: OperatingPoint, goal: Goal) -> Option<Best> {
     let mut ascent = Ascent::from(family, &first, goal)?;
     let [mut trust, least] = TRUST;
     let mut at = first;
@@ -180,11 +179,7 @@ pub fn best<R: Reading>(family: &Family<R>, first: OperatingPoint, goal: Goal) -
 
 /// The largest relative slope that is left at an orbit of a family, as in [`Best`], and what holds it of bounds alone; none
 /// where the goal has no value there.
-pub fn left<R: Reading>(
-    family: &Family<R>,
-    at: &OperatingPoint,
-    goal: Goal,
-) -> Option<(f64, Vec<Hold>)> {
+pub fn left(family: &Family, at: &OperatingPoint, goal: Goal) -> Option<(f64, Vec<Hold>)> {
     let ascent = Ascent::from(family, at, goal)?;
     let Slope { left, mut held_by, .. } =
         ascent.slope((at, &ascent.objective.measured(at)), &[], 0.0);
@@ -194,9 +189,9 @@ pub fn left<R: Reading>(
     Some((left, held_by))
 }
 
-impl<'a, R: Reading> Ascent<'a, R> {
+impl<'a> Ascent<'a> {
     /// From an orbit of a family; none where the goal has no value there.
-    fn from(family: &'a Family<R>, first: &OperatingPoint, goal: Goal) -> Option<Self> {
+    fn from(family: &'a Family, first: &OperatingPoint, goal: Goal) -> Option<Self> {
         let objective = Objective::from(goal, &family.limits, (family.free.len(), first))?;
         let beyond = Beyond::of(family, objective.clone());
         Some(Ascent { family, objective, beyond })

@@ -1,6 +1,5 @@
 //! The orbits beyond the surfaces near an orbit: they tell where events change.
 
-use crate::capsule::Reading;
 use crate::orbit::matrix::dot;
 
 use super::goal::{Measured, Objective};
@@ -16,15 +15,15 @@ const REACH: [f64; 2] = [4.0, 1e-3];
 const KEPT: usize = 8;
 
 /// Orbits with other events than the present one has, the nearest of each sequence.
-pub struct Beyond<'a, R> {
-    family: &'a Family<R>,
+pub struct Beyond<'a> {
+    family: &'a Family,
     objective: Objective,
     orbits: Vec<OperatingPoint>,
 }
 
-impl<'a, R: Reading> Beyond<'a, R> {
+impl<'a> Beyond<'a> {
     /// None yet.
-    pub fn of(family: &'a Family<R>, objective: Objective) -> Self {
+    pub fn of(family: &'a Family, objective: Objective) -> Self {
         Beyond { family, objective, orbits: Vec::new() }
     }
 

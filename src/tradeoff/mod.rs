@@ -9,10 +9,10 @@ mod limit;
 mod operating_point;
 mod optima;
 mod quadratic;
-mod sensitivity;
 mod slope;
 mod surface;
 
+pub use crate::capsule::{SMOOTH, Sensitivity, sensitivity};
 pub use ascent::{Best, STATIONARY, best, left};
 pub use front::{NOISE, front, speed_at_rest};
 pub use goal::Goal;
@@ -21,7 +21,6 @@ pub use limit::Limit;
 pub use operating_point::{Family, OperatingPoint};
 pub use optima::{Candidate, Direction, Optima, fastest_first, hypervolume, optima};
 pub use quadratic::MOST as MOST_FREE;
-pub use sensitivity::{SMOOTH, Sensitivity, sensitivity};
 
 /// Limits of outputs that a search takes beside a budget, at most.
 pub const MOST_LIMITS: usize = quadratic::LIMITS - 1;

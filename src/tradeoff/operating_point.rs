@@ -1,28 +1,20 @@
 //! A periodic orbit at some values of free parameters, with the derivatives of what a trade-off is between.
 
-use crate::branch::cyclic;
-use crate::capsule::{CapsuleSystem, EventKind, Output, Outputs, Parameter, Reading, Section};
-use crate::flow::{Event, System};
-use crate::orbit::matrix::{Complex, eigenvalues};
-use crate::orbit::newton::close;
-use crate::orbit::passage::{Integrator, OneByOne, ReturnRequest, image};
-use crate::orbit::return_map::Cycles;
+use crate::capsule::{EventKind, Output, Outputs, Parameter, Section};
+use crate::flow::Event;
+use crate::model::{Model, Setting, StableOrbit};
+use crate::orbit::matrix::Complex;
 
 use super::limit::Limit;
 use super::quadratic::{MOST, Vector};
-use super::sensitivity::sensitivity;
-
-/// An orbit closes to this residual, relative to the motion; a larger one is seen in the outputs, and they in the search.
-const EXACT: f64 = 1e-11;
-/// How often Newton's method is begun again from the image of the point where it has ended, as beside a kink of the return
-/// map it may end early.
-const AGAIN: usize = 4;
 
 /// A family of periodic orbits over free parameters, each between two bounds.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Family<R> {
-    /// The capsule with the parameters that are held.
-    pub system: CapsuleSystem<R>,
+#[derive(Debug, Clone)]
+pub struct Family {
+    /// The model.
+    pub model: &'static dyn Model,
+    /// The parameters that are held, and the phase of the drive at the section.
+    pub setting: Setting,
     /// The free parameters with their bounds, at most [`MOST`].
     pub free: Vec<(Parameter, [f64; 2])>,
     /// Limits of outputs within which an orbit is sought that is best, at most [`MOST_LIMITS`](super::MOST_LIMITS).
@@ -70,76 +62,53 @@ impl OperatingPoint {
     }
 }
 
-impl<R: Reading> Family<R> {
+impl Family {
     /// The value of the `place`th free parameter at a share of its range.
     pub fn value(&self, place: usize, share: f64) -> f64 {
         let [low, high] = self.free[place].1;
         if share == 1.0 { high } else { low + share * (high - low) }
     }
 
-    /// The shares of the parameters of the system.
+    /// The shares of the parameters of the setting.
     pub fn shares(&self) -> Vector {
         std::array::from_fn(|place| {
             self.free.get(place).map_or(0.0, |(parameter, [low, high])| {
-                (self.system.value(*parameter) - low) / (high - low)
+                (self.setting.parameters[*parameter] - low) / (high - low)
             })
         })
     }
 
-    /// The capsule at these shares.
-    pub fn at(&self, shares: &Vector) -> CapsuleSystem<R> {
-        let mut system = self.system.clone();
+    /// The setting at these shares.
+    pub fn at(&self, shares: &Vector) -> Setting {
+        let mut setting = self.setting.clone();
         for (place, (parameter, _)) in self.free.iter().enumerate() {
-            system.parameters[*parameter] = self.value(place, shares[place]);
+            setting.parameters[*parameter] = self.value(place, shares[place]);
         }
-        system
+        setting
     }
 
     /// The stable orbit at these shares near a section point; none where there is none.
     ///
     /// # Method
     ///
-    /// Newton's method on the return map, down to rounding, then [`sensitivity`] in each parameter.
+    /// Newton's method on the return map, down to rounding, then its sensitivity to each parameter.
     pub fn orbit(&self, shares: &Vector, guess: &Section) -> Option<OperatingPoint> {
-        let system = self.at(shares);
-        let metric = system.metric();
-        let cycles = Cycles { count: self.period, tolerance: self.tolerance };
-        let size = metric.size(guess).max(system.expected_size());
-        let image_of = |point: &Section| image(&OneByOne, &system, point, &cycles);
-        let closed_near =
-            |guess: &Section| close(image_of, self.period, &metric, guess, size).ok().flatten();
-        let mut closed = closed_near(guess)?;
-        for _ in 0..AGAIN {
-            if closed.residual <= EXACT {
-                break;
-            }
-            closed = closed_near(&image_of(&closed.point).ok()?.end)?;
-        }
-        let multipliers = eigenvalues(&closed.jacobian);
-        let is_stable = multipliers[0].abs() < 1.0;
-        if closed.residual > EXACT || !is_stable {
-            return None;
-        }
-        let section = closed.point;
-        let passed = OneByOne.passage(ReturnRequest {
-            system: system.clone(),
-            along: None,
-            point: section,
-            units: [1.0; 3],
-            cycles,
-            watched: true,
-        });
+        let setting = self.at(shares);
+        let (period, tolerance) = (self.period, self.tolerance);
+        let StableOrbit { section, multipliers, events } =
+            self.model.stable_orbit(&setting, guess, period, tolerance)?;
         let mut point = OperatingPoint {
             shares: *shares,
             section,
             multipliers,
-            events: cyclic(&passed.ok()?.events),
+            events,
             outputs: Outputs::unknown(),
             section_slopes: [[0.0; 3]; MOST],
             slopes: [Outputs::unknown(); MOST],
         };
         for (place, (parameter, [low, high])) in self.free.iter().enumerate() {
-            let found = sensitivity(&system, (&section, self.period), self.tolerance, *parameter)?;
+            let found =
+                self.model.sensitivity(&setting, &section, period, tolerance, *parameter)?;
             let range = high - low;
             point.outputs = found.outputs;
             point.section_slopes[place] = found.section_slope.map(|slope| slope * range);

@@ -13,8 +13,8 @@ use super::program::WorkDir;
 
 /// The files that give parameters, starts, outputs and the dimensions of cases their names.
 const DEFINING: [&str; 5] = [
-    "src/capsule/parameter.rs",
-    "src/capsule/output.rs",
+    "crates/models/src/capsule/parameter.rs",
+    "crates/models/src/capsule/output.rs",
     "src/study/axis.rs",
     "src/study/grid.rs",
     "src/study/draws.rs",
@@ -34,7 +34,7 @@ const OTHERS: [(&str, &[&str], &str); 16] = [
         SET,
         "what the keys of quantities may name, which a test here compares",
     ),
-    ("src/capsule/quantity.rs", &["g"], "the gram"),
+    ("crates/models/src/capsule/quantity.rs", &["g"], "the gram"),
     ("src/figure/text.rs", &["delta", "omega"], "names of symbols in TeX"),
     ("src/cli/simulate.rs", OPTIONS, "options of a command"),
     ("src/cli/phases.rs", &["start_phase", "section_phase"], "options of a command"),

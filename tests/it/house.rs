@@ -1,5 +1,6 @@
 //! The house rules, checked on the source as text: the order of the floors and what each may use.
 
+mod models;
 mod names;
 mod paths;
 
@@ -7,19 +8,22 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The folders of the source: of the program with its library, and of the crates below it.
-pub const LIBRARY: [&str; 3] = ["src", "crates/engine/src", "crates/commit/src"];
+pub const LIBRARY: [&str; 4] =
+    ["src", "crates/engine/src", "crates/models/src", "crates/commit/src"];
 /// These, the tests and the benches.
-pub const FOLDERS: [&str; 5] =
-    ["src", "crates/engine/src", "crates/commit/src", "tests", "benches"];
+pub const FOLDERS: [&str; 6] =
+    ["src", "crates/engine/src", "crates/models/src", "crates/commit/src", "tests", "benches"];
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 15] = [
+const FLOORS: [&str; 17] = [
     "lane",
     "flow",
     "orbit",
     "branch",
     "attractor",
     "capsule",
+    "model",
+    "of",
     "experiment",
     "study",
     "run",

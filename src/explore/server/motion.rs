@@ -9,8 +9,8 @@ use super::computations::{BUDGET, MOTION_BUDGET};
 use super::explored::{Explored, Near};
 use crate::campaign::command;
 use crate::capsule::{
-    ArcPoint, Case, Orbit, Output, Parameter, Simulation, SimulationSize, State, Switching, arc,
-    settle_case, simulate_case_within,
+    ArcPoint, Case, Orbit, Output, Parameter, Simulation, SimulationSize, State, arc, settle_case,
+    simulate_case_within,
 };
 use crate::explore::case_json::{case_json, remarks};
 use crate::flow::stop;
@@ -180,7 +180,7 @@ fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
         y2: column(&|it| it.state.y2),
         drive: column(&|it| it.drive),
         contact: column(&|it| parameters.forces(&it.state).contact),
-        friction: (parameters.switching == Switching::Filippov).then(friction),
+        friction: parameters.switching.balances_at_rest().then(friction),
     })
 }
 

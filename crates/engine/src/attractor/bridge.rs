@@ -7,7 +7,7 @@ use crate::flow::System;
 use crate::orbit::passage::OneByOne;
 
 use super::link::{Links, Neighbours, is_reached};
-use super::table::{Executor, Table};
+use super::table::{Executor, Table, results};
 
 /// A periodic attractor of one cell that is seen again in a later one, but in none between them.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,13 +29,13 @@ pub fn bridges<M: System<D>, const D: usize>(
     cells: &[Arc<Table<D>>],
     links: &[Links<D>],
     between: impl Fn(usize) -> Option<Neighbours<M, D>> + Sync,
-    executor: &impl Executor,
+    executor: &dyn Executor,
 ) -> Vec<Bridge<D>> {
     let unseen = links.iter().enumerate().flat_map(|(at, links)| {
         links.unseen.iter().map(move |(place, unseen)| ([at, *place], unseen))
     });
     let unseen: Vec<([usize; 2], &PeriodicOrbit<D>)> = unseen.collect();
-    let crossed = executor.map(0..unseen.len(), |number| {
+    let crossed = results(executor, 0..unseen.len(), |number| {
         let (from, unseen) = unseen[number];
         cross(cells, links, from, unseen.clone(), &between)
     });

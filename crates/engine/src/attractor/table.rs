@@ -1,6 +1,7 @@
 //! The table of the attractors at one set of parameters, and which of them each case has ended on.
 
 use std::ops::Range;
+use std::sync::Mutex;
 
 use crate::flow::{Metric, Stroboscopic, System};
 use crate::orbit::{OrbitOf, Outcome, Protocol};
@@ -13,11 +14,10 @@ const TOGETHER: usize = 4096;
 /// So many are at first, when no attractor is known, and each time as many times more.
 const AT_FIRST: usize = 16;
 
-/// Calls a function for each number of a range, perhaps on several threads, and returns the results in their
-/// order.
+/// Calls a function for each of many numbers, perhaps on several threads.
 pub trait Executor: Sync {
-    /// The results of `each` for every number of `range`.
-    fn map<T: Send>(&self, range: Range<usize>, each: impl Fn(usize) -> T + Sync) -> Vec<T>;
+    /// Calls `each` once for every number below `count`, in any order.
+    fn each(&self, count: usize, each: &(dyn Fn(usize) + Sync));
 }
 
 /// One thread.
@@ -25,9 +25,24 @@ pub trait Executor: Sync {
 pub struct Serial;
 
 impl Executor for Serial {
-    fn map<T: Send>(&self, range: Range<usize>, each: impl Fn(usize) -> T + Sync) -> Vec<T> {
-        range.map(each).collect()
+    fn each(&self, count: usize, each: &(dyn Fn(usize) + Sync)) {
+        (0..count).for_each(each);
     }
+}
+
+/// The results of a function for every number of a range, in their order.
+pub(super) fn results<T: Send>(
+    executor: &dyn Executor,
+    range: Range<usize>,
+    function: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
+    let results: Vec<Mutex<Option<T>>> = range.clone().map(|_| Mutex::new(None)).collect();
+    executor.each(results.len(), &|place| {
+        let result = function(range.start + place);
+        *results[place].lock().expect("no thread has panicked") = Some(result);
+    });
+    let result = |it: Mutex<Option<T>>| it.into_inner().expect("no thread has panicked");
+    results.into_iter().map(|it| result(it).expect("it was called for each")).collect()
 }
 
 /// The attractors at one set of parameters.
@@ -59,7 +74,7 @@ impl<const D: usize> Table<D> {
         motion: impl Fn(usize) -> (usize, Option<FinalMotion<D>>) + Sync,
         system: &M,
         protocol: &Protocol,
-        executor: &impl Executor,
+        executor: &dyn Executor,
     ) -> Self {
         let mut table = Table { of_case: Vec::with_capacity(cases), ..Table::default() };
         table.extend(cases, motion, system, protocol, executor);
@@ -85,7 +100,7 @@ impl<const D: usize> Table<D> {
         motion: impl Fn(usize) -> (usize, Option<FinalMotion<D>>) + Sync,
         system: &M,
         protocol: &Protocol,
-        executor: &impl Executor,
+        executor: &dyn Executor,
     ) {
         let (mut first, mut together) = (0, AT_FIRST);
         while first < cases {
@@ -97,7 +112,8 @@ impl<const D: usize> Table<D> {
                 Some(known.ok_or(found))
             };
             let last = cases.min(first + together);
-            let met: Vec<Option<Result<usize, Attractor<D>>>> = executor.map(first..last, meet);
+            let met: Vec<Option<Result<usize, Attractor<D>>>> =
+                results(executor, first..last, meet);
             for met in met {
                 let add = |new| self.add(new, system, protocol);
                 let place = met.map(|met| met.unwrap_or_else(add));

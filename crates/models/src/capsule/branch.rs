@@ -1,7 +1,7 @@
 //! Branches of periodic motions of a capsule, with their outputs.
 
-use crate::branch::{self, NotFollowed};
-use crate::orbit::Protocol;
+use capsulemap_engine::branch::{self, NotFollowed};
+use capsulemap_engine::orbit::Protocol;
 
 use super::failure::Section;
 use super::output::Outputs;

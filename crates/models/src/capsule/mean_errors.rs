@@ -1,8 +1,8 @@
 //! Standard errors of the outputs that are means of a motion that does not repeat, from batches of its measured cycles.
 
-use crate::orbit::exponent::BATCHES;
-use crate::orbit::measuring::batch_ends;
-use crate::orbit::{self, Outcome};
+use capsulemap_engine::orbit::exponent::BATCHES;
+use capsulemap_engine::orbit::measuring::batch_ends;
+use capsulemap_engine::orbit::{self, Outcome};
 
 use super::account::{Account, Energies};
 use super::output::{Output, Outputs};

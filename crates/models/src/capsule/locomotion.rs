@@ -1,7 +1,7 @@
 //! What is told of a capsule's motion beside its coordinates, however its friction is read.
 
-use crate::flow::Switched;
-use crate::lane::{Lane, Mask, Series};
+use capsulemap_engine::flow::Switched;
+use capsulemap_engine::lane::{Lane, Mask, Series};
 
 use super::state::{EventKind, Jet, State};
 

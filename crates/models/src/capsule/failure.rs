@@ -1,7 +1,7 @@
 //! Where and why a capsule could not be followed.
 
-use crate::flow::Reason;
-use crate::orbit;
+use capsulemap_engine::flow::Reason;
+use capsulemap_engine::orbit;
 
 use super::state::State;
 

@@ -1,7 +1,7 @@
 //! The regimes of the capsule as printed, and what follows each of them.
 
-use crate::flow::Zeros;
-use crate::lane::{Lane, Mask, series, side_by_side};
+use capsulemap_engine::flow::Zeros;
+use capsulemap_engine::lane::{Lane, Mask, series, side_by_side};
 
 use super::drag::Drag;
 use super::drive::Drive;

@@ -1,7 +1,7 @@
 //! A short part of a motion, computed from where it begins.
 
-use crate::flow::{Event as _, Stroboscopic};
-use crate::lane::series;
+use capsulemap_engine::flow::{Event as _, Stroboscopic};
+use capsulemap_engine::lane::series;
 
 use super::case::Case;
 use super::failure::Failure;

@@ -1,8 +1,8 @@
 //! The vibro-impact capsule, its friction read in Filippov's sense.
 
-use crate::flow::{Event, Field, Stroboscopic, Switched, Zeros};
-use crate::lane::elementary::not_finite;
-use crate::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
+use capsulemap_engine::flow::{Event, Field, Stroboscopic, Switched, Zeros};
+use capsulemap_engine::lane::elementary::not_finite;
+use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 
 use super::drag::Drag;
 use super::drive::{Drive, reduced};

@@ -3,8 +3,8 @@
 use std::fmt::Debug;
 use std::marker::PhantomData;
 
-use crate::flow::{Field, Metric, Stroboscopic, Switched, System};
-use crate::lane::{Lane, SideBySide};
+use capsulemap_engine::flow::{Field, Metric, Stroboscopic, Switched, System};
+use capsulemap_engine::lane::{Lane, SideBySide};
 
 use super::account::Account;
 use super::filippov::{self, Capsule};
@@ -124,9 +124,8 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
         other
     }
 
-    /// A displacement r counts as the velocity omega r, so that a section where y1 passes zero has a size too.
     fn metric(&self) -> Metric<3> {
-        Metric { scales: [self.parameters[Parameter::Omega], 1.0, 1.0] }
+        self.parameters.metric()
     }
 
     fn observer(&self, points: usize) -> Account<f64> {

@@ -1,6 +1,8 @@
 //! What resists the capsule: dry friction by two laws, or a resistive medium.
 
-use crate::lane::{Lane, Mask, ORDER, Series, elementary::exp_decay, series, side_by_side};
+use capsulemap_engine::lane::{
+    Lane, Mask, ORDER, Series, elementary::exp_decay, series, side_by_side,
+};
 
 use super::parameter::Parameter;
 use super::resistance::Resistance;

@@ -4,8 +4,10 @@
 //! while F still contains c (y1 - y2). Where both fields push F towards f_s the printed rule chatters;
 //! it is then followed in Filippov's sense along |F| = f_s with the share of H that holds F there.
 
-use crate::flow::{Event, Field, Stroboscopic, Switched, Zeros};
-use crate::lane::{Lane, Mask, ORDER, Series, elementary::not_finite, series, side_by_side};
+use capsulemap_engine::flow::{Event, Field, Stroboscopic, Switched, Zeros};
+use capsulemap_engine::lane::{
+    Lane, Mask, ORDER, Series, elementary::not_finite, series, side_by_side,
+};
 
 use super::drag::Drag;
 use super::drive::{Drive, reduced};

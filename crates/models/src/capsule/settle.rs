@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use crate::lane::Lane;
-use crate::orbit::{
+use capsulemap_engine::lane::Lane;
+use capsulemap_engine::orbit::{
     self, Certificate, Exponent, HistorySpan, Machine, OrbitOf, Outcome, Protocol, precision,
 };
 

@@ -20,6 +20,8 @@ pub mod printed;
 pub mod quantity;
 pub mod regime;
 pub mod resistance;
+pub mod sampled;
+mod sensitivity;
 pub mod settle;
 pub mod simulate;
 pub mod state;
@@ -40,6 +42,7 @@ pub use parameters::{Fault, Parameters};
 pub use printed::PrintedCapsule;
 pub use quantity::parse_quantity;
 pub use resistance::{Resistance, Switching};
+pub use sensitivity::{SMOOTH, Sensitivity, sensitivity};
 pub use settle::{Orbit, outputs, per_cycle, settle, settle_all, settle_as, settle_case};
 pub use simulate::{
     Event, Sample, Simulation, SimulationSize, simulate, simulate_case, simulate_case_within,

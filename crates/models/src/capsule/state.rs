@@ -4,8 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::flow::Event;
-use crate::lane::{Lane, Series, series, side_by_side};
+use capsulemap_engine::flow::Event;
+use capsulemap_engine::lane::{Lane, Series, series, side_by_side};
 
 /// Positions and velocities [m, m/s].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]

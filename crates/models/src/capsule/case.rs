@@ -1,7 +1,7 @@
 //! One case: parameters, a start, and the phases of the drive at the start and at the section.
 
-use crate::flow::Stroboscopic;
-use crate::orbit::{self, Trajectory};
+use capsulemap_engine::flow::Stroboscopic;
+use capsulemap_engine::orbit::{self, Trajectory};
 
 use super::drive::reduced;
 use super::parameter::Parameter;

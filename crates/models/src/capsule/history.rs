@@ -1,8 +1,8 @@
 //! A stretch of motion, sampled evenly for a figure.
 
-use crate::flow::Stroboscopic;
-use crate::lane::series;
-use crate::orbit::HistorySpan;
+use capsulemap_engine::flow::Stroboscopic;
+use capsulemap_engine::lane::series;
+use capsulemap_engine::orbit::HistorySpan;
 
 use super::Failure;
 use super::case::Case;

@@ -3,10 +3,10 @@
 use crate::capsule::{
     Account, CapsuleSystem, Output, Outputs, Parameter, Reading, Section, per_cycle,
 };
-use crate::flow::System;
-use crate::lane::Dual;
-use crate::orbit::matrix::{less_identity, solve};
-use crate::orbit::return_map::{Cycles, jacobian, observed, seeded};
+use capsulemap_engine::flow::System;
+use capsulemap_engine::lane::Dual;
+use capsulemap_engine::orbit::matrix::{less_identity, solve};
+use capsulemap_engine::orbit::return_map::{Cycles, jacobian, observed, seeded};
 
 /// Directions of the derivatives: the coordinates of the section, then the parameter.
 const DIRECTIONS: usize = 4;

@@ -5,8 +5,10 @@ use crate::capsule::{
     AsPrinted, Dimension, Filippov, Jet, Locomotion, Parameter, Parameters, Reading, State,
     Switching,
 };
-use crate::flow::{Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, cycle};
-use crate::lane::{Dual, Lane, series};
+use capsulemap_engine::flow::{
+    Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, cycle,
+};
+use capsulemap_engine::lane::{Dual, Lane, series};
 
 /// Directions that are differentiated at a time.
 const AT_ONCE: usize = 4;

@@ -1,15 +1,20 @@
-//! Which of some known attractors a motion leads to that begins at a point of the section.
+//! Which of some known attractors motions lead to that begin at points of the section.
 
 use std::sync::Arc;
 
-use crate::attractor::{Attractor, FinalMotion};
-use crate::capsule::{CapsuleSystem, Reading};
-use crate::flow::{Stroboscopic, System};
-use crate::orbit::{self, KnownOrbits, Machine, Outcome, Protocol, settle_all, settle_all_near};
+use capsulemap_engine::attractor::{Attractor, EdgeSearch, FinalMotion, Met};
+use capsulemap_engine::flow::{Stroboscopic, System};
+use capsulemap_engine::orbit::passage::OneByOne;
+use capsulemap_engine::orbit::{
+    self, KnownOrbits, Machine, OrbitOf, Outcome, Protocol, settle_all, settle_all_near,
+};
+
+use crate::capsule::{CapsuleSystem, Reading, Section};
+use crate::model::Leads;
 
 /// A system with the attractors that are known of it.
-pub(super) struct Leads<'a, R: Reading> {
-    pub(super) system: CapsuleSystem<R>,
+pub(super) struct LeadsOf<'a, R: Reading> {
+    system: CapsuleSystem<R>,
     protocol: Protocol,
     machine: Machine,
     /// The attractors by their numbers.
@@ -20,11 +25,12 @@ pub(super) struct Leads<'a, R: Reading> {
 
 type Single<R> = <CapsuleSystem<R> as System<3>>::Single;
 
-impl<'a, R: Reading> Leads<'a, R> {
-    /// Those of a system whose cases are followed as a study says.
+impl<'a, R: Reading> LeadsOf<'a, R> {
+    /// Those of a system whose cases are followed by this protocol.
     pub(super) fn new(
         system: CapsuleSystem<R>,
-        (protocol, machine): (&Protocol, Machine),
+        protocol: &Protocol,
+        machine: Machine,
         known: Vec<(u32, &'a Attractor<3>)>,
     ) -> Self {
         // Nothing but where a start leads is asked for.
@@ -37,28 +43,23 @@ impl<'a, R: Reading> Leads<'a, R> {
         let orbits = settle_all(&cases, &protocol, machine);
         let instructions = machine.instructions_for(cases.len());
         let near = KnownOrbits::among(&system, orbits, instructions, protocol.tolerance);
-        Leads { system, protocol, machine, known, near: Arc::new(near) }
+        LeadsOf { system, protocol, machine, known, near: Arc::new(near) }
     }
+}
 
-    pub(super) fn protocol(&self) -> &Protocol {
-        &self.protocol
-    }
-
-    /// The attractors that some section points lead to, none where it is no known one; of those that do not repeat one is told
-    /// only where it is the only one of its kind.
-    pub(super) fn of(&self, points: &[[f64; 3]]) -> Vec<Option<u32>> {
+impl<R: Reading> Leads for LeadsOf<'_, R> {
+    fn of(&self, points: &[Section]) -> Vec<Option<u32>> {
         let case =
-            |point: &[f64; 3]| orbit::Case::new(self.system.clone(), Single::<R>::state(*point));
+            |point: &Section| orbit::Case::new(self.system.clone(), Single::<R>::state(*point));
         let cases: Vec<_> = points.iter().map(case).collect();
         let settled = settle_all_near(&cases, &self.near, &self.protocol, self.machine);
-        let motion = |orbit: &orbit::OrbitOf<CapsuleSystem<R>, 3>| {
+        let motion = |orbit: &OrbitOf<CapsuleSystem<R>, 3>| {
             FinalMotion::of(orbit, Single::<R>::point(&orbit.end))
         };
         settled.iter().map(|orbit| self.number(&motion(orbit))).collect()
     }
 
-    /// The attractor of a motion, as [`Leads::of`] tells it.
-    pub(super) fn number(&self, motion: &FinalMotion<3>) -> Option<u32> {
+    fn number(&self, motion: &FinalMotion<3>) -> Option<u32> {
         let found = Attractor::of(0, &self.system, motion, &self.protocol)?;
         let metric = self.system.metric();
         let is = |known: &Attractor<3>| match found.outcome {
@@ -68,5 +69,15 @@ impl<'a, R: Reading> Leads<'a, R> {
         let mut all = self.known.iter().filter(|(_, known)| is(known));
         let (number, _) = all.next()?;
         all.next().is_none().then_some(*number)
+    }
+
+    fn saddle(&self, points: [Section; 2]) -> Option<Met<3>> {
+        let search = EdgeSearch {
+            system: &self.system,
+            protocol: &self.protocol,
+            integrator: &OneByOne,
+            leads: &|points| self.of(points),
+        };
+        search.saddle(points)
     }
 }

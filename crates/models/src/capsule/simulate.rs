@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::flow::{Event as _, Observer, Stroboscopic};
-use crate::orbit::Trajectory;
+use capsulemap_engine::flow::{Event as _, Observer, Stroboscopic};
+use capsulemap_engine::orbit::Trajectory;
 
 use super::Failure;
 use super::account::{Account, Energies};

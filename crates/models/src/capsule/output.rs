@@ -3,7 +3,7 @@
 use std::ops::{Index, IndexMut};
 
 use super::Dimension;
-use crate::lane::Lane;
+use capsulemap_engine::lane::Lane;
 
 macro_rules! outputs {
     ($($variant:ident $name:literal $unit:literal $meaning:literal;)*) => {

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::ops::{Index, IndexMut};
 
+use capsulemap_engine::flow::Metric;
+
 use super::drag::Drag;
 use super::parameter::{Dimension, Parameter};
 use super::resistance::{Resistance, Switching};
@@ -83,6 +85,12 @@ impl Parameters {
     /// Period of the drive, `2 pi / omega` [s].
     pub fn drive_period(&self) -> f64 {
         2.0 * std::f64::consts::PI / self[Parameter::Omega]
+    }
+
+    /// How far two section points are apart: a displacement r counts as the velocity omega r, so that a section where y1 passes zero
+    /// has a size too.
+    pub fn metric(&self) -> Metric<3> {
+        Metric { scales: [self[Parameter::Omega], 1.0, 1.0] }
     }
 
     /// Force needed to leave rest, f_b = max(f_s, f_d(0+)); zero in a medium [N].

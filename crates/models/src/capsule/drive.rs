@@ -1,6 +1,6 @@
 //! The harmonic drive of the internal mass, p_d cos(omega t + phase).
 
-use crate::lane::{Lane, Series, elementary::sin_cos_of_a_turn, series, side_by_side};
+use capsulemap_engine::lane::{Lane, Series, elementary::sin_cos_of_a_turn, series, side_by_side};
 
 use super::parameter::Parameter;
 

@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use crate::flow::guard::Crossings;
-use crate::flow::{Event, Observer, Step};
-use crate::lane::quadrature::{Values, integral_of_product, values};
-use crate::lane::{Lane, Mask, Series, SideBySide, series, side_by_side};
+use capsulemap_engine::flow::guard::Crossings;
+use capsulemap_engine::flow::{Event, Observer, Step};
+use capsulemap_engine::lane::quadrature::{Values, integral_of_product, values};
+use capsulemap_engine::lane::{Lane, Mask, Series, SideBySide, series, side_by_side};
 
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;

@@ -66,4 +66,14 @@ impl Switching {
     pub fn name(self) -> &'static str {
         Switching::NAMES[self as usize].0
     }
+
+    /// The reading with a name.
+    pub fn named(name: &str) -> Option<Switching> {
+        Switching::NAMES.iter().find(|it| it.0 == name).map(|it| it.1)
+    }
+
+    /// Whether the friction at rest balances the other forces, up to the force that breaks the capsule away.
+    pub fn balances_at_rest(self) -> bool {
+        self == Switching::Filippov
+    }
 }
