@@ -3,17 +3,13 @@
 use std::fs;
 
 use capsulemap::attractor::Estimate;
-use capsulemap::capsule::{Filippov, Output};
-use capsulemap::flow::System;
+use capsulemap::capsule::Output;
 use capsulemap::lane::Instructions;
-use capsulemap::orbit::neighbourhood::Neighbourhood;
-use capsulemap::orbit::return_map::{Cycles, returned};
 use capsulemap::orbit::{Outcome, Proof};
 use capsulemap::run::{self, AttractorRow, AttractorTable, Attractors, Machine, Record};
 use capsulemap::store;
 use capsulemap::study::Study;
 
-use super::draws::Random;
 use super::program::{TWO_MOTIONS, WorkDir};
 
 /// A study over starts of the capsule with two motions, by the values of two axes.
@@ -139,48 +135,6 @@ fn basins_are_drawn_over_starts_alone() {
         "basins lie over two of start_r, start_y1, start_y2",
         "`omega`",
     ]);
-}
-
-#[test]
-fn what_enters_a_neighbourhood_tends_to_its_orbit() {
-    let study = starts(&R, &Y1);
-    let system = study.case(0).read::<Filippov>().system;
-    let metric = system.metric();
-    let mut random = Random::new(15);
-    for row in found(&study).rows {
-        let (centre, period) = (row.attractor.points[0], row.record.orbit.period);
-        let of = |instructions| {
-            Neighbourhood::of(&system, (centre, period), instructions, 1e-12).expect("it is stable")
-        };
-        let neighbourhood = of(Instructions::Scalar);
-        assert!(Instructions::available().all(|it| of(it) == neighbourhood));
-        // Points all over the ellipsoid, whose extent along each coordinate is found by doubling.
-        let along = |i: usize, by: f64| {
-            let mut point = centre;
-            point[i] += by;
-            point
-        };
-        let reach: [f64; 3] = std::array::from_fn(|i| {
-            let mut by = 1e-9;
-            while neighbourhood.contains(&along(i, by)) {
-                by *= 2.0;
-            }
-            by
-        });
-        println!("period {period}: the neighbourhood reaches {reach:?}");
-        assert!(reach.iter().zip(metric.scales).all(|(by, scale)| by * scale > 1e-3), "{reach:?}");
-        let mut inside = 0;
-        while inside < 200 {
-            let point = std::array::from_fn(|i| centre[i] + reach[i] * random.uniform(-2.0, 2.0));
-            if !neighbourhood.contains(&point) {
-                continue;
-            }
-            inside += 1;
-            let cycles = Cycles { count: 200 * period, tolerance: 1e-12 };
-            let end = returned(&system.single(), point, &cycles, |_| ()).expect("it goes on");
-            assert!(metric.distance(&end, &centre) < 1e-9, "{point:?} leads to {end:?}");
-        }
-    }
 }
 
 /// With `STARTS=1000000` so many starts, else some thousands.

@@ -11,8 +11,15 @@ use std::path::{Path, PathBuf};
 pub const LIBRARY: [&str; 4] =
     ["src", "crates/engine/src", "crates/models/src", "crates/commit/src"];
 /// These, the tests and the benches.
-pub const FOLDERS: [&str; 6] =
-    ["src", "crates/engine/src", "crates/models/src", "crates/commit/src", "tests", "benches"];
+pub const FOLDERS: [&str; 7] = [
+    "src",
+    "crates/engine/src",
+    "crates/models/src",
+    "crates/commit/src",
+    "crates/engine/tests",
+    "tests",
+    "benches",
+];
 
 /// The floors from the ground up; a floor uses only those before it.
 const FLOORS: [&str; 17] = [

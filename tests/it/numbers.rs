@@ -6,8 +6,8 @@ use std::sync::Mutex;
 
 use capsulemap::attractor::Attractor;
 use capsulemap::branch::SpecialKind;
-use capsulemap::capsule::{Filippov, Orbit, Parameter, Parameters, Resistance};
-use capsulemap::flow::System;
+use capsulemap::capsule::{Orbit, Parameter, Parameters, Resistance};
+use capsulemap::model::Setting;
 use capsulemap::orbit::Outcome;
 use capsulemap::run::{self, Attractors, FinalMotions, Machine, Record};
 use capsulemap::study::{Axis, CaseSet, Coordinate, Direction, Grid, Inherit, Study};
@@ -18,7 +18,7 @@ use super::draws::{self, ALONG, Random};
 const CAPSULE_P: &str = "[parameters]\nc = \"0.44 N s/m\"\nmu_s = 0.437\nmu_d = 0.2185\n\
      p_d = \"3.4 N\"\ndelta = \"2.45 mm\"\nomega = \"40 rad/s\"\n";
 /// Where its orbits of period 2 appear and where those of period 1 end [N/m]: folds, as branches of
-/// `tests/it/whole_branches.rs` have them, by continuation with small steps.
+/// `crates/engine/tests/it/whole_branches.rs` have them, by continuation with small steps.
 const FOLDS: [f64; 2] = [15100.3915, 17368.3133];
 /// Where period 2 doubles [N/m].
 const DOUBLES: f64 = 43742.26;
@@ -120,10 +120,10 @@ fn a_basin_that_has_vanished_does_not_revive() {
 impl Swept {
     /// The orbits on which the cases of a cell of a line in both directions end, with their numbers.
     fn orbits(&self, at: usize) -> Vec<(Attractor<3>, u32)> {
-        let system = self.study.case(2 * at).read::<Filippov>().system;
+        let (model, setting) = (self.study.model(), Setting::of(&self.study.case(2 * at)));
         let orbit = |case: usize| {
             let motion = self.final_motions.get(case)?;
-            let found = Attractor::of(case, &system, &motion, &self.study.protocol)?;
+            let found = model.attractor(&setting, case, &motion, &self.study.protocol)?;
             let number = self.attractors.of_case[case]?;
             (found.outcome == Outcome::Periodic).then_some((found, number))
         };
@@ -150,8 +150,7 @@ fn line(base: &Parameters, parameter: Parameter, values: Vec<f64>) -> Study {
 
 /// The numbers that a finer axis gives to the orbits of a cell, by the numbers of this one.
 fn renumbered(coarse: &Swept, fine: &Swept, at: usize) -> Vec<[u32; 2]> {
-    let system = coarse.study.case(2 * at).read::<Filippov>().system;
-    let metric = system.metric();
+    let metric = coarse.study.case(2 * at).parameters.metric();
     let finer = fine.orbits(FINER * at);
     let same = |(orbit, number): &(Attractor<3>, u32)| {
         let found = finer.iter().find(|(it, _)| it.is(orbit, &metric));

@@ -229,7 +229,7 @@ fn the_reference_of_studies_names_every_parameter_and_output() {
 
 #[test]
 fn the_table_of_the_readme_is_the_tested_one() {
-    let tested = include_str!("paper.rs");
+    let tested = include_str!("../../crates/engine/tests/it/paper.rs");
     for digits in ["10.298005", "25.39085", "0.008345", "1.119443", "0.528927", "3.575601"] {
         assert!(README.contains(digits) && tested.contains(digits), "{digits}");
     }

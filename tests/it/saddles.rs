@@ -1,20 +1,19 @@
 //! The saddles between basins: unstable orbits on the boundary, as starts beside them show, and those that continuation finds.
 
-use capsulemap::attractor::{Attractor, FinalMotion};
 use capsulemap::capsule::branch::{self, Point, Request};
 use capsulemap::capsule::{CapsuleSystem, Case, Filippov, Output, Parameter, State, settle_case};
-use capsulemap::flow::{Stroboscopic, System};
+use capsulemap::flow::System;
+use capsulemap::model::Setting;
 use capsulemap::orbit::matrix::{Matrix, solve};
 use capsulemap::orbit::passage::{OneByOne, image};
 use capsulemap::orbit::return_map::Cycles;
-use capsulemap::orbit::{self, Machine, Outcome};
+use capsulemap::orbit::{Machine, Outcome};
 use capsulemap::run::{self, Attractors, Edge};
 use capsulemap::study::Study;
 
 use super::program::TWO_MOTIONS;
 
 type Capsule = CapsuleSystem<Filippov>;
-type Single = <Capsule as System<3>>::Single;
 
 fn study(points: usize) -> Study {
     let axis = |name: &str, most: &str| {
@@ -60,11 +59,12 @@ fn pushed(study: &Study, found: &Attractors, edge: &Edge) -> [u32; 2] {
     let unstable = eigenvector(&image.jacobian, saddle.multipliers[0].re);
     let metric = system.metric();
     let leads = |push: f64| {
-        let point = std::array::from_fn(|i| saddle.points[0][i] + push * unstable[i]);
-        let case = orbit::Case::new(system.clone(), Single::state(point));
-        let settled = orbit::settle(&case, &study.protocol);
-        let motion = FinalMotion::of(&settled, Single::point(&settled.end));
-        let here = Attractor::of(0, &system, &motion, &study.protocol).expect("an attractor");
+        let point: [f64; 3] = std::array::from_fn(|i| saddle.points[0][i] + push * unstable[i]);
+        let [r, y1, y2] = point;
+        let case = Case { start: State { r, y1, x2: 0.0, y2 }, ..study.case(0) };
+        let motion = run::final_motion(&settle_case(&case, &study.protocol));
+        let met = study.model().attractor(&Setting::of(&case), 0, &motion, &study.protocol);
+        let here = met.expect("an attractor");
         assert_eq!(here.outcome, Outcome::Periodic);
         let place = found.of_starts.iter().position(|known| known.is(&here, &metric));
         place.expect("a known one") as u32
