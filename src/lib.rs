@@ -132,8 +132,8 @@
 //! the state and of the section are measured by. An impact is a guard (`GUARDS`, `guard`), what follows it (`switch`,
 //! which sets `zeros[0] = 1` for the guard that it has put on its own surface), and two facts that have defaults and
 //! without which no grazing is found: `Event::is_impact`, and `touching`, the coordinate that may touch the surface.
-//! `examples/impact_oscillator.rs` has all of it on a page, `examples/duffing.rs` none; `examples/relief_valve.rs` is
-//! autonomous and `examples/belt.rs` has modes.
+//! Of the examples in `crates/engine/examples`, `impact_oscillator.rs` has all of it on a page, `duffing.rs` none;
+//! `relief_valve.rs` is autonomous and `belt.rs` has modes.
 //!
 //! What is not there yet: a law of restitution whose impacts accumulate fails with `NoProgress`, and ends a branch as
 //! [`branch::End::Corner`], as it needs a mode of its own for rest on the surface.
@@ -151,13 +151,13 @@
 //!
 //! # The floors
 //!
-//! The modules are floors, and each uses only those before it in this list; each opens with a sentence
-//! saying what it does. Without the feature `cli` the library ends at `tradeoff` and needs neither HDF5 nor
-//! plotters nor clap.
+//! The modules are floors, and each uses only those before it: [`lane`], [`flow`], [`orbit`], [`branch`] and [`attractor`] of the crate
+//! `capsulemap-engine`, [`capsule`], [`model`] and [`of`] of `capsulemap-models`, and then those of this crate in the order of this file; each
+//! opens with a sentence saying what it does. Nothing above the models is generic over a system: it asks [`model::Model`]. Without the
+//! feature `cli` the library ends at `tradeoff` and needs neither HDF5 nor plotters nor clap.
 
 #[doc(inline)]
 pub use capsulemap_engine::{attractor, branch, flow, in_lanes, lane, orbit, own_system};
-
 #[doc(inline)]
 pub use capsulemap_models::{capsule, model, of};
 

@@ -22,7 +22,6 @@ mod drawn_studies;
 #[path = "../../crates/engine/tests/it/draws.rs"]
 #[allow(dead_code)]
 mod draws;
-mod examples;
 mod experiments;
 mod explore_answers;
 mod explore_changed;

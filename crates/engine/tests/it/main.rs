@@ -1,8 +1,5 @@
 //! The tests of the engine, with the capsule among its systems: closed forms, invariants, references, and one contract for all.
 
-// The examples name the engine by the library that shows it.
-extern crate capsulemap_engine as capsulemap;
-
 mod acceleration;
 mod belt;
 mod branch;
@@ -22,6 +19,7 @@ mod dual_lanes;
 mod edges;
 mod eigenvalues;
 mod elementary;
+mod examples;
 mod exponents;
 mod far_starts;
 mod forms;

@@ -11,7 +11,7 @@ use capsulemap_engine::orbit::{Case, Outcome, Protocol, settle};
 use super::draws::Random;
 
 // Of the example only its system is used here, not its program.
-#[path = "../../../../examples/impact_oscillator.rs"]
+#[path = "../../examples/impact_oscillator.rs"]
 #[allow(dead_code)]
 pub mod impact_oscillator;
 

@@ -12,13 +12,13 @@ use super::subject::Subject;
 use super::{lanes, maps, orbits, steps};
 
 // Of an example only its system is used here, not its program.
-#[path = "../../../../../examples/belt.rs"]
+#[path = "../../../examples/belt.rs"]
 #[allow(dead_code)]
 pub mod belt;
-#[path = "../../../../../examples/duffing.rs"]
+#[path = "../../../examples/duffing.rs"]
 #[allow(dead_code)]
 mod duffing;
-#[path = "../../../../../examples/relief_valve.rs"]
+#[path = "../../../examples/relief_valve.rs"]
 #[allow(dead_code)]
 mod relief_valve;
 

@@ -2,17 +2,17 @@
 //! own: settled, certified, its two attractors told apart, and continued through a fold, an impact on the instant of
 //! the section and a grazing.
 //!
-//! `cargo run --release --no-default-features --example impact_oscillator -- --json`
+//! `cargo run --release -p capsulemap-engine --example impact_oscillator -- --json`
 
 use std::f64::consts::PI;
 
-use capsulemap::attractor::attractors_of;
-use capsulemap::branch::{self, End, SpecialKind};
-use capsulemap::flow::{Event, Field, Stroboscopic, Switched, Taylor, Zeros};
-use capsulemap::lane::elementary::{not_finite, sin_cos};
-use capsulemap::lane::{Lane, ORDER, Series, series};
-use capsulemap::orbit::{Case, Machine, Outcome, Proof, Protocol, settle_all};
-use capsulemap::{in_lanes, own_system};
+use capsulemap_engine::attractor::attractors_of;
+use capsulemap_engine::branch::{self, End, SpecialKind};
+use capsulemap_engine::flow::{Event, Field, Stroboscopic, Switched, Taylor, Zeros};
+use capsulemap_engine::lane::elementary::{not_finite, sin_cos};
+use capsulemap_engine::lane::{Lane, ORDER, Series, series};
+use capsulemap_engine::orbit::{Case, Machine, Outcome, Proof, Protocol, settle_all};
+use capsulemap_engine::{in_lanes, own_system};
 
 /// The system: a struct of its parameters, in numbers of any kind.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,20 +1,20 @@
 //! A pressure relief valve (Hos and Champneys 2012), which no drive moves: y1' = y2, y2' = -kappa y2 -
 //! (y1 + delta) + y3, y3' = beta (q - y1 sqrt(y3)), with an impact y2 -> -r y2 on the seat y1 = 0.
 //!
-//! `cargo run --release --no-default-features --example relief_valve -- --json`; `--values 1000` computes a diagram
+//! `cargo run --release -p capsulemap-engine --example relief_valve -- --json`; `--values 1000` computes a diagram
 //! of fewer flow rates than 30 720, `--svg FILE` draws it.
 
 use std::time::Instant;
 
-use capsulemap::attractor::attractors_of;
-use capsulemap::branch::{self, End, SpecialKind};
-use capsulemap::flow::{Event, Field, Stroboscopic, Switched, System, Taylor, Zeros};
-use capsulemap::lane::elementary::not_finite;
-use capsulemap::lane::series::{self, SquareRoot};
-use capsulemap::lane::{Lane, ORDER, Series};
-use capsulemap::orbit::return_map::{Cycles, returned};
-use capsulemap::orbit::{self, Case, Machine, Outcome, Proof, Protocol, Returns};
-use capsulemap::{in_lanes, own_system};
+use capsulemap_engine::attractor::attractors_of;
+use capsulemap_engine::branch::{self, End, SpecialKind};
+use capsulemap_engine::flow::{Event, Field, Stroboscopic, Switched, System, Taylor, Zeros};
+use capsulemap_engine::lane::elementary::not_finite;
+use capsulemap_engine::lane::series::{self, SquareRoot};
+use capsulemap_engine::lane::{Lane, ORDER, Series};
+use capsulemap_engine::orbit::return_map::{Cycles, returned};
+use capsulemap_engine::orbit::{self, Case, Machine, Outcome, Proof, Protocol, Returns};
+use capsulemap_engine::{in_lanes, own_system};
 
 /// The valve by its parameters; seen once a maximum of y1 if `MAXIMA`, else at equal times.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,17 +1,17 @@
 //! Duffing's oscillator x'' + c x' + x^3 = p cos t as a system of one's own: settled, certified, continued, and
 //! its five coexisting attractors told apart.
 //!
-//! `cargo run --release --no-default-features --example duffing -- --json`
+//! `cargo run --release -p capsulemap-engine --example duffing -- --json`
 
 use std::f64::consts::PI;
 
-use capsulemap::attractor::{Label, Share, attractors_of, shares_of_grid};
-use capsulemap::branch::{self, SpecialKind};
-use capsulemap::flow::{Field, NoEvent, Stroboscopic, Switched, Taylor};
-use capsulemap::lane::elementary::{not_finite, sin_cos};
-use capsulemap::lane::{Lane, ORDER, Series, series};
-use capsulemap::orbit::{Case, Machine, Outcome, Proof, Protocol, settle_all};
-use capsulemap::{in_lanes, own_system};
+use capsulemap_engine::attractor::{Label, Share, attractors_of, shares_of_grid};
+use capsulemap_engine::branch::{self, SpecialKind};
+use capsulemap_engine::flow::{Field, NoEvent, Stroboscopic, Switched, Taylor};
+use capsulemap_engine::lane::elementary::{not_finite, sin_cos};
+use capsulemap_engine::lane::{Lane, ORDER, Series, series};
+use capsulemap_engine::orbit::{Case, Machine, Outcome, Proof, Protocol, settle_all};
+use capsulemap_engine::{in_lanes, own_system};
 
 /// The system: a struct of its parameters, in numbers of any kind.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,15 +1,15 @@
 //! The examples hold what they claim, as one object each.
 
-use std::path::PathBuf;
 use std::process::Command;
 
 use serde_json::Value;
 
 /// The object that an example prints with these arguments, which has asserted its claims by then.
 fn object(name: &str, arguments: &[&str]) -> Value {
-    let mut path = PathBuf::from(env!("CARGO_BIN_EXE_capsulemap"));
-    path.pop();
-    let output = Command::new(path.join("examples").join(name))
+    // Beside the folder of the tests.
+    let tests = std::env::current_exe().expect("the path of this program");
+    let built = tests.ancestors().nth(2).expect("the folder of what is built");
+    let output = Command::new(built.join("examples").join(name))
         .arg("--json")
         .args(arguments)
         .output()

@@ -1,15 +1,15 @@
 //! A mass on a moving belt, x'' + c x' + x = friction, which sticks and slips: an autonomous system whose section
 //! is where the mass turns back.
 //!
-//! `cargo run --release --no-default-features --example belt -- --json`
+//! `cargo run --release -p capsulemap-engine --example belt -- --json`
 
-use capsulemap::attractor::{Label, Share, attractors_of, shares_of_draws};
-use capsulemap::branch::{self, End, SpecialKind};
-use capsulemap::flow::{Event, Field, Stroboscopic, Switched, Taylor, Zeros};
-use capsulemap::lane::elementary::{exp, not_finite};
-use capsulemap::lane::{Lane, ORDER, Series, SideBySide, series};
-use capsulemap::orbit::{self, Case, Machine, Outcome, Proof, Protocol};
-use capsulemap::{in_lanes, own_system};
+use capsulemap_engine::attractor::{Label, Share, attractors_of, shares_of_draws};
+use capsulemap_engine::branch::{self, End, SpecialKind};
+use capsulemap_engine::flow::{Event, Field, Stroboscopic, Switched, Taylor, Zeros};
+use capsulemap_engine::lane::elementary::{exp, not_finite};
+use capsulemap_engine::lane::{Lane, ORDER, Series, SideBySide, series};
+use capsulemap_engine::orbit::{self, Case, Machine, Outcome, Proof, Protocol};
+use capsulemap_engine::{in_lanes, own_system};
 
 /// The mass on its belt; friction is a (1 + exp(-|u| / s)) against its velocity u on the belt.
 #[derive(Debug, Clone, Copy, PartialEq)]
