@@ -152,14 +152,14 @@
 //! # The floors
 //!
 //! The modules are floors, and each uses only those before it: [`lane`], [`flow`], [`orbit`], [`branch`] and [`attractor`] of the crate
-//! `capsulemap-engine`, [`capsule`], [`model`] and [`of`] of `capsulemap-models`, and then those of this crate in the order of this file; each
+//! `capsulemap-engine`, [`quantity`], [`capsule`], [`model`] and [`of`] of `capsulemap-models`, and then those of this crate in the order of this file; each
 //! opens with a sentence saying what it does. Nothing above the models is generic over a system: it asks [`model::Model`]. Without the
 //! feature `cli` the library ends at `tradeoff` and needs neither HDF5 nor plotters nor clap.
 
 #[doc(inline)]
 pub use capsulemap_engine::{attractor, branch, flow, in_lanes, lane, orbit, own_system};
 #[doc(inline)]
-pub use capsulemap_models::{capsule, model, of};
+pub use capsulemap_models::{capsule, model, of, quantity};
 
 #[cfg(feature = "cli")]
 pub mod experiment;

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::arguments::plain_or_quantity;
 use crate::capsule::Dimension;
-use crate::capsule::quantity::parse_in;
+use crate::quantity::units::parse_in;
 use crate::study::document::unknown;
 use crate::study::drawing::check_text;
 use crate::study::{Drawing, Setting, Size};

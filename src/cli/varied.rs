@@ -2,9 +2,10 @@
 
 use super::files;
 use super::identify::{shown, unit};
-use crate::capsule::{Dimension, Parameter, quantity};
+use crate::capsule::Parameter;
 use crate::experiment::least_squares::Bounds;
 use crate::experiment::{Free, Side};
+use crate::quantity::{Dimension, units};
 use crate::study::document::unknown;
 
 /// A parameter that is varied, in the unit of its first bound.
@@ -107,7 +108,7 @@ fn one(option: &str, part: &str, faults: &mut Vec<String>) -> Option<Varied> {
 fn unit_of(text: &str, dimension: Dimension) -> (String, f64) {
     let is_number = |end: &usize| text[..*end].trim().parse::<f64>().is_ok();
     let ends = text.char_indices().map(|it| it.0).rev().find(is_number).unwrap_or(text.len());
-    match quantity::unit(&text[ends..], dimension).filter(|it| !it.0.is_empty()) {
+    match units::unit(&text[ends..], dimension).filter(|it| !it.0.is_empty()) {
         Some((name, size)) => (format!(" {name}"), size),
         None => (unit(dimension), 1.0),
     }

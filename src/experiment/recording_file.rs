@@ -7,7 +7,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 use super::recording::{Column, MOST_TOLD, Presence, Recording, RecordingFaults};
 use crate::capsule::Dimension;
 use crate::capsule::printable::excerpt;
-use crate::capsule::quantity::{expectation, unit};
+use crate::quantity::units::{expectation, unit};
 
 /// So many columns of a header are named at most.
 const MOST_COLUMNS: usize = 20;

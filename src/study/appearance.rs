@@ -2,37 +2,21 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Dimension, Output};
+use crate::capsule::{Output, description};
+use crate::quantity::Dimension;
 
 use super::Coordinate;
 use super::document::unknown;
-use crate::capsule::quantity::{expectation, unit};
+use crate::quantity::units::{expectation, unit};
 
-/// What figures show besides coordinates and outputs, with its dimension.
-const OTHERS: [(&str, Dimension); 25] = [
+/// What figures show besides what the model describes, with its dimension.
+const OTHERS: [(&str, Dimension); 8] = [
     ("outcome", Dimension::Number),
     ("period", Dimension::Number),
     ("cycles", Dimension::Number),
     ("attractor_share", Dimension::Number),
     ("attractor_integrity_factor", Dimension::Velocity),
-    ("section_r", Dimension::Length),
-    ("section_y1", Dimension::Velocity),
-    ("section_y2", Dimension::Velocity),
-    ("impact_phase", Dimension::Angle),
-    ("impact_y1", Dimension::Velocity),
-    ("impact_y2", Dimension::Velocity),
-    ("impact_velocity", Dimension::Velocity),
-    ("relative_velocity", Dimension::Velocity),
     ("time", Dimension::Time),
-    ("velocities", Dimension::Velocity),
-    ("history_x1", Dimension::Length),
-    ("history_x2", Dimension::Length),
-    ("history_r", Dimension::Length),
-    ("history_y1", Dimension::Velocity),
-    ("history_y2", Dimension::Velocity),
-    ("history_drive", Dimension::Force),
-    ("history_contact", Dimension::Force),
-    ("history_friction", Dimension::Force),
     ("spectrum_frequency", Dimension::AngularFrequency),
     ("attractor", Dimension::Number),
 ];
@@ -192,15 +176,14 @@ pub type Settings = BTreeMap<String, QuantitySettings>;
 
 /// The dimension of what a figure can show; the error names what there is.
 pub fn dimension_of(name: &str) -> Result<Dimension, String> {
-    let coordinate = Coordinate::all().find(|it| it.name() == name).map(Coordinate::dimension);
-    let output = || Output::named(name).map(Output::dimension);
-    let other = || OTHERS.iter().find(|it| it.0 == name).map(|it| it.1);
-    coordinate.or_else(output).or_else(other).ok_or_else(|| {
-        let coordinates = Coordinate::all().map(Coordinate::name);
-        let outputs = Output::ALL.iter().map(|it| it.name());
-        let others = OTHERS.iter().map(|it| it.0);
-        unknown("quantity", name, coordinates.chain(outputs).chain(others))
-    })
+    let coordinates = Coordinate::all().map(Coordinate::quantity);
+    let outputs = Output::ALL.iter().map(|it| it.quantity());
+    let of_motions = [description::POINTS, description::SIGNALS, description::TOGETHER].concat();
+    let described = coordinates.chain(outputs).chain(of_motions);
+    let described = described.map(|it| (it.name, it.dimension));
+    let known: Vec<(&str, Dimension)> = described.chain(OTHERS).collect();
+    let found = known.iter().find(|it| it.0 == name).map(|it| it.1);
+    found.ok_or_else(|| unknown("quantity", name, known.iter().map(|it| it.0)))
 }
 
 /// Reads a quantity of a dimension (SI).

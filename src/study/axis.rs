@@ -1,6 +1,7 @@
 //! An axis of a study: a parameter or a coordinate of the start, and the values it takes.
 
-use crate::capsule::{Allowed, Case, Dimension, Parameter};
+use crate::capsule::{Case, Parameter, description};
+use crate::quantity::{Allowed, Dimension, Quantity};
 
 /// What varies along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,16 +37,21 @@ impl Coordinate {
         Parameter::ALL.iter().map(|&p| Coordinate::Parameter(p)).chain(Coordinate::STARTS)
     }
 
+    /// The quantity that the model describes.
+    pub fn quantity(self) -> Quantity {
+        match self {
+            Coordinate::Parameter(parameter) => parameter.quantity(),
+            Coordinate::StartR => description::START_R,
+            Coordinate::StartY1 => description::START_Y1,
+            Coordinate::StartY2 => description::START_Y2,
+            Coordinate::StartPhase => description::START_PHASE,
+            Coordinate::SectionPhase => description::SECTION_PHASE,
+        }
+    }
+
     /// The name used in studies and files.
     pub fn name(self) -> &'static str {
-        match self {
-            Coordinate::Parameter(parameter) => parameter.symbol(),
-            Coordinate::StartR => "start_r",
-            Coordinate::StartY1 => "start_y1",
-            Coordinate::StartY2 => "start_y2",
-            Coordinate::StartPhase => "start_phase",
-            Coordinate::SectionPhase => "section_phase",
-        }
+        self.quantity().name
     }
 
     /// Whether it is a coordinate of the start, on which the set of attractors does not depend.
@@ -55,24 +61,12 @@ impl Coordinate {
 
     /// What it is, in a phrase.
     pub fn meaning(self) -> &'static str {
-        match self {
-            Coordinate::Parameter(parameter) => parameter.meaning(),
-            Coordinate::StartR => "relative displacement at the start",
-            Coordinate::StartY1 => "velocity of the mass at the start",
-            Coordinate::StartY2 => "velocity of the capsule at the start",
-            Coordinate::StartPhase => "phase of the drive at the start",
-            Coordinate::SectionPhase => "phase of the drive at the stroboscopic section",
-        }
+        self.quantity().meaning
     }
 
     /// Its dimension.
     pub fn dimension(self) -> Dimension {
-        match self {
-            Coordinate::Parameter(parameter) => parameter.dimension(),
-            Coordinate::StartR => Dimension::Length,
-            Coordinate::StartY1 | Coordinate::StartY2 => Dimension::Velocity,
-            Coordinate::StartPhase | Coordinate::SectionPhase => Dimension::Angle,
-        }
+        self.quantity().dimension
     }
 
     /// What values it may take.

@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use crate::capsule::{Allowed, Dimension};
 
 use crate::capsule::printable::one_line;
-use crate::capsule::quantity::{expectation, parse_in};
+use crate::quantity::units::{expectation, parse_in};
 
 /// Characters of a line that are shown at most.
 const LONGEST_SHOWN: usize = 80;

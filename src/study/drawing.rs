@@ -2,51 +2,45 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::Output;
+use crate::capsule::{Output, description};
 
 use super::appearance::Settings;
 use super::grid::Direction;
 
 /// What there is for each case besides the outputs.
 const VERDICTS: [&str; 3] = ["outcome", "period", "cycles"];
-/// What there is for each point of the sections.
-const POINTS: [&str; 7] = [
-    "section_r",
-    "section_y1",
-    "section_y2",
-    "impact_phase",
-    "impact_y1",
-    "impact_y2",
-    "impact_velocity",
-];
-/// What a history shows.
-const HISTORIES: [&str; 10] = [
-    "history_x1",
-    "history_x2",
-    "history_r",
-    "velocities",
-    "history_y1",
-    "history_y2",
-    "relative_velocity",
-    "history_drive",
-    "history_contact",
-    "history_friction",
-];
-/// What spectra are taken of.
-const SPECTRA: [&str; 9] = [
-    "history_x1",
-    "history_x2",
-    "history_r",
-    "history_y1",
-    "history_y2",
-    "relative_velocity",
-    "history_drive",
-    "history_contact",
-    "history_friction",
-];
-/// What the axes of a phase portrait can be.
-const COORDINATES: [&str; 6] =
-    ["history_x1", "history_x2", "history_r", "history_y1", "history_y2", "relative_velocity"];
+
+/// What figures of a kind show beside outputs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Shows {
+    /// What there is for each case.
+    Verdicts,
+    /// What there is for each point of the sections.
+    Points,
+    /// Signals over time, and those that the model shows together.
+    Histories,
+    /// Signals, each by itself.
+    Signals,
+    /// Signals that the axes of a phase portrait can be.
+    Coordinates,
+}
+
+impl Shows {
+    /// The names, as the model describes them.
+    fn names(self) -> Vec<&'static str> {
+        let signals = description::SIGNALS.iter();
+        match self {
+            Shows::Verdicts => VERDICTS.to_vec(),
+            Shows::Points => description::POINTS.iter().map(|it| it.name).collect(),
+            Shows::Histories => signals.chain(description::TOGETHER).map(|it| it.name).collect(),
+            Shows::Signals => signals.map(|it| it.name).collect(),
+            Shows::Coordinates => {
+                let coordinates = signals.filter(|it| description::is_coordinate(it));
+                coordinates.map(|it| it.name).collect()
+            }
+        }
+    }
+}
 
 /// What the keys of a figure may name beside the axes of its study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,7 +48,7 @@ pub struct Keys {
     /// Whether `of` may name outputs.
     outputs: bool,
     /// What `of` may name beside them.
-    others: &'static [&'static [&'static str]],
+    others: &'static [Shows],
     /// How many names `of` takes.
     pub most: usize,
     /// Whether `x` and `y` may name parameters in which orbits are continued.
@@ -109,22 +103,22 @@ macro_rules! kinds {
 
 kinds! {
     /// Displacements and velocities over time.
-    History "history" Keys { others: &[&HISTORIES], most: ANY, panels: true, marks: &["gap"], ..AXES };
+    History "history" Keys { others: &[Shows::Histories], most: ANY, panels: true, marks: &["gap"], ..AXES };
     /// Relative velocity over relative displacement, or one coordinate over another, with section points and impacts.
     PhasePortrait "phase-portrait" Keys {
-        others: &[&COORDINATES],
+        others: &[Shows::Coordinates],
         most: 2,
         panels: true,
         marks: &["stroboscopic", "impacts", "contact"],
         ..AXES
     };
     /// Amplitudes of a history over frequency.
-    Spectrum "spectrum" Keys { others: &[&SPECTRA], most: ANY, panels: true, marks: &["drive"], ..AXES };
+    Spectrum "spectrum" Keys { others: &[Shows::Signals], most: ANY, panels: true, marks: &["drive"], ..AXES };
     /// A section coordinate over an axis, with the progression speed below it.
     Bifurcation "bifurcation"
-        Keys { outputs: true, others: &[&VERDICTS, &POINTS], most: ANY, continued: true, coloured: true, marks: &["coexistence", "events", "special-points"], ..AXES };
+        Keys { outputs: true, others: &[Shows::Verdicts, Shows::Points], most: ANY, continued: true, coloured: true, marks: &["coexistence", "events", "special-points"], ..AXES };
     /// One output over two axes.
-    Map "map" Keys { outputs: true, others: &[&VERDICTS], most: 1, panels: true, ..AXES };
+    Map "map" Keys { outputs: true, others: &[Shows::Verdicts], most: 1, panels: true, ..AXES };
     /// Which attractor each start leads to, over two coordinates of the start.
     Basin "basin" Keys { marks: &["section-points", "saddles", "impact-surface"], ..AXES };
     /// For how many cycles each start is followed until its attractor is decided, over two coordinates of the start.
@@ -158,7 +152,7 @@ impl DrawingKind {
     pub fn can_show(self, outputs: &[Output]) -> Vec<&'static str> {
         let keys = self.keys();
         let outputs = if keys.outputs { outputs } else { &[] };
-        let others = keys.others.iter().copied().flatten().copied();
+        let others = keys.others.iter().flat_map(|it| it.names());
         outputs.iter().map(|output| output.name()).chain(others).collect()
     }
 }

@@ -15,7 +15,7 @@ use super::program::WorkDir;
 const DEFINING: [&str; 5] = [
     "crates/models/src/capsule/parameter.rs",
     "crates/models/src/capsule/output.rs",
-    "src/study/axis.rs",
+    "crates/models/src/capsule/description.rs",
     "src/study/grid.rs",
     "src/study/draws.rs",
 ];
@@ -34,7 +34,7 @@ const OTHERS: [(&str, &[&str], &str); 16] = [
         SET,
         "what the keys of quantities may name, which a test here compares",
     ),
-    ("crates/models/src/capsule/quantity.rs", &["g"], "the gram"),
+    ("crates/models/src/quantity/units.rs", &["g"], "the gram"),
     ("src/figure/text.rs", &["delta", "omega"], "names of symbols in TeX"),
     ("src/cli/simulate.rs", OPTIONS, "options of a command"),
     ("src/cli/phases.rs", &["start_phase", "section_phase"], "options of a command"),
@@ -50,31 +50,10 @@ const KEYS: &[&str] = &["start_phase", "section_phase", "period", "attractor", "
 /// Options that are called as parameters are.
 const OPTIONS: &[&str] = &["omega", "p_d", "k2", "delta", "start_phase", "section_phase"];
 
-/// What the key `of` of a figure may name beside outputs.
-const SHOWN: &[&str] = &[
-    "outcome",
-    "period",
-    "cycles",
-    "section_r",
-    "section_y1",
-    "section_y2",
-    "impact_phase",
-    "impact_y1",
-    "impact_y2",
-    "impact_velocity",
-    "history_x1",
-    "history_x2",
-    "history_r",
-    "velocities",
-    "relative_velocity",
-    "history_y1",
-    "history_y2",
-    "history_drive",
-    "history_contact",
-    "history_friction",
-];
+/// What the key `of` of a figure may name beside what the model describes.
+const SHOWN: &[&str] = &["outcome", "period", "cycles"];
 
-/// What the keys that set how a quantity is shown may name beside coordinates and outputs.
+/// What the keys that set how a quantity is shown may name beside what the model describes.
 const SET: &[&str] = &[
     "outcome",
     "period",
@@ -82,25 +61,8 @@ const SET: &[&str] = &[
     "attractor",
     "attractor_share",
     "attractor_integrity_factor",
-    "section_r",
-    "section_y1",
-    "section_y2",
-    "impact_phase",
-    "impact_y1",
-    "impact_y2",
-    "impact_velocity",
-    "relative_velocity",
     "spectrum_frequency",
     "time",
-    "velocities",
-    "history_x1",
-    "history_x2",
-    "history_r",
-    "history_y1",
-    "history_y2",
-    "history_drive",
-    "history_contact",
-    "history_friction",
 ];
 
 /// The contents of the string literals of `text`, comments and its tests left out.

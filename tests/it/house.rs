@@ -22,12 +22,13 @@ pub const FOLDERS: [&str; 7] = [
 ];
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 17] = [
+const FLOORS: [&str; 18] = [
     "lane",
     "flow",
     "orbit",
     "branch",
     "attractor",
+    "quantity",
     "capsule",
     "model",
     "of",

@@ -1,6 +1,8 @@
 //! The entries of what each case has, beside its outputs, and of the dimensions along which it has several.
 
-use super::entry::{Entry, Extent::*, Type::*, entries, shown, words};
+use crate::quantity::shown::{shown, words};
+
+use super::entry::{Entry, Extent::*, Type::*, described, entries};
 use super::flags::{directions, outcomes, proofs, reasons};
 
 /// The dimension of the cases of a block, which in a file of results is replaced by the axes.
@@ -40,78 +42,43 @@ entries! {
         "real part of a Floquet multiplier of the period";
     MULTIPLIER_IMAG "multiplier_imag" "1" CaseRow(MULTIPLIER.name), Real, None,
         "imaginary part of a Floquet multiplier";
-    NEUTRAL_R "neutral_r" "1" Case, Real, None,
-        "part of omega r in the direction of the family of a neutral orbit";
-    NEUTRAL_Y1 "neutral_y1" "1" Case, Real, None,
-        "part of y1 in the direction of the family of a neutral orbit";
-    NEUTRAL_Y2 "neutral_y2" "1" Case, Real, None,
-        "part of y2 in the direction of the family of a neutral orbit";
     ATTRACTOR "attractor" "1" Case, Whole, None,
         "attractor that the case ends on, by its number, -1 for none";
 
-    SECTION_R "section_r" "m" CaseRow(POINT.name), Real,
-        shown("Stroboscopic", "*x*_{1} − *x*_{2}", "mm", 1e3),
-        "relative displacement x1 - x2 at the stroboscopic section";
-    SECTION_Y1 "section_y1" "m/s" CaseRow(POINT.name), Real,
-        shown("Stroboscopic", "*y*_{1}", "m/s", 1.0),
-        "velocity of the mass at the stroboscopic section";
-    SECTION_Y2 "section_y2" "m/s" CaseRow(POINT.name), Real,
-        shown("Stroboscopic", "*y*_{2}", "m/s", 1.0),
-        "velocity of the capsule at the stroboscopic section";
-    IMPACT_PHASE "impact_phase" "rad" CaseRow(IMPACT_POINT.name), Real,
-        shown("Impact phase", "*ωt*", "rad", 1.0),
-        "phase of the drive at the impact, since the section";
-    IMPACT_Y1 "impact_y1" "m/s" CaseRow(IMPACT_POINT.name), Real,
-        shown("Impact velocity", "*y*_{1}", "m/s", 1.0),
-        "velocity of the mass at the impact";
-    IMPACT_Y2 "impact_y2" "m/s" CaseRow(IMPACT_POINT.name), Real,
-        shown("Impact velocity", "*y*_{2}", "m/s", 1.0),
-        "velocity of the capsule at the impact";
-    IMPACT_VELOCITY "impact_velocity" "m/s" CaseRow(IMPACT_POINT.name), Real,
-        shown("Impact velocity", "*y*_{1} − *y*_{2}", "m/s", 1.0),
-        "velocity of the mass relative to the stop at the impact";
-    HISTORY_R "history_r" "m" CaseRow(HISTORY_TIME.name), Real,
-        shown("", "*x*_{1} − *x*_{2}", "mm", 1e3),
-        "relative displacement x1 - x2";
-    HISTORY_Y1 "history_y1" "m/s" CaseRow(HISTORY_TIME.name), Real,
-        shown("", "*y*_{1}", "m/s", 1.0),
-        "velocity of the mass";
-    HISTORY_X2 "history_x2" "m" CaseRow(HISTORY_TIME.name), Real,
-        shown("", "*x*_{2}", "mm", 1e3),
-        "displacement of the capsule";
-    HISTORY_Y2 "history_y2" "m/s" CaseRow(HISTORY_TIME.name), Real,
-        shown("", "*y*_{2}", "m/s", 1.0),
-        "velocity of the capsule";
-    HISTORY_DRIVE "history_drive" "N" CaseRow(HISTORY_TIME.name), Real,
-        shown("Drive", "*p*_{d} cos *ωt*", "N", 1.0),
-        "force of the drive";
-
-    END_R "end_r" "m" Block, Real, None,
-        "relative displacement at the end of the case";
-    END_Y1 "end_y1" "m/s" Block, Real, None,
-        "velocity of the mass at the end of the case";
-    END_Y2 "end_y2" "m/s" Block, Real, None,
-        "velocity of the capsule at the end of the case";
     RESIDUAL "residual" "1" Block, Real, None,
         "how far the section of a periodic orbit is from repeating, relative to the motion";
 
     TIME "time" "s" Derived, Real, words("Time", "s"),
         "time since the history begins";
-    HISTORY_X1 "history_x1" "m" Derived, Real,
-        shown("", "*x*_{1}", "mm", 1e3),
-        "displacement of the mass";
-    HISTORY_CONTACT "history_contact" "N" Derived, Real, words("Contact force", "N"),
-        "force of the stop on the mass";
-    HISTORY_FRICTION "history_friction" "N" Derived, Real, words("Friction", "N"),
-        "force of the friction on the capsule, against its motion";
     SPECTRUM_FREQUENCY "spectrum_frequency" "rad/s" Derived, Real,
         shown("Frequency", "", "Hz", 0.5 * std::f64::consts::FRAC_1_PI),
         "frequency of a part of a spectrum";
-    VELOCITIES "velocities" "m/s" Derived, Real, shown("", "*y*_{1}, *y*_{2}", "m/s", 1.0),
-        "velocities of the mass and of the capsule";
-    RELATIVE_VELOCITY "relative_velocity" "m/s" Derived, Real,
-        shown("", "*y*_{1} − *y*_{2}", "m/s", 1.0),
-        "velocity of the mass less that of the capsule";
+}
+
+described! {
+    NEUTRAL_R Case;
+    NEUTRAL_Y1 Case;
+    NEUTRAL_Y2 Case;
+    SECTION_R CaseRow(POINT.name);
+    SECTION_Y1 CaseRow(POINT.name);
+    SECTION_Y2 CaseRow(POINT.name);
+    IMPACT_PHASE CaseRow(IMPACT_POINT.name);
+    IMPACT_Y1 CaseRow(IMPACT_POINT.name);
+    IMPACT_Y2 CaseRow(IMPACT_POINT.name);
+    IMPACT_VELOCITY CaseRow(IMPACT_POINT.name);
+    HISTORY_R CaseRow(HISTORY_TIME.name);
+    HISTORY_Y1 CaseRow(HISTORY_TIME.name);
+    HISTORY_X2 CaseRow(HISTORY_TIME.name);
+    HISTORY_Y2 CaseRow(HISTORY_TIME.name);
+    HISTORY_DRIVE CaseRow(HISTORY_TIME.name);
+    END_R Block;
+    END_Y1 Block;
+    END_Y2 Block;
+    HISTORY_X1 Derived;
+    HISTORY_CONTACT Derived;
+    HISTORY_FRICTION Derived;
+    VELOCITIES Derived;
+    RELATIVE_VELOCITY Derived;
 }
 
 /// The coordinates of a section point.

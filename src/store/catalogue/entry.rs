@@ -1,5 +1,7 @@
 //! What the catalogue holds of a variable, and the form in which it is written down.
 
+use crate::quantity::{Quantity, Shown};
+
 /// Each integer of a category with its name.
 pub type Flags = Vec<(i64, String)>;
 
@@ -56,20 +58,13 @@ pub enum Type {
     CategoryOfFile,
 }
 
-/// How figures show a quantity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Shown {
-    /// Its name as text; empty where the symbol says it.
-    pub label: &'static str,
-    /// Its symbol, with markup: stars for italics, braces for scripts; empty where it has none.
-    pub symbol: &'static str,
-    /// The unit shown, with markup; empty where there is none.
-    pub unit: &'static str,
-    /// Value shown per value in SI.
-    pub factor: f64,
-}
-
 impl Entry {
+    /// Real numbers of a quantity that a model describes.
+    pub(super) const fn of(quantity: Quantity, extent: Extent) -> Entry {
+        let Quantity { name, dimension, meaning, shown } = quantity;
+        Entry { name, unit: dimension.unit(), meaning, extent, numbers: Type::Real, shown }
+    }
+
     /// The dimensions along which it lies, the axes of the study apart.
     pub fn dimensions(&self) -> Vec<&'static str> {
         match self.extent {
@@ -89,21 +84,6 @@ impl Entry {
             Type::Real | Type::Whole | Type::CategoryOfFile => Flags::new(),
         }
     }
-}
-
-/// A quantity that is shown by its name, in SI.
-pub(super) const fn words(label: &'static str, unit: &'static str) -> Option<Shown> {
-    shown(label, "", unit, 1.0)
-}
-
-/// A quantity with its name, its symbol, the unit shown and its factor from SI.
-pub(super) const fn shown(
-    label: &'static str,
-    symbol: &'static str,
-    unit: &'static str,
-    factor: f64,
-) -> Option<Shown> {
-    Some(Shown { label, symbol, unit, factor })
 }
 
 /// Entries as constants, and all of them as `FIXED`: constant, name, unit, extent, sort of numbers and shown
@@ -127,4 +107,18 @@ macro_rules! entries {
     };
 }
 
-pub(super) use entries;
+/// Entries of real numbers for quantities that the model describes, as constants called as there, and all of them as `DESCRIBED`:
+/// constant and extent.
+macro_rules! described {
+    ($($constant:ident $extent:expr;)*) => {
+        $(
+            #[doc = concat!("What the capsule describes as `", stringify!($constant), "`.")]
+            pub const $constant: Entry =
+                Entry::of(crate::capsule::description::$constant, $extent);
+        )*
+        /// Every entry of this file that the model describes, in its order.
+        pub(super) const DESCRIBED: &[Entry] = &[$($constant,)*];
+    };
+}
+
+pub(super) use {described, entries};

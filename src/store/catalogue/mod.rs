@@ -11,9 +11,10 @@ mod model;
 mod places;
 mod tables;
 
+pub use crate::quantity::Shown;
 pub use branches::*;
 pub use cases::*;
-pub use entry::{Entry, Extent, Flags, Shown, Type};
+pub use entry::{Entry, Extent, Flags, Type};
 pub use flags::result;
 pub use model::starts;
 pub use places::{Place, all, named};

@@ -134,7 +134,7 @@ pub fn all() -> &'static [Entry] {
     static ALL: LazyLock<Vec<Entry>> = LazyLock::new(|| {
         let study = Coordinate::all().map(Entry::of_coordinate);
         let outputs = Output::ALL.iter().map(|&output| Entry::of_output(output));
-        let fixed = [cases::FIXED, tables::FIXED, branches::FIXED].concat();
+        let fixed = [cases::FIXED, cases::DESCRIBED, tables::FIXED, branches::FIXED].concat();
         let columns = Place::ALL.into_iter().flat_map(Place::columns);
         study.chain(outputs).chain(fixed).chain(columns).collect()
     });

@@ -1,7 +1,9 @@
 //! The entries of the tables beside the cases: attractors of starts, events of attractors, and blocks.
 
 use super::cases::MULTIPLIER;
-use super::entry::{Entry, Extent::*, Type::*, entries, shown};
+use crate::quantity::shown::shown;
+
+use super::entry::{Entry, Extent::*, Type::*, entries};
 use super::flags::{outcomes, proofs, specials};
 
 entries! {

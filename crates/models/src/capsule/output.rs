@@ -2,11 +2,12 @@
 
 use std::ops::{Index, IndexMut};
 
-use super::Dimension;
 use capsulemap_engine::lane::Lane;
 
+use crate::quantity::Dimension;
+
 macro_rules! outputs {
-    ($($variant:ident $name:literal $unit:literal $meaning:literal;)*) => {
+    ($($variant:ident $name:literal $dimension:ident $meaning:literal;)*) => {
         /// A number that sums up a case.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum Output {
@@ -21,9 +22,9 @@ macro_rules! outputs {
             pub const fn name(self) -> &'static str {
                 match self { $(Output::$variant => $name,)* }
             }
-            /// Its unit; "1" where it has none.
-            pub const fn unit(self) -> &'static str {
-                match self { $(Output::$variant => $unit,)* }
+            /// Its dimension.
+            pub const fn dimension(self) -> Dimension {
+                match self { $(Output::$variant => Dimension::$dimension,)* }
             }
             /// What it is, in a phrase.
             pub const fn meaning(self) -> &'static str {
@@ -34,39 +35,39 @@ macro_rules! outputs {
 }
 
 outputs! {
-    ProgressionSpeed "progression_speed" "m/s" "average progression speed of the capsule";
-    ProgressionPerCycle "progression_per_cycle" "m" "progression of the capsule per drive cycle";
-    WorkNet "work_net" "J" "work of the drive per cycle";
-    WorkPositive "work_positive" "J" "positive work of the drive per cycle, nothing regenerated";
-    WorkAbsolute "work_absolute" "J" "magnitude of the work of the drive per cycle, both signs paid";
-    WorkActuator "work_actuator" "J" "work per cycle of a drive that acts between mass and capsule";
-    FrictionLoss "friction_loss" "J" "energy lost to the resistance of the ground per cycle";
-    DamperLoss "damper_loss" "J" "energy lost in the damper per cycle";
-    EnergyResidual "energy_residual" "1" "work_net less both losses, over work_absolute or the losses, whichever is more";
-    MomentumResidual "momentum_residual" "1" "mean friction force, relative to the drive and break-away forces";
-    CostOfTransport "cost_of_transport" "1" "work_positive over weight times progression";
-    Power "power" "W" "work_positive over time";
-    EnergyPerMetre "energy_per_metre" "J/m" "work_positive over the distance of the progression";
-    ImpactsPerCycle "impacts_per_cycle" "1" "impacts per cycle";
-    ForwardSlips "forward_slips_per_cycle" "1" "episodes of forward sliding per cycle";
-    BackwardSlips "backward_slips_per_cycle" "1" "episodes of backward sliding per cycle";
-    Reversals "reversals_per_cycle" "1" "reversals of the capsule without rest per cycle";
-    StickShare "stick_share" "1" "share of time at which the capsule rests";
-    PeakContactForce "peak_contact_force" "N" "largest contact force";
-    GrazingMargin "grazing_margin" "m" "least distance between a local maximum of x1 - x2 and the stop";
-    LyapunovExponent "lyapunov_exponent" "1/s" "largest Lyapunov exponent";
-    LyapunovUncertainty "lyapunov_uncertainty" "1/s" "standard error of the largest Lyapunov exponent";
-    LargestMultiplier "largest_multiplier" "1" "largest magnitude of a Floquet multiplier of the period";
-    IntegrationDefect "integration_defect" "1" "largest defect of a step of the measured cycles, times its length and relative to the motion";
-    ExcludedPeriod "excluded_period" "1" "longest period in drive cycles that is excluded, with all shorter ones";
-    SectionResidual "section_residual" "1" "how far the section is from repeating after the period, relative to the motion";
-    ProgressionSpeedError "progression_speed_error" "m/s" "standard error of the mean that the progression speed is of a motion that does not repeat, over batches of cycles";
-    WorkNetError "work_net_error" "J" "standard error of the mean that work_net is of a motion that does not repeat, over batches of cycles";
-    WorkPositiveError "work_positive_error" "J" "standard error of the mean that work_positive is of a motion that does not repeat, over batches of cycles";
-    WorkAbsoluteError "work_absolute_error" "J" "standard error of the mean that work_absolute is of a motion that does not repeat, over batches of cycles";
-    WorkActuatorError "work_actuator_error" "J" "standard error of the mean that work_actuator is of a motion that does not repeat, over batches of cycles";
-    FrictionLossError "friction_loss_error" "J" "standard error of the mean that friction_loss is of a motion that does not repeat, over batches of cycles";
-    DamperLossError "damper_loss_error" "J" "standard error of the mean that damper_loss is of a motion that does not repeat, over batches of cycles";
+    ProgressionSpeed "progression_speed" Velocity "average progression speed of the capsule";
+    ProgressionPerCycle "progression_per_cycle" Length "progression of the capsule per drive cycle";
+    WorkNet "work_net" Energy "work of the drive per cycle";
+    WorkPositive "work_positive" Energy "positive work of the drive per cycle, nothing regenerated";
+    WorkAbsolute "work_absolute" Energy "magnitude of the work of the drive per cycle, both signs paid";
+    WorkActuator "work_actuator" Energy "work per cycle of a drive that acts between mass and capsule";
+    FrictionLoss "friction_loss" Energy "energy lost to the resistance of the ground per cycle";
+    DamperLoss "damper_loss" Energy "energy lost in the damper per cycle";
+    EnergyResidual "energy_residual" Number "work_net less both losses, over work_absolute or the losses, whichever is more";
+    MomentumResidual "momentum_residual" Number "mean friction force, relative to the drive and break-away forces";
+    CostOfTransport "cost_of_transport" Number "work_positive over weight times progression";
+    Power "power" Power "work_positive over time";
+    EnergyPerMetre "energy_per_metre" EnergyPerLength "work_positive over the distance of the progression";
+    ImpactsPerCycle "impacts_per_cycle" Number "impacts per cycle";
+    ForwardSlips "forward_slips_per_cycle" Number "episodes of forward sliding per cycle";
+    BackwardSlips "backward_slips_per_cycle" Number "episodes of backward sliding per cycle";
+    Reversals "reversals_per_cycle" Number "reversals of the capsule without rest per cycle";
+    StickShare "stick_share" Number "share of time at which the capsule rests";
+    PeakContactForce "peak_contact_force" Force "largest contact force";
+    GrazingMargin "grazing_margin" Length "least distance between a local maximum of x1 - x2 and the stop";
+    LyapunovExponent "lyapunov_exponent" Rate "largest Lyapunov exponent";
+    LyapunovUncertainty "lyapunov_uncertainty" Rate "standard error of the largest Lyapunov exponent";
+    LargestMultiplier "largest_multiplier" Number "largest magnitude of a Floquet multiplier of the period";
+    IntegrationDefect "integration_defect" Number "largest defect of a step of the measured cycles, times its length and relative to the motion";
+    ExcludedPeriod "excluded_period" Number "longest period in drive cycles that is excluded, with all shorter ones";
+    SectionResidual "section_residual" Number "how far the section is from repeating after the period, relative to the motion";
+    ProgressionSpeedError "progression_speed_error" Velocity "standard error of the mean that the progression speed is of a motion that does not repeat, over batches of cycles";
+    WorkNetError "work_net_error" Energy "standard error of the mean that work_net is of a motion that does not repeat, over batches of cycles";
+    WorkPositiveError "work_positive_error" Energy "standard error of the mean that work_positive is of a motion that does not repeat, over batches of cycles";
+    WorkAbsoluteError "work_absolute_error" Energy "standard error of the mean that work_absolute is of a motion that does not repeat, over batches of cycles";
+    WorkActuatorError "work_actuator_error" Energy "standard error of the mean that work_actuator is of a motion that does not repeat, over batches of cycles";
+    FrictionLossError "friction_loss_error" Energy "standard error of the mean that friction_loss is of a motion that does not repeat, over batches of cycles";
+    DamperLossError "damper_loss_error" Energy "standard error of the mean that damper_loss is of a motion that does not repeat, over batches of cycles";
 }
 
 impl Output {
@@ -75,10 +76,9 @@ impl Output {
         Output::ALL.iter().copied().find(|output| output.name() == name)
     }
 
-    /// Its dimension.
-    pub fn dimension(self) -> Dimension {
-        let has_unit = |dimension: &Dimension| dimension.unit() == self.unit();
-        Dimension::ALL.into_iter().find(has_unit).unwrap_or(Dimension::Number)
+    /// Its unit; "1" where it has none.
+    pub const fn unit(self) -> &'static str {
+        self.dimension().unit()
     }
 }
 

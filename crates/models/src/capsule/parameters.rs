@@ -6,8 +6,9 @@ use std::ops::{Index, IndexMut};
 use capsulemap_engine::flow::Metric;
 
 use super::drag::Drag;
-use super::parameter::{Dimension, Parameter};
+use super::parameter::Parameter;
 use super::resistance::{Resistance, Switching};
+use crate::quantity::Dimension;
 
 /// A value for every parameter (SI), the law of resistance and the reading of the switching.
 #[derive(Debug, Clone, PartialEq)]

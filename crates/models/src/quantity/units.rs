@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::parameter::Dimension;
+use super::Dimension;
 
 /// The units of a dimension with their size in SI, the commonest first.
 fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {

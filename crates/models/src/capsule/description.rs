@@ -1,0 +1,192 @@
+//! What the capsule says of itself: the quantities of its starts, sections, impacts, histories, parameters and outputs.
+
+use crate::quantity::shown::{shown, words};
+use crate::quantity::{Dimension, Quantity, Shown};
+
+use super::output::Output;
+use super::parameter::Parameter;
+
+/// Quantities as constants: constant, name, dimension and shown form in a first line, the meaning in a second.
+macro_rules! quantities {
+    ($($constant:ident $name:literal $dimension:ident, $shown:expr, $meaning:literal;)*) => {
+        $(
+            #[doc = concat!("`", $name, "`: ", $meaning, ".")]
+            pub const $constant: Quantity = Quantity {
+                name: $name,
+                dimension: Dimension::$dimension,
+                meaning: $meaning,
+                shown: $shown,
+            };
+        )*
+    };
+}
+
+quantities! {
+    START_R "start_r" Length, shown("Initial", "*x*_{1} − *x*_{2}", "mm", 1e3),
+        "relative displacement at the start";
+    START_Y1 "start_y1" Velocity, shown("Initial", "*y*_{1}", "m/s", 1.0),
+        "velocity of the mass at the start";
+    START_Y2 "start_y2" Velocity, shown("Initial", "*y*_{2}", "m/s", 1.0),
+        "velocity of the capsule at the start";
+    START_PHASE "start_phase" Angle, shown("Initial phase", "*φ*", "rad", 1.0),
+        "phase of the drive at the start";
+    SECTION_PHASE "section_phase" Angle, shown("Section phase", "*φ*_{s}", "rad", 1.0),
+        "phase of the drive at the stroboscopic section";
+
+    NEUTRAL_R "neutral_r" Number, None,
+        "part of omega r in the direction of the family of a neutral orbit";
+    NEUTRAL_Y1 "neutral_y1" Number, None,
+        "part of y1 in the direction of the family of a neutral orbit";
+    NEUTRAL_Y2 "neutral_y2" Number, None,
+        "part of y2 in the direction of the family of a neutral orbit";
+
+    SECTION_R "section_r" Length, shown("Stroboscopic", "*x*_{1} − *x*_{2}", "mm", 1e3),
+        "relative displacement x1 - x2 at the stroboscopic section";
+    SECTION_Y1 "section_y1" Velocity, shown("Stroboscopic", "*y*_{1}", "m/s", 1.0),
+        "velocity of the mass at the stroboscopic section";
+    SECTION_Y2 "section_y2" Velocity, shown("Stroboscopic", "*y*_{2}", "m/s", 1.0),
+        "velocity of the capsule at the stroboscopic section";
+    IMPACT_PHASE "impact_phase" Angle, shown("Impact phase", "*ωt*", "rad", 1.0),
+        "phase of the drive at the impact, since the section";
+    IMPACT_Y1 "impact_y1" Velocity, shown("Impact velocity", "*y*_{1}", "m/s", 1.0),
+        "velocity of the mass at the impact";
+    IMPACT_Y2 "impact_y2" Velocity, shown("Impact velocity", "*y*_{2}", "m/s", 1.0),
+        "velocity of the capsule at the impact";
+    IMPACT_VELOCITY "impact_velocity" Velocity, shown("Impact velocity", "*y*_{1} − *y*_{2}", "m/s", 1.0),
+        "velocity of the mass relative to the stop at the impact";
+
+    HISTORY_R "history_r" Length, shown("", "*x*_{1} − *x*_{2}", "mm", 1e3),
+        "relative displacement x1 - x2";
+    HISTORY_Y1 "history_y1" Velocity, shown("", "*y*_{1}", "m/s", 1.0),
+        "velocity of the mass";
+    HISTORY_X2 "history_x2" Length, shown("", "*x*_{2}", "mm", 1e3),
+        "displacement of the capsule";
+    HISTORY_Y2 "history_y2" Velocity, shown("", "*y*_{2}", "m/s", 1.0),
+        "velocity of the capsule";
+    HISTORY_DRIVE "history_drive" Force, shown("Drive", "*p*_{d} cos *ωt*", "N", 1.0),
+        "force of the drive";
+    HISTORY_X1 "history_x1" Length, shown("", "*x*_{1}", "mm", 1e3),
+        "displacement of the mass";
+    HISTORY_CONTACT "history_contact" Force, words("Contact force", "N"),
+        "force of the stop on the mass";
+    HISTORY_FRICTION "history_friction" Force, words("Friction", "N"),
+        "force of the friction on the capsule, against its motion";
+    VELOCITIES "velocities" Velocity, shown("", "*y*_{1}, *y*_{2}", "m/s", 1.0),
+        "velocities of the mass and of the capsule";
+    RELATIVE_VELOCITY "relative_velocity" Velocity, shown("", "*y*_{1} − *y*_{2}", "m/s", 1.0),
+        "velocity of the mass less that of the capsule";
+
+    END_R "end_r" Length, None,
+        "relative displacement at the end of the case";
+    END_Y1 "end_y1" Velocity, None,
+        "velocity of the mass at the end of the case";
+    END_Y2 "end_y2" Velocity, None,
+        "velocity of the capsule at the end of the case";
+}
+
+/// What each point of the sections has: of the stroboscopic section, and of the impacts.
+pub const POINTS: &[Quantity] =
+    &[SECTION_R, SECTION_Y1, SECTION_Y2, IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2, IMPACT_VELOCITY];
+
+/// What a motion has at each time, each by itself.
+pub const SIGNALS: &[Quantity] = &[
+    HISTORY_X1,
+    HISTORY_X2,
+    HISTORY_R,
+    HISTORY_Y1,
+    HISTORY_Y2,
+    RELATIVE_VELOCITY,
+    HISTORY_DRIVE,
+    HISTORY_CONTACT,
+    HISTORY_FRICTION,
+];
+
+/// Several of these that are shown together.
+pub const TOGETHER: &[Quantity] = &[VELOCITIES];
+
+/// Whether a signal tells where the capsule is or how fast it is, as the axes of a phase portrait do, and no force.
+pub fn is_coordinate(signal: &Quantity) -> bool {
+    matches!(signal.dimension, Dimension::Length | Dimension::Velocity)
+}
+
+impl Parameter {
+    /// It as a quantity.
+    pub fn quantity(self) -> Quantity {
+        let (name, dimension, meaning) = (self.symbol(), self.dimension(), self.meaning());
+        Quantity { name, dimension, meaning, shown: parameter_shown(self) }
+    }
+}
+
+impl Output {
+    /// It as a quantity.
+    pub const fn quantity(self) -> Quantity {
+        let (name, dimension, meaning) = (self.name(), self.dimension(), self.meaning());
+        Quantity { name, dimension, meaning, shown: output_shown(self) }
+    }
+}
+
+/// How figures show a parameter.
+fn parameter_shown(parameter: Parameter) -> Option<Shown> {
+    let (label, symbol) = match parameter {
+        Parameter::M1 => ("Internal mass", "*m*_{1}"),
+        Parameter::M2 => ("Capsule mass", "*m*_{2}"),
+        Parameter::K1 => ("Stiffness", "*k*_{1}"),
+        Parameter::C => ("Damping", "*c*"),
+        Parameter::K2 => ("Stiffness", "*k*_{2}"),
+        Parameter::Delta => ("Gap", "*δ*"),
+        Parameter::Pd => ("Force amplitude", "*p*_{d}"),
+        Parameter::Omega => ("Frequency", "*ω*"),
+        Parameter::MuS => ("Static friction", "*μ*_{s}"),
+        Parameter::MuD => ("Dynamic friction", "*μ*_{d}"),
+        Parameter::Vs => ("Stribeck velocity", "*v*_{s}"),
+        Parameter::G => ("Gravity", "*g*"),
+        Parameter::C1 | Parameter::C2 => return None,
+    };
+    let (unit, factor) = match parameter.dimension() {
+        Dimension::Stiffness => ("kN/m", 1e-3),
+        Dimension::Length => ("mm", 1e3),
+        Dimension::Acceleration => ("m/s^{2}", 1.0),
+        Dimension::Number => ("", 1.0),
+        dimension => (dimension.unit(), 1.0),
+    };
+    shown(label, symbol, unit, factor)
+}
+
+/// How figures show an output.
+const fn output_shown(output: Output) -> Option<Shown> {
+    match output {
+        Output::ProgressionSpeed => shown("Progression speed", "", "mm/s", 1e3),
+        Output::ProgressionPerCycle => shown("Progression per cycle", "", "mm", 1e3),
+        Output::WorkNet => shown("Net work per cycle", "", "mJ", 1e3),
+        Output::WorkPositive => shown("Positive work per cycle", "", "mJ", 1e3),
+        Output::WorkAbsolute => shown("Absolute work per cycle", "", "mJ", 1e3),
+        Output::WorkActuator => shown("Actuator work per cycle", "", "mJ", 1e3),
+        Output::FrictionLoss => shown("Friction loss per cycle", "", "mJ", 1e3),
+        Output::DamperLoss => shown("Damper loss per cycle", "", "mJ", 1e3),
+        Output::EnergyResidual => words("Energy residual", ""),
+        Output::MomentumResidual => words("Momentum residual", ""),
+        Output::CostOfTransport => words("Cost of transport", ""),
+        Output::Power => shown("Power", "", "mW", 1e3),
+        Output::EnergyPerMetre => words("Energy per metre", "J/m"),
+        Output::ImpactsPerCycle => words("Impacts per cycle", ""),
+        Output::ForwardSlips => words("Forward slips per cycle", ""),
+        Output::BackwardSlips => words("Backward slips per cycle", ""),
+        Output::Reversals => words("Reversals per cycle", ""),
+        Output::StickShare => words("Share of sticking", ""),
+        Output::PeakContactForce => words("Peak contact force", "N"),
+        Output::GrazingMargin => shown("Grazing margin", "", "mm", 1e3),
+        Output::LyapunovExponent => words("Lyapunov exponent", "1/s"),
+        Output::LyapunovUncertainty => words("Uncertainty of the exponent", "1/s"),
+        Output::LargestMultiplier => words("Largest multiplier", ""),
+        Output::IntegrationDefect => words("Integration defect", ""),
+        Output::ExcludedPeriod => words("Longest period excluded", ""),
+        Output::SectionResidual => words("Section residual", ""),
+        Output::ProgressionSpeedError => shown("Error of the progression speed", "", "mm/s", 1e3),
+        Output::WorkNetError => shown("Error of the net work per cycle", "", "mJ", 1e3),
+        Output::WorkPositiveError => shown("Error of the positive work per cycle", "", "mJ", 1e3),
+        Output::WorkAbsoluteError => shown("Error of the absolute work per cycle", "", "mJ", 1e3),
+        Output::WorkActuatorError => shown("Error of the actuator work per cycle", "", "mJ", 1e3),
+        Output::FrictionLossError => shown("Error of the friction loss per cycle", "", "mJ", 1e3),
+        Output::DamperLossError => shown("Error of the damper loss per cycle", "", "mJ", 1e3),
+    }
+}

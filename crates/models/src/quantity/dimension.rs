@@ -1,0 +1,125 @@
+//! Physical dimensions with their units, and what values a quantity may take.
+
+use std::fmt;
+
+/// A physical dimension that a parameter, a coordinate or an output can have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// Mass [kg].
+    Mass,
+    /// Stiffness [N/m].
+    Stiffness,
+    /// Viscous damping [N s/m].
+    Damping,
+    /// Quadratic drag [N s^2/m^2].
+    QuadraticDamping,
+    /// Length [m].
+    Length,
+    /// Force [N].
+    Force,
+    /// Angular frequency [rad/s].
+    AngularFrequency,
+    /// Velocity [m/s].
+    Velocity,
+    /// Acceleration [m/s^2].
+    Acceleration,
+    /// Angle [rad].
+    Angle,
+    /// Energy [J].
+    Energy,
+    /// Power [W].
+    Power,
+    /// Energy over a distance [J/m].
+    EnergyPerLength,
+    /// Rate of growth [1/s].
+    Rate,
+    /// Time [s].
+    Time,
+    /// Electric current [A].
+    Current,
+    /// Force per electric current [N/A].
+    ForcePerCurrent,
+    /// A plain number.
+    Number,
+}
+
+impl Dimension {
+    /// All of them.
+    pub const ALL: [Dimension; 18] = [
+        Dimension::Mass,
+        Dimension::Stiffness,
+        Dimension::Damping,
+        Dimension::QuadraticDamping,
+        Dimension::Length,
+        Dimension::Force,
+        Dimension::AngularFrequency,
+        Dimension::Velocity,
+        Dimension::Acceleration,
+        Dimension::Angle,
+        Dimension::Energy,
+        Dimension::Power,
+        Dimension::EnergyPerLength,
+        Dimension::Rate,
+        Dimension::Time,
+        Dimension::Current,
+        Dimension::ForcePerCurrent,
+        Dimension::Number,
+    ];
+
+    /// The SI unit as written in tables and files.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Dimension::Mass => "kg",
+            Dimension::Stiffness => "N/m",
+            Dimension::Damping => "N s/m",
+            Dimension::QuadraticDamping => "N s2/m2",
+            Dimension::Length => "m",
+            Dimension::Force => "N",
+            Dimension::AngularFrequency => "rad/s",
+            Dimension::Velocity => "m/s",
+            Dimension::Acceleration => "m/s2",
+            Dimension::Angle => "rad",
+            Dimension::Energy => "J",
+            Dimension::Power => "W",
+            Dimension::EnergyPerLength => "J/m",
+            Dimension::Rate => "1/s",
+            Dimension::Time => "s",
+            Dimension::Current => "A",
+            Dimension::ForcePerCurrent => "N/A",
+            Dimension::Number => "1",
+        }
+    }
+}
+
+/// What values a parameter may take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Allowed {
+    /// Any finite number.
+    Finite,
+    /// Finite and at least zero.
+    NonNegative,
+    /// Finite and above zero.
+    Positive,
+}
+
+impl Allowed {
+    /// Whether `value` may be used.
+    pub fn admits(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Allowed::Finite => true,
+                Allowed::NonNegative => value >= 0.0,
+                Allowed::Positive => value > 0.0,
+            }
+    }
+}
+
+impl fmt::Display for Allowed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Allowed::Finite => "a finite number",
+            Allowed::NonNegative => "a finite number, zero or above",
+            Allowed::Positive => "a finite number above zero",
+        })
+    }
+}

@@ -1,0 +1,9 @@
+//! Quantities as models describe them: names, dimensions and units, what they are, and how figures show them.
+
+pub mod dimension;
+pub mod shown;
+pub mod units;
+
+pub use dimension::{Allowed, Dimension};
+pub use shown::{Quantity, Shown};
+pub use units::parse_quantity;
