@@ -105,6 +105,13 @@ readme_test() {
     scripts/setup.sh && cargo test --release
 }
 
+# What the program's library compiles of the vector instructions: nothing, as it asks models by their door.
+no_lanes_above_models() {
+    local count
+    count=$(nm target/release/libcapsulemap.rlib 2>/dev/null | grep -c "4lane3x86\|4lane8dispatch" || true)
+    [ "$count" -eq 0 ] || { echo "the library has $count functions over lanes: see CONTRIBUTING.md, the door" >&2; return 1; }
+}
+
 documentation() {
     RUSTDOCFLAGS="-D warnings" cargo doc --no-deps
 }
@@ -138,6 +145,7 @@ step "Slurm" slurm
 step "strace" strace_for_kills
 step "browser" browser
 step "tests, as in the README" readme_test
+step "no lanes above the models" no_lanes_above_models
 step "dependencies" dependencies
 step "engine alone" engine_alone
 step "lints" cargo clippy --all-targets -- -D warnings

@@ -42,6 +42,8 @@ static FILIPPOV: Of<Filippov> = Of(PhantomData);
 static AS_PRINTED: Of<AsPrinted> = Of(PhantomData);
 
 /// The model of capsules with these parameters, by how their friction is read.
+// Inlined into another crate, it would have the tables of both implementations, and so the lanes, compiled there once more.
+#[inline(never)]
 pub fn model_of(parameters: &Parameters) -> &'static dyn Model {
     match parameters.switching {
         Switching::Filippov => &FILIPPOV,
