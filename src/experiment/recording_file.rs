@@ -72,7 +72,7 @@ impl Reading<'_> {
 
     fn recording(&mut self, source: &str, least: usize) -> Recording {
         let text = self.text;
-        // Without a line break at its end the reader takes a last comment for a row, and a quote that is not closed for closed.
+        // Without a line break at its end the reader takes a last comment for a row.
         let whole = text.as_bytes().chain(&b"\n"[..]);
         let mut reader = ReaderBuilder::new()
             .delimiter(delimiter(text))

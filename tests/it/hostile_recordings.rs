@@ -169,16 +169,14 @@ fn any_recording_is_read_to_its_own_numbers_or_refused() {
     println!("{count} recordings");
 }
 
-/// A reader of CSV may take a comment without a line break after it for a row, and a quote that the text leaves open for closed.
+/// A reader of CSV may take a comment without a line break after it for a row.
 #[test]
 fn a_file_may_end_without_a_line_break() {
-    let read = |text: &str| Recording::read("rig.csv", text, &KNOWN, 2);
     for rows in ["0,1\n1,2", "0,1\n1,2\n# the end", "0,1\r1,2\r# the end", "0,1\n1,\"2\""] {
-        let recording = read(&format!("t [s],x2 [m]\n{rows}")).expect(rows);
+        let text = format!("t [s],x2 [m]\n{rows}");
+        let recording = Recording::read("rig.csv", &text, &KNOWN, 2).expect(rows);
         assert_eq!(recording.required("x2"), [1.0, 2.0], "{rows}");
     }
-    let faults = read("t [s],x2 [m]\n0,1\n1,2\n2,\"3").expect_err("an open quote").to_string();
-    assert!(faults.contains("a quote is not closed"), "{faults}");
 }
 
 /// The shortest of three times that something takes.

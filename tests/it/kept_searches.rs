@@ -7,8 +7,11 @@ use std::process::Stdio;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use capsulemap::campaign::{KeptSearches, study_of};
-use capsulemap::store;
+use capsulemap::campaign::{Between, KeptSearches, TradeOff, silent, study_of};
+use capsulemap::capsule::Output;
+use capsulemap::store::{self, Archive};
+use capsulemap::study::Study;
+use capsulemap::tradeoff::Direction;
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -170,13 +173,35 @@ fn a_changed_digit_is_searched_again_and_said() {
     }
 }
 
+/// Searches by the library, which here reads them, too: it knows no commit, and the program's would be those of another.
+fn refined(archive: &Archive, study: &Study) {
+    let kept = KeptSearches::open(archive, study, false).expect("a new file");
+    let trade_off = TradeOff {
+        archive,
+        file: archive.path(),
+        of: Output::WorkPositive,
+        direction: Direction::Either,
+        conditions: None,
+        at_rest: None,
+        budget: None,
+        speed: None,
+        top: 1,
+        slopes: false,
+        between: Between::Sought { kept: &kept, seed: 1, points: 8 },
+        under: None,
+        margins: false,
+        threads: None,
+    };
+    trade_off.answer(&silent).expect("motions between the cases");
+}
+
 #[test]
 fn of_a_file_of_searches_with_damage_no_other_number_is_taken() {
     let folder = swept(STUDY);
-    folder.run(&REFINE).done();
     let path = folder.path(SEARCHES);
     let archive = store::open(&folder.path("results/study/study.h5")).expect("results");
     let study = study_of(&archive, archive.path()).expect("a study");
+    refined(&archive, &study);
     let text = fs::read(&path).expect("searches");
     let taken = || -> BTreeSet<String> {
         let lines = store::read_lines(&path).expect("lines").whole;

@@ -5,9 +5,7 @@
 //! it is then followed in Filippov's sense along |F| = f_s with the share of H that holds F there.
 
 use capsulemap_engine::flow::{Event, Field, Stroboscopic, Switched, Zeros};
-use capsulemap_engine::lane::{
-    Lane, Mask, ORDER, Series, elementary::not_finite, series, side_by_side,
-};
+use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, elementary, series, side_by_side};
 
 use super::drag::Drag;
 use super::drive::{Drive, reduced};
@@ -296,7 +294,7 @@ impl<L: Lane> Switched<L> for PrintedCapsule<L> {
 
     #[inline(always)]
     fn lost(&self, state: &State<L>) -> L::Mask {
-        not_finite(state.y1 + state.y2)
+        elementary::not_finite(state.y1 + state.y2)
     }
 
     #[inline(always)]

@@ -1,0 +1,7 @@
+//! The tests of what models describe, and of the capsule beside the engine; what the engine owes it is in `crates/engine/tests`.
+
+mod arcs;
+mod forces;
+mod printable;
+mod sampled;
+mod units;
