@@ -40,7 +40,7 @@ find src crates/*/src -name '*.rs' 2>/dev/null | sort | xargs awk '
     end != "" && /^ +let (mut )?[a-z_0-9]+(: [^=]+)? =$/ { open = 1; next }
     open && /^ +(move )?\|/ { closures[part]++ }
     { open = 0 }
-    $0 == end {
+    end != "" && $0 == end {
         if (FNR - begun + 1 > 40) long[part]++
         end = ""
     }
