@@ -19,6 +19,9 @@ CASES=200000 CAPSULES=41 STARTS=5000 cargo test --release --test it -- accelerat
 echo "== branches of 300 capsules by other steps, ranges, section phases and points of the orbit; numbers along 100 axes against four times as many points"
 CAPSULES=300 AXES=100 cargo test --release --test it -- random_branches no_number --nocapture
 
+echo "== what the ways of 3000 attractors tell is what branches in small steps tell"
+CAPSULES=3000 cargo test --release --test it -- successions --nocapture
+
 echo "== periods and defects of 10 000 cases of each law over the whole box, and a second integrator on 3000"
 CASES=10000 cargo test --release --test it -- wide_box --nocapture
 
@@ -59,7 +62,3 @@ memory=(scripts/memory.sh --most 1024)
 { "${memory[@]}" --for 120 "${long_run[@]}" 2>&1 || [ $? -eq 130 ]; } | tail -n 3
 "${memory[@]}" "${long_run[@]}" 2>&1 | tail -n 5
 "${memory[@]}" "$program" verify "$folder/long.h5" --cases 10000 2>&1 | tail -n 2
-
-# Comes last, as it fails: one of the ways goes on beyond a fold next to a corner, see studies/README.md.
-echo "== what the ways of 3000 attractors tell is what branches in small steps tell"
-CAPSULES=3000 cargo test --release --test it -- successions --nocapture
