@@ -93,7 +93,7 @@ impl Parts<'_> {
         let order = spread(self.count());
         match &self.tiles {
             None => run_blocks(self.study, machine, &order, done, finished),
-            Some(tiles) => run_tiles(self.study, machine, (tiles, &order), done, finished),
+            Some(tiles) => run_tiles(self.study, machine, tiles, &order, done, finished),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Which cases of a study share an attractor, how attractors go on along an axis, and where they change.
 
 use std::cmp::Reverse;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
@@ -10,7 +10,7 @@ use crate::attractor::{Attractor, Bridge, Label, Links, Table};
 use crate::branch::{ONE_VALUE, SpecialKind, SpecialValue};
 use crate::capsule::Section;
 use crate::lane::Instructions;
-use crate::model::{Along, Cell, Motions, Neighbours, Setting, Unlinked};
+use crate::model::{Along, Cell, LinearOrbits, Motions, Neighbours, Setting, Unlinked};
 use crate::study::layout::{Layout, linked_axis};
 use crate::study::{CaseSet, Coordinate, Direction, Study};
 
@@ -125,71 +125,45 @@ fn find(
     linked: impl Fn() + Sync,
 ) -> Attractors {
     let layout = Layout::of(study);
-    let of_case = Mutex::new(vec![None; study.cases()]);
-    let of_starts = Mutex::new(Vec::new());
-    let line = |number: usize| Line { study, layout: &layout, number };
+    let of_case = vec![None; study.cases()];
+    let mut found = Attractors { axis: layout.axis, of_case, ..Attractors::default() };
     let some = LINKS.div_ceil(layout.cells());
-    let search = |first: usize| {
-        let lines: Vec<Line> = (first..layout.lines().min(first + some)).map(line).collect();
-        let cells: Vec<_> = lines.iter().map(|it| it.cells(final_motions)).collect();
-        let links = links_of_lines(&lines, &cells, instructions, &linked);
-        let of_lines = lines.into_iter().zip(cells).zip(links);
-        let events = of_lines.flat_map(|((line, cells), links)| {
-            let between = |at: usize| line.neighbours(&cells, at);
-            let bridges = study.model().bridges(&cells, &links, &between, &Rayon);
-            let numbers = numbers(&cells, &links, &bridges);
-            let events = events(&cells, &links, &bridges, &numbers);
-            line.note(&cells, &numbers, &mut of_case.lock().expect("no thread has panicked"));
-            if let ([cell], true) = (&cells[..], layout.lines() == 1) {
-                let numbered = cell.order.iter().map(|&place| cell.attractors[place].clone());
-                *of_starts.lock().expect("no thread has panicked") = numbered.collect();
-            }
-            events
-        });
-        events.collect::<Vec<_>>()
-    };
-    let events = (0..layout.lines()).step_by(some).flat_map(search).collect();
-    let of_case = of_case.into_inner().expect("no thread has panicked");
-    let of_starts = of_starts.into_inner().expect("no thread has panicked");
-    Attractors { axis: layout.axis, of_case, events, of_starts }
+    for first in (0..layout.lines()).step_by(some) {
+        let numbers = first..layout.lines().min(first + some);
+        let line = |number| Line::sorted(study, &layout, number, final_motions);
+        let lines: Vec<Line> = numbers.map(line).collect();
+        let links = links_of_lines(&lines, instructions, &linked);
+        lines.iter().zip(&links).for_each(|(line, links)| line.add_to(&mut found, links));
+    }
+    found
 }
 
 /// How the attractors of each cell of some lines go on in the next.
 fn links_of_lines(
     lines: &[Line<'_>],
-    cells: &[Vec<Arc<Table<3>>>],
     instructions: Instructions,
     linked: impl Fn() + Sync,
 ) -> Vec<Vec<Links<3>>> {
-    let length = lines[0].layout.cells();
-    let last = length.saturating_sub(1);
+    let last = lines[0].cells.len().saturating_sub(1);
     // Of one cell there are no links, and along another axis than a parameter none leads on.
     if last == 0 || lines[0].along(0).is_none() {
         (0..lines.len() * last).for_each(|_| linked());
         return vec![vec![Links::default(); last]; lines.len()];
     }
-    let model = lines[0].study.model();
     // The derivatives of an orbit serve its links on both sides.
-    let linear = together((0..lines.len() * length).collect(), &|next| {
-        let cell = |place: usize| {
-            let (line, at) = (place / length, place % length);
-            let (along, value) = lines[line].along(at)?;
-            Some((place, Cell { along, value, table: cells[line][at].clone() }))
-        };
-        model.linear_orbits(instructions, &mut || cell(next()?))
-    });
-    let linear: Vec<_> = linear.into_iter().map(Arc::new).collect();
+    let linear = linear_orbits(lines, instructions);
     let mut order: Vec<usize> = (0..lines.len() * last).collect();
     // Those begun last end last: let them be short ones, so that no thread goes on alone.
     order.sort_by_cached_key(|place| {
-        let (line, at) = (place / last, place % last);
-        Reverse(cells[line][at].cycles() + cells[line][at + 1].cycles())
+        let (cells, at) = (&lines[place / last].cells, place % last);
+        Reverse(cells[at].cycles() + cells[at + 1].cycles())
     });
+    let model = lines[0].study.model();
     let links = together(order, &|next| {
         let unlinked = |place: usize| {
             let (line, at) = (place / last, place % last);
-            let neighbours = lines[line].neighbours(&cells[line], at)?;
-            let linear = [at, at + 1].map(|at| linear[line * length + at].clone());
+            let neighbours = lines[line].neighbours(at)?;
+            let linear = [at, at + 1].map(|at| linear[line * (last + 1) + at].clone());
             Some((place, Unlinked { neighbours, linear }))
         };
         model.links(instructions, &mut || unlinked(next()?), &mut || linked())
@@ -198,18 +172,33 @@ fn links_of_lines(
     lines.iter().map(|_| links.by_ref().take(last).collect()).collect()
 }
 
+/// The attractors of all cells of some lines along a parameter, line by line, with their derivatives.
+fn linear_orbits(lines: &[Line<'_>], instructions: Instructions) -> Vec<Arc<LinearOrbits>> {
+    let (model, length) = (lines[0].study.model(), lines[0].cells.len());
+    let linear = together((0..lines.len() * length).collect(), &|next| {
+        let cell = |place: usize| Some((place, lines[place / length].cell(place % length)?));
+        model.linear_orbits(instructions, &mut || cell(next()?))
+    });
+    linear.into_iter().map(Arc::new).collect()
+}
+
 /// A line of a study, by its number.
-#[derive(Clone, Copy)]
 struct Line<'a> {
     study: &'a Study,
     layout: &'a Layout,
     number: usize,
+    /// The cells, their cases sorted by attractor.
+    cells: Vec<Arc<Table<3>>>,
 }
 
-impl Line<'_> {
-    /// The cells, their cases sorted by attractor.
-    fn cells(&self, final_motions: &FinalMotions) -> Vec<Arc<Table<3>>> {
-        let Line { study, layout, number } = *self;
+impl<'a> Line<'a> {
+    /// The line, its cases sorted by attractor.
+    fn sorted(
+        study: &'a Study,
+        layout: &'a Layout,
+        number: usize,
+        final_motions: &FinalMotions,
+    ) -> Self {
         let sort = |at: usize| {
             let final_motion = |place: usize| {
                 let case = layout.case(number, at, place);
@@ -219,12 +208,13 @@ impl Line<'_> {
             let setting = Setting::of(&study.case(layout.case(number, at, 0)));
             Arc::new(study.model().table(&setting, motions, &study.protocol, &Rayon))
         };
-        (0..layout.cells()).into_par_iter().map(sort).collect()
+        let cells = (0..layout.cells()).into_par_iter().map(sort).collect();
+        Line { study, layout, number, cells }
     }
 
     /// What is held at a place of the axis, and the value there; none where the axis is no parameter.
     fn along(&self, at: usize) -> Option<(Along, f64)> {
-        let Line { study, layout, number } = *self;
+        let Line { study, layout, number, .. } = *self;
         let axis = &study.axes()[layout.axis?];
         let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
         let setting = Setting::of(&study.case(layout.case(number, at, 0)));
@@ -232,12 +222,18 @@ impl Line<'_> {
         Some((Along { setting, parameter, tolerance }, axis.values[at]))
     }
 
+    /// The cell at a place of the axis; none where the axis is no parameter.
+    fn cell(&self, at: usize) -> Option<Cell> {
+        let (along, value) = self.along(at)?;
+        Some(Cell { along, value, table: self.cells[at].clone() })
+    }
+
     /// The cells at a place of the axis and at the next; none where the axis is no parameter.
-    fn neighbours(&self, cells: &[Arc<Table<3>>], at: usize) -> Option<Neighbours> {
+    fn neighbours(&self, at: usize) -> Option<Neighbours> {
         let Line { study, layout, .. } = *self;
         let (along, value) = self.along(at)?;
         let values = [value, study.axes()[layout.axis?].values[at + 1]];
-        let cells = [at, at + 1].map(|cell| cells[cell].clone());
+        let cells = [at, at + 1].map(|cell| self.cells[cell].clone());
         let directions = study.inherit().map_or(&[][..], |inherit| &inherit.directions);
         let inherited = [Direction::Upward, Direction::Downward].map(|direction| {
             directions.contains(&direction).then(|| leads(&cells, directions, direction))
@@ -245,9 +241,23 @@ impl Line<'_> {
         Some(Neighbours { along, protocol: study.protocol, values, cells, inherited })
     }
 
+    /// Adds its attractors, which go on so from cell to cell, to those of a study.
+    fn add_to(&self, found: &mut Attractors, links: &[Links<3>]) {
+        let Line { study, layout, cells, .. } = self;
+        let between = |at: usize| self.neighbours(at);
+        let bridges = study.model().bridges(cells, links, &between, &Rayon);
+        let numbers = numbers(cells, links, &bridges);
+        found.events.extend(events(cells, links, &bridges, &numbers));
+        self.note(&numbers, &mut found.of_case);
+        if let ([cell], 1) = (&cells[..], layout.lines()) {
+            let numbered = cell.order.iter().map(|&place| cell.attractors[place].clone());
+            found.of_starts = numbered.collect();
+        }
+    }
+
     /// Notes the number of each case's attractor.
-    fn note(&self, cells: &[Arc<Table<3>>], numbers: &[Vec<u32>], of_case: &mut [Option<u32>]) {
-        for (at, (cell, numbers)) in cells.iter().zip(numbers).enumerate() {
+    fn note(&self, numbers: &[Vec<u32>], of_case: &mut [Option<u32>]) {
+        for (at, (cell, numbers)) in self.cells.iter().zip(numbers).enumerate() {
             for (place, attractor) in cell.of_case.iter().enumerate() {
                 let case = self.layout.case(self.number, at, place);
                 of_case[case] = attractor.map(|attractor| numbers[attractor as usize]);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use super::cases::{Record, RunError, run_chains};
+use super::cases::{Chains, Record, RunError, run_chains};
 use super::refined::run_tiles;
 use crate::orbit::Machine;
 use crate::study::Study;
@@ -24,13 +24,13 @@ pub fn run_blocks(
     finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
     if let Some(refinement) = study.refinement() {
-        return run_tiles(study, machine, (&refinement, blocks), done, finished);
+        return run_tiles(study, machine, &refinement, blocks, done, finished);
     }
     let mut ends = Vec::with_capacity(blocks.len());
     for &block in blocks {
         ends.push(ends.last().unwrap_or(&0) + study.block(block).len());
     }
-    let chains = |place: usize| {
+    let at = &|place: usize| {
         let at = ends.partition_point(|end| *end <= place);
         (blocks[at], study.block(blocks[at]).end - (ends[at] - place))
     };
@@ -43,7 +43,8 @@ pub fn run_blocks(
         records.sort_by_key(|record| record.index);
         finished(block, records)
     };
-    run_chains(study, machine, (ends.last().copied().unwrap_or(0), &chains), keep)
+    let count = ends.last().copied().unwrap_or(0);
+    run_chains(study, machine, Chains { count, at }, keep)
 }
 
 /// All records of a block, if this was the last that it lacked.

@@ -41,7 +41,7 @@ pub fn run(study: &Study, machine: Machine, keep: impl Fn(Record) + Sync) -> Res
         keep(record);
         ControlFlow::Continue(())
     };
-    run_chains(study, machine, (study.chains(), &|place| (0, place)), keep)
+    run_chains(study, machine, Chains { count: study.chains(), at: &|place| (0, place) }, keep)
 }
 
 /// Runs some chains of `study`, each named once, on `machine`; calls `done` after each case, and returns the
@@ -58,14 +58,24 @@ pub fn run_sample(
         records.lock().expect("no thread has panicked").push(record);
         ControlFlow::Continue(())
     };
-    run_chains(study, machine, (chains.len(), &|place| (0, chains[place])), keep)?;
+    let chains = Chains { count: chains.len(), at: &|place| (0, chains[place]) };
+    run_chains(study, machine, chains, keep)?;
     let mut records = records.into_inner().expect("no thread has panicked");
     records.sort_by_key(|record: &Record| record.index);
     Ok(records)
 }
 
-/// Runs so many chains of `study` on `machine`, each given by its place as the number of its block and its
-/// own, and hands each record to `keep` with the number of the block, until that says to stop.
+/// Some chains of a study, in the order in which they are begun.
+#[derive(Clone, Copy)]
+pub(super) struct Chains<'a> {
+    /// How many.
+    pub(super) count: usize,
+    /// The block of the chain at a place, and its own number.
+    pub(super) at: &'a (dyn Fn(usize) -> (usize, usize) + Sync),
+}
+
+/// Runs some chains of `study` on `machine`, and hands each record to `keep` with the number of the block, until that says to
+/// stop.
 ///
 /// Every thread fills its lanes from one queue of chains until it is empty; the last cases, too few to fill
 /// a vector, are followed one by one, by whichever thread is done with its lanes. A case depends on its own
@@ -73,13 +83,13 @@ pub fn run_sample(
 pub(super) fn run_chains(
     study: &Study,
     machine: Machine,
-    (count, chains): (usize, Chains<'_>),
+    chains: Chains<'_>,
     keep: impl Fn(usize, Record) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
     check(machine)?;
-    let (queue, pool) = ((count, chains), pool(machine.threads)?);
+    let pool = pool(machine.threads)?;
     let known = known_orbits(study, machine);
-    run_queue(study, machine, queue, (&pool, known.as_ref()), &keep);
+    run_on(&pool, study, machine, chains, known.as_ref(), &keep);
     Ok(())
 }
 
@@ -91,22 +101,23 @@ pub(super) fn check(machine: Machine) -> Result<(), RunError> {
     }
 }
 
-/// Runs the chains of a queue on the threads of a pool, see [`run_chains`].
-pub(super) fn run_queue(
+/// Runs chains on the threads of a pool, see [`run_chains`]; the orbits of the study that are `known` end the cases that reach them.
+pub(super) fn run_on(
+    pool: &rayon::ThreadPool,
     study: &Study,
     machine: Machine,
-    queue: (usize, Chains<'_>),
-    (pool, known): (&rayon::ThreadPool, Option<&Known>),
+    chains: Chains<'_>,
+    known: Option<&Known>,
     keep: &(impl Fn(usize, Record) -> ControlFlow<()> + Sync),
 ) {
     let (taken, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let share = queue.0.div_ceil(pool.current_num_threads());
+    let share = chains.count.div_ceil(pool.current_num_threads());
     let instructions = machine.instructions_for(share);
     let last_cases = Mutex::default();
     pool.broadcast(|_| {
         let (model, links) = (study.model(), BTreeMap::new());
         let (taken, stopped) = (&taken, &stopped);
-        let worker = Worker { study, model, queue, taken, stopped, share, keep, links, known };
+        let worker = Worker { study, model, chains, taken, stopped, share, keep, links, known };
         worker.work(instructions, &last_cases);
     });
 }
@@ -166,9 +177,6 @@ impl Executor for Rayon {
     }
 }
 
-/// The block and the number of the chain at each place of the queue.
-pub(super) type Chains<'a> = &'a (dyn Fn(usize) -> (usize, usize) + Sync);
-
 /// A case of a chain: its index and start, and those that follow it.
 struct Link {
     block: usize,
@@ -185,8 +193,8 @@ type Left = (Link, Box<dyn Unfinished>);
 struct Worker<'a, K> {
     study: &'a Study,
     model: &'a dyn Model,
-    /// The length of the queue and what is in it.
-    queue: (usize, Chains<'a>),
+    /// All chains.
+    chains: Chains<'a>,
     /// Chains that have been taken by any thread.
     taken: &'a AtomicUsize,
     /// Whether nothing more is to be begun.
@@ -222,11 +230,10 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     /// The first case of the next chain.
     fn take(&self) -> Option<(Link, Case)> {
         let place = self.taken.fetch_add(1, Ordering::Relaxed);
-        let (count, chains) = self.queue;
-        if place >= count {
+        if place >= self.chains.count {
             return None;
         }
-        let (block, number) = chains(place);
+        let (block, number) = (self.chains.at)(place);
         self.depart(block, self.study.chain(number), None)
     }
 

@@ -7,7 +7,7 @@ use crate::attractor::{Label, Table};
 use crate::model::{Known, Motions, Setting};
 use crate::study::{Refine, Refinement, Refining, Study};
 
-use super::cases::{Rayon, Record, RunError, check, known_orbits, pool, run_queue};
+use super::cases::{Chains, Rayon, Record, RunError, check, known_orbits, pool, run_on};
 use super::infer::{are_alike, label};
 use super::map_point::MapPoint;
 use super::{FinalMotion, FinalMotions, Machine, final_motion};
@@ -23,7 +23,8 @@ pub const TILES_TOGETHER: usize = 16;
 pub fn run_tiles(
     study: &Study,
     machine: Machine,
-    (refinement, tiles): (&Refinement, &[usize]),
+    refinement: &Refinement,
+    tiles: &[usize],
     done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
     finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()> + Sync,
 ) -> Result<(), RunError> {
@@ -150,17 +151,21 @@ impl<'a> Runner<'a> {
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
         finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()>,
     ) {
-        let tiles = (refinement, numbers);
         match self.study.refine {
-            Some(Refine::Attractors) => self.run_by::<ByAttractor>(tiles, done, finished),
-            Some(Refine::Outputs(_)) => self.run_by::<ByOutputs>(tiles, done, finished),
+            Some(Refine::Attractors) => {
+                self.run_by::<ByAttractor>(refinement, numbers, done, finished)
+            }
+            Some(Refine::Outputs(_)) => {
+                self.run_by::<ByOutputs>(refinement, numbers, done, finished)
+            }
             None => {}
         }
     }
 
     fn run_by<S: Sorting + Default>(
         &self,
-        (refinement, numbers): (&Refinement, &[usize]),
+        refinement: &Refinement,
+        numbers: &[usize],
         done: impl Fn(usize, &Record) -> ControlFlow<()> + Sync,
         finished: impl Fn(usize, Vec<Record>) -> ControlFlow<()>,
     ) {
@@ -258,9 +263,8 @@ impl<'a> Runner<'a> {
             records.lock().expect("no thread has panicked").push(record);
             told
         };
-        let chains = |at: usize| (cases[at].1, cases[at].0);
-        let (queue, pool) = ((cases.len(), &chains as _), (&self.pool, self.known.as_ref()));
-        run_queue(self.study, self.machine, queue, pool, &keep);
+        let chains = Chains { count: cases.len(), at: &|place| (cases[place].1, cases[place].0) };
+        run_on(&self.pool, self.study, self.machine, chains, self.known.as_ref(), &keep);
         let mut records = records.into_inner().expect("no thread has panicked");
         records.sort_by_key(|record: &Record| record.index);
         records
