@@ -239,9 +239,11 @@ impl<E: Event, const D: usize, const U: usize> HalfBranch<E, D, U> {
                 // No step is so short that a branch goes on beyond a jump.
                 Err(Flaw::Jump) if control.halve(0.0).is_some() => return Added::Halved,
                 Err(_) if control.halve(self.least).is_some() => return Added::Halved,
-                // Changes that are not told one by one may hide a jump.
+                // Changes that a long step does not tell one by one may hide a jump.
                 Err(_)
-                    if jumps_over(orbits, from, &until, narrow) && control.halve(0.0).is_some() =>
+                    if self.is_coarse()
+                        && jumps_over(orbits, from, &until, narrow)
+                        && control.halve(0.0).is_some() =>
                 {
                     return Added::Halved;
                 }
