@@ -81,7 +81,7 @@ fn runs_that_are_killed_at_random_and_resumed_end_in_the_same_bytes() {
 fn signals_keep_what_is_done_and_say_how_to_go_on() {
     use std::os::unix::process::ExitStatusExt;
     let long = LongRun::new();
-    let mut attempts_left = 40;
+    let mut attempts_left = 10;
     let mut signals = vec!["INT", "TERM"];
     while let Some(signal) = signals.pop() {
         let mut child = long.start(&[]);
