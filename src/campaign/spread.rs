@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::capsule::{Output, settle_case};
-use crate::model::{Batches, Setting};
+use crate::experiment::settled_motion::outputs_of_batches;
 use crate::run::{Machine, on_all_threads};
 
 use super::answer::Answer;
@@ -13,9 +13,6 @@ use super::motion_row::Row;
 use super::refined_front::Refinement;
 use super::replay::Replay;
 use super::report::silent;
-
-/// The cycles are averaged in so many batches, whose spread tells the error.
-const BATCHES: u64 = 16;
 
 impl Refinement<'_> {
     /// The standard errors of speed and price of each of some cases that do not repeat; none of those that could not be followed.
@@ -45,11 +42,7 @@ impl Refinement<'_> {
         let replay = Replay::new(self.study, case)?;
         let (case, protocol) = (replay.as_run(Machine::single(), &silent)?, replay.protocol());
         let end = settle_case(&case, protocol).end;
-        let (setting, from) = (Setting::of(&case), [end.r, end.y1, end.y2]);
-        let cycles = protocol.measured_cycles.div_ceil(BATCHES);
-        let batches = Batches { count: BATCHES, cycles };
-        let found = self.study.model().batches(&setting, from, batches, protocol.tolerance);
-        Ok(found.map(|batches| {
+        Ok(outputs_of_batches(&case, &end, protocol).map(|batches| {
             let means = |of: Output| batches.iter().map(|it| it[of]).collect::<Vec<_>>();
             MeanErrors::of(&means(Output::ProgressionSpeed), &means(self.of))
         }))

@@ -4,14 +4,14 @@ use super::estimate::Estimate;
 use super::progression::Progression;
 use crate::capsule::drive::reduced;
 use crate::capsule::sampled::{Signal, Started, sampled};
-use crate::capsule::{Case, Orbit, Output, Parameter, State, settle_case};
+use crate::capsule::{Case, Orbit, Output, Outputs, Parameter, State, settle_case};
 use crate::model::{Batches, Setting};
 use crate::of::model_of;
 use crate::orbit::{Outcome, Protocol};
 
 /// Relative local error of the steps of the simulation.
 pub const TOLERANCE: f64 = 1e-12;
-/// The cycles of a motion that does not repeat are averaged in so many batches, whose spread tells the error, as in campaigns.
+/// The cycles of a motion that does not repeat are averaged in so many batches, whose spread tells the error.
 const BATCHES: u64 = 16;
 
 /// The motion that a case settles to.
@@ -40,7 +40,9 @@ impl Settled {
         }
         let value = orbit.outputs[Output::ProgressionSpeed];
         let repeats = orbit.outcome == Outcome::Periodic;
-        let speeds = if repeats { None } else { batches(case, &orbit, &protocol) };
+        let batches = if repeats { None } else { outputs_of_batches(case, &orbit.end, &protocol) };
+        let speed_of = |it: &Outputs| it[Output::ProgressionSpeed];
+        let speeds = batches.map(|all| all.iter().map(speed_of).collect::<Vec<_>>());
         let speed = Progression {
             value,
             standard_error: speeds.map(|it| Estimate::mean(&it).standard_error),
@@ -66,12 +68,15 @@ impl Settled {
     }
 }
 
-/// The speeds of batches of cycles from the end of an orbit on; none where it cannot be followed.
-fn batches(case: &Case, orbit: &Orbit, protocol: &Protocol) -> Option<Vec<f64>> {
-    let (model, setting) = (model_of(&case.parameters), Setting::of(case));
+/// The outputs of sixteen batches of the cycles that follow the end of a case, together as many as it was measured over; none where
+/// it cannot be followed.
+pub fn outputs_of_batches(
+    case: &Case,
+    end: &State<f64>,
+    protocol: &Protocol,
+) -> Option<Vec<Outputs>> {
     let cycles = protocol.measured_cycles.div_ceil(BATCHES);
-    let from = [orbit.end.r, orbit.end.y1, orbit.end.y2];
     let batches = Batches { count: BATCHES, cycles };
-    let outputs = model.batches(&setting, from, batches, protocol.tolerance)?;
-    Some(outputs.iter().map(|it| it[Output::ProgressionSpeed]).collect())
+    let from = [end.r, end.y1, end.y2];
+    model_of(&case.parameters).batches(&Setting::of(case), from, batches, protocol.tolerance)
 }
