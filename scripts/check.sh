@@ -143,13 +143,13 @@ dependencies() {
 
 step "what the machine needs" scripts/setup.sh
 step "formatting" cargo fmt --check
+step "dependencies" dependencies
 step "Python readers" python_readers
 step "Slurm" slurm
 step "strace" strace_for_kills
 step "browser" browser
 step "tests, as in the README" readme_test
 step "no lanes above the models" no_lanes_above_models
-step "dependencies" dependencies
 step "engine alone" engine_alone
 step "lints" cargo clippy --all-targets -- -D warnings
 step "documentation" documentation
