@@ -136,7 +136,11 @@ pub fn margin(
             (None, SegmentEnd::Reached(orbit)) if orbit.is_stable() => {
                 (until, points) = (to, orbit.points);
             }
-            (None, _) => return Margin { until, end: MarginEnd::NotFollowed, passed },
+            (None, _) => {
+                // It is stable just beyond the last change that it has survived.
+                let until = special.last().map_or(until, |last| last.value);
+                return Margin { until, end: MarginEnd::NotFollowed, passed };
+            }
         }
     }
     Margin { until, end: MarginEnd::Range, passed }

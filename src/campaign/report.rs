@@ -121,7 +121,7 @@ pub enum Stage {
     Following,
     /// Motions are followed under tolerances of the parameters; a step is a motion.
     Drawing,
-    /// The parameters of motions are followed to where these end; a step is a motion.
+    /// The parameters of motions are followed to where these end; a step is a parameter that falls or rises.
     Bounding,
 }
 

@@ -91,7 +91,7 @@ impl Continue {
             },
         };
         if !self.no_figures {
-            draw_from(&archive, &study.drawings, &place)?;
+            draw_from(&archive, &study, &place)?;
         }
         Ok(())
     }
@@ -110,7 +110,7 @@ impl Continue {
         let mut dataset = campaign.without_branches(older, |_| true)?;
         let nothing = vec![Err(NotContinued::NoOrbit); study.branches.len()];
         add_branches(&mut dataset, study, &nothing);
-        let drawn = rehearse(&dataset, &study.drawings, place);
+        let drawn = rehearse(&dataset, study, place);
         drawn.map_err(|failure| failure.within(&printable(&self.study).to_string()))
     }
 }

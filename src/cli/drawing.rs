@@ -10,7 +10,7 @@ use crate::figure::{
     FigureError, Files, Format, Measured, Needs, Place, Shown, draw, needs, variables,
 };
 use crate::store::{Archive, Dataset, StoreError, has_branches, has_cases};
-use crate::study::{Drawing, DrawingKind};
+use crate::study::{Drawing, Study};
 
 /// Formats on the command line.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -40,12 +40,8 @@ pub fn formats(choices: &[FormatChoice]) -> Vec<Format> {
 }
 
 /// Draws those figures of a study for which there is all that they show.
-pub fn draw_from(
-    archive: &Archive,
-    drawings: &[Drawing],
-    place: &Place<'_>,
-) -> Result<(), Failure> {
-    draw_each(archive, (&ready(archive.into(), drawings), None), place)
+pub fn draw_from(archive: &Archive, study: &Study, place: &Place<'_>) -> Result<(), Failure> {
+    draw_each(archive, (&ready(archive.into(), study), None), place)
 }
 
 /// Draws figures, each from no more of the results than it shows, with measured points if there are any.
@@ -86,9 +82,9 @@ fn refined(archive: &Archive) -> Result<Vec<KeptFront>, Failure> {
 
 /// Draws the figures from results without a single value, so that a mistake in one of them is
 /// reported before a long run and not after it.
-pub fn rehearse(empty: &Dataset, drawings: &[Drawing], place: &Place<'_>) -> Result<(), Failure> {
-    let ready: Vec<Drawing> =
-        drawings.iter().filter(|it| waits_for(it.kind, empty.into()).is_none()).cloned().collect();
+pub fn rehearse(empty: &Dataset, study: &Study, place: &Place<'_>) -> Result<(), Failure> {
+    let is_ready = |it: &&Drawing| waits_for(it, study, empty.into()).is_none();
+    let ready: Vec<Drawing> = study.drawings.iter().filter(is_ready).cloned().collect();
     for drawing in &ready {
         place.check(&drawing.name, drawing.data).map_err(failure)?;
     }
@@ -148,24 +144,35 @@ impl From<&Archive> for Holds {
     }
 }
 
-/// The figures among `drawings` for which there is all that they show; the others are reported with what
+/// The figures of a study for which there is all that they show; the others are reported with what
 /// they wait for.
-fn ready(holds: Holds, drawings: &[Drawing]) -> Vec<Drawing> {
-    let is_ready = |drawing: &&Drawing| match waits_for(drawing.kind, holds) {
+fn ready(holds: Holds, study: &Study) -> Vec<Drawing> {
+    let is_ready = |drawing: &&Drawing| match waits_for(drawing, study, holds) {
         None => true,
         Some(command) => {
             notify(&format!("figure `{}`: waits for `capsulemap {command}`", drawing.name));
             false
         }
     };
-    drawings.iter().filter(is_ready).cloned().collect()
+    study.drawings.iter().filter(is_ready).cloned().collect()
 }
 
 /// The command that finds what a figure shows and is not there.
-fn waits_for(kind: DrawingKind, Holds { cases, branches }: Holds) -> Option<&'static str> {
-    match needs(kind) {
+fn waits_for(drawing: &Drawing, study: &Study, holds: Holds) -> Option<&'static str> {
+    let Holds { cases, branches } = holds;
+    match needs(drawing.kind) {
         Needs::Branches => (!branches).then_some("continue"),
+        Needs::CasesOrBranches if shows_branches_alone(drawing, study) => {
+            (!branches).then_some("continue")
+        }
         Needs::CasesOrBranches => (!cases && !branches).then_some("sweep"),
         Needs::Cases => (!cases && branches).then_some("sweep"),
     }
+}
+
+/// Whether the abscissa of a figure is a parameter along which the study continues a branch and varies no case.
+fn shows_branches_alone(drawing: &Drawing, study: &Study) -> bool {
+    let Some(x) = drawing.x.as_deref() else { return false };
+    let is_varied = study.case_set.varied().iter().any(|it| it.name() == x);
+    !is_varied && study.branches.iter().any(|branch| branch.along.symbol() == x)
 }

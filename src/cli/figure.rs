@@ -20,7 +20,7 @@ use crate::store::{self, Archive, Dataset, StoreError, catalogue};
 use crate::study::appearance::dimension_of;
 use crate::study::document::unknown;
 use crate::study::{
-    COLOURED_BY, Coordinate, Drawing, DrawingKind, Held, Sweep, check_panels, free_name,
+    COLOURED_BY, Coordinate, Drawing, DrawingKind, Held, Study, Sweep, check_panels, free_name,
 };
 
 const EXAMPLES: &str = "\
@@ -171,7 +171,11 @@ impl Figure {
 
     /// The kind and what is drawn, different from the names of the figures of the study.
     fn free_name(&self, kind: DrawingKind, archive: &Archive) -> String {
-        free_name(kind, &self.of, &studied(archive, &self.file).unwrap_or_default())
+        free_name(
+            kind,
+            &self.of,
+            &studied(archive, &self.file).map_or(Vec::new(), |it| it.drawings),
+        )
     }
 
     fn cycles(&self) -> Result<Option<[f64; 2]>, Failure> {
@@ -260,12 +264,12 @@ fn dimension(archive: &Archive, name: &str) -> Result<Dimension, String> {
     dimension_of(name).or_else(|fault| of_variable().ok_or(fault))
 }
 
-/// The figures that the study in the file asks for.
-fn studied(archive: &Archive, file: &Path) -> Result<Vec<Drawing>, Failure> {
-    let drawings = study_of(archive, file)?.drawings;
-    if drawings.is_empty() {
+/// The study in the file, which asks for figures.
+fn studied(archive: &Archive, file: &Path) -> Result<Study, Failure> {
+    let study = study_of(archive, file)?;
+    if study.drawings.is_empty() {
         let message = format!("{}: its study asks for no figures; name a --kind", printable(file));
         return Err(Failure::request(message));
     }
-    Ok(drawings)
+    Ok(study)
 }

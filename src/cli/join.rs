@@ -74,7 +74,7 @@ impl Join {
             let folder = store::folder(&file.path);
             let formats = formats(&self.formats);
             let place = Place { folder, formats: &formats, overwrite };
-            draw_from(&file.archive, &study.drawings, &place)?;
+            draw_from(&file.archive, &study, &place)?;
         }
         Ok(())
     }

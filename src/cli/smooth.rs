@@ -10,6 +10,7 @@ use super::files;
 use super::target::Target;
 use crate::capsule::Dimension;
 use crate::capsule::printable::printable;
+use crate::experiment::estimate::significant;
 use crate::experiment::{Recording, Signal, Window, smoothed};
 
 const EXAMPLES: &str = "\
@@ -68,7 +69,7 @@ impl Smooth {
         let told = format!(
             "window: {} samples, {} s; order {}; derivative {}",
             window.samples,
-            window.samples as f64 * sampling.interval,
+            significant(window.samples as f64 * sampling.interval, 4),
             window.order,
             self.derivative,
         );

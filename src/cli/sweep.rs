@@ -102,7 +102,7 @@ impl Sweep {
         });
         match watch.end(done)? {
             Done::Complete(Complete { archive, .. }) if !self.no_figures && task.of == 1 => {
-                draw_from(&archive, &study.drawings, &place)
+                draw_from(&archive, &study, &place)
             }
             Done::Complete(_) => Ok(()),
             Done::Shared(blocks) => {
@@ -117,7 +117,7 @@ impl Sweep {
         if self.no_figures {
             return Ok(());
         }
-        let drawn = rehearse(&without_cases(study), &study.drawings, place);
+        let drawn = rehearse(&without_cases(study), study, place);
         drawn.map_err(|failure| failure.within(&printable(&self.study).to_string()))
     }
 

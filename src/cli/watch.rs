@@ -154,6 +154,6 @@ fn what(stage: Stage) -> &'static str {
         Stage::Searching => "searches between the cases",
         Stage::Following => "gaps of the front",
         Stage::Drawing => "motions under tolerances",
-        Stage::Bounding => "motions with their margins",
+        Stage::Bounding => "margins",
     }
 }

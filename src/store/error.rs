@@ -248,6 +248,8 @@ fn remedy(kind: io::ErrorKind) -> &'static str {
         io::ErrorKind::IsADirectory | io::ErrorKind::DirectoryNotEmpty => {
             "a folder has that name: choose another name"
         }
+        // What this program itself finds there.
+        io::ErrorKind::Other => "move it elsewhere, or choose another name",
         _ => "check the disk and the path, then run again",
     }
 }

@@ -284,6 +284,23 @@ fn branches_and_cases_share_a_file_in_either_order() {
 }
 
 #[test]
+fn a_figure_along_the_parameter_of_a_branch_waits_for_it() {
+    let dir = WorkDir::new();
+    let (before, _) = STUDY.split_once("[[branches]]").expect("branches");
+    let along =
+        "[[branches]]\nname = \"k\"\nalong = \"k2\"\nfrom = \"18 kN/m\"\nto = \"20 kN/m\"\n";
+    let at = "at = { omega = \"155 rad/s\", p_d = \"4 N\" }\n";
+    let figure = "[[figures]]\nname = \"f\"\nkind = \"bifurcation\"\nx = \"k2\"\n";
+    dir.put("s.toml", format!("{before}{along}{at}{figure}"));
+    let ran = dir.run(&["sweep", "s.toml", "--formats", "svg"]).done();
+    assert!(ran.err.contains("figure `f`: waits for `capsulemap continue`"), "{}", ran.err);
+    let ran = dir.run(&["continue", "s.toml", "--formats", "svg"]).done();
+    assert!(ran.err.contains("f.svg"), "{}", ran.err);
+    dir.run(&["figure", "results/s/s.h5", "--formats", "svg", "--folder", "again"]).done();
+    assert!(dir.path("again/f.svg").is_file());
+}
+
+#[test]
 fn another_text_of_the_same_cases_keeps_them() {
     let dir = WorkDir::new();
     dir.put("s.toml", STUDY);
