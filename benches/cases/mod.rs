@@ -1,5 +1,6 @@
 //! The cases that the benches measure: those of Figs 5 to 7 and a grid, computed from rest side by side.
 
+use capsulemap::capsule::CapsuleParameters as _;
 use capsulemap::capsule::{Parameter, Parameters, State};
 use capsulemap::lane::Instructions;
 

@@ -1,6 +1,6 @@
 //! The margins of the optima of a trade-off: how far their parameters may change.
 
-use crate::capsule::{Parameter, Section};
+use crate::capsule::Section;
 use crate::model::{Along, Model, Setting};
 use crate::run::on_all_threads;
 
@@ -38,10 +38,10 @@ impl Refinement<'_> {
         let Some(points) = model.section_points(&setting, *section, *period, tolerance) else {
             return Vec::new();
         };
-        let each = Parameter::ALL.iter().filter(|parameter| parameters[**parameter] > 0.0);
-        let bounded = each.map(|parameter| Bounded {
-            along: Along { setting: setting.clone(), parameter: *parameter, tolerance },
-            value: parameters[*parameter],
+        let each = parameters.each().filter(|(_, value)| *value > 0.0);
+        let bounded = each.map(|(parameter, value)| Bounded {
+            along: Along { setting: setting.clone(), parameter, tolerance },
+            value,
             points: points.clone(),
         });
         bounded.collect()

@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 
-use crate::capsule::{Outputs, Parameter, Parameters};
+use crate::capsule::Outputs;
+use crate::description::{Parameter, Parameters};
+use crate::of::default_model;
 use crate::orbit::Outcome;
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};
@@ -66,7 +68,7 @@ impl Conditions {
             self.excludes_periodic |= !condition.comparison.holds(code, *limit);
             return Ok(());
         }
-        if let Some(parameter) = Parameter::named(name) {
+        if let Some(parameter) = default_model().parameter(name) {
             if sides.is_empty() {
                 return Err("`--refine` cannot leave out a value of a parameter".to_owned());
             }

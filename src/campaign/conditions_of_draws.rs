@@ -1,6 +1,8 @@
 //! What conditions on cases ask of a motion under tolerances, which has parameters, outputs, a period and an outcome of its own.
 
-use crate::capsule::{Orbit, Output, Parameter, Parameters};
+use crate::capsule::{Orbit, Output};
+use crate::description::{Parameter, Parameters};
+use crate::of::default_model;
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};
 
@@ -29,7 +31,8 @@ impl Quantity {
         match name {
             _ if name == PERIOD.name => Some(Quantity::Period),
             _ if name == OUTCOME.name => Some(Quantity::Outcome),
-            _ => Parameter::named(name)
+            _ => default_model()
+                .parameter(name)
                 .map(Quantity::Parameter)
                 .or_else(|| Output::named(name).map(Quantity::Output)),
         }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::capsule::{Output, Parameter};
+use crate::capsule::Output;
 use crate::model::Setting;
 use crate::tradeoff::{Goal, best};
 
@@ -102,7 +102,7 @@ impl Refinement<'_> {
 
     /// What is found in a gap depends on this, beside the results.
     fn described_gap(&self, Gap { from, prices }: &Gap<'_>) -> Value {
-        let values: Vec<f64> = Parameter::ALL.iter().map(|it| from.parameters[*it]).collect();
+        let values: Vec<f64> = from.parameters.each().map(|(_, value)| value).collect();
         self.within_conditions(json!({
             "from": from.from,
             "moving": self.direction.name(),

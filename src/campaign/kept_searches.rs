@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::capsule::printable::printable;
-use crate::capsule::{Output, Outputs, Parameter};
+use crate::capsule::{Output, Outputs};
+use crate::description::Parameter;
 use crate::store::{Archive, LineFile, Lines, provenance, read_lines, sealed, unsealed};
 use crate::study::Study;
 
@@ -270,13 +271,13 @@ impl From<Real> for f64 {
 impl Written {
     fn of(motion: &RefinedMotion) -> Written {
         let Slopes { sensitivity, stationarity, held_by } = &motion.slopes;
-        let parameter = |it: &Parameter| (it.symbol().to_owned(), motion.parameters[*it].into());
+        let parameter = |(it, value): (Parameter, f64)| (it.symbol().to_owned(), value.into());
         let output = |it: &Output| (it.name().to_owned(), motion.outputs[*it].into());
         let both =
             |(it, slopes): &(Parameter, [f64; 2])| (it.symbol().to_owned(), slopes.map(Real::from));
         Written {
             from: motion.from,
-            parameters: Parameter::ALL.iter().map(parameter).collect(),
+            parameters: motion.parameters.each().map(parameter).collect(),
             section: motion.section,
             phase: motion.phase,
             period: motion.period,
@@ -291,19 +292,19 @@ impl Written {
     fn motion(self, study: &Study) -> Option<RefinedMotion> {
         // Laws of friction and resistance do not vary.
         let mut parameters = study.base.clone();
-        for parameter in Parameter::ALL {
-            parameters[*parameter] = (*self.parameters.get(parameter.symbol())?).into();
+        for parameter in study.base.model().parameters() {
+            parameters[parameter] = (*self.parameters.get(parameter.symbol())?).into();
         }
         let mut outputs = Outputs::unknown();
         for output in Output::ALL {
             outputs[*output] = (*self.outputs.get(output.name())?).into();
         }
-        let both = |it: &Parameter| {
+        let both = |it: Parameter| {
             let slopes = self.sensitivity.get(it.symbol())?;
-            Some((*it, slopes.map(f64::from)))
+            Some((it, slopes.map(f64::from)))
         };
         let slopes = Slopes {
-            sensitivity: Parameter::ALL.iter().filter_map(both).collect(),
+            sensitivity: study.base.model().parameters().filter_map(both).collect(),
             stationarity: self.stationarity.map(f64::from),
             held_by: self.held_by,
         };

@@ -1,7 +1,8 @@
 //! How far a parameter of a periodic motion may fall and rise before it ends or loses its stability.
 
 use crate::branch::{SegmentEnd, SpecialKind, SpecialValue};
-use crate::capsule::{Parameter, Section};
+use crate::capsule::Section;
+use crate::description::Parameter;
 use crate::model::{Along, Model};
 
 /// Segments in which it is followed each way, so that special points of one segment that undo each other are rare.

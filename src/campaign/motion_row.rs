@@ -1,6 +1,7 @@
 //! What is told of each motion of a trade-off: its case, its numbers, and how to compute it again.
 
-use crate::capsule::{Case, Output, Parameter, Resistance, Section, State, Switching};
+use crate::capsule::CapsuleParameters as _;
+use crate::capsule::{Case, Output, Resistance, Section, State, Switching};
 use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
@@ -163,9 +164,10 @@ fn replay(motion: &RefinedMotion, protocol: &Protocol) -> String {
 pub fn command(case: &Case, protocol: &Protocol) -> String {
     let Case { parameters, start: State { r, y1, x2, y2 }, start_phase, section_phase } = case;
     let mut text = "capsulemap simulate".to_owned();
-    let differs = |it: &&Parameter| parameters[**it] != it.default_value();
-    for parameter in Parameter::ALL.iter().filter(differs) {
-        text += &format!(" --set {}={:?}", parameter.symbol(), parameters[*parameter]);
+    for (parameter, value) in parameters.each() {
+        if value != parameter.default_value() {
+            text += &format!(" --set {}={value:?}", parameter.symbol());
+        }
     }
     text += &format!(" --start r={r:?},y1={y1:?},y2={y2:?}");
     if *x2 != 0.0 {
@@ -179,11 +181,11 @@ pub fn command(case: &Case, protocol: &Protocol) -> String {
     }
     let Protocol { tolerance, max_cycles, .. } = protocol;
     text += &format!(" --tolerance {tolerance:?} --max-cycles {max_cycles}");
-    if parameters.switching != Switching::default() {
-        text += &format!(" --friction-switching {}", parameters.switching.name());
+    if parameters.switching() != Switching::default() {
+        text += &format!(" --friction-switching {}", parameters.switching().name());
     }
-    if parameters.resistance != Resistance::default() {
-        text += &format!(" --resistance {}", parameters.resistance.name());
+    if parameters.resistance() != Resistance::default() {
+        text += &format!(" --resistance {}", parameters.resistance().name());
     }
     text
 }

@@ -2,9 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::capsule::{
-    Case, Orbit, Output, Outputs, Parameter, Parameters, Section, State, settle_case,
-};
+use crate::capsule::{Case, Orbit, Output, Outputs, Section, State, settle_case};
+use crate::description::{Parameter, Parameters};
 use crate::model::Setting;
 use crate::orbit::{Outcome, Protocol};
 use crate::run::{Machine, on_all_threads};
@@ -292,13 +291,12 @@ impl Refinement<'_> {
         at: &OperatingPoint,
         period: u64,
     ) -> Vec<(Parameter, [f64; 2])> {
-        let each = Parameter::ALL.iter().filter(|it| setting.parameters[**it] != 0.0);
+        let each = setting.parameters.each().filter(|(_, value)| *value != 0.0);
         let (model, tolerance) = (self.study.model(), self.study.protocol.tolerance);
-        each.filter_map(|parameter| {
-            let found = model.sensitivity(setting, &at.section, period, tolerance, *parameter)?;
-            let value = setting.parameters[*parameter];
+        each.filter_map(|(parameter, value)| {
+            let found = model.sensitivity(setting, &at.section, period, tolerance, parameter)?;
             let relative = |output: Output| value * found.slopes[output] / found.outputs[output];
-            Some((*parameter, [relative(Output::ProgressionSpeed), relative(self.of)]))
+            Some((parameter, [relative(Output::ProgressionSpeed), relative(self.of)]))
         })
         .collect()
     }

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::capsule::{Output, Outputs, Parameter, Parameters, Section};
+use crate::capsule::{Output, Outputs, Section};
+use crate::description::{Parameter, Parameters};
 use crate::study::Coordinate;
 use crate::tradeoff::{Candidate, Family, Hold, Side};
 

@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::capsule::{Case, Output, Parameter, State, settle_case};
+use crate::capsule::{Case, Output, State, settle_case};
+use crate::description::Parameter;
 use crate::orbit::Outcome;
 use crate::run::on_all_threads;
 use crate::store::catalogue::{ATTRACTOR, PERIOD};

@@ -1,6 +1,6 @@
 //! What tolerances of the parameters leave of a motion: the speed that few draws fall below, and how many keep the motion.
 
-use crate::capsule::Parameter;
+use crate::description::Parameter;
 
 /// The share of draws that are slower than the speed told.
 pub const SLOWER: f64 = 0.05;
@@ -133,7 +133,10 @@ mod tests {
 
     #[test]
     fn draws_fill_the_tolerance_and_do_not_depend_on_their_number() {
-        let each = vec![(Parameter::K2, 0.1), (Parameter::MuS, 0.02)];
+        let each = vec![
+            (crate::capsule::Parameter::K2.into(), 0.1),
+            (crate::capsule::Parameter::MuS.into(), 0.02),
+        ];
         let tolerances = Tolerances { each, draws: 500, seed: 3 };
         let fewer = Tolerances { draws: 10, ..tolerances.clone() };
         let all = tolerances.factors();

@@ -1,6 +1,7 @@
 //! Motions under tolerances of the parameters: each draw is followed from the orbit to where it settles.
 
-use crate::capsule::{Case, Output, Outputs, Parameter, State, settle_case};
+use crate::capsule::{Case, Output, Outputs, State, settle_case};
+use crate::description::Parameter;
 use crate::orbit::Outcome;
 use crate::run::on_all_threads;
 use crate::store::takes_part;

@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::branch::{Curve, End, SpecialKind, is_followed};
+use crate::capsule::Output;
 use crate::capsule::branch::{Branch, Found, Special};
 use crate::capsule::printable::printable;
-use crate::capsule::{Output, Parameter};
+use crate::description::Parameter;
 use crate::run::Continued;
 use crate::study::{Continuation, FirstOrbit, Study};
 

@@ -1,10 +1,12 @@
 //! A comparison in words and as JSON.
 
+use crate::capsule::CapsuleParameters as _;
 use serde_json::json;
 
 use super::identify::shown;
 use super::varied::Varied;
-use crate::capsule::{Output, Parameter};
+use crate::capsule::Output;
+use crate::capsule::Parameter;
 use crate::experiment::comparison::Drive;
 use crate::experiment::estimate::significant;
 use crate::experiment::explanation::EXPLAINED_CYCLES;
@@ -196,7 +198,7 @@ pub fn explained(comparison: &Comparison, it: &Explanation, varied: &[Varied]) -
     let (mut changed, mut bounds) = (Vec::new(), String::new());
     for ((parameter, value, bound), varied) in it.changed.iter().zip(varied) {
         if is_idle && *parameter == Parameter::MuS {
-            let onset = explaining.resistance.onset_in_words();
+            let onset = explaining.resistance().onset_in_words();
             changed.push(format!("mu_s below {onset}, where it has no effect"));
             continue;
         }

@@ -1,5 +1,6 @@
 //! `capsulemap fit`: parameters from recorded histories of the motion.
 
+use crate::capsule::CapsuleParameters as _;
 use std::path::PathBuf;
 
 use clap::Args;

@@ -9,7 +9,8 @@ use super::readable::{count, counted};
 use crate::campaign::{
     Answer, Gain, Margin, MarginEnd, Margins, Named, Robustness, Row, Slopes, Tolerances,
 };
-use crate::capsule::{Output, Parameter};
+use crate::capsule::Output;
+use crate::description::Parameter;
 use crate::store::catalogue::{ATTRACTOR, OUTCOME, PERIOD};
 use crate::study::Coordinate;
 use crate::tradeoff::Direction;

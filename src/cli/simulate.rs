@@ -1,5 +1,6 @@
 //! `capsulemap simulate`: one case in full.
 
+use crate::capsule::CapsuleParameters as _;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -10,11 +11,13 @@ use super::failure::Failure;
 use super::phases::Phases;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
+use crate::capsule;
 use crate::capsule::printable::printable;
 use crate::capsule::{
-    Case, Dimension, Orbit, Output, Parameter, Parameters, Resistance, Simulation, State,
-    Switching, settle_case, simulate_case,
+    Case, Dimension, Orbit, Output, Resistance, Simulation, State, Switching, settle_case,
+    simulate_case,
 };
+use crate::description::Parameters;
 use crate::explore::{case_json, remarks};
 use crate::orbit::Protocol;
 use crate::run::Machine;
@@ -151,21 +154,24 @@ impl Simulate {
     fn request(&self) -> Result<Request, Failure> {
         let mut faults = Vec::new();
         let mut parameters = Parameters::default();
-        parameters.switching = self.friction_switching;
-        parameters.resistance = self.resistance;
+        parameters.switch_by(self.friction_switching);
+        parameters.resist_by(self.resistance);
         let own = [
-            ("--omega", Parameter::Omega, &self.omega),
-            ("--p-d", Parameter::Pd, &self.p_d),
-            ("--k2", Parameter::K2, &self.k2),
-            ("--delta", Parameter::Delta, &self.delta),
+            ("--omega", capsule::Parameter::Omega, &self.omega),
+            ("--p-d", capsule::Parameter::Pd, &self.p_d),
+            ("--k2", capsule::Parameter::K2, &self.k2),
+            ("--delta", capsule::Parameter::Delta, &self.delta),
         ];
         let mut given = Vec::new();
         for (option, parameter, text) in own {
-            given.extend(text.as_ref().map(|text| (option.to_owned(), parameter, text.as_str())));
+            given.extend(
+                text.as_ref().map(|text| (option.to_owned(), parameter.into(), text.as_str())),
+            );
         }
-        let symbols = || Parameter::ALL.iter().map(|parameter| parameter.symbol());
+        let model = parameters.model();
+        let symbols = || model.parameters().map(|parameter| parameter.symbol());
         for (name, text) in pairs("--set", self.set.iter().map(String::as_str), &mut faults) {
-            match Parameter::named(name) {
+            match model.parameter(name) {
                 Some(parameter) => given.push((format!("--set {name}"), parameter, text)),
                 None => faults.push(format!("--set: {}", unknown("parameter", name, symbols()))),
             }
@@ -256,9 +262,9 @@ fn quantity(
 
 /// What a person wants to see first.
 fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> String {
-    let given: Vec<String> = Parameter::ALL
-        .iter()
-        .map(|&parameter| format!("{} = {}", parameter.symbol(), parameters[parameter]))
+    let given: Vec<String> = parameters
+        .each()
+        .map(|(parameter, value)| format!("{} = {value}", parameter.symbol()))
         .collect();
     let mut text = format!(
         "{} (SI)\n\n{:>5} {:>12} {:>14} {:>14} {:>14} {:>14} {:>8}\n",

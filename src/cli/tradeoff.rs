@@ -16,7 +16,9 @@ use crate::campaign::{
     Between, CampaignError, KeptSearches, Tolerances, TradeOff, searches_path, study_of,
 };
 use crate::capsule::printable::printable;
-use crate::capsule::{Dimension, Output, Parameter};
+use crate::capsule::{Dimension, Output};
+use crate::description::Parameter;
+use crate::of::default_model;
 use crate::store::{self, Archive, StoreError, quantity};
 use crate::study::document::unknown;
 use crate::tradeoff::Direction;
@@ -202,8 +204,11 @@ impl Tradeoff {
                 faults.push(fault("expected PARAMETER = PERCENT".to_owned()));
                 continue;
             };
-            let symbols = || Parameter::ALL.iter().map(|it| it.symbol());
-            match (Parameter::named(name.trim()), quantity(value, Dimension::Number.unit())) {
+            let symbols = || default_model().parameters().map(|it| it.symbol());
+            match (
+                default_model().parameter(name.trim()),
+                quantity(value, Dimension::Number.unit()),
+            ) {
                 (None, _) => faults.push(fault(unknown("parameter", name.trim(), symbols()))),
                 (_, Err(message)) => {
                     faults.push(fault(format!(

@@ -4,7 +4,9 @@ use super::agreement::Difference;
 use super::comparison::Comparison;
 use super::course::Recorded;
 use super::motion_fit::{Effort, Free, Side, best_values};
-use crate::capsule::{Case, Output, Parameter, State, settle_case};
+use crate::capsule::CapsuleParameters as _;
+use crate::capsule::Parameter;
+use crate::capsule::{Case, Output, State, settle_case};
 use crate::orbit::{Outcome, Protocol};
 
 /// What parameters would have to be for the simulation to describe a recording.

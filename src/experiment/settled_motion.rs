@@ -2,9 +2,10 @@
 
 use super::estimate::Estimate;
 use super::progression::Progression;
+use crate::capsule::Parameter;
 use crate::capsule::drive::reduced;
 use crate::capsule::sampled::{Signal, Started, sampled};
-use crate::capsule::{Case, Orbit, Output, Outputs, Parameter, State, settle_case};
+use crate::capsule::{Case, Orbit, Output, Outputs, State, settle_case};
 use crate::model::{Batches, Setting};
 use crate::of::model_of;
 use crate::orbit::{Outcome, Protocol};

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use super::free_vibration::noise;
 use super::recording::median;
 use super::smoothing::{Window, smoothed};
-use crate::capsule::{Parameter, Parameters};
+use crate::capsule::Parameter;
+use crate::description::Parameters;
 
 /// A pulse stands out by this many standard errors of its height at least.
 const CLEAR: f64 = 6.0;

@@ -1,12 +1,14 @@
 //! Recordings from a simulation, with noise, quantisation and sampling as stated, to try an identification without a rig.
 
+use crate::capsule::CapsuleParameters as _;
 use std::f64::consts::TAU;
 
 use fastrand::Rng;
 
 use super::friction::coast_down;
+use crate::capsule::Parameter;
 use crate::capsule::sampled::{Signal, Started, sampled};
-use crate::capsule::{Parameter, Parameters};
+use crate::description::Parameters;
 use crate::flow::Reason;
 
 /// Relative local error of the steps of the simulation.

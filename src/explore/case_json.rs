@@ -1,8 +1,10 @@
 //! One case in full as JSON, and what its numbers do not say by themselves.
 
+use crate::capsule::CapsuleParameters as _;
 use serde_json::{Map, Value, json};
 
-use crate::capsule::{Orbit, Output, Parameter, Parameters, Simulation};
+use crate::capsule::{Orbit, Output, Simulation};
+use crate::description::Parameters;
 use crate::orbit::{Certificate, Outcome, Proof};
 use crate::store::catalogue::{CERTIFICATE, CYCLES, OUTCOME, PERIOD};
 
@@ -19,11 +21,12 @@ pub fn case_json(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit
 
 fn parameters_json(parameters: &Parameters) -> Value {
     let mut object = Map::new();
-    for &parameter in Parameter::ALL {
-        object.insert(parameter.symbol().to_owned(), json!(parameters[parameter]));
+    for (parameter, value) in parameters.each() {
+        object.insert(parameter.symbol().to_owned(), json!(value));
     }
-    object.insert("resistance".to_owned(), json!(parameters.resistance.name()));
-    object.insert("friction_switching".to_owned(), json!(parameters.switching.name()));
+    for (name, option) in parameters.choices() {
+        object.insert(name.to_owned(), json!(option));
+    }
     Value::Object(object)
 }
 

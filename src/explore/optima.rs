@@ -7,7 +7,9 @@ use super::request::Request;
 use crate::campaign::{
     Answer, Between, CampaignError, Gain, KeptFront, Margins, Named, Row, TradeOff, silent,
 };
-use crate::capsule::{Output, Parameter};
+use crate::capsule::Output;
+use crate::description::Description;
+use crate::description::Parameter;
 use crate::study::Study;
 use crate::tradeoff::Direction;
 
@@ -54,7 +56,7 @@ pub fn write_optima(
     let named: Vec<(String, Row)> = answer.named.iter().filter_map(row).collect();
     write_table(page, &named, of);
     write_sensitivities(page, &named, of);
-    write_margins(page, &named);
+    write_margins(page, &named, study.base.model());
     let replays: Vec<&str> = named.iter().map(|(_, row)| row.replay.as_str()).collect();
     page.text("To compute them again:");
     page.verbatim(&replays.join("\n"));
@@ -67,9 +69,8 @@ fn write_motions(
     named: &[(String, Row)],
     (study, moving): (&Study, &str),
 ) -> Result<(), CampaignError> {
-    let laws = (study.base.resistance, study.base.switching);
     for (name, row) in named {
-        match drawings(row, (&study.protocol, laws)) {
+        match drawings(row, study) {
             Ok(Some(Drawings { pictures, cycles })) => {
                 let caption = format!("{name}, {moving}: {cycles} cycles of the drive");
                 page.pictures(&pictures, &caption);
@@ -173,21 +174,21 @@ fn write_sensitivities(page: &mut Page, named: &[(String, Row)], of: Output) {
 }
 
 /// How far the parameters of the optima may change before these end.
-fn write_margins(page: &mut Page, named: &[(String, Row)]) {
+fn write_margins(page: &mut Page, named: &[(String, Row)], model: &'static Description) {
     let known: Vec<&(String, Row)> =
         named.iter().filter(|(_, row)| !row.margins.is_empty()).collect();
     if known.is_empty() {
         return;
     }
-    let line = |parameter: &Parameter| -> Option<Vec<String>> {
+    let line = |parameter: Parameter| -> Option<Vec<String>> {
         let along =
-            |row: &Row| row.margins.iter().find(|it| it.parameter == *parameter).map(Margins::ends);
+            |row: &Row| row.margins.iter().find(|it| it.parameter == parameter).map(Margins::ends);
         let ends: Vec<Option<[String; 2]>> = known.iter().map(|(_, row)| along(row)).collect();
         let is_known = ends.iter().any(Option::is_some);
         let cells = ends.into_iter().flat_map(Option::unwrap_or_default);
         is_known.then(|| [parameter.symbol().to_owned()].into_iter().chain(cells).collect())
     };
-    let rows: Vec<Vec<String>> = Parameter::ALL.iter().filter_map(line).collect();
+    let rows: Vec<Vec<String>> = model.parameters().filter_map(line).collect();
     let columns =
         known.iter().flat_map(|(name, _)| ["falling", "rising"].map(|it| format!("{name}, {it}")));
     let headings: Vec<String> = [String::new()].into_iter().chain(columns).collect();

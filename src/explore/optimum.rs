@@ -1,7 +1,7 @@
 //! The motion of an optimum, computed again and drawn: its history over two periods, and its phase portrait.
 
 use crate::campaign::Row;
-use crate::capsule::{Output, Resistance, State, Switching};
+use crate::capsule::{Output, State};
 use crate::figure::{FigureError, Picture, picture};
 use crate::orbit::{HistorySpan, Machine, Protocol};
 use crate::run::{RunError, run_sample};
@@ -23,16 +23,13 @@ pub struct Drawings {
     pub cycles: u64,
 }
 
-/// Computes a periodic motion again and draws it; none where it does not repeat.
+/// Computes a periodic motion of a study again and draws it; none where it does not repeat.
 ///
 /// Fails if the computation cannot be started, or a picture cannot be drawn.
-pub fn drawings(
-    row: &Row,
-    (protocol, laws): (&Protocol, (Resistance, Switching)),
-) -> Result<Option<Drawings>, Undrawn> {
+pub fn drawings(row: &Row, of: &Study) -> Result<Option<Drawings>, Undrawn> {
     let Some(period) = row.period else { return Ok(None) };
     let cycles = (2 * period).min(MOST_CYCLES);
-    let study = study(row, (protocol, laws), cycles as u32);
+    let study = study(row, of, cycles as u32);
     let records = run_sample(&study, Machine::single(), &[0], || ()).map_err(Undrawn::Run)?;
     let results = dataset(&study, &records);
     let drawn = |kind: DrawingKind| picture(&results, &drawing(kind));
@@ -50,14 +47,10 @@ pub enum Undrawn {
     Figure(FigureError),
 }
 
-/// The study of one case: that motion, with its history.
-fn study(
-    row: &Row,
-    (protocol, (resistance, switching)): (&Protocol, (Resistance, Switching)),
-    cycles: u32,
-) -> Study {
-    let mut study = Study { outputs: vec![Output::ProgressionSpeed], ..Study::default() };
-    (study.base.resistance, study.base.switching) = (resistance, switching);
+/// The study of one case: a motion of another study, with its history.
+fn study(row: &Row, of: &Study, cycles: u32) -> Study {
+    let base = of.base.clone();
+    let mut study = Study { base, outputs: vec![Output::ProgressionSpeed], ..Study::default() };
     let mut start = State::default();
     for (coordinate, value, _) in &row.coordinates {
         match coordinate {
@@ -70,7 +63,7 @@ fn study(
         }
     }
     let history = Some(HistorySpan { cycles, per_cycle: PER_CYCLE, from_start: false });
-    Study { start, protocol: Protocol { history, ..*protocol }, ..study }
+    Study { start, protocol: Protocol { history, ..of.protocol }, ..study }
 }
 
 fn drawing(kind: DrawingKind) -> Drawing {

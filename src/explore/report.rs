@@ -5,7 +5,8 @@ use super::numbers::{number, unit};
 use super::optima::write_optima;
 use super::request::Request;
 use crate::campaign::{CampaignError, KeptFront, KeptSearches, quoted, study_of};
-use crate::capsule::Parameter;
+use crate::capsule::CapsuleParameters as _;
+use crate::description::Parameter;
 use crate::figure::{FigureError, Picture, Shown, picture, variables};
 use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
 use crate::store::{CaseTable, provenance};
@@ -93,19 +94,18 @@ impl Report<'_> {
         page.heading("What varies");
         let rows: Vec<_> = varied.iter().filter_map(ends).collect();
         page.table(&["", "from", "to", "unit"].map(str::to_owned), &rows);
-        let is_held = |it: &&Parameter| !varied.contains(&Coordinate::Parameter(**it));
-        let row = |it: &Parameter| {
-            let unit = unit(Coordinate::Parameter(*it)).to_owned();
-            vec![it.symbol().to_owned(), number(self.study.base[*it]), unit]
+        let is_held = |it: &(Parameter, f64)| !varied.contains(&Coordinate::Parameter(it.0));
+        let row = |(it, value): (Parameter, f64)| {
+            vec![it.symbol().to_owned(), number(value), unit(Coordinate::Parameter(it)).to_owned()]
         };
         page.heading("What is held");
-        let rows: Vec<_> = Parameter::ALL.iter().filter(is_held).map(row).collect();
+        let rows: Vec<_> = self.study.base.each().filter(is_held).map(row).collect();
         page.table(&["", "value", "unit"].map(str::to_owned), &rows);
         let base = &self.study.base;
         page.note(&format!(
             "Resistance: {}. Switching between stick and slip: {}. Relative local error of a step: {:e}.",
-            base.resistance.name(),
-            base.switching.name(),
+            base.resistance().name(),
+            base.switching().name(),
             self.study.protocol.tolerance
         ));
     }

@@ -20,7 +20,8 @@ use super::style::{ATTRACTORS, INK, OTHER_ATTRACTOR, PAPER, REFERENCE_WIDTH, UND
 use super::text::Text;
 use super::ticks::significant;
 use super::view::View;
-use crate::capsule::{Output, Parameter};
+use crate::capsule;
+use crate::capsule::Output;
 use crate::store::catalogue::{
     ATTRACTOR, ATTRACTOR_INDEX, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
     ATTRACTOR_SHARE_ERROR, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, Entry, Place, SECTION,
@@ -56,7 +57,7 @@ fn reads(_: &Drawing) -> Names {
         .and([EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2])
         .and(inferred::READS)
         .and(phases)
-        .and([Place::Attractor.of(SPEED), Entry::of_parameter(Parameter::Delta)])
+        .and([Place::Attractor.of(SPEED), Entry::of_parameter(capsule::Parameter::Delta)])
 }
 
 /// Draws the basins that `view` asks for.
@@ -311,7 +312,7 @@ pub(super) fn millimetres(speed: f64) -> String {
 
 /// The ends of the line where the mass reaches the stop, if an axis is its displacement and the line lies on it.
 fn surface(view: &View<'_>, plane: &Plane<'_>) -> Option<[(f64, f64); 2]> {
-    let delta = Parameter::Delta.symbol();
+    let delta = capsule::Parameter::Delta.symbol();
     let factor = view.quantity(delta).factor;
     let gap = view.parameter(delta, &[]).ok()?.first().copied()? * factor;
     let displacement = Coordinate::StartR.name();

@@ -81,7 +81,7 @@ pub use over_map::{MapLine, MapPoint, OverMap, over_map, over_map_variables};
 pub use shown::{Measured, Shown};
 pub use trade_off_cells::{TradeOffAxis, TradeOffCells, trade_off_cells};
 
-use crate::capsule::Parameter;
+use crate::capsule;
 use crate::store::catalogue::Entry;
 use crate::study::appearance::NATURAL;
 use crate::study::{Drawing, DrawingKind, Size, Sweep};
@@ -102,7 +102,7 @@ pub fn variables(drawing: &Drawing) -> BTreeSet<String> {
     let reads = registry::kind(drawing.kind).reads;
     // Every figure looks for the parameters along which orbits were continued.
     let names = reads(drawing).and(varied::READS);
-    let of_natural = [Parameter::K1, Parameter::M1].map(Entry::of_parameter);
+    let of_natural = [capsule::Parameter::K1, capsule::Parameter::M1].map(Entry::of_parameter);
     let is_natural = drawing.settings.values().any(|it| it.unit == Some(NATURAL));
     names.and(of_natural.into_iter().filter(|_| is_natural)).into_set()
 }

@@ -1,10 +1,14 @@
 //! The stored motion of a case over time, and what follows from it.
 
+use crate::capsule::CapsuleParameters as _;
 use std::f64::consts::TAU;
 
 use super::error::FigureError;
 use super::view::View;
-use crate::capsule::{Forces, Parameter, Parameters, Resistance, State, Switching, arc};
+use crate::capsule;
+use crate::capsule::{Forces, Resistance, State, Switching, arc};
+use crate::description::Parameters;
+use crate::of::default_model;
 use crate::store::catalogue::{
     Entry, HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_TIME, HISTORY_X1,
     HISTORY_X2, HISTORY_Y1, HISTORY_Y2, RELATIVE_VELOCITY,
@@ -30,7 +34,7 @@ pub fn sources(name: &str) -> Vec<Entry> {
         _ if name == HISTORY_X1.name => vec![HISTORY_X2, HISTORY_R],
         _ if name == RELATIVE_VELOCITY.name => vec![HISTORY_Y1, HISTORY_Y2],
         _ if name == HISTORY_CONTACT.name || name == HISTORY_FRICTION.name => {
-            let parameters = Parameter::ALL.iter().map(|it| Entry::of_parameter(*it));
+            let parameters = default_model().parameters().map(Entry::of_parameter);
             parameters.chain(STATES).collect()
         }
         _ => Vec::new(),
@@ -39,7 +43,7 @@ pub fn sources(name: &str) -> Vec<Entry> {
 
 /// What is found from, of a motion that is [drawn](Motion::drawn).
 pub fn sources_of_arcs() -> Vec<Entry> {
-    let parameters = Parameter::ALL.iter().map(|it| Entry::of_parameter(*it));
+    let parameters = default_model().parameters().map(Entry::of_parameter);
     let phases = [Coordinate::StartPhase, Coordinate::SectionPhase].map(Entry::of_coordinate);
     parameters.chain(phases).chain(STATES).chain([HISTORY_DRIVE]).collect()
 }
@@ -103,7 +107,7 @@ impl<'v, 'a> Motion<'v, 'a> {
             _ if name == RELATIVE_VELOCITY.name => both(HISTORY_Y1, HISTORY_Y2, |y1, y2| y1 - y2),
             _ if name == HISTORY_CONTACT.name => self.forces(|forces| forces.contact),
             _ if name == HISTORY_FRICTION.name => {
-                if !self.parameters()?.switching.balances_at_rest() {
+                if !self.parameters()?.switching().balances_at_rest() {
                     let why = "the friction at rest is not that of the equation as printed";
                     return Err(self.view.unfit(why));
                 }
@@ -135,7 +139,7 @@ impl<'v, 'a> Motion<'v, 'a> {
     fn forces(&self, of: impl Fn(Forces) -> f64) -> Result<Vec<f64>, FigureError> {
         let parameters = self.parameters()?;
         let states = self.states()?;
-        Ok(states.iter().map(|state| of(parameters.forces(state))).collect())
+        Ok(states.iter().map(|state| of(Forces::of(&parameters, state))).collect())
     }
 
     /// The states at its points.
@@ -148,7 +152,7 @@ impl<'v, 'a> Motion<'v, 'a> {
     /// The parameters of the case.
     fn parameters(&self) -> Result<Parameters, FigureError> {
         let mut parameters = Parameters::default();
-        for &parameter in Parameter::ALL {
+        for parameter in default_model().parameters() {
             parameters[parameter] = self.number(parameter.symbol())?;
         }
         let named = |name: &str| self.view.dataset.attributes.get(name).map(String::as_str);
@@ -156,8 +160,8 @@ impl<'v, 'a> Motion<'v, 'a> {
         let Some(&(_, law)) = law else {
             return Err(self.view.unfit("the results do not name their law of resistance"));
         };
-        parameters.resistance = law;
-        parameters.switching = named(SWITCHING).and_then(Switching::named).unwrap_or_default();
+        parameters.resist_by(law);
+        parameters.switch_by(named(SWITCHING).and_then(Switching::named).unwrap_or_default());
         Ok(parameters)
     }
 
@@ -188,7 +192,7 @@ impl<'v, 'a> Motion<'v, 'a> {
         };
         let sizes = [size(|it| it.r), size(|it| it.y1), size(|it| it.y2)];
         let mut points = Points::default();
-        let omega = parameters[Parameter::Omega];
+        let omega = parameters[capsule::Parameter::Omega];
         for (place, state) in states.iter().enumerate() {
             points.put(cycles[place], *state, drive[place]);
             let Some(next) = states.get(place + 1) else { break };
@@ -213,7 +217,7 @@ impl<'v, 'a> Motion<'v, 'a> {
     /// The phase of the drive at the first sample, that of the start or of the section; none if the force of the drive
     /// tells of another.
     fn phase(&self, parameters: &Parameters, cycles: &[f64], drive: &[f64]) -> Option<f64> {
-        let p_d = parameters[Parameter::Pd];
+        let p_d = parameters[capsule::Parameter::Pd];
         let phases = [Coordinate::SectionPhase, Coordinate::StartPhase];
         phases.into_iter().find_map(|coordinate| {
             let phase = self.number(coordinate.name()).ok()?;

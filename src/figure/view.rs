@@ -14,7 +14,9 @@ use super::style::POINTS_PER_MM;
 use super::unit::ShownUnit;
 use super::varied::varied;
 use crate::campaign::KeptFront;
-use crate::capsule::{Output, Parameter};
+use crate::capsule;
+use crate::capsule::Output;
+use crate::description::Parameter;
 use crate::store::catalogue::{self, DIRECTION, DRAW, Entry, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::study::axis::{is_within, range};
@@ -93,7 +95,7 @@ impl<'a> View<'a> {
             let varies = self.coordinate_values(parameter.symbol()).len() > 1;
             values.first().copied().filter(|_| !varies)
         };
-        Some((one(Parameter::K1)? / one(Parameter::M1)?).sqrt())
+        Some((one(capsule::Parameter::K1.into())? / one(capsule::Parameter::M1.into())?).sqrt())
     }
 
     /// The first fault of what is set.

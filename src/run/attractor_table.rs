@@ -4,6 +4,7 @@ use crate::attractor::{
     Attractor, Entropy, Integrity, Share, Uncertainty, entropy, shares_of_draws, shares_of_grid,
     uncertainty,
 };
+use crate::capsule::CapsuleParameters as _;
 use crate::capsule::Case;
 use crate::orbit::Outcome;
 use crate::study::{CaseSet, Study};

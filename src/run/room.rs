@@ -1,6 +1,7 @@
 //! How much room the basins of a grid of starts have.
 
 use crate::attractor::{Integrity, Label, integrity};
+use crate::capsule::CapsuleParameters as _;
 use crate::study::{Axis, CaseSet, Coordinate, Study};
 
 /// The grid of the starts of a study, as distances are measured in it: omega r, y1 and y2 [m/s].

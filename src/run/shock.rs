@@ -1,6 +1,7 @@
 //! The minimal critical shocks of the attractors of a grid of starts.
 
 use crate::attractor::{Attractor, minimal_critical_shock};
+use crate::capsule::CapsuleParameters as _;
 use crate::model::Setting;
 use crate::orbit::{Machine, Outcome};
 use crate::study::Study;

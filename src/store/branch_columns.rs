@@ -2,8 +2,9 @@
 
 use ndarray::{ArrayD, IxDyn};
 
+use crate::capsule::Output;
 use crate::capsule::branch::Point;
-use crate::capsule::{Output, Parameter};
+use crate::description::Parameter;
 use crate::orbit::matrix::Complex;
 
 use super::catalogue::{BRANCH_CYCLE, Entry, OrbitColumns, Place, SECTION};

@@ -1,7 +1,7 @@
 //! The variables of the branches in a file of results, beside those of the sweep.
 
 use crate::branch::End;
-use crate::capsule::Parameter;
+use crate::description::Parameter;
 use crate::run::Continued;
 use crate::study::{Continuation, Study};
 
@@ -78,7 +78,9 @@ pub fn add_branches(dataset: &mut Dataset, study: &Study, continued: &[Continued
 /// The parameters among `given`, each once, in the order of the model.
 fn parameters(given: impl Iterator<Item = Parameter>) -> Vec<Parameter> {
     let given: Vec<Parameter> = given.collect();
-    Parameter::ALL.iter().copied().filter(|parameter| given.contains(parameter)).collect()
+    let model = given.first().map(|it| it.model());
+    let all = model.into_iter().flat_map(|model| model.parameters());
+    all.filter(|parameter| given.contains(parameter)).collect()
 }
 
 /// A column of measured quantities.
@@ -95,9 +97,9 @@ fn integers(dataset: &mut Dataset, entry: Entry, values: impl Iterator<Item = i6
 fn add_requests(dataset: &mut Dataset, study: &Study, continued: &[Continued]) {
     let branches = &study.branches;
     integers(dataset, REQUEST_RESULT, continued.iter().map(result));
-    integers(dataset, REQUEST_ALONG, branches.iter().map(|branch| branch.along as i64));
+    integers(dataset, REQUEST_ALONG, branches.iter().map(|branch| branch.along.index() as i64));
     reals(dataset, REQUEST_PHASE, branches.iter().map(|branch| branch.section_phase));
-    for &parameter in Parameter::ALL {
+    for parameter in study.base.model().parameters() {
         let values = branches.iter().map(|branch| branch.parameters[parameter]);
         reals(dataset, Place::Request.of(Entry::of_parameter(parameter)), values);
     }
@@ -107,7 +109,7 @@ fn add_requests(dataset: &mut Dataset, study: &Study, continued: &[Continued]) {
 fn add_index(dataset: &mut Dataset, flat: &Flat<'_>) {
     let branches = &flat.branches;
     integers(dataset, INDEX_REQUEST, branches.iter().map(|branch| branch.request as i64));
-    integers(dataset, INDEX_ALONG, branches.iter().map(|branch| branch.along as i64));
+    integers(dataset, INDEX_ALONG, branches.iter().map(|branch| branch.along.index() as i64));
     integers(dataset, INDEX_PERIOD, branches.iter().map(|branch| branch.period as i64));
     let parents = branches.iter().map(|branch| branch.parent.map_or(-1, |(parent, _)| parent));
     integers(dataset, INDEX_PARENT, parents);

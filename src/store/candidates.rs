@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Output, Parameter};
+use crate::capsule;
+use crate::capsule::Output;
 use crate::orbit::Outcome;
 use crate::tradeoff::Candidate;
 
@@ -77,7 +78,7 @@ fn column(table: &CaseTable<'_>, output: Output) -> Result<Column, Unread> {
         let values = a.values.iter().zip(&b.values).map(|(a, b)| of(*a, *b)).collect();
         Ok(Some(Column { values, ..a }))
     };
-    let (work, omega) = (Output::WorkPositive.name(), Parameter::Omega.symbol());
+    let (work, omega) = (Output::WorkPositive.name(), capsule::Parameter::Omega.symbol());
     let speed = Output::ProgressionSpeed.name();
     let found = match output {
         Output::Power => both(work, omega, |work, omega| work * omega / std::f64::consts::TAU)?,

@@ -1,8 +1,8 @@
 //! The branches of a study one after another, as they lie in a file: what referred within one refers to all.
 
 use crate::branch::{Curve, End, SpecialKind};
-use crate::capsule::Parameter;
 use crate::capsule::branch::Branch;
+use crate::description::Parameter;
 use crate::run::Continued;
 use crate::study::Continuation;
 

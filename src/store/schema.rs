@@ -1,5 +1,6 @@
 //! Which variables a file of results has: a study and its records as a labelled dataset.
 
+use crate::capsule::CapsuleParameters as _;
 use std::collections::BTreeMap;
 
 use ndarray::{ArrayD, IxDyn};
@@ -94,8 +95,8 @@ pub fn frame(study: &Study) -> Dataset {
     dataset.attributes.insert("title".to_owned(), study.title.clone());
     dataset.attributes.extend(provenance::attributes());
     dataset.attributes.extend(protocol(study));
-    dataset.attributes.insert(SWITCHING.to_owned(), study.base.switching.name().to_owned());
-    dataset.attributes.insert(RESISTANCE.to_owned(), study.base.resistance.name().to_owned());
+    dataset.attributes.insert(SWITCHING.to_owned(), study.base.switching().name().to_owned());
+    dataset.attributes.insert(RESISTANCE.to_owned(), study.base.resistance().name().to_owned());
     dataset.attributes.insert(FINGERPRINT.to_owned(), study.fingerprint());
     if !study.remarks.is_empty() {
         dataset.attributes.insert(REMARKS.to_owned(), study.remarks.join("; "));

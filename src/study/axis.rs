@@ -1,6 +1,8 @@
 //! An axis of a study: a parameter or a coordinate of the start, and the values it takes.
 
-use crate::capsule::{Case, Parameter, description};
+use crate::capsule::{Case, description};
+use crate::description::Parameter;
+use crate::of::default_model;
 use crate::quantity::{Allowed, Dimension, Quantity};
 
 /// What varies along an axis.
@@ -34,7 +36,7 @@ impl Coordinate {
 
     /// Everything that an axis may vary.
     pub fn all() -> impl Iterator<Item = Coordinate> {
-        Parameter::ALL.iter().map(|&p| Coordinate::Parameter(p)).chain(Coordinate::STARTS)
+        default_model().parameters().map(Coordinate::Parameter).chain(Coordinate::STARTS)
     }
 
     /// The quantity that the model describes.

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Dimension, Parameter, Parameters};
+use crate::capsule::Dimension;
+use crate::description::{Parameter, Parameters};
 
 use super::continuation::{Continuation, FirstOrbit};
 use super::document::{Entry, Table, unknown};
@@ -82,7 +83,7 @@ fn read_name(table: &Table<'_, '_>) -> String {
 
 /// A branch without its name; none where what it needs is missing, which is noted as a fault.
 fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Continuation> {
-    let along = read_parameter(table, "along");
+    let along = read_parameter(table, "along", study);
     // The ends are known keys where the parameter is not, too.
     ["from", "to"].into_iter().for_each(|key| drop(table.entry(key)));
     let second = table.table("second").map(|second| read_second(second, along, study));
@@ -128,8 +129,9 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
 }
 
 /// The parameter that `key` names.
-fn read_parameter(table: &Table<'_, '_>, key: &str) -> Option<Parameter> {
-    let names: Vec<(&str, Parameter)> = Parameter::ALL.iter().map(|&p| (p.symbol(), p)).collect();
+fn read_parameter(table: &Table<'_, '_>, key: &str, study: &Surroundings<'_>) -> Option<Parameter> {
+    let names: Vec<(&str, Parameter)> =
+        study.base.model().parameters().map(|it| (it.symbol(), it)).collect();
     let Some(entry) = table.entry(key) else {
         table.missing(key, "the parameter to continue the orbit in");
         return None;
@@ -175,7 +177,7 @@ fn read_second(
     along: Option<Parameter>,
     study: &Surroundings<'_>,
 ) -> (Option<Parameter>, Option<[f64; 2]>) {
-    let parameter = read_parameter(&table, "name");
+    let parameter = read_parameter(&table, "name", study);
     if let (Some(name), true) = (table.entry("name"), parameter.is_some() && parameter == along) {
         name.fault("is the parameter that the orbit is continued in already");
     }
@@ -196,13 +198,14 @@ fn read_place(
 ) -> Option<Parameters> {
     let mut parameters = study.base.clone();
     let mut complete = true;
-    let on_axis = |parameter: &&Parameter| study.varies(**parameter);
-    let open: Vec<Parameter> = Parameter::ALL.iter().filter(on_axis).copied().collect();
+    let on_axis = |parameter: &Parameter| study.varies(*parameter);
+    let open: Vec<Parameter> = study.base.model().parameters().filter(on_axis).collect();
     let given: BTreeMap<String, Entry<'_, '_>> =
         at.map(Table::entries).unwrap_or_default().into_iter().collect();
     let names = || open.iter().chain(varied).map(|parameter| parameter.symbol());
     for (name, entry) in &given {
-        match Parameter::named(name).filter(|it| open.contains(it) || varied.contains(it)) {
+        let named = study.base.model().parameter(name);
+        match named.filter(|it| open.contains(it) || varied.contains(it)) {
             Some(parameter) => {
                 let value = entry.allowed_quantity(parameter.dimension(), parameter.allowed());
                 parameters[parameter] = value.unwrap_or(parameters[parameter]);

@@ -1,7 +1,8 @@
 //! The branches that a study asks for: periodic orbits, stable or not, continued in a parameter.
 
 use crate::capsule::branch::Request;
-use crate::capsule::{Parameter, Parameters, Section, State};
+use crate::capsule::{Section, State};
+use crate::description::{Parameter, Parameters};
 
 /// How the first orbit of a branch is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

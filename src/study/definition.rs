@@ -4,7 +4,8 @@ use std::hash::Hash;
 
 use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 
-use crate::capsule::{Case, Output, Parameters, State};
+use crate::capsule::{Case, Output, State};
+use crate::description::Parameters;
 use crate::model::Model;
 use crate::of::model_of;
 use crate::orbit::Protocol;

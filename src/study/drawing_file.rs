@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Dimension, Output, Parameter, parse_quantity};
+use crate::capsule::{Dimension, Output, parse_quantity};
+use crate::description::Parameter;
 
 use super::appearance::{Setting, Settings, dimension_of};
 use super::axis::{is_within, range};

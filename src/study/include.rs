@@ -6,8 +6,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::document::Faults;
-use crate::capsule::Parameter;
 use crate::capsule::printable::one_line;
+use crate::of::default_model;
 
 /// The key by which a study names its parameter file.
 pub const KEY: &str = "include";
@@ -61,7 +61,7 @@ pub fn include(study: &str, file: &str, parameters: &str) -> Result<Included, St
     for (key, value) in values.iter() {
         let symbol = key.get_ref();
         let line = line_of(key.span().start);
-        if Parameter::named(symbol).is_none() {
+        if default_model().parameter(symbol).is_none() {
             return Err(format!(
                 "{shown}: line {line}: parameters.{}: is no parameter of the capsule",
                 one_line(symbol)

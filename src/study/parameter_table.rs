@@ -1,12 +1,12 @@
 //! What a study file says of its parameters: `[parameters]`, with the law of resistance and the reading of the switching.
 
-use crate::capsule::{Parameter, Parameters, Resistance, Switching};
+use crate::capsule;
+use crate::capsule::CapsuleParameters as _;
+use crate::capsule::{Resistance, Switching};
+use crate::description::{Parameter, Parameters};
 
 use super::Coordinate;
 use super::document::Table;
-
-/// The four parameters that Table 1 of the paper leaves open: a study says what they are.
-const OPEN: [Parameter; 4] = [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta];
 
 /// Reads `[parameters]` of a study that varies some coordinates, and says what it takes where the table leaves it open.
 pub(super) fn read_parameters(
@@ -17,7 +17,7 @@ pub(super) fn read_parameters(
     let mut given = Vec::new();
     let table = top.table("parameters");
     let on_axis = |parameter| varied.contains(&Coordinate::Parameter(parameter));
-    for &parameter in Parameter::ALL {
+    for parameter in parameters.model().parameters() {
         let entry = table.as_ref().and_then(|table| table.entry(parameter.symbol()));
         match entry {
             Some(entry) if on_axis(parameter) => entry.fault("is given here and on an axis"),
@@ -26,7 +26,7 @@ pub(super) fn read_parameters(
                 parameters[parameter] = value.unwrap_or(parameters[parameter]);
                 given.push(parameter);
             }
-            None if OPEN.contains(&parameter) && !on_axis(parameter) => {
+            None if parameter.is_asked_for() && !on_axis(parameter) => {
                 let expected = format!("a value for the {} here or an axis", parameter.meaning());
                 top.missing(&format!("parameters.{}", parameter.symbol()), &expected);
             }
@@ -35,18 +35,19 @@ pub(super) fn read_parameters(
     }
     let Some(table) = table else { return (parameters, Vec::new()) };
     if let Some(entry) = table.entry("resistance") {
-        parameters.resistance = entry.one_of("resistance", &Resistance::NAMES).unwrap_or_default();
+        parameters.resist_by(entry.one_of("resistance", &Resistance::NAMES).unwrap_or_default());
     }
     if let Some(entry) = table.entry("friction_switching") {
-        parameters.switching = entry.one_of("reading", &Switching::NAMES).unwrap_or_default();
+        parameters.switch_by(entry.one_of("reading", &Switching::NAMES).unwrap_or_default());
     }
     table.finish();
-    let follows_axis = parameters.resistance == Resistance::Coulomb
+    let follows_axis = parameters.resistance() == Resistance::Coulomb
         && ask_beside_axis(top, &on_axis, &|parameter| given.contains(&parameter));
     if follows_axis {
         return (parameters, Vec::new());
     }
-    let completed = parameters.complete_friction(|it| given.contains(&it) || on_axis(it));
+    let completed = parameters
+        .complete_friction(|it| given.iter().any(|given| *given == it) || on_axis(it.into()));
     let remarks = completed.map(|it| parameters.told_of_completed(it)).into_iter().collect();
     (parameters, remarks)
 }
@@ -58,10 +59,10 @@ fn ask_beside_axis(
     on_axis: &impl Fn(Parameter) -> bool,
     is_given: &impl Fn(Parameter) -> bool,
 ) -> bool {
-    let [rest, slide] = [Parameter::MuS, Parameter::MuD];
-    let missing = [(rest, slide), (slide, rest)]
-        .into_iter()
-        .find(|&(one, other)| on_axis(other) && !on_axis(one) && !is_given(one));
+    let [rest, slide] = [capsule::Parameter::MuS, capsule::Parameter::MuD];
+    let missing = [(rest, slide), (slide, rest)].into_iter().find(|&(one, other)| {
+        on_axis(other.into()) && !on_axis(one.into()) && !is_given(one.into())
+    });
     let Some((one, other)) = missing else { return false };
     let hint = if one == rest { "; with 0, rest ends at mu_d N" } else { "" };
     let expected = format!(

@@ -2,7 +2,8 @@
 
 use std::fmt::Debug;
 
-use crate::capsule::{Dimension, Output, Parameter, State};
+use crate::capsule::{Dimension, Output, State};
+use crate::description::Parameter;
 use crate::orbit::{HistorySpan, Protocol};
 
 use super::appearance::dimension_of;
@@ -69,14 +70,13 @@ impl Study {
     fn write_parameters(&self, document: &mut Document) {
         document.table("parameters");
         let varied = self.case_set.varied();
-        for &parameter in Parameter::ALL {
+        for parameter in self.base.model().parameters() {
             if !varied.contains(&Coordinate::Parameter(parameter)) {
                 let value = quantity(self.base[parameter], parameter.dimension());
                 document.put(parameter.symbol(), value);
             }
         }
-        document.put("resistance", text(self.base.resistance.name()));
-        document.put("friction_switching", text(self.base.switching.name()));
+        self.base.choices().for_each(|(name, option)| document.put(name, text(option)));
     }
 
     fn write_start(&self, document: &mut Document) {
@@ -106,11 +106,11 @@ impl Study {
         document.put("from", from);
         document.put("to", to);
         let varied = self.case_set.varied();
-        let is_given = |parameter: &&Parameter| {
-            varied.contains(&Coordinate::Parameter(**parameter))
-                || branch.varied().any(|other| other == **parameter)
+        let is_given = |parameter: &Parameter| {
+            varied.contains(&Coordinate::Parameter(*parameter))
+                || branch.varied().any(|other| other == *parameter)
         };
-        let at = Parameter::ALL.iter().filter(is_given).map(|&parameter| {
+        let at = self.base.model().parameters().filter(is_given).map(|parameter| {
             let value = quantity(branch.parameters[parameter], parameter.dimension());
             (parameter.symbol().to_owned(), value)
         });

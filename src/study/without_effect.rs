@@ -1,6 +1,9 @@
 //! What varies in a study without effect on its motion, under its law of resistance.
 
-use crate::capsule::{Parameter, Resistance};
+use crate::capsule;
+use crate::capsule::CapsuleParameters as _;
+use crate::capsule::Resistance;
+use crate::description::Parameter;
 
 use super::axis::range;
 use super::{Axis, Continuation, Coordinate, Study};
@@ -14,7 +17,9 @@ impl Study {
     /// That mu_s has no effect, in a sentence, where neither coefficient of friction varies and the study gives too little of it.
     pub fn idle_static_friction(&self) -> Option<String> {
         let varies = |it: &Coordinate| {
-            [Parameter::MuS, Parameter::MuD].map(Coordinate::Parameter).contains(it)
+            [capsule::Parameter::MuS, capsule::Parameter::MuD]
+                .map(|it| Coordinate::Parameter(it.into()))
+                .contains(it)
         };
         let is_constant = !self.case_set.varied().iter().any(varies);
         self.base.idle_static_friction().filter(|_| is_constant)
@@ -28,8 +33,8 @@ impl Study {
             let why = |(parameter, low)| {
                 let why = match self.reason(parameter) {
                     Some(reason) => self.unfelt(parameter, reason),
-                    None if parameter == Parameter::MuS => {
-                        self.idle_below(branch.parameters[Parameter::MuD], low)?
+                    None if parameter == capsule::Parameter::MuS => {
+                        self.idle_below(branch.parameters[capsule::Parameter::MuD], low)?
                     }
                     None => return None,
                 };
@@ -47,7 +52,7 @@ impl Study {
                 let why = self.unfelt(parameter, reason);
                 Some(format!("{why}; all its values give the same motion"))
             }
-            None if parameter == Parameter::MuS => self.too_little_static_friction(axis),
+            None if parameter == capsule::Parameter::MuS => self.too_little_static_friction(axis),
             _ => None,
         }
     }
@@ -59,37 +64,40 @@ impl Study {
 
     /// Why a parameter has no effect under the law of resistance, whatever its value.
     fn reason(&self, parameter: Parameter) -> Option<&'static str> {
-        match (parameter, self.base.resistance) {
-            (Parameter::MuS | Parameter::MuD | Parameter::Vs, Resistance::Medium) => {
-                Some("a medium has no dry friction")
-            }
-            (Parameter::Vs, Resistance::Coulomb) => {
+        match (capsule::Parameter::which(parameter), self.base.resistance()) {
+            (
+                capsule::Parameter::MuS | capsule::Parameter::MuD | capsule::Parameter::Vs,
+                Resistance::Medium,
+            ) => Some("a medium has no dry friction"),
+            (capsule::Parameter::Vs, Resistance::Coulomb) => {
                 Some("friction under this law does not depend on speed")
             }
-            (Parameter::C1 | Parameter::C2, Resistance::Coulomb | Resistance::CoulombStribeck) => {
-                Some("it belongs to the law `medium` alone")
-            }
+            (
+                capsule::Parameter::C1 | capsule::Parameter::C2,
+                Resistance::Coulomb | Resistance::CoulombStribeck,
+            ) => Some("it belongs to the law `medium` alone"),
             _ => None,
         }
     }
 
     /// That a parameter has no effect for a reason.
     fn unfelt(&self, parameter: Parameter, reason: &str) -> String {
-        let (name, law) = (parameter.symbol(), self.base.resistance.name());
+        let (name, law) = (parameter.symbol(), self.base.resistance().name());
         format!("{name} has no effect under the law `{law}`: {reason}")
     }
 
     /// Static friction below which it has no effect, beside so much dynamic friction: rest ends where the force exceeds
     /// the friction at the onset of sliding.
     fn least_static_friction(&self, dynamic: f64) -> f64 {
-        let factor = self.base.resistance.onset_factor();
-        if self.base.switching.balances_at_rest() { factor * dynamic } else { 0.0 }
+        let factor = self.base.resistance().onset_factor();
+        if self.base.switching().balances_at_rest() { factor * dynamic } else { 0.0 }
     }
 
     /// That static friction has no effect in a part of what is above `low`.
     fn idle_below(&self, dynamic: f64, low: f64) -> Option<String> {
         let limit = self.least_static_friction(dynamic);
-        let (name, onset) = (Parameter::MuS.symbol(), self.base.resistance.onset_in_words());
+        let (name, onset) =
+            (capsule::Parameter::MuS.symbol(), self.base.resistance().onset_in_words());
         (low < limit).then(|| {
             format!(
                 "{name} has no effect below {onset} = {limit}, where rest ends with the friction at the onset \
@@ -101,7 +109,7 @@ impl Study {
     fn too_little_static_friction(&self, axis: &Axis) -> Option<String> {
         let least_dynamic = match self.axes().iter().find(|it| is_dynamic(it)) {
             Some(dynamic) => range(&dynamic.values)[0],
-            None => self.base[Parameter::MuD],
+            None => self.base[capsule::Parameter::MuD],
         };
         let limit = self.least_static_friction(least_dynamic);
         let idle = axis.values.iter().filter(|mu_s| **mu_s < limit).count();
@@ -112,5 +120,5 @@ impl Study {
 }
 
 fn is_dynamic(axis: &Axis) -> bool {
-    axis.coordinate == Coordinate::Parameter(Parameter::MuD)
+    axis.coordinate == Coordinate::Parameter(capsule::Parameter::MuD.into())
 }

@@ -1,6 +1,7 @@
 //! A periodic orbit at some values of free parameters, with the derivatives of what a trade-off is between.
 
-use crate::capsule::{EventKind, Output, Outputs, Parameter, Section};
+use crate::capsule::{EventKind, Output, Outputs, Section};
+use crate::description::Parameter;
 use crate::flow::Event;
 use crate::model::{Model, Setting, StableOrbit};
 use crate::orbit::matrix::Complex;

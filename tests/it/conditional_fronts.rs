@@ -3,6 +3,7 @@
 use std::fs;
 
 use capsulemap::campaign::Tolerances;
+use capsulemap::capsule::CapsuleParameters as _;
 use capsulemap::capsule::{Output, Parameter, Parameters, State, settle};
 use capsulemap::orbit::Protocol;
 use serde_json::Value;
@@ -89,7 +90,7 @@ fn draws_are_counted_that_keep_conditions_and_budget() {
         (&told["each_is"], &told["distribution"]),
         (&"half width".into(), &"uniform".into())
     );
-    let each = vec![(Parameter::K2, 0.2), (Parameter::Omega, 0.04)];
+    let each = vec![(Parameter::K2.into(), 0.2), (Parameter::Omega.into(), 0.04)];
     let factors = (Tolerances { each, draws: 40, seed: 5 }).factors();
     let mut has_both = [false; 2];
     for point in answer["front"].as_array().expect("a front") {

@@ -56,7 +56,7 @@ fn a_branch_has_the_rest_of_its_study() {
     assert_eq!((full.start.r, full.start.y1), (1e-3, 0.2));
     assert!((full.section_phase - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
     assert_eq!(full.start_phase, full.section_phase, "`phase` is both");
-    assert_eq!(full.second, Some((Parameter::Pd, [1.0, 5.0])));
+    assert_eq!(full.second, Some((Parameter::Pd.into(), [1.0, 5.0])));
     assert_eq!((full.longest_step, full.most_points), (0.5, 9));
     let alone = format!(
         "{FIG5}[[branches]]\nname = \"a\"\nalong = \"p_d\"\n\

@@ -24,13 +24,14 @@ pub const FOLDERS: [&str; 8] = [
 ];
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 18] = [
+const FLOORS: [&str; 19] = [
     "lane",
     "flow",
     "orbit",
     "branch",
     "attractor",
     "quantity",
+    "description",
     "capsule",
     "model",
     "of",

@@ -4,6 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::time::Instant;
 
+use capsulemap::capsule::CapsuleParameters as _;
 use capsulemap::capsule::{
     Case, Output, Parameter, Parameters, Resistance, State, Switching, settle_case,
 };
@@ -228,8 +229,8 @@ fn extreme_parameters_have_an_outcome_in_time() {
             }
         }
         let law = random.uniform(0.0, 3.0) as usize;
-        parameters.resistance = Resistance::NAMES[law].1;
-        parameters.switching = Switching::NAMES[random.uniform(0.0, 1.1) as usize].1;
+        parameters.resist_by(Resistance::NAMES[law].1);
+        parameters.switch_by(Switching::NAMES[random.uniform(0.0, 1.1) as usize].1);
         if !parameters.faults().is_empty() {
             continue;
         }

@@ -6,6 +6,7 @@ use std::sync::Mutex;
 
 use capsulemap::attractor::Attractor;
 use capsulemap::branch::SpecialKind;
+use capsulemap::capsule::CapsuleParameters as _;
 use capsulemap::capsule::{Orbit, Parameter, Parameters, Resistance};
 use capsulemap::model::Setting;
 use capsulemap::orbit::Outcome;
@@ -142,7 +143,7 @@ impl Swept {
 
 /// A line of cases of a capsule in both directions.
 fn line(base: &Parameters, parameter: Parameter, values: Vec<f64>) -> Study {
-    let axis = Axis { coordinate: Coordinate::Parameter(parameter), values };
+    let axis = Axis { coordinate: Coordinate::Parameter(parameter.into()), values };
     let directions = vec![Direction::Upward, Direction::Downward];
     let grid = Grid { axes: vec![axis], inherit: Some(Inherit { axis: 0, directions }) };
     Study { base: base.clone(), case_set: CaseSet::Grid(grid), ..Study::default() }

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Mutex;
 
+use capsulemap::capsule::CapsuleParameters as _;
 use capsulemap::capsule::{Capsule, Case, Output, Parameter, Parameters, Sample, State};
 use capsulemap::capsule::{settle_case, simulate_case};
 use capsulemap::flow::{Motion, Step};

@@ -40,7 +40,7 @@ fn drawn(number: usize) -> (&'static str, Study) {
         .map(|(it, most)| axis(it, -random.uniform(0.0, most), random.uniform(0.0, most), 5));
     let parameter = ALONG[(random.uniform(0.0, 1.0) * ALONG.len() as f64) as usize];
     let (low, value) = (base[parameter] * random.uniform(0.5, 1.0), base[parameter]);
-    let along = axis(Coordinate::Parameter(parameter), low, 1.2 * value + 1e-3, 5);
+    let along = axis(Coordinate::Parameter(parameter.into()), low, 1.2 * value + 1e-3, 5);
     let axes = match kind {
         "starts" => starts.to_vec(),
         "shares" => [vec![along], starts.to_vec()].concat(),

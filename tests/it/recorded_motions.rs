@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use capsulemap::capsule::CapsuleParameters as _;
 use capsulemap::capsule::{Case, Parameter, Parameters, State, settle_case};
 use capsulemap::experiment::progression::progression;
 use capsulemap::experiment::recorded_period::period_of;

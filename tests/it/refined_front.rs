@@ -1,5 +1,6 @@
 //! `capsulemap tradeoff --refine`: motions between the cases, against brute force around them and the same search begun otherwise.
 
+use capsulemap::capsule::CapsuleParameters as _;
 use capsulemap::capsule::{Output, Outputs, Parameter, Parameters, State, settle};
 use capsulemap::orbit::{Outcome, Protocol};
 use serde_json::Value;

@@ -141,7 +141,7 @@ fn the_saddle_is_the_unstable_orbit_that_continuation_finds() {
         phase: case.section_phase,
         section: moving.points[0],
         period: 1,
-        along: Parameter::Omega,
+        along: Parameter::Omega.into(),
         range: [150.0, 170.0],
         doublings: 0,
         second: None,

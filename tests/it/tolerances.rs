@@ -1,6 +1,7 @@
 //! `capsulemap tradeoff --tolerances`: against the derivatives of the motion, against brute force, and what is refused.
 
 use capsulemap::campaign::Tolerances;
+use capsulemap::capsule::CapsuleParameters as _;
 use capsulemap::capsule::{Output, Parameter, Parameters, State, settle};
 use capsulemap::orbit::{Outcome, Protocol};
 use serde_json::Value;
@@ -77,7 +78,7 @@ fn what_is_told_of_large_tolerances_is_that_of_the_draws_and_the_same_on_any_num
     let parameters = Parameters::with(&Parameter::ALL.iter().map(value).collect::<Vec<_>>());
     let orbit = settle(&parameters, 0.0, State::default(), &Protocol::default());
     let [r, y1, y2] = [orbit.end.r, orbit.end.y1, orbit.end.y2];
-    let each = vec![(Parameter::K2, 0.2), (Parameter::Omega, 0.03)];
+    let each = vec![(Parameter::K2.into(), 0.2), (Parameter::Omega.into(), 0.03)];
     let (mut speeds, mut kept) = (Vec::new(), 0);
     for factors in (Tolerances { each, draws: 40, seed: 5 }).factors() {
         let mut changed = parameters.clone();

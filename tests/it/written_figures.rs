@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use capsulemap::capsule::{Allowed, Parameter};
+use capsulemap::capsule::Allowed;
 use capsulemap::study::appearance::NATURAL;
 use capsulemap::study::{
     COLOURED_BY, CaseSet, ColourMap, Colouring, Continuation, Coordinate, Drawing, DrawingKind,
@@ -25,9 +25,8 @@ impl Random {
         let coordinates: Vec<Coordinate> =
             study.axes().iter().map(|axis| axis.coordinate).collect();
         if matches!(kind, DrawingKind::Bifurcation | DrawingKind::Curves) {
-            names.extend(
-                study.branches.iter().flat_map(Continuation::varied).map(Parameter::symbol),
-            );
+            names
+                .extend(study.branches.iter().flat_map(Continuation::varied).map(|it| it.symbol()));
         }
         let mut name_of = || {
             let wanted = !names.is_empty() && self.is_so();

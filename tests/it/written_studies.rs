@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use capsulemap::capsule::CapsuleParameters as _;
 use capsulemap::capsule::{Allowed, Output, Parameter, Parameters, Resistance, State, Switching};
 use capsulemap::orbit::{HistorySpan, Protocol};
 use capsulemap::study::{
@@ -153,15 +154,15 @@ impl Random {
         let range = around(along, &mut parameters);
         for coordinate in study.case_set.varied() {
             if let Coordinate::Parameter(parameter) = coordinate
-                && ![along, second].contains(&parameter)
+                && ![along, second].iter().any(|it| parameter == *it)
             {
                 parameters[parameter] = self.number(parameter.allowed());
             }
         }
-        let second = Some((second, second_range)).filter(|_| second != along);
+        let second = Some((second.into(), second_range)).filter(|(second, _)| *second != along);
         Continuation {
             name,
-            along,
+            along: along.into(),
             range,
             parameters,
             start: self.state(),
@@ -184,13 +185,13 @@ impl Random {
         let has_branches = self.is_so();
         let mut study = Study { title: self.text(&[]), case_set, ..Study::default() };
         for &parameter in Parameter::ALL {
-            if !varied.contains(&Coordinate::Parameter(parameter)) {
+            if !varied.contains(&Coordinate::Parameter(parameter.into())) {
                 study.base[parameter] = self.number(parameter.allowed());
             }
         }
-        study.base.resistance = self.one(&Resistance::NAMES).1;
+        study.base.resist_by(self.one(&Resistance::NAMES).1);
         if !has_branches {
-            study.base.switching = self.one(&Switching::NAMES).1;
+            study.base.switch_by(self.one(&Switching::NAMES).1);
         }
         let state = self.state();
         let unless =
@@ -273,7 +274,7 @@ fn every_study_that_is_kept_is_read_back_as_it_was_written() {
 fn an_axis_keeps_its_form_and_its_bits() {
     let axis = |values: Vec<f64>| Study {
         case_set: CaseSet::Grid(Grid {
-            axes: vec![Axis { coordinate: Coordinate::Parameter(Parameter::K2), values }],
+            axes: vec![Axis { coordinate: Coordinate::Parameter(Parameter::K2.into()), values }],
             inherit: None,
         }),
         ..Study::default()
@@ -292,7 +293,7 @@ fn an_axis_keeps_its_form_and_its_bits() {
 #[test]
 fn all_faults_of_a_study_built_in_code_are_reported_at_once() {
     let values = vec![60.0, f64::NAN, 60.0];
-    let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Omega), values }];
+    let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Omega.into()), values }];
     let mut study = Study {
         title: "two\nlines".to_owned(),
         case_set: CaseSet::Grid(Grid {
@@ -328,15 +329,18 @@ fn what_a_study_file_cannot_hold_is_reported() {
     let mut study = Study::default();
     study.start.x2 = 1.0;
     assert!(ran(study).contains("start: a study file cannot hold"));
-    let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd), values: vec![1.0] }];
+    let axes =
+        vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd.into()), values: vec![1.0] }];
     let inherit = Some(Inherit { axis: 0, directions: Vec::new() });
     let case_set = CaseSet::Grid(Grid { axes, inherit });
     assert!(ran(Study { case_set, ..Study::default() }).contains("axes: a study file cannot hold"));
     // `[basin]` is for studies whose cases differ in their starts alone, and its `refine` for grids: see studies/README.md.
     let message = ran(Study { early_decision: false, ..Study::default() });
     assert!(message.contains("basin.early_decision: a study file cannot hold false"), "{message}");
-    let axes =
-        vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd), values: vec![1.0, 2.0] }];
+    let axes = vec![Axis {
+        coordinate: Coordinate::Parameter(Parameter::Pd.into()),
+        values: vec![1.0, 2.0],
+    }];
     let case_set = CaseSet::Grid(Grid { axes, inherit: None });
     let refine = Some(Refine::Attractors);
     let message = ran(Study { case_set, refine, ..Study::default() });
@@ -347,7 +351,7 @@ fn what_a_study_file_cannot_hold_is_reported() {
     // A map is refined by one output or more.
     let axes = ["p_d", "k2"].map(|name| {
         let parameter = Parameter::named(name).expect("a parameter");
-        Axis { coordinate: Coordinate::Parameter(parameter), values: vec![1.0, 2.0] }
+        Axis { coordinate: Coordinate::Parameter(parameter.into()), values: vec![1.0, 2.0] }
     });
     let case_set = CaseSet::Grid(Grid { axes: axes.to_vec(), inherit: None });
     let refine = Some(Refine::Outputs(Vec::new()));
@@ -359,7 +363,8 @@ fn what_a_study_file_cannot_hold_is_reported() {
     let reversed = Study { branches: vec![branch], ..Study::default() };
     assert!(ran(reversed).contains("branches[1]: a study file cannot hold"));
     // What is held constant of a coordinate that varies does not count.
-    let axes = vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd), values: vec![1.0] }];
+    let axes =
+        vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd.into()), values: vec![1.0] }];
     let case_set = CaseSet::Grid(Grid { axes, inherit: None });
     let mut study = Study { case_set, ..Study::default() };
     study.base[Parameter::Pd] = -1.0;

@@ -3,6 +3,7 @@
 //! The modules are floors, and each uses only those before it in this list; they stand on `capsulemap-engine`.
 
 pub mod quantity;
+pub mod description;
 pub mod capsule;
 pub mod model;
 pub mod of;

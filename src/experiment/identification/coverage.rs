@@ -1,7 +1,7 @@
 //! Tests over many seeds: how often intervals hold the truth, and whether standard errors are right.
 
 use super::*;
-use crate::capsule::Parameters;
+use crate::description::Parameters;
 use crate::experiment::friction::coast_down;
 use crate::experiment::synthesis::{Laboratory, Noise, simple_tests};
 

@@ -1,7 +1,9 @@
 //! The parameter file of identified constants, which studies include.
 
 use super::identified::{Constant, Identified};
-use crate::capsule::{Dimension, Parameter, Parameters};
+use crate::capsule::Dimension;
+use crate::capsule::Parameter;
+use crate::description::Parameters;
 use crate::experiment::profile::Verdict;
 
 /// Parameters that have no default in a study.

@@ -8,7 +8,8 @@ use super::computations::BUDGET;
 use super::explored::Explored;
 use super::motion::{followed, shown};
 use crate::attractor::{Attractor, Label};
-use crate::capsule::{Case, Output, Parameter, State, settle_case};
+use crate::capsule;
+use crate::capsule::{Case, Output, State, settle_case};
 use crate::figure::{label_colour, shown_quantity};
 use crate::flow::stop;
 use crate::orbit::{Machine, Outcome};
@@ -133,7 +134,7 @@ impl Basin {
             "y": y,
             "side": SIDE,
             "start": { "y2": self.study.start.y2, "phase": self.study.start_phase },
-            (Parameter::Delta.symbol()): self.study.base[Parameter::Delta],
+            (capsule::Parameter::Delta.symbol()): self.study.base[capsule::Parameter::Delta],
         })
     }
 
@@ -218,8 +219,8 @@ fn around(explored: &Explored, case: &Case) -> [[f64; 2]; 2] {
     let from = State { x2: 0.0, ..orbit.end };
     let points = followed(case, from, shown(&orbit), protocol.tolerance);
     let parameters = &case.parameters;
-    let usual = parameters[Parameter::Pd] / parameters[Parameter::K1];
-    let omega = parameters[Parameter::Omega];
+    let usual = parameters[capsule::Parameter::Pd] / parameters[capsule::Parameter::K1];
+    let omega = parameters[capsule::Parameter::Omega];
     let widest = |of: fn(&State<f64>) -> f64, usual: f64| {
         let values = points.iter().flatten().map(|it| of(&it.state));
         let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| {

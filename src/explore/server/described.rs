@@ -3,7 +3,8 @@
 use serde_json::{Value, json};
 
 use super::explored::Explored;
-use crate::capsule::{Output, Parameter};
+use crate::capsule::Output;
+use crate::description::Parameter;
 use crate::figure::shown_quantity;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, OUTCOME, PERIOD, STUDY_TEXT};
 use crate::store::{has_branches, provenance};
@@ -30,10 +31,10 @@ pub fn described(explored: &Explored, running: Value) -> Value {
     let outputs = outputs.filter(|name| archive.unit(name).is_some()).map(shown);
     let varied = study.case_set.varied();
     let is_held =
-        |it: &&Parameter| !varied.contains(&Coordinate::Parameter(**it)) && study.has_effect(**it);
-    let constant = |it: &Parameter| {
+        |it: &Parameter| !varied.contains(&Coordinate::Parameter(*it)) && study.has_effect(*it);
+    let constant = |it: Parameter| {
         let mut constant = shown(it.symbol());
-        constant["value"] = json!(study.base[*it]);
+        constant["value"] = json!(study.base[it]);
         constant
     };
     let has = |it: Output| archive.unit(it.name()).is_some();
@@ -45,7 +46,7 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "axes": study.axes().iter().map(of_axis).collect::<Vec<_>>(),
         "directions": directions.collect::<Vec<_>>(),
         "outputs": outputs.collect::<Vec<_>>(),
-        "constants": Parameter::ALL.iter().filter(is_held).map(constant).collect::<Vec<_>>(),
+        "constants": study.base.model().parameters().filter(is_held).map(constant).collect::<Vec<_>>(),
         "has_curves": has_branches(frame),
         "has_trade_off": has(Output::ProgressionSpeed) && (has(Output::WorkPositive) || has(Output::Power)),
         "running": running,

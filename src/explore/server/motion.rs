@@ -1,5 +1,6 @@
 //! The motion of one case, computed as it is asked for.
 
+use crate::capsule::CapsuleParameters as _;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -8,8 +9,9 @@ use super::asked::Asked;
 use super::computations::{BUDGET, MOTION_BUDGET};
 use super::explored::{Explored, Near};
 use crate::campaign::command;
+use crate::capsule;
 use crate::capsule::{
-    ArcPoint, Case, Orbit, Output, Parameter, Simulation, SimulationSize, State, arc, settle_case,
+    ArcPoint, Case, Forces, Orbit, Output, Simulation, SimulationSize, State, arc, settle_case,
     simulate_case_within,
 };
 use crate::explore::case_json::{case_json, remarks};
@@ -167,11 +169,11 @@ fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
     let points = followed(case, from, cycles, tolerance).filter(|_| orbit.failure.is_none())?;
     let column = |of: &dyn Fn(&ArcPoint) -> f64| points.iter().map(|it| of(it) as f32).collect();
     let parameters = &case.parameters;
-    let friction = || column(&|it| parameters.forces(&it.state).friction);
+    let friction = || column(&|it| Forces::of(parameters, &it.state).friction);
     Some(History {
         cycles,
         period: parameters.drive_period(),
-        delta: parameters[Parameter::Delta],
+        delta: parameters[capsule::Parameter::Delta],
         t: points.iter().map(|it| it.time).collect(),
         x1: column(&|it| it.state.x2 + it.state.r),
         x2: column(&|it| it.state.x2),
@@ -179,8 +181,8 @@ fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
         y1: column(&|it| it.state.y1),
         y2: column(&|it| it.state.y2),
         drive: column(&|it| it.drive),
-        contact: column(&|it| parameters.forces(&it.state).contact),
-        friction: parameters.switching.balances_at_rest().then(friction),
+        contact: column(&|it| Forces::of(parameters, &it.state).contact),
+        friction: parameters.switching().balances_at_rest().then(friction),
     })
 }
 
@@ -207,7 +209,7 @@ pub fn followed(
     let half = 0.5 * case.parameters.drive_period();
     let mut state = from;
     let phase = case.section_phase;
-    let drive = case.parameters[Parameter::Pd] * phase.cos();
+    let drive = case.parameters[capsule::Parameter::Pd] * phase.cos();
     let mut points = vec![ArcPoint { time: 0.0, state, drive }];
     let count = (2 * POINTS / cycles as u32).clamp(LEAST_POINTS, POINTS);
     for number in 0..2 * cycles {

@@ -1,7 +1,8 @@
 //! The names of the categories, and the numbers that stand for them.
 
 use crate::branch::{End, SpecialKind};
-use crate::capsule::{Parameter, REASONS};
+use crate::capsule::REASONS;
+use crate::of::default_model;
 use crate::orbit::{Outcome, Proof};
 use crate::run::{Continued, NotContinued};
 use crate::study::Direction;
@@ -36,7 +37,7 @@ pub fn specials() -> Flags {
 
 /// The parameters by their symbols.
 pub fn parameters() -> Flags {
-    Parameter::ALL.iter().map(|&it| (it as i64, it.symbol().to_owned())).collect()
+    default_model().parameters().map(|it| (it.index() as i64, it.symbol().to_owned())).collect()
 }
 
 /// Why a branch or a curve ends.

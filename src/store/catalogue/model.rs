@@ -1,14 +1,15 @@
 //! The entries of parameters, starts and outputs, whose names the floors below give.
 
-use crate::capsule::{Output, Parameter};
+use crate::capsule::Output;
+use crate::description::Parameter;
 use crate::study::Coordinate;
 
 use super::entry::{Entry, Extent};
 
 impl Entry {
     /// A parameter of the model, as an axis or a constant of the study.
-    pub fn of_parameter(parameter: Parameter) -> Entry {
-        Entry::of_coordinate(Coordinate::Parameter(parameter))
+    pub fn of_parameter(parameter: impl Into<Parameter>) -> Entry {
+        Entry::of_coordinate(Coordinate::Parameter(parameter.into()))
     }
 
     /// What an axis can vary, as an axis or a constant of the study.

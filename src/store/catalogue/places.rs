@@ -2,7 +2,8 @@
 
 use std::sync::LazyLock;
 
-use crate::capsule::{Output, Parameter};
+use crate::capsule::Output;
+use crate::of::default_model;
 use crate::study::Coordinate;
 
 use super::branches::{BRANCH_CYCLE, BRANCH_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT};
@@ -71,7 +72,7 @@ impl Place {
 
     /// The columns called after the parameters.
     pub fn parameters(self) -> impl Iterator<Item = Entry> {
-        Parameter::ALL.iter().map(move |&parameter| self.of(Entry::of_parameter(parameter)))
+        default_model().parameters().map(move |parameter| self.of(Entry::of_parameter(parameter)))
     }
 
     /// The column here that is called after `entry`.
@@ -113,9 +114,9 @@ impl Place {
     /// All columns called after other variables.
     fn columns(self) -> Vec<Entry> {
         // All attractors of starts have the same parameters.
-        let parameters = if self == Place::Attractor { &[][..] } else { Parameter::ALL };
+        let parameters = default_model().parameters().filter(|_| self != Place::Attractor);
         let mut columns: Vec<Entry> =
-            parameters.iter().map(|&it| self.here(Entry::of_parameter(it))).collect();
+            parameters.map(|it| self.here(Entry::of_parameter(it))).collect();
         let of_orbits = matches!(self, Place::Attractor | Place::Branch | Place::Special);
         if of_orbits || self == Place::Event {
             columns.extend(SECTION.map(|entry| self.here(entry)));

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::forms::simulate;
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{Parameter, Parameters, State, Switching};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -24,7 +25,7 @@ fn belt(switching: Switching) -> Parameters {
     ]);
     p[Parameter::MuD] = 0.5 / p.normal_load();
     p[Parameter::MuS] = 1.0 / p.normal_load();
-    p.switching = switching;
+    p.switch_by(switching);
     p
 }
 

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use capsulemap_engine::branch::{NotFollowed, SpecialKind};
 use capsulemap_engine::flow::Metric;
 use capsulemap_engine::orbit::{Outcome, Protocol};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::branch::{Branch, Found, Request, Special, follow};
 use capsulemap_models::capsule::{
     Orbit, Output, Parameter, Parameters, Section, State, Switching, settle, simulate,
@@ -32,7 +33,7 @@ pub fn request(
         phase: 0.0,
         section,
         period,
-        along,
+        along: along.into(),
         range,
         doublings: 0,
         second: None,
@@ -272,7 +273,7 @@ fn the_curve_on_which_contact_begins_is_the_closed_form() {
     p[Parameter::Pd] *= 0.8;
     let edge = exact[Parameter::Pd];
     let mut request = request(&p, quiet(&p), 1, Parameter::Pd, [0.3 * edge, 1.05 * edge]);
-    request.second = Some((Parameter::Omega, [30.0, 90.0]));
+    request.second = Some((Parameter::Omega.into(), [30.0, 90.0]));
     let found = follow(&request).expect("a branch");
     let curve = found.curves.iter().find(|curve| curve.kind == SpecialKind::Grazing);
     let points = &curve.expect("a curve").points;
@@ -291,7 +292,7 @@ fn every_point_of_a_fold_curve_is_a_fold() {
     let p = two_attractors(150.0);
     let start = settled(&p, [0.0, 0.3, 0.0]);
     (whole.parameters, whole.section) = (p, start.section[0]);
-    whole.second = Some((Parameter::Pd, [2.7, 2.85]));
+    whole.second = Some((Parameter::Pd.into(), [2.7, 2.85]));
     let found = follow(&whole).expect("a branch");
     let through = |curve: &&capsulemap_engine::branch::Curve| {
         curve.kind == SpecialKind::Fold
@@ -349,7 +350,7 @@ fn what_cannot_be_followed_is_said() {
 #[test]
 fn the_equation_as_printed_is_followed_too() {
     let mut p = Parameters::with(&[(Parameter::MuS, 0.2), (Parameter::MuD, 0.1)]);
-    p.switching = Switching::AsPrinted;
+    p.switch_by(Switching::AsPrinted);
     let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
     assert_eq!(orbit.outcome, Outcome::Periodic);
     let range = [3.6, 4.4];

@@ -1,6 +1,7 @@
 //! Curves in two parameters: both sorts of grazing, each curve once, and none that leads elsewhere.
 
 use capsulemap_engine::branch::{Curve, End, SpecialKind};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::branch::{Found, Request, follow};
 use capsulemap_models::capsule::{Parameter, Parameters, Section};
 
@@ -39,7 +40,7 @@ fn contact_opens_where_the_closed_form_says_in_two_parameters() {
     p[Parameter::Pd] = 0.8 * edge;
     let range = [0.5 * edge, 1.02 * edge];
     let mut request = request(&p, held(&p), 1, Parameter::Pd, range);
-    request.second = Some((Parameter::Omega, [40.0, 90.0]));
+    request.second = Some((Parameter::Omega.into(), [40.0, 90.0]));
     let found = follow(&request).expect("a branch");
     assert_closed(&found);
     let grazing = of_kind(&found.branches[0], SpecialKind::Grazing);
@@ -101,7 +102,7 @@ fn every_curve_goes_through_its_special_points_and_is_there_once() {
     let start = settled(&p, [0.0; 3]);
     let mut request = request(&p, start.section[0], start.period, Parameter::Pd, [5.4, 7.0]);
     (request.doublings, request.longest_step) = (1, 0.1);
-    request.second = Some((Parameter::Omega, [25.0, 35.0]));
+    request.second = Some((Parameter::Omega.into(), [25.0, 35.0]));
     let found = follow(&request).expect("a branch");
     assert_closed(&found);
     assert_sound(&request, &found);

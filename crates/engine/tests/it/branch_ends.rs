@@ -2,6 +2,7 @@
 
 use capsulemap_engine::branch::{self, End, SpecialKind};
 use capsulemap_engine::orbit::{self, Case, Outcome, Protocol};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::branch::{Branch, follow};
 use capsulemap_models::capsule::{Parameter, Parameters, State, settle};
 

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use capsulemap_engine::orbit::{Outcome, Protocol};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{EventKind, Output, Parameter, Parameters, Resistance, State};
 
 use super::forms::{settle, simulate};
@@ -124,7 +125,7 @@ fn block(friction: f64) -> Parameters {
     ]);
     p[Parameter::MuD] = friction / p.normal_load();
     p[Parameter::MuS] = p[Parameter::MuD];
-    p.resistance = Resistance::Coulomb;
+    p.resist_by(Resistance::Coulomb);
     p
 }
 
@@ -166,7 +167,7 @@ fn coasting(law: Resistance, v_s: f64) -> Parameters {
         (Parameter::C1, 0.4),
         (Parameter::C2, 3.0),
     ]);
-    p.resistance = law;
+    p.resist_by(law);
     p
 }
 
@@ -217,7 +218,7 @@ fn coasts_to(p: &Parameters, start: State<f64>, time: f64, distance: f64) {
     let stop = stop.expect("it stops").t;
     let end = simulation.section.last().expect("a section");
     assert_eq!(end.y2, 0.0);
-    let about = format!("{:?}, v_s {}", p.resistance, p[Parameter::Vs]);
+    let about = format!("{:?}, v_s {}", p.resistance(), p[Parameter::Vs]);
     assert!(relative(stop, time) < 1e-10, "{about}: {stop} s, exactly {time} s");
     assert!(relative(end.x2, distance) < 1e-10, "{about}: {} m, exactly {distance} m", end.x2);
 }
@@ -236,7 +237,7 @@ fn coasting_in_a_medium_follows_the_drag() {
             (Parameter::C1, c1),
             (Parameter::C2, c2),
         ]);
-        p.resistance = Resistance::Medium;
+        p.resist_by(Resistance::Medium);
         let start = State { y2: -2.0, ..State::default() };
         simulate(&p, 0.0, start, 3, TOLERANCE).section.last().expect("a section").y2
     };
@@ -276,7 +277,7 @@ fn without_a_stop_the_capsule_does_not_drift() {
     for (omega, p_d) in [(60.0, 5.0), (90.0, 6.0), (110.0, 3.0), (140.0, 8.0)] {
         let mut p = stuck(omega, p_d);
         for law in [Resistance::CoulombStribeck, Resistance::Coulomb, Resistance::Medium] {
-            p.resistance = law;
+            p.resist_by(law);
             (p[Parameter::C1], p[Parameter::C2]) = (0.8, 3.0);
             let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
             assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1), "{omega} {law:?}");

@@ -2,6 +2,7 @@
 
 use capsulemap_engine::lane::{Series, quadrature, series};
 use capsulemap_engine::orbit::matrix::determinant;
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{Capsule, Parameter, Parameters, Resistance};
 
 use super::derivatives::{Periodic, dual_capsule, linearised, periodic};
@@ -9,7 +10,7 @@ use super::differences::followed;
 
 /// The slope of the resistance over the speed, by the law as the paper writes it [N s/m].
 fn resistance_slope(p: &Parameters, y2: f64) -> f64 {
-    match p.resistance {
+    match p.resistance() {
         Resistance::CoulombStribeck => {
             let v_s = p[Parameter::Vs];
             -p[Parameter::MuD] * p.normal_load() / v_s * libm::exp(-y2.abs() / v_s)
@@ -63,7 +64,7 @@ fn volume(of: &Periodic) -> Option<Volume> {
 fn sliding(resistance: Resistance) -> Vec<Periodic> {
     periodic(40, 31, |case| {
         let p = &mut case.parameters;
-        p.resistance = resistance;
+        p.resist_by(resistance);
         p[Parameter::Omega] += 40.0;
         p[Parameter::C] *= 0.5;
         p[Parameter::MuS] *= 0.15;

@@ -2,6 +2,7 @@
 
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{Machine, Outcome, Protocol};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
     Case, Orbit, Parameter, Parameters, Resistance, State, settle_all,
 };
@@ -61,7 +62,7 @@ pub fn wide(count: usize, seed: u64, law: Resistance) -> Vec<Case> {
             (Parameter::C1, random.logarithmic(1e-2, 10.0)),
             (Parameter::C2, random.or_least(0.0, 30.0)),
         ]);
-        parameters.resistance = law;
+        parameters.resist_by(law);
         let phase = random.uniform(0.0, 2.0 * std::f64::consts::PI);
         let rests = random.uniform(0.0, 1.0) < 0.25;
         let y2 = random.uniform(-1.0, 1.0);

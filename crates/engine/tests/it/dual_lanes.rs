@@ -3,6 +3,7 @@
 use capsulemap_engine::flow::{Motion, Step, Stroboscopic};
 
 use capsulemap_engine::lane::{Dual, Instructions, Lane, Mask, Work};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{Capsule, Case, Section, State};
 
 use super::derivatives::dual_capsule;
@@ -62,7 +63,7 @@ impl Work for Together<'_> {
 #[inline(always)]
 fn side_by_side<L: Lane>(cases: &[Case]) -> Vec<Vec<Bits>> {
     let of = |lane: usize| cases.get(lane).unwrap_or(&cases[0]);
-    let law = of(0).parameters.resistance;
+    let law = of(0).parameters.resistance();
     let lanes = |number: &dyn Fn(&Case) -> f64| L::from_fn(|lane| number(of(lane)));
     let system = Capsule::<Dual<L, 3>>::new(
         |p| Dual::constant(lanes(&|case| case.parameters[p])),

@@ -3,6 +3,7 @@
 use capsulemap_engine::flow::Switched;
 
 use capsulemap_engine::orbit::{Outcome, Protocol};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
     Capsule, Contact, Event, EventKind, Locomotion, Output, Parameter, Parameters, State, StickSlip,
 };
@@ -108,7 +109,7 @@ fn simultaneous_events_are_both_obeyed() {
         (Parameter::MuD, mu_d),
     ];
     let mut p = Parameters::with(&base);
-    p.resistance = capsulemap_models::capsule::Resistance::Coulomb;
+    p.resist_by(capsulemap_models::capsule::Resistance::Coulomb);
     let deceleration = mu_d * p.normal_load() / p[Parameter::M2];
     let stop = v0 / deceleration;
     // The mass keeps its speed v; r = v t - (v0 t - a t^2/2) is v stop - v0 stop / 2 at the stop.

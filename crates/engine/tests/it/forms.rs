@@ -6,6 +6,7 @@ use std::marker::PhantomData;
 use capsulemap_engine::flow::{Event, Motion, Step, Switched};
 use capsulemap_engine::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::{OrbitOf, Protocol, Queue, settle_side_by_side};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
     self, AsPrinted, CapsuleSystem, Case, EventKind, Filippov, Orbit, Parameters, Reading,
     Simulation, State, Switching,
@@ -38,7 +39,7 @@ pub fn simulate_by(
     let events: Vec<_> = alone.events.iter().map(|event| (event.t.to_bits(), event.kind)).collect();
     let expected = (states, events);
     for instructions in instructions {
-        let others = match parameters.switching {
+        let others = match parameters.switching() {
             Switching::Filippov => {
                 among_others::<Filippov>(*instructions, &case, cycles, tolerance)
             }
@@ -60,7 +61,7 @@ pub fn settle(
 ) -> Orbit {
     let alone = capsule::settle(parameters, phase, start, protocol);
     let case = Case::at_section(parameters.clone(), start, phase);
-    let among = match parameters.switching {
+    let among = match parameters.switching() {
         Switching::Filippov => among::<Filippov>(&case, protocol),
         Switching::AsPrinted => among::<AsPrinted>(&case, protocol),
     };
@@ -80,7 +81,7 @@ fn among<R: Reading>(case: &Case, protocol: &Protocol) -> Orbit {
 /// Another case, under the same law of resistance.
 fn neighbour(case: &Case, number: usize) -> Case {
     let mut other = super::draws::cases(1, number as u64).remove(0);
-    other.parameters.resistance = case.parameters.resistance;
+    other.parameters.resist_by(case.parameters.resistance());
     other
 }
 

@@ -3,6 +3,7 @@
 use capsulemap_engine::flow::Observer;
 use capsulemap_engine::lane::series;
 use capsulemap_engine::orbit::{Outcome, Protocol, Trajectory};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
     Account, Capsule, Contact, Locomotion, Parameter, Parameters, State, StickSlip, Switching,
 };
@@ -184,7 +185,7 @@ proptest! {
     #[test]
     fn the_equation_as_printed_neither_hangs_nor_panics(p in parameters(), start in start()) {
         let mut p = p;
-        p.switching = Switching::AsPrinted;
+        p.switch_by(Switching::AsPrinted);
         let simulation = simulate(&p, 0.0, start, 20, 1e-12);
         prop_assert!(simulation.failure.is_none(), "{:?}", simulation.failure);
     }

@@ -3,6 +3,7 @@
 use capsulemap_engine::flow::{Motion, Reason, Step};
 use capsulemap_engine::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::{Outcome, Protocol};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
     Capsule, Case, Orbit, Parameter, Parameters, Resistance, State, settle, settle_case,
 };
@@ -67,7 +68,7 @@ impl Work for Together<'_> {
 #[inline(always)]
 fn side_by_side<L: Lane>(cases: &[(Parameters, State<f64>)]) -> Vec<(Vec<[u64; 4]>, Vec<u64>)> {
     let of = |lane: usize| cases.get(lane).unwrap_or(&cases[0]);
-    let law = of(0).0.resistance;
+    let law = of(0).0.resistance();
     let system = Capsule::<L>::new(|p| L::from_fn(|lane| of(lane).0[p]), law, 0.0);
     let start = State::from_fn(|lane| of(lane).1);
     let periods = L::from_fn(|lane| of(lane).0.drive_period());

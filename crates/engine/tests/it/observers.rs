@@ -5,6 +5,7 @@ use capsulemap_engine::flow::{Motion, Observer, Step, Stroboscopic, Switched};
 use capsulemap_engine::lane::{Dual, Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::return_map::{Cycles, observed};
 use capsulemap_engine::orbit::{Outcome, Protocol};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{Account, Capsule, Case, Parameter, Resistance, State, settle};
 
 use super::differences::slope;
@@ -110,7 +111,7 @@ fn side_by_side<L: Lane>(cases: &[Case]) -> Vec<[u64; 17]> {
 fn sums_have_the_same_bits_in_every_lane_form() {
     let mut cases = draws::cases(64, 77);
     // One law in all lanes.
-    cases.retain(|case| case.parameters.resistance == Resistance::CoulombStribeck);
+    cases.retain(|case| case.parameters.resistance() == Resistance::CoulombStribeck);
     let expected: Vec<_> = cases.iter().map(alone).collect();
     for instructions in Instructions::available() {
         let found = instructions.run(Together(&cases));
@@ -136,7 +137,7 @@ fn the_derivatives_of_the_sums_are_those_of_differences() {
                 Parameter::Pd => p_d,
                 _ => Dual::constant(case.parameters[parameter]),
             };
-            let law = case.parameters.resistance;
+            let law = case.parameters.resistance();
             let system = Capsule::new(constant, law, case.section_phase);
             let mut account = Account::new(constant, 0);
             let from = point.map(Dual::constant);

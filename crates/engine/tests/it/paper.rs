@@ -1,6 +1,7 @@
 //! The six cases of the paper and what its text says of them.
 
 use capsulemap_engine::orbit::{Outcome, Protocol};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{Orbit, Output, Parameter, Parameters, State, Switching};
 
 use super::forms::settle;
@@ -75,7 +76,7 @@ fn the_statements_of_the_text_hold() {
 fn the_equation_as_printed_differs() {
     for i in 0..CASES.len() {
         let mut printed = parameters(i);
-        printed.switching = Switching::AsPrinted;
+        printed.switch_by(Switching::AsPrinted);
         let printed = settle(&printed, 0.0, State::default(), &Protocol::default());
         let filippov = orbit(i);
         assert_ne!(printed.outcome, Outcome::Failed, "case {i}: {:?}", printed.failure);
@@ -123,7 +124,7 @@ fn printed_field(p: &Parameters, t: f64, [r, y1, _, y2]: [f64; 4]) -> [f64; 4] {
 fn the_equation_as_printed_agrees_with_tiny_steps_of_its_own_right_hand_side() {
     for i in [0, 1, 5] {
         let mut p = parameters(i);
-        p.switching = Switching::AsPrinted;
+        p.switch_by(Switching::AsPrinted);
         let cycles = 3;
         let ours = capsulemap_models::capsule::simulate(&p, 0.0, State::default(), cycles, 1e-12);
         let steps = 400_000;

@@ -1,5 +1,6 @@
 //! A second method that shares no code with the series: extrapolation of Gragg's rule, events by bracketing.
 
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{Parameter, Parameters, Resistance, State};
 
 /// r, y1, x2, y2.
@@ -63,7 +64,7 @@ impl Second<'_> {
 
     fn break_away(&self) -> f64 {
         let (mu_s, mu_d) = (self.of(Parameter::MuS), self.of(Parameter::MuD));
-        match self.p.resistance {
+        match self.p.resistance() {
             Resistance::CoulombStribeck => mu_s.max(2.0 * mu_d) * self.load(),
             Resistance::Coulomb => mu_s.max(mu_d) * self.load(),
             Resistance::Medium => 0.0,
@@ -81,7 +82,7 @@ impl Second<'_> {
 
     fn resistance(&self, y2: f64) -> f64 {
         let dry = self.slip * self.of(Parameter::MuD) * self.load();
-        match self.p.resistance {
+        match self.p.resistance() {
             Resistance::CoulombStribeck => {
                 dry * (1.0 + libm::exp(-(self.slip * y2) / self.of(Parameter::Vs)))
             }
@@ -170,7 +171,7 @@ impl Second<'_> {
             + self.of(Parameter::C) * inverse_mass
             + self.of(Parameter::Omega);
         let h = 0.2 / fastest;
-        if self.slip == 0.0 || self.p.resistance != Resistance::CoulombStribeck {
+        if self.slip == 0.0 || self.p.resistance() != Resistance::CoulombStribeck {
             return h;
         }
         let width = self.of(Parameter::Vs).max(0.2 * (y2.abs() - 40.0 * self.of(Parameter::Vs)));

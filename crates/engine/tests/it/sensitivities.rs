@@ -3,6 +3,7 @@
 use capsulemap_engine::lane::Dual;
 use capsulemap_engine::orbit::matrix::{less_identity, solve};
 use capsulemap_engine::orbit::return_map::{Cycles, jacobian, observed, returned, seeded};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
     Account, Capsule, CapsuleSystem, Filippov, Output, Outputs, Parameter, Parameters, Section,
     per_cycle,
@@ -32,7 +33,7 @@ const RESOLVED: f64 = 3e-7;
 /// The orbit near a section point, by Newton's method on the return map alone.
 fn closed(parameters: &Parameters, phase: f64, guess: Section, period: u64) -> Section {
     let of = |it: Parameter| -> Dual<f64, 3> { Dual::constant(parameters[it]) };
-    let system = Capsule::new(of, parameters.resistance, phase);
+    let system = Capsule::new(of, parameters.resistance(), phase);
     let cycles = Cycles { count: period, tolerance: TOLERANCE };
     let mut point = guess;
     for _ in 0..5 {

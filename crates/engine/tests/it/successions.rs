@@ -108,7 +108,7 @@ fn of_branches(
         phase: case.section_phase,
         section: orbit.section[0],
         period: orbit.period,
-        along,
+        along: along.into(),
         range,
         doublings: 1,
         second: None,

@@ -3,6 +3,7 @@
 
 use capsulemap_engine::branch::{self, End, SpecialKind};
 use capsulemap_engine::orbit::{Outcome, Protocol};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::branch::{Request, follow};
 use capsulemap_models::capsule::{
     Case, Parameter, Parameters, Resistance, State, settle, settle_case,
@@ -45,7 +46,7 @@ fn special(parameters: &Parameters, asked: Asked, below: f64) -> Vec<(SpecialKin
         phase,
         section: orbit.section[0],
         period: orbit.period,
-        along,
+        along: along.into(),
         range,
         doublings,
         second: None,
@@ -274,7 +275,7 @@ fn random_branches_are_the_same_by_any_settings() {
                 phase,
                 section: orbit.section[point % orbit.section.len()],
                 period: orbit.period,
-                along,
+                along: along.into(),
                 range: [low, high],
                 doublings: 0,
                 second: None,

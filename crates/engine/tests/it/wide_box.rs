@@ -2,6 +2,7 @@
 
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{HistorySpan, Outcome, Proof, Protocol};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
     AsPrinted, Case, History, Orbit, Output, Parameter, Reading, Resistance, Section, State,
     Switching, simulate,
@@ -69,7 +70,7 @@ fn no_period_is_wrong_and_few_cases_are_undecided() {
 fn as_printed_no_period_is_wrong_and_few_cases_that_repeat_are_undecided() {
     for law in [Resistance::CoulombStribeck, Resistance::Coulomb] {
         let mut cases = draws::wide(count(), 21, law);
-        cases.iter_mut().for_each(|case| case.parameters.switching = Switching::AsPrinted);
+        cases.iter_mut().for_each(|case| case.parameters.switch_by(Switching::AsPrinted));
         let orbits = draws::settled(&cases, &Protocol::default(), Instructions::widest());
         let (mut held, mut undecided) = (0, 0);
         for (number, (case, orbit)) in cases.iter().zip(&orbits).enumerate() {

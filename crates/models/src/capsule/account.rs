@@ -9,8 +9,8 @@ use capsulemap_engine::lane::{Lane, Mask, Series, SideBySide, series, side_by_si
 
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
-use super::parameters::Parameters;
 use super::state::{EventKind, State};
+use crate::description::Parameters;
 
 /// A point of the impact section: where contact closes.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,10 +8,11 @@ use super::failure::Failure;
 use super::filippov::Capsule;
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
-use super::parameters::Parameters;
+use super::parameters::CapsuleParameters as _;
 use super::printed::PrintedCapsule;
 use super::resistance::Switching;
 use super::state::{EventKind, State};
+use crate::description::Parameters;
 
 /// A point of an arc.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +36,7 @@ pub fn arc(
 ) -> Result<Vec<ArcPoint>, Failure> {
     let [start_phase, section_phase] = phases;
     let case = Case { parameters: parameters.clone(), start, start_phase, section_phase };
-    match parameters.switching {
+    match parameters.switching() {
         Switching::Filippov => {
             arc_on(&Capsule::single(parameters, section_phase), &case, count, tolerance)
         }

@@ -6,10 +6,11 @@ use capsulemap_engine::orbit::Protocol;
 use super::failure::Section;
 use super::output::Outputs;
 use super::parameter::Parameter;
-use super::parameters::Parameters;
+use super::parameters::CapsuleParameters as _;
 use super::resistance::Switching;
 use super::settle::outputs;
 use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
+use crate::description::{self, Parameters};
 
 /// A periodic motion on a branch, with its outputs.
 pub type Point = branch::Point<Outputs, 3>;
@@ -32,13 +33,13 @@ pub struct Request {
     /// Its period [cycles].
     pub period: u64,
     /// The parameter to follow it in.
-    pub along: Parameter,
+    pub along: description::Parameter,
     /// Where to stop, the lesser first.
     pub range: [f64; 2],
     /// How often to switch to the branch of twice the period where a multiplier passes -1.
     pub doublings: u32,
     /// A second parameter with its range, in which the special points are followed as curves.
-    pub second: Option<(Parameter, [f64; 2])>,
+    pub second: Option<(description::Parameter, [f64; 2])>,
     /// Longest step, as a share of the range.
     pub longest_step: f64,
     /// Points of a branch or curve at most.
@@ -52,7 +53,7 @@ pub struct Request {
 /// # Errors
 /// Where no periodic orbit is found near the point that is given, or none that a branch goes through.
 pub fn follow(request: &Request) -> Result<Found, NotFollowed> {
-    match request.parameters.switching {
+    match request.parameters.switching() {
         Switching::Filippov => follow_as::<Filippov>(request),
         Switching::AsPrinted => follow_as::<AsPrinted>(request),
     }
@@ -64,10 +65,10 @@ fn follow_as<R: Reading>(request: &Request) -> Result<Found, NotFollowed> {
         system: CapsuleSystem::<R>::new(parameters.clone(), *phase),
         section: request.section,
         period: request.period,
-        along: *along,
+        along: Parameter::which(*along),
         range: request.range,
         doublings: request.doublings,
-        second: request.second,
+        second: request.second.map(|(second, range)| (Parameter::which(second), range)),
         longest_step: request.longest_step,
         most_points: request.most_points,
         tolerance: *tolerance,

@@ -5,9 +5,10 @@ use capsulemap_engine::orbit::{self, Trajectory};
 
 use super::drive::reduced;
 use super::parameter::Parameter;
-use super::parameters::Parameters;
+use super::parameters::CapsuleParameters as _;
 use super::state::State;
 use super::system::{CapsuleSystem, Reading};
+use crate::description::Parameters;
 
 /// One case.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,6 +5,8 @@ use crate::quantity::{Dimension, Quantity, Shown};
 
 use super::output::Output;
 use super::parameter::Parameter;
+use super::resistance::{Resistance, Switching};
+use crate::description::{self, Choice, Description, ParameterDescription};
 
 /// Quantities as constants: constant, name, dimension and shown form in a first line, the meaning in a second.
 macro_rules! quantities {
@@ -109,11 +111,64 @@ pub fn is_coordinate(signal: &Quantity) -> bool {
     matches!(signal.dimension, Dimension::Length | Dimension::Velocity)
 }
 
+/// The capsule.
+pub static CAPSULE: Description = Description {
+    name: "capsule",
+    parameters: &PARAMETERS,
+    choices: &[
+        Choice {
+            name: "resistance",
+            meaning: "law of resistance to the capsule",
+            options: &Resistance::OPTIONS,
+        },
+        Choice {
+            name: "friction_switching",
+            meaning: "reading of the switching between stick and slip",
+            options: &Switching::OPTIONS,
+        },
+    ],
+};
+
+static PARAMETERS: [ParameterDescription; Parameter::ALL.len()] = {
+    let mut all = [Parameter::M1.described(); Parameter::ALL.len()];
+    let mut index = 0;
+    while index < all.len() {
+        all[index] = Parameter::ALL[index].described();
+        index += 1;
+    }
+    all
+};
+
 impl Parameter {
-    /// It as a quantity.
-    pub fn quantity(self) -> Quantity {
+    /// What the capsule says of it; Table 1 of the paper leaves four of them open.
+    const fn described(self) -> ParameterDescription {
         let (name, dimension, meaning) = (self.symbol(), self.dimension(), self.meaning());
-        Quantity { name, dimension, meaning, shown: parameter_shown(self) }
+        let quantity = Quantity { name, dimension, meaning, shown: parameter_shown(self) };
+        let (allowed, default) = (self.allowed(), self.default_value());
+        let is_asked_for =
+            matches!(self, Parameter::Omega | Parameter::Pd | Parameter::K2 | Parameter::Delta);
+        ParameterDescription { quantity, allowed, default, is_asked_for }
+    }
+
+    /// Of a parameter of the capsule, which it is.
+    ///
+    /// # Panics
+    /// Where it is a parameter of another model.
+    pub fn which(parameter: description::Parameter) -> Parameter {
+        assert!(*parameter.model() == CAPSULE, "{parameter:?} is no parameter of the capsule");
+        Parameter::ALL[parameter.index()]
+    }
+}
+
+impl From<Parameter> for description::Parameter {
+    fn from(parameter: Parameter) -> Self {
+        description::Parameter::of(&CAPSULE, parameter as usize)
+    }
+}
+
+impl PartialEq<Parameter> for description::Parameter {
+    fn eq(&self, other: &Parameter) -> bool {
+        *self == description::Parameter::from(*other)
     }
 }
 
@@ -126,7 +181,7 @@ impl Output {
 }
 
 /// How figures show a parameter.
-fn parameter_shown(parameter: Parameter) -> Option<Shown> {
+const fn parameter_shown(parameter: Parameter) -> Option<Shown> {
     let (label, symbol) = match parameter {
         Parameter::M1 => ("Internal mass", "*m*_{1}"),
         Parameter::M2 => ("Capsule mass", "*m*_{2}"),

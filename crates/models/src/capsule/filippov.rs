@@ -8,9 +8,10 @@ use super::drag::Drag;
 use super::drive::{Drive, reduced};
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
-use super::parameters::Parameters;
+use super::parameters::CapsuleParameters as _;
 use super::resistance::Resistance;
 use super::state::{EventKind, Jet, State};
+use crate::description::Parameters;
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.
 const CONTACT: usize = 0;
@@ -54,7 +55,7 @@ impl<L: Lane> Default for Mode<L> {
 impl Capsule<f64> {
     /// One capsule whose drive starts at `phase` [rad].
     pub fn single(parameters: &Parameters, phase: f64) -> Self {
-        Capsule::new(|parameter| parameters[parameter], parameters.resistance, phase)
+        Capsule::new(|parameter| parameters[parameter], parameters.resistance(), phase)
     }
 }
 

@@ -1,8 +1,9 @@
 //! The forces on the capsule in a state of the motion.
 
 use super::parameter::Parameter;
-use super::parameters::Parameters;
+use super::parameters::CapsuleParameters as _;
 use super::state::State;
+use crate::description::Parameters;
 
 /// The forces in a state [N].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,13 +16,14 @@ pub struct Forces {
     pub friction: f64,
 }
 
-impl Parameters {
-    /// The forces in a state, friction set-valued at rest as Filippov has it.
-    pub fn forces(&self, state: &State<f64>) -> Forces {
+impl Forces {
+    /// The forces on a capsule with these parameters in a state, friction set-valued at rest as Filippov has it.
+    pub fn of(parameters: &Parameters, state: &State<f64>) -> Forces {
         let State { r, y1, y2, .. } = *state;
-        let contact = self[Parameter::K2] * (r - self[Parameter::Delta]).max(0.0);
-        let of_mass = self[Parameter::K1] * r + self[Parameter::C] * (y1 - y2) + contact;
-        let friction = if y2 == 0.0 { of_mass } else { self.drag().force(y2.signum(), y2) };
+        let of = |parameter: Parameter| parameters[parameter];
+        let contact = of(Parameter::K2) * (r - of(Parameter::Delta)).max(0.0);
+        let of_mass = of(Parameter::K1) * r + of(Parameter::C) * (y1 - y2) + contact;
+        let friction = if y2 == 0.0 { of_mass } else { parameters.drag().force(y2.signum(), y2) };
         Forces { contact, of_mass, friction }
     }
 }

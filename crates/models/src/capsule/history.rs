@@ -8,6 +8,7 @@ use super::Failure;
 use super::case::Case;
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
+use super::parameters::CapsuleParameters as _;
 use super::state::State;
 
 /// Samples at even times, both ends included.

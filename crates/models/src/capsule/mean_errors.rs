@@ -6,8 +6,9 @@ use capsulemap_engine::orbit::{self, Outcome};
 
 use super::account::{Account, Energies};
 use super::output::{Output, Outputs};
-use super::parameters::Parameters;
+use super::parameters::CapsuleParameters as _;
 use super::state::State;
+use crate::description::Parameters;
 
 /// The outputs that are standard errors.
 pub const ERRORS: [Output; 7] = [

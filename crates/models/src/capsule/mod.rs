@@ -27,6 +27,7 @@ pub mod simulate;
 pub mod state;
 pub mod system;
 
+pub use crate::description::{Fault, Parameters};
 pub use crate::quantity::{Allowed, Dimension, parse_quantity};
 pub use account::{Account, Energies, Impact};
 pub use arc::{ArcPoint, arc};
@@ -39,7 +40,7 @@ pub use history::History;
 pub use locomotion::{Contact, Locomotion, StickSlip};
 pub use output::{Output, Outputs};
 pub use parameter::Parameter;
-pub use parameters::{Fault, Parameters};
+pub use parameters::CapsuleParameters;
 pub use printed::PrintedCapsule;
 pub use resistance::{Resistance, Switching};
 pub use sensitivity::{SMOOTH, Sensitivity, sensitivity};

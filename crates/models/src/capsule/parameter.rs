@@ -15,23 +15,23 @@ macro_rules! parameters {
             pub const ALL: &[Parameter] = &[$(Parameter::$variant,)*];
 
             /// The symbol used in studies, on the command line and in files.
-            pub fn symbol(self) -> &'static str {
+            pub const fn symbol(self) -> &'static str {
                 match self { $(Parameter::$variant => $symbol,)* }
             }
             /// Its dimension.
-            pub fn dimension(self) -> Dimension {
+            pub const fn dimension(self) -> Dimension {
                 match self { $(Parameter::$variant => Dimension::$dimension,)* }
             }
             /// What values it may take.
-            pub fn allowed(self) -> Allowed {
+            pub const fn allowed(self) -> Allowed {
                 match self { $(Parameter::$variant => Allowed::$allowed,)* }
             }
             /// What it is, in a phrase.
-            pub fn meaning(self) -> &'static str {
+            pub const fn meaning(self) -> &'static str {
                 match self { $(Parameter::$variant => $meaning,)* }
             }
             /// Its value where none is given (SI).
-            pub fn default_value(self) -> f64 {
+            pub const fn default_value(self) -> f64 {
                 match self { $(Parameter::$variant => $default,)* }
             }
         }

@@ -11,10 +11,11 @@ use super::drag::Drag;
 use super::drive::{Drive, reduced};
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
-use super::parameters::Parameters;
+use super::parameters::CapsuleParameters as _;
 use super::regime::{CONTACT, PrintedMode, Regime, Rules, sign};
 use super::resistance::Resistance;
 use super::state::{EventKind, Jet, State};
+use crate::description::Parameters;
 
 /// The capsule with the switching as printed, one set of parameters per lane.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +35,7 @@ side_by_side!(PrintedCapsule { k1, c, k2, delta, m1, m2 } with { drive, drag });
 impl PrintedCapsule<f64> {
     /// One capsule whose drive is at `phase` at the section [rad].
     pub fn single(parameters: &Parameters, phase: f64) -> Self {
-        PrintedCapsule::new(|parameter| parameters[parameter], parameters.resistance, phase)
+        PrintedCapsule::new(|parameter| parameters[parameter], parameters.resistance(), phase)
     }
 }
 

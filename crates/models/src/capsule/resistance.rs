@@ -22,6 +22,10 @@ impl Resistance {
         ("medium", Resistance::Medium),
     ];
 
+    /// Their names.
+    pub const OPTIONS: [&'static str; 3] =
+        [Resistance::NAMES[0].0, Resistance::NAMES[1].0, Resistance::NAMES[2].0];
+
     /// Its name.
     pub fn name(self) -> &'static str {
         Resistance::NAMES[self as usize].0
@@ -61,6 +65,9 @@ impl Switching {
     /// Every reading by its name in studies, files and on the command line, in the order of declaration.
     pub const NAMES: [(&str, Switching); 2] =
         [("filippov", Switching::Filippov), ("as-printed", Switching::AsPrinted)];
+
+    /// Their names.
+    pub const OPTIONS: [&'static str; 2] = [Switching::NAMES[0].0, Switching::NAMES[1].0];
 
     /// Its name.
     pub fn name(self) -> &'static str {

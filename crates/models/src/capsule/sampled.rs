@@ -2,8 +2,8 @@
 
 use crate::capsule::drive::reduced;
 use crate::capsule::{
-    AsPrinted, Dimension, Filippov, Jet, Locomotion, Parameter, Parameters, Reading, State,
-    Switching,
+    AsPrinted, CapsuleParameters as _, Dimension, Filippov, Jet, Locomotion, Parameter, Parameters,
+    Reading, State, Switching,
 };
 use capsulemap_engine::flow::{
     Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, cycle,
@@ -179,7 +179,7 @@ pub fn sampled(
     directions: &[Direction],
     tolerance: f64,
 ) -> Result<Samples, Reason> {
-    let of_reading = match motion.parameters.switching {
+    let of_reading = match motion.parameters.switching() {
         Switching::Filippov => sampled_as::<Filippov>,
         Switching::AsPrinted => sampled_as::<AsPrinted>,
     };
@@ -230,7 +230,7 @@ fn followed<R: Reading, L: Lane>(
     tolerance: f64,
 ) -> Result<Vec<Vec<L>>, Reason> {
     let parameter = |it: Parameter| of(Direction::Parameter(it));
-    let law = motion.parameters.resistance;
+    let law = motion.parameters.resistance();
     let system = R::capsule::<L>(parameter, law, 0.0);
     let start = State {
         r: of(Direction::StartR),

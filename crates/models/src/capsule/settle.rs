@@ -13,11 +13,12 @@ use super::history::History;
 use super::mean_errors;
 use super::output::{Output, Outputs};
 use super::parameter::Parameter;
-use super::parameters::Parameters;
+use super::parameters::CapsuleParameters as _;
 use super::resistance::Switching;
 use super::state::State;
 use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
 use super::{Failure, Section};
+use crate::description::Parameters;
 
 /// The mean friction force of a periodic orbit, relative to the forces that act, is rounding below this.
 const BALANCED: f64 = 1e-5;
@@ -69,7 +70,7 @@ pub fn settle(
 /// Cycles are counted from the first section: the part of a cycle before it belongs to none. The time of a
 /// failure is counted from the start.
 pub fn settle_case(case: &Case, protocol: &Protocol) -> Orbit {
-    match case.parameters.switching {
+    match case.parameters.switching() {
         Switching::Filippov => settle_as::<Filippov>(case, protocol),
         Switching::AsPrinted => settle_as::<AsPrinted>(case, protocol),
     }
@@ -89,7 +90,7 @@ pub fn settle_all(cases: &[Case], protocol: &Protocol, machine: Machine) -> Vec<
     let filippov = settle_read::<Filippov>(cases, Switching::Filippov, protocol, machine);
     let printed = settle_read::<AsPrinted>(cases, Switching::AsPrinted, protocol, machine);
     let (mut filippov, mut printed) = (filippov.into_iter(), printed.into_iter());
-    let next = |case: &Case| match case.parameters.switching {
+    let next = |case: &Case| match case.parameters.switching() {
         Switching::Filippov => filippov.next(),
         Switching::AsPrinted => printed.next(),
     };
@@ -104,7 +105,7 @@ fn settle_read<R: Reading>(
     machine: Machine,
 ) -> Vec<Orbit> {
     let chosen: Vec<&Case> =
-        cases.iter().filter(|case| case.parameters.switching == switching).collect();
+        cases.iter().filter(|case| case.parameters.switching() == switching).collect();
     let read: Vec<_> = chosen.iter().map(|case| case.read::<R>()).collect();
     let orbits = orbit::settle_all(&read, protocol, machine).into_iter().zip(chosen);
     orbits.map(|(orbit, case)| Orbit::of::<R>(orbit, case, protocol)).collect()

@@ -10,10 +10,11 @@ use super::account::{Account, Energies};
 use super::case::Case;
 use super::filippov::Capsule;
 use super::locomotion::Locomotion;
-use super::parameters::Parameters;
+use super::parameters::CapsuleParameters as _;
 use super::printed::PrintedCapsule;
 use super::resistance::Switching;
 use super::state::{EventKind, State};
+use crate::description::Parameters;
 
 /// State and sums at the end of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -89,7 +90,7 @@ pub fn simulate_case(case: &Case, cycles: u64, tolerance: f64) -> Simulation {
 /// The same, and no further than to the last section before which it has no more events than `most` says.
 pub fn simulate_case_within(case: &Case, most: SimulationSize, tolerance: f64) -> Simulation {
     let Case { parameters, section_phase, .. } = case;
-    match parameters.switching {
+    match parameters.switching() {
         Switching::Filippov => {
             simulate_on(&Capsule::single(parameters, *section_phase), case, most, tolerance)
         }

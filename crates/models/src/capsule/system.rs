@@ -10,11 +10,12 @@ use super::account::Account;
 use super::filippov::{self, Capsule};
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
-use super::parameters::Parameters;
+use super::parameters::CapsuleParameters as _;
 use super::printed::PrintedCapsule;
 use super::regime::PrintedMode;
 use super::resistance::Resistance;
 use super::state::{EventKind, State};
+use crate::description::Parameters;
 
 /// A reading of the switching between stick and slip.
 pub trait Reading: Copy + Debug + PartialEq + Send + Sync + 'static {
@@ -111,7 +112,7 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
     }
 
     fn system<L: Lane>(&self, of: impl Fn(Parameter) -> L) -> R::In<L> {
-        R::capsule(of, self.parameters.resistance, self.phase)
+        R::capsule(of, self.parameters.resistance(), self.phase)
     }
 
     fn value(&self, parameter: Parameter) -> f64 {
@@ -138,7 +139,7 @@ impl<R: Reading> System<3> for CapsuleSystem<R> {
 
     /// Lanes share one law of resistance.
     fn is_alike(&self, other: &Self) -> bool {
-        self.parameters.resistance == other.parameters.resistance
+        self.parameters.resistance() == other.parameters.resistance()
     }
 
     fn shares_all_but_parameters(&self, other: &Self) -> bool {

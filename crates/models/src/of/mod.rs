@@ -19,10 +19,12 @@ use capsulemap_engine::orbit::passage::{Integrator, OneByOne, ReturnRequest, ima
 use capsulemap_engine::orbit::return_map::{Cycles, append_points, observed};
 use capsulemap_engine::orbit::{Batch, KnownOrbits, Machine, Protocol, Underway, settle_all};
 
+use crate::capsule::description::CAPSULE;
 use crate::capsule::{
-    Account, AsPrinted, CapsuleSystem, Case, Filippov, Orbit, Outputs, Parameter, Parameters,
-    Reading, Section, Sensitivity, Switching, per_cycle, sensitivity,
+    Account, AsPrinted, CapsuleParameters as _, CapsuleSystem, Case, Filippov, Orbit, Outputs,
+    Parameter, Parameters, Reading, Section, Sensitivity, Switching, per_cycle, sensitivity,
 };
+use crate::description::{self, Description};
 use crate::model::{
     Along, Batches, CaseQueue, Cell, Known, Leads, LinearOrbits, Model, Motions, Neighbours,
     Setting, StableOrbit, Unfinished, Unlinked,
@@ -45,10 +47,15 @@ static AS_PRINTED: Of<AsPrinted> = Of(PhantomData);
 // Inlined into another crate, it would have the tables of both implementations, and so the lanes, compiled there once more.
 #[inline(never)]
 pub fn model_of(parameters: &Parameters) -> &'static dyn Model {
-    match parameters.switching {
+    match parameters.switching() {
         Switching::Filippov => &FILIPPOV,
         Switching::AsPrinted => &AS_PRINTED,
     }
+}
+
+/// The model of studies that name none.
+pub fn default_model() -> &'static Description {
+    &CAPSULE
 }
 
 /// The system of a setting.
@@ -58,7 +65,7 @@ fn system<R: Reading>(setting: &Setting) -> CapsuleSystem<R> {
 
 /// What is held along a parameter, for the engine.
 fn along<R: Reading>(it: &Along) -> branch::Along<CapsuleSystem<R>, 3> {
-    let (parameter, tolerance) = (it.parameter, it.tolerance);
+    let (parameter, tolerance) = (Parameter::which(it.parameter), it.tolerance);
     branch::Along { system: system(&it.setting), parameter, tolerance }
 }
 
@@ -240,8 +247,9 @@ impl<R: Reading> Model for Of<R> {
         section: &Section,
         period: u64,
         tolerance: f64,
-        parameter: Parameter,
+        parameter: description::Parameter,
     ) -> Option<Sensitivity> {
+        let parameter = Parameter::which(parameter);
         sensitivity(&system::<R>(setting), (section, period), tolerance, parameter)
     }
 

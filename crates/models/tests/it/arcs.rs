@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use capsulemap_models::capsule::{Parameters, State, arc, simulate};
+use capsulemap_models::capsule::{Forces, Parameters, State, arc, simulate};
 
 #[test]
 fn arcs_follow_each_other_as_one_motion() {
@@ -35,7 +35,7 @@ fn friction_where_sliding_ends_is_that_of_sliding() {
         let points = arc(&parameters, state, phases, 5, 1e-12).expect("it can be followed");
         for pair in points.windows(2) {
             let [before, here] = [pair[0].state.y2, pair[1].state.y2];
-            let friction = parameters.forces(&pair[1].state).friction;
+            let friction = Forces::of(&parameters, &pair[1].state).friction;
             // What is left of a velocity that is zero but for rounding has the sign of the sliding that ends.
             if here.abs() == f64::MIN_POSITIVE {
                 ends += 1;

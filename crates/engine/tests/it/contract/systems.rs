@@ -1,6 +1,7 @@
 //! The systems that the contract is checked on, and the contract of each.
 
 use capsulemap_engine::orbit::{Case, Outcome, Protocol, settle};
+use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
     AsPrinted, CapsuleSystem, Filippov, Parameter, Parameters, Reading, Resistance, State,
 };

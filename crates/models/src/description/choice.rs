@@ -1,0 +1,12 @@
+//! What is chosen beside the values of parameters.
+
+/// One of several laws or readings, by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Choice {
+    /// Its name in studies and files.
+    pub name: &'static str,
+    /// What is chosen, in a phrase.
+    pub meaning: &'static str,
+    /// What may be chosen, by name; the first is chosen where nothing is said.
+    pub options: &'static [&'static str],
+}

@@ -1,0 +1,48 @@
+//! What a model says of itself in words that do not depend on it: parameters and choices by name, and values of them.
+
+pub mod choice;
+pub mod parameter;
+pub mod parameters;
+
+use std::fmt::{self, Debug, Formatter};
+
+pub use choice::Choice;
+pub use parameter::{Parameter, ParameterDescription};
+pub use parameters::{Fault, Parameters};
+
+/// What a model says of itself.
+pub struct Description {
+    /// Its name in studies and files.
+    pub name: &'static str,
+    /// Its parameters, in the order of tables and files.
+    pub parameters: &'static [ParameterDescription],
+    /// What is chosen beside the values of parameters, as the law of a force.
+    pub choices: &'static [Choice],
+}
+
+/// A description is one only with itself.
+impl PartialEq for Description {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self, other)
+    }
+}
+
+impl Eq for Description {}
+
+impl Debug for Description {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Description").field(&self.name).finish()
+    }
+}
+
+impl Description {
+    /// Every parameter, in the order of tables and files.
+    pub fn parameters(&'static self) -> impl DoubleEndedIterator<Item = Parameter> + Clone {
+        (0..self.parameters.len()).map(move |index| Parameter::of(self, index))
+    }
+
+    /// The parameter with this symbol.
+    pub fn parameter(&'static self, symbol: &str) -> Option<Parameter> {
+        self.parameters().find(|it| it.symbol() == symbol)
+    }
+}

@@ -1,0 +1,88 @@
+//! A parameter of a model, with what the model says of it.
+
+use std::fmt::{self, Debug, Formatter};
+
+use super::Description;
+use crate::quantity::{Allowed, Dimension, Quantity};
+
+/// What a model says of a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ParameterDescription {
+    /// The quantity that it is.
+    pub quantity: Quantity,
+    /// What values it may take.
+    pub allowed: Allowed,
+    /// Its value where none is given (SI).
+    pub default: f64,
+    /// Whether a study has to say what it is.
+    pub is_asked_for: bool,
+}
+
+/// A parameter of a model.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Parameter {
+    model: &'static Description,
+    index: usize,
+}
+
+impl Debug for Parameter {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.model.name, self.symbol())
+    }
+}
+
+impl Parameter {
+    /// The parameter of a model at a place among its parameters.
+    pub const fn of(model: &'static Description, index: usize) -> Parameter {
+        Parameter { model, index }
+    }
+
+    /// The model that has it.
+    pub const fn model(self) -> &'static Description {
+        self.model
+    }
+
+    /// Its place among the parameters of its model.
+    pub const fn index(self) -> usize {
+        self.index
+    }
+
+    fn described(self) -> &'static ParameterDescription {
+        &self.model.parameters[self.index]
+    }
+
+    /// It as a quantity.
+    pub fn quantity(self) -> Quantity {
+        self.described().quantity
+    }
+
+    /// The symbol used in studies, on the command line and in files.
+    pub fn symbol(self) -> &'static str {
+        self.described().quantity.name
+    }
+
+    /// Its dimension.
+    pub fn dimension(self) -> Dimension {
+        self.described().quantity.dimension
+    }
+
+    /// What it is, in a phrase.
+    pub fn meaning(self) -> &'static str {
+        self.described().quantity.meaning
+    }
+
+    /// What values it may take.
+    pub fn allowed(self) -> Allowed {
+        self.described().allowed
+    }
+
+    /// Whether a study has to say what it is.
+    pub fn is_asked_for(self) -> bool {
+        self.described().is_asked_for
+    }
+
+    /// Its value where none is given (SI).
+    pub fn default_value(self) -> f64 {
+        self.described().default
+    }
+}
