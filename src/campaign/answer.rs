@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::Output;
+use crate::description::Output;
 use crate::tradeoff::Direction;
 
 use super::count::{count, counted};

@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 
-use crate::capsule::Outputs;
+use crate::description::Outputs;
 use crate::description::{Parameter, Parameters};
 use crate::of::default_model;
 use crate::orbit::Outcome;
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};
-use crate::tradeoff::{Limit, MOST_LIMITS, SMOOTH, Side};
+use crate::tradeoff::{Limit, MOST_LIMITS, Side};
 
 /// A limit is kept to this share of it.
 const KEPT: f64 = 1e-8;
@@ -75,14 +75,15 @@ impl Conditions {
             self.bounds.extend(sides.iter().map(|side| (parameter, *side, *limit)));
             return Ok(());
         }
-        match (SMOOTH.iter().find(|it| it.name() == name), sides) {
+        let smooth = || default_model().outputs().filter(|it| it.is_smooth());
+        match (smooth().find(|it| it.name() == name), sides) {
             (Some(output), [side]) => {
-                self.limits.push(Limit { output: *output, side: *side, value: *limit });
+                self.limits.push(Limit { output, side: *side, value: *limit });
                 Ok(())
             }
             (Some(_), _) => Err("`--refine` takes only < <= > >= of an output".to_owned()),
             (None, _) => {
-                let outputs: Vec<&str> = SMOOTH.iter().map(|it| it.name()).collect();
+                let outputs: Vec<&str> = smooth().map(|it| it.name()).collect();
                 Err(format!(
                     "`--refine` cannot keep it between the cases; it takes parameters, `{}`, `{}` and {}",
                     OUTCOME.name,

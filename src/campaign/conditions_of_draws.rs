@@ -1,6 +1,7 @@
 //! What conditions on cases ask of a motion under tolerances, which has parameters, outputs, a period and an outcome of its own.
 
-use crate::capsule::{Orbit, Output};
+use crate::capsule::Orbit;
+use crate::description::Output;
 use crate::description::{Parameter, Parameters};
 use crate::of::default_model;
 use crate::store::catalogue::{OUTCOME, PERIOD};
@@ -34,7 +35,7 @@ impl Quantity {
             _ => default_model()
                 .parameter(name)
                 .map(Quantity::Parameter)
-                .or_else(|| Output::named(name).map(Quantity::Output)),
+                .or_else(|| default_model().output(name).map(Quantity::Output)),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::capsule::Output;
+use crate::capsule;
 use crate::model::Setting;
 use crate::tradeoff::{Goal, best};
 
@@ -60,7 +60,7 @@ impl Refinement<'_> {
             known.fold([f64::INFINITY, 0.0_f64], |[low, high], it| [low.min(it), high.max(it)]);
         let share = |it: &RefinedMotion| {
             let last = front.partition_point(|of_front| of_front.0 <= price(it));
-            let speed = self.direction.of(it.outputs[Output::ProgressionSpeed]);
+            let speed = self.direction.of(it.outputs[capsule::Output::ProgressionSpeed]);
             last.checked_sub(1).map_or(f64::INFINITY, |last| speed / front[last].1)
         };
         let mut nearest: Vec<&RefinedMotion> = found.iter().collect();

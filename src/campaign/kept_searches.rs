@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::capsule::printable::printable;
-use crate::capsule::{Output, Outputs};
 use crate::description::Parameter;
+use crate::description::{Output, Outputs};
 use crate::store::{Archive, LineFile, Lines, provenance, read_lines, sealed, unsealed};
 use crate::study::Study;
 
@@ -272,7 +272,7 @@ impl Written {
     fn of(motion: &RefinedMotion) -> Written {
         let Slopes { sensitivity, stationarity, held_by } = &motion.slopes;
         let parameter = |(it, value): (Parameter, f64)| (it.symbol().to_owned(), value.into());
-        let output = |it: &Output| (it.name().to_owned(), motion.outputs[*it].into());
+        let output = |(it, value): (Output, f64)| (it.name().to_owned(), value.into());
         let both =
             |(it, slopes): &(Parameter, [f64; 2])| (it.symbol().to_owned(), slopes.map(Real::from));
         Written {
@@ -281,7 +281,7 @@ impl Written {
             section: motion.section,
             phase: motion.phase,
             period: motion.period,
-            outputs: Output::ALL.iter().map(output).collect(),
+            outputs: motion.outputs.each().map(output).collect(),
             sensitivity: sensitivity.iter().map(both).collect(),
             stationarity: stationarity.map(Real::from),
             held_by: held_by.clone(),
@@ -295,9 +295,9 @@ impl Written {
         for parameter in study.base.model().parameters() {
             parameters[parameter] = (*self.parameters.get(parameter.symbol())?).into();
         }
-        let mut outputs = Outputs::unknown();
-        for output in Output::ALL {
-            outputs[*output] = (*self.outputs.get(output.name())?).into();
+        let mut outputs = Outputs::unknown(study.base.model());
+        for output in study.base.model().outputs() {
+            outputs[output] = (*self.outputs.get(output.name())?).into();
         }
         let both = |it: Parameter| {
             let slopes = self.sensitivity.get(it.symbol())?;

@@ -1,7 +1,9 @@
 //! What is told of each motion of a trade-off: its case, its numbers, and how to compute it again.
 
+use crate::capsule;
 use crate::capsule::CapsuleParameters as _;
-use crate::capsule::{Case, Output, Resistance, Section, State, Switching};
+use crate::capsule::{Case, Resistance, Section, State, Switching};
+use crate::description::Output;
 use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
@@ -137,9 +139,9 @@ impl Rows {
             coordinates: all
                 .map(|(it, _, varies)| (*it, motion.coordinate(*it), *varies))
                 .collect(),
-            speed: motion.outputs[Output::ProgressionSpeed],
+            speed: motion.outputs[capsule::Output::ProgressionSpeed],
             price: motion.outputs[of],
-            energy_per_metre: motion.outputs[Output::EnergyPerMetre],
+            energy_per_metre: motion.outputs[capsule::Output::EnergyPerMetre],
             outcome: Outcome::Periodic.name().to_owned(),
             period: Some(motion.period),
             attractor: None,

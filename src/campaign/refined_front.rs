@@ -2,7 +2,9 @@
 
 use serde_json::{Value, json};
 
-use crate::capsule::{Case, Orbit, Output, Outputs, Section, State, settle_case};
+use crate::capsule;
+use crate::capsule::{Case, Orbit, Section, State, settle_case};
+use crate::description::{Output, Outputs};
 use crate::description::{Parameter, Parameters};
 use crate::model::Setting;
 use crate::orbit::{Outcome, Protocol};
@@ -167,7 +169,7 @@ impl Refinement<'_> {
             Start::Drawn { drawn: number, .. } => self.drawn_family(drawn, number),
         };
         let Some((family, first)) = begun else { return Ok(Led::default()) };
-        let before = first.outputs;
+        let before = first.outputs.clone();
         let is_drawn = matches!(search.from, Start::Drawn { .. });
         let found = best(&family, first, search.goal);
         // A case that is the best already is among the motions as it is.
@@ -219,7 +221,10 @@ impl Refinement<'_> {
         };
         let is_found = |it: &Orbit| {
             let is_periodic = it.outcome == Outcome::Periodic && it.period == family.period;
-            is_periodic && [Output::ProgressionSpeed, self.of].iter().all(|of| agrees(it, *of))
+            is_periodic
+                && [capsule::Output::ProgressionSpeed.described(), self.of]
+                    .iter()
+                    .all(|of| agrees(it, *of))
         };
         let is_same = is_found(&orbit) && is_found(&plain);
         let slopes = Slopes {
@@ -243,7 +248,7 @@ impl Refinement<'_> {
     fn gain(&self, goal: Goal, [from, to]: [&Outputs; 2]) -> f64 {
         let ratio = |output: Output| to[output] / from[output];
         match goal {
-            Goal::Speed { .. } => ratio(Output::ProgressionSpeed) - 1.0,
+            Goal::Speed { .. } => ratio(capsule::Output::ProgressionSpeed.into()) - 1.0,
             Goal::Least(output) => 1.0 - ratio(output),
         }
     }
@@ -296,7 +301,10 @@ impl Refinement<'_> {
         each.filter_map(|(parameter, value)| {
             let found = model.sensitivity(setting, &at.section, period, tolerance, parameter)?;
             let relative = |output: Output| value * found.slopes[output] / found.outputs[output];
-            Some((parameter, [relative(Output::ProgressionSpeed), relative(self.of)]))
+            Some((
+                parameter,
+                [relative(capsule::Output::ProgressionSpeed.into()), relative(self.of)],
+            ))
         })
         .collect()
     }

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::capsule::{Output, Outputs, Section};
+use crate::capsule;
+use crate::capsule::Section;
+use crate::description::{Output, Outputs};
 use crate::description::{Parameter, Parameters};
 use crate::study::Coordinate;
 use crate::tradeoff::{Candidate, Family, Hold, Side};
@@ -64,9 +66,9 @@ impl RefinedMotion {
     pub fn candidate(&self, case: usize, of: Output) -> Candidate {
         Candidate {
             case,
-            speed: self.outputs[Output::ProgressionSpeed],
+            speed: self.outputs[capsule::Output::ProgressionSpeed],
             price: self.outputs[of],
-            energy_per_metre: self.outputs[Output::EnergyPerMetre],
+            energy_per_metre: self.outputs[capsule::Output::EnergyPerMetre],
         }
     }
 
@@ -121,8 +123,12 @@ impl Led {
 
 /// Motions that agree in these to this share are one.
 const SAME: f64 = 1e-8;
-const TELL_APART: [Output; 4] =
-    [Output::ProgressionSpeed, Output::WorkPositive, Output::Power, Output::EnergyPerMetre];
+const TELL_APART: [Output; 4] = [
+    capsule::Output::ProgressionSpeed.described(),
+    capsule::Output::WorkPositive.described(),
+    capsule::Output::Power.described(),
+    capsule::Output::EnergyPerMetre.described(),
+];
 
 /// The motions without those that another search has led to already; of equal ones that with the least slope left.
 pub fn distinct(found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {

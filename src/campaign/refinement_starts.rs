@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::capsule::{Case, Output, State, settle_case};
+use crate::capsule;
+use crate::capsule::{Case, State, settle_case};
 use crate::description::Parameter;
 use crate::orbit::Outcome;
 use crate::run::on_all_threads;
@@ -68,7 +69,7 @@ impl Refinement<'_> {
         let phase = self.study.section_phase;
         let case = Case::at_section(parameters, State::default(), phase);
         let orbit = settle_case(&case, &self.protocol());
-        let speed = self.direction.of(orbit.outputs[Output::ProgressionSpeed]);
+        let speed = self.direction.of(orbit.outputs[capsule::Output::ProgressionSpeed]);
         let counts = orbit.outcome == Outcome::Periodic
             && speed > self.at_rest
             && self.conditions.may_begin(&case.parameters, orbit.period);
@@ -115,8 +116,8 @@ impl Refinement<'_> {
             .map(|&at| (self.start(&candidates[at]), speed(at), candidates[at].energy_per_metre))
             .collect();
         known.extend(drawn.iter().map(|it| {
-            let speed = direction.of(it.outputs[Output::ProgressionSpeed]);
-            (self.drawn_start(it), speed, it.outputs[Output::EnergyPerMetre])
+            let speed = direction.of(it.outputs[capsule::Output::ProgressionSpeed]);
+            (self.drawn_start(it), speed, it.outputs[capsule::Output::EnergyPerMetre])
         }));
         let by_seed: Vec<Start> =
             self.drawn_cases(&moving).into_iter().map(|at| self.start(&candidates[at])).collect();
@@ -125,7 +126,7 @@ impl Refinement<'_> {
         known.sort_by(|a, b| a.2.total_cmp(&b.2));
         let cheapest: Vec<Start> = known.iter().take(STARTS).map(|it| it.0).collect();
         let faster = Goal::Speed { direction, budget: None };
-        let cheaper = Goal::Least(Output::EnergyPerMetre);
+        let cheaper = Goal::Least(capsule::Output::EnergyPerMetre.into());
         let unpriced =
             [(fastest, faster), (cheapest, cheaper)].into_iter().flat_map(|(best, goal)| {
                 best.into_iter().chain(by_seed.clone()).map(move |from| (from, goal))
@@ -205,8 +206,12 @@ impl Refinement<'_> {
 /// Fails if the file cannot be read.
 pub(super) fn kinds(table: &CaseTable<'_>) -> Result<Vec<u64>, StoreError> {
     let mut kinds = vec![0_u64; table.cases()];
-    let counts =
-        [Output::ImpactsPerCycle, Output::ForwardSlips, Output::BackwardSlips, Output::Reversals];
+    let counts = [
+        capsule::Output::ImpactsPerCycle,
+        capsule::Output::ForwardSlips,
+        capsule::Output::BackwardSlips,
+        capsule::Output::Reversals,
+    ];
     let names = [PERIOD.name, ATTRACTOR.name].into_iter().chain(counts.map(|it| it.name()));
     for name in names {
         let Some(column) = table.column(name)? else { continue };

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use crate::capsule::{Output, settle_case};
+use crate::capsule;
+use crate::capsule::settle_case;
+use crate::description::Output;
 use crate::experiment::settled_motion::outputs_of_batches;
 use crate::run::{Machine, on_all_threads};
 
@@ -44,7 +46,7 @@ impl Refinement<'_> {
         let end = settle_case(&case, protocol).end;
         Ok(outputs_of_batches(&case, &end, protocol).map(|batches| {
             let means = |of: Output| batches.iter().map(|it| it[of]).collect::<Vec<_>>();
-            MeanErrors::of(&means(Output::ProgressionSpeed), &means(self.of))
+            MeanErrors::of(&means(capsule::Output::ProgressionSpeed.into()), &means(self.of))
         }))
     }
 }

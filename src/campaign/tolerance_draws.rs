@@ -1,6 +1,8 @@
 //! Motions under tolerances of the parameters: each draw is followed from the orbit to where it settles.
 
-use crate::capsule::{Case, Output, Outputs, State, settle_case};
+use crate::capsule;
+use crate::capsule::{Case, State, settle_case};
+use crate::description::Outputs;
 use crate::description::Parameter;
 use crate::orbit::Outcome;
 use crate::run::on_all_threads;
@@ -56,11 +58,15 @@ impl Refinement<'_> {
             let case = Case::at_section(parameters, start, motion.phase);
             let orbit = settle_case(&case, &self.protocol());
             let counts = takes_part(orbit.outcome.name());
-            let outputs = if counts { orbit.outputs } else { Outputs::unknown() };
+            let outputs = if counts {
+                orbit.outputs.clone()
+            } else {
+                Outputs::unknown(self.study.base.model())
+            };
             let price = outputs[self.of];
             let meets = self.asked.met(&case.parameters, &orbit);
             Draw {
-                speed: self.direction.of(outputs[Output::ProgressionSpeed]),
+                speed: self.direction.of(outputs[capsule::Output::ProgressionSpeed]),
                 price,
                 is_kept: orbit.outcome == Outcome::Periodic && orbit.period == motion.period,
                 meets_conditions: meets.map(|it| it && counts),

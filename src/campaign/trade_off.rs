@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::capsule::Output;
+use crate::description::Output;
 use crate::store::{Archive, CaseTable, Condition, Unread, candidates, conditions};
 use crate::study::Study;
 use crate::tradeoff::{
-    Candidate, Direction, MOST_FREE, Optima, SMOOTH, fastest_first, hypervolume, optima as best_of,
+    Candidate, Direction, MOST_FREE, Optima, fastest_first, hypervolume, optima as best_of,
 };
 
 use super::answer::{Answer, Gain, Named};
@@ -162,7 +162,7 @@ impl TradeOff<'_> {
         }
         let found = Conditions::of(conditions);
         let of = self.of.name();
-        let price = (!SMOOTH.contains(&self.of))
+        let price = (!self.of.is_smooth())
             .then(|| format!("`{of}` has no derivatives in the parameters; `--refine` needs them"));
         match (found, price) {
             (Ok(found), None) => Ok(found),

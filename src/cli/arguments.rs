@@ -6,9 +6,11 @@ use std::path::Path;
 
 use super::failure::Failure;
 use crate::campaign::quoted;
+use crate::capsule::Dimension;
 use crate::capsule::parse_quantity;
-use crate::capsule::{Dimension, Output};
+use crate::description::Output;
 use crate::lane::Instructions;
+use crate::of::default_model;
 use crate::run::Machine;
 use crate::study::document::unknown;
 
@@ -41,8 +43,10 @@ pub fn named<T: Copy + Send + Sync + 'static>(
 
 /// The output that an option names.
 pub fn output(option: &str, name: &str) -> Result<Output, String> {
-    let names = Output::ALL.iter().map(|output| output.name());
-    Output::named(name).ok_or_else(|| format!("{option}: {}", unknown("output", name, names)))
+    let names = default_model().outputs().map(|output| output.name());
+    default_model()
+        .output(name)
+        .ok_or_else(|| format!("{option}: {}", unknown("output", name, names)))
 }
 
 /// What follows a command in a hint, so that it runs as it is printed: the study, and the output where it was given.

@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::capsule::Output;
+use crate::capsule;
+use crate::description::Output;
 use crate::store::catalogue::{
     ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR,
     BOUNDARY_DIMENSION, EDGE_HIGH, EDGE_LOW, EDGE_MULTIPLIER_REAL, EDGE_PERIOD, PERIOD, Place,
@@ -14,8 +15,8 @@ use crate::store::catalogue::{
 use crate::store::{Dataset, Variable};
 
 /// The outputs that the list shows.
-const SPEED: Output = Output::ProgressionSpeed;
-const WORK: Output = Output::WorkPositive;
+const SPEED: Output = capsule::Output::ProgressionSpeed.described();
+const WORK: Output = capsule::Output::WorkPositive.described();
 
 /// The attractors in the order of their numbers, each as an object; empty where the file has no table of them, as that of a study
 /// along a parameter, which has a table for each of its values.

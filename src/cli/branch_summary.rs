@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::branch::{Curve, End, SpecialKind, is_followed};
-use crate::capsule::Output;
+use crate::capsule;
 use crate::capsule::branch::{Branch, Found, Special};
 use crate::capsule::printable::printable;
 use crate::description::Parameter;
@@ -87,8 +87,7 @@ fn write_without_curve(text: &mut String, found: &Found) {
 }
 
 fn write_branch(text: &mut String, along: Parameter, branch: &Branch) {
-    let is_stable =
-        |it: &&crate::capsule::branch::Point| it.multipliers.iter().all(|m| m.abs() < 1.0);
+    let is_stable = |it: &&capsule::branch::Point| it.multipliers.iter().all(|m| m.abs() < 1.0);
     let stable = branch.points.iter().filter(is_stable).count();
     let points = branch.points.len();
     let _ = writeln!(
@@ -112,7 +111,7 @@ fn write_branch(text: &mut String, along: Parameter, branch: &Branch) {
             kind_name(*kind),
             ten_digits(point.parameter),
             branch.period,
-            point.measured[Output::ProgressionSpeed] * 1e3
+            point.measured[capsule::Output::ProgressionSpeed] * 1e3
         );
     }
 }
@@ -199,8 +198,9 @@ fn ten_digits(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::capsule::Outputs;
     use crate::capsule::branch::Point;
+    use crate::capsule::description::CAPSULE;
+    use crate::description::Outputs;
     use crate::orbit::matrix::Complex;
     use crate::run::NotContinued;
 
@@ -226,8 +226,8 @@ to = \"5 N\"
 ";
 
     fn point(parameter: f64, multiplier: f64) -> Point {
-        let mut outputs = Outputs::unknown();
-        outputs[Output::ProgressionSpeed] = 0.0125;
+        let mut outputs = Outputs::unknown(&CAPSULE);
+        outputs[capsule::Output::ProgressionSpeed] = 0.0125;
         let multipliers =
             [Complex { re: multiplier, im: 0.0 }, Complex::default(), Complex::default()];
         Point {

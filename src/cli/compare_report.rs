@@ -1,11 +1,11 @@
 //! A comparison in words and as JSON.
 
+use crate::capsule;
 use crate::capsule::CapsuleParameters as _;
 use serde_json::json;
 
 use super::identify::shown;
 use super::varied::Varied;
-use crate::capsule::Output;
 use crate::capsule::Parameter;
 use crate::experiment::comparison::Drive;
 use crate::experiment::estimate::significant;
@@ -250,7 +250,7 @@ pub fn as_json(it: &Comparison, explanations: &[Explanation]) -> serde_json::Val
         "speed_simulated": it.simulated_speed.value,
         "speed_simulated_error": it.simulated_speed.standard_error,
         "spikes_per_cycle": it.spikes,
-        Output::ImpactsPerCycle.name(): it.impacts,
+        capsule::Output::ImpactsPerCycle.name(): it.impacts,
         "impacts_per_cycle_recorded": it.recorded_impacts,
         "errors": it.differences.iter().map(difference).collect::<Vec<_>>(),
         "explanations": explanations.iter().map(explanation).collect::<Vec<_>>(),
@@ -265,7 +265,7 @@ fn explanation(it: &Explanation) -> serde_json::Value {
         "changed": changed.collect::<Vec<_>>(),
         "error": it.misfit[1],
         "error_without": it.misfit[0],
-        Output::ImpactsPerCycle.name(): it.impacts,
-        Output::ProgressionSpeed.name(): it.speed,
+        capsule::Output::ImpactsPerCycle.name(): it.impacts,
+        capsule::Output::ProgressionSpeed.name(): it.speed,
     })
 }

@@ -12,10 +12,11 @@ use super::failure::Failure;
 use super::files;
 use super::terminal::notify;
 use crate::campaign::study_of;
+use crate::capsule::Dimension;
 use crate::capsule::printable::printable;
-use crate::capsule::{Dimension, Output};
 use crate::experiment::{Column, Presence};
 use crate::figure::{Measured, Place};
+use crate::of::default_model;
 use crate::store::{self, Archive, Dataset, StoreError, catalogue};
 use crate::study::appearance::dimension_of;
 use crate::study::document::unknown;
@@ -162,7 +163,7 @@ impl Figure {
         }
         let axes = archive.frame().coordinates.iter().map(|(name, _)| name.as_str());
         let axes = axes.filter(|name| Coordinate::all().any(|it| it.name() == *name));
-        let outputs = Output::ALL.iter().map(|it| it.name());
+        let outputs = default_model().outputs().map(|it| it.name());
         let outputs = outputs.filter(|name| archive.unit(name).is_some());
         let known = COLOURED_BY.into_iter().chain(axes).chain(outputs);
         let fault = unknown("output, axis or kind", name, known);

@@ -14,8 +14,7 @@ use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
 use crate::capsule;
 use crate::capsule::printable::printable;
 use crate::capsule::{
-    Case, Dimension, Orbit, Output, Resistance, Simulation, State, Switching, settle_case,
-    simulate_case,
+    Case, Dimension, Orbit, Resistance, Simulation, State, Switching, settle_case, simulate_case,
 };
 use crate::description::Parameters;
 use crate::explore::{case_json, remarks};
@@ -295,9 +294,9 @@ fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> S
         let _ = writeln!(text, "  {failure}");
         return text;
     }
-    for &output in Output::ALL {
+    for (output, value) in orbit.outputs.each() {
         let unit = if output.unit() == "1" { "" } else { output.unit() };
-        let _ = writeln!(text, "  {:<26} {:>16.9e} {unit}", output.name(), orbit.outputs[output]);
+        let _ = writeln!(text, "  {:<26} {:>16.9e} {unit}", output.name(), value);
     }
     for remark in remarks(parameters, orbit) {
         let _ = writeln!(text, "  {remark}");

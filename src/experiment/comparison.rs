@@ -1,5 +1,6 @@
 //! A recording beside the simulation of the same case: aligned in phase, with what differs.
 
+use crate::capsule;
 use crate::capsule::CapsuleParameters as _;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -12,9 +13,9 @@ use super::recording::{Recording, Sampling};
 use super::settled_motion::{Settled, TOLERANCE};
 use super::simulated_span::check_span;
 use super::spikes::{Spikes, contact_period, contacts, per_cycle, spikes};
+use crate::capsule::Case;
 use crate::capsule::Parameter;
 use crate::capsule::sampled::{Signal, Started, sampled};
-use crate::capsule::{Case, Output};
 use crate::orbit::{Outcome, Protocol};
 
 /// Signals that repeat themselves with the motion, the best first.
@@ -236,7 +237,7 @@ impl Record<'_> {
             recorded_period,
             spikes,
             recorded_impacts,
-            impacts: settled.orbit.outputs[Output::ImpactsPerCycle],
+            impacts: settled.orbit.outputs[capsule::Output::ImpactsPerCycle],
             is_countable,
             motion,
             differences,

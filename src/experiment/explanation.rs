@@ -4,9 +4,10 @@ use super::agreement::Difference;
 use super::comparison::Comparison;
 use super::course::Recorded;
 use super::motion_fit::{Effort, Free, Side, best_values};
+use crate::capsule;
 use crate::capsule::CapsuleParameters as _;
 use crate::capsule::Parameter;
-use crate::capsule::{Case, Output, State, settle_case};
+use crate::capsule::{Case, State, settle_case};
 use crate::orbit::{Outcome, Protocol};
 
 /// What parameters would have to be for the simulation to describe a recording.
@@ -72,8 +73,8 @@ pub fn explain(
         Ok(Explanation {
             changed,
             misfit: [without, with],
-            impacts: orbit.outputs[Output::ImpactsPerCycle],
-            speed: orbit.outputs[Output::ProgressionSpeed],
+            impacts: orbit.outputs[capsule::Output::ImpactsPerCycle],
+            speed: orbit.outputs[capsule::Output::ProgressionSpeed],
         })
     };
     choices.iter().map(explanation).collect()

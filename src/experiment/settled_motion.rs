@@ -2,10 +2,12 @@
 
 use super::estimate::Estimate;
 use super::progression::Progression;
+use crate::capsule;
 use crate::capsule::Parameter;
 use crate::capsule::drive::reduced;
 use crate::capsule::sampled::{Signal, Started, sampled};
-use crate::capsule::{Case, Orbit, Output, Outputs, State, settle_case};
+use crate::capsule::{Case, Orbit, State, settle_case};
+use crate::description::Outputs;
 use crate::model::{Batches, Setting};
 use crate::of::model_of;
 use crate::orbit::{Outcome, Protocol};
@@ -39,10 +41,10 @@ impl Settled {
         if let Some(failure) = &orbit.failure {
             return Err(format!("the simulation cannot be followed: {:?}", failure.reason));
         }
-        let value = orbit.outputs[Output::ProgressionSpeed];
+        let value = orbit.outputs[capsule::Output::ProgressionSpeed];
         let repeats = orbit.outcome == Outcome::Periodic;
         let batches = if repeats { None } else { outputs_of_batches(case, &orbit.end, &protocol) };
-        let speed_of = |it: &Outputs| it[Output::ProgressionSpeed];
+        let speed_of = |it: &Outputs| it[capsule::Output::ProgressionSpeed];
         let speeds = batches.map(|all| all.iter().map(speed_of).collect::<Vec<_>>());
         let speed = Progression {
             value,

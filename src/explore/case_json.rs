@@ -1,9 +1,10 @@
 //! One case in full as JSON, and what its numbers do not say by themselves.
 
+use crate::capsule;
 use crate::capsule::CapsuleParameters as _;
 use serde_json::{Map, Value, json};
 
-use crate::capsule::{Orbit, Output, Simulation};
+use crate::capsule::{Orbit, Simulation};
 use crate::description::Parameters;
 use crate::orbit::{Certificate, Outcome, Proof};
 use crate::store::catalogue::{CERTIFICATE, CYCLES, OUTCOME, PERIOD};
@@ -39,8 +40,8 @@ fn orbit_json(orbit: &Orbit) -> Value {
     object.insert(OUTCOME.name.to_owned(), json!(orbit.outcome));
     object.insert(PERIOD.name.to_owned(), json!(orbit.period));
     object.insert(CYCLES.name.to_owned(), json!(orbit.cycles));
-    for &output in Output::ALL {
-        object.insert(output.name().to_owned(), json!(orbit.outputs[output]));
+    for (output, value) in orbit.outputs.each() {
+        object.insert(output.name().to_owned(), json!(value));
     }
     let Certificate { proof, multipliers, neutral, .. } = orbit.certificate;
     object.insert(CERTIFICATE.name.to_owned(), json!(Proof::NAMES[proof as usize].0));
@@ -57,8 +58,11 @@ pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Some([r, y1, y2]) = orbit.certificate.neutral {
         let [r, y1, y2] = [r, y1, y2].map(|x| (x * 1e4).round() / 1e4 + 0.0);
-        let speed =
-            if orbit.outputs[Output::StickShare] < 1.0 { ", and with it the speed" } else { "" };
+        let speed = if orbit.outputs[capsule::Output::StickShare] < 1.0 {
+            ", and with it the speed"
+        } else {
+            ""
+        };
         remarks.push(format!(
             "neutral: as far as rounding tells (a multiplier within 1e-7 of one) this is one of a family of \
              periodic orbits along (omega r, y1, y2) = ({r}, {y1}, {y2}); the start decides which{speed}"
@@ -72,10 +76,10 @@ pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
         );
     }
     let [exponent, uncertainty, excluded, defect] = [
-        Output::LyapunovExponent,
-        Output::LyapunovUncertainty,
-        Output::ExcludedPeriod,
-        Output::IntegrationDefect,
+        capsule::Output::LyapunovExponent,
+        capsule::Output::LyapunovUncertainty,
+        capsule::Output::ExcludedPeriod,
+        capsule::Output::IntegrationDefect,
     ]
     .map(|output| orbit.outputs[output]);
     match orbit.outcome {
@@ -83,7 +87,7 @@ pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
             remarks.push(format!("no period up to {excluded} cycles, as far as the section shows"));
         }
         Outcome::Undecided if excluded.is_nan() => {
-            let residual = orbit.outputs[Output::SectionResidual];
+            let residual = orbit.outputs[capsule::Output::SectionResidual];
             remarks.push(format!(
                 "undecided: what was found is not certified; its largest defect is {defect:.1e} (allowed: \
                  10 000 tolerances), and integrated without derivatives it closes to {residual:.1e} (allowed: \

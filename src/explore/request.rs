@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::capsule::Output;
+use crate::description::Output;
 use crate::store::Archive;
 
 /// What a report is made of.

@@ -26,15 +26,16 @@ use super::symbol::Symbol;
 use super::text::Text;
 use super::track::elsewhere;
 use super::view::View;
-use crate::capsule::Output;
+use crate::capsule;
 use crate::store::catalogue::{Entry, SECTION, SECTION_R};
 
 /// Panels of the diagram, unless others are asked for: those of them that the results hold.
-pub const PANELS: [Entry; 4] = [SECTION_R, SPEED, Entry::of_output(Output::WorkPositive), EXPONENT];
+pub const PANELS: [Entry; 4] =
+    [SECTION_R, SPEED, Entry::of_case(capsule::Output::WorkPositive.quantity()), EXPONENT];
 /// The output whose sign matters.
-const EXPONENT: Entry = Entry::of_output(Output::LyapunovExponent);
+const EXPONENT: Entry = Entry::of_case(capsule::Output::LyapunovExponent.quantity());
 /// The speed of the capsule.
-const SPEED: Entry = Entry::of_output(Output::ProgressionSpeed);
+const SPEED: Entry = Entry::of_case(capsule::Output::ProgressionSpeed.quantity());
 /// Symbols of one kind nearer than this would hide each other [pt].
 const SYMBOL_SPACING: f64 = 2.6;
 

@@ -21,7 +21,6 @@ use super::text::Text;
 use super::ticks::significant;
 use super::view::View;
 use crate::capsule;
-use crate::capsule::Output;
 use crate::store::catalogue::{
     ATTRACTOR, ATTRACTOR_INDEX, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
     ATTRACTOR_SHARE_ERROR, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, Entry, Place, SECTION,
@@ -45,7 +44,7 @@ const NAMED: usize = 10;
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// The speed on the attractor.
-const SPEED: Entry = Entry::of_output(Output::ProgressionSpeed);
+const SPEED: Entry = Entry::of_case(capsule::Output::ProgressionSpeed.quantity());
 
 /// What basins read: the attractor of each case, and the table of the attractors.
 fn reads(_: &Drawing) -> Names {

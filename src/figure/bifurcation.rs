@@ -24,12 +24,13 @@ use super::text::Text;
 use super::varied::along;
 use super::view::View;
 use super::{attractors, category, event_marks, track};
-use crate::capsule::Output;
+use crate::capsule;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, Entry, Place, SECTION_R};
 use crate::study::Drawing;
 
 /// Panels of a bifurcation diagram, unless others are asked for.
-const PANELS: [Entry; 2] = [SECTION_R, Entry::of_output(Output::ProgressionSpeed)];
+const PANELS: [Entry; 2] =
+    [SECTION_R, Entry::of_case(capsule::Output::ProgressionSpeed.quantity())];
 
 /// One direction along the axis: its place on the axis of directions, its name and colour.
 struct Branch {

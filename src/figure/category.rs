@@ -15,11 +15,11 @@ use super::style::{
 };
 use super::text::Text;
 use super::view::View;
-use crate::capsule::Output;
+use crate::capsule;
 use crate::store::catalogue::{ATTRACTOR, Entry, OUTCOME, PERIOD};
 
 /// Tells motions in which the capsule never slides.
-const STICK_SHARE: Entry = Entry::of_output(Output::StickShare);
+const STICK_SHARE: Entry = Entry::of_case(capsule::Output::StickShare.quantity());
 /// What is read of each case, beside that by which they are sorted.
 pub const READS: [Entry; 2] = [OUTCOME, STICK_SHARE];
 /// Distance between a frame and the legend [pt].

@@ -19,12 +19,12 @@ use super::style::{ONE_COLUMN, TWO_COLUMNS};
 use super::text::Text;
 use super::ticks::short;
 use super::view::View;
-use crate::capsule::Output;
+use crate::capsule;
 use crate::store::catalogue::{self, Entry, Type};
 use crate::study::{Direction, Drawing, Sweep};
 
 /// The output shown, unless another is asked for.
-const OUTPUT: Entry = Entry::of_output(Output::ProgressionSpeed);
+const OUTPUT: Entry = Entry::of_case(capsule::Output::ProgressionSpeed.quantity());
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
 /// Height of each of several frames [pt].

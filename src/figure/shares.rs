@@ -22,7 +22,7 @@ use super::text::Text;
 use super::ticks::significant;
 
 use super::view::View;
-use crate::capsule::Output;
+use crate::capsule;
 use crate::store::catalogue::{
     ATTRACTOR, ATTRACTOR_AXIS, ATTRACTOR_INTEGRITY_ERROR, ATTRACTOR_INTEGRITY_FACTOR,
     ATTRACTOR_KIND, ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
@@ -40,7 +40,7 @@ const ROWS: usize = 1 << 14;
 const NOTHING: f64 = 1e-9;
 
 /// The speed of each case.
-const SPEED: Entry = Entry::of_output(Output::ProgressionSpeed);
+const SPEED: Entry = Entry::of_case(capsule::Output::ProgressionSpeed.quantity());
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };

@@ -19,17 +19,20 @@ use super::trade_off_fronts::{Front, marked};
 use super::trade_off_motions::{Best, Motions};
 use super::trade_off_table::{BETWEEN, OPEN, table};
 use super::view::View;
-use crate::capsule::Output;
+use crate::capsule;
 use crate::store::catalogue::{self, DRAW};
 use crate::study::{Coordinate, Drawing};
 use crate::tradeoff::Candidate;
 
 /// The energy shown, unless another is asked for.
-const ENERGY: catalogue::Entry = catalogue::Entry::of_output(Output::WorkPositive);
+const ENERGY: catalogue::Entry =
+    catalogue::Entry::of_case(capsule::Output::WorkPositive.quantity());
 /// The speed shown.
-pub const SPEED: catalogue::Entry = catalogue::Entry::of_output(Output::ProgressionSpeed);
+pub const SPEED: catalogue::Entry =
+    catalogue::Entry::of_case(capsule::Output::ProgressionSpeed.quantity());
 /// What marks a motion with the least of it.
-const PER_METRE: catalogue::Entry = catalogue::Entry::of_output(Output::EnergyPerMetre);
+const PER_METRE: catalogue::Entry =
+    catalogue::Entry::of_case(capsule::Output::EnergyPerMetre.quantity());
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
 

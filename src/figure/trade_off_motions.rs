@@ -4,7 +4,9 @@ use super::error::FigureError;
 use super::outcome::Outcomes;
 use super::view::View;
 use crate::campaign::{KeptFront, RefinedMotion, Searched};
-use crate::capsule::Output;
+use crate::capsule;
+use crate::description::Output;
+use crate::of::default_model;
 use crate::store::catalogue::DRAW;
 use crate::store::takes_part;
 use crate::study::Coordinate;
@@ -75,11 +77,11 @@ impl<'a> Motions<'a> {
         (price, free): (&str, &[&str]),
         sought: Option<&'a KeptFront>,
     ) -> Result<Motions<'a>, FigureError> {
-        let Some(output) = Output::named(price) else {
+        let Some(output) = default_model().output(price) else {
             return Err(view.unfit(format!("`{price}` is no output of a motion")));
         };
         let (prices, speeds) =
-            (view.take(price, free)?, view.take(Output::ProgressionSpeed.name(), free)?);
+            (view.take(price, free)?, view.take(capsule::Output::ProgressionSpeed.name(), free)?);
         if prices.len() != speeds.len() {
             return Err(view.unfit(format!("`{price}` does not have one value per case")));
         }
@@ -181,12 +183,12 @@ fn energies_per_metre(
     price: Output,
     free: &[&str],
 ) -> Result<Vec<f64>, FigureError> {
-    let name = Output::EnergyPerMetre.name();
+    let name = capsule::Output::EnergyPerMetre.name();
     if view.dataset.variable(name).is_some() {
         return Ok(view.take(name, free)?.into_iter().collect());
     }
     match price {
-        Output::Power => Ok(Vec::new()),
+        _ if price == capsule::Output::Power => Ok(Vec::new()),
         _ => Ok(vec![f64::NAN; view.take(price.name(), free)?.len()]),
     }
 }

@@ -15,8 +15,9 @@ use super::unit::ShownUnit;
 use super::varied::varied;
 use crate::campaign::KeptFront;
 use crate::capsule;
-use crate::capsule::Output;
+use crate::description::Output;
 use crate::description::Parameter;
+use crate::of::default_model;
 use crate::store::catalogue::{self, DIRECTION, DRAW, Entry, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::study::axis::{is_within, range};
@@ -267,7 +268,8 @@ impl<'a> View<'a> {
     pub fn variable(&self, name: &str) -> Result<&'a Variable, FigureError> {
         self.dataset.variable(name).ok_or_else(|| {
             let variables = &self.dataset.variables;
-            let drawable = self.drawing.kind.can_show(Output::ALL).into_iter().map(str::to_owned);
+            let outputs: Vec<Output> = default_model().outputs().collect();
+            let drawable = self.drawing.kind.can_show(&outputs).into_iter().map(str::to_owned);
             let present: Vec<String> = drawable.filter(|it| variables.contains_key(it)).collect();
             let all = || variables.keys().cloned().collect();
             self.missing("variable", name, if present.is_empty() { all() } else { present })

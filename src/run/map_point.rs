@@ -1,6 +1,7 @@
 //! What is known and inferred of the cases of a map that is refined by outputs.
 
-use crate::capsule::Output;
+use crate::capsule;
+use crate::description::Output;
 use crate::orbit::Outcome;
 use crate::study::{Refine, Refining, Study};
 
@@ -27,7 +28,7 @@ impl MapPoint {
         let value = |(of, most): &(Output, f64)| output(*of) / most;
         MapPoint {
             period: if outcome == Outcome::Periodic { period } else { 0 },
-            rests: output(Output::StickShare) >= 1.0,
+            rests: output(capsule::Output::StickShare.into()) >= 1.0,
             values: within(study).iter().map(value).collect(),
         }
     }

@@ -3,7 +3,7 @@
 use ndarray::{ArrayD, IxDyn};
 
 use crate::attractor::{Entropy, Integrity, Share};
-use crate::capsule::Output;
+use crate::of::default_model;
 use crate::orbit::Outcome;
 use crate::run::{
     AttractorEvent, AttractorRow, AttractorTable, Attractors, Edge, InferredSample, SharesAt,
@@ -100,7 +100,7 @@ fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
     if rows.iter().any(|row| row.settling.is_some()) {
         real(ATTRACTOR_CYCLES_MEAN, &|row| row.settling.map_or(f64::NAN, |it| it.mean));
     }
-    for &output in Output::ALL {
+    for output in default_model().outputs() {
         let entry = Place::Attractor.of(Entry::of_output(output));
         real(entry, &|row| row.record.orbit.outputs[output]);
     }

@@ -13,7 +13,8 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::capsule::Output;
+use crate::capsule;
+use crate::description::Output;
 use crate::orbit::Outcome;
 use crate::run::Record;
 use crate::study::{Refine, Study};
@@ -35,7 +36,7 @@ const TRIES: u32 = 10;
 /// Time between two tries.
 const PAUSE: Duration = Duration::from_millis(100);
 /// The output that tells whether the capsule never slides.
-const STICK_SHARE: Output = Output::StickShare;
+const STICK_SHARE: Output = capsule::Output::StickShare.described();
 /// Lines that are shown of a change of the study.
 const LINES_SHOWN: usize = 6;
 

@@ -2,8 +2,8 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::capsule::Output;
 use crate::capsule::branch::Point;
+use crate::description::Output;
 use crate::description::Parameter;
 use crate::orbit::matrix::Complex;
 

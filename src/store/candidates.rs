@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::capsule;
-use crate::capsule::Output;
+use crate::description::Output;
 use crate::orbit::Outcome;
 use crate::tradeoff::Candidate;
 
@@ -30,9 +30,10 @@ pub fn candidates(
     of: Output,
     conditions: &[Condition],
 ) -> Result<Candidates, Unread> {
-    let speeds = column(table, Output::ProgressionSpeed)?;
+    let speeds = column(table, capsule::Output::ProgressionSpeed.into())?;
     let prices = column(table, of)?;
-    let metres = column(table, Output::EnergyPerMetre).unwrap_or_else(|_| unknown(table));
+    let metres =
+        column(table, capsule::Output::EnergyPerMetre.into()).unwrap_or_else(|_| unknown(table));
     let outcomes = table.column(OUTCOME.name)?.unwrap_or_else(|| unknown(table));
     let mut found = Candidates { all: Vec::new(), left_out: BTreeMap::new() };
     for case in 0..table.cases() {
@@ -78,18 +79,22 @@ fn column(table: &CaseTable<'_>, output: Output) -> Result<Column, Unread> {
         let values = a.values.iter().zip(&b.values).map(|(a, b)| of(*a, *b)).collect();
         Ok(Some(Column { values, ..a }))
     };
-    let (work, omega) = (Output::WorkPositive.name(), capsule::Parameter::Omega.symbol());
-    let speed = Output::ProgressionSpeed.name();
+    let (work, omega) = (capsule::Output::WorkPositive.name(), capsule::Parameter::Omega.symbol());
+    let speed = capsule::Output::ProgressionSpeed.name();
     let found = match output {
-        Output::Power => both(work, omega, |work, omega| work * omega / std::f64::consts::TAU)?,
-        Output::EnergyPerMetre => match column(table, Output::Power) {
-            Ok(power) => table.column(speed)?.map(|speeds| {
-                let both = power.values.iter().zip(&speeds.values);
-                let values = both.map(|(power, speed)| power / speed.abs()).collect();
-                Column { values, ..power }
-            }),
-            Err(_) => None,
-        },
+        _ if output == capsule::Output::Power => {
+            both(work, omega, |work, omega| work * omega / std::f64::consts::TAU)?
+        }
+        _ if output == capsule::Output::EnergyPerMetre => {
+            match column(table, capsule::Output::Power.into()) {
+                Ok(power) => table.column(speed)?.map(|speeds| {
+                    let both = power.values.iter().zip(&speeds.values);
+                    let values = both.map(|(power, speed)| power / speed.abs()).collect();
+                    Column { values, ..power }
+                }),
+                Err(_) => None,
+            }
+        }
         _ => None,
     };
     found.ok_or_else(|| Unread::Faults(vec![format!("the file has no `{}`", output.name())]))

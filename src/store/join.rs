@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use crate::capsule::{Output, REASONS, State};
+use crate::capsule;
+use crate::capsule::{REASONS, State};
+use crate::description::Output;
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
 use crate::run::{
@@ -133,7 +135,7 @@ impl<'a> Blocks<'a> {
     pub fn map_points(&self) -> Result<Vec<(usize, MapPoint)>, StoreError> {
         // Blocks have the share of rest even where the results leave it out.
         let refined = within(self.study).iter().map(|(output, _)| *output);
-        let of: Vec<Output> = refined.chain([Output::StickShare]).collect();
+        let of: Vec<Output> = refined.chain([capsule::Output::StickShare.described()]).collect();
         let mut known = Vec::new();
         for file in &self.files {
             let columns: Result<Vec<Vec<f64>>, StoreError> =
@@ -249,7 +251,7 @@ impl<'a> Blocks<'a> {
             filling.put_integers(places, &periods);
         } else if let Some(values) = refined.and_then(|of| values.get(of)) {
             filling.put_reals(places, values);
-        } else if name == Output::StickShare.name() {
+        } else if name == capsule::Output::StickShare.name() {
             let shares: Vec<f64> =
                 rests.iter().map(|rests| if *rests { 1.0 } else { f64::NAN }).collect();
             filling.put_reals(places, &shares);

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Output, description};
+use crate::capsule::description;
 use crate::quantity::Dimension;
 
 use super::Coordinate;
 use super::document::unknown;
+use crate::of::default_model;
 use crate::quantity::units::{expectation, unit};
 
 /// What figures show besides what the model describes, with its dimension.
@@ -177,7 +178,7 @@ pub type Settings = BTreeMap<String, QuantitySettings>;
 /// The dimension of what a figure can show; the error names what there is.
 pub fn dimension_of(name: &str) -> Result<Dimension, String> {
     let coordinates = Coordinate::all().map(Coordinate::quantity);
-    let outputs = Output::ALL.iter().map(|it| it.quantity());
+    let outputs = default_model().outputs().map(|it| it.quantity());
     let of_motions = [description::POINTS, description::SIGNALS, description::TOGETHER].concat();
     let described = coordinates.chain(outputs).chain(of_motions);
     let described = described.map(|it| (it.name, it.dimension));

@@ -4,9 +4,11 @@ use std::hash::Hash;
 
 use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 
-use crate::capsule::{Case, Output, State};
+use crate::capsule::{Case, State};
+use crate::description::Output;
 use crate::description::Parameters;
 use crate::model::Model;
+use crate::of::default_model;
 use crate::of::model_of;
 use crate::orbit::Protocol;
 
@@ -63,7 +65,7 @@ impl Default for Study {
             protocol: Protocol::default(),
             early_decision: true,
             refine: None,
-            outputs: Output::ALL.to_vec(),
+            outputs: default_model().outputs().collect(),
             branches: Vec::new(),
             drawings: Vec::new(),
         }

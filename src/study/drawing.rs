@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Output, description};
+use crate::capsule::description;
+use crate::description::Output;
 
 use super::appearance::Settings;
 use super::grid::Direction;

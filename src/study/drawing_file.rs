@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Dimension, Output, parse_quantity};
+use crate::capsule::{Dimension, parse_quantity};
+use crate::description::Output;
 use crate::description::Parameter;
 
 use super::appearance::{Setting, Settings, dimension_of};

@@ -1,6 +1,6 @@
 //! What a study file says of cases that need not be followed to the end, or not at all: `[basin]` and `[map]`.
 
-use crate::capsule::Output;
+use crate::description::Output;
 
 use super::document::{Entry, Table, unknown};
 use super::refinement::AXES;
@@ -56,7 +56,7 @@ pub(super) fn read_map(
         let entries = table.entries();
         let each = entries.iter().filter_map(|(name, entry)| read_most(name, entry, &names));
         let mut within: Vec<(Output, f64)> = each.collect();
-        within.sort_by_key(|(output, _)| *output as usize);
+        within.sort_by_key(|(output, _)| output.index());
         if entries.is_empty() {
             entry.fault("expected at least one output with the most by which it may differ");
         }

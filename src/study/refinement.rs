@@ -1,6 +1,6 @@
 //! Which cases of a grid are computed where it is refined between cases that differ, and which are inferred.
 
-use crate::capsule::Output;
+use crate::description::Output;
 
 /// The most axes of a refined grid.
 pub const AXES: usize = 5;

@@ -2,7 +2,9 @@
 
 use toml::de::DeTable;
 
-use crate::capsule::{Dimension, Output};
+use crate::capsule::Dimension;
+use crate::description::Output;
+use crate::of::default_model;
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
 
@@ -165,9 +167,10 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
 }
 
 fn read_outputs(top: &Table<'_, '_>) -> Vec<Output> {
-    let Some(entry) = top.entry("outputs") else { return Output::ALL.to_vec() };
+    let model = default_model();
+    let Some(entry) = top.entry("outputs") else { return model.outputs().collect() };
     let names: Vec<(&str, Output)> =
-        Output::ALL.iter().map(|&output| (output.name(), output)).collect();
+        model.outputs().map(|output| (output.name(), output)).collect();
     let mut outputs = Vec::new();
     for entry in entry.list() {
         match entry.one_of("output", &names) {

@@ -2,7 +2,8 @@
 
 use std::fmt::Debug;
 
-use crate::capsule::{Dimension, Output, State};
+use crate::capsule::{Dimension, State};
+use crate::description::Output;
 use crate::description::Parameter;
 use crate::orbit::{HistorySpan, Protocol};
 
@@ -25,7 +26,7 @@ impl Study {
         if !self.title.is_empty() {
             document.put("title", text(&self.title));
         }
-        if self.outputs != Output::ALL {
+        if !self.outputs.iter().copied().eq(self.base.model().outputs()) {
             let names = self.outputs.iter().map(|output| text(output.name()));
             document.put("outputs", list(names));
         }

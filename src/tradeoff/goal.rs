@@ -1,6 +1,7 @@
 //! What a search makes small, and what limits it, relative to where it began.
 
-use crate::capsule::Output;
+use crate::capsule;
+use crate::description::Output;
 use crate::orbit::matrix::{dot, solve};
 
 use super::hold::Side;
@@ -80,7 +81,9 @@ impl Objective {
     /// What is to be small, in SI.
     fn value(&self, at: &OperatingPoint) -> f64 {
         match self.goal {
-            Goal::Speed { direction, .. } => -direction.of(at.outputs[Output::ProgressionSpeed]),
+            Goal::Speed { direction, .. } => {
+                -direction.of(at.outputs[capsule::Output::ProgressionSpeed])
+            }
             Goal::Least(output) => at.outputs[output],
         }
     }
@@ -92,9 +95,9 @@ impl Objective {
         };
         let gradient = match self.goal {
             Goal::Speed { direction, .. } => {
-                let speed = at.outputs[Output::ProgressionSpeed];
+                let speed = at.outputs[capsule::Output::ProgressionSpeed];
                 let sign = if direction.of(speed) == speed { 1.0 } else { -1.0 };
-                slopes(Output::ProgressionSpeed, -sign / self.unit)
+                slopes(capsule::Output::ProgressionSpeed.into(), -sign / self.unit)
             }
             Goal::Least(output) => slopes(output, 1.0 / self.unit),
         };

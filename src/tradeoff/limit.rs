@@ -1,6 +1,6 @@
 //! What outputs of a motion may be at most or at least.
 
-use crate::capsule::Output;
+use crate::description::Output;
 
 use super::hold::Side;
 

@@ -12,7 +12,7 @@ mod quadratic;
 mod slope;
 mod surface;
 
-pub use crate::capsule::{SMOOTH, Sensitivity, sensitivity};
+pub use crate::capsule::{Sensitivity, sensitivity};
 pub use ascent::{Best, STATIONARY, best, left};
 pub use front::{NOISE, front, speed_at_rest};
 pub use goal::Goal;

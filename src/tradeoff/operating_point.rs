@@ -1,7 +1,8 @@
 //! A periodic orbit at some values of free parameters, with the derivatives of what a trade-off is between.
 
-use crate::capsule::{EventKind, Output, Outputs, Section};
+use crate::capsule::{EventKind, Section};
 use crate::description::Parameter;
+use crate::description::{Output, Outputs};
 use crate::flow::Event;
 use crate::model::{Model, Setting, StableOrbit};
 use crate::orbit::matrix::Complex;
@@ -98,14 +99,15 @@ impl Family {
         let (period, tolerance) = (self.period, self.tolerance);
         let StableOrbit { section, multipliers, events } =
             self.model.stable_orbit(&setting, guess, period, tolerance)?;
+        let unknown = Outputs::unknown(setting.parameters.model());
         let mut point = OperatingPoint {
             shares: *shares,
             section,
             multipliers,
             events,
-            outputs: Outputs::unknown(),
+            outputs: unknown.clone(),
             section_slopes: [[0.0; 3]; MOST],
-            slopes: [Outputs::unknown(); MOST],
+            slopes: std::array::from_fn(|_| unknown.clone()),
         };
         for (place, (parameter, [low, high])) in self.free.iter().enumerate() {
             let found =

@@ -179,7 +179,7 @@ fn refined(archive: &Archive, study: &Study) {
     let trade_off = TradeOff {
         archive,
         file: archive.path(),
-        of: Output::WorkPositive,
+        of: Output::WorkPositive.into(),
         direction: Direction::Either,
         conditions: None,
         at_rest: None,

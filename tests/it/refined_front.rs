@@ -1,7 +1,8 @@
 //! `capsulemap tradeoff --refine`: motions between the cases, against brute force around them and the same search begun otherwise.
 
 use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Output, Outputs, Parameter, Parameters, State, settle};
+use capsulemap::capsule::{Output, Parameter, Parameters, State, settle};
+use capsulemap::description::Outputs;
 use capsulemap::orbit::{Outcome, Protocol};
 use serde_json::Value;
 
@@ -120,6 +121,7 @@ fn derivatives_are_those_of_differences(point: &Value) {
             [(Output::ProgressionSpeed, "sensitivity"), (Output::Power, "sensitivity_of_power")];
         for (output, key) in each {
             let [coarse, fine] = pairs
+                .clone()
                 .map(|(h, ahead, behind)| (ahead[output] - behind[output]) / (2.0 * h * range));
             let slope = (4.0 * fine - coarse) / 3.0;
             let relative = slope * parameters[parameter] / number(point, output.name());

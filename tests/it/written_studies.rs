@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Allowed, Output, Parameter, Parameters, Resistance, State, Switching};
+use capsulemap::capsule::description::CAPSULE;
+use capsulemap::capsule::{Allowed, Parameter, Parameters, Resistance, State, Switching};
 use capsulemap::orbit::{HistorySpan, Protocol};
 use capsulemap::study::{
     Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Draws, FirstOrbit, Grid, Inherit,
@@ -203,7 +204,7 @@ impl Random {
         study.section_phase = unless(Coordinate::SectionPhase, self.number(Allowed::Finite));
         study.protocol = self.protocol();
         if self.is_so() {
-            study.outputs = self.some(Output::ALL);
+            study.outputs = self.some(&CAPSULE.outputs().collect::<Vec<_>>());
         }
         for number in 0..if has_branches { self.below(3) } else { 0 } {
             let name = format!("{number}{}", self.text(&[]));

@@ -10,8 +10,8 @@ use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::matrix::Complex;
 use capsulemap_engine::orbit::{Machine, Protocol};
 
-use crate::capsule::{Case, EventKind, Orbit, Outputs, Section, Sensitivity};
-use crate::description::{Parameter, Parameters};
+use crate::capsule::{Case, EventKind, Orbit, Section, Sensitivity};
+use crate::description::{Outputs, Parameter, Parameters};
 
 /// What a motion depends on beside its start.
 #[derive(Debug, Clone, PartialEq)]

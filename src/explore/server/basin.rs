@@ -9,7 +9,7 @@ use super::explored::Explored;
 use super::motion::{followed, shown};
 use crate::attractor::{Attractor, Label};
 use crate::capsule;
-use crate::capsule::{Case, Output, State, settle_case};
+use crate::capsule::{Case, State, settle_case};
 use crate::figure::{label_colour, shown_quantity};
 use crate::flow::stop;
 use crate::orbit::{Machine, Outcome};
@@ -173,7 +173,7 @@ impl Basin {
                 "label": number,
                 (OUTCOME.name): orbit.outcome.name(),
                 (PERIOD.name): is_periodic.then_some(orbit.period),
-                "speed": orbit.outputs[Output::ProgressionSpeed],
+                "speed": orbit.outputs[capsule::Output::ProgressionSpeed],
                 "colour": label_colour(Some(number as u32)),
                 "points": points.map(|it| [it[0], it[1]]).collect::<Vec<_>>(),
             }))

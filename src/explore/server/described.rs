@@ -3,7 +3,8 @@
 use serde_json::{Value, json};
 
 use super::explored::Explored;
-use crate::capsule::Output;
+use crate::capsule;
+use crate::description::Output;
 use crate::description::Parameter;
 use crate::figure::shown_quantity;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, OUTCOME, PERIOD, STUDY_TEXT};
@@ -27,7 +28,7 @@ pub fn described(explored: &Explored, running: Value) -> Value {
     let directions = frame.coordinate(DIRECTION.name).map(|it| &it.flags);
     let directions = directions.into_iter().flatten().map(|(_, name)| name.clone());
     let kinds = [OUTCOME, PERIOD, ATTRACTOR].map(|it| it.name);
-    let outputs = Output::ALL.iter().map(|it| it.name()).chain(kinds);
+    let outputs = study.base.model().outputs().map(|it| it.name()).chain(kinds);
     let outputs = outputs.filter(|name| archive.unit(name).is_some()).map(shown);
     let varied = study.case_set.varied();
     let is_held =
@@ -48,7 +49,7 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "outputs": outputs.collect::<Vec<_>>(),
         "constants": study.base.model().parameters().filter(is_held).map(constant).collect::<Vec<_>>(),
         "has_curves": has_branches(frame),
-        "has_trade_off": has(Output::ProgressionSpeed) && (has(Output::WorkPositive) || has(Output::Power)),
+        "has_trade_off": has(capsule::Output::ProgressionSpeed.into()) && (has(capsule::Output::WorkPositive.into()) || has(capsule::Output::Power.into())),
         "running": running,
         "inherits": study.inherit().is_some(),
         "program": provenance::program(&frame.attributes),

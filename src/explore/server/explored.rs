@@ -6,7 +6,8 @@ use std::sync::{Arc, Mutex};
 
 use super::answer::Refusal;
 use crate::campaign::{CampaignError, study_of};
-use crate::capsule::{Case, Output, State};
+use crate::capsule::{Case, State};
+use crate::description::Output;
 use crate::figure::variables;
 use crate::orbit::Protocol;
 use crate::store::catalogue::{SECTION_R, SECTION_Y1, SECTION_Y2};

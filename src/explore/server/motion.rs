@@ -11,7 +11,7 @@ use super::explored::{Explored, Near};
 use crate::campaign::command;
 use crate::capsule;
 use crate::capsule::{
-    ArcPoint, Case, Forces, Orbit, Output, Simulation, SimulationSize, State, arc, settle_case,
+    ArcPoint, Case, Forces, Orbit, Simulation, SimulationSize, State, arc, settle_case,
     simulate_case_within,
 };
 use crate::explore::case_json::{case_json, remarks};
@@ -121,7 +121,7 @@ fn end_of_simulation(simulation: &Simulation, cycles: u64) -> Option<String> {
 
 /// Why the speed of a case of the file is not the one that the file has, where its motion does not repeat.
 fn other_mean(explored: &Explored, near: &Near, orbit: &Orbit) -> Result<Option<String>, Refusal> {
-    let kept = explored.kept(&near.position, Output::ProgressionSpeed)?;
+    let kept = explored.kept(&near.position, capsule::Output::ProgressionSpeed.into())?;
     let differs = near.is_exact && orbit.outcome != Outcome::Periodic;
     Ok(kept.filter(|_| differs).map(|kept| {
         format!(

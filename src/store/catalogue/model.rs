@@ -1,7 +1,8 @@
 //! The entries of parameters, starts and outputs, whose names the floors below give.
 
-use crate::capsule::Output;
+use crate::description::Output;
 use crate::description::Parameter;
+use crate::quantity::Quantity;
 use crate::study::Coordinate;
 
 use super::entry::{Entry, Extent};
@@ -18,8 +19,13 @@ impl Entry {
     }
 
     /// An output of each case.
-    pub const fn of_output(output: Output) -> Entry {
-        Entry::of(output.quantity(), Extent::Case)
+    pub fn of_output(output: impl Into<Output>) -> Entry {
+        Entry::of_case(output.into().quantity())
+    }
+
+    /// A number of each case.
+    pub const fn of_case(quantity: Quantity) -> Entry {
+        Entry::of(quantity, Extent::Case)
     }
 }
 

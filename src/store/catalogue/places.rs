@@ -2,7 +2,6 @@
 
 use std::sync::LazyLock;
 
-use crate::capsule::Output;
 use crate::of::default_model;
 use crate::study::Coordinate;
 
@@ -122,7 +121,7 @@ impl Place {
             columns.extend(SECTION.map(|entry| self.here(entry)));
         }
         if of_orbits {
-            let outputs = Output::ALL.iter().map(|&output| Entry::of_output(output));
+            let outputs = default_model().outputs().map(Entry::of_output);
             columns.extend(outputs.map(|entry| self.here(entry)));
         }
         columns
@@ -134,7 +133,7 @@ pub fn all() -> &'static [Entry] {
     // The names of the columns are put together once, and live as long as the program.
     static ALL: LazyLock<Vec<Entry>> = LazyLock::new(|| {
         let study = Coordinate::all().map(Entry::of_coordinate);
-        let outputs = Output::ALL.iter().map(|&output| Entry::of_output(output));
+        let outputs = default_model().outputs().map(Entry::of_output);
         let fixed = [cases::FIXED, cases::DESCRIBED, tables::FIXED, branches::FIXED].concat();
         let columns = Place::ALL.into_iter().flat_map(Place::columns);
         study.chain(outputs).chain(fixed).chain(columns).collect()

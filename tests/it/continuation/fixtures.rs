@@ -1,8 +1,10 @@
 //! Synthetic branches for the tests of the file and the figures of branches.
 
 use capsulemap::branch::{Curve, End, SpecialKind};
+use capsulemap::capsule::Output;
 use capsulemap::capsule::branch::{Branch, Found, Point, Special};
-use capsulemap::capsule::{Output, Outputs};
+use capsulemap::capsule::description::CAPSULE;
+use capsulemap::description::Outputs;
 use capsulemap::orbit::matrix::Complex;
 use capsulemap::run::{Continued, NotContinued};
 use capsulemap::store::{self, Dataset};
@@ -52,7 +54,7 @@ kind = "map"
 
 /// An orbit whose motion is determined by `height`.
 pub fn point(parameter: f64, period: usize, height: f64, multiplier: f64) -> Point {
-    let mut outputs = Outputs::unknown();
+    let mut outputs = Outputs::unknown(&CAPSULE);
     outputs[Output::ProgressionSpeed] = 1e-3 * height;
     outputs[Output::WorkNet] = 2e-3 + 1e-4 * height * height;
     Point {

@@ -4,11 +4,11 @@ use capsulemap_engine::lane::Dual;
 use capsulemap_engine::orbit::matrix::{less_identity, solve};
 use capsulemap_engine::orbit::return_map::{Cycles, jacobian, observed, returned, seeded};
 use capsulemap_models::capsule::CapsuleParameters as _;
+use capsulemap_models::capsule::sensitivity;
 use capsulemap_models::capsule::{
     Account, Capsule, CapsuleSystem, Filippov, Output, Outputs, Parameter, Parameters, Section,
     per_cycle,
 };
-use capsulemap_models::capsule::{SMOOTH, sensitivity};
 
 use super::derivatives::{Periodic, periodic};
 use super::differences::{TOLERANCE, slope};
@@ -131,6 +131,6 @@ fn the_outputs_that_are_smooth_are_those_that_have_derivatives() {
     let found = sensitivity(&system, (&point, period), STUDIES, Parameter::Omega);
     let outputs = found.expect("an orbit goes on").outputs;
     for output in Output::ALL {
-        assert_eq!(SMOOTH.contains(output), !outputs[*output].is_nan(), "{}", output.name());
+        assert_eq!(output.is_smooth(), !outputs[*output].is_nan(), "{}", output.name());
     }
 }

@@ -4,13 +4,12 @@ use capsulemap_engine::branch::{self, NotFollowed};
 use capsulemap_engine::orbit::Protocol;
 
 use super::failure::Section;
-use super::output::Outputs;
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::resistance::Switching;
 use super::settle::outputs;
 use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
-use crate::description::{self, Parameters};
+use crate::description::{self, Outputs, Parameters};
 
 /// A periodic motion on a branch, with its outputs.
 pub type Point = branch::Point<Outputs, 3>;
@@ -77,6 +76,9 @@ fn follow_as<R: Reading>(request: &Request) -> Result<Found, NotFollowed> {
     Ok(found.map(|value, orbit| {
         let mut parameters = parameters.clone();
         parameters[*along] = value;
-        orbit.map_or_else(Outputs::unknown, |orbit| outputs(&orbit, &parameters, recurrence))
+        orbit.map_or_else(
+            || Outputs::unknown(parameters.model()),
+            |orbit| outputs(&orbit, &parameters, recurrence).into(),
+        )
     }))
 }

@@ -3,10 +3,10 @@
 use crate::quantity::shown::{shown, words};
 use crate::quantity::{Dimension, Quantity, Shown};
 
-use super::output::Output;
+use super::output::{Output, Outputs};
 use super::parameter::Parameter;
 use super::resistance::{Resistance, Switching};
-use crate::description::{self, Choice, Description, ParameterDescription};
+use crate::description::{self, Choice, Description, OutputDescription, ParameterDescription};
 
 /// Quantities as constants: constant, name, dimension and shown form in a first line, the meaning in a second.
 macro_rules! quantities {
@@ -127,13 +127,24 @@ pub static CAPSULE: Description = Description {
             options: &Switching::OPTIONS,
         },
     ],
+    outputs: &OUTPUTS,
+};
+
+static OUTPUTS: [OutputDescription; Output::ALL.len()] = {
+    let mut all = [Output::ProgressionSpeed.description(); Output::ALL.len()];
+    let mut index = 0;
+    while index < all.len() {
+        all[index] = Output::ALL[index].description();
+        index += 1;
+    }
+    all
 };
 
 static PARAMETERS: [ParameterDescription; Parameter::ALL.len()] = {
-    let mut all = [Parameter::M1.described(); Parameter::ALL.len()];
+    let mut all = [Parameter::M1.description(); Parameter::ALL.len()];
     let mut index = 0;
     while index < all.len() {
-        all[index] = Parameter::ALL[index].described();
+        all[index] = Parameter::ALL[index].description();
         index += 1;
     }
     all
@@ -141,13 +152,18 @@ static PARAMETERS: [ParameterDescription; Parameter::ALL.len()] = {
 
 impl Parameter {
     /// What the capsule says of it; Table 1 of the paper leaves four of them open.
-    const fn described(self) -> ParameterDescription {
+    const fn description(self) -> ParameterDescription {
         let (name, dimension, meaning) = (self.symbol(), self.dimension(), self.meaning());
         let quantity = Quantity { name, dimension, meaning, shown: parameter_shown(self) };
         let (allowed, default) = (self.allowed(), self.default_value());
         let is_asked_for =
             matches!(self, Parameter::Omega | Parameter::Pd | Parameter::K2 | Parameter::Delta);
         ParameterDescription { quantity, allowed, default, is_asked_for }
+    }
+
+    /// It as a parameter that the description of the capsule tells of.
+    pub const fn described(self) -> description::Parameter {
+        description::Parameter::of(&CAPSULE, self as usize)
     }
 
     /// Of a parameter of the capsule, which it is.
@@ -162,7 +178,7 @@ impl Parameter {
 
 impl From<Parameter> for description::Parameter {
     fn from(parameter: Parameter) -> Self {
-        description::Parameter::of(&CAPSULE, parameter as usize)
+        parameter.described()
     }
 }
 
@@ -177,6 +193,34 @@ impl Output {
     pub const fn quantity(self) -> Quantity {
         let (name, dimension, meaning) = (self.name(), self.dimension(), self.meaning());
         Quantity { name, dimension, meaning, shown: output_shown(self) }
+    }
+
+    /// What the capsule says of it.
+    const fn description(self) -> OutputDescription {
+        OutputDescription { quantity: self.quantity(), is_smooth: self.is_smooth() }
+    }
+
+    /// It as an output that the description of the capsule tells of.
+    pub const fn described(self) -> description::Output {
+        description::Output::of(&CAPSULE, self as usize)
+    }
+}
+
+impl From<Output> for description::Output {
+    fn from(output: Output) -> Self {
+        output.described()
+    }
+}
+
+impl PartialEq<Output> for description::Output {
+    fn eq(&self, other: &Output) -> bool {
+        *self == description::Output::from(*other)
+    }
+}
+
+impl From<Outputs> for description::Outputs {
+    fn from(outputs: Outputs) -> Self {
+        description::Outputs::new(&CAPSULE, outputs.values())
     }
 }
 

@@ -43,7 +43,7 @@ pub use parameter::Parameter;
 pub use parameters::CapsuleParameters;
 pub use printed::PrintedCapsule;
 pub use resistance::{Resistance, Switching};
-pub use sensitivity::{SMOOTH, Sensitivity, sensitivity};
+pub use sensitivity::{Sensitivity, sensitivity};
 pub use settle::{Orbit, outputs, per_cycle, settle, settle_all, settle_as, settle_case};
 pub use simulate::{
     Event, Sample, Simulation, SimulationSize, simulate, simulate_case, simulate_case_within,

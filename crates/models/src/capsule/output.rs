@@ -76,6 +76,27 @@ impl Output {
         Output::ALL.iter().copied().find(|output| output.name() == name)
     }
 
+    /// Whether it changes smoothly along a family of orbits with the same events, so that it has derivatives in the parameters.
+    pub const fn is_smooth(self) -> bool {
+        matches!(
+            self,
+            Output::ProgressionSpeed
+                | Output::ProgressionPerCycle
+                | Output::WorkNet
+                | Output::WorkPositive
+                | Output::WorkAbsolute
+                | Output::WorkActuator
+                | Output::FrictionLoss
+                | Output::DamperLoss
+                | Output::CostOfTransport
+                | Output::Power
+                | Output::EnergyPerMetre
+                | Output::StickShare
+                | Output::PeakContactForce
+                | Output::GrazingMargin
+        )
+    }
+
     /// Its unit; "1" where it has none.
     pub const fn unit(self) -> &'static str {
         self.dimension().unit()
@@ -90,6 +111,11 @@ impl<L: Lane> Outputs<L> {
     /// Nothing known: NaN everywhere.
     pub fn unknown() -> Self {
         Outputs([L::splat(f64::NAN); Output::ALL.len()])
+    }
+
+    /// The values, in the order of [`Output::ALL`].
+    pub fn values(&self) -> &[L] {
+        &self.0
     }
 
     /// The same outputs in other numbers.

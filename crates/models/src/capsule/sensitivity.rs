@@ -1,8 +1,7 @@
 //! How the section point and the outputs of a periodic orbit change with a parameter, exactly.
 
-use crate::capsule::{
-    Account, CapsuleSystem, Output, Outputs, Parameter, Reading, Section, per_cycle,
-};
+use crate::capsule::{Account, CapsuleSystem, Parameter, Reading, Section, per_cycle};
+use crate::description;
 use capsulemap_engine::flow::System;
 use capsulemap_engine::lane::Dual;
 use capsulemap_engine::orbit::matrix::{less_identity, solve};
@@ -13,33 +12,15 @@ const DIRECTIONS: usize = 4;
 /// The place of the parameter among them.
 const FREE: usize = 3;
 
-/// The outputs that change smoothly along a family of orbits with the same events.
-pub const SMOOTH: [Output; 14] = [
-    Output::ProgressionSpeed,
-    Output::ProgressionPerCycle,
-    Output::WorkNet,
-    Output::WorkPositive,
-    Output::WorkAbsolute,
-    Output::WorkActuator,
-    Output::FrictionLoss,
-    Output::DamperLoss,
-    Output::CostOfTransport,
-    Output::Power,
-    Output::EnergyPerMetre,
-    Output::StickShare,
-    Output::PeakContactForce,
-    Output::GrazingMargin,
-];
-
 /// The outputs of a periodic orbit, and its derivatives in a parameter.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Sensitivity {
-    /// The outputs of [`SMOOTH`], NaN for others (SI).
-    pub outputs: Outputs,
+    /// The outputs that are smooth, NaN for others (SI).
+    pub outputs: description::Outputs,
     /// The derivative of the section point (SI).
     pub section_slope: Section,
     /// The derivatives of the outputs (SI).
-    pub slopes: Outputs,
+    pub slopes: description::Outputs,
 }
 
 /// The derivatives of the periodic orbit through `section`, of this `period` [cycles], in a parameter; none where the motion
@@ -80,8 +61,8 @@ pub fn sensitivity<R: Reading>(
         it.gradient[FREE] + by_section.sum::<f64>()
     };
     Some(Sensitivity {
-        outputs: outputs.map(|it| it.value),
+        outputs: outputs.map(|it| it.value).into(),
         section_slope,
-        slopes: outputs.map(total),
+        slopes: outputs.map(total).into(),
     })
 }

@@ -18,7 +18,7 @@ use super::resistance::Switching;
 use super::state::State;
 use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
 use super::{Failure, Section};
-use crate::description::Parameters;
+use crate::description::{self, Parameters};
 
 /// The mean friction force of a periodic orbit, relative to the forces that act, is rounding below this.
 const BALANCED: f64 = 1e-5;
@@ -41,7 +41,7 @@ pub struct Orbit {
     /// Cycles followed since the first section, measuring included.
     pub cycles: u64,
     /// Per-cycle sums and the like; NaN where the case failed.
-    pub outputs: Outputs,
+    pub outputs: description::Outputs,
     /// Section points of the measured cycles, up to `Protocol::points`.
     pub section: Vec<Section>,
     /// Impacts of the measured cycles, up to `Protocol::impact_points`.
@@ -153,7 +153,7 @@ impl Orbit {
         protocol: &Protocol,
     ) -> Orbit {
         Orbit {
-            outputs: outputs(&orbit, parameters, protocol.recurrence),
+            outputs: outputs(&orbit, parameters, protocol.recurrence).into(),
             outcome: orbit.outcome,
             period: orbit.period,
             certificate: orbit.certificate,

@@ -1,12 +1,14 @@
 //! What a model says of itself in words that do not depend on it: parameters and choices by name, and values of them.
 
 pub mod choice;
+pub mod output;
 pub mod parameter;
 pub mod parameters;
 
 use std::fmt::{self, Debug, Formatter};
 
 pub use choice::Choice;
+pub use output::{Output, OutputDescription, Outputs};
 pub use parameter::{Parameter, ParameterDescription};
 pub use parameters::{Fault, Parameters};
 
@@ -18,6 +20,8 @@ pub struct Description {
     pub parameters: &'static [ParameterDescription],
     /// What is chosen beside the values of parameters, as the law of a force.
     pub choices: &'static [Choice],
+    /// The numbers that sum up a case, in the order of tables and files.
+    pub outputs: &'static [OutputDescription],
 }
 
 /// A description is one only with itself.
@@ -39,6 +43,16 @@ impl Description {
     /// Every parameter, in the order of tables and files.
     pub fn parameters(&'static self) -> impl DoubleEndedIterator<Item = Parameter> + Clone {
         (0..self.parameters.len()).map(move |index| Parameter::of(self, index))
+    }
+
+    /// Every output, in the order of tables and files.
+    pub fn outputs(&'static self) -> impl DoubleEndedIterator<Item = Output> + Clone {
+        (0..self.outputs.len()).map(move |index| Output::of(self, index))
+    }
+
+    /// The output called `name`.
+    pub fn output(&'static self, name: &str) -> Option<Output> {
+        self.outputs().find(|it| it.name() == name)
     }
 
     /// The parameter with this symbol.

@@ -21,10 +21,10 @@ use capsulemap_engine::orbit::{Batch, KnownOrbits, Machine, Protocol, Underway, 
 
 use crate::capsule::description::CAPSULE;
 use crate::capsule::{
-    Account, AsPrinted, CapsuleParameters as _, CapsuleSystem, Case, Filippov, Orbit, Outputs,
-    Parameter, Parameters, Reading, Section, Sensitivity, Switching, per_cycle, sensitivity,
+    Account, AsPrinted, CapsuleParameters as _, CapsuleSystem, Case, Filippov, Orbit, Parameter,
+    Parameters, Reading, Section, Sensitivity, Switching, per_cycle, sensitivity,
 };
-use crate::description::{self, Description};
+use crate::description::{self, Description, Outputs};
 use crate::model::{
     Along, Batches, CaseQueue, Cell, Known, Leads, LinearOrbits, Model, Motions, Neighbours,
     Setting, StableOrbit, Unfinished, Unlinked,
@@ -271,7 +271,7 @@ impl<R: Reading> Model for Of<R> {
         let batch = |_| {
             let mut account = Account::new(of, 0);
             point = observed(&system.system(of), point, &cycles, &mut account).ok()?;
-            Some(per_cycle(&account, of, cycles.count as f64))
+            Some(per_cycle(&account, of, cycles.count as f64).into())
         };
         (0..batches.count).map(batch).collect()
     }
