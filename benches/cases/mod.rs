@@ -1,7 +1,6 @@
 //! The cases that the benches measure: those of Figs 5 to 7 and a grid, computed from rest side by side.
 
-use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Parameter, Parameters, State};
+use capsulemap::capsule::{CapsuleParameters as _, Parameter, Parameters, State};
 use capsulemap::lane::Instructions;
 
 use super::lanes::{End, integrate_from};

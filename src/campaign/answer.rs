@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::description::Output;
-use crate::tradeoff::Direction;
-
 use super::count::{count, counted};
 use super::motion_row::Row;
 use super::robustness::Tolerances;
+use crate::description::Output;
+use crate::tradeoff::Direction;
 
 /// What is best among the motions of a file.
 pub struct Answer {

@@ -1,14 +1,13 @@
 //! The margins of the optima of a trade-off: how far their parameters may change.
 
-use crate::capsule::Section;
-use crate::model::{Along, Model, Setting};
-use crate::run::on_all_threads;
-
 use super::answer::Answer;
 use super::error::CampaignError;
 use super::margins::{Margin, Margins, margin};
 use super::refined_front::{Refinement, Whereabouts};
 use super::report::{Event, Reports, Stage};
+use crate::capsule::Section;
+use crate::model::{Along, Model, Setting};
+use crate::run::on_all_threads;
 
 /// So far a parameter is followed, down and up, as a share of its value.
 const REACH: [f64; 2] = [-0.5, 0.5];

@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 
-use crate::description::Outputs;
-use crate::description::{Parameter, Parameters};
+use crate::description::{Outputs, Parameter, Parameters};
 use crate::of::default_model;
 use crate::orbit::Outcome;
 use crate::store::catalogue::{OUTCOME, PERIOD};

@@ -1,8 +1,7 @@
 //! What conditions on cases ask of a motion under tolerances, which has parameters, outputs, a period and an outcome of its own.
 
 use crate::capsule::Orbit;
-use crate::description::Output;
-use crate::description::{Parameter, Parameters};
+use crate::description::{Output, Parameter, Parameters};
 use crate::of::default_model;
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};

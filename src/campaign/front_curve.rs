@@ -2,13 +2,11 @@
 
 use serde_json::{Value, json};
 
-use crate::capsule;
-use crate::model::Setting;
-use crate::tradeoff::{Goal, best};
-
 use super::error::CampaignError;
 use super::refined_front::Refinement;
 use super::refined_motion::{Led, RefinedMotion};
+use crate::model::Setting;
+use crate::tradeoff::{Goal, best};
 
 /// Neighbours on the front differ in price by no more than the range of prices over this.
 const PARTS: f64 = 64.0;
@@ -60,7 +58,7 @@ impl Refinement<'_> {
             known.fold([f64::INFINITY, 0.0_f64], |[low, high], it| [low.min(it), high.max(it)]);
         let share = |it: &RefinedMotion| {
             let last = front.partition_point(|of_front| of_front.0 <= price(it));
-            let speed = self.direction.of(it.outputs[capsule::Output::ProgressionSpeed]);
+            let speed = self.direction.of(it.outputs.speed());
             last.checked_sub(1).map_or(f64::INFINITY, |last| speed / front[last].1)
         };
         let mut nearest: Vec<&RefinedMotion> = found.iter().collect();

@@ -11,15 +11,13 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::capsule::printable::printable;
-use crate::description::Parameter;
-use crate::description::{Output, Outputs};
-use crate::store::{Archive, LineFile, Lines, provenance, read_lines, sealed, unsealed};
-use crate::study::Study;
-
 use super::count::count;
 use super::error::CampaignError;
 use super::refined_motion::{Led, RefinedMotion, Slopes, Start};
+use crate::capsule::printable::printable;
+use crate::description::{Output, Outputs, Parameter};
+use crate::store::{Archive, LineFile, Lines, provenance, read_lines, sealed, unsealed};
+use crate::study::Study;
 
 /// The extension of the file, beside that of the results.
 const EXTENSION: &str = "searches";

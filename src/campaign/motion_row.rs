@@ -1,19 +1,16 @@
 //! What is told of each motion of a trade-off: its case, its numbers, and how to compute it again.
 
-use crate::capsule;
-use crate::capsule::CapsuleParameters as _;
-use crate::capsule::{Case, Resistance, Section, State, Switching};
-use crate::description::Output;
+use super::margins::Margins;
+use super::mean_errors::MeanErrors;
+use super::refined_motion::{RefinedMotion, Slopes};
+use super::robustness::Robustness;
+use crate::capsule::{Case, Section, State};
+use crate::description::{Output, Parameters};
 use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
 use crate::study::Coordinate;
 use crate::tradeoff::Candidate;
-
-use super::margins::Margins;
-use super::mean_errors::MeanErrors;
-use super::refined_motion::{RefinedMotion, Slopes};
-use super::robustness::Robustness;
 
 /// The columns from which the rows are read.
 pub struct Rows {
@@ -139,9 +136,9 @@ impl Rows {
             coordinates: all
                 .map(|(it, _, varies)| (*it, motion.coordinate(*it), *varies))
                 .collect(),
-            speed: motion.outputs[capsule::Output::ProgressionSpeed],
+            speed: motion.outputs.speed(),
             price: motion.outputs[of],
-            energy_per_metre: motion.outputs[capsule::Output::EnergyPerMetre],
+            energy_per_metre: motion.outputs[motion.outputs.model().energy_per_distance()],
             outcome: Outcome::Periodic.name().to_owned(),
             period: Some(motion.period),
             attractor: None,
@@ -183,11 +180,11 @@ pub fn command(case: &Case, protocol: &Protocol) -> String {
     }
     let Protocol { tolerance, max_cycles, .. } = protocol;
     text += &format!(" --tolerance {tolerance:?} --max-cycles {max_cycles}");
-    if parameters.switching() != Switching::default() {
-        text += &format!(" --friction-switching {}", parameters.switching().name());
-    }
-    if parameters.resistance() != Resistance::default() {
-        text += &format!(" --resistance {}", parameters.resistance().name());
+    let usual = Parameters::of(parameters.model());
+    for ((name, chosen), (_, usual)) in parameters.choices().zip(usual.choices()) {
+        if chosen != usual {
+            text += &format!(" --{} {chosen}", name.replace('_', "-"));
+        }
     }
     text
 }

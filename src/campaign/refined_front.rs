@@ -2,10 +2,16 @@
 
 use serde_json::{Value, json};
 
-use crate::capsule;
+use super::conditions::Conditions;
+use super::conditions_of_draws::OfDraws;
+use super::error::CampaignError;
+use super::kept_searches::KeptSearches;
+use super::motion_row::Row;
+use super::refined_motion::{DrawnMotion, Led, RefinedMotion, Slopes, Start, distinct, words};
+use super::replay::Replay;
+use super::report::silent;
 use crate::capsule::{Case, Orbit, Section, State, settle_case};
-use crate::description::{Output, Outputs};
-use crate::description::{Parameter, Parameters};
+use crate::description::{Output, Outputs, Parameter, Parameters};
 use crate::model::Setting;
 use crate::orbit::{Outcome, Protocol};
 use crate::run::{Machine, on_all_threads};
@@ -15,15 +21,6 @@ use crate::study::{Coordinate, Study};
 use crate::tradeoff::{
     Best, Candidate, Direction, Family, Goal, MOST_FREE, OperatingPoint, best, left,
 };
-
-use super::conditions::Conditions;
-use super::conditions_of_draws::OfDraws;
-use super::error::CampaignError;
-use super::kept_searches::KeptSearches;
-use super::motion_row::Row;
-use super::refined_motion::{DrawnMotion, Led, RefinedMotion, Slopes, Start, distinct, words};
-use super::replay::Replay;
-use super::report::silent;
 
 /// An orbit that is settled to has the speed and the price of the one that was found to this share.
 const AGREES: f64 = 1e-6;
@@ -222,9 +219,7 @@ impl Refinement<'_> {
         let is_found = |it: &Orbit| {
             let is_periodic = it.outcome == Outcome::Periodic && it.period == family.period;
             is_periodic
-                && [capsule::Output::ProgressionSpeed.described(), self.of]
-                    .iter()
-                    .all(|of| agrees(it, *of))
+                && [self.study.base.model().speed(), self.of].iter().all(|of| agrees(it, *of))
         };
         let is_same = is_found(&orbit) && is_found(&plain);
         let slopes = Slopes {
@@ -248,7 +243,7 @@ impl Refinement<'_> {
     fn gain(&self, goal: Goal, [from, to]: [&Outputs; 2]) -> f64 {
         let ratio = |output: Output| to[output] / from[output];
         match goal {
-            Goal::Speed { .. } => ratio(capsule::Output::ProgressionSpeed.into()) - 1.0,
+            Goal::Speed { .. } => ratio(self.study.base.model().speed()) - 1.0,
             Goal::Least(output) => 1.0 - ratio(output),
         }
     }
@@ -301,10 +296,7 @@ impl Refinement<'_> {
         each.filter_map(|(parameter, value)| {
             let found = model.sensitivity(setting, &at.section, period, tolerance, parameter)?;
             let relative = |output: Output| value * found.slopes[output] / found.outputs[output];
-            Some((
-                parameter,
-                [relative(capsule::Output::ProgressionSpeed.into()), relative(self.of)],
-            ))
+            Some((parameter, [relative(self.study.base.model().speed()), relative(self.of)]))
         })
         .collect()
     }

@@ -2,10 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::capsule;
 use crate::capsule::Section;
-use crate::description::{Output, Outputs};
-use crate::description::{Parameter, Parameters};
+use crate::description::{Output, Outputs, Parameter, Parameters};
 use crate::study::Coordinate;
 use crate::tradeoff::{Candidate, Family, Hold, Side};
 
@@ -66,9 +64,9 @@ impl RefinedMotion {
     pub fn candidate(&self, case: usize, of: Output) -> Candidate {
         Candidate {
             case,
-            speed: self.outputs[capsule::Output::ProgressionSpeed],
+            speed: self.outputs.speed(),
             price: self.outputs[of],
-            energy_per_metre: self.outputs[capsule::Output::EnergyPerMetre],
+            energy_per_metre: self.outputs[self.outputs.model().energy_per_distance()],
         }
     }
 
@@ -123,23 +121,19 @@ impl Led {
 
 /// Motions that agree in these to this share are one.
 const SAME: f64 = 1e-8;
-const TELL_APART: [Output; 4] = [
-    capsule::Output::ProgressionSpeed.described(),
-    capsule::Output::WorkPositive.described(),
-    capsule::Output::Power.described(),
-    capsule::Output::EnergyPerMetre.described(),
-];
 
 /// The motions without those that another search has led to already; of equal ones that with the least slope left.
 pub fn distinct(found: Vec<RefinedMotion>) -> Vec<RefinedMotion> {
     let mut distinct: Vec<RefinedMotion> = Vec::new();
     for motion in found {
+        let model = motion.outputs.model();
+        let told_apart = [model.speed(), model.work(), model.power(), model.energy_per_distance()];
         let is_same = |other: &RefinedMotion| {
             let agrees = |output: &Output| {
                 let [a, b] = [other.outputs[*output], motion.outputs[*output]];
                 a == b || (a - b).abs() <= SAME * a.abs()
             };
-            other.period == motion.period && TELL_APART.iter().all(agrees)
+            other.period == motion.period && told_apart.iter().all(agrees)
         };
         match distinct.iter_mut().find(|other| is_same(other)) {
             Some(other) if motion.slopes.stationarity < other.slopes.stationarity => {

@@ -2,7 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::capsule;
+use super::error::CampaignError;
+use super::refined_front::{Refinement, Search};
+use super::refined_motion::{DrawnMotion, Start};
 use crate::capsule::{Case, State, settle_case};
 use crate::description::Parameter;
 use crate::orbit::Outcome;
@@ -11,10 +13,6 @@ use crate::store::catalogue::{ATTRACTOR, PERIOD};
 use crate::store::{CaseTable, StoreError};
 use crate::study::{Coordinate, DrawKind, Draws, Range, Spacing};
 use crate::tradeoff::{Candidate, Goal, Optima, optima};
-
-use super::error::CampaignError;
-use super::refined_front::{Refinement, Search};
-use super::refined_motion::{DrawnMotion, Start};
 
 /// Cases from which each optimum is sought, the best first.
 const STARTS: usize = 8;
@@ -69,7 +67,7 @@ impl Refinement<'_> {
         let phase = self.study.section_phase;
         let case = Case::at_section(parameters, State::default(), phase);
         let orbit = settle_case(&case, &self.protocol());
-        let speed = self.direction.of(orbit.outputs[capsule::Output::ProgressionSpeed]);
+        let speed = self.direction.of(orbit.outputs.speed());
         let counts = orbit.outcome == Outcome::Periodic
             && speed > self.at_rest
             && self.conditions.may_begin(&case.parameters, orbit.period);
@@ -116,8 +114,8 @@ impl Refinement<'_> {
             .map(|&at| (self.start(&candidates[at]), speed(at), candidates[at].energy_per_metre))
             .collect();
         known.extend(drawn.iter().map(|it| {
-            let speed = direction.of(it.outputs[capsule::Output::ProgressionSpeed]);
-            (self.drawn_start(it), speed, it.outputs[capsule::Output::EnergyPerMetre])
+            let speed = direction.of(it.outputs.speed());
+            (self.drawn_start(it), speed, it.outputs[it.outputs.model().energy_per_distance()])
         }));
         let by_seed: Vec<Start> =
             self.drawn_cases(&moving).into_iter().map(|at| self.start(&candidates[at])).collect();
@@ -126,7 +124,7 @@ impl Refinement<'_> {
         known.sort_by(|a, b| a.2.total_cmp(&b.2));
         let cheapest: Vec<Start> = known.iter().take(STARTS).map(|it| it.0).collect();
         let faster = Goal::Speed { direction, budget: None };
-        let cheaper = Goal::Least(capsule::Output::EnergyPerMetre.into());
+        let cheaper = Goal::Least(self.study.base.model().energy_per_distance());
         let unpriced =
             [(fastest, faster), (cheapest, cheaper)].into_iter().flat_map(|(best, goal)| {
                 best.into_iter().chain(by_seed.clone()).map(move |from| (from, goal))
@@ -206,12 +204,7 @@ impl Refinement<'_> {
 /// Fails if the file cannot be read.
 pub(super) fn kinds(table: &CaseTable<'_>) -> Result<Vec<u64>, StoreError> {
     let mut kinds = vec![0_u64; table.cases()];
-    let counts = [
-        capsule::Output::ImpactsPerCycle,
-        capsule::Output::ForwardSlips,
-        capsule::Output::BackwardSlips,
-        capsule::Output::Reversals,
-    ];
+    let counts = table.model().event_counts();
     let names = [PERIOD.name, ATTRACTOR.name].into_iter().chain(counts.map(|it| it.name()));
     for name in names {
         let Some(column) = table.column(name)? else { continue };

@@ -5,11 +5,10 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use crate::run::Record;
-use crate::store::{Blocks, Summary, Unusable};
-
 use super::error::CampaignError;
 use super::kept::Kept;
+use crate::run::Record;
+use crate::store::{Blocks, Summary, Unusable};
 
 /// A listener: called with every event, from any thread; returns whether to continue.
 ///

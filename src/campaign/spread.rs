@@ -2,12 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use crate::capsule;
-use crate::capsule::settle_case;
-use crate::description::Output;
-use crate::experiment::settled_motion::outputs_of_batches;
-use crate::run::{Machine, on_all_threads};
-
 use super::answer::Answer;
 use super::error::CampaignError;
 use super::mean_errors::MeanErrors;
@@ -15,6 +9,10 @@ use super::motion_row::Row;
 use super::refined_front::Refinement;
 use super::replay::Replay;
 use super::report::silent;
+use crate::capsule::settle_case;
+use crate::description::Output;
+use crate::experiment::settled_motion::outputs_of_batches;
+use crate::run::{Machine, on_all_threads};
 
 impl Refinement<'_> {
     /// The standard errors of speed and price of each of some cases that do not repeat; none of those that could not be followed.
@@ -46,7 +44,7 @@ impl Refinement<'_> {
         let end = settle_case(&case, protocol).end;
         Ok(outputs_of_batches(&case, &end, protocol).map(|batches| {
             let means = |of: Output| batches.iter().map(|it| it[of]).collect::<Vec<_>>();
-            MeanErrors::of(&means(capsule::Output::ProgressionSpeed.into()), &means(self.of))
+            MeanErrors::of(&means(self.study.base.model().speed()), &means(self.of))
         }))
     }
 }

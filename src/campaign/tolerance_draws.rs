@@ -1,20 +1,17 @@
 //! Motions under tolerances of the parameters: each draw is followed from the orbit to where it settles.
 
-use crate::capsule;
-use crate::capsule::{Case, State, settle_case};
-use crate::description::Outputs;
-use crate::description::Parameter;
-use crate::orbit::Outcome;
-use crate::run::on_all_threads;
-use crate::store::takes_part;
-use crate::tradeoff::front;
-
 use super::answer::{Answer, Named};
 use super::error::CampaignError;
 use super::motion_row::Row;
 use super::refined_front::{Refinement, Whereabouts};
 use super::report::{Event, Reports, Stage};
 use super::robustness::{Draw, Robustness, Tolerances};
+use crate::capsule::{Case, State, settle_case};
+use crate::description::{Outputs, Parameter};
+use crate::orbit::Outcome;
+use crate::run::on_all_threads;
+use crate::store::takes_part;
+use crate::tradeoff::front;
 
 impl Refinement<'_> {
     /// What tolerances leave of each of some motions, none where it does not repeat; calls `done` after each motion.
@@ -66,7 +63,7 @@ impl Refinement<'_> {
             let price = outputs[self.of];
             let meets = self.asked.met(&case.parameters, &orbit);
             Draw {
-                speed: self.direction.of(outputs[capsule::Output::ProgressionSpeed]),
+                speed: self.direction.of(outputs.speed()),
                 price,
                 is_kept: orbit.outcome == Outcome::Periodic && orbit.period == motion.period,
                 meets_conditions: meets.map(|it| it && counts),

@@ -3,13 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::description::Output;
-use crate::store::{Archive, CaseTable, Condition, Unread, candidates, conditions};
-use crate::study::Study;
-use crate::tradeoff::{
-    Candidate, Direction, MOST_FREE, Optima, fastest_first, hypervolume, optima as best_of,
-};
-
 use super::answer::{Answer, Gain, Named};
 use super::bounding::bound;
 use super::conditions::{Conditions, normal};
@@ -27,6 +20,12 @@ use super::sought::Sought;
 use super::spread::add_errors;
 use super::study_source::study_of;
 use super::tolerance_draws::judge;
+use crate::description::Output;
+use crate::store::{Archive, CaseTable, Condition, Unread, candidates, conditions};
+use crate::study::Study;
+use crate::tradeoff::{
+    Candidate, Direction, MOST_FREE, Optima, fastest_first, hypervolume, optima as best_of,
+};
 
 /// What is asked of the motions of a file.
 #[derive(Debug, Clone, Copy)]

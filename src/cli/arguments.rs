@@ -6,8 +6,7 @@ use std::path::Path;
 
 use super::failure::Failure;
 use crate::campaign::quoted;
-use crate::capsule::Dimension;
-use crate::capsule::parse_quantity;
+use crate::capsule::{Dimension, parse_quantity};
 use crate::description::Output;
 use crate::lane::Instructions;
 use crate::of::default_model;

@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::capsule;
 use crate::description::Output;
 use crate::store::catalogue::{
     ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR,
@@ -14,13 +13,10 @@ use crate::store::catalogue::{
 };
 use crate::store::{Dataset, Variable};
 
-/// The outputs that the list shows.
-const SPEED: Output = capsule::Output::ProgressionSpeed.described();
-const WORK: Output = capsule::Output::WorkPositive.described();
-
 /// The attractors in the order of their numbers, each as an object; empty where the file has no table of them, as that of a study
 /// along a parameter, which has a table for each of its values.
 pub fn attractors(dataset: &Dataset) -> Vec<Value> {
+    let (speed, work) = (dataset.model().speed(), dataset.model().work());
     let dimensions = dataset.variable(ATTRACTOR_KIND.name).map(|it| it.values.shape().len());
     if dimensions != Some(1) {
         return Vec::new();
@@ -32,15 +28,15 @@ pub fn attractors(dataset: &Dataset) -> Vec<Value> {
     let kind = |code: f64| flags.iter().find(|(it, _)| *it as f64 == code).map(|(_, name)| name);
     let periods = column(ATTRACTOR_PERIOD.name);
     let [shares, errors] = [ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR].map(|it| column(it.name));
-    let (speeds, energies) = (output(SPEED), output(WORK));
+    let (speeds, energies) = (output(speed), output(work));
     let at = |column: &[f64], number: usize| column.get(number).copied();
     let one = |number: usize| {
         json!({
             ATTRACTOR.name: number,
             "kind": kind(kinds[number]),
             PERIOD.name: at(&periods, number).filter(|period| *period > 0.0).map(|it| it as u64),
-            SPEED.name(): at(&speeds, number),
-            WORK.name(): at(&energies, number),
+            speed.name(): at(&speeds, number),
+            work.name(): at(&energies, number),
             "share": at(&shares, number),
             "share_error": at(&errors, number),
         })
@@ -98,6 +94,7 @@ pub fn tables(dataset: &Dataset) -> String {
     let mut text = String::new();
     let (attractors, saddles) = (attractors(dataset), saddles(dataset));
     let number = |value: &Value| value.as_f64().map_or("-".to_owned(), |it| format!("{it:.6}"));
+    let (speed_output, work_output) = (dataset.model().speed(), dataset.model().work());
     if !attractors.is_empty() {
         text.push_str("\nattractors, by their numbers in the file; figures count from 1\n");
         let _ = writeln!(
@@ -106,13 +103,14 @@ pub fn tables(dataset: &Dataset) -> String {
             "",
             "motion",
             "speed [m/s]",
-            format!("{} [{}]", WORK.name(), WORK.unit())
+            format!("{} [{}]", work_output.name(), work_output.unit())
         );
         for it in &attractors {
             let kind = it["kind"].as_str().unwrap_or("-");
             let motion =
                 it[PERIOD.name].as_u64().map_or(kind.to_owned(), |it| format!("period {it}"));
-            let [speed, work] = [SPEED.name(), WORK.name()].map(|key| number(&it[key]));
+            let outputs = [speed_output, work_output];
+            let [speed, work] = outputs.map(Output::name).map(|key| number(&it[key]));
             let [share, error] = ["share", "share_error"].map(|key| number(&it[key]));
             let _ = writeln!(
                 text,

@@ -111,7 +111,7 @@ fn write_branch(text: &mut String, along: Parameter, branch: &Branch) {
             kind_name(*kind),
             ten_digits(point.parameter),
             branch.period,
-            point.measured[capsule::Output::ProgressionSpeed] * 1e3
+            point.measured.speed() * 1e3
         );
     }
 }

@@ -1,12 +1,10 @@
 //! A comparison in words and as JSON.
 
-use crate::capsule;
-use crate::capsule::CapsuleParameters as _;
 use serde_json::json;
 
 use super::identify::shown;
 use super::varied::Varied;
-use crate::capsule::Parameter;
+use crate::capsule::{self, CapsuleParameters as _, Parameter};
 use crate::experiment::comparison::Drive;
 use crate::experiment::estimate::significant;
 use crate::experiment::explanation::EXPLAINED_CYCLES;

@@ -52,7 +52,7 @@ pub fn draw_each(
 ) -> Result<(), Failure> {
     let mut failures = Vec::new();
     for drawing in drawings {
-        let shown = variables(drawing);
+        let shown = variables(drawing, archive.frame().model());
         let dataset = archive.labelled(|name| shown.contains(name)).map_err(Failure::machine)?;
         let refined = if drawing.kind.keys().between { refined(archive)? } else { Vec::new() };
         let shown = Shown { dataset: &dataset, refined: &refined, measured };

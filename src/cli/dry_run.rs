@@ -96,7 +96,7 @@ fn figures(study: &Study) -> Option<f64> {
     let of_case = store::numbers_of_case(study);
     let numbers = |name: &str| of_case.get(name).copied().unwrap_or(0) as f64;
     let bytes = study.drawings.iter().map(|drawing| {
-        let shown = variables(drawing);
+        let shown = variables(drawing, study.base.model());
         shown.iter().map(|name| numbers(name)).sum::<f64>() * study.cases() as f64 * 8.0
     });
     bytes.max_by(f64::total_cmp).map(|bytes| bytes + DRAWING)

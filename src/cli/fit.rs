@@ -1,6 +1,5 @@
 //! `capsulemap fit`: parameters from recorded histories of the motion.
 
-use crate::capsule::CapsuleParameters as _;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -12,8 +11,8 @@ use super::identify::shown;
 use super::synthesize::case_of;
 use super::terminal::print;
 use super::varied::{Varied, threads, varied};
-use crate::capsule::Parameter;
 use crate::capsule::printable::printable;
+use crate::capsule::{CapsuleParameters as _, Parameter};
 use crate::experiment::comparison::signals_of;
 use crate::experiment::course::varies;
 use crate::experiment::identification::parameter_file;

@@ -1,12 +1,10 @@
 //! A fit to motion in words and as JSON.
 
-use crate::capsule::CapsuleParameters as _;
 use serde_json::json;
 
 use super::identify::shown;
 use super::varied::Varied;
-use crate::capsule::Dimension;
-use crate::capsule::Parameter;
+use crate::capsule::{CapsuleParameters as _, Dimension, Parameter};
 use crate::experiment::{Drift, Fitted, MotionFit, Verdict};
 
 /// A misfit above this is told.

@@ -9,9 +9,8 @@ use super::experiment_figures::evidence_plot;
 use super::failure::Failure;
 use super::files;
 use super::terminal::print;
-use crate::capsule::Dimension;
-use crate::capsule::Parameter;
 use crate::capsule::printable::printable;
+use crate::capsule::{Dimension, Parameter};
 use crate::experiment::estimate::{decimals, significant};
 use crate::experiment::identification::{
     Evidence, Other, impossible_rows, parameter_file, remarks,

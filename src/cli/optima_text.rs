@@ -9,9 +9,7 @@ use super::readable::{count, counted};
 use crate::campaign::{
     Answer, Gain, Margin, MarginEnd, Margins, Named, Robustness, Row, Slopes, Tolerances,
 };
-use crate::capsule;
-use crate::description::Output;
-use crate::description::Parameter;
+use crate::description::{Output, Parameter};
 use crate::store::catalogue::{ATTRACTOR, OUTCOME, PERIOD};
 use crate::study::Coordinate;
 use crate::tradeoff::Direction;
@@ -80,11 +78,11 @@ fn json_of_row(row: &Row, of: Output) -> Value {
     point.insert("case".to_owned(), json!(row.case));
     point.insert("parameters".to_owned(), Value::Object(values(parameters)));
     point.insert("start".to_owned(), Value::Object(values(start)));
-    point.insert(capsule::Output::ProgressionSpeed.name().to_owned(), json!(row.speed));
-    point.insert(capsule::Output::EnergyPerMetre.name().to_owned(), json!(row.energy_per_metre));
+    point.insert(of.model().speed().name().to_owned(), json!(row.speed));
+    point.insert(of.model().energy_per_distance().name().to_owned(), json!(row.energy_per_metre));
     point.insert(of.name().to_owned(), json!(row.price));
     let errors = row.errors.map(|it| {
-        let speed = (capsule::Output::ProgressionSpeed.name().to_owned(), json!(it.speed));
+        let speed = (of.model().speed().name().to_owned(), json!(it.speed));
         Value::Object([speed, (of.name().to_owned(), json!(it.price))].into_iter().collect())
     });
     point.insert("standard_errors".to_owned(), json!(errors));
@@ -147,10 +145,10 @@ pub fn csv(answer: &Answer) -> String {
     let all: Vec<(&str, &Row)> = optima.chain(front).chain(top).collect();
     let Some((_, first)) = all.first() else { return String::new() };
     let names = first.coordinates.iter().map(|(it, ..)| it.name());
-    let fixed = ["what", "case", capsule::Output::ProgressionSpeed.name(), answer.of.name()];
+    let fixed = ["what", "case", answer.of.model().speed().name(), answer.of.name()];
     let rest = [OUTCOME.name, PERIOD.name, ATTRACTOR.name, "share"];
     let more = [
-        capsule::Output::EnergyPerMetre.name(),
+        answer.of.model().energy_per_distance().name(),
         "standard_error_of_speed",
         "standard_error_of_price",
         "held_by",
@@ -248,7 +246,7 @@ pub fn table(answer: &Answer) -> String {
     let _ = writeln!(
         text,
         "Pareto front of {} ({}) and {}{condition}: {}",
-        capsule::Output::ProgressionSpeed.name(),
+        answer.of.model().speed().name(),
         answer.direction.name(),
         answer.of.name(),
         counted(answer.front.len(), "motion")

@@ -7,9 +7,9 @@ use clap::Args;
 use super::arguments::output;
 use super::failure::Failure;
 use super::target::Target;
-use crate::capsule;
 use crate::capsule::printable::printable;
 use crate::explore::{GENERATOR, Request, report};
+use crate::of::default_model;
 use crate::store;
 
 const EXAMPLES: &str = "\
@@ -28,7 +28,7 @@ pub struct Report {
     /// The file of results.
     file: PathBuf,
     /// The output that should be small: an energy per cycle, `power`, `energy_per_metre` or another.
-    #[arg(long, value_name = "OUTPUT", default_value = capsule::Output::Power.name())]
+    #[arg(long, value_name = "OUTPUT", default_value = default_model().power().name())]
     of: String,
     /// The page; beside the file of results, with its name, by default.
     #[arg(long, value_name = "FILE.html")]

@@ -1,6 +1,5 @@
 //! `capsulemap simulate`: one case in full.
 
-use crate::capsule::CapsuleParameters as _;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -11,12 +10,12 @@ use super::failure::Failure;
 use super::phases::Phases;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
-use crate::capsule;
 use crate::capsule::printable::printable;
 use crate::capsule::{
-    Case, Dimension, Orbit, Resistance, Simulation, State, Switching, settle_case, simulate_case,
+    self, CapsuleParameters as _, Case, Dimension, Orbit, Resistance, Simulation, State, Switching,
+    settle_case, simulate_case,
 };
-use crate::description::Parameters;
+use crate::description::{Parameters, Remark};
 use crate::explore::{case_json, remarks};
 use crate::orbit::Protocol;
 use crate::run::Machine;
@@ -106,7 +105,7 @@ impl Simulate {
         };
         let parameters = &case.parameters;
         notes.iter().for_each(|note| notify(&format!("note: {note}")));
-        if let Some(why) = parameters.idle_static_friction() {
+        for Remark { text: why, .. } in (parameters.model().rules.remarks)(parameters) {
             notify(&format!("note: {why}"));
         }
         let simulation = simulate_case(&case, self.cycles, protocol.tolerance);
@@ -183,8 +182,8 @@ impl Simulate {
             parameters[*parameter] = value.unwrap_or(parameters[*parameter]);
         }
         let is_given = |parameter| given.iter().any(|(_, other, _)| *other == parameter);
-        let completed = parameters.complete_friction(is_given);
-        let notes = completed.map(|it| parameters.told_of_completed(it)).into_iter().collect();
+        let completed = (model.rules.complete)(&mut parameters, &is_given);
+        let notes = completed.map(|it| it.why).into_iter().collect();
         let start = self.start(&mut faults);
         let [start_phase, section_phase] = self.phases.read(&mut faults);
         if !Protocol::TOLERANCES.contains(&self.tolerance) {

@@ -1,6 +1,5 @@
 //! `capsulemap synthesize`: recordings of a rig that is a simulation.
 
-use crate::capsule::CapsuleParameters as _;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -11,7 +10,7 @@ use super::files;
 use super::terminal::print;
 use crate::campaign::{CampaignError, Replay, read_study_or_results};
 use crate::capsule::printable::printable;
-use crate::capsule::{Case, Dimension, State, settle_case};
+use crate::capsule::{CapsuleParameters as _, Case, Dimension, State, settle_case};
 use crate::description::Parameters;
 use crate::experiment::synthesis::recorded;
 use crate::experiment::{Laboratory, Sensor, Signal, SimpleTests, Started, Test, simple_tests};

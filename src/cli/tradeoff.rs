@@ -15,11 +15,9 @@ use super::watch::Stages;
 use crate::campaign::{
     Between, CampaignError, KeptSearches, Tolerances, TradeOff, searches_path, study_of,
 };
-use crate::capsule;
 use crate::capsule::Dimension;
 use crate::capsule::printable::printable;
-use crate::description::Output;
-use crate::description::Parameter;
+use crate::description::{Output, Parameter};
 use crate::of::default_model;
 use crate::store::{self, Archive, StoreError, quantity};
 use crate::study::document::unknown;
@@ -46,7 +44,7 @@ pub struct Tradeoff {
     /// The file of results.
     file: PathBuf,
     /// The output that should be small: an energy per cycle, `power`, `energy_per_metre` or another.
-    #[arg(long, value_name = "OUTPUT", default_value = capsule::Output::Power.name())]
+    #[arg(long, value_name = "OUTPUT", default_value = default_model().power().name())]
     of: String,
     /// Motions to compare; `either` compares magnitudes of speeds.
     #[arg(long, value_parser = named(&Direction::NAMES), default_value = "either")]
@@ -179,13 +177,13 @@ impl Tradeoff {
         let mut faults = Vec::new();
         let of = output("--of", &self.of).unwrap_or_else(|fault| {
             faults.push(fault);
-            capsule::Output::Power.into()
+            default_model().power()
         });
         let mut read = |option: &str, text: &Option<String>, unit: &str| {
             let value = quantity(text.as_deref()?, unit);
             value.map_err(|fault| faults.push(format!("--{option}: {fault}"))).ok()
         };
-        let speed_unit = capsule::Output::ProgressionSpeed.unit();
+        let speed_unit = default_model().speed().unit();
         let [at_rest, budget, speed] = [
             read("at-rest", &self.at_rest, speed_unit),
             read("budget", &self.budget, of.unit()),

@@ -1,7 +1,5 @@
 //! A recording beside the simulation of the same case: aligned in phase, with what differs.
 
-use crate::capsule;
-use crate::capsule::CapsuleParameters as _;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
@@ -13,9 +11,8 @@ use super::recording::{Recording, Sampling};
 use super::settled_motion::{Settled, TOLERANCE};
 use super::simulated_span::check_span;
 use super::spikes::{Spikes, contact_period, contacts, per_cycle, spikes};
-use crate::capsule::Case;
-use crate::capsule::Parameter;
 use crate::capsule::sampled::{Signal, Started, sampled};
+use crate::capsule::{self, CapsuleParameters as _, Case, Parameter};
 use crate::orbit::{Outcome, Protocol};
 
 /// Signals that repeat themselves with the motion, the best first.

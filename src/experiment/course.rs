@@ -6,9 +6,8 @@ use super::least_squares::Bounds;
 use super::line::line;
 use super::recording::median;
 use super::smoothing::smoothed;
-use crate::capsule::Parameter;
-use crate::capsule::State;
 use crate::capsule::sampled::{Direction, Signal, Started};
+use crate::capsule::{Parameter, State};
 use crate::description::Parameters;
 
 /// Velocities of the capsule at the first sample that are tried: how many, of either sign where it is not measured.

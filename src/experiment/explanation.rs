@@ -4,10 +4,7 @@ use super::agreement::Difference;
 use super::comparison::Comparison;
 use super::course::Recorded;
 use super::motion_fit::{Effort, Free, Side, best_values};
-use crate::capsule;
-use crate::capsule::CapsuleParameters as _;
-use crate::capsule::Parameter;
-use crate::capsule::{Case, State, settle_case};
+use crate::capsule::{self, CapsuleParameters as _, Case, Parameter, State, settle_case};
 use crate::orbit::{Outcome, Protocol};
 
 /// What parameters would have to be for the simulation to describe a recording.

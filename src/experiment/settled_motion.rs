@@ -2,11 +2,9 @@
 
 use super::estimate::Estimate;
 use super::progression::Progression;
-use crate::capsule;
-use crate::capsule::Parameter;
 use crate::capsule::drive::reduced;
 use crate::capsule::sampled::{Signal, Started, sampled};
-use crate::capsule::{Case, Orbit, State, settle_case};
+use crate::capsule::{self, Case, Orbit, Parameter, State, settle_case};
 use crate::description::Outputs;
 use crate::model::{Batches, Setting};
 use crate::of::model_of;

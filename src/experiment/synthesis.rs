@@ -1,13 +1,12 @@
 //! Recordings from a simulation, with noise, quantisation and sampling as stated, to try an identification without a rig.
 
-use crate::capsule::CapsuleParameters as _;
 use std::f64::consts::TAU;
 
 use fastrand::Rng;
 
 use super::friction::coast_down;
-use crate::capsule::Parameter;
 use crate::capsule::sampled::{Signal, Started, sampled};
+use crate::capsule::{CapsuleParameters as _, Parameter};
 use crate::description::Parameters;
 use crate::flow::Reason;
 

@@ -1,10 +1,8 @@
 //! One case in full as JSON, and what its numbers do not say by themselves.
 
-use crate::capsule;
-use crate::capsule::CapsuleParameters as _;
 use serde_json::{Map, Value, json};
 
-use crate::capsule::{Orbit, Simulation};
+use crate::capsule::{CapsuleParameters as _, Orbit, Simulation};
 use crate::description::Parameters;
 use crate::orbit::{Certificate, Outcome, Proof};
 use crate::store::catalogue::{CERTIFICATE, CYCLES, OUTCOME, PERIOD};
@@ -58,7 +56,7 @@ pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Some([r, y1, y2]) = orbit.certificate.neutral {
         let [r, y1, y2] = [r, y1, y2].map(|x| (x * 1e4).round() / 1e4 + 0.0);
-        let speed = if orbit.outputs[capsule::Output::StickShare] < 1.0 {
+        let speed = if orbit.outputs[orbit.outputs.model().rest_share()] < 1.0 {
             ", and with it the speed"
         } else {
             ""
@@ -75,19 +73,16 @@ pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
                 .to_owned(),
         );
     }
-    let [exponent, uncertainty, excluded, defect] = [
-        capsule::Output::LyapunovExponent,
-        capsule::Output::LyapunovUncertainty,
-        capsule::Output::ExcludedPeriod,
-        capsule::Output::IntegrationDefect,
-    ]
-    .map(|output| orbit.outputs[output]);
+    let model = parameters.model();
+    let [exponent, uncertainty, excluded, defect] =
+        [model.exponent(), model.exponent_error(), model.excluded_period(), model.defect()]
+            .map(|output| orbit.outputs[output]);
     match orbit.outcome {
         Outcome::QuasiPeriodic => {
             remarks.push(format!("no period up to {excluded} cycles, as far as the section shows"));
         }
         Outcome::Undecided if excluded.is_nan() => {
-            let residual = orbit.outputs[capsule::Output::SectionResidual];
+            let residual = orbit.outputs[model.section_residual()];
             remarks.push(format!(
                 "undecided: what was found is not certified; its largest defect is {defect:.1e} (allowed: \
                  10 000 tolerances), and integrated without derivatives it closes to {residual:.1e} (allowed: \

@@ -7,10 +7,7 @@ use super::request::Request;
 use crate::campaign::{
     Answer, Between, CampaignError, Gain, KeptFront, Margins, Named, Row, TradeOff, silent,
 };
-use crate::capsule;
-use crate::description::Description;
-use crate::description::Output;
-use crate::description::Parameter;
+use crate::description::{Description, Output, Parameter};
 use crate::study::Study;
 use crate::tradeoff::Direction;
 
@@ -126,7 +123,7 @@ fn write_table(page: &mut Page, named: &[(String, Row)], of: Output) {
         }),
         line(&format!("{} [{}]", of.name(), of.unit()), named, |row| number(row.price)),
     ];
-    if of != capsule::Output::EnergyPerMetre {
+    if of != of.model().energy_per_distance() {
         rows.push(line("energy per metre [J/m]", named, |row| number(row.energy_per_metre)));
     }
     rows.push(line("motion", named, |row| match row.period {

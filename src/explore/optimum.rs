@@ -1,7 +1,6 @@
 //! The motion of an optimum, computed again and drawn: its history over two periods, and its phase portrait.
 
 use crate::campaign::Row;
-use crate::capsule;
 use crate::capsule::State;
 use crate::figure::{FigureError, Picture, picture};
 use crate::orbit::{HistorySpan, Machine, Protocol};
@@ -51,8 +50,7 @@ pub enum Undrawn {
 /// The study of one case: a motion of another study, with its history.
 fn study(row: &Row, of: &Study, cycles: u32) -> Study {
     let base = of.base.clone();
-    let mut study =
-        Study { base, outputs: vec![capsule::Output::ProgressionSpeed.into()], ..Study::default() };
+    let mut study = Study { base, outputs: vec![of.base.model().speed()], ..Study::default() };
     let mut start = State::default();
     for (coordinate, value, _) in &row.coordinates {
         match coordinate {

@@ -5,7 +5,6 @@ use super::numbers::{number, unit};
 use super::optima::write_optima;
 use super::request::Request;
 use crate::campaign::{CampaignError, KeptFront, KeptSearches, quoted, study_of};
-use crate::capsule::CapsuleParameters as _;
 use crate::description::Parameter;
 use crate::figure::{FigureError, Picture, Shown, picture, variables};
 use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
@@ -102,10 +101,12 @@ impl Report<'_> {
         let rows: Vec<_> = self.study.base.each().filter(is_held).map(row).collect();
         page.table(&["", "value", "unit"].map(str::to_owned), &rows);
         let base = &self.study.base;
+        let described = base.model().choices.iter().zip(base.choices());
+        let choices =
+            described.map(|(choice, (_, chosen))| format!("{}: {chosen}. ", choice.title));
         page.note(&format!(
-            "Resistance: {}. Switching between stick and slip: {}. Relative local error of a step: {:e}.",
-            base.resistance().name(),
-            base.switching().name(),
+            "{}Relative local error of a step: {:e}.",
+            choices.collect::<String>(),
             self.study.protocol.tolerance
         ));
     }
@@ -130,7 +131,7 @@ impl Report<'_> {
     }
 
     fn drawn(&self, drawing: &Drawing) -> Result<Result<Picture, FigureError>, CampaignError> {
-        let shown = variables(drawing);
+        let shown = variables(drawing, self.request.archive.frame().model());
         let dataset = self.request.archive.labelled(|name| shown.contains(name))?;
         let refined = if drawing.kind.keys().between { self.fronts } else { &[] };
         Ok(picture(Shown { dataset: &dataset, refined, measured: None }, drawing))

@@ -26,16 +26,15 @@ use super::symbol::Symbol;
 use super::text::Text;
 use super::track::elsewhere;
 use super::view::View;
-use crate::capsule;
+use crate::description::Description;
 use crate::store::catalogue::{Entry, SECTION, SECTION_R};
 
 /// Panels of the diagram, unless others are asked for: those of them that the results hold.
-pub const PANELS: [Entry; 4] =
-    [SECTION_R, SPEED, Entry::of_case(capsule::Output::WorkPositive.quantity()), EXPONENT];
-/// The output whose sign matters.
-const EXPONENT: Entry = Entry::of_case(capsule::Output::LyapunovExponent.quantity());
-/// The speed of the capsule.
-const SPEED: Entry = Entry::of_case(capsule::Output::ProgressionSpeed.quantity());
+pub fn usual_panels(model: &'static Description) -> Vec<Entry> {
+    let outputs = [model.speed(), model.work(), model.exponent()].map(Entry::of_output);
+    [SECTION_R].into_iter().chain(outputs).collect()
+}
+
 /// Symbols of one kind nearer than this would hide each other [pt].
 const SYMBOL_SPACING: f64 = 2.6;
 
@@ -139,7 +138,8 @@ fn outputs(view: &View<'_>) -> Vec<String> {
     if !view.drawing.of.is_empty() {
         return view.drawing.of.clone();
     }
-    let held = PANELS.iter().filter(|entry| view.dataset.variable(entry.name).is_some());
+    let usual = usual_panels(view.model());
+    let held = usual.iter().filter(|entry| view.dataset.variable(entry.name).is_some());
     held.map(|entry| entry.name.to_owned()).collect()
 }
 
@@ -214,7 +214,7 @@ fn shade(canvas: &mut Canvas, panel: &Panel, windows: &[[f64; 2]]) {
 
 /// A line at zero: always for the exponent, whose sign matters, else where both signs occur.
 fn mark_zero(canvas: &mut Canvas, panel: &Panel, output: &str, view: &View<'_>) {
-    if output == EXPONENT.name && !panel.y.empty {
+    if output == view.model().exponent().name() && !panel.y.empty {
         let zero = [(panel.x.scale.low, 0.0), (panel.x.scale.high, 0.0)];
         panel.curve(canvas, &zero, Stroke::solid(FAINT_INK, MINOR_WIDTH));
     } else if !has_points(view, output) {

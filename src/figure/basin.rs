@@ -20,7 +20,7 @@ use super::style::{ATTRACTORS, INK, OTHER_ATTRACTOR, PAPER, REFERENCE_WIDTH, UND
 use super::text::Text;
 use super::ticks::significant;
 use super::view::View;
-use crate::capsule;
+use crate::description::Description;
 use crate::store::catalogue::{
     ATTRACTOR, ATTRACTOR_INDEX, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
     ATTRACTOR_SHARE_ERROR, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, Entry, Place, SECTION,
@@ -43,11 +43,8 @@ const NAMED: usize = 10;
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
-/// The speed on the attractor.
-const SPEED: Entry = Entry::of_case(capsule::Output::ProgressionSpeed.quantity());
-
 /// What basins read: the attractor of each case, and the table of the attractors.
-fn reads(_: &Drawing) -> Names {
+fn reads(_: &Drawing, model: &'static Description) -> Names {
     let sections = SECTION.map(|entry| Place::Attractor.of(entry));
     let phases = [Coordinate::StartPhase, Coordinate::SectionPhase].map(Entry::of_coordinate);
     Names::of(outcome::READS)
@@ -56,7 +53,10 @@ fn reads(_: &Drawing) -> Names {
         .and([EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2])
         .and(inferred::READS)
         .and(phases)
-        .and([Place::Attractor.of(SPEED), Entry::of_parameter(capsule::Parameter::Delta)])
+        .and([
+            Place::Attractor.of(Entry::of_output(model.speed())),
+            Entry::of_parameter(model.impact_surface()),
+        ])
 }
 
 /// Draws the basins that `view` asks for.
@@ -279,7 +279,10 @@ fn told(view: &View<'_>, number: usize) -> String {
         return format!("attractor {number}");
     }
     let mut parts = vec![motion(view, of(ATTRACTOR_KIND), of(ATTRACTOR_PERIOD))];
-    parts.extend(of(Place::Attractor.of(SPEED)).map(|it| format!("{} mm/s", millimetres(it))));
+    parts.extend(
+        of(Place::Attractor.of(Entry::of_output(view.model().speed())))
+            .map(|it| format!("{} mm/s", millimetres(it))),
+    );
     if let (Some(share), Some(error)) = (of(ATTRACTOR_SHARE), of(ATTRACTOR_SHARE_ERROR)) {
         let (share, error) = (100.0 * share, 100.0 * error);
         // Two digits of the error say how many of the share are known.
@@ -311,7 +314,7 @@ pub(super) fn millimetres(speed: f64) -> String {
 
 /// The ends of the line where the mass reaches the stop, if an axis is its displacement and the line lies on it.
 fn surface(view: &View<'_>, plane: &Plane<'_>) -> Option<[(f64, f64); 2]> {
-    let delta = capsule::Parameter::Delta.symbol();
+    let delta = view.model().impact_surface().symbol();
     let factor = view.quantity(delta).factor;
     let gap = view.parameter(delta, &[]).ok()?.first().copied()? * factor;
     let displacement = Coordinate::StartR.name();

@@ -24,13 +24,14 @@ use super::text::Text;
 use super::varied::along;
 use super::view::View;
 use super::{attractors, category, event_marks, track};
-use crate::capsule;
+use crate::description::Description;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, Entry, Place, SECTION_R};
 use crate::study::Drawing;
 
 /// Panels of a bifurcation diagram, unless others are asked for.
-const PANELS: [Entry; 2] =
-    [SECTION_R, Entry::of_case(capsule::Output::ProgressionSpeed.quantity())];
+fn usual_panels(model: &'static Description) -> [Entry; 2] {
+    [SECTION_R, Entry::of_output(model.speed())]
+}
 
 /// One direction along the axis: its place on the axis of directions, its name and colour.
 struct Branch {
@@ -53,15 +54,16 @@ impl Branch {
 pub const KIND: Kind = Kind { needs: Needs::CasesOrBranches, reads, draw };
 
 /// What a diagram reads: without `of`, the panels of either sort of diagram.
-fn reads(drawing: &Drawing) -> Names {
-    let usual = PANELS.iter().chain(&attractor_diagram::PANELS).map(|it| it.name.to_owned());
+fn reads(drawing: &Drawing, model: &'static Description) -> Names {
+    let usual = usual_panels(model).into_iter().chain(attractor_diagram::usual_panels(model));
+    let usual = usual.map(|it| it.name.to_owned());
     let outputs: Vec<String> = match drawing.of.is_empty() {
         true => usual.collect(),
         false => drawing.of.clone(),
     };
     Names::of(outcome::READS)
         .and(attractors::READS)
-        .and(category::READS)
+        .and(category::reads(model))
         .and_named(drawing.colour_by.clone())
         .and_all(event_marks::reads())
         .and_all(track::reads(&outputs))
@@ -102,7 +104,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         free.push(DIRECTION.name);
     }
     let outputs = match view.drawing.of.is_empty() {
-        true => PANELS.map(|entry| entry.name.to_owned()).to_vec(),
+        true => usual_panels(view.model()).map(|entry| entry.name.to_owned()).to_vec(),
         false => view.drawing.of.clone(),
     };
     let quantity = view.quantity(x_name);

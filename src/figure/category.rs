@@ -15,13 +15,13 @@ use super::style::{
 };
 use super::text::Text;
 use super::view::View;
-use crate::capsule;
+use crate::description::Description;
 use crate::store::catalogue::{ATTRACTOR, Entry, OUTCOME, PERIOD};
 
-/// Tells motions in which the capsule never slides.
-const STICK_SHARE: Entry = Entry::of_case(capsule::Output::StickShare.quantity());
 /// What is read of each case, beside that by which they are sorted.
-pub const READS: [Entry; 2] = [OUTCOME, STICK_SHARE];
+pub fn reads(model: &'static Description) -> [Entry; 2] {
+    [OUTCOME, Entry::of_output(model.rest_share())]
+}
 /// Distance between a frame and the legend [pt].
 const LEGEND_GAP: f64 = 7.0;
 /// Distance between lines of the legend [pt].
@@ -212,11 +212,12 @@ fn by_name(name: &str) -> Option<(usize, Kind)> {
 
 /// Whether each periodic case is one in which the capsule never slides; empty where the results do not say.
 fn resting(view: &View<'_>, free: &[&str]) -> Result<Vec<bool>, FigureError> {
-    if view.dataset.variable(STICK_SHARE.name).is_none() {
+    let rest_share = view.model().rest_share().name();
+    if view.dataset.variable(rest_share).is_none() {
         return Ok(Vec::new());
     }
     let outcomes = Outcomes::over(view, free)?;
-    let shares = view.take(STICK_SHARE.name, free)?;
+    let shares = view.take(rest_share, free)?;
     let repeats =
         |case: usize| outcomes.periodic(case) || outcomes.name(case) == Some(inferred::NAME);
     let rests = |(case, share): (usize, &f64)| *share >= 1.0 && repeats(case);

@@ -14,6 +14,7 @@ use super::text::Text;
 use super::track::{Rows, elsewhere, in_view};
 use super::varied::{along, varied};
 use super::view::View;
+use crate::description::Description;
 use crate::store::catalogue::{
     CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH, DIRECTION, Entry, INDEX_REQUEST, Place,
     SPECIAL_BRANCH, SPECIAL_CURVE,
@@ -39,7 +40,7 @@ pub struct Curve {
 pub const KIND: Kind = Kind { needs: Needs::Branches, reads, draw };
 
 /// What is read of the curves, and of the special points that they go through.
-pub fn reads(_: &Drawing) -> Names {
+pub fn reads(_: &Drawing, _model: &'static Description) -> Names {
     let places = [Place::Request, Place::Special, Place::Curve];
     Names::of([CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH])
         .and([SPECIAL_BRANCH, SPECIAL_CURVE, INDEX_REQUEST])

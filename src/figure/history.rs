@@ -15,7 +15,7 @@ use super::style::{
 };
 use super::text::Text;
 use super::view::View;
-use crate::capsule;
+use crate::description::Description;
 use crate::store::catalogue::{
     Entry, HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_X1, HISTORY_X2,
     HISTORY_Y1, HISTORY_Y2, RELATIVE_VELOCITY, TIME, VELOCITIES,
@@ -65,14 +65,14 @@ struct Cell {
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What a history reads: the variables of what it shows, and what time and gap follow from.
-fn reads(drawing: &Drawing) -> Names {
+fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let usual = PANELS.map(|entry| entry.name);
     let of = drawing.of.iter().map(String::as_str);
     let shown = of.chain(usual.into_iter().filter(|_| drawing.of.is_empty()));
-    let constants = [capsule::Parameter::Omega, capsule::Parameter::Delta].map(Entry::of_parameter);
+    let constants = [model.drive_frequency(), model.impact_surface()].map(Entry::of_parameter);
     let shown: Vec<Entry> = shown.flat_map(variables).copied().collect();
-    let sources: Vec<Entry> = shown.iter().flat_map(|entry| sources(entry.name)).collect();
-    Names::of(shown).and(sources).and(sources_of_arcs()).and(constants)
+    let sources: Vec<Entry> = shown.iter().flat_map(|entry| sources(entry.name, model)).collect();
+    Names::of(shown).and(sources).and(sources_of_arcs(model)).and(constants)
 }
 
 /// Draws the history that `view` asks for.
@@ -131,7 +131,7 @@ fn cell(cases: &[CasePanel<'_>], output: &str, place: usize) -> Result<Cell, Fig
     let free: &[&str] = &cases[place].free();
     let motion = Motion::drawn(view, free, case);
     let cycles = motion.cycles()?;
-    let omega = view.parameter(capsule::Parameter::Omega.symbol(), free)?;
+    let omega = view.parameter(view.model().drive_frequency().symbol(), free)?;
     let omega = omega.iter().nth(case).copied().unwrap_or(f64::NAN);
     let [first, last] = view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     let shown = |cycle: f64| (first - 1e-9..=last + 1e-9).contains(&cycle);
@@ -147,7 +147,7 @@ fn cell(cases: &[CasePanel<'_>], output: &str, place: usize) -> Result<Cell, Fig
         }
         curves.push(Curve { variable, points, stroke });
     }
-    let delta = capsule::Parameter::Delta.symbol();
+    let delta = view.model().impact_surface().symbol();
     let gaps = match output == HISTORY_R.name && view.shows("gap") {
         true => view.parameter(delta, free).ok(),
         false => None,
@@ -236,7 +236,7 @@ fn legend(view: &View<'_>, cell: &Cell) -> Vec<(Mark, Text)> {
         |curve: &Curve| (Mark::Line(curve.stroke), view.quantity(curve.variable.name).short_name());
     match (cell.gap, cell.curves.len()) {
         (Some(_), _) => {
-            let delta = view.quantity(capsule::Parameter::Delta.symbol());
+            let delta = view.quantity(view.model().impact_surface().symbol());
             vec![(Mark::Line(GAP_LINE), delta.short_name())]
         }
         (None, 1) => Vec::new(),

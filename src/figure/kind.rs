@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::canvas::Drawn;
 use super::error::FigureError;
 use super::view::View;
+use crate::description::Description;
 use crate::store::catalogue::Entry;
 use crate::study::Drawing;
 
@@ -24,7 +25,7 @@ pub struct Kind {
     /// What must be there.
     pub needs: Needs,
     /// The variables whose numbers a figure of this kind reads, those that are there of them.
-    pub reads: fn(&Drawing) -> Names,
+    pub reads: fn(&Drawing, &'static Description) -> Names,
     /// Draws a figure of this kind.
     pub draw: fn(&View<'_>) -> Result<Drawn, FigureError>,
 }

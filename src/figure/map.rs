@@ -19,12 +19,10 @@ use super::style::{ONE_COLUMN, TWO_COLUMNS};
 use super::text::Text;
 use super::ticks::short;
 use super::view::View;
-use crate::capsule;
-use crate::store::catalogue::{self, Entry, Type};
+use crate::description::Description;
+use crate::store::catalogue::{self, Type};
 use crate::study::{Direction, Drawing, Sweep};
 
-/// The output shown, unless another is asked for.
-const OUTPUT: Entry = Entry::of_case(capsule::Output::ProgressionSpeed.quantity());
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
 /// Height of each of several frames [pt].
@@ -34,21 +32,22 @@ const HEIGHT_OF_SEVERAL: f64 = 100.0;
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What a map reads: its output, the outcomes, and what sorts cases where it shows kinds of them.
-fn reads(drawing: &Drawing) -> Names {
-    let output = drawing.of.first().map_or(OUTPUT.name, String::as_str);
+fn reads(drawing: &Drawing, model: &'static Description) -> Names {
+    let output = output(drawing, model);
+    let output = output.as_str();
     let entry = catalogue::named(output);
     let sorted = entry.is_none_or(|entry| !matches!(entry.numbers, Type::Real));
-    let sorting = category::READS.into_iter().filter(|_| sorted);
+    let sorting = category::reads(model).into_iter().filter(|_| sorted);
     let names = Names::of(outcome::READS).and(inferred::READS).and(sorting);
     let names = names.and_named([output.to_owned()]);
-    if drawing.curves { names.and_all(curves::reads(drawing)) } else { names }
+    if drawing.curves { names.and_all(curves::reads(drawing, model)) } else { names }
 }
 
 /// Draws the map that `view` asks for, or one for each of several values of other axes.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let plane = Plane::of(view, "a map")?;
     let names = [plane.x_name, plane.y_name];
-    let output = output(view.drawing);
+    let output = output(view.drawing, view.model());
     let rows = view.panels();
     let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
     let views: Vec<View<'_>> = rows.into_iter().flatten().collect();
@@ -94,9 +93,9 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     Ok(canvas.finish(&view.about(&[output], &names)).noting(without).noting(no_line))
 }
 
-/// The output shown.
-fn output(drawing: &Drawing) -> String {
-    drawing.of.first().cloned().unwrap_or_else(|| OUTPUT.name.to_owned())
+/// The output shown: the speed, unless another is asked for.
+fn output(drawing: &Drawing, model: &'static Description) -> String {
+    drawing.of.first().cloned().unwrap_or_else(|| model.speed().name().to_owned())
 }
 
 /// The colours of the cases of all panels over a plane.
@@ -104,7 +103,7 @@ pub(super) fn paint(
     (view, panels): (&View<'_>, &[View<'_>]),
     plane: &Plane<'_>,
 ) -> Result<Paint, FigureError> {
-    let (output, free) = (&output(view.drawing), plane.free());
+    let (output, free) = (&output(view.drawing, view.model()), plane.free());
     let cases: (&[&str], usize) = (&free, plane.count());
     match (view.drawing.sweep, panels) {
         (Some(Sweep::Difference), [first]) => {

@@ -81,7 +81,7 @@ pub use over_map::{MapLine, MapPoint, OverMap, over_map, over_map_variables};
 pub use shown::{Measured, Shown};
 pub use trade_off_cells::{TradeOffAxis, TradeOffCells, trade_off_cells};
 
-use crate::capsule;
+use crate::description::Description;
 use crate::store::catalogue::Entry;
 use crate::study::appearance::NATURAL;
 use crate::study::{Drawing, DrawingKind, Size, Sweep};
@@ -98,11 +98,11 @@ pub fn needs(kind: DrawingKind) -> Needs {
 
 /// The names of the variables whose numbers `drawing` shows or judges cases by; of others it needs no more
 /// than their labels.
-pub fn variables(drawing: &Drawing) -> BTreeSet<String> {
+pub fn variables(drawing: &Drawing, model: &'static Description) -> BTreeSet<String> {
     let reads = registry::kind(drawing.kind).reads;
     // Every figure looks for the parameters along which orbits were continued.
-    let names = reads(drawing).and(varied::READS);
-    let of_natural = [capsule::Parameter::K1, capsule::Parameter::M1].map(Entry::of_parameter);
+    let names = reads(drawing, model).and(varied::READS);
+    let of_natural = model.natural().map(Entry::of_parameter);
     let is_natural = drawing.settings.values().any(|it| it.unit == Some(NATURAL));
     names.and(of_natural.into_iter().filter(|_| is_natural)).into_set()
 }

@@ -1,19 +1,15 @@
 //! The stored motion of a case over time, and what follows from it.
 
-use crate::capsule::CapsuleParameters as _;
 use std::f64::consts::TAU;
 
 use super::error::FigureError;
 use super::view::View;
-use crate::capsule;
-use crate::capsule::{Forces, Resistance, State, Switching, arc};
-use crate::description::Parameters;
-use crate::of::default_model;
+use crate::capsule::{CapsuleParameters as _, Forces, State, arc};
+use crate::description::{Description, Parameters};
 use crate::store::catalogue::{
     Entry, HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_TIME, HISTORY_X1,
     HISTORY_X2, HISTORY_Y1, HISTORY_Y2, RELATIVE_VELOCITY,
 };
-use crate::store::schema::{RESISTANCE, SWITCHING};
 use crate::study::Coordinate;
 
 /// The variables of a state.
@@ -29,12 +25,12 @@ const TOLERANCE: f64 = 1e-10;
 const MISSED: f64 = 1e-6;
 
 /// What the quantity called `name` is found from.
-pub fn sources(name: &str) -> Vec<Entry> {
+pub fn sources(name: &str, model: &'static Description) -> Vec<Entry> {
     match name {
         _ if name == HISTORY_X1.name => vec![HISTORY_X2, HISTORY_R],
         _ if name == RELATIVE_VELOCITY.name => vec![HISTORY_Y1, HISTORY_Y2],
         _ if name == HISTORY_CONTACT.name || name == HISTORY_FRICTION.name => {
-            let parameters = default_model().parameters().map(Entry::of_parameter);
+            let parameters = model.parameters().map(Entry::of_parameter);
             parameters.chain(STATES).collect()
         }
         _ => Vec::new(),
@@ -42,8 +38,8 @@ pub fn sources(name: &str) -> Vec<Entry> {
 }
 
 /// What is found from, of a motion that is [drawn](Motion::drawn).
-pub fn sources_of_arcs() -> Vec<Entry> {
-    let parameters = default_model().parameters().map(Entry::of_parameter);
+pub fn sources_of_arcs(model: &'static Description) -> Vec<Entry> {
+    let parameters = model.parameters().map(Entry::of_parameter);
     let phases = [Coordinate::StartPhase, Coordinate::SectionPhase].map(Entry::of_coordinate);
     parameters.chain(phases).chain(STATES).chain([HISTORY_DRIVE]).collect()
 }
@@ -151,17 +147,20 @@ impl<'v, 'a> Motion<'v, 'a> {
 
     /// The parameters of the case.
     fn parameters(&self) -> Result<Parameters, FigureError> {
-        let mut parameters = Parameters::default();
-        for parameter in default_model().parameters() {
+        let mut parameters = Parameters::of(self.view.model());
+        for parameter in self.view.model().parameters() {
             parameters[parameter] = self.number(parameter.symbol())?;
         }
-        let named = |name: &str| self.view.dataset.attributes.get(name).map(String::as_str);
-        let law = Resistance::NAMES.iter().find(|it| Some(it.0) == named(RESISTANCE));
-        let Some(&(_, law)) = law else {
-            return Err(self.view.unfit("the results do not name their law of resistance"));
-        };
-        parameters.resist_by(law);
-        parameters.switch_by(named(SWITCHING).and_then(Switching::named).unwrap_or_default());
+        for (place, choice) in self.view.model().choices.iter().enumerate() {
+            let named = self.view.dataset.attributes.get(choice.name);
+            let chosen =
+                choice.options.iter().position(|it| named.is_some_and(|named| named == it));
+            let Some(chosen) = chosen else {
+                let why = format!("the results do not name their {}", choice.meaning);
+                return Err(self.view.unfit(why));
+            };
+            parameters.choose(place, chosen);
+        }
         Ok(parameters)
     }
 
@@ -192,7 +191,7 @@ impl<'v, 'a> Motion<'v, 'a> {
         };
         let sizes = [size(|it| it.r), size(|it| it.y1), size(|it| it.y2)];
         let mut points = Points::default();
-        let omega = parameters[capsule::Parameter::Omega];
+        let omega = parameters[parameters.model().drive_frequency()];
         for (place, state) in states.iter().enumerate() {
             points.put(cycles[place], *state, drive[place]);
             let Some(next) = states.get(place + 1) else { break };
@@ -217,7 +216,7 @@ impl<'v, 'a> Motion<'v, 'a> {
     /// The phase of the drive at the first sample, that of the start or of the section; none if the force of the drive
     /// tells of another.
     fn phase(&self, parameters: &Parameters, cycles: &[f64], drive: &[f64]) -> Option<f64> {
-        let p_d = parameters[capsule::Parameter::Pd];
+        let p_d = parameters[parameters.model().drive_amplitude()];
         let phases = [Coordinate::SectionPhase, Coordinate::StartPhase];
         phases.into_iter().find_map(|coordinate| {
             let phase = self.number(coordinate.name()).ok()?;

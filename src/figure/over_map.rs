@@ -13,6 +13,7 @@ use super::symbol::Symbol;
 use super::track::{Rows, elsewhere, in_view};
 use super::varied;
 use super::view::View;
+use crate::description::Description;
 use crate::store::catalogue::{
     AT_BRANCH_POINTS, AT_SPECIAL_POINTS, INDEX_REQUEST, OrbitColumns, Place, SPECIAL_KIND,
 };
@@ -54,9 +55,10 @@ pub struct OverMap {
 }
 
 /// The names of the variables that [`over_map`] reads.
-pub fn over_map_variables(drawing: &Drawing) -> BTreeSet<String> {
+pub fn over_map_variables(drawing: &Drawing, model: &'static Description) -> BTreeSet<String> {
     let at_points = Place::Branch.parameters();
-    let names = curves::reads(drawing).and([AT_BRANCH_POINTS.branch, AT_SPECIAL_POINTS.branch]);
+    let names =
+        curves::reads(drawing, model).and([AT_BRANCH_POINTS.branch, AT_SPECIAL_POINTS.branch]);
     names.and([SPECIAL_KIND]).and(at_points).and(varied::READS).into_set()
 }
 

@@ -15,7 +15,7 @@ use super::style::{
 };
 use super::text::Text;
 use super::view::View;
-use crate::capsule;
+use crate::description::Description;
 use crate::store::catalogue::{
     Entry, HISTORY_R, HISTORY_Y1, HISTORY_Y2, IMPACT_Y1, IMPACT_Y2, RELATIVE_VELOCITY, SECTION_R,
     SECTION_Y1, SECTION_Y2,
@@ -46,13 +46,13 @@ struct Portrait {
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What a portrait reads: the motion, the points of both sections, and the gap.
-fn reads(drawing: &Drawing) -> Names {
-    let named = drawing.of.iter().flat_map(|name| sources(name));
+fn reads(drawing: &Drawing, model: &'static Description) -> Names {
+    let named = drawing.of.iter().flat_map(|name| sources(name, model));
     Names::of([HISTORY_R, HISTORY_Y1, HISTORY_Y2])
         .and([SECTION_R, SECTION_Y1, SECTION_Y2, IMPACT_Y1, IMPACT_Y2])
-        .and([Entry::of_parameter(capsule::Parameter::Delta)])
+        .and([Entry::of_parameter(model.impact_surface())])
         .and(named)
-        .and(sources_of_arcs())
+        .and(sources_of_arcs(model))
         .and_named(drawing.of.clone())
 }
 
@@ -132,7 +132,7 @@ fn portrait(panel: &CasePanel<'_>, names: [&str; 2]) -> Result<Portrait, FigureE
     if orbit.is_empty() {
         return Err(view.unfit(format!("no sample lies in cycles {first} to {last}")));
     }
-    let delta = capsule::Parameter::Delta.symbol();
+    let delta = view.model().impact_surface().symbol();
     let gap = view.parameter(delta, free).ok().and_then(|gaps| gaps.iter().nth(case).copied());
     let of_case = |entry: Entry| -> Result<Vec<f64>, FigureError> {
         if view.dataset.variable(entry.name).is_none() {
@@ -197,7 +197,7 @@ fn legend(view: &View<'_>, portraits: &[Portrait]) -> Vec<(Mark, Text)> {
         legend.push((Mark::Ring(VERMILION, IMPACT_RADIUS), Text::plain("impact")));
     }
     if portraits.iter().any(|it| it.gap.iter().any(Option::is_some)) {
-        let delta = view.quantity(capsule::Parameter::Delta.symbol()).short_name();
+        let delta = view.quantity(view.model().impact_surface().symbol()).short_name();
         let words = Text::plain("contact, from\u{a0}").then(delta);
         legend.push((Mark::Patch(CONTACT), words));
     }

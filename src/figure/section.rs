@@ -12,6 +12,7 @@ use super::quantity::Quantity;
 use super::style::{INK, TWO_COLUMNS};
 use super::text::Text;
 use super::view::View;
+use crate::description::Description;
 use crate::store::catalogue::{
     Entry, IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2, RELATIVE_VELOCITY, SECTION_R, SECTION_Y1,
 };
@@ -26,7 +27,7 @@ const NARROW: f64 = 120.0;
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What sections read.
-fn reads(_: &Drawing) -> Names {
+fn reads(_: &Drawing, _model: &'static Description) -> Names {
     Names::of([SECTION_R, SECTION_Y1, IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2])
 }
 

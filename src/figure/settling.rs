@@ -16,6 +16,7 @@ use super::raster::Fill;
 use super::style::{INFERRED, INK};
 use super::text::Text;
 use super::view::View;
+use crate::description::Description;
 use crate::store::catalogue::{CYCLES, Entry, Place, SECTION, starts};
 use crate::study::{Coordinate, Drawing};
 
@@ -26,7 +27,7 @@ const HEIGHT: f64 = 170.0;
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What the figure reads: the cycles of each case, and the section points of the attractors.
-fn reads(_: &Drawing) -> Names {
+fn reads(_: &Drawing, _model: &'static Description) -> Names {
     let phases = [Coordinate::StartPhase, Coordinate::SectionPhase].map(Entry::of_coordinate);
     Names::of(outcome::READS)
         .and([CYCLES])

@@ -20,9 +20,8 @@ use super::scale::{Scale, finite_range};
 use super::style::{CURVE_WIDTH, INK};
 use super::text::Text;
 use super::ticks::significant;
-
 use super::view::View;
-use crate::capsule;
+use crate::description::Description;
 use crate::store::catalogue::{
     ATTRACTOR, ATTRACTOR_AXIS, ATTRACTOR_INTEGRITY_ERROR, ATTRACTOR_INTEGRITY_FACTOR,
     ATTRACTOR_KIND, ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
@@ -39,18 +38,15 @@ const ROWS: usize = 1 << 14;
 /// A share below this is rounding.
 const NOTHING: f64 = 1e-9;
 
-/// The speed of each case.
-const SPEED: Entry = Entry::of_case(capsule::Output::ProgressionSpeed.quantity());
-
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What bands read: the shares, and what the attractors are.
-fn reads(_: &Drawing) -> Names {
+fn reads(_: &Drawing, model: &'static Description) -> Names {
     Names::of([ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, ATTRACTOR_KIND, ATTRACTOR_PERIOD])
         .and([ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_INTEGRITY_FACTOR])
         .and([ATTRACTOR_INTEGRITY_ERROR])
-        .and([ATTRACTOR, SPEED])
+        .and([ATTRACTOR, Entry::of_output(model.speed())])
 }
 
 /// Draws the bands that `view` asks for.
@@ -164,7 +160,8 @@ fn columns(table: &ArrayD<f64>) -> Vec<Vec<f64>> {
 
 /// The range of the speeds of all cases that lead to an attractor, where the results have them.
 fn speeds(view: &View<'_>, number: usize) -> Option<String> {
-    let (labels, speeds) = (view.column(ATTRACTOR), view.column(SPEED));
+    let (labels, speeds) =
+        (view.column(ATTRACTOR), view.column(Entry::of_output(view.model().speed())));
     let ours = labels.iter().zip(&speeds).filter(|(label, _)| **label == number as f64);
     let (low, high) = finite_range(ours.map(|(_, speed)| *speed))?;
     let (low, high) = (millimetres(low), millimetres(high));

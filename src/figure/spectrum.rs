@@ -18,7 +18,7 @@ use super::scale::{Scale, Spacing};
 use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, ONE_COLUMN, REFERENCE_WIDTH, TWO_COLUMNS};
 use super::text::Text;
 use super::view::View;
-use crate::capsule;
+use crate::description::Description;
 use crate::store::catalogue::{
     Entry, HISTORY_X1, HISTORY_X2, RELATIVE_VELOCITY, SPECTRUM_FREQUENCY,
 };
@@ -43,10 +43,10 @@ fn outputs(drawing: &Drawing) -> Vec<String> {
 }
 
 /// What a spectrum reads: the motion, and the frequency of the drive.
-fn reads(drawing: &Drawing) -> Names {
+fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let outputs = outputs(drawing);
-    let needed: Vec<Entry> = outputs.iter().flat_map(|name| sources(name)).collect();
-    Names::of(needed).and([Entry::of_parameter(capsule::Parameter::Omega)]).and_named(outputs)
+    let needed: Vec<Entry> = outputs.iter().flat_map(|name| sources(name, model)).collect();
+    Names::of(needed).and([Entry::of_parameter(model.drive_frequency())]).and_named(outputs)
 }
 
 /// The spectrum of a quantity of a case, in the units of the figure.
@@ -175,7 +175,7 @@ fn spectrum(panel: &CasePanel<'_>, output: &str) -> Result<Spectrum, FigureError
     if !(cycles >= 1.0 && count < times.len()) {
         return Err(view.unfit("a spectrum needs the history of a whole cycle"));
     }
-    let omega = view.parameter(capsule::Parameter::Omega.symbol(), free)?;
+    let omega = view.parameter(view.model().drive_frequency().symbol(), free)?;
     let omega = omega.iter().nth(case).copied().unwrap_or(f64::NAN);
     let drive = omega * view.quantity(SPECTRUM_FREQUENCY.name).factor;
     let found = |lines: Vec<(f64, f64)>| Spectrum {

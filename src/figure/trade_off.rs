@@ -19,39 +19,30 @@ use super::trade_off_fronts::{Front, marked};
 use super::trade_off_motions::{Best, Motions};
 use super::trade_off_table::{BETWEEN, OPEN, table};
 use super::view::View;
-use crate::capsule;
+use crate::description::Description;
 use crate::store::catalogue::{self, DRAW};
 use crate::study::{Coordinate, Drawing};
 use crate::tradeoff::Candidate;
 
-/// The energy shown, unless another is asked for.
-const ENERGY: catalogue::Entry =
-    catalogue::Entry::of_case(capsule::Output::WorkPositive.quantity());
-/// The speed shown.
-pub const SPEED: catalogue::Entry =
-    catalogue::Entry::of_case(capsule::Output::ProgressionSpeed.quantity());
-/// What marks a motion with the least of it.
-const PER_METRE: catalogue::Entry =
-    catalogue::Entry::of_case(capsule::Output::EnergyPerMetre.quantity());
 /// Height of the frame [pt].
 const HEIGHT: f64 = 158.0;
 
 /// The kind of figure.
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
-/// The name of the output that should be small.
-pub fn price(drawing: &Drawing) -> &str {
-    drawing.of.first().map_or(ENERGY.name, String::as_str)
+/// The name of the output that should be small: the work of a cycle, unless another is asked for.
+pub fn price<'d>(drawing: &'d Drawing, model: &'static Description) -> &'d str {
+    drawing.of.first().map_or(model.work().name(), String::as_str)
 }
 
 /// What a trade-off reads: both quantities, the energy per metre, what was drawn, and the outcomes.
-fn reads(drawing: &Drawing) -> Names {
+fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let drawn = Coordinate::all().map(|it| it.name().to_owned());
     Names::of(outcome::READS)
-        .and([SPEED, PER_METRE])
-        .and(category::READS)
+        .and([model.speed(), model.energy_per_distance()].map(catalogue::Entry::of_output))
+        .and(category::reads(model))
         .and_named(drawing.colour_by.clone())
-        .and_named(drawn.chain([price(drawing).to_owned()]))
+        .and_named(drawn.chain([price(drawing, model).to_owned()]))
 }
 
 /// A trade-off that is drawn.
@@ -70,11 +61,11 @@ struct TradeOff<'v, 'a> {
 
 /// Draws the trade-off that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let price = price(view.drawing);
+    let price = price(view.drawing, view.model());
     let free = view.free_axes();
     let fronts = Front::all(view, price, &free)?;
     let paint = paint(view, &free)?;
-    let factors = [price, SPEED.name].map(|name| view.quantity(name).factor);
+    let factors = [price, view.model().speed().name()].map(|name| view.quantity(name).factor);
     let shown = TradeOff { view, price, factors, free: &free, fronts, paint };
     let table = table((view, &free), price, &shown.fronts)?;
     let bar = |height: f64| shown.paint.as_ref().map_or(0.0, |it| it.room(height));
@@ -139,7 +130,10 @@ impl TradeOff<'_, '_> {
 
     /// What the figure shows and leaves out, in a sentence kept inside its files.
     fn about(&self) -> String {
-        let shows = self.view.about(&[SPEED.name.to_owned(), self.price.to_owned()], self.free);
+        let shows = self.view.about(
+            &[self.view.model().speed().name().to_owned(), self.price.to_owned()],
+            self.free,
+        );
         let motions = self.motions();
         let aperiodic = motions.aperiodic();
         let between: Vec<String> = self.fronts.iter().map(Front::about).collect();
@@ -206,7 +200,7 @@ impl TradeOff<'_, '_> {
         let legend = if prices.len() > 1 { self.legend() } else { Vec::new() };
         let panel = PanelRequest {
             x: AxisRequest::around(view.quantity(self.price), &prices, 0.04),
-            y: AxisRequest::around(view.quantity(SPEED.name), &speeds, 0.06),
+            y: AxisRequest::around(view.quantity(view.model().speed().name()), &speeds, 0.06),
             header: Header { legend, note: view.held_note(self.free), ..Header::default() },
         };
         PageRequest {

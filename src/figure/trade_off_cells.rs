@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::error::FigureError;
 use super::plane::Plane;
 use super::shown::Shown;
-use super::trade_off::{SPEED, price};
+use super::trade_off::price;
 use super::trade_off_motions::{DIRECTIONS, Motions};
 use super::view::View;
 use crate::study::Drawing;
@@ -44,14 +44,16 @@ pub fn trade_off_cells<'a>(
     let view = View::new(shown.into(), drawing)?;
     let plane = Plane::of(&view, "a map")?;
     let free = plane.free();
-    let motions = Motions::of(&view, (price(drawing), &free), None)?;
+    let model = view.model();
+    let motions = Motions::of(&view, (price(drawing, model), &free), None)?;
     let cells = cells(&plane);
     let mut left_out = BTreeMap::new();
     if motions.left_out > 0 {
         left_out.insert("without values".to_owned(), motions.left_out);
     }
     let mut values = [vec![f32::NAN; plane.count()], vec![f32::NAN; plane.count()]];
-    let factors = [price(drawing), SPEED.name].map(|name| view.quantity(name).factor);
+    let factors =
+        [price(drawing, model), model.speed().name()].map(|name| view.quantity(name).factor);
     for motion in motions.cases() {
         if !motions.counts(motion) {
             let outcome = motions.outcome(motion).unwrap_or("without outcome");
@@ -72,7 +74,7 @@ pub fn trade_off_cells<'a>(
         let label = view.quantity(name).told();
         TradeOffAxis { name: name.to_owned(), label, values }
     };
-    let axes = [axis(price(drawing), prices), axis(SPEED.name, speeds)];
+    let axes = [axis(price(drawing, model), prices), axis(model.speed().name(), speeds)];
     Ok(TradeOffCells { axes, fronts, left_out })
 }
 

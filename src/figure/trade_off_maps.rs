@@ -15,7 +15,7 @@ use super::raster::Fill;
 use super::style::{INK, PAPER, TWO_COLUMNS};
 use super::symbol::Symbol;
 use super::text::Text;
-use super::trade_off::{KIND as TRADE_OFF, SPEED, price};
+use super::trade_off::{KIND as TRADE_OFF, price};
 use super::trade_off_fronts::marked;
 use super::trade_off_motions::{Best, DIRECTIONS, Motions, value_of};
 use super::view::View;
@@ -58,7 +58,7 @@ impl Path {
 /// Draws the maps that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let plane = Plane::of(view, "maps of a trade-off")?;
-    let price = price(view.drawing);
+    let price = price(view.drawing, view.model());
     let free = view.free_axes();
     let under = |it: &&KeptFront| !it.conditions.is_empty();
     let alone = view.refined.iter().find(|it| !under(it));
@@ -72,12 +72,15 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let fastest = fastest(view, (&free, &plane), &motions);
     let speed = |motion: &Candidate| motion.speed;
     let cost = |motion: &Candidate| motion.price;
-    let shown = [(SPEED.name, speed as fn(&Candidate) -> f64), (price, cost)].map(|(name, of)| {
-        let quantity = view.quantity(name);
-        let value = |it: &Option<&Candidate>| it.map_or(f64::NAN, |it| of(it) * quantity.factor);
-        let values: Vec<f64> = fastest.iter().map(value).collect();
-        (Colours::for_values(&values, quantity), values)
-    });
+    let shown = [(view.model().speed().name(), speed as fn(&Candidate) -> f64), (price, cost)].map(
+        |(name, of)| {
+            let quantity = view.quantity(name);
+            let value =
+                |it: &Option<&Candidate>| it.map_or(f64::NAN, |it| of(it) * quantity.factor);
+            let values: Vec<f64> = fastest.iter().map(value).collect();
+            (Colours::for_values(&values, quantity), values)
+        },
+    );
     let over: Vec<&str> = searched(view, (&free, axes));
     let room = |height: f64| {
         let rooms = shown.iter().filter_map(|(colours, _)| Some(colours.as_ref()?.room(height)));
@@ -119,7 +122,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
             colours.draw_bar(&mut canvas, panel.frame);
         }
     }
-    let about = view.about(&[SPEED.name.to_owned(), price.to_owned()], &free);
+    let about = view.about(&[view.model().speed().name().to_owned(), price.to_owned()], &free);
     let among = if over.is_empty() { String::new() } else { format!(" over {}", over.join(", ")) };
     Ok(canvas.finish(&format!(
         "{about}; in each cell over {} the fastest motion{among}, aperiodic ones by their means; the fronts have {forward} \

@@ -4,9 +4,7 @@ use super::error::FigureError;
 use super::outcome::Outcomes;
 use super::view::View;
 use crate::campaign::{KeptFront, RefinedMotion, Searched};
-use crate::capsule;
 use crate::description::Output;
-use crate::of::default_model;
 use crate::store::catalogue::DRAW;
 use crate::store::takes_part;
 use crate::study::Coordinate;
@@ -77,11 +75,11 @@ impl<'a> Motions<'a> {
         (price, free): (&str, &[&str]),
         sought: Option<&'a KeptFront>,
     ) -> Result<Motions<'a>, FigureError> {
-        let Some(output) = default_model().output(price) else {
+        let Some(output) = view.model().output(price) else {
             return Err(view.unfit(format!("`{price}` is no output of a motion")));
         };
         let (prices, speeds) =
-            (view.take(price, free)?, view.take(capsule::Output::ProgressionSpeed.name(), free)?);
+            (view.take(price, free)?, view.take(view.model().speed().name(), free)?);
         if prices.len() != speeds.len() {
             return Err(view.unfit(format!("`{price}` does not have one value per case")));
         }
@@ -183,12 +181,12 @@ fn energies_per_metre(
     price: Output,
     free: &[&str],
 ) -> Result<Vec<f64>, FigureError> {
-    let name = capsule::Output::EnergyPerMetre.name();
+    let name = view.model().energy_per_distance().name();
     if view.dataset.variable(name).is_some() {
         return Ok(view.take(name, free)?.into_iter().collect());
     }
     match price {
-        _ if price == capsule::Output::Power => Ok(Vec::new()),
+        _ if price == view.model().power() => Ok(Vec::new()),
         _ => Ok(vec![f64::NAN; view.take(price.name(), free)?.len()]),
     }
 }

@@ -10,7 +10,6 @@ use super::trade_off_fronts::{Front, marked};
 use super::trade_off_motions::{Best, Motions, coordinates, value_of};
 use super::view::View;
 use crate::campaign::RefinedMotion;
-use crate::capsule;
 use crate::store::catalogue::DIRECTION;
 use crate::study::Coordinate;
 use crate::tradeoff::Candidate;
@@ -66,7 +65,7 @@ fn columns<'v>(
     price: &str,
     free: &'v [&'v str],
 ) -> Result<Vec<Column<'v>>, FigureError> {
-    let speed = view.quantity(capsule::Output::ProgressionSpeed.name());
+    let speed = view.quantity(view.model().speed().name());
     let price = view.quantity(price);
     let mut columns = vec![
         output(Text::plain("Speed"), speed, |motion| motion.speed),

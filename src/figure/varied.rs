@@ -1,6 +1,5 @@
 //! The parameters in which the orbits of a file of results were continued.
 
-use crate::of::default_model;
 use crate::store::catalogue::{CURVE_POINT, Entry, Place, REQUEST_ALONG};
 use crate::store::dataset::Dataset;
 
@@ -25,6 +24,6 @@ pub fn varied(dataset: &Dataset) -> Vec<&str> {
         dataset.variables.iter().filter(|(_, it)| it.dimensions == [CURVE_POINT.name]);
     let columns = over_curves.filter_map(|(name, _)| Place::Curve.base(name));
     // What the curves are stands over their points, too.
-    let second = columns.filter(|name| default_model().parameter(name).is_some());
+    let second = columns.filter(|name| dataset.model().parameter(name).is_some());
     along(dataset).into_iter().chain(second).collect()
 }

@@ -14,10 +14,7 @@ use super::style::POINTS_PER_MM;
 use super::unit::ShownUnit;
 use super::varied::varied;
 use crate::campaign::KeptFront;
-use crate::capsule;
-use crate::description::Output;
-use crate::description::Parameter;
-use crate::of::default_model;
+use crate::description::{Description, Output, Parameter};
 use crate::store::catalogue::{self, DIRECTION, DRAW, Entry, Extent, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::study::axis::{is_within, range};
@@ -89,6 +86,11 @@ impl<'a> View<'a> {
         Ok(view)
     }
 
+    /// The model of the results.
+    pub fn model(&self) -> &'static Description {
+        self.dataset.model()
+    }
+
     /// The natural frequency of the mass on its spring alone [rad/s], where it is the same for all cases.
     fn natural_frequency(&self) -> Option<f64> {
         let one = |parameter: Parameter| {
@@ -96,7 +98,8 @@ impl<'a> View<'a> {
             let varies = self.coordinate_values(parameter.symbol()).len() > 1;
             values.first().copied().filter(|_| !varies)
         };
-        Some((one(capsule::Parameter::K1.into())? / one(capsule::Parameter::M1.into())?).sqrt())
+        let [stiffness, mass] = self.model().natural();
+        Some((one(stiffness)? / one(mass)?).sqrt())
     }
 
     /// The first fault of what is set.
@@ -268,7 +271,7 @@ impl<'a> View<'a> {
     pub fn variable(&self, name: &str) -> Result<&'a Variable, FigureError> {
         self.dataset.variable(name).ok_or_else(|| {
             let variables = &self.dataset.variables;
-            let outputs: Vec<Output> = default_model().outputs().collect();
+            let outputs: Vec<Output> = self.model().outputs().collect();
             let drawable = self.drawing.kind.can_show(&outputs).into_iter().map(str::to_owned);
             let present: Vec<String> = drawable.filter(|it| variables.contains_key(it)).collect();
             let all = || variables.keys().cloned().collect();

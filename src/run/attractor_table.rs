@@ -1,20 +1,18 @@
 //! The table of the attractors of a study whose cases differ in their starts alone.
 
-use crate::attractor::{
-    Attractor, Entropy, Integrity, Share, Uncertainty, entropy, shares_of_draws, shares_of_grid,
-    uncertainty,
-};
-use crate::capsule::CapsuleParameters as _;
-use crate::capsule::Case;
-use crate::orbit::Outcome;
-use crate::study::{CaseSet, Study};
-
 use super::cases::run_sample;
 use super::edge::{Edge, edges};
 use super::inferred_sample::{InferredSample, check_starts};
 use super::room::Room;
 use super::shock::shocks;
 use super::{Attractors, FinalMotions, Machine, Record, RunError, SharesAt, shares_along};
+use crate::attractor::{
+    Attractor, Entropy, Integrity, Share, Uncertainty, entropy, shares_of_draws, shares_of_grid,
+    uncertainty,
+};
+use crate::capsule::{CapsuleParameters as _, Case};
+use crate::orbit::Outcome;
+use crate::study::{CaseSet, Study};
 
 /// An attractor that starts lead to.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,11 +1,9 @@
 //! What is known and inferred of the cases of a map that is refined by outputs.
 
-use crate::capsule;
+use super::Record;
 use crate::description::Output;
 use crate::orbit::Outcome;
 use crate::study::{Refine, Refining, Study};
-
-use super::Record;
 
 /// What tells the computed cases of a refined map apart.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +26,7 @@ impl MapPoint {
         let value = |(of, most): &(Output, f64)| output(*of) / most;
         MapPoint {
             period: if outcome == Outcome::Periodic { period } else { 0 },
-            rests: output(capsule::Output::StickShare.into()) >= 1.0,
+            rests: output(study.base.model().rest_share()) >= 1.0,
             values: within(study).iter().map(value).collect(),
         }
     }

@@ -2,14 +2,6 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::attractor::{Entropy, Integrity, Share};
-use crate::of::default_model;
-use crate::orbit::Outcome;
-use crate::run::{
-    AttractorEvent, AttractorRow, AttractorTable, Attractors, Edge, InferredSample, SharesAt,
-};
-use crate::study::{Coordinate, Study};
-
 use super::catalogue::{
     ATTRACTOR, ATTRACTOR_AXIS, ATTRACTOR_CASE, ATTRACTOR_CASES, ATTRACTOR_CERTIFICATE,
     ATTRACTOR_CYCLE, ATTRACTOR_CYCLES_MEAN, ATTRACTOR_CYCLES_MOST, ATTRACTOR_INDEX,
@@ -23,6 +15,13 @@ use super::catalogue::{
     EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, INFERRED_ELSEWHERE, INFERRED_SAMPLE, Place, SECTION,
 };
 use super::{Dataset, Values, boundary};
+use crate::attractor::{Entropy, Integrity, Share};
+use crate::of::default_model;
+use crate::orbit::Outcome;
+use crate::run::{
+    AttractorEvent, AttractorRow, AttractorTable, Attractors, Edge, InferredSample, SharesAt,
+};
+use crate::study::{Coordinate, Study};
 
 /// Adds to the dataset of a study which attractor each case has ended on, the table of the attractors of starts, and
 /// that of events.

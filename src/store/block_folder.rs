@@ -13,17 +13,14 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::capsule;
-use crate::description::Output;
-use crate::orbit::Outcome;
-use crate::run::Record;
-use crate::study::{Refine, Study};
-
 use super::block_file::{self, BlockFile, Column, Head, Numbers, Summary, Unusable};
 use super::catalogue::{CASE, END_R, END_Y1, END_Y2, RESIDUAL, starts};
 use super::file::{self, discard_unfinished_in, put};
 use super::lock::{Lock, Tried, try_lock};
 use super::{StoreError, Values, provenance, schema};
+use crate::orbit::Outcome;
+use crate::run::Record;
+use crate::study::{Refine, Study};
 
 /// The fingerprint of the study and the program of the first run.
 const BEGUN: &str = "begun.json";
@@ -36,7 +33,6 @@ const TRIES: u32 = 10;
 /// Time between two tries.
 const PAUSE: Duration = Duration::from_millis(100);
 /// The output that tells whether the capsule never slides.
-const STICK_SHARE: Output = capsule::Output::StickShare.described();
 /// Lines that are shown of a change of the study.
 const LINES_SHOWN: usize = 6;
 
@@ -334,12 +330,12 @@ fn columns(study: &Study, records: &[Record]) -> Vec<Column> {
         let cases = records.iter().map(|record| record.index as i64).collect();
         columns.push(Column { name: CASE.to_owned(), numbers: Numbers::Integer(cases) });
     }
+    let rest_share = study.base.model().rest_share();
     // What tells the cases of a refined map apart is whether the capsule never slides, too, whatever outputs are kept.
-    if let (Some(Refine::Outputs(_)), false) = (&study.refine, study.outputs.contains(&STICK_SHARE))
+    if let (Some(Refine::Outputs(_)), false) = (&study.refine, study.outputs.contains(&rest_share))
     {
-        let shares = records.iter().map(|record| record.orbit.outputs[STICK_SHARE]).collect();
-        columns
-            .push(Column { name: STICK_SHARE.name().to_owned(), numbers: Numbers::Real(shares) });
+        let shares = records.iter().map(|record| record.orbit.outputs[rest_share]).collect();
+        columns.push(Column { name: rest_share.name().to_owned(), numbers: Numbers::Real(shares) });
     }
     columns.extend(beyond_variables(records));
     columns

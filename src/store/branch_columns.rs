@@ -2,13 +2,11 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use crate::capsule::branch::Point;
-use crate::description::Output;
-use crate::description::Parameter;
-use crate::orbit::matrix::Complex;
-
 use super::catalogue::{BRANCH_CYCLE, Entry, OrbitColumns, Place, SECTION};
 use super::{Dataset, Values};
+use crate::capsule::branch::Point;
+use crate::description::{Output, Parameter};
+use crate::orbit::matrix::Complex;
 
 /// An orbit on a branch.
 pub struct Row<'a> {

@@ -1,14 +1,13 @@
 //! The variables of the branches in a file of results, beside those of the sweep.
 
-use crate::branch::End;
-use crate::description::Parameter;
-use crate::run::Continued;
-use crate::study::{Continuation, Study};
-
 use super::branch_columns::add_points;
 use super::catalogue::*;
 use super::flat::Flat;
 use super::{Dataset, Values, Variable};
+use crate::branch::End;
+use crate::description::Parameter;
+use crate::run::Continued;
+use crate::study::{Continuation, Study};
 
 /// Whether a name is that of a dimension of the branches, none of which is an axis of a study.
 pub fn is_of_branches(dimension: &str) -> bool {

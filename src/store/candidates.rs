@@ -2,15 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule;
-use crate::description::Output;
-use crate::orbit::Outcome;
-use crate::tradeoff::Candidate;
-
 use super::case_table::{CaseTable, Column};
 use super::catalogue::OUTCOME;
 use super::constraint::{Condition, fulfils};
 use super::{StoreError, Unread};
+use crate::description::Output;
+use crate::orbit::Outcome;
+use crate::tradeoff::Candidate;
 
 /// The motions of a file that take part in a trade-off.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,10 +28,10 @@ pub fn candidates(
     of: Output,
     conditions: &[Condition],
 ) -> Result<Candidates, Unread> {
-    let speeds = column(table, capsule::Output::ProgressionSpeed.into())?;
+    let speeds = column(table, table.model().speed())?;
     let prices = column(table, of)?;
     let metres =
-        column(table, capsule::Output::EnergyPerMetre.into()).unwrap_or_else(|_| unknown(table));
+        column(table, table.model().energy_per_distance()).unwrap_or_else(|_| unknown(table));
     let outcomes = table.column(OUTCOME.name)?.unwrap_or_else(|| unknown(table));
     let mut found = Candidates { all: Vec::new(), left_out: BTreeMap::new() };
     for case in 0..table.cases() {
@@ -79,22 +77,21 @@ fn column(table: &CaseTable<'_>, output: Output) -> Result<Column, Unread> {
         let values = a.values.iter().zip(&b.values).map(|(a, b)| of(*a, *b)).collect();
         Ok(Some(Column { values, ..a }))
     };
-    let (work, omega) = (capsule::Output::WorkPositive.name(), capsule::Parameter::Omega.symbol());
-    let speed = capsule::Output::ProgressionSpeed.name();
+    let model = table.model();
+    let (work, omega) = (model.work().name(), model.drive_frequency().symbol());
+    let speed = model.speed().name();
     let found = match output {
-        _ if output == capsule::Output::Power => {
+        _ if output == model.power() => {
             both(work, omega, |work, omega| work * omega / std::f64::consts::TAU)?
         }
-        _ if output == capsule::Output::EnergyPerMetre => {
-            match column(table, capsule::Output::Power.into()) {
-                Ok(power) => table.column(speed)?.map(|speeds| {
-                    let both = power.values.iter().zip(&speeds.values);
-                    let values = both.map(|(power, speed)| power / speed.abs()).collect();
-                    Column { values, ..power }
-                }),
-                Err(_) => None,
-            }
-        }
+        _ if output == model.energy_per_distance() => match column(table, model.power()) {
+            Ok(power) => table.column(speed)?.map(|speeds| {
+                let both = power.values.iter().zip(&speeds.values);
+                let values = both.map(|(power, speed)| power / speed.abs()).collect();
+                Column { values, ..power }
+            }),
+            Err(_) => None,
+        },
         _ => None,
     };
     found.ok_or_else(|| Unread::Faults(vec![format!("the file has no `{}`", output.name())]))

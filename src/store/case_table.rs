@@ -2,6 +2,7 @@
 
 use super::catalogue::{Flags, OUTCOME};
 use super::{Archive, StoreError, Variable};
+use crate::description::Description;
 
 /// The cases of a file of results.
 #[derive(Debug)]
@@ -23,6 +24,11 @@ pub struct Column {
 }
 
 impl<'a> CaseTable<'a> {
+    /// The model whose cases they are.
+    pub fn model(&self) -> &'static Description {
+        self.archive.frame().model()
+    }
+
     /// The cases of `archive`; none where it has no cases. Fails if the file cannot be read.
     pub fn of(archive: &'a Archive) -> Result<Option<CaseTable<'a>>, StoreError> {
         let Some(outcomes) = archive.variable(OUTCOME.name)? else { return Ok(None) };

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use ndarray::{ArrayD, IxDyn};
 
 use super::catalogue::{Entry, Flags};
+use crate::description::Description;
+use crate::of::default_model;
 
 /// The numbers of a variable.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,6 +128,11 @@ pub struct Dataset {
 }
 
 impl Dataset {
+    /// The model whose results they are.
+    pub fn model(&self) -> &'static Description {
+        default_model()
+    }
+
     /// The coordinate called `name`.
     pub fn coordinate(&self, name: &str) -> Option<&Variable> {
         self.coordinates.iter().find(|(key, _)| key == name).map(|(_, variable)| variable)

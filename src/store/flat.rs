@@ -1,12 +1,11 @@
 //! The branches of a study one after another, as they lie in a file: what referred within one refers to all.
 
+use super::branch_columns::Row;
 use crate::branch::{Curve, End, SpecialKind};
 use crate::capsule::branch::Branch;
 use crate::description::Parameter;
 use crate::run::Continued;
 use crate::study::Continuation;
-
-use super::branch_columns::Row;
 
 /// A branch among all.
 pub struct FlatBranch {

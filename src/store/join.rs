@@ -4,16 +4,6 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use crate::capsule;
-use crate::capsule::{REASONS, State};
-use crate::description::Output;
-use crate::orbit::Outcome;
-use crate::orbit::matrix::Complex;
-use crate::run::{
-    FinalMotion, FinalMotions, InferredCases, MapPoint, Record, final_motion, within,
-};
-use crate::study::Study;
-
 use super::block_file::{BlockFile, Summary, Unusable};
 use super::block_folder::BlockFolder;
 use super::catalogue::{
@@ -25,6 +15,14 @@ use super::joined::{self, Column};
 use super::schema;
 use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, StoreError, Values, Variable, provenance};
+use crate::capsule::{REASONS, State};
+use crate::description::Output;
+use crate::orbit::Outcome;
+use crate::orbit::matrix::Complex;
+use crate::run::{
+    FinalMotion, FinalMotions, InferredCases, MapPoint, Record, final_motion, within,
+};
+use crate::study::Study;
 
 /// The name of the outcome of cases that failed.
 const FAILED: &str = Outcome::Failed.name();
@@ -135,7 +133,7 @@ impl<'a> Blocks<'a> {
     pub fn map_points(&self) -> Result<Vec<(usize, MapPoint)>, StoreError> {
         // Blocks have the share of rest even where the results leave it out.
         let refined = within(self.study).iter().map(|(output, _)| *output);
-        let of: Vec<Output> = refined.chain([capsule::Output::StickShare.described()]).collect();
+        let of: Vec<Output> = refined.chain([self.study.base.model().rest_share()]).collect();
         let mut known = Vec::new();
         for file in &self.files {
             let columns: Result<Vec<Vec<f64>>, StoreError> =
@@ -251,7 +249,7 @@ impl<'a> Blocks<'a> {
             filling.put_integers(places, &periods);
         } else if let Some(values) = refined.and_then(|of| values.get(of)) {
             filling.put_reals(places, values);
-        } else if name == capsule::Output::StickShare.name() {
+        } else if name == self.study.base.model().rest_share().name() {
             let shares: Vec<f64> =
                 rests.iter().map(|rests| if *rests { 1.0 } else { f64::NAN }).collect();
             filling.put_reals(places, &shares);

@@ -1,25 +1,19 @@
 //! Which variables a file of results has: a study and its records as a labelled dataset.
 
-use crate::capsule::CapsuleParameters as _;
 use std::collections::BTreeMap;
 
 use ndarray::{ArrayD, IxDyn};
 
+use super::catalogue::*;
+use super::names::OF_PROTOCOL;
+use super::slab::{Filling, INFERRED, MISSING, Slab};
+use super::{Dataset, Values, Variable, drawn, provenance};
 use crate::capsule::{History, Impact, Orbit, State};
 use crate::orbit::Certificate;
 use crate::orbit::matrix::Complex;
 use crate::run::Record;
 use crate::study::{CaseSet, Coordinate, Study};
 
-use super::catalogue::*;
-use super::names::OF_PROTOCOL;
-use super::slab::{Filling, INFERRED, MISSING, Slab};
-use super::{Dataset, Values, Variable, drawn, provenance};
-
-/// Attribute: the law of resistance to the capsule.
-pub const RESISTANCE: &str = "resistance";
-/// Attribute: the reading of the switching between stick and slip.
-pub const SWITCHING: &str = "friction_switching";
 /// Attribute: what was taken where the study leaves it open, see [`Study::remarks`].
 pub const REMARKS: &str = "study_remarks";
 /// Attribute: differs between studies whose cases differ, see [`Study::fingerprint`].
@@ -95,8 +89,8 @@ pub fn frame(study: &Study) -> Dataset {
     dataset.attributes.insert("title".to_owned(), study.title.clone());
     dataset.attributes.extend(provenance::attributes());
     dataset.attributes.extend(protocol(study));
-    dataset.attributes.insert(SWITCHING.to_owned(), study.base.switching().name().to_owned());
-    dataset.attributes.insert(RESISTANCE.to_owned(), study.base.resistance().name().to_owned());
+    let choices = study.base.choices().map(|(name, chosen)| (name.to_owned(), chosen.to_owned()));
+    dataset.attributes.extend(choices);
     dataset.attributes.insert(FINGERPRINT.to_owned(), study.fingerprint());
     if !study.remarks.is_empty() {
         dataset.attributes.insert(REMARKS.to_owned(), study.remarks.join("; "));

@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::description;
-use crate::quantity::Dimension;
-
 use super::Coordinate;
 use super::document::unknown;
+use crate::capsule::description;
 use crate::of::default_model;
+use crate::quantity::Dimension;
 use crate::quantity::units::{expectation, unit};
 
 /// What figures show besides what the model describes, with its dimension.

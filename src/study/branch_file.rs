@@ -2,14 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::Dimension;
-use crate::description::{Parameter, Parameters};
-
 use super::continuation::{Continuation, FirstOrbit};
 use super::document::{Entry, Table, unknown};
-
 use super::start_file::{Start, read_state};
 use super::{CaseSet, Coordinate};
+use crate::capsule::Dimension;
+use crate::description::{Parameter, Parameters};
 
 /// Longest step unless another is asked for, as a share of the range.
 const LONGEST_STEP: f64 = 0.02;

@@ -4,16 +4,14 @@ use std::hash::Hash;
 
 use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 
+use super::grid::Chain;
+use super::{Axis, CaseSet, Continuation, Direction, Drawing, Grid, Inherit, Refine, Refinement};
 use crate::capsule::{Case, State};
-use crate::description::Output;
-use crate::description::Parameters;
+use crate::description::{Output, Parameters};
 use crate::model::Model;
 use crate::of::default_model;
 use crate::of::model_of;
 use crate::orbit::Protocol;
-
-use super::grid::Chain;
-use super::{Axis, CaseSet, Continuation, Direction, Drawing, Grid, Inherit, Refine, Refinement};
 
 /// What to compute.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::description;
-use crate::description::Output;
-
 use super::appearance::Settings;
 use super::grid::Direction;
+use crate::capsule::description;
+use crate::description::Output;
 
 /// What there is for each case besides the outputs.
 const VERDICTS: [&str; 3] = ["outcome", "period", "cycles"];

@@ -2,15 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::capsule::{Dimension, parse_quantity};
-use crate::description::Output;
-use crate::description::Parameter;
-
 use super::appearance::{Setting, Settings, dimension_of};
 use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
 use super::drawing::{COLOURED_BY, Held, Size, Sweep, Texts, check_panels, check_text};
 use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine};
+use crate::capsule::{Dimension, parse_quantity};
+use crate::description::{Output, Parameter};
 
 /// The unit of widths [m].
 const MILLIMETRE: f64 = 1e-3;

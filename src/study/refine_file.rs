@@ -1,10 +1,9 @@
 //! What a study file says of cases that need not be followed to the end, or not at all: `[basin]` and `[map]`.
 
-use crate::description::Output;
-
 use super::document::{Entry, Table, unknown};
 use super::refinement::AXES;
 use super::{CaseSet, Coordinate, Refine};
+use crate::description::Output;
 
 /// What `[basin]` says, which only a study has whose cases differ in their starts alone.
 pub(super) struct Basin {

@@ -2,12 +2,6 @@
 
 use toml::de::DeTable;
 
-use crate::capsule::Dimension;
-use crate::description::Output;
-use crate::of::default_model;
-use crate::orbit::exponent::BATCHES;
-use crate::orbit::{HistorySpan, Protocol};
-
 use super::Refine;
 use super::axis_file::read_case_set;
 use super::branch_file::{Surroundings, read_branches};
@@ -18,6 +12,11 @@ use super::include;
 use super::parameter_table::read_parameters;
 use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
+use crate::capsule::Dimension;
+use crate::description::Output;
+use crate::of::default_model;
+use crate::orbit::exponent::BATCHES;
+use crate::orbit::{HistorySpan, Protocol};
 
 /// More numbers in the results than this (32 GB) are too, rather than found out after a night.
 const MOST_NUMBERS: usize = 4_000_000_000;

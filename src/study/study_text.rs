@@ -2,11 +2,6 @@
 
 use std::fmt::Debug;
 
-use crate::capsule::{Dimension, State};
-use crate::description::Output;
-use crate::description::Parameter;
-use crate::orbit::{HistorySpan, Protocol};
-
 use super::appearance::dimension_of;
 use super::continuation::FirstOrbit;
 use super::draws::Range;
@@ -15,6 +10,9 @@ use super::{
     Axis, CaseSet, Continuation, Coordinate, Drawing, Draws, Fault, Faults, Grid, Inherit,
     QuantitySettings, Refine, Setting, Spacing, Study,
 };
+use crate::capsule::{Dimension, State};
+use crate::description::{Output, Parameter};
+use crate::orbit::{HistorySpan, Protocol};
 
 impl Study {
     /// The study as the text of a study file, with all digits and in SI units.

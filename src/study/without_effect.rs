@@ -1,12 +1,8 @@
-//! What varies in a study without effect on its motion, under its law of resistance.
-
-use crate::capsule;
-use crate::capsule::CapsuleParameters as _;
-use crate::capsule::Resistance;
-use crate::description::Parameter;
+//! What varies in a study without effect on its motion, under what it chooses of its model.
 
 use super::axis::range;
 use super::{Axis, Continuation, Coordinate, Study};
+use crate::description::{Parameter, Parameters, Threshold};
 
 impl Study {
     /// The axes of which several values give the same motion, each with the reason, in a sentence.
@@ -14,15 +10,12 @@ impl Study {
         self.axes().iter().filter_map(|axis| self.why_without_effect(axis)).collect()
     }
 
-    /// That mu_s has no effect, in a sentence, where neither coefficient of friction varies and the study gives too little of it.
-    pub fn idle_static_friction(&self) -> Option<String> {
-        let varies = |it: &Coordinate| {
-            [capsule::Parameter::MuS, capsule::Parameter::MuD]
-                .map(|it| Coordinate::Parameter(it.into()))
-                .contains(it)
-        };
-        let is_constant = !self.case_set.varied().iter().any(varies);
-        self.base.idle_static_friction().filter(|_| is_constant)
+    /// What has no effect at the values of the study, in sentences, as far as it varies none of the parameters that are concerned.
+    pub fn remarks_on_values(&self) -> Vec<String> {
+        let varied = self.case_set.varied();
+        let is_held = |it: &Parameter| !varied.contains(&Coordinate::Parameter(*it));
+        let remarks = (self.base.model().rules.remarks)(&self.base).into_iter();
+        remarks.filter(|it| it.about.iter().all(is_held)).map(|it| it.text).collect()
     }
 
     /// The branches along which orbits stay the same, at least in a part, each with the reason, in a sentence.
@@ -32,11 +25,10 @@ impl Study {
             let varied = [(branch.along, branch.range[0])].into_iter().chain(second);
             let why = |(parameter, low)| {
                 let why = match self.reason(parameter) {
-                    Some(reason) => self.unfelt(parameter, reason),
-                    None if parameter == capsule::Parameter::MuS => {
-                        self.idle_below(branch.parameters[capsule::Parameter::MuD], low)?
+                    Some(reason) => format!("{} has no effect {reason}", parameter.symbol()),
+                    None => {
+                        idle_below(parameter, &self.threshold(&branch.parameters, parameter)?, low)?
                     }
-                    None => return None,
                 };
                 Some(format!("branch `{}`: {why}; its orbits stay the same there", branch.name))
             };
@@ -49,76 +41,57 @@ impl Study {
         let Coordinate::Parameter(parameter) = axis.coordinate else { return None };
         match self.reason(parameter) {
             Some(reason) if axis.values.len() > 1 => {
-                let why = self.unfelt(parameter, reason);
-                Some(format!("{why}; all its values give the same motion"))
+                let name = parameter.symbol();
+                Some(format!("{name} has no effect {reason}; all its values give the same motion"))
             }
-            None if parameter == capsule::Parameter::MuS => self.too_little_static_friction(axis),
-            _ => None,
+            Some(_) => None,
+            None => self.idle_values(axis, parameter),
         }
     }
 
-    /// Whether a parameter has an effect under the law of resistance.
+    /// Whether a parameter has an effect by what the study chooses.
     pub fn has_effect(&self, parameter: Parameter) -> bool {
         self.reason(parameter).is_none()
     }
 
-    /// Why a parameter has no effect under the law of resistance, whatever its value.
-    fn reason(&self, parameter: Parameter) -> Option<&'static str> {
-        match (capsule::Parameter::which(parameter), self.base.resistance()) {
-            (
-                capsule::Parameter::MuS | capsule::Parameter::MuD | capsule::Parameter::Vs,
-                Resistance::Medium,
-            ) => Some("a medium has no dry friction"),
-            (capsule::Parameter::Vs, Resistance::Coulomb) => {
-                Some("friction under this law does not depend on speed")
-            }
-            (
-                capsule::Parameter::C1 | capsule::Parameter::C2,
-                Resistance::Coulomb | Resistance::CoulombStribeck,
-            ) => Some("it belongs to the law `medium` alone"),
-            _ => None,
+    /// Why a parameter has no effect by what the study chooses, whatever its value, as what follows "has no effect".
+    fn reason(&self, parameter: Parameter) -> Option<String> {
+        (self.base.model().rules.no_effect)(&self.base, parameter)
+    }
+
+    /// The value below which a parameter has no effect beside others.
+    fn threshold(&self, beside: &Parameters, parameter: Parameter) -> Option<Threshold> {
+        (self.base.model().rules.no_effect_below)(beside, parameter)
+    }
+
+    /// That several values of an axis have no effect, beside all values of the other axes.
+    fn idle_values(&self, axis: &Axis, parameter: Parameter) -> Option<String> {
+        let mut beside = vec![self.base.clone()];
+        for other in self.axes().iter().filter(|it| it.coordinate != axis.coordinate) {
+            let Coordinate::Parameter(other_parameter) = other.coordinate else { continue };
+            let ends = range(&other.values);
+            let at = |end: f64| {
+                beside.iter().map(move |it| {
+                    let mut it = it.clone();
+                    it[other_parameter] = end;
+                    it
+                })
+            };
+            beside = at(ends[0]).chain(at(ends[1])).collect();
         }
-    }
-
-    /// That a parameter has no effect for a reason.
-    fn unfelt(&self, parameter: Parameter, reason: &str) -> String {
-        let (name, law) = (parameter.symbol(), self.base.resistance().name());
-        format!("{name} has no effect under the law `{law}`: {reason}")
-    }
-
-    /// Static friction below which it has no effect, beside so much dynamic friction: rest ends where the force exceeds
-    /// the friction at the onset of sliding.
-    fn least_static_friction(&self, dynamic: f64) -> f64 {
-        let factor = self.base.resistance().onset_factor();
-        if self.base.switching().balances_at_rest() { factor * dynamic } else { 0.0 }
-    }
-
-    /// That static friction has no effect in a part of what is above `low`.
-    fn idle_below(&self, dynamic: f64, low: f64) -> Option<String> {
-        let limit = self.least_static_friction(dynamic);
-        let (name, onset) =
-            (capsule::Parameter::MuS.symbol(), self.base.resistance().onset_in_words());
-        (low < limit).then(|| {
-            format!(
-                "{name} has no effect below {onset} = {limit}, where rest ends with the friction at the onset \
-                 of sliding"
-            )
-        })
-    }
-
-    fn too_little_static_friction(&self, axis: &Axis) -> Option<String> {
-        let least_dynamic = match self.axes().iter().find(|it| is_dynamic(it)) {
-            Some(dynamic) => range(&dynamic.values)[0],
-            None => self.base[capsule::Parameter::MuD],
-        };
-        let limit = self.least_static_friction(least_dynamic);
-        let idle = axis.values.iter().filter(|mu_s| **mu_s < limit).count();
-        let why = self.idle_below(least_dynamic, range(&axis.values)[0]).filter(|_| idle > 1)?;
+        let limits = beside.iter().map(|it| self.threshold(it, parameter));
+        let limits: Vec<Threshold> = limits.collect::<Option<_>>()?;
+        let least = limits.into_iter().min_by(|a, b| a.value.total_cmp(&b.value))?;
+        let idle = axis.values.iter().filter(|value| **value < least.value).count();
+        let why = idle_below(parameter, &least, range(&axis.values)[0]).filter(|_| idle > 1)?;
         let all = axis.values.len();
         Some(format!("{why}; {idle} of its {all} values give the same motion"))
     }
 }
 
-fn is_dynamic(axis: &Axis) -> bool {
-    axis.coordinate == Coordinate::Parameter(capsule::Parameter::MuD.into())
+/// That a parameter has no effect in a part of what is above `low`.
+fn idle_below(parameter: Parameter, limit: &Threshold, low: f64) -> Option<String> {
+    let Threshold { value, in_words, why } = limit;
+    let name = parameter.symbol();
+    (low < *value).then(|| format!("{name} has no effect below {in_words} = {value}, {why}"))
 }

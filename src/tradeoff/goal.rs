@@ -1,14 +1,12 @@
 //! What a search makes small, and what limits it, relative to where it began.
 
-use crate::capsule;
-use crate::description::Output;
-use crate::orbit::matrix::{dot, solve};
-
 use super::hold::Side;
 use super::limit::Limit;
 use super::operating_point::OperatingPoint;
 use super::optima::Direction;
 use super::quadratic::{LIMITS, Vector};
+use crate::description::Output;
+use crate::orbit::matrix::{dot, solve};
 
 /// What is sought.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,9 +79,7 @@ impl Objective {
     /// What is to be small, in SI.
     fn value(&self, at: &OperatingPoint) -> f64 {
         match self.goal {
-            Goal::Speed { direction, .. } => {
-                -direction.of(at.outputs[capsule::Output::ProgressionSpeed])
-            }
+            Goal::Speed { direction, .. } => -direction.of(at.outputs.speed()),
             Goal::Least(output) => at.outputs[output],
         }
     }
@@ -95,9 +91,9 @@ impl Objective {
         };
         let gradient = match self.goal {
             Goal::Speed { direction, .. } => {
-                let speed = at.outputs[capsule::Output::ProgressionSpeed];
+                let speed = at.outputs.speed();
                 let sign = if direction.of(speed) == speed { 1.0 } else { -1.0 };
-                slopes(capsule::Output::ProgressionSpeed.into(), -sign / self.unit)
+                slopes(at.outputs.model().speed(), -sign / self.unit)
             }
             Goal::Least(output) => slopes(output, 1.0 / self.unit),
         };

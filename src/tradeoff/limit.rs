@@ -1,8 +1,7 @@
 //! What outputs of a motion may be at most or at least.
 
-use crate::description::Output;
-
 use super::hold::Side;
+use crate::description::Output;
 
 /// What an output may be at most, or at least.
 #[derive(Debug, Clone, Copy, PartialEq)]

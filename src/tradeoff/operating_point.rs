@@ -1,14 +1,12 @@
 //! A periodic orbit at some values of free parameters, with the derivatives of what a trade-off is between.
 
+use super::limit::Limit;
+use super::quadratic::{MOST, Vector};
 use crate::capsule::{EventKind, Section};
-use crate::description::Parameter;
-use crate::description::{Output, Outputs};
+use crate::description::{Output, Outputs, Parameter};
 use crate::flow::Event;
 use crate::model::{Model, Setting, StableOrbit};
 use crate::orbit::matrix::Complex;
-
-use super::limit::Limit;
-use super::quadratic::{MOST, Vector};
 
 /// A family of periodic orbits over free parameters, each between two bounds.
 #[derive(Debug, Clone)]

@@ -3,8 +3,7 @@
 use std::fs;
 
 use capsulemap::campaign::Tolerances;
-use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Output, Parameter, Parameters, State, settle};
+use capsulemap::capsule::{CapsuleParameters as _, Output, Parameter, Parameters, State, settle};
 use capsulemap::orbit::Protocol;
 use serde_json::Value;
 

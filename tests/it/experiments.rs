@@ -2,8 +2,7 @@
 
 use std::fs;
 
-use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Parameter, Parameters};
+use capsulemap::capsule::{CapsuleParameters as _, Parameter, Parameters};
 use capsulemap::experiment::synthesis::Noise;
 use capsulemap::experiment::{Given, Laboratory, Recording, Test, identify, simple_tests};
 use serde_json::Value;

@@ -1,7 +1,6 @@
 //! Intervals of fits hold the truth as often as they say: recordings by a method of its own that begin at any phase of the motion.
 
-use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Parameter, Parameters};
+use capsulemap::capsule::{CapsuleParameters as _, Parameter, Parameters};
 use capsulemap::experiment::least_squares::{Bounds, Loss};
 use capsulemap::experiment::{
     Effort, Free, MotionFit, Recorded, Signal, Weights, fit_motion, harmonic,

@@ -1,7 +1,8 @@
 //! Parameters fitted to synthesised histories: the intervals hold the truth as often as they say.
 
-use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Case, Parameter, Parameters, State, settle_case};
+use capsulemap::capsule::{
+    CapsuleParameters as _, Case, Parameter, Parameters, State, settle_case,
+};
 use capsulemap::experiment::least_squares::{Bounds, Loss};
 use capsulemap::experiment::motion_fit::Side;
 use capsulemap::experiment::{

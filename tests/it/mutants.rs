@@ -4,9 +4,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::time::Instant;
 
-use capsulemap::capsule::CapsuleParameters as _;
 use capsulemap::capsule::{
-    Case, Output, Parameter, Parameters, Resistance, State, Switching, settle_case,
+    CapsuleParameters as _, Case, Output, Parameter, Parameters, Resistance, State, Switching,
+    settle_case,
 };
 use capsulemap::figure::{Place, draw};
 use capsulemap::orbit::{Outcome, Proof, Protocol};

@@ -6,8 +6,7 @@ use std::sync::Mutex;
 
 use capsulemap::attractor::Attractor;
 use capsulemap::branch::SpecialKind;
-use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Orbit, Parameter, Parameters, Resistance};
+use capsulemap::capsule::{CapsuleParameters as _, Orbit, Parameter, Parameters, Resistance};
 use capsulemap::model::Setting;
 use capsulemap::orbit::Outcome;
 use capsulemap::run::{self, Attractors, FinalMotions, Machine, Record};

@@ -93,7 +93,7 @@ fn notes_name_the_force_of_the_law() {
             "[parameters]\nomega = \"40 rad/s\"\np_d = \"3 N\"\nk2 = \"2 kN/m\"\ndelta = \"1 mm\"\nmu_s = 0.1\nmu_d = 0.2\n\
              resistance = \"{law}\"\nfriction_switching = \"{switching}\""
         );
-        Study::parse("one.toml", &text).expect("a study").idle_static_friction()
+        Study::parse("one.toml", &text).expect("a study").remarks_on_values().pop()
     };
     // mu N with N = 0.64 kg times 9.81 m/s^2: 1.25568 N, and twice that.
     let coulomb = idle("coulomb", "filippov").expect("a note");

@@ -3,9 +3,10 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Mutex;
 
-use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Capsule, Case, Output, Parameter, Parameters, Sample, State};
-use capsulemap::capsule::{settle_case, simulate_case};
+use capsulemap::capsule::{
+    Capsule, CapsuleParameters as _, Case, Output, Parameter, Parameters, Sample, State,
+    settle_case, simulate_case,
+};
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::Instructions;
 use capsulemap::orbit::{HistorySpan, Outcome, Protocol};

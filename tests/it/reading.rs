@@ -87,7 +87,7 @@ fn what_a_figure_leaves_unread_does_not_change_it() {
     let study = Study::parse("a.toml", STUDY).unwrap_or_else(|faults| panic!("{faults}"));
     let mut left = 0;
     for drawing in &study.drawings {
-        let shown = variables(drawing);
+        let shown = variables(drawing, archive.frame().model());
         let part = archive.labelled(|name| shown.contains(name)).expect("a part of it");
         let drawn = [("whole", &whole), ("part", &part)].map(|(folder, dataset)| {
             let folder = dir.path(folder);

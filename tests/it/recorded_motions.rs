@@ -2,8 +2,9 @@
 
 use std::time::Instant;
 
-use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Case, Parameter, Parameters, State, settle_case};
+use capsulemap::capsule::{
+    CapsuleParameters as _, Case, Parameter, Parameters, State, settle_case,
+};
 use capsulemap::experiment::progression::progression;
 use capsulemap::experiment::recorded_period::period_of;
 use capsulemap::experiment::synthesis::recorded;

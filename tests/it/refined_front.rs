@@ -1,7 +1,6 @@
 //! `capsulemap tradeoff --refine`: motions between the cases, against brute force around them and the same search begun otherwise.
 
-use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Output, Parameter, Parameters, State, settle};
+use capsulemap::capsule::{CapsuleParameters as _, Output, Parameter, Parameters, State, settle};
 use capsulemap::description::Outputs;
 use capsulemap::orbit::{Outcome, Protocol};
 use serde_json::Value;

@@ -1,8 +1,7 @@
 //! A rig that the model does not describe: the capsule of Fig 6 with a stop that is softer and stiffens, and with less friction, by a
 //! method of its own.
 
-use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Parameter, Parameters};
+use capsulemap::capsule::{CapsuleParameters as _, Parameter, Parameters};
 
 /// Steps of the method per second; its errors, of the order of a step where the friction switches, are far below the sensors' noise.
 const RATE: f64 = 2e5;

@@ -1,8 +1,7 @@
 //! `capsulemap tradeoff --tolerances`: against the derivatives of the motion, against brute force, and what is refused.
 
 use capsulemap::campaign::Tolerances;
-use capsulemap::capsule::CapsuleParameters as _;
-use capsulemap::capsule::{Output, Parameter, Parameters, State, settle};
+use capsulemap::capsule::{CapsuleParameters as _, Output, Parameter, Parameters, State, settle};
 use capsulemap::orbit::{Outcome, Protocol};
 use serde_json::Value;
 

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use capsulemap::capsule::CapsuleParameters as _;
 use capsulemap::capsule::description::CAPSULE;
-use capsulemap::capsule::{Allowed, Parameter, Parameters, Resistance, State, Switching};
+use capsulemap::capsule::{
+    Allowed, CapsuleParameters as _, Parameter, Parameters, Resistance, State, Switching,
+};
 use capsulemap::orbit::{HistorySpan, Protocol};
 use capsulemap::study::{
     Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Draws, FirstOrbit, Grid, Inherit,

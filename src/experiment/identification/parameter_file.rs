@@ -1,8 +1,7 @@
 //! The parameter file of identified constants, which studies include.
 
 use super::identified::{Constant, Identified};
-use crate::capsule::Dimension;
-use crate::capsule::Parameter;
+use crate::capsule::{Dimension, Parameter};
 use crate::description::Parameters;
 use crate::experiment::profile::Verdict;
 

@@ -8,7 +8,6 @@ use super::computations::BUDGET;
 use super::explored::Explored;
 use super::motion::{followed, shown};
 use crate::attractor::{Attractor, Label};
-use crate::capsule;
 use crate::capsule::{Case, State, settle_case};
 use crate::figure::{label_colour, shown_quantity};
 use crate::flow::stop;
@@ -128,13 +127,14 @@ impl Basin {
 
     fn head(&self) -> Value {
         let [x, y] = &self.axes;
+        let surface = self.study.base.model().impact_surface();
         json!({
             "study": self.study.text,
             "x": x,
             "y": y,
             "side": SIDE,
             "start": { "y2": self.study.start.y2, "phase": self.study.start_phase },
-            (capsule::Parameter::Delta.symbol()): self.study.base[capsule::Parameter::Delta],
+            (surface.symbol()): self.study.base[surface],
         })
     }
 
@@ -173,7 +173,7 @@ impl Basin {
                 "label": number,
                 (OUTCOME.name): orbit.outcome.name(),
                 (PERIOD.name): is_periodic.then_some(orbit.period),
-                "speed": orbit.outputs[capsule::Output::ProgressionSpeed],
+                "speed": orbit.outputs.speed(),
                 "colour": label_colour(Some(number as u32)),
                 "points": points.map(|it| [it[0], it[1]]).collect::<Vec<_>>(),
             }))
@@ -219,8 +219,10 @@ fn around(explored: &Explored, case: &Case) -> [[f64; 2]; 2] {
     let from = State { x2: 0.0, ..orbit.end };
     let points = followed(case, from, shown(&orbit), protocol.tolerance);
     let parameters = &case.parameters;
-    let usual = parameters[capsule::Parameter::Pd] / parameters[capsule::Parameter::K1];
-    let omega = parameters[capsule::Parameter::Omega];
+    let model = parameters.model();
+    let [stiffness, _] = model.natural();
+    let usual = parameters[model.drive_amplitude()] / parameters[stiffness];
+    let omega = parameters[model.drive_frequency()];
     let widest = |of: fn(&State<f64>) -> f64, usual: f64| {
         let values = points.iter().flatten().map(|it| of(&it.state));
         let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| {

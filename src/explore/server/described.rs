@@ -3,9 +3,7 @@
 use serde_json::{Value, json};
 
 use super::explored::Explored;
-use crate::capsule;
-use crate::description::Output;
-use crate::description::Parameter;
+use crate::description::{Output, Parameter};
 use crate::figure::shown_quantity;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, OUTCOME, PERIOD, STUDY_TEXT};
 use crate::store::{has_branches, provenance};
@@ -38,6 +36,7 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         constant["value"] = json!(study.base[it]);
         constant
     };
+    let model = study.base.model();
     let has = |it: Output| archive.unit(it.name()).is_some();
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     json!({
@@ -49,7 +48,7 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "outputs": outputs.collect::<Vec<_>>(),
         "constants": study.base.model().parameters().filter(is_held).map(constant).collect::<Vec<_>>(),
         "has_curves": has_branches(frame),
-        "has_trade_off": has(capsule::Output::ProgressionSpeed.into()) && (has(capsule::Output::WorkPositive.into()) || has(capsule::Output::Power.into())),
+        "has_trade_off": has(model.speed()) && (has(model.work()) || has(model.power())),
         "running": running,
         "inherits": study.inherit().is_some(),
         "program": provenance::program(&frame.attributes),

@@ -66,7 +66,7 @@ impl Explored {
 
     /// What a figure is drawn from.
     pub fn dataset(&self, drawing: &Drawing) -> Result<Arc<Dataset>, Refusal> {
-        self.part(variables(drawing), drawing)
+        self.part(variables(drawing, self.archive.frame().model()), drawing)
     }
 
     /// The variables of these names in the plane that `drawing` names, where it names both axes; of a large file no more is

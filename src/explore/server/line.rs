@@ -6,9 +6,8 @@ use super::answer::Refusal;
 use super::asked::Asked;
 use super::computations::BUDGET;
 use super::explored::Explored;
-use crate::capsule;
 use crate::capsule::{Case, Orbit, State, settle_all, settle_case};
-use crate::description::Output;
+use crate::description::{Description, Output};
 use crate::flow::stop;
 use crate::orbit::{Machine, Outcome, Protocol};
 use crate::store::catalogue::{OUTCOME, PERIOD, SECTION_R};
@@ -26,11 +25,9 @@ const TOGETHER: usize = 32;
 /// The parameters of a request beside the ends of the line.
 const KNOWN: [&str; 6] = ["count", "start", "log", "sweep", "kind", "format"];
 /// The outputs that are sent of each case.
-const SHOWN: [Output; 3] = [
-    capsule::Output::ProgressionSpeed.described(),
-    capsule::Output::Power.described(),
-    capsule::Output::LyapunovExponent.described(),
-];
+fn shown_outputs(model: &'static Description) -> [Output; 3] {
+    [model.speed(), model.power(), model.exponent()]
+}
 /// Why a line that goes along no axis has no study.
 pub const NO_STUDY: &str = "a study varies one coordinate along an axis, and this line varies several together; a line along one axis \
      has a study and a figure";
@@ -214,7 +211,7 @@ fn told(share: f64, case: &Case, orbit: &Orbit) -> Value {
         (PERIOD.name): period,
         (SECTION_R.name): points,
     });
-    for output in SHOWN {
+    for output in shown_outputs(orbit.outputs.model()) {
         told[output.name()] = json!(orbit.outputs[output]);
     }
     told

@@ -57,7 +57,8 @@ pub fn map(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
 /// The curves of special points and the branches over a map.
 pub fn curves(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
     let drawing = drawing(explored, asked, DrawingKind::Map)?;
-    let dataset = explored.part(over_map_variables(&drawing), &drawing)?;
+    let dataset =
+        explored.part(over_map_variables(&drawing, explored.archive.frame().model()), &drawing)?;
     let over = over_map(&*dataset, &drawing).map_err(Refusal::undrawn)?;
     let line = |it: &MapLine| json!({ "words": it.words, "colour": it.colour, "dash": it.is_dashed, "points": it.points });
     let point = |it: &MapPoint| json!({ "words": it.words, "colour": it.colour, "at": it.at });

@@ -1,6 +1,5 @@
 //! The motion of one case, computed as it is asked for.
 
-use crate::capsule::CapsuleParameters as _;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -9,10 +8,9 @@ use super::asked::Asked;
 use super::computations::{BUDGET, MOTION_BUDGET};
 use super::explored::{Explored, Near};
 use crate::campaign::command;
-use crate::capsule;
 use crate::capsule::{
-    ArcPoint, Case, Forces, Orbit, Simulation, SimulationSize, State, arc, settle_case,
-    simulate_case_within,
+    ArcPoint, CapsuleParameters as _, Case, Forces, Orbit, Simulation, SimulationSize, State, arc,
+    settle_case, simulate_case_within,
 };
 use crate::explore::case_json::{case_json, remarks};
 use crate::flow::stop;
@@ -121,7 +119,7 @@ fn end_of_simulation(simulation: &Simulation, cycles: u64) -> Option<String> {
 
 /// Why the speed of a case of the file is not the one that the file has, where its motion does not repeat.
 fn other_mean(explored: &Explored, near: &Near, orbit: &Orbit) -> Result<Option<String>, Refusal> {
-    let kept = explored.kept(&near.position, capsule::Output::ProgressionSpeed.into())?;
+    let kept = explored.kept(&near.position, explored.study.base.model().speed())?;
     let differs = near.is_exact && orbit.outcome != Outcome::Periodic;
     Ok(kept.filter(|_| differs).map(|kept| {
         format!(
@@ -173,7 +171,7 @@ fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
     Some(History {
         cycles,
         period: parameters.drive_period(),
-        delta: parameters[capsule::Parameter::Delta],
+        delta: parameters[parameters.model().impact_surface()],
         t: points.iter().map(|it| it.time).collect(),
         x1: column(&|it| it.state.x2 + it.state.r),
         x2: column(&|it| it.state.x2),
@@ -209,7 +207,7 @@ pub fn followed(
     let half = 0.5 * case.parameters.drive_period();
     let mut state = from;
     let phase = case.section_phase;
-    let drive = case.parameters[capsule::Parameter::Pd] * phase.cos();
+    let drive = case.parameters[case.parameters.model().drive_amplitude()] * phase.cos();
     let mut points = vec![ArcPoint { time: 0.0, state, drive }];
     let count = (2 * POINTS / cycles as u32).clamp(LEAST_POINTS, POINTS);
     for number in 0..2 * cycles {

@@ -1,13 +1,12 @@
 //! The names of the categories, and the numbers that stand for them.
 
+use super::entry::Flags;
 use crate::branch::{End, SpecialKind};
 use crate::capsule::REASONS;
 use crate::of::default_model;
 use crate::orbit::{Outcome, Proof};
 use crate::run::{Continued, NotContinued};
 use crate::study::Direction;
-
-use super::entry::Flags;
 
 /// What a case turned out to be.
 pub fn outcomes() -> Flags {

@@ -1,11 +1,9 @@
 //! The entries of parameters, starts and outputs, whose names the floors below give.
 
-use crate::description::Output;
-use crate::description::Parameter;
+use super::entry::{Entry, Extent};
+use crate::description::{Output, Parameter};
 use crate::quantity::Quantity;
 use crate::study::Coordinate;
-
-use super::entry::{Entry, Extent};
 
 impl Entry {
     /// A parameter of the model, as an axis or a constant of the study.

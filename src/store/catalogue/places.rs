@@ -2,14 +2,13 @@
 
 use std::sync::LazyLock;
 
-use crate::of::default_model;
-use crate::study::Coordinate;
-
 use super::branches::{BRANCH_CYCLE, BRANCH_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT};
 use super::cases::SECTION;
 use super::entry::{Entry, Extent};
 use super::tables::{ATTRACTOR_CYCLE, ATTRACTOR_INDEX, EVENT};
 use super::{branches, cases, tables};
+use crate::of::default_model;
+use crate::study::Coordinate;
 
 /// A table with columns called after parameters, outputs and section points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

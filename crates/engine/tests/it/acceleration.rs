@@ -2,9 +2,9 @@
 
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{Machine, Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
-    Case, Orbit, Output, Parameter, Parameters, Resistance, State, settle_all,
+    CapsuleParameters as _, Case, Orbit, Output, Parameter, Parameters, Resistance, State,
+    settle_all,
 };
 
 use super::draws::{self, Random};

@@ -3,8 +3,7 @@
 use std::f64::consts::PI;
 
 use super::forms::simulate;
-use capsulemap_models::capsule::CapsuleParameters as _;
-use capsulemap_models::capsule::{Parameter, Parameters, State, Switching};
+use capsulemap_models::capsule::{CapsuleParameters as _, Parameter, Parameters, State, Switching};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 

@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 use capsulemap_engine::branch::{NotFollowed, SpecialKind};
 use capsulemap_engine::flow::Metric;
 use capsulemap_engine::orbit::{Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::branch::{Branch, Found, Request, Special, follow};
 use capsulemap_models::capsule::{
-    Orbit, Output, Parameter, Parameters, Section, State, Switching, settle, simulate,
+    CapsuleParameters as _, Orbit, Output, Parameter, Parameters, Section, State, Switching,
+    settle, simulate,
 };
 
 use super::draws;

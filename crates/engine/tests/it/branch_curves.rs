@@ -1,9 +1,8 @@
 //! Curves in two parameters: both sorts of grazing, each curve once, and none that leads elsewhere.
 
 use capsulemap_engine::branch::{Curve, End, SpecialKind};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::branch::{Found, Request, follow};
-use capsulemap_models::capsule::{Parameter, Parameters, Section};
+use capsulemap_models::capsule::{CapsuleParameters as _, Parameter, Parameters, Section};
 
 use super::branch::{assert_closed, of_kind, relative, request, settled};
 

@@ -2,9 +2,8 @@
 
 use capsulemap_engine::branch::{self, End, SpecialKind};
 use capsulemap_engine::orbit::{self, Case, Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::branch::{Branch, follow};
-use capsulemap_models::capsule::{Parameter, Parameters, State, settle};
+use capsulemap_models::capsule::{CapsuleParameters as _, Parameter, Parameters, State, settle};
 
 use super::branch::{assert_closed, moving, quiet, relative, request};
 use super::branch_curves::folding;

@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use capsulemap_engine::orbit::{Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
-use capsulemap_models::capsule::{EventKind, Output, Parameter, Parameters, Resistance, State};
+use capsulemap_models::capsule::{
+    CapsuleParameters as _, EventKind, Output, Parameter, Parameters, Resistance, State,
+};
 
 use super::forms::{settle, simulate};
 

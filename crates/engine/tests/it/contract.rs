@@ -13,9 +13,9 @@ use capsulemap_engine::flow::{Field, Motion, Step, Stroboscopic};
 use capsulemap_engine::flow::defect::defect;
 use capsulemap_engine::flow::metric::greater;
 use capsulemap_engine::orbit::{Outcome, Proof, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
-    Capsule, Case, Output, Parameter, Parameters, PrintedCapsule, Resistance, State, settle_as,
+    Capsule, CapsuleParameters as _, Case, Output, Parameter, Parameters, PrintedCapsule,
+    Resistance, State, settle_as,
 };
 
 use super::den_hartog::DryFriction;

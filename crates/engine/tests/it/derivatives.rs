@@ -6,9 +6,9 @@ use capsulemap_engine::lane::Dual;
 use capsulemap_engine::orbit::matrix::{Complex, Matrix, determinant, eigenvalues};
 use capsulemap_engine::orbit::return_map::{Cycles, jacobian, returned, seeded};
 use capsulemap_engine::orbit::{Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
-    Capsule, Case, Parameter, Parameters, PrintedCapsule, Section, State, settle,
+    Capsule, CapsuleParameters as _, Case, Parameter, Parameters, PrintedCapsule, Section, State,
+    settle,
 };
 
 use super::differences::{TOLERANCE, distance, followed, size, slope};

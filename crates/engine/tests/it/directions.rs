@@ -1,8 +1,7 @@
 //! Derivatives along parameters, and derivatives of derivatives, against differences.
 
 use capsulemap_engine::lane::{Dual, Lane};
-use capsulemap_models::capsule::CapsuleParameters as _;
-use capsulemap_models::capsule::{Capsule, Parameter, Section};
+use capsulemap_models::capsule::{Capsule, CapsuleParameters as _, Parameter, Section};
 
 use super::derivatives::{Periodic, dual_capsule, linearised, periodic, weights};
 use super::differences::{distance, followed, size, slope};

@@ -2,8 +2,9 @@
 
 use capsulemap_engine::lane::{Series, quadrature, series};
 use capsulemap_engine::orbit::matrix::determinant;
-use capsulemap_models::capsule::CapsuleParameters as _;
-use capsulemap_models::capsule::{Capsule, Parameter, Parameters, Resistance};
+use capsulemap_models::capsule::{
+    Capsule, CapsuleParameters as _, Parameter, Parameters, Resistance,
+};
 
 use super::derivatives::{Periodic, dual_capsule, linearised, periodic};
 use super::differences::followed;

@@ -2,9 +2,8 @@
 
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{Machine, Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
-    Case, Orbit, Parameter, Parameters, Resistance, State, settle_all,
+    CapsuleParameters as _, Case, Orbit, Parameter, Parameters, Resistance, State, settle_all,
 };
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};

@@ -3,8 +3,7 @@
 use capsulemap_engine::flow::{Motion, Step, Stroboscopic};
 
 use capsulemap_engine::lane::{Dual, Instructions, Lane, Mask, Work};
-use capsulemap_models::capsule::CapsuleParameters as _;
-use capsulemap_models::capsule::{Capsule, Case, Section, State};
+use capsulemap_models::capsule::{Capsule, CapsuleParameters as _, Case, Section, State};
 
 use super::derivatives::dual_capsule;
 use super::draws;

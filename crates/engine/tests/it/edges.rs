@@ -3,9 +3,9 @@
 use capsulemap_engine::flow::Switched;
 
 use capsulemap_engine::orbit::{Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
-    Capsule, Contact, Event, EventKind, Locomotion, Output, Parameter, Parameters, State, StickSlip,
+    Capsule, CapsuleParameters as _, Contact, Event, EventKind, Locomotion, Output, Parameter,
+    Parameters, State, StickSlip,
 };
 
 use super::forms::{settle, simulate};

@@ -12,9 +12,9 @@ use capsulemap_engine::orbit::aperiodic::{follow_aperiodic_side_by_side, irregul
 use capsulemap_engine::orbit::exponent::stretching;
 use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{Outcome, Protocol, Trajectory};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
-    Capsule, CapsuleSystem, Case, Filippov, Output, Parameter, Section, State, settle,
+    Capsule, CapsuleParameters as _, CapsuleSystem, Case, Filippov, Output, Parameter, Section,
+    State, settle,
 };
 
 use super::draws;

@@ -6,10 +6,9 @@ use std::marker::PhantomData;
 use capsulemap_engine::flow::{Event, Motion, Step, Switched};
 use capsulemap_engine::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::{OrbitOf, Protocol, Queue, settle_side_by_side};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
-    self, AsPrinted, CapsuleSystem, Case, EventKind, Filippov, Orbit, Parameters, Reading,
-    Simulation, State, Switching,
+    self, AsPrinted, CapsuleParameters as _, CapsuleSystem, Case, EventKind, Filippov, Orbit,
+    Parameters, Reading, Simulation, State, Switching,
 };
 
 /// [`capsule::simulate`], compared with the same case in the last lane of a vector of others.

@@ -3,9 +3,9 @@
 use capsulemap_engine::flow::Observer;
 use capsulemap_engine::lane::series;
 use capsulemap_engine::orbit::{Outcome, Protocol, Trajectory};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
-    Account, Capsule, Contact, Locomotion, Parameter, Parameters, State, StickSlip, Switching,
+    Account, Capsule, CapsuleParameters as _, Contact, Locomotion, Parameter, Parameters, State,
+    StickSlip, Switching,
 };
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

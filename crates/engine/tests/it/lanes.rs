@@ -3,9 +3,9 @@
 use capsulemap_engine::flow::{Motion, Reason, Step};
 use capsulemap_engine::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::{Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
-    Capsule, Case, Orbit, Parameter, Parameters, Resistance, State, settle, settle_case,
+    Capsule, CapsuleParameters as _, Case, Orbit, Parameter, Parameters, Resistance, State, settle,
+    settle_case,
 };
 
 use super::draws;

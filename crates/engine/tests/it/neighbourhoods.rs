@@ -6,8 +6,9 @@ use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::neighbourhood::Neighbourhood;
 use capsulemap_engine::orbit::return_map::{Cycles, returned};
 use capsulemap_engine::orbit::{Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
-use capsulemap_models::capsule::{Case, Filippov, Orbit, Parameter, Parameters, State};
+use capsulemap_models::capsule::{
+    CapsuleParameters as _, Case, Filippov, Orbit, Parameter, Parameters, State,
+};
 
 use super::draws::{Random, settled};
 

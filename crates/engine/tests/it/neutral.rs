@@ -7,9 +7,10 @@ use capsulemap_engine::orbit::neutral::close_neutral;
 use capsulemap_engine::orbit::passage::{OneByOne, image};
 use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{Outcome, Proof, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::branch::follow;
-use capsulemap_models::capsule::{Case, Filippov, Orbit, Output, Parameter, Parameters, State};
+use capsulemap_models::capsule::{
+    CapsuleParameters as _, Case, Filippov, Orbit, Output, Parameter, Parameters, State,
+};
 
 use super::branch::request;
 use super::draws;

@@ -5,8 +5,9 @@ use capsulemap_engine::flow::{Motion, Observer, Step, Stroboscopic, Switched};
 use capsulemap_engine::lane::{Dual, Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::return_map::{Cycles, observed};
 use capsulemap_engine::orbit::{Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
-use capsulemap_models::capsule::{Account, Capsule, Case, Parameter, Resistance, State, settle};
+use capsulemap_models::capsule::{
+    Account, Capsule, CapsuleParameters as _, Case, Parameter, Resistance, State, settle,
+};
 
 use super::differences::slope;
 use super::draws;

@@ -1,8 +1,9 @@
 //! The six cases of the paper and what its text says of them.
 
 use capsulemap_engine::orbit::{Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
-use capsulemap_models::capsule::{Orbit, Output, Parameter, Parameters, State, Switching};
+use capsulemap_models::capsule::{
+    CapsuleParameters as _, Orbit, Output, Parameter, Parameters, State, Switching,
+};
 
 use super::forms::settle;
 

@@ -1,7 +1,8 @@
 //! A second method that shares no code with the series: extrapolation of Gragg's rule, events by bracketing.
 
-use capsulemap_models::capsule::CapsuleParameters as _;
-use capsulemap_models::capsule::{Parameter, Parameters, Resistance, State};
+use capsulemap_models::capsule::{
+    CapsuleParameters as _, Parameter, Parameters, Resistance, State,
+};
 
 /// r, y1, x2, y2.
 type Vector = [f64; 4];

@@ -3,11 +3,9 @@
 use capsulemap_engine::lane::Dual;
 use capsulemap_engine::orbit::matrix::{less_identity, solve};
 use capsulemap_engine::orbit::return_map::{Cycles, jacobian, observed, returned, seeded};
-use capsulemap_models::capsule::CapsuleParameters as _;
-use capsulemap_models::capsule::sensitivity;
 use capsulemap_models::capsule::{
-    Account, Capsule, CapsuleSystem, Filippov, Output, Outputs, Parameter, Parameters, Section,
-    per_cycle,
+    Account, Capsule, CapsuleParameters as _, CapsuleSystem, Filippov, Output, Outputs, Parameter,
+    Parameters, Section, per_cycle, sensitivity,
 };
 
 use super::derivatives::{Periodic, periodic};

@@ -3,10 +3,9 @@
 
 use capsulemap_engine::branch::{self, End, SpecialKind};
 use capsulemap_engine::orbit::{Outcome, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::branch::{Request, follow};
 use capsulemap_models::capsule::{
-    Case, Parameter, Parameters, Resistance, State, settle, settle_case,
+    CapsuleParameters as _, Case, Parameter, Parameters, Resistance, State, settle, settle_case,
 };
 use rayon::prelude::*;
 

@@ -2,10 +2,9 @@
 
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{HistorySpan, Outcome, Proof, Protocol};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
-    AsPrinted, Case, History, Orbit, Output, Parameter, Reading, Resistance, Section, State,
-    Switching, simulate,
+    AsPrinted, CapsuleParameters as _, Case, History, Orbit, Output, Parameter, Reading,
+    Resistance, Section, State, Switching, simulate,
 };
 
 use super::draws;

@@ -1,12 +1,14 @@
 //! What the capsule says of itself: the quantities of its starts, sections, impacts, histories, parameters and outputs.
 
-use crate::quantity::shown::{shown, words};
-use crate::quantity::{Dimension, Quantity, Shown};
-
+use super::friction_rules::RULES;
 use super::output::{Output, Outputs};
 use super::parameter::Parameter;
 use super::resistance::{Resistance, Switching};
-use crate::description::{self, Choice, Description, OutputDescription, ParameterDescription};
+use crate::description::{
+    self, Choice, Description, OutputDescription, ParameterDescription, Roles,
+};
+use crate::quantity::shown::{shown, words};
+use crate::quantity::{Dimension, Quantity, Shown};
 
 /// Quantities as constants: constant, name, dimension and shown form in a first line, the meaning in a second.
 macro_rules! quantities {
@@ -118,16 +120,43 @@ pub static CAPSULE: Description = Description {
     choices: &[
         Choice {
             name: "resistance",
+            noun: "resistance",
+            title: "Resistance",
             meaning: "law of resistance to the capsule",
             options: &Resistance::OPTIONS,
         },
         Choice {
             name: "friction_switching",
+            noun: "reading",
+            title: "Switching between stick and slip",
             meaning: "reading of the switching between stick and slip",
             options: &Switching::OPTIONS,
         },
     ],
     outputs: &OUTPUTS,
+    roles: Roles {
+        drive_frequency: Parameter::Omega as usize,
+        drive_amplitude: Parameter::Pd as usize,
+        impact_surface: Parameter::Delta as usize,
+        natural: [Parameter::K1 as usize, Parameter::M1 as usize],
+        speed: Output::ProgressionSpeed as usize,
+        work: Output::WorkPositive as usize,
+        power: Output::Power as usize,
+        energy_per_distance: Output::EnergyPerMetre as usize,
+        rest_share: Output::StickShare as usize,
+        event_counts: &[
+            Output::ImpactsPerCycle as usize,
+            Output::ForwardSlips as usize,
+            Output::BackwardSlips as usize,
+            Output::Reversals as usize,
+        ],
+        exponent: Output::LyapunovExponent as usize,
+        exponent_error: Output::LyapunovUncertainty as usize,
+        excluded_period: Output::ExcludedPeriod as usize,
+        defect: Output::IntegrationDefect as usize,
+        section_residual: Output::SectionResidual as usize,
+    },
+    rules: RULES,
 };
 
 static OUTPUTS: [OutputDescription; Output::ALL.len()] = {

@@ -10,6 +10,7 @@ pub mod drag;
 pub mod drive;
 mod failure;
 mod forces;
+mod friction_rules;
 pub mod history;
 mod locomotion;
 pub mod mean_errors;

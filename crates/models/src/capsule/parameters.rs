@@ -46,13 +46,6 @@ pub trait CapsuleParameters: Sized {
     /// Force needed to leave rest, f_b = max(f_s, f_d(0+)); zero in a medium [N].
     fn break_away(&self) -> f64;
 
-    /// Completes the friction where one of mu_s and mu_d is `given` and the other is not: Coulomb's law knows one coefficient, so
-    /// there the other takes its value. Returns which did.
-    fn complete_friction(&mut self, given: impl Fn(Parameter) -> bool) -> Option<Parameter>;
-
-    /// What [`Parameters::complete_friction`] did, in a sentence.
-    fn told_of_completed(&self, completed: Parameter) -> String;
-
     /// That mu_s has no effect, in a sentence, where the friction at the onset of sliding is larger and alone decides when rest
     /// ends. In Eq. (1) as printed mu_s always has one.
     fn idle_static_friction(&self) -> Option<String>;
@@ -99,28 +92,6 @@ impl CapsuleParameters for Parameters {
 
     fn break_away(&self) -> f64 {
         self.drag().break_away
-    }
-
-    fn complete_friction(&mut self, given: impl Fn(Parameter) -> bool) -> Option<Parameter> {
-        let (from, to) = match (given(Parameter::MuS), given(Parameter::MuD)) {
-            (true, false) => (Parameter::MuS, Parameter::MuD),
-            (false, true) => (Parameter::MuD, Parameter::MuS),
-            _ => return None,
-        };
-        if self.resistance() != Resistance::Coulomb {
-            return None;
-        }
-        self[to] = self[from];
-        Some(to)
-    }
-
-    fn told_of_completed(&self, completed: Parameter) -> String {
-        let other = if completed == Parameter::MuS { Parameter::MuD } else { Parameter::MuS };
-        let [completed, other] = [completed, other].map(Parameter::symbol);
-        let value = self[Parameter::MuD];
-        format!(
-            "{completed} is not given: Coulomb's law knows one coefficient, so {completed} = {other} = {value}"
-        )
     }
 
     fn idle_static_friction(&self) -> Option<String> {

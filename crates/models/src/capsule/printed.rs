@@ -10,11 +10,10 @@ use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, elementary, series, sid
 use super::drag::Drag;
 use super::drive::{Drive, reduced};
 use super::locomotion::Locomotion;
-use super::parameter::Parameter;
-use super::parameters::CapsuleParameters as _;
 use super::regime::{CONTACT, PrintedMode, Regime, Rules, sign};
 use super::resistance::Resistance;
 use super::state::{EventKind, Jet, State};
+use super::{CapsuleParameters as _, Parameter};
 use crate::description::Parameters;
 
 /// The capsule with the switching as printed, one set of parameters per lane.

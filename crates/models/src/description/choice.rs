@@ -5,6 +5,10 @@
 pub struct Choice {
     /// Its name in studies and files.
     pub name: &'static str,
+    /// What it is called where one that is unknown is refused.
+    pub noun: &'static str,
+    /// What it is called in reports.
+    pub title: &'static str,
     /// What is chosen, in a phrase.
     pub meaning: &'static str,
     /// What may be chosen, by name; the first is chosen where nothing is said.

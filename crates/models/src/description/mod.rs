@@ -4,6 +4,8 @@ pub mod choice;
 pub mod output;
 pub mod parameter;
 pub mod parameters;
+pub mod roles;
+pub mod rules;
 
 use std::fmt::{self, Debug, Formatter};
 
@@ -11,6 +13,8 @@ pub use choice::Choice;
 pub use output::{Output, OutputDescription, Outputs};
 pub use parameter::{Parameter, ParameterDescription};
 pub use parameters::{Fault, Parameters};
+pub use roles::Roles;
+pub use rules::{NotGiven, Remark, Rules, Threshold};
 
 /// What a model says of itself.
 pub struct Description {
@@ -22,6 +26,10 @@ pub struct Description {
     pub choices: &'static [Choice],
     /// The numbers that sum up a case, in the order of tables and files.
     pub outputs: &'static [OutputDescription],
+    /// What some of them are for.
+    pub roles: Roles,
+    /// What it says of values beside each other.
+    pub rules: Rules,
 }
 
 /// A description is one only with itself.

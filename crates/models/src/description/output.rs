@@ -97,6 +97,16 @@ impl Outputs {
         Outputs { model, values: vec![f64::NAN; model.outputs.len()].into() }
     }
 
+    /// The model whose outputs they are.
+    pub fn model(&self) -> &'static Description {
+        self.model
+    }
+
+    /// What the motion gains (SI).
+    pub fn speed(&self) -> f64 {
+        self[self.model.speed()]
+    }
+
     /// The same outputs with other values.
     pub fn map(&self, each: impl Fn(f64) -> f64) -> Outputs {
         Outputs { model: self.model, values: self.values.iter().copied().map(each).collect() }

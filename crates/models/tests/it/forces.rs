@@ -1,7 +1,6 @@
 //! Forces against their closed forms.
 
-use capsulemap_models::capsule::{CapsuleParameters as _, Forces};
-use capsulemap_models::capsule::{Parameter, Parameters, State};
+use capsulemap_models::capsule::{CapsuleParameters as _, Forces, Parameter, Parameters, State};
 
 #[test]
 fn forces_are_those_of_the_model() {

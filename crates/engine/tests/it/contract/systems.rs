@@ -1,9 +1,9 @@
 //! The systems that the contract is checked on, and the contract of each.
 
 use capsulemap_engine::orbit::{Case, Outcome, Protocol, settle};
-use capsulemap_models::capsule::CapsuleParameters as _;
 use capsulemap_models::capsule::{
-    AsPrinted, CapsuleSystem, Filippov, Parameter, Parameters, Reading, Resistance, State,
+    AsPrinted, CapsuleParameters as _, CapsuleSystem, Filippov, Parameter, Parameters, Reading,
+    Resistance, State,
 };
 
 use super::super::directions::DIRECTIONS;

@@ -1,0 +1,98 @@
+//! What the friction of a capsule says of its parameters beside each other.
+
+use super::parameter::Parameter;
+use super::parameters::CapsuleParameters as _;
+use super::resistance::{Resistance, Switching};
+use crate::description::{self, NotGiven, Parameters, Remark, Rules, Threshold};
+
+/// What the capsule says of values beside each other.
+pub const RULES: Rules = Rules { no_effect, no_effect_below, remarks, missing, complete };
+
+/// Why a parameter has no effect under the law of resistance.
+fn no_effect(parameters: &Parameters, parameter: description::Parameter) -> Option<String> {
+    let law = parameters.resistance();
+    let reason = match (Parameter::which(parameter), law) {
+        (Parameter::MuS | Parameter::MuD | Parameter::Vs, Resistance::Medium) => {
+            "a medium has no dry friction"
+        }
+        (Parameter::Vs, Resistance::Coulomb) => "friction under this law does not depend on speed",
+        (Parameter::C1 | Parameter::C2, Resistance::Coulomb | Resistance::CoulombStribeck) => {
+            "it belongs to the law `medium` alone"
+        }
+        _ => return None,
+    };
+    Some(format!("under the law `{}`: {reason}", law.name()))
+}
+
+/// That static friction is too small to have an effect.
+fn remarks(parameters: &Parameters) -> Vec<Remark> {
+    let about = || [Parameter::MuS, Parameter::MuD].map(description::Parameter::from).to_vec();
+    let idle = parameters.idle_static_friction();
+    idle.map(|text| Remark { about: about(), text }).into_iter().collect()
+}
+
+/// Static friction has no effect below the friction at the onset of sliding, as rest ends where the force exceeds the larger of both. In
+/// Eq. (1) as printed it always has one.
+fn no_effect_below(
+    parameters: &Parameters,
+    parameter: description::Parameter,
+) -> Option<Threshold> {
+    let is_bounded = parameter == Parameter::MuS && parameters.switching() == Switching::Filippov;
+    let law = parameters.resistance();
+    is_bounded.then(|| Threshold {
+        value: law.onset_factor() * parameters[Parameter::MuD],
+        in_words: law.onset_in_words(),
+        why: "where rest ends with the friction at the onset of sliding",
+    })
+}
+
+/// The other of the two coefficients of friction; none of what is no coefficient.
+fn other(parameter: Parameter) -> Option<Parameter> {
+    match parameter {
+        Parameter::MuS => Some(Parameter::MuD),
+        Parameter::MuD => Some(Parameter::MuS),
+        _ => None,
+    }
+}
+
+/// The coefficient of Coulomb's law that is neither given nor on an axis, where the other is on an axis: it is one number for all
+/// cases, so it cannot follow the axis.
+fn missing(
+    parameters: &Parameters,
+    given: description::rules::Which<'_>,
+    on_axis: description::rules::Which<'_>,
+) -> Option<NotGiven> {
+    let is_open = |it: &Parameter| {
+        let of_axis = other(*it).is_some_and(|other| on_axis(other.into()));
+        of_axis && !on_axis((*it).into()) && !given((*it).into())
+    };
+    let open = [Parameter::MuS, Parameter::MuD].into_iter().find(is_open)?;
+    if parameters.resistance() != Resistance::Coulomb {
+        return None;
+    }
+    let hint = if open == Parameter::MuS { "; with 0, rest ends at mu_d N" } else { "" };
+    let axis = other(open)?.symbol();
+    let why = format!(
+        "a value, as {axis} is on an axis and Coulomb's law takes one coefficient for the other only where it is constant{hint}"
+    );
+    Some(NotGiven { parameter: open.into(), why })
+}
+
+/// Completes the friction where one of mu_s and mu_d is given and the other is not: Coulomb's law knows one coefficient, so there the
+/// other takes its value.
+fn complete(parameters: &mut Parameters, given: description::rules::Which<'_>) -> Option<NotGiven> {
+    let (from, to) = match (given(Parameter::MuS.into()), given(Parameter::MuD.into())) {
+        (true, false) => (Parameter::MuS, Parameter::MuD),
+        (false, true) => (Parameter::MuD, Parameter::MuS),
+        _ => return None,
+    };
+    if parameters.resistance() != Resistance::Coulomb {
+        return None;
+    }
+    parameters[to] = parameters[from];
+    let ([to_symbol, from], value) = ([to, from].map(Parameter::symbol), parameters[to]);
+    let why = format!(
+        "{to_symbol} is not given: Coulomb's law knows one coefficient, so {to_symbol} = {from} = {value}"
+    );
+    Some(NotGiven { parameter: to.into(), why })
+}
