@@ -1,6 +1,7 @@
 //! The tests of what models describe, and of the capsule beside the engine; what the engine owes it is in `crates/engine/tests`.
 
 mod arcs;
+mod described;
 mod forces;
 mod printable;
 mod sampled;

@@ -1,0 +1,108 @@
+//! What the capsule says of itself holds for it, and a parameter of one model is none of another.
+
+use capsulemap_models::capsule::description::CAPSULE;
+use capsulemap_models::capsule::{
+    CapsuleParameters as _, Forces, Output, Parameter, Parameters, Resistance, State, Switching,
+};
+use capsulemap_models::description::{Description, ParameterDescription};
+use capsulemap_models::of::default_model;
+use capsulemap_models::quantity::{Allowed, Dimension, Quantity};
+
+/// A model of one parameter that is called as one of the capsule is.
+static OTHER: Description = Description {
+    name: "other",
+    parameters: &[ParameterDescription {
+        quantity: Quantity { name: "m1", dimension: Dimension::Mass, meaning: "mass", shown: None },
+        allowed: Allowed::Positive,
+        default: 2.0,
+        is_asked_for: false,
+    }],
+    choices: &[],
+    outputs: &[],
+    roles: CAPSULE.roles,
+    rules: CAPSULE.rules,
+};
+
+#[test]
+fn the_description_has_every_parameter_and_output_in_its_place() {
+    assert!(*default_model() == CAPSULE);
+    assert_eq!(CAPSULE.parameters().count(), Parameter::ALL.len());
+    for (described, own) in CAPSULE.parameters().zip(Parameter::ALL) {
+        assert!(described == *own && Parameter::which(described) == *own);
+        assert_eq!(CAPSULE.parameter(own.symbol()), Some(described));
+        assert_eq!(Parameters::default()[described], own.default_value(), "{described:?}");
+        let told = (described.dimension(), described.allowed(), described.meaning());
+        assert_eq!(told, (own.dimension(), own.allowed(), own.meaning()), "{described:?}");
+    }
+    assert_eq!(CAPSULE.outputs().count(), Output::ALL.len());
+    for (described, own) in CAPSULE.outputs().zip(Output::ALL) {
+        assert!(described == *own && described.is_smooth() == own.is_smooth());
+        assert_eq!(CAPSULE.output(own.name()), Some(described));
+        assert_eq!((described.unit(), described.meaning()), (own.unit(), own.meaning()));
+    }
+}
+
+#[test]
+fn each_choice_is_the_law_of_its_name() {
+    for (law, &(name, resistance)) in Resistance::NAMES.iter().enumerate() {
+        for (reading, &(_, switching)) in Switching::NAMES.iter().enumerate() {
+            let mut chosen = Parameters::default();
+            chosen.choose(0, law);
+            chosen.choose(1, reading);
+            assert_eq!((chosen.resistance(), chosen.switching()), (resistance, switching));
+            let mut same = Parameters::default();
+            same.resist_by(resistance);
+            same.switch_by(switching);
+            assert_eq!(chosen, same);
+            assert_eq!(chosen.choices().next(), Some(("resistance", name)));
+        }
+    }
+}
+
+#[test]
+#[should_panic(expected = "capsule.m1 is no parameter of other")]
+fn a_parameter_of_one_model_is_none_of_another() {
+    let other = Parameters::of(&OTHER);
+    assert_eq!(other[OTHER.parameters().next().expect("one")], 2.0);
+    let _ = other[Parameter::M1];
+}
+
+/// What has no effect changes no force: neither that needed to leave rest nor that of sliding at any speed.
+#[test]
+fn what_is_said_to_have_no_effect_has_none() {
+    let speeds = [-1.3, -1e-3, 2e-4, 0.7];
+    let felt = |parameters: &Parameters| {
+        let sliding = speeds
+            .map(|y2| Forces::of(parameters, &State { r: 0.01, y1: 0.2, x2: 0.0, y2 }).friction);
+        (parameters.break_away(), sliding)
+    };
+    let mut idle = 0;
+    for (_, law) in Resistance::NAMES {
+        for mu_s in [0.0, 0.1, 0.3, 0.5, 0.9] {
+            let mut parameters = Parameters::with(&[
+                (Parameter::MuS, mu_s),
+                (Parameter::MuD, 0.25),
+                (Parameter::C1, 0.4),
+                (Parameter::C2, 0.7),
+            ]);
+            parameters.resist_by(law);
+            let friction =
+                [Parameter::MuS, Parameter::MuD, Parameter::Vs, Parameter::C1, Parameter::C2];
+            for parameter in friction {
+                let mut other = parameters.clone();
+                // Upward mu_s may pass the value from which it has an effect.
+                other[parameter] *= if parameter == Parameter::MuS { 0.9 } else { 1.1 };
+                let rules = CAPSULE.rules;
+                let never = (rules.no_effect)(&parameters, parameter.into()).is_some();
+                let below = (rules.no_effect_below)(&parameters, parameter.into());
+                let is_below = below.is_some_and(|it| parameters[parameter] <= it.value);
+                let changes = felt(&parameters) != felt(&other);
+                let is_other = parameters[parameter] != other[parameter];
+                let said = never || is_below || !is_other;
+                assert_eq!(changes, !said, "{law:?}, mu_s = {mu_s}: {parameter:?}");
+                idle += usize::from(said);
+            }
+        }
+    }
+    assert!(idle > 20, "{idle}");
+}
