@@ -6,12 +6,10 @@ use super::{Source, assert_clean, identifiers, sources};
 const BELOW: [&str; 6] =
     ["Filippov", "AsPrinted", "CapsuleSystem", "settle_as", "Batch", "Underway"];
 /// The same as bounds and choices.
-const CODE: [&str; 2] = ["R: Reading", "switching {"];
+const CODE: [&str; 2] = ["R: Reading", "switching() {"];
 
 /// The capsule's own parameters and outputs, each behind this.
 const OWN: [&str; 2] = ["Parameter::", "Output::"];
-/// What a parameter or an output may be called by all the same: one of a study's, or of any model.
-const NEUTRAL: [&str; 3] = ["Coordinate::Parameter", "Quantity::Output", "Output::name"];
 /// Files that know the rig of the capsule, or have options that are called after its parameters.
 const OF_THE_RIG: [&str; 8] = [
     "src/experiment/",
@@ -63,7 +61,7 @@ fn a_model_that_is_told_apart_is_seen() {
     for code in [
         "use crate::capsule::Filippov;",
         "fn run<R: Reading>() {}",
-        "match study.base.switching {",
+        "match study.base.switching() {",
         "let case = case.read::<AsPrinted>();",
         "Batch::all(instructions, computations, done)",
         "let k2 = base[Parameter::K2];",
