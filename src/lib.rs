@@ -3,7 +3,7 @@
 //! # The capsule
 //!
 //! ```
-//! use capsulemap::capsule::{Output, Parameter, Parameters, State, settle};
+//! use capsulemap::capsule::{CapsuleParameters, Output, Parameter, Parameters, State, settle};
 //! use capsulemap::orbit::{Outcome, Protocol};
 //!
 //! // What is not named is as in Table 1 of the paper; all values are in SI units.
