@@ -372,3 +372,16 @@ fn what_a_study_file_cannot_hold_is_reported() {
     study.base[Parameter::Pd] = -1.0;
     assert!(study.validated("built").is_ok());
 }
+
+/// Files of results and kept blocks have it: with another one they would be those of another study.
+#[test]
+fn fingerprints_stay() {
+    let known = [
+        (include_str!("../../studies/basin.toml"), "0f279dc54f51e3cc1785f819bdb0405f"),
+        (include_str!("../../studies/erosion.toml"), "988dde0b48494b76f1515b3be509d446"),
+    ];
+    for (text, known) in known {
+        let study = Study::parse("known.toml", text).unwrap_or_else(|faults| panic!("{faults}"));
+        assert_eq!(study.fingerprint(), known);
+    }
+}

@@ -124,6 +124,8 @@ pub static CAPSULE: Description = Description {
             title: "Resistance",
             meaning: "law of resistance to the capsule",
             options: &Resistance::OPTIONS,
+            tag: "resistance",
+            option_tags: &["CoulombStribeck", "Coulomb", "Medium"],
         },
         Choice {
             name: "friction_switching",
@@ -131,6 +133,8 @@ pub static CAPSULE: Description = Description {
             title: "Switching between stick and slip",
             meaning: "reading of the switching between stick and slip",
             options: &Switching::OPTIONS,
+            tag: "switching",
+            option_tags: &["Filippov", "AsPrinted"],
         },
     ],
     outputs: &OUTPUTS,
@@ -187,7 +191,7 @@ impl Parameter {
         let (allowed, default) = (self.allowed(), self.default_value());
         let is_asked_for =
             matches!(self, Parameter::Omega | Parameter::Pd | Parameter::K2 | Parameter::Delta);
-        ParameterDescription { quantity, allowed, default, is_asked_for }
+        ParameterDescription { quantity, tag: self.tag(), allowed, default, is_asked_for }
     }
 
     /// It as a parameter that the description of the capsule tells of.
@@ -226,7 +230,11 @@ impl Output {
 
     /// What the capsule says of it.
     const fn description(self) -> OutputDescription {
-        OutputDescription { quantity: self.quantity(), is_smooth: self.is_smooth() }
+        OutputDescription {
+            quantity: self.quantity(),
+            tag: self.tag(),
+            is_smooth: self.is_smooth(),
+        }
     }
 
     /// It as an output that the description of the capsule tells of.

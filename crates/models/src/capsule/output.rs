@@ -22,6 +22,10 @@ macro_rules! outputs {
             pub const fn name(self) -> &'static str {
                 match self { $(Output::$variant => $name,)* }
             }
+            /// Its name in code.
+            pub const fn tag(self) -> &'static str {
+                match self { $(Output::$variant => stringify!($variant),)* }
+            }
             /// Its dimension.
             pub const fn dimension(self) -> Dimension {
                 match self { $(Output::$variant => Dimension::$dimension,)* }

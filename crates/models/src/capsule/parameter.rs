@@ -18,6 +18,10 @@ macro_rules! parameters {
             pub const fn symbol(self) -> &'static str {
                 match self { $(Parameter::$variant => $symbol,)* }
             }
+            /// Its name in code.
+            pub const fn tag(self) -> &'static str {
+                match self { $(Parameter::$variant => stringify!($variant),)* }
+            }
             /// Its dimension.
             pub const fn dimension(self) -> Dimension {
                 match self { $(Parameter::$variant => Dimension::$dimension,)* }

@@ -13,4 +13,8 @@ pub struct Choice {
     pub meaning: &'static str,
     /// What may be chosen, by name; the first is chosen where nothing is said.
     pub options: &'static [&'static str],
+    /// What fingerprints of studies know it by.
+    pub tag: &'static str,
+    /// The same of each of the options.
+    pub option_tags: &'static [&'static str],
 }

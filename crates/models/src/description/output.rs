@@ -11,6 +11,8 @@ use crate::quantity::{Dimension, Quantity};
 pub struct OutputDescription {
     /// The quantity that it is.
     pub quantity: Quantity,
+    /// What fingerprints of studies know it by, which files keep: it stays whatever else is called anew.
+    pub tag: &'static str,
     /// Whether it changes smoothly along a family of orbits with the same events, so that it has derivatives in the parameters.
     pub is_smooth: bool,
 }
@@ -22,9 +24,10 @@ pub struct Output {
     index: usize,
 }
 
+/// As fingerprints of studies have it.
 impl Debug for Output {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}.{}", self.model.name, self.name())
+        f.write_str(self.model.outputs[self.index].tag)
     }
 }
 
@@ -76,10 +79,16 @@ impl Output {
 }
 
 /// A value for every output of a model (SI).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Outputs {
     model: &'static Description,
     values: Box<[f64]>,
+}
+
+impl Debug for Outputs {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Outputs").field(&self.values).finish()
+    }
 }
 
 impl Outputs {
@@ -137,6 +146,6 @@ impl<O: Into<Output>> IndexMut<O> for Outputs {
 
 /// The place of an output of a model.
 fn place(model: &'static Description, output: Output) -> usize {
-    assert!(output.model() == model, "{output:?} is no output of {}", model.name);
+    assert!(output.model() == model, "{} is no output of {}", output.name(), model.name);
     output.index()
 }

@@ -10,6 +10,8 @@ use crate::quantity::{Allowed, Dimension, Quantity};
 pub struct ParameterDescription {
     /// The quantity that it is.
     pub quantity: Quantity,
+    /// What fingerprints of studies know it by, which files keep: it stays whatever else is called anew.
+    pub tag: &'static str,
     /// What values it may take.
     pub allowed: Allowed,
     /// Its value where none is given (SI).
@@ -25,9 +27,10 @@ pub struct Parameter {
     index: usize,
 }
 
+/// As fingerprints of studies have it.
 impl Debug for Parameter {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}.{}", self.model.name, self.symbol())
+        f.write_str(self.described().tag)
     }
 }
 

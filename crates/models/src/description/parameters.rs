@@ -1,17 +1,29 @@
 //! A value for every parameter of a model, and what is chosen beside them.
 
-use std::fmt;
+use std::fmt::{self, Debug, Formatter};
 use std::ops::{Index, IndexMut};
 
 use super::{Description, Parameter};
 use crate::quantity::Dimension;
 
 /// A value for every parameter of a model (SI), and what is chosen beside them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Parameters {
     model: &'static Description,
     values: Vec<f64>,
     chosen: Vec<usize>,
+}
+
+/// As fingerprints of studies have it.
+impl Debug for Parameters {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let mut text = f.debug_struct("Parameters");
+        text.field("values", &self.values);
+        for (choice, option) in self.model.choices.iter().zip(&self.chosen) {
+            text.field(choice.tag, &format_args!("{}", choice.option_tags[*option]));
+        }
+        text.finish()
+    }
 }
 
 /// A parameter whose value is not allowed.
@@ -24,7 +36,7 @@ pub struct Fault {
 }
 
 impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Fault { parameter, value } = self;
         let (symbol, meaning) = (parameter.symbol(), parameter.meaning());
         let unit = match parameter.dimension() {
@@ -94,6 +106,6 @@ impl<P: Into<Parameter>> IndexMut<P> for Parameters {
 
 /// The place of a parameter of a model.
 fn place(model: &'static Description, parameter: Parameter) -> usize {
-    assert!(parameter.model() == model, "{parameter:?} is no parameter of {}", model.name);
+    assert!(parameter.model() == model, "{} is no parameter of {}", parameter.symbol(), model.name);
     parameter.index()
 }

@@ -13,6 +13,7 @@ static OTHER: Description = Description {
     name: "other",
     parameters: &[ParameterDescription {
         quantity: Quantity { name: "m1", dimension: Dimension::Mass, meaning: "mass", shown: None },
+        tag: "M",
         allowed: Allowed::Positive,
         default: 2.0,
         is_asked_for: false,
@@ -29,6 +30,7 @@ fn the_description_has_every_parameter_and_output_in_its_place() {
     assert_eq!(CAPSULE.parameters().count(), Parameter::ALL.len());
     for (described, own) in CAPSULE.parameters().zip(Parameter::ALL) {
         assert!(described == *own && Parameter::which(described) == *own);
+        assert_eq!(format!("{described:?}"), format!("{own:?}"));
         assert_eq!(CAPSULE.parameter(own.symbol()), Some(described));
         assert_eq!(Parameters::default()[described], own.default_value(), "{described:?}");
         let told = (described.dimension(), described.allowed(), described.meaning());
@@ -37,6 +39,7 @@ fn the_description_has_every_parameter_and_output_in_its_place() {
     assert_eq!(CAPSULE.outputs().count(), Output::ALL.len());
     for (described, own) in CAPSULE.outputs().zip(Output::ALL) {
         assert!(described == *own && described.is_smooth() == own.is_smooth());
+        assert_eq!(format!("{described:?}"), format!("{own:?}"));
         assert_eq!(CAPSULE.output(own.name()), Some(described));
         assert_eq!((described.unit(), described.meaning()), (own.unit(), own.meaning()));
     }
@@ -55,12 +58,15 @@ fn each_choice_is_the_law_of_its_name() {
             same.switch_by(switching);
             assert_eq!(chosen, same);
             assert_eq!(chosen.choices().next(), Some(("resistance", name)));
+            // What fingerprints have of it, as before there was a description.
+            let known = format!("resistance: {resistance:?}, switching: {switching:?} }}");
+            assert!(format!("{chosen:?}").ends_with(&known), "{chosen:?}");
         }
     }
 }
 
 #[test]
-#[should_panic(expected = "capsule.m1 is no parameter of other")]
+#[should_panic(expected = "m1 is no parameter of other")]
 fn a_parameter_of_one_model_is_none_of_another() {
     let other = Parameters::of(&OTHER);
     assert_eq!(other[OTHER.parameters().next().expect("one")], 2.0);
