@@ -11,7 +11,7 @@ mod lanes;
 use std::thread::available_parallelism;
 use std::time::Instant;
 
-use capsulemap::capsule::{Parameters, State};
+use capsulemap::capsule::{CapsuleState as _, Parameters, State};
 use capsulemap::lane::Instructions;
 use capsulemap::run::{Machine, attractors, final_motions, has_attractors, run, run_sample};
 use capsulemap::study::Study;
@@ -151,7 +151,7 @@ impl LanesAlone {
         let cases: Vec<(Parameters, State<f64>)> = (0..study.cases())
             .step_by(every)
             .map(|index| study.case(index))
-            .map(|case| (case.parameters, case.start))
+            .map(|case| (case.parameters, case.start.capsule()))
             .collect();
         let begun = Instant::now();
         let ends = integrate_from(Instructions::widest(), &cases, CYCLES, study.protocol.tolerance);

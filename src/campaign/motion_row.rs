@@ -4,8 +4,9 @@ use super::margins::Margins;
 use super::mean_errors::MeanErrors;
 use super::refined_motion::{RefinedMotion, Slopes};
 use super::robustness::Robustness;
-use crate::capsule::{Case, Section, State};
-use crate::description::{Output, Parameters};
+use crate::capsule::{Case, Section};
+use crate::description::{Output, Parameters, State};
+use crate::of::default_model;
 use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
@@ -58,13 +59,14 @@ pub struct Row {
 }
 
 impl Row {
-    /// Its start as r, y1, y2 (SI).
+    /// Its start as a section point (SI).
     pub fn start(&self) -> Section {
         let value = |wanted: Coordinate| {
             let found = self.coordinates.iter().find(|(it, ..)| *it == wanted);
             found.map_or(0.0, |(_, value, _)| *value)
         };
-        [Coordinate::StartR, Coordinate::StartY1, Coordinate::StartY2].map(value)
+        let mut all = Coordinate::starts(default_model()).map(value);
+        std::array::from_fn(|_| all.next().unwrap_or(0.0))
     }
 }
 
@@ -154,23 +156,27 @@ impl Rows {
 
 /// The command that computes a motion between the cases.
 fn replay(motion: &RefinedMotion, protocol: &Protocol) -> String {
-    let RefinedMotion { parameters, section: [r, y1, y2], phase, .. } = motion;
-    let start = State { r: *r, y1: *y1, y2: *y2, x2: 0.0 };
+    let RefinedMotion { parameters, section, phase, .. } = motion;
+    let start = State::at_section(parameters.model(), section);
     command(&Case::at_section(parameters.clone(), start, *phase), protocol)
 }
 
 /// The command that computes a case from its start, with the tolerance and the budget of cycles of a protocol.
 pub fn command(case: &Case, protocol: &Protocol) -> String {
-    let Case { parameters, start: State { r, y1, x2, y2 }, start_phase, section_phase } = case;
+    let Case { parameters, start, start_phase, section_phase } = case;
     let mut text = "capsulemap simulate".to_owned();
     for (parameter, value) in parameters.each() {
         if value != parameter.default_value() {
             text += &format!(" --set {}={value:?}", parameter.symbol());
         }
     }
-    text += &format!(" --start r={r:?},y1={y1:?},y2={y2:?}");
-    if *x2 != 0.0 {
-        text += &format!(",x2={x2:?}");
+    let model = parameters.model();
+    let of_section = model.section_coordinates();
+    let of_section: Vec<_> =
+        of_section.map(|it| format!("{}={:?}", it.name(), start[it])).collect();
+    text += &format!(" --start {}", of_section.join(","));
+    if let Some(drift) = model.drift().filter(|it| start[*it] != 0.0) {
+        text += &format!(",{}={:?}", drift.name(), start[drift]);
     }
     if start_phase == section_phase && *section_phase != 0.0 {
         text += &format!(" --phase {section_phase:?}");

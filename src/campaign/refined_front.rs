@@ -10,8 +10,8 @@ use super::motion_row::Row;
 use super::refined_motion::{DrawnMotion, Led, RefinedMotion, Slopes, Start, distinct, words};
 use super::replay::Replay;
 use super::report::silent;
-use crate::capsule::{Case, Orbit, Section, State, settle_case};
-use crate::description::{Output, Outputs, Parameter, Parameters};
+use crate::capsule::{Case, Orbit, Section, settle_case};
+use crate::description::{Output, Outputs, Parameter, Parameters, State};
 use crate::model::Setting;
 use crate::orbit::{Outcome, Protocol};
 use crate::run::{Machine, on_all_threads};
@@ -206,8 +206,7 @@ impl Refinement<'_> {
         from: Start,
     ) -> Option<RefinedMotion> {
         let setting = family.at(&found.at.shares);
-        let [r, y1, y2] = found.at.section;
-        let start = State { r, y1, x2: 0.0, y2 };
+        let start = State::at_section(self.study.base.model(), &found.at.section);
         let again = Case::at_section(setting.parameters.clone(), start, setting.phase);
         let protocol = self.protocol();
         let orbit = settle_case(&again, &protocol);
@@ -347,7 +346,6 @@ impl Refinement<'_> {
         }
         let replay = Replay::new(self.study, case)?;
         let orbit = settle_case(&replay.as_run(Machine::single(), &silent)?, replay.protocol());
-        let end = [orbit.end.r, orbit.end.y1, orbit.end.y2];
-        Ok((orbit.outcome == Outcome::Periodic).then_some(end))
+        Ok((orbit.outcome == Outcome::Periodic).then(|| orbit.end.section()))
     }
 }

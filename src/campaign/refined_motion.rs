@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::capsule::Section;
-use crate::description::{Output, Outputs, Parameter, Parameters};
+use crate::description::{Output, Outputs, Parameter, Parameters, State};
 use crate::study::Coordinate;
 use crate::tradeoff::{Candidate, Family, Hold, Side};
 
@@ -77,12 +77,11 @@ impl RefinedMotion {
 
     /// The value of a coordinate (SI); that of its start is its section point.
     pub fn coordinate(&self, coordinate: Coordinate) -> f64 {
-        let [r, y1, y2] = self.section;
         match coordinate {
             Coordinate::Parameter(parameter) => self.parameters[parameter],
-            Coordinate::StartR => r,
-            Coordinate::StartY1 => y1,
-            Coordinate::StartY2 => y2,
+            Coordinate::Start(of_state) => {
+                State::at_section(self.parameters.model(), &self.section)[of_state]
+            }
             Coordinate::StartPhase | Coordinate::SectionPhase => self.phase,
         }
     }

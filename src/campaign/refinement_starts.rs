@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::error::CampaignError;
 use super::refined_front::{Refinement, Search};
 use super::refined_motion::{DrawnMotion, Start};
-use crate::capsule::{Case, State, settle_case};
-use crate::description::Parameter;
+use crate::capsule::{Case, settle_case};
+use crate::description::{Parameter, State};
 use crate::orbit::Outcome;
 use crate::run::on_all_threads;
 use crate::store::catalogue::{ATTRACTOR, PERIOD};
@@ -65,7 +65,7 @@ impl Refinement<'_> {
             parameters[parameter] = points.value(number, place);
         }
         let phase = self.study.section_phase;
-        let case = Case::at_section(parameters, State::default(), phase);
+        let case = Case::at_section(parameters, State::origin(self.study.base.model()), phase);
         let orbit = settle_case(&case, &self.protocol());
         let speed = self.direction.of(orbit.outputs.speed());
         let counts = orbit.outcome == Outcome::Periodic
@@ -74,7 +74,7 @@ impl Refinement<'_> {
         counts.then_some(DrawnMotion {
             number,
             parameters: case.parameters,
-            section: [orbit.end.r, orbit.end.y1, orbit.end.y2],
+            section: orbit.end.section(),
             period: orbit.period,
             outputs: orbit.outputs,
         })

@@ -1,13 +1,11 @@
 //! A case of a study by its number, with the start that it had in the run, to be computed again.
 
-use crate::orbit::Protocol;
-
-use crate::capsule::Case;
-use crate::run::{Machine, run_sample};
-use crate::study::Study;
-
 use super::error::CampaignError;
 use super::report::{Event, Report, Reports, Stage};
+use crate::capsule::Case;
+use crate::orbit::Protocol;
+use crate::run::{Machine, run_sample};
+use crate::study::Study;
 
 /// A case of a study that is computed again.
 #[derive(Debug, Clone, Copy)]
@@ -64,7 +62,7 @@ impl<'a> Replay<'a> {
         let records = run_sample(self.study, machine, &[self.chain], step)?;
         reports.send(Event::Ended(Stage::Repeating))?;
         if let Some(record) = records.iter().find(|record| record.index == self.index) {
-            (case.start, case.start_phase) = (record.start, record.start_phase);
+            (case.start, case.start_phase) = (record.start.clone(), record.start_phase);
         }
         Ok(case)
     }

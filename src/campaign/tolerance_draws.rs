@@ -6,8 +6,8 @@ use super::motion_row::Row;
 use super::refined_front::{Refinement, Whereabouts};
 use super::report::{Event, Reports, Stage};
 use super::robustness::{Draw, Robustness, Tolerances};
-use crate::capsule::{Case, State, settle_case};
-use crate::description::{Outputs, Parameter};
+use crate::capsule::{Case, settle_case};
+use crate::description::{Outputs, Parameter, State};
 use crate::orbit::Outcome;
 use crate::run::on_all_threads;
 use crate::store::takes_part;
@@ -50,8 +50,7 @@ impl Refinement<'_> {
             for (parameter, factor) in factors {
                 parameters[*parameter] *= factor;
             }
-            let [r, y1, y2] = motion.section;
-            let start = State { r, y1, x2: 0.0, y2 };
+            let start = State::at_section(self.study.base.model(), &motion.section);
             let case = Case::at_section(parameters, start, motion.phase);
             let orbit = settle_case(&case, &self.protocol());
             let counts = takes_part(orbit.outcome.name());

@@ -12,11 +12,12 @@ use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
 use crate::capsule::printable::printable;
 use crate::capsule::{
-    self, CapsuleParameters as _, Case, Dimension, Orbit, Resistance, Simulation, State, Switching,
+    self, CapsuleParameters as _, Case, Dimension, Orbit, Resistance, Simulation, Switching,
     settle_case, simulate_case,
 };
-use crate::description::{Parameters, Remark};
+use crate::description::{Parameters, Remark, State};
 use crate::explore::{case_json, remarks};
+use crate::of::default_model;
 use crate::orbit::Protocol;
 use crate::run::Machine;
 use crate::study::document::unknown;
@@ -203,29 +204,24 @@ impl Simulate {
         }
     }
 
-    fn start(&self, faults: &mut Vec<String>) -> State<f64> {
+    fn start(&self, faults: &mut Vec<String>) -> State {
         let mut start = State::default();
-        let names = ["r", "y1", "x2", "y2"];
+        let model = default_model();
         let parts = self.start.iter().flat_map(|text| text.split(','));
         let mut given = Vec::new();
         for (name, text) in pairs("--start", parts, faults) {
-            let (place, dimension) = match name {
-                "r" => (&mut start.r, Dimension::Length),
-                "y1" => (&mut start.y1, Dimension::Velocity),
-                "x2" => (&mut start.x2, Dimension::Length),
-                "y2" => (&mut start.y2, Dimension::Velocity),
-                _ => {
-                    let names = names.into_iter();
-                    faults.push(format!("--start: {}", unknown("coordinate", name, names)));
-                    continue;
-                }
+            let Some(coordinate) = model.coordinates().find(|it| it.name() == name) else {
+                let names = model.coordinates().map(|it| it.name());
+                faults.push(format!("--start: {}", unknown("coordinate", name, names)));
+                continue;
             };
             if given.contains(&name) {
                 faults.push(format!("--start: {name} is given twice"));
             }
             given.push(name);
+            let dimension = coordinate.start().dimension;
             let value = quantity(&format!("--start {name}"), text, dimension, faults);
-            *place = value.unwrap_or(0.0);
+            start[coordinate] = value.unwrap_or(0.0);
         }
         start
     }

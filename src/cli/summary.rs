@@ -43,9 +43,11 @@ pub fn summary(
         let _ =
             writeln!(text, "  case {index} failed: {}, at t = {:e} s", failed.reason, failed.time);
         let _ = write!(text, "    replay: capsulemap simulate --study {path} --case {index}");
-        let (start, usual) = (failed.start, study.case(index).start);
-        if (start.r, start.y1, start.y2) != (usual.r, usual.y1, usual.y2) {
-            let _ = write!(text, " --start r={},y1={},y2={}", start.r, start.y1, start.y2);
+        let (start, usual) = (failed.start, study.case(index).start.without_drift());
+        if start != usual {
+            let of_section = study.base.model().section_coordinates();
+            let of_section = of_section.map(|it| format!("{}={}", it.name(), start[it]));
+            let _ = write!(text, " --start {}", of_section.collect::<Vec<_>>().join(","));
         }
         text.push('\n');
     }

@@ -10,7 +10,9 @@ use super::files;
 use super::terminal::print;
 use crate::campaign::{CampaignError, Replay, read_study_or_results};
 use crate::capsule::printable::printable;
-use crate::capsule::{CapsuleParameters as _, Case, Dimension, State, settle_case};
+use crate::capsule::{
+    CapsuleParameters as _, CapsuleState as _, Case, Dimension, State, settle_case,
+};
 use crate::description::Parameters;
 use crate::experiment::synthesis::recorded;
 use crate::experiment::{Laboratory, Sensor, Signal, SimpleTests, Started, Test, simple_tests};
@@ -167,7 +169,7 @@ impl Synthesize {
                 self.rate
             )));
         }
-        let motion = settled(&case.parameters, case.start, phase);
+        let motion = settled(&case.parameters, case.start.capsule(), phase);
         let times: Vec<f64> = (0..count as u32).map(|i| f64::from(i) / rate).collect();
         let values = recorded(&motion, &times, sensors, self.seed)
             .map_err(|why| Failure::request(format!("the motion cannot be followed: {why:?}")))?;
@@ -185,7 +187,7 @@ impl Synthesize {
 fn settled(parameters: &Parameters, start: State<f64>, phase: f64) -> Started {
     let case = Case::at_section(parameters.clone(), start, phase);
     let end = settle_case(&case, &Protocol::default()).end;
-    Started { parameters: parameters.clone(), start: State { x2: 0.0, ..end }, phase }
+    Started { parameters: parameters.clone(), start: State { x2: 0.0, ..end.capsule() }, phase }
 }
 
 /// A case of a study or of a file of results, and the protocol of the study.

@@ -4,7 +4,7 @@ use super::estimate::Estimate;
 use super::progression::Progression;
 use crate::capsule::drive::reduced;
 use crate::capsule::sampled::{Signal, Started, sampled};
-use crate::capsule::{self, Case, Orbit, Parameter, State, settle_case};
+use crate::capsule::{self, CapsuleState as _, Case, Orbit, Parameter, State, settle_case};
 use crate::description::Outputs;
 use crate::model::{Batches, Setting};
 use crate::of::model_of;
@@ -58,7 +58,7 @@ impl Settled {
     /// Fails where it cannot be followed.
     pub fn at_phase(&self, phase: f64) -> Result<Started, String> {
         let parameters = self.case.parameters.clone();
-        let start = State { x2: 0.0, ..self.orbit.end };
+        let start = State { x2: 0.0, ..self.orbit.end.capsule() };
         let section = Started { parameters, start, phase: self.case.section_phase };
         let turned = reduced(phase - section.phase) / section.parameters[Parameter::Omega];
         let signals = [Signal::R, Signal::Y1, Signal::Y2];
@@ -73,11 +73,11 @@ impl Settled {
 /// it cannot be followed.
 pub fn outputs_of_batches(
     case: &Case,
-    end: &State<f64>,
+    end: &crate::description::State,
     protocol: &Protocol,
 ) -> Option<Vec<Outputs>> {
     let cycles = protocol.measured_cycles.div_ceil(BATCHES);
     let batches = Batches { count: BATCHES, cycles };
-    let from = [end.r, end.y1, end.y2];
+    let from = end.section();
     model_of(&case.parameters).batches(&Setting::of(case), from, batches, protocol.tolerance)
 }

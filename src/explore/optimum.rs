@@ -1,7 +1,7 @@
 //! The motion of an optimum, computed again and drawn: its history over two periods, and its phase portrait.
 
 use crate::campaign::Row;
-use crate::capsule::State;
+use crate::description::State;
 use crate::figure::{FigureError, Picture, picture};
 use crate::orbit::{HistorySpan, Machine, Protocol};
 use crate::run::{RunError, run_sample};
@@ -55,9 +55,7 @@ fn study(row: &Row, of: &Study, cycles: u32) -> Study {
     for (coordinate, value, _) in &row.coordinates {
         match coordinate {
             Coordinate::Parameter(parameter) => study.base[*parameter] = *value,
-            Coordinate::StartR => start.r = *value,
-            Coordinate::StartY1 => start.y1 = *value,
-            Coordinate::StartY2 => start.y2 = *value,
+            Coordinate::Start(coordinate) => start[*coordinate] = *value,
             Coordinate::StartPhase => study.start_phase = *value,
             Coordinate::SectionPhase => study.section_phase = *value,
         }

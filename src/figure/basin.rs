@@ -67,7 +67,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         ));
     }
     let plane = Plane::of(view, "a figure of basins")?;
-    let of_starts = starts().map(|entry| entry.name);
+    let of_starts: Vec<&str> = starts().into_iter().map(|entry| entry.name).collect();
     for name in [plane.x_name, plane.y_name] {
         if !of_starts.contains(&name) {
             let allowed = of_starts.join(", ");
@@ -317,7 +317,7 @@ fn surface(view: &View<'_>, plane: &Plane<'_>) -> Option<[(f64, f64); 2]> {
     let delta = view.model().impact_surface().symbol();
     let factor = view.quantity(delta).factor;
     let gap = view.parameter(delta, &[]).ok()?.first().copied()? * factor;
-    let displacement = Coordinate::StartR.name();
+    let displacement = Coordinate::starts(view.model()).next()?.name();
     let (x, y) = (&plane.x.scale, &plane.y.scale);
     let inside = |low: f64, high: f64| (low..=high).contains(&gap);
     if plane.x_name == displacement && inside(x.low, x.high) {

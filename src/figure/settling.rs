@@ -38,7 +38,7 @@ fn reads(_: &Drawing, _model: &'static Description) -> Names {
 /// Draws the cycles that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let plane = Plane::of(view, "a figure of settling")?;
-    let of_starts = starts().map(|entry| entry.name);
+    let of_starts: Vec<&str> = starts().into_iter().map(|entry| entry.name).collect();
     for name in [plane.x_name, plane.y_name] {
         if !of_starts.contains(&name) {
             let allowed = of_starts.join(", ");

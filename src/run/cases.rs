@@ -8,7 +8,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::attractor::Executor;
-use crate::capsule::{Case, Orbit, State};
+use crate::capsule::{Case, Orbit};
+use crate::description::State;
 use crate::flow::stop;
 use crate::lane::Instructions;
 use crate::model::{CaseQueue, Known, Model, Unfinished};
@@ -27,7 +28,7 @@ pub struct Record {
     /// Index of the case in its study.
     pub index: usize,
     /// Where it started: as the study says, or where its neighbour settled.
-    pub start: State<f64>,
+    pub start: State,
     /// Phase of the drive there [rad].
     pub start_phase: f64,
     /// What it settled to.
@@ -181,7 +182,7 @@ impl Executor for Rayon {
 struct Link {
     block: usize,
     index: usize,
-    start: State<f64>,
+    start: State,
     start_phase: f64,
     rest: Chain,
 }
@@ -241,19 +242,14 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
     fn follow(&self, link: Link, orbit: Orbit) -> Option<(Link, Case)> {
         let Link { block, index, start, start_phase, rest } = link;
         // After a failure the next case starts afresh.
-        let settled = (orbit.outcome != Outcome::Failed).then_some(orbit.end);
+        let settled = (orbit.outcome != Outcome::Failed).then(|| orbit.end.clone());
         if (self.keep)(block, Record { index, start, start_phase, orbit }).is_break() {
             self.stopped.store(true, Ordering::Relaxed);
         }
         self.depart(block, rest, settled)
     }
 
-    fn depart(
-        &self,
-        block: usize,
-        mut chain: Chain,
-        from: Option<State<f64>>,
-    ) -> Option<(Link, Case)> {
+    fn depart(&self, block: usize, mut chain: Chain, from: Option<State>) -> Option<(Link, Case)> {
         if self.stopped.load(Ordering::Relaxed) {
             return None;
         }
@@ -261,10 +257,10 @@ impl<K: Fn(usize, Record) -> ControlFlow<()>> Worker<'_, K> {
         let mut case = self.study.case(index);
         if let Some(from) = from {
             // A case that settled was left on its section.
-            case.start = State { x2: case.start.x2, ..from };
+            case.start = from.drifted_as(&case.start);
             case.start_phase = case.section_phase;
         }
-        let Case { start, start_phase, .. } = case;
+        let (start, start_phase) = (case.start.clone(), case.start_phase);
         Some((Link { block, index, start, start_phase, rest: chain }, case))
     }
 

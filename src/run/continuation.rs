@@ -2,13 +2,12 @@
 
 use std::fmt;
 
+use super::cases::{RunError, on_all_threads};
 use crate::branch::NotFollowed;
 use crate::capsule::branch::{self, Found};
 use crate::capsule::{Case, REASONS, Section, settle_case};
 use crate::flow::Reason;
 use crate::orbit::{Outcome, Protocol};
-
-use super::cases::{RunError, on_all_threads};
 use crate::study::{Continuation, FirstOrbit, Study};
 
 /// What came of one branch of a study.
@@ -71,10 +70,7 @@ pub fn continue_branches(
 fn continue_one(continuation: &Continuation, protocol: &Protocol) -> Continued {
     let (section, period) = match continuation.first {
         FirstOrbit::Settle => settled(continuation, protocol)?,
-        FirstOrbit::Newton { period } => {
-            let start = continuation.start;
-            ([start.r, start.y1, start.y2], period)
-        }
+        FirstOrbit::Newton { period } => (continuation.start.section(), period),
     };
     let request = continuation.request(section, period, protocol.tolerance);
     branch::follow(&request).map_err(|why| match why {
@@ -93,7 +89,8 @@ fn settled(
     protocol: &Protocol,
 ) -> Result<(Section, u64), NotContinued> {
     let protocol = Protocol { points: 1, impact_points: 0, history: None, ..*protocol };
-    let Continuation { start, start_phase, section_phase, .. } = *continuation;
+    let Continuation { start_phase, section_phase, .. } = *continuation;
+    let start = continuation.start.clone();
     let parameters = continuation.parameters.clone();
     let case = Case { parameters, start, start_phase, section_phase };
     let orbit = settle_case(&case, &protocol);

@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use super::Attractors;
 use crate::attractor::{Met, Saddle};
 use crate::model::Setting;
 use crate::orbit::{Machine, Outcome};
 use crate::study::{CaseSet, Coordinate, Study};
-
-use super::Attractors;
 
 /// So many pairs of basins are looked at.
 const PAIRS: usize = 64;
@@ -27,8 +26,7 @@ pub struct Edge {
 /// Whether saddles between basins are looked for: on a grid of starts that lie at the phase of the section.
 pub fn has_edges(study: &Study) -> bool {
     let is_grid = matches!(study.case_set, CaseSet::Grid(_));
-    let coordinates = [Coordinate::StartR, Coordinate::StartY1, Coordinate::StartY2];
-    let in_section = study.case_set.varied().iter().all(|it| coordinates.contains(it));
+    let in_section = study.case_set.varied().iter().all(|it| matches!(it, Coordinate::Start(_)));
     is_grid && in_section && study.start_phase == study.section_phase
 }
 
@@ -46,10 +44,7 @@ pub fn edges(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Ed
     let setting = Setting::of(&study.case(0));
     let known = (0..).zip(&attractors.of_starts).collect();
     let leads = study.model().leads(&setting, &study.protocol, machine, known);
-    let point = |case: usize| {
-        let start = study.case(case).start;
-        [start.r, start.y1, start.y2]
-    };
+    let point = |case: usize| study.case(case).start.section();
     let mut found = BTreeMap::new();
     let mut between_others = Vec::new();
     for (between, all) in neighbours(study, attractors).into_iter().take(PAIRS) {

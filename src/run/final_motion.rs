@@ -1,20 +1,18 @@
 //! What the search for attractors needs of the cases of a study, small enough to be held for millions.
 
-use crate::attractor;
-use crate::capsule::{Orbit, State};
-use crate::study::Study;
-
 use super::Record;
+use crate::attractor;
+use crate::capsule::Orbit;
+use crate::study::Study;
 
 /// What a case has settled to.
 pub type FinalMotion = attractor::FinalMotion<3>;
 
 /// The summary of a case that settled to `orbit`.
 pub fn final_motion(orbit: &Orbit) -> FinalMotion {
-    let State { r, y1, y2, .. } = orbit.end;
     let (period, certificate) = (orbit.period as u32, &orbit.certificate);
     let (residual, multipliers) = (certificate.residual, &certificate.multipliers);
-    attractor::FinalMotion::new(orbit.outcome, period, [r, y1, y2], residual, multipliers)
+    attractor::FinalMotion::new(orbit.outcome, period, orbit.end.section(), residual, multipliers)
 }
 
 /// What the cases of a study have settled to, by index, as far as they have been computed.

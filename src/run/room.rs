@@ -15,7 +15,7 @@ impl Room {
     pub(super) fn of(study: &Study, case: usize) -> Option<Room> {
         let CaseSet::Grid(_) = study.case_set else { return None };
         let metric = study.case(case).parameters.metric();
-        let names = [Coordinate::StartR, Coordinate::StartY1, Coordinate::StartY2];
+        let names: Vec<Coordinate> = Coordinate::starts(study.base.model()).collect();
         let starts: Vec<&Axis> =
             study.axes().iter().filter(|axis| axis.coordinate.is_start()).collect();
         if starts.is_empty() {

@@ -14,12 +14,14 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::block_file::{self, BlockFile, Column, Head, Numbers, Summary, Unusable};
-use super::catalogue::{CASE, END_R, END_Y1, END_Y2, RESIDUAL, starts};
+use super::catalogue::{CASE, RESIDUAL, starts};
 use super::file::{self, discard_unfinished_in, put};
 use super::lock::{Lock, Tried, try_lock};
 use super::{StoreError, Values, provenance, schema};
+use crate::of::default_model;
 use crate::orbit::Outcome;
 use crate::run::Record;
+use crate::store::catalogue::END;
 use crate::study::{Refine, Study};
 
 /// The fingerprint of the study and the program of the first run.
@@ -344,18 +346,16 @@ fn columns(study: &Study, records: &[Record]) -> Vec<Column> {
 /// The columns of a block that are no variables of the results.
 fn beyond_variables(records: &[Record]) -> Vec<Column> {
     let mut columns = Vec::new();
-    let mut add = |name: &str, of: fn(&Record) -> f64| {
+    let mut add = |name: &str, of: &dyn Fn(&Record) -> f64| {
         let numbers = Numbers::Real(records.iter().map(of).collect());
         columns.push(Column { name: name.to_owned(), numbers });
     };
-    let [start_r, start_y1, start_y2] = starts().map(|entry| entry.name);
-    add(start_r, |it| it.start.r);
-    add(start_y1, |it| it.start.y1);
-    add(start_y2, |it| it.start.y2);
-    add(END_R.name, |it| it.orbit.end.r);
-    add(END_Y1.name, |it| it.orbit.end.y1);
-    add(END_Y2.name, |it| it.orbit.end.y2);
-    add(RESIDUAL.name, |it| it.orbit.certificate.residual);
+    let coordinates = default_model().section_coordinates();
+    for ((coordinate, start), end) in coordinates.zip(starts()).zip(END) {
+        add(start.name, &|it| it.start[coordinate]);
+        add(end.name, &|it| it.orbit.end[coordinate]);
+    }
+    add(RESIDUAL.name, &|it| it.orbit.certificate.residual);
     columns
 }
 

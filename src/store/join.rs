@@ -15,8 +15,9 @@ use super::joined::{self, Column};
 use super::schema;
 use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, StoreError, Values, Variable, provenance};
-use crate::capsule::{REASONS, State};
-use crate::description::Output;
+use crate::capsule::REASONS;
+use crate::description::{Output, State};
+use crate::of::default_model;
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
 use crate::run::{
@@ -316,12 +317,12 @@ pub fn write_beside_cases(
 }
 
 /// A case that failed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct FailedCase {
     /// Its index.
     pub index: usize,
     /// Where it started.
-    pub start: State<f64>,
+    pub start: State,
     /// Why the integration failed, by its name in files.
     pub reason: &'static str,
     /// When, since its start [s].
@@ -330,12 +331,14 @@ pub struct FailedCase {
 
 /// The failed among the `cases` of a block file.
 fn failures(file: &BlockFile, cases: &[usize]) -> Result<Vec<FailedCase>, StoreError> {
-    let [r, y1, y2] = starts().map(|entry| file.reals(entry.name, 1));
-    let (r, y1, y2, times) = (r?, y1?, y2?, file.reals(FAILURE_TIME.name, 1)?);
+    let starts: Vec<Vec<f64>> =
+        starts().iter().map(|entry| file.reals(entry.name, 1)).collect::<Result<_, _>>()?;
+    let times = file.reals(FAILURE_TIME.name, 1)?;
     let reasons = file.integers(FAILURE_REASON.name, 1)?;
     let failed = |(place, code): (usize, &i64)| {
         let (_, reason) = REASONS.iter().find(|(reason, _)| *reason as i64 == *code)?;
-        let start = State { r: r[place], y1: y1[place], y2: y2[place], ..State::default() };
+        let start: Vec<f64> = starts.iter().map(|values| values[place]).collect();
+        let start = State::at_section(default_model(), &start);
         Some(FailedCase { index: cases[place], start, reason, time: times[place] })
     };
     Ok(reasons.iter().enumerate().filter_map(failed).collect())

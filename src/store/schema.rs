@@ -8,7 +8,7 @@ use super::catalogue::*;
 use super::names::OF_PROTOCOL;
 use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, Values, Variable, drawn, provenance};
-use crate::capsule::{History, Impact, Orbit, State};
+use crate::capsule::{History, Impact, Orbit};
 use crate::orbit::Certificate;
 use crate::orbit::matrix::Complex;
 use crate::run::Record;
@@ -184,16 +184,13 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
 
 /// Everything that the axes leave constant, so that a file holds every parameter of its cases.
 fn add_constants(dataset: &mut Dataset, study: &Study) {
-    let State { r, y1, y2, .. } = study.start;
     for constant in Coordinate::all() {
         if study.case_set.varied().contains(&constant) {
             continue;
         }
         let value = match constant {
             Coordinate::Parameter(parameter) => study.base[parameter],
-            Coordinate::StartR => r,
-            Coordinate::StartY1 => y1,
-            Coordinate::StartY2 => y2,
+            Coordinate::Start(coordinate) => study.start[coordinate],
             Coordinate::StartPhase => study.start_phase,
             Coordinate::SectionPhase => study.section_phase,
         };

@@ -1,51 +1,61 @@
 //! An axis of a study: a parameter or a coordinate of the start, and the values it takes.
 
+use std::fmt::{self, Debug, Formatter};
+
 use crate::capsule::{Case, description};
-use crate::description::Parameter;
+use crate::description::{Description, Parameter, StateCoordinate};
 use crate::of::default_model;
 use crate::quantity::{Allowed, Dimension, Quantity};
 
 /// What varies along an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Coordinate {
     /// A parameter of the model.
     Parameter(Parameter),
-    /// Relative displacement at the start [m].
-    StartR,
-    /// Velocity of the mass at the start [m/s].
-    StartY1,
-    /// Velocity of the capsule at the start [m/s].
-    StartY2,
+    /// A coordinate of the state at the start.
+    Start(StateCoordinate),
     /// Phase of the drive at the start [rad].
     StartPhase,
     /// Phase of the drive at the stroboscopic section [rad].
     SectionPhase,
 }
 
+/// As fingerprints of studies have it.
+impl Debug for Coordinate {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Coordinate::Parameter(parameter) => {
+                f.debug_tuple("Parameter").field(parameter).finish()
+            }
+            Coordinate::Start(coordinate) => write!(f, "{coordinate:?}"),
+            Coordinate::StartPhase => f.write_str("StartPhase"),
+            Coordinate::SectionPhase => f.write_str("SectionPhase"),
+        }
+    }
+}
+
 impl Coordinate {
     /// The older name of an axis over [`Coordinate::StartPhase`], which is still read.
     pub const PHASE: &str = "phase";
 
-    const STARTS: [Coordinate; 5] = [
-        Coordinate::StartR,
-        Coordinate::StartY1,
-        Coordinate::StartY2,
-        Coordinate::StartPhase,
-        Coordinate::SectionPhase,
-    ];
-
     /// Everything that an axis may vary.
     pub fn all() -> impl Iterator<Item = Coordinate> {
-        default_model().parameters().map(Coordinate::Parameter).chain(Coordinate::STARTS)
+        let model = default_model();
+        let phases = [Coordinate::StartPhase, Coordinate::SectionPhase];
+        let starts = Coordinate::starts(model).chain(phases);
+        model.parameters().map(Coordinate::Parameter).chain(starts)
+    }
+
+    /// The coordinates of the start of a model that are coordinates of its section, in its order.
+    pub fn starts(model: &'static Description) -> impl Iterator<Item = Coordinate> + Clone {
+        model.section_coordinates().map(Coordinate::Start)
     }
 
     /// The quantity that the model describes.
     pub fn quantity(self) -> Quantity {
         match self {
             Coordinate::Parameter(parameter) => parameter.quantity(),
-            Coordinate::StartR => description::START_R,
-            Coordinate::StartY1 => description::START_Y1,
-            Coordinate::StartY2 => description::START_Y2,
+            Coordinate::Start(coordinate) => coordinate.start(),
             Coordinate::StartPhase => description::START_PHASE,
             Coordinate::SectionPhase => description::SECTION_PHASE,
         }
@@ -84,9 +94,7 @@ impl Coordinate {
 pub fn set(case: &mut Case, coordinate: Coordinate, value: f64) {
     match coordinate {
         Coordinate::Parameter(parameter) => case.parameters[parameter] = value,
-        Coordinate::StartR => case.start.r = value,
-        Coordinate::StartY1 => case.start.y1 = value,
-        Coordinate::StartY2 => case.start.y2 = value,
+        Coordinate::Start(coordinate) => case.start[coordinate] = value,
         Coordinate::StartPhase => case.start_phase = value,
         Coordinate::SectionPhase => case.section_phase = value,
     }

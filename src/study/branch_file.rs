@@ -92,11 +92,11 @@ fn read_branch(table: &Table<'_, '_>, study: &Surroundings<'_>) -> Option<Contin
     let parameters = read_place(table, at.as_ref(), study, &varied);
     let start = match table.table("start") {
         Some(table) => {
-            let start = read_state(&table, study.start, &[]);
+            let start = read_state(&table, study.start.clone(), &[]);
             table.finish();
             start
         }
-        None => study.start,
+        None => study.start.clone(),
     };
     let first = read_first(table);
     let (longest_step, most_points) = read_steps(table);

@@ -1,8 +1,8 @@
 //! The branches that a study asks for: periodic orbits, stable or not, continued in a parameter.
 
+use crate::capsule::Section;
 use crate::capsule::branch::Request;
-use crate::capsule::{Section, State};
-use crate::description::{Parameter, Parameters};
+use crate::description::{Parameter, Parameters, State};
 
 /// How the first orbit of a branch is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub struct Continuation {
     /// The parameters at which the first orbit is looked for.
     pub parameters: Parameters,
     /// Where it is looked for.
-    pub start: State<f64>,
+    pub start: State,
     /// Phase of the drive at the start, from where the motion settles [rad].
     pub start_phase: f64,
     /// Phase of the drive at the section [rad].

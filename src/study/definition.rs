@@ -6,8 +6,8 @@ use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 
 use super::grid::Chain;
 use super::{Axis, CaseSet, Continuation, Direction, Drawing, Grid, Inherit, Refine, Refinement};
-use crate::capsule::{Case, State};
-use crate::description::{Output, Parameters};
+use crate::capsule::Case;
+use crate::description::{Output, Parameters, State};
 use crate::model::Model;
 use crate::of::default_model;
 use crate::of::model_of;
@@ -25,7 +25,7 @@ pub struct Study {
     /// Values of the parameters that do not vary.
     pub base: Parameters,
     /// Start of the cases, where it does not vary.
-    pub start: State<f64>,
+    pub start: State,
     /// Phase of the drive at the start, where it does not vary [rad].
     pub start_phase: f64,
     /// Phase of the drive at the stroboscopic section, where it does not vary [rad].
@@ -140,7 +140,7 @@ impl Study {
     pub fn case(&self, index: usize) -> Case {
         let mut case = Case {
             parameters: self.base.clone(),
-            start: self.start,
+            start: self.start.clone(),
             start_phase: self.start_phase,
             section_phase: self.section_phase,
         };

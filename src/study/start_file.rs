@@ -1,18 +1,19 @@
 //! The start in a study file: the state, the phases of the drive and the axis along which cases inherit it.
 
-use crate::capsule::{Allowed, State};
-
 use super::document::{Entry, Table};
 use super::{Axis, CaseSet, Coordinate, Direction, Inherit};
+use crate::description::State;
+use crate::of::default_model;
+use crate::quantity::Allowed;
 
 /// Keys of an inherited start, with the older name of the first.
 const INHERITED: [&str; 3] = ["inherit", "follow", "directions"];
 
 /// Where a motion starts, and where its section is.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Start {
     /// The state.
-    pub state: State<f64>,
+    pub state: State,
     /// Phase of the drive at the start [rad].
     pub start_phase: f64,
     /// Phase of the drive at the section [rad].
@@ -51,16 +52,16 @@ pub(super) fn read_state(table: &Table<'_, '_>, usual: Start, varied: &[Coordina
     if let Some(phase) = quantity(Coordinate::PHASE, &both) {
         (start.start_phase, start.section_phase) = (phase, phase);
     }
+    for coordinate in default_model().section_coordinates() {
+        let given = quantity(coordinate.name(), &[Coordinate::Start(coordinate)]);
+        start.state[coordinate] = given.unwrap_or(start.state[coordinate]);
+    }
     for (key, coordinate, place) in [
-        ("r", Coordinate::StartR, &mut start.state.r),
-        ("y1", Coordinate::StartY1, &mut start.state.y1),
-        ("y2", Coordinate::StartY2, &mut start.state.y2),
         ("start_phase", Coordinate::StartPhase, &mut start.start_phase),
         ("section_phase", Coordinate::SectionPhase, &mut start.section_phase),
     ] {
         *place = quantity(key, &[coordinate]).unwrap_or(*place);
-        if both.contains(&coordinate)
-            && table.entry(Coordinate::PHASE).is_some()
+        if table.entry(Coordinate::PHASE).is_some()
             && let Some(entry) = table.entry(key)
         {
             entry.fault("does not go with `phase`, which is start_phase and section_phase at once");

@@ -51,7 +51,7 @@ impl Study {
         let outputs = read_outputs(&top);
         let refine =
             read_map(&top, &case_set, &outputs).or(basin.refine.then_some(Refine::Attractors));
-        let surroundings = Surroundings { case_set: &case_set, base: &base, start };
+        let surroundings = Surroundings { case_set: &case_set, base: &base, start: start.clone() };
         let branches = read_branches(&top, &surroundings);
         let study = Study {
             title,

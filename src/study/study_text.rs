@@ -10,8 +10,9 @@ use super::{
     Axis, CaseSet, Continuation, Coordinate, Drawing, Draws, Fault, Faults, Grid, Inherit,
     QuantitySettings, Refine, Setting, Spacing, Study,
 };
-use crate::capsule::{Dimension, State};
-use crate::description::{Output, Parameter};
+use crate::capsule::Dimension;
+use crate::description::{Output, Parameter, State};
+use crate::of::default_model;
 use crate::orbit::{HistorySpan, Protocol};
 
 impl Study {
@@ -115,7 +116,7 @@ impl Study {
         });
         document.put("at", inline(at));
         let own = start(&branch.start, branch.start_phase, branch.section_phase);
-        let own = own.map(|(key, coordinate, value)| {
+        let own = own.into_iter().map(|(key, coordinate, value)| {
             (key.to_owned(), quantity(value, coordinate.dimension()))
         });
         document.put("start", inline(own.into_iter()));
@@ -142,9 +143,7 @@ impl Study {
         for coordinate in self.case_set.varied() {
             match coordinate {
                 Coordinate::Parameter(parameter) => own.base[parameter] = read.base[parameter],
-                Coordinate::StartR => own.start.r = read.start.r,
-                Coordinate::StartY1 => own.start.y1 = read.start.y1,
-                Coordinate::StartY2 => own.start.y2 = read.start.y2,
+                Coordinate::Start(coordinate) => own.start[coordinate] = read.start[coordinate],
                 Coordinate::StartPhase => own.start_phase = read.start_phase,
                 Coordinate::SectionPhase => own.section_phase = read.section_phase,
             }
@@ -209,17 +208,17 @@ fn note_each<T: PartialEq + Debug>(faults: &mut Vec<Fault>, key: &str, own: &[T]
 
 /// The keys of a start with their values.
 fn start(
-    state: &State<f64>,
+    state: &State,
     start_phase: f64,
     section_phase: f64,
-) -> [(&'static str, Coordinate, f64); 5] {
-    [
-        ("r", Coordinate::StartR, state.r),
-        ("y1", Coordinate::StartY1, state.y1),
-        ("y2", Coordinate::StartY2, state.y2),
+) -> Vec<(&'static str, Coordinate, f64)> {
+    let coordinates = default_model().section_coordinates();
+    let of_state = coordinates.map(|it| (it.name(), Coordinate::Start(it), state[it]));
+    let phases = [
         ("start_phase", Coordinate::StartPhase, start_phase),
         ("section_phase", Coordinate::SectionPhase, section_phase),
-    ]
+    ];
+    of_state.chain(phases).collect()
 }
 
 fn write_axis(document: &mut Document, axis: &Axis) {

@@ -1,6 +1,7 @@
 //! Measures of basins on maps with known answers, and shares of draws.
 
 use capsulemap::attractor::{Estimate, Label, entropy, shares_of_draws, uncertainty};
+use capsulemap::capsule::CapsuleState as _;
 use capsulemap::study::{CaseSet, Study};
 
 use super::program::TWO_MOTIONS;
@@ -27,7 +28,7 @@ fn shares_of_two_seeds_agree_as_their_errors_say() {
         let study = Study::parse("draws.toml", &text).unwrap_or_else(|faults| panic!("{faults}"));
         assert!(matches!(study.case_set, CaseSet::Draws(_)));
         let label = |case: usize| {
-            let start = study.case(case).start;
+            let start = study.case(case).start.capsule();
             Label::Attractor(label([start.r, start.y1]))
         };
         shares_of_draws(study.cases(), label, 3)

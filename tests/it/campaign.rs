@@ -252,7 +252,7 @@ fn a_case_is_replayed_from_where_it_started_to_the_same_bits() {
         let case = replay.as_run(Machine::default(), &silent).expect("it is computed");
         assert_eq!(case.start, records[index].start, "{index}");
         let orbit = settle_case(&case, replay.protocol());
-        let (start, start_phase) = (case.start, case.start_phase);
+        let (start, start_phase) = (case.start.clone(), case.start_phase);
         let again = Record { index, start, start_phase, orbit };
         assert_eq!(format!("{again:?}"), format!("{:?}", records[index]));
         let upward = index % 2 == 0;

@@ -102,7 +102,7 @@ fn draws_are_counted_that_keep_conditions_and_budget() {
         for factors in &factors {
             let mut changed = parameters.clone();
             factors.iter().for_each(|(parameter, factor)| changed[*parameter] *= factor);
-            let start = State { x2: 0.0, ..begun };
+            let start = begun.clone().without_drift();
             let outputs = settle(&changed, 0.0, start, &Protocol::default()).outputs;
             let keeps = changed[Parameter::Omega] < 56.0 && outputs[Output::EnergyPerMetre] < 40.0;
             let is_within = outputs[Output::Power] <= 0.6;

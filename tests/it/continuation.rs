@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use capsulemap::branch::SpecialKind;
-use capsulemap::capsule::Parameter;
+use capsulemap::capsule::{CapsuleState as _, Parameter};
 use capsulemap::run::continue_branches;
 use capsulemap::store::{self, Dataset, Values};
 use capsulemap::study::{FirstOrbit, Study};
@@ -45,7 +45,7 @@ fn a_branch_has_the_rest_of_its_study() {
     assert_eq!((plain.range, plain.first), ([50.0, 70.0], FirstOrbit::Settle));
     assert_eq!((plain.longest_step, plain.most_points, plain.doublings), (0.02, 2000, 0));
     assert_eq!((plain.parameters[Parameter::Omega], plain.parameters[Parameter::Pd]), (60.0, 4.0));
-    assert_eq!((plain.second, plain.start.r, plain.section_phase), (None, 0.0, 0.0));
+    assert_eq!((plain.second, plain.start.capsule().r, plain.section_phase), (None, 0.0, 0.0));
     let more = "from = \"65 rad/s\"\nto = \"40 rad/s\"\norbit = \"newton\"\nperiod = 3\n\
                 start = { r = \"1 mm\", phase = \"90 deg\" }\nlongest_step = 0.5\nmost_points = 9\n\
                 second = { name = \"p_d\", from = \"1 N\", to = \"5 N\" }\n";
@@ -53,7 +53,8 @@ fn a_branch_has_the_rest_of_its_study() {
     let text = branch(&format!("{PLAIN}{more}{start}"));
     let full = Study::parse("a", &text).expect("a study").branches.remove(0);
     assert_eq!((full.range, full.first), ([40.0, 65.0], FirstOrbit::Newton { period: 3 }));
-    assert_eq!((full.start.r, full.start.y1), (1e-3, 0.2));
+    let start = full.start.capsule();
+    assert_eq!((start.r, start.y1), (1e-3, 0.2));
     assert!((full.section_phase - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
     assert_eq!(full.start_phase, full.section_phase, "`phase` is both");
     assert_eq!(full.second, Some((Parameter::Pd.into(), [1.0, 5.0])));

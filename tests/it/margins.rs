@@ -2,7 +2,9 @@
 
 use serde_json::Value;
 
-use capsulemap::capsule::{Case, Orbit, Output, Parameter, Parameters, State, settle_case};
+use capsulemap::capsule::{
+    CapsuleState as _, Case, Orbit, Output, Parameter, Parameters, State, settle_case,
+};
 use capsulemap::orbit::{Outcome, Protocol};
 
 use super::program::WorkDir;
@@ -50,7 +52,7 @@ impl Settling {
         let protocol = Protocol { max_cycles: 100_000, ..Protocol::default() };
         let case = Case::at_section(self.parameters.clone(), self.last, 0.0);
         let orbit = settle_case(&case, &protocol);
-        self.last = State { x2: 0.0, ..orbit.end };
+        self.last = State { x2: 0.0, ..orbit.end.capsule() };
         orbit
     }
 }

@@ -1,7 +1,7 @@
 //! Parameters fitted to synthesised histories: the intervals hold the truth as often as they say.
 
 use capsulemap::capsule::{
-    CapsuleParameters as _, Case, Parameter, Parameters, State, settle_case,
+    CapsuleParameters as _, CapsuleState as _, Case, Parameter, Parameters, State, settle_case,
 };
 use capsulemap::experiment::least_squares::{Bounds, Loss};
 use capsulemap::experiment::motion_fit::Side;
@@ -28,7 +28,7 @@ const DRIVE_NOISE: f64 = 0.05;
 /// A record of the attractor of a capsule at this rate [Hz] over some cycles; the phase is that of a noisy record of the drive.
 fn recorded(parameters: &Parameters, phase: f64, rate: f64, cycles: f64, seed: u64) -> Recorded {
     let case = Case::at_section(parameters.clone(), State::default(), phase);
-    let start = State { x2: 0.0, ..settle_case(&case, &Protocol::default()).end };
+    let start = State { x2: 0.0, ..settle_case(&case, &Protocol::default()).end.capsule() };
     let count = (cycles * parameters.drive_period() * rate) as u32;
     let times: Vec<f64> = (0..count).map(|i| f64::from(i) / rate).collect();
     let motion = Started { parameters: parameters.clone(), start, phase };

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Mutex;
 
 use capsulemap::capsule::{
-    Capsule, CapsuleParameters as _, Case, Output, Parameter, Parameters, Sample, State,
-    settle_case, simulate_case,
+    Capsule, CapsuleParameters as _, CapsuleState as _, Case, Output, Parameter, Parameters,
+    Sample, State, settle_case, simulate_case,
 };
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::Instructions;
@@ -78,7 +78,7 @@ fn the_first_section_is_where_direct_integration_is_at_its_phase() {
         let left = (case.section_phase - case.start_phase).rem_euclid(TAU) / omega;
         // The clock of this system begins at the start.
         let system = Capsule::single(&case.parameters, case.start_phase);
-        let mut motion = Motion::new(&system, 0.0, case.start);
+        let mut motion = Motion::new(&system, 0.0, case.start.capsule());
         let mut step = Step::default();
         while motion.time < left {
             motion.step(&system, left, 1e-12, &mut step);
@@ -142,7 +142,7 @@ fn a_later_start_on_the_same_motion_changes_nothing() {
         let first = simulate_case(&Case { section_phase: phase, ..case.clone() }, 0, 1e-12);
         let Sample { r, y1, y2, .. } = first.section[0];
         let start = State { r, y1, x2: 0.0, y2 };
-        let later = Case { start, start_phase: phase, ..case.clone() };
+        let later = Case { start: start.into(), start_phase: phase, ..case.clone() };
         let [a, b] = [&case, &later].map(|case| settle_case(case, &Protocol::default()));
         if a.outcome == Outcome::Periodic && a.certificate.multipliers[0].abs() < 0.99 {
             let [a, b] = [a, b].map(|orbit| orbit.outputs[Output::ProgressionSpeed]);
@@ -167,7 +167,7 @@ fn a_linear_oscillator_passes_its_sections_as_its_closed_form_does() {
         [(0.0, 1.0), (1.0, 0.0), (2.5, 2.4), (5.0, 11.0), (-1.0, PI)]
     {
         let start = State { r: 1e-3, y1: -0.05, ..State::default() };
-        let case = Case { parameters: p.clone(), start, start_phase, section_phase };
+        let case = Case { parameters: p.clone(), start: start.into(), start_phase, section_phase };
         let run = simulate_case(&case, 6, 1e-12);
         assert!(run.events.is_empty(), "the capsule sticks and the mass is free");
         // From the start, r = A cos(w t + s - lag) + e^(-decay t) (a cos(own t) + b sin(own t)).
@@ -194,7 +194,7 @@ fn starts_between_sections_settle_alike_alone_and_side_by_side() {
     let protocol = Protocol { max_cycles: 300, exponent_cycles: 64, ..Protocol::default() };
     let mut cases = turned(draws::cases(60, 25));
     // One that fails before its first section, and one on it.
-    cases[7].start.r = 1e300;
+    cases[7].start = State { r: 1e300, ..cases[7].start.capsule() }.into();
     cases[8].start_phase = cases[8].section_phase;
     let alone: Vec<String> =
         cases.iter().map(|case| format!("{:?}", settle_case(case, &protocol))).collect();
@@ -241,7 +241,7 @@ fn an_inherited_start_lies_on_the_section() {
     assert_eq!([start, section], [40.0 * (PI / 180.0), 10.0 * (PI / 180.0)]);
     let records = records(&study);
     assert_eq!([records[0].start_phase, records[1].start_phase], [start, section]);
-    let case = Case { start: records[1].start, start_phase: section, ..study.case(1) };
+    let case = Case { start: records[1].start.clone(), start_phase: section, ..study.case(1) };
     assert_eq!(records[1].orbit, settle_case(&case, &study.protocol));
 }
 

@@ -3,7 +3,8 @@
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use capsulemap::capsule::{Parameter, Resistance, State};
+use capsulemap::capsule::description::CAPSULE;
+use capsulemap::capsule::{CapsuleState as _, Parameter, Resistance, State};
 use capsulemap::orbit::Protocol;
 use capsulemap::study::{Axis, CaseSet, Coordinate, Grid, Spacing, Study};
 
@@ -36,7 +37,8 @@ fn drawn(number: usize) -> (&'static str, Study) {
         coordinate,
         values: Spacing::Linear.values(from, to, points),
     };
-    let starts = [(Coordinate::StartY1, 1.0), (Coordinate::StartR, 1e-2)]
+    let [r, y1] = [0, 1].map(|place| Coordinate::starts(&CAPSULE).nth(place).expect("a start"));
+    let starts = [(y1, 1.0), (r, 1e-2)]
         .map(|(it, most)| axis(it, -random.uniform(0.0, most), random.uniform(0.0, most), 5));
     let parameter = ALONG[(random.uniform(0.0, 1.0) * ALONG.len() as f64) as usize];
     let (low, value) = (base[parameter] * random.uniform(0.5, 1.0), base[parameter]);
@@ -48,7 +50,7 @@ fn drawn(number: usize) -> (&'static str, Study) {
     };
     let study = Study {
         base,
-        start: State { x2: 0.0, ..case.start },
+        start: State { x2: 0.0, ..case.start.capsule() }.into(),
         start_phase: case.start_phase,
         section_phase: case.section_phase,
         case_set: CaseSet::Grid(Grid { axes, inherit: None }),

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use capsulemap::capsule::{
-    CapsuleParameters as _, Case, Parameter, Parameters, State, settle_case,
+    CapsuleParameters as _, CapsuleState as _, Case, Parameter, Parameters, State, settle_case,
 };
 use capsulemap::experiment::progression::progression;
 use capsulemap::experiment::recorded_period::period_of;
@@ -36,7 +36,7 @@ const OTHERS: [[f64; 4]; 6] = [
 fn settled(parameters: &Parameters, phase: f64) -> Started {
     let case = Case::at_section(parameters.clone(), State::default(), phase);
     let end = settle_case(&case, &Protocol::default()).end;
-    Started { parameters: parameters.clone(), start: State { x2: 0.0, ..end }, phase }
+    Started { parameters: parameters.clone(), start: State { x2: 0.0, ..end.capsule() }, phase }
 }
 
 /// A record of a motion over some cycles at this rate [Hz], with this noise of the accelerometer [m/s2].

@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use capsulemap::capsule::{Output, Parameter};
+use capsulemap::capsule::{CapsuleState as _, Output, Parameter};
 use capsulemap::orbit::{Outcome, Proof};
 use capsulemap::run::{self, Attractors, Machine, Record};
 use capsulemap::study::Study;
@@ -53,7 +53,10 @@ fn all_starts_without_a_drive_lead_to_one_rest() {
         for Record { orbit, .. } in &at_rest {
             assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
             assert_eq!(orbit.certificate.proof, Proof::Newton);
-            assert_eq!([orbit.end.r, orbit.end.y1, orbit.end.y2], [0.0; 3]);
+            assert_eq!(
+                [orbit.end.capsule().r, orbit.end.capsule().y1, orbit.end.capsule().y2],
+                [0.0; 3]
+            );
             assert_eq!(orbit.outputs[Output::StickShare], 1.0);
         }
         let found = attractors(&rest, &at_rest);
@@ -78,7 +81,7 @@ fn a_drive_too_weak_to_be_told_from_none_leads_to_one_orbit() {
         assert!(found.of_case.iter().all(|number| *number == Some(0)), "{p_d}: {found:?}");
         // The orbit is that of the drive, not nothing: the amplitude goes with the force.
         let force: f64 = p_d.parse().expect("a number");
-        let share = records[0].orbit.end.r / force * study.base[Parameter::K1];
+        let share = records[0].orbit.end.capsule().r / force * study.base[Parameter::K1];
         assert!((share - 1.0).abs() < 0.1, "{p_d}: {share}");
     }
 }

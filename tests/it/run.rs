@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use capsulemap::capsule::{Output, Parameter, State, settle};
+use capsulemap::capsule::{CapsuleState as _, Output, Parameter, State, settle};
 use capsulemap::lane::Instructions;
 use capsulemap::store::{self, Dataset, Values, Variable};
 use capsulemap::study::{DrawingKind, Study};
@@ -166,7 +166,7 @@ fn an_inherited_start_is_the_final_state_of_the_neighbour() {
     let mut start = State::default();
     for (i, &omega) in study.axes()[0].values.iter().enumerate() {
         let orbit = settle(&parameters(omega), 0.0, start, &study.protocol);
-        start = State { x2: 0.0, ..orbit.end };
+        start = State { x2: 0.0, ..orbit.end.capsule() };
         let expected = orbit.outputs[Output::ProgressionSpeed];
         assert_eq!(speed(&followed)[[i, 1, 0]].to_bits(), expected.to_bits());
     }

@@ -1,6 +1,8 @@
 //! Derivatives of sampled histories in parameters and starts, against differences, over the box of parameters that users may set.
 
-use capsulemap::capsule::{CapsuleParameters as _, Case, Parameter, Resistance, simulate_case};
+use capsulemap::capsule::{
+    CapsuleParameters as _, CapsuleState as _, Case, Parameter, Resistance, simulate_case,
+};
 use capsulemap::experiment::{Direction, Signal, Started, sampled};
 
 use super::draws;
@@ -83,7 +85,7 @@ fn derivatives_of_histories_are_those_of_differences() {
         let times: Vec<f64> = (1..=20).map(|i| 0.1 * f64::from(i) * period).collect();
         let events =
             simulate_case(&Case { section_phase: start_phase, ..case }, 2, 1e-12).events.len();
-        let motion = Started { parameters, start, phase: start_phase };
+        let motion = Started { parameters, start: start.capsule(), phase: start_phase };
         let Ok(found) = sampled(&motion, &times, &SIGNALS, &DIRECTIONS, TOLERANCE) else {
             continue;
         };

@@ -1,5 +1,6 @@
 //! The study file: every form of it, and every fault with its line and key.
 
+use capsulemap::capsule::CapsuleState as _;
 use capsulemap::study::Study;
 
 use super::program::{FIG5, WorkDir};
@@ -203,7 +204,10 @@ fn starts_and_the_phase_can_be_axes() {
     let study = read(&text);
     assert_eq!((study.cases(), study.shape()), (16, vec![2; 4]));
     let case = study.case(0b1010);
-    assert_eq!((case.start.r, case.start.y1, case.start.y2), (0.002, 1.0, 2.0));
+    assert_eq!(
+        (case.start.capsule().r, case.start.capsule().y1, case.start.capsule().y2),
+        (0.002, 1.0, 2.0)
+    );
     assert!((case.start_phase - 1_f64.to_radians()).abs() < 1e-16 && case.section_phase == 0.0);
     assert!(
         said(&(text + "[start]\ninherit = \"start_phase\""))[0].contains("must be a parameter")

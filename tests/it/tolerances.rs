@@ -1,7 +1,9 @@
 //! `capsulemap tradeoff --tolerances`: against the derivatives of the motion, against brute force, and what is refused.
 
 use capsulemap::campaign::Tolerances;
-use capsulemap::capsule::{CapsuleParameters as _, Output, Parameter, Parameters, State, settle};
+use capsulemap::capsule::{
+    CapsuleParameters as _, CapsuleState as _, Output, Parameter, Parameters, State, settle,
+};
 use capsulemap::orbit::{Outcome, Protocol};
 use serde_json::Value;
 
@@ -76,7 +78,7 @@ fn what_is_told_of_large_tolerances_is_that_of_the_draws_and_the_same_on_any_num
     let value = |it: &Parameter| (*it, number(&fastest["parameters"], it.symbol()));
     let parameters = Parameters::with(&Parameter::ALL.iter().map(value).collect::<Vec<_>>());
     let orbit = settle(&parameters, 0.0, State::default(), &Protocol::default());
-    let [r, y1, y2] = [orbit.end.r, orbit.end.y1, orbit.end.y2];
+    let [r, y1, y2] = [orbit.end.capsule().r, orbit.end.capsule().y1, orbit.end.capsule().y2];
     let each = vec![(Parameter::K2.into(), 0.2), (Parameter::Omega.into(), 0.03)];
     let (mut speeds, mut kept) = (Vec::new(), 0);
     for factors in (Tolerances { each, draws: 40, seed: 5 }).factors() {

@@ -167,7 +167,7 @@ impl Random {
             along: along.into(),
             range,
             parameters,
-            start: self.state(),
+            start: self.state().into(),
             start_phase: self.number(Allowed::Finite),
             section_phase: self.number(Allowed::Finite),
             first: match self.is_so() {
@@ -198,9 +198,10 @@ impl Random {
         let state = self.state();
         let unless =
             |coordinate, value: f64| if varied.contains(&coordinate) { 0.0 } else { value };
-        study.start.r = unless(Coordinate::StartR, state.r);
-        study.start.y1 = unless(Coordinate::StartY1, state.y1);
-        study.start.y2 = unless(Coordinate::StartY2, state.y2);
+        for (coordinate, value) in CAPSULE.section_coordinates().zip([state.r, state.y1, state.y2])
+        {
+            study.start[coordinate] = unless(Coordinate::Start(coordinate), value);
+        }
         study.start_phase = unless(Coordinate::StartPhase, self.number(Allowed::Finite));
         study.section_phase = unless(Coordinate::SectionPhase, self.number(Allowed::Finite));
         study.protocol = self.protocol();
@@ -306,7 +307,7 @@ fn all_faults_of_a_study_built_in_code_are_reported_at_once() {
         ..Study::default()
     };
     study.base[Parameter::M1] = -1.0;
-    study.start.y1 = f64::INFINITY;
+    study.start = State { y1: f64::INFINITY, ..State::default() }.into();
     let faults = study.validated("built").expect_err("a faulty study");
     assert!(faults.faults.iter().all(|fault| fault.line.is_none()));
     let ran = faults.to_string();
@@ -328,9 +329,8 @@ fn all_faults_of_a_study_built_in_code_are_reported_at_once() {
 #[test]
 fn what_a_study_file_cannot_hold_is_reported() {
     let ran = |study: Study| study.validated("built").expect_err("a fault").to_string();
-    let mut study = Study::default();
-    study.start.x2 = 1.0;
-    assert!(ran(study).contains("start: a study file cannot hold"));
+    let start = State { x2: 1.0, ..State::default() }.into();
+    assert!(ran(Study { start, ..Study::default() }).contains("start: a study file cannot hold"));
     let axes =
         vec![Axis { coordinate: Coordinate::Parameter(Parameter::Pd.into()), values: vec![1.0] }];
     let inherit = Some(Inherit { axis: 0, directions: Vec::new() });

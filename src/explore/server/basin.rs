@@ -8,9 +8,11 @@ use super::computations::BUDGET;
 use super::explored::Explored;
 use super::motion::{followed, shown};
 use crate::attractor::{Attractor, Label};
-use crate::capsule::{Case, State, settle_case};
+use crate::capsule::{CapsuleState as _, Case, State, settle_case};
+use crate::description::Description;
 use crate::figure::{label_colour, shown_quantity};
 use crate::flow::stop;
+use crate::of::default_model;
 use crate::orbit::{Machine, Outcome};
 use crate::run::{self, Attractors, Record, run_sample};
 use crate::store::catalogue::{OUTCOME, PERIOD};
@@ -28,7 +30,10 @@ const WIDER: f64 = 2.0;
 /// What the ends of the grid are called in a request, by axis.
 const ENDS: [[&str; 2]; 2] = [["start_r_from", "start_r_to"], ["start_y1_from", "start_y1_to"]];
 /// The axes, the faster first.
-const AXES: [Coordinate; 2] = [Coordinate::StartR, Coordinate::StartY1];
+fn coordinates(model: &'static Description) -> [Coordinate; 2] {
+    let mut all = Coordinate::starts(model);
+    [(); 2].map(|()| all.next().expect("a section of two coordinates at least"))
+}
 /// What computes a basin that takes too long here.
 pub const INSTEAD: &str =
     "the study of the basin, which the page hands over, has no such limit: `capsulemap sweep`";
@@ -60,11 +65,11 @@ impl Basin {
         let mut begins = explored.study.case(0);
         given.iter().filter(|it| it.0.is_start()).for_each(|it| set(&mut begins, it.0, it.1));
         let mut basin = Drawing::new("basin", DrawingKind::Basin);
-        [basin.x, basin.y] = AXES.map(|it| Some(it.name().to_owned()));
+        [basin.x, basin.y] = coordinates(default_model()).map(|it| Some(it.name().to_owned()));
         let study = Study {
             title: "Starts and where they lead".to_owned(),
             base: case.parameters,
-            start: State { x2: 0.0, ..begins.start },
+            start: begins.start.clone().without_drift(),
             start_phase: begins.start_phase,
             section_phase: case.section_phase,
             case_set: CaseSet::Grid(Grid { axes, inherit: None }),
@@ -133,7 +138,7 @@ impl Basin {
             "x": x,
             "y": y,
             "side": SIDE,
-            "start": { "y2": self.study.start.y2, "phase": self.study.start_phase },
+            "start": { "y2": self.study.start.capsule().y2, "phase": self.study.start_phase },
             (surface.symbol()): self.study.base[surface],
         })
     }
@@ -189,13 +194,14 @@ fn axes(asked: &Asked, usual: [[f64; 2]; 2]) -> Result<Vec<Axis>, Refusal> {
         let from = asked.number(low)?.unwrap_or(usual[axis][0]);
         let to = asked.number(high)?.unwrap_or(usual[axis][1]);
         match from < to {
-            true => {
-                Ok(Axis { coordinate: AXES[axis], values: Spacing::Linear.values(from, to, SIDE) })
-            }
+            true => Ok(Axis {
+                coordinate: coordinates(default_model())[axis],
+                values: Spacing::Linear.values(from, to, SIDE),
+            }),
             false => Err(Refusal::unfit(format!("{low} must be less than {high}"))),
         }
     };
-    (0..AXES.len()).map(axis).collect()
+    (0..ENDS.len()).map(axis).collect()
 }
 
 /// An axis of starts, its ends in the unit shown.
@@ -216,7 +222,7 @@ fn coarse(step: usize) -> impl Iterator<Item = usize> {
 fn around(explored: &Explored, case: &Case) -> [[f64; 2]; 2] {
     let protocol = explored.protocol();
     let orbit = settle_case(case, &protocol);
-    let from = State { x2: 0.0, ..orbit.end };
+    let from = State { x2: 0.0, ..orbit.end.capsule() };
     let points = followed(case, from, shown(&orbit), protocol.tolerance);
     let parameters = &case.parameters;
     let model = parameters.model();

@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex};
 
 use super::answer::Refusal;
 use crate::campaign::{CampaignError, study_of};
-use crate::capsule::{Case, State};
-use crate::description::Output;
+use crate::capsule::Case;
+use crate::description::{Output, State};
 use crate::figure::variables;
 use crate::orbit::Protocol;
 use crate::store::catalogue::{SECTION_R, SECTION_Y1, SECTION_Y2};
@@ -159,8 +159,8 @@ impl Explored {
             start = "where it was asked to".to_owned();
         } else if self.study.inherit().is_some() {
             match self.section_point(&position)? {
-                Some([r, y1, y2]) => {
-                    case.start = State { r, y1, x2: 0.0, y2 };
+                Some(point) => {
+                    case.start = State::at_section(self.study.base.model(), &point);
                     case.start_phase = case.section_phase;
                     start = format!("at the motion of case {index}");
                 }

@@ -6,8 +6,8 @@ use super::answer::Refusal;
 use super::asked::Asked;
 use super::computations::BUDGET;
 use super::explored::Explored;
-use crate::capsule::{Case, Orbit, State, settle_all, settle_case};
-use crate::description::{Description, Output};
+use crate::capsule::{Case, Orbit, settle_all, settle_case};
+use crate::description::{Description, Output, State};
 use crate::flow::stop;
 use crate::orbit::{Machine, Outcome, Protocol};
 use crate::store::catalogue::{OUTCOME, PERIOD, SECTION_R};
@@ -107,7 +107,7 @@ impl Line {
         let study = Study {
             title: format!("Along {}", coordinate.name()),
             base: self.first.parameters.clone(),
-            start: State { x2: 0.0, ..self.first.start },
+            start: self.first.start.clone().without_drift(),
             start_phase: self.first.start_phase,
             section_phase: self.first.section_phase,
             case_set: CaseSet::Grid(Grid { axes: vec![axis], inherit }),
@@ -165,18 +165,18 @@ impl Line {
     /// Settles the cases one after the other, each from where the one before it settled; after a failure from the start of the
     /// study, as a run does.
     fn follow(&self, send: &dyn Fn(String) -> bool) {
-        let mut from: Option<State<f64>> = None;
+        let mut from: Option<State> = None;
         let cases = self.cases();
         for (share, mut case) in shares(cases.len()).into_iter().zip(cases) {
             if let Some(state) = from {
-                case.start = State { x2: case.start.x2, ..state };
+                case.start = state.drifted_as(&case.start);
                 case.start_phase = case.section_phase;
             }
             let orbit = settle_case(&case, &self.protocol);
             if stop::is_asked() || !send(told(share, &case, &orbit).to_string()) {
                 return;
             }
-            from = (orbit.outcome != Outcome::Failed).then_some(orbit.end);
+            from = (orbit.outcome != Outcome::Failed).then(|| orbit.end.clone());
         }
     }
 }
@@ -201,8 +201,7 @@ fn shares(count: usize) -> Vec<f64> {
 fn told(share: f64, case: &Case, orbit: &Orbit) -> Value {
     let points: Vec<f32> = orbit.section.iter().map(|it| it[0] as f32).collect();
     let period = (orbit.outcome == Outcome::Periodic).then_some(orbit.period);
-    let State { r, y1, y2, .. } = orbit.end;
-    let end = (orbit.outcome != Outcome::Failed).then_some([r, y1, y2]);
+    let end = (orbit.outcome != Outcome::Failed).then(|| orbit.end.section::<3>());
     let mut told = json!({
         "share": share,
         "end": end,

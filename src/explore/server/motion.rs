@@ -9,8 +9,8 @@ use super::computations::{BUDGET, MOTION_BUDGET};
 use super::explored::{Explored, Near};
 use crate::campaign::command;
 use crate::capsule::{
-    ArcPoint, CapsuleParameters as _, Case, Forces, Orbit, Simulation, SimulationSize, State, arc,
-    settle_case, simulate_case_within,
+    ArcPoint, CapsuleParameters as _, CapsuleState as _, Case, Forces, Orbit, Simulation,
+    SimulationSize, State, arc, settle_case, simulate_case_within,
 };
 use crate::explore::case_json::{case_json, remarks};
 use crate::flow::stop;
@@ -163,7 +163,7 @@ pub fn shown(orbit: &Orbit) -> u64 {
 /// The motion that a case settles to over some cycles, with its events, in columns in SI; nothing where it failed.
 fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
     let cycles = shown(orbit);
-    let from = State { x2: 0.0, ..orbit.end };
+    let from = State { x2: 0.0, ..orbit.end.capsule() };
     let points = followed(case, from, cycles, tolerance).filter(|_| orbit.failure.is_none())?;
     let column = |of: &dyn Fn(&ArcPoint) -> f64| points.iter().map(|it| of(it) as f32).collect();
     let parameters = &case.parameters;

@@ -2,6 +2,7 @@
 
 use super::entry::{Entry, Extent};
 use crate::description::{Output, Parameter};
+use crate::of::default_model;
 use crate::quantity::Quantity;
 use crate::study::Coordinate;
 
@@ -28,6 +29,6 @@ impl Entry {
 }
 
 /// Where a case starts, which in a block may be where its neighbour settled.
-pub fn starts() -> [Entry; 3] {
-    [Coordinate::StartR, Coordinate::StartY1, Coordinate::StartY2].map(Entry::of_coordinate)
+pub fn starts() -> Vec<Entry> {
+    Coordinate::starts(default_model()).map(Entry::of_coordinate).collect()
 }

@@ -324,7 +324,7 @@ fn whatever_is_followed_closes_and_ends() {
     let along = [Parameter::Omega, Parameter::Pd, Parameter::Delta, Parameter::K2, Parameter::MuS];
     let mut followed = 0;
     for (i, case) in draws::cases(60, 21).iter().enumerate() {
-        let orbit = settle(&case.parameters, case.section_phase, case.start, &Protocol::default());
+        let orbit = settle(&case.parameters, case.section_phase, &case.start, &Protocol::default());
         if orbit.outcome != Outcome::Periodic {
             continue;
         }

@@ -65,7 +65,7 @@ fn a_multiplier_near_minus_one_is_no_period_two() {
     let case = draws::cases(104_983, 3).pop().expect("a case");
     for accelerate in [true, false] {
         let protocol = Protocol { accelerate, ..Protocol::default() };
-        let orbit = settle(&case.parameters, case.section_phase, case.start, &protocol);
+        let orbit = settle(&case.parameters, case.section_phase, &case.start, &protocol);
         assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
         let [first, ..] = orbit.certificate.multipliers;
         assert!(first.re < -0.9 && first.abs() < 1.0, "{first:?}");
@@ -76,7 +76,7 @@ fn a_multiplier_near_minus_one_is_no_period_two() {
 fn a_certified_orbit_closes_and_answers_pushes_as_its_multipliers_say() {
     let cases = draws::cases(100, 31);
     for case in &cases {
-        let orbit = settle(&case.parameters, case.section_phase, case.start, &Protocol::default());
+        let orbit = settle(&case.parameters, case.section_phase, &case.start, &Protocol::default());
         if orbit.outcome != Outcome::Periodic {
             continue;
         }

@@ -14,8 +14,8 @@ use capsulemap_engine::flow::defect::defect;
 use capsulemap_engine::flow::metric::greater;
 use capsulemap_engine::orbit::{Outcome, Proof, Protocol};
 use capsulemap_models::capsule::{
-    Capsule, CapsuleParameters as _, Case, Output, Parameter, Parameters, PrintedCapsule,
-    Resistance, State, settle_as,
+    Capsule, CapsuleParameters as _, CapsuleState as _, Case, Output, Parameter, Parameters,
+    PrintedCapsule, Resistance, State, settle_as,
 };
 
 use super::den_hartog::DryFriction;
@@ -82,12 +82,12 @@ fn the_steps_of_the_capsule_satisfy_its_equations_over_the_whole_box() {
         for case in draws::wide(150, 12, law) {
             let Case { parameters, start, section_phase: phase, .. } = &case;
             let capsule = Capsule::single(parameters, *phase);
-            let found = largest_defect(&capsule, *start, 5);
+            let found = largest_defect(&capsule, start.capsule(), 5);
             assert!(found < SOUND, "{found:e}: {case:?}");
             // As printed a capsule without static friction would switch at F = 0 without end.
             if parameters.drag().static_limit > 0.0 {
                 let printed = PrintedCapsule::single(parameters, *phase);
-                let found = largest_defect(&printed, *start, 5);
+                let found = largest_defect(&printed, start.capsule(), 5);
                 assert!(found < SOUND, "as printed {found:e}: {case:?}");
             }
         }
@@ -123,7 +123,7 @@ fn a_layer_that_steps_jump_over_is_refused_a_certificate() {
     assert_eq!((orbit.outcome, orbit.period), (Outcome::Undecided, 0));
     assert_eq!(orbit.certificate.proof, Proof::None);
 
-    let orbit = settle(parameters, *phase, *start, &protocol);
+    let orbit = settle(parameters, *phase, start.capsule(), &protocol);
     assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
     assert!(orbit.outputs[Output::IntegrationDefect] < 1e-10);
     // The limit of the reference in 80 bits after 300 cycles (own.cpp, tolerance 1e-17).
@@ -139,7 +139,7 @@ fn a_sound_orbit_is_certified_at_every_tolerance() {
         let Case { parameters, start, section_phase: phase, .. } = case;
         for tolerance in tolerances {
             let protocol = Protocol::with_tolerance(tolerance);
-            let orbit = settle(parameters, *phase, *start, &protocol);
+            let orbit = settle(parameters, *phase, start.capsule(), &protocol);
             assert_eq!(orbit.outcome, Outcome::Periodic, "{tolerance:e}: {case:?}");
         }
     }
@@ -151,7 +151,8 @@ fn no_blind_step_is_certified_over_the_whole_box() {
     let (mut wrong, mut refused) = (0, 0);
     for case in draws::wide(120, 5, Resistance::CoulombStribeck) {
         let Case { parameters, start, section_phase: phase, .. } = &case;
-        let seeing = capsulemap_models::capsule::settle(parameters, *phase, *start, &protocol);
+        let seeing =
+            capsulemap_models::capsule::settle(parameters, *phase, start.capsule(), &protocol);
         let blind = settle_as::<Blind>(&case, &protocol);
         let [right, found] = [&seeing, &blind].map(|it| it.outputs[Output::ProgressionSpeed]);
         let size = seeing.section.iter().flatten().fold(0.0_f64, |size, x| size.max(x.abs()));

@@ -7,8 +7,8 @@ use capsulemap_engine::orbit::matrix::{Complex, Matrix, determinant, eigenvalues
 use capsulemap_engine::orbit::return_map::{Cycles, jacobian, returned, seeded};
 use capsulemap_engine::orbit::{Outcome, Protocol};
 use capsulemap_models::capsule::{
-    Capsule, CapsuleParameters as _, Case, Parameter, Parameters, PrintedCapsule, Section, State,
-    settle,
+    Capsule, CapsuleParameters as _, CapsuleState as _, Case, Parameter, Parameters,
+    PrintedCapsule, Section, State, settle,
 };
 
 use super::differences::{TOLERANCE, distance, followed, size, slope};
@@ -31,8 +31,8 @@ pub struct Periodic {
 pub fn periodic(count: usize, seed: u64, change: impl Fn(&mut Case)) -> Vec<Periodic> {
     let found = draws::cases(3 * count, seed).into_iter().filter_map(|mut case| {
         change(&mut case);
-        let orbit = settle(&case.parameters, case.section_phase, case.start, &Protocol::default());
-        let State { r, y1, y2, .. } = orbit.end;
+        let orbit = settle(&case.parameters, case.section_phase, &case.start, &Protocol::default());
+        let State { r, y1, y2, .. } = orbit.end.capsule();
         let settles = orbit.outcome == Outcome::Periodic;
         settles.then_some(Periodic { case, point: [r, y1, y2], period: orbit.period })
     });
@@ -210,7 +210,7 @@ fn the_equation_as_printed_is_linearised_too() {
         // Little friction, so that it switches often, and a start that is not frozen for ever.
         p[Parameter::MuS] *= 0.3;
         p[Parameter::MuD] *= 0.3;
-        let State { r, y1, y2, .. } = case.start;
+        let State { r, y1, y2, .. } = case.start.capsule();
         let point = [r, y1, if y2 == 0.0 { 0.05 } else { y2 }];
         let p = &case.parameters;
         let system = PrintedCapsule::single(p, case.section_phase);

@@ -5,7 +5,9 @@ use capsulemap_engine::branch::{Along, Linearised, SegmentEnd, leads_to, lineari
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::Protocol;
 use capsulemap_engine::orbit::passage::OneByOne;
-use capsulemap_models::capsule::{Case, Filippov, Orbit, Parameter, Resistance, State};
+use capsulemap_models::capsule::{
+    CapsuleState as _, Case, Filippov, Orbit, Parameter, Resistance, State,
+};
 
 use super::draws::{self, ALONG, Random};
 
@@ -15,7 +17,7 @@ const CAPSULES: usize = 400;
 fn neighbour(case: &Case, orbit: &Orbit, parameter: Parameter, factor: f64) -> Case {
     let mut next = case.clone();
     next.parameters[parameter] *= factor;
-    next.start = State { x2: 0.0, ..orbit.end };
+    next.start = State { x2: 0.0, ..orbit.end.capsule() }.into();
     next
 }
 

@@ -3,7 +3,9 @@
 use capsulemap_engine::flow::{Motion, Step, Stroboscopic};
 
 use capsulemap_engine::lane::{Dual, Instructions, Lane, Mask, Work};
-use capsulemap_models::capsule::{Capsule, CapsuleParameters as _, Case, Section, State};
+use capsulemap_models::capsule::{
+    Capsule, CapsuleParameters as _, CapsuleState as _, Case, Section, State,
+};
 
 use super::derivatives::dual_capsule;
 use super::draws;
@@ -15,7 +17,7 @@ const TOLERANCE: f64 = 1e-12;
 type Bits = [[u64; 4]; 3];
 
 fn start(case: &Case) -> Section {
-    let State { r, y1, y2, .. } = case.start;
+    let State { r, y1, y2, .. } = case.start.capsule();
     [r, y1, y2]
 }
 

@@ -13,8 +13,8 @@ use capsulemap_engine::orbit::exponent::stretching;
 use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{Outcome, Protocol, Trajectory};
 use capsulemap_models::capsule::{
-    Capsule, CapsuleParameters as _, CapsuleSystem, Case, Filippov, Output, Parameter, Section,
-    State, settle,
+    Capsule, CapsuleParameters as _, CapsuleState as _, CapsuleSystem, Case, Filippov, Output,
+    Parameter, Section, State, settle,
 };
 
 use super::draws;
@@ -184,7 +184,7 @@ fn the_duffing_oscillator_has_its_published_exponents() {
 fn an_orbit_stretches_as_its_largest_multiplier_says() {
     let mut compared = 0;
     for case in draws::cases(120, 21) {
-        let orbit = settle(&case.parameters, case.section_phase, case.start, &Protocol::default());
+        let orbit = settle(&case.parameters, case.section_phase, &case.start, &Protocol::default());
         let [first, second, _] = orbit.certificate.multipliers;
         // A pair of equal magnitudes turns its directions for ever, and means settle slowly.
         if orbit.outcome != Outcome::Periodic || second.abs() > 0.7 * first.abs() {
@@ -193,7 +193,7 @@ fn an_orbit_stretches_as_its_largest_multiplier_says() {
         let p = &case.parameters;
         let capsule = case.read::<Filippov>().system;
         let system = capsule.constant::<Dual<f64, 1>>();
-        let State { r, y1, y2, .. } = orbit.end;
+        let State { r, y1, y2, .. } = orbit.end.capsule();
         let count = 3200 * orbit.period;
         let cycles = Cycles { count, tolerance: 1e-12 };
         let metric = capsule.metric();
@@ -228,7 +228,10 @@ fn chaotic(count: usize) -> Vec<(Case, Section)> {
     let cases = draws::cases(3000, 3);
     let orbits = draws::settled(&cases, &protocol, Instructions::widest());
     let chaotic = cases.into_iter().zip(orbits).filter(|(_, it)| it.outcome == Outcome::Chaotic);
-    chaotic.map(|(case, it)| (case, [it.end.r, it.end.y1, it.end.y2])).take(count).collect()
+    chaotic
+        .map(|(case, it)| (case, [it.end.capsule().r, it.end.capsule().y1, it.end.capsule().y2]))
+        .take(count)
+        .collect()
 }
 
 #[test]
@@ -346,7 +349,8 @@ fn a_stretch_has_the_same_bits_by_any_instructions() {
     let cases = draws::cases(20, 13);
     let systems: Vec<CapsuleSystem<Filippov>> =
         cases.iter().map(|case| case.read().system).collect();
-    let start = |case: &Case| [case.start.r, case.start.y1, case.start.y2];
+    let start =
+        |case: &Case| [case.start.capsule().r, case.start.capsule().y1, case.start.capsule().y2];
     let capsules: Vec<_> =
         cases.iter().zip(&systems).map(|(case, system)| (system, start(case), u64::MAX)).collect();
     let protocol = Protocol { exponent_cycles: 200, ..Protocol::default() };

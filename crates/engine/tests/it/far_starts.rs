@@ -1,7 +1,7 @@
 //! Starts far from zero: they change neither the orbit nor its speed, and what is not proven is not certified.
 
 use capsulemap_engine::orbit::{Outcome, Proof, Protocol};
-use capsulemap_models::capsule::{Output, Parameters, State, settle};
+use capsulemap_models::capsule::{CapsuleState as _, Output, Parameters, State, settle};
 
 use super::draws;
 
@@ -10,7 +10,7 @@ fn the_place_of_the_start_changes_no_bit_of_what_comes_of_it() {
     let protocol = Protocol::default();
     for case in draws::cases(40, 91) {
         let from = |x2: f64| {
-            let start = State { x2, ..case.start };
+            let start = State { x2, ..case.start.capsule() };
             settle(&case.parameters, case.section_phase, start, &protocol)
         };
         let here = from(0.0);

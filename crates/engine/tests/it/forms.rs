@@ -7,8 +7,8 @@ use capsulemap_engine::flow::{Event, Motion, Step, Switched};
 use capsulemap_engine::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::{OrbitOf, Protocol, Queue, settle_side_by_side};
 use capsulemap_models::capsule::{
-    self, AsPrinted, CapsuleParameters as _, CapsuleSystem, Case, EventKind, Filippov, Orbit,
-    Parameters, Reading, Simulation, State, Switching,
+    self, AsPrinted, CapsuleParameters as _, CapsuleState as _, CapsuleSystem, Case, EventKind,
+    Filippov, Orbit, Parameters, Reading, Simulation, State, Switching,
 };
 
 /// [`capsule::simulate`], compared with the same case in the last lane of a vector of others.
@@ -139,11 +139,12 @@ impl<R: Reading> Work for Among<'_, R> {
             (0..last).map(|lane| neighbour(self.case, lane)).chain([self.case.clone()]).collect();
         let own = R::single(&self.case.parameters, self.case.section_phase);
         let mut system = R::In::<L>::splat(&own);
-        let mut motion = Motion::<L, R::In<L>>::splat(&Motion::new(&own, 0.0, self.case.start));
+        let mut motion =
+            Motion::<L, R::In<L>>::splat(&Motion::new(&own, 0.0, self.case.start.capsule()));
         for (lane, case) in cases.iter().enumerate() {
             let one = R::single(&case.parameters, case.section_phase);
             system.put(lane, &one);
-            motion.put(lane, &Motion::new(&one, 0.0, case.start));
+            motion.put(lane, &Motion::new(&one, 0.0, case.start.capsule()));
         }
         let periods = system.period();
         let period = periods.lane(last);

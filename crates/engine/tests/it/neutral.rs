@@ -9,7 +9,8 @@ use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{Outcome, Proof, Protocol};
 use capsulemap_models::capsule::branch::follow;
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, Case, Filippov, Orbit, Output, Parameter, Parameters, State,
+    CapsuleParameters as _, CapsuleState as _, Case, Filippov, Orbit, Output, Parameter,
+    Parameters, State,
 };
 
 use super::branch::request;
@@ -74,7 +75,7 @@ fn every_case_without_friction_that_slides_for_ever_is_neutral() {
         case.parameters[Parameter::MuD] = 0.0;
         case.parameters[Parameter::MuS] *= 0.1;
         let Case { parameters, start, section_phase: phase, .. } = &case;
-        let orbit = settle(parameters, *phase, *start, &Protocol::default());
+        let orbit = settle(parameters, *phase, start.capsule(), &Protocol::default());
         let slides = orbit.outputs[Output::StickShare] == 0.0;
         if orbit.outcome == Outcome::Periodic && orbit.period == 1 && slides {
             check(&orbit, &format!("{case:?}"));
@@ -90,7 +91,7 @@ fn every_case_without_friction_that_slides_for_ever_is_neutral() {
 fn an_orbit_that_attracts_belongs_to_no_family() {
     for case in draws::cases(20, 10) {
         let Case { parameters: p, start, section_phase: phase, .. } = &case;
-        let orbit = settle(p, *phase, *start, &Protocol::default());
+        let orbit = settle(p, *phase, start.capsule(), &Protocol::default());
         if orbit.certificate.proof != Proof::Newton {
             continue;
         }

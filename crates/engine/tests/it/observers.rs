@@ -6,7 +6,8 @@ use capsulemap_engine::lane::{Dual, Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::return_map::{Cycles, observed};
 use capsulemap_engine::orbit::{Outcome, Protocol};
 use capsulemap_models::capsule::{
-    Account, Capsule, CapsuleParameters as _, Case, Parameter, Resistance, State, settle,
+    Account, Capsule, CapsuleParameters as _, CapsuleState as _, Case, Parameter, Resistance,
+    State, settle,
 };
 
 use super::differences::slope;
@@ -50,7 +51,7 @@ fn sums<L: Lane>(account: &Account<L>, index: usize) -> [f64; 17] {
 fn alone(case: &Case) -> [u64; 17] {
     let system = Capsule::single(&case.parameters, case.section_phase);
     let mut account = Account::single(&case.parameters, 64);
-    let mut motion = Motion::new(&system, 0.0, case.start);
+    let mut motion = Motion::new(&system, 0.0, case.start.capsule());
     let mut step = Step::default();
     let mut cycles = 0;
     while cycles < CYCLES {
@@ -81,11 +82,11 @@ fn side_by_side<L: Lane>(cases: &[Case]) -> Vec<[u64; 17]> {
     let of = |lane: usize| cases.get(lane).unwrap_or(&cases[0]);
     let one = |lane: usize| Capsule::single(&of(lane).parameters, of(lane).section_phase);
     let mut system = Capsule::<L>::splat(&one(0));
-    let start = Motion::new(&one(0), 0.0, of(0).start);
+    let start = Motion::new(&one(0), 0.0, of(0).start.capsule());
     let mut motion = Motion::<L, Capsule<L>>::splat(&start);
     for lane in 0..L::WIDTH {
         system.put(lane, &one(lane));
-        motion.put(lane, &Motion::new(&one(lane), 0.0, of(lane).start));
+        motion.put(lane, &Motion::new(&one(lane), 0.0, of(lane).start.capsule()));
     }
     let parameter = |parameter: Parameter| L::from_fn(|lane| of(lane).parameters[parameter]);
     let mut account = Account::<L>::new(parameter, 64);
@@ -126,7 +127,7 @@ fn sums_have_the_same_bits_in_every_lane_form() {
 fn the_derivatives_of_the_sums_are_those_of_differences() {
     let (mut compared, mut doubtful) = (0, 0);
     for case in draws::cases(60, 78) {
-        let orbit = settle(&case.parameters, case.section_phase, case.start, &Protocol::default());
+        let orbit = settle(&case.parameters, case.section_phase, &case.start, &Protocol::default());
         if orbit.outcome != Outcome::Periodic {
             continue;
         }

@@ -9,7 +9,7 @@ use capsulemap_engine::orbit::passages::passages;
 use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::trajectory::Progress;
 use capsulemap_models::capsule::{
-    AsPrinted, CapsuleSystem, Case, Filippov, Parameter, Reading, Resistance,
+    AsPrinted, CapsuleState as _, CapsuleSystem, Case, Filippov, Parameter, Reading, Resistance,
 };
 
 use super::draws::{self, Random};
@@ -27,7 +27,7 @@ fn request(random: &mut Random, case: &Case) -> Capsule {
     ReturnRequest {
         system: read.system,
         along: None,
-        point: [case.start.r, case.start.y1, case.start.y2],
+        point: [case.start.capsule().r, case.start.capsule().y1, case.start.capsule().y2],
         units: [1e-3, 0.5, 2.0],
         cycles: Cycles { count: random.logarithmic(1.0, 16.0) as u64, tolerance: 1e-12 },
         watched: random.uniform(0.0, 1.0) < 0.5,
@@ -93,7 +93,7 @@ fn so_do_their_derivatives_along_a_parameter() {
 fn measure_request<R: Reading>(number: u64, case: &Case) -> MeasureRequest<CapsuleSystem<R>, 3> {
     let mut random = Random::new(95 + number);
     let system = case.read::<R>().system;
-    let motion = Motion::new(&system.single(), 0.0, case.start);
+    let motion = Motion::new(&system.single(), 0.0, case.start.capsule());
     let steps = if random.uniform(0.0, 1.0) < 0.2 { 40.0 } else { 1e6 };
     MeasureRequest {
         system,

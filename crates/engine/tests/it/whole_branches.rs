@@ -5,7 +5,8 @@ use capsulemap_engine::branch::{self, End, SpecialKind};
 use capsulemap_engine::orbit::{Outcome, Protocol};
 use capsulemap_models::capsule::branch::{Request, follow};
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, Case, Parameter, Parameters, Resistance, State, settle, settle_case,
+    CapsuleParameters as _, CapsuleState as _, Case, Parameter, Parameters, Resistance, State,
+    settle, settle_case,
 };
 use rayon::prelude::*;
 
@@ -262,9 +263,9 @@ fn random_branches_are_the_same_by_any_settings() {
         let (low, high) = (parameters[along] * (1.0 - share), parameters[along] * (1.0 + share));
         let request = |phase: f64, point: usize| {
             // The same orbit, of which other starts may not lead to.
-            let start = State { x2: 0.0, ..settled.end };
+            let start = State { x2: 0.0, ..settled.end.capsule() };
             let case = Case {
-                start,
+                start: start.into(),
                 section_phase: phase,
                 ..Case::at_section(parameters.clone(), start, 0.0)
             };

@@ -3,8 +3,8 @@
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{HistorySpan, Outcome, Proof, Protocol};
 use capsulemap_models::capsule::{
-    AsPrinted, CapsuleParameters as _, Case, History, Orbit, Output, Parameter, Reading,
-    Resistance, Section, State, Switching, simulate,
+    AsPrinted, CapsuleParameters as _, CapsuleState as _, Case, History, Orbit, Output, Parameter,
+    Reading, Resistance, Section, State, Switching, simulate,
 };
 
 use super::draws;
@@ -79,7 +79,7 @@ fn as_printed_no_period_is_wrong_and_few_cases_that_repeat_are_undecided() {
             }
             // Held at rest: f_s < |F| < f_d(0+) in a part of the cycle.
             let drag = case.parameters.drag();
-            let rests = orbit.outputs[Output::StickShare] == 1.0 && orbit.end.y2 == 0.0;
+            let rests = orbit.outputs[Output::StickShare] == 1.0 && orbit.end.capsule().y2 == 0.0;
             if !rests || drag.static_limit >= drag.at_onset {
                 continue;
             }

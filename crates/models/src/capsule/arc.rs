@@ -35,6 +35,7 @@ pub fn arc(
     tolerance: f64,
 ) -> Result<Vec<ArcPoint>, Failure> {
     let [start_phase, section_phase] = phases;
+    let start = start.into();
     let case = Case { parameters: parameters.clone(), start, start_phase, section_phase };
     match parameters.switching() {
         Switching::Filippov => {

@@ -8,7 +8,7 @@ use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::state::State;
 use super::system::{CapsuleSystem, Reading};
-use crate::description::Parameters;
+use crate::description::{self, Parameters};
 
 /// One case.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Case {
     /// Its parameters.
     pub parameters: Parameters,
     /// Where it starts.
-    pub start: State<f64>,
+    pub start: description::State,
     /// Phase of the drive at the start [rad].
     pub start_phase: f64,
     /// Phase of the drive at the stroboscopic section [rad].
@@ -25,8 +25,12 @@ pub struct Case {
 
 impl Case {
     /// A case that starts on its section, at `phase` of the drive [rad].
-    pub fn at_section(parameters: Parameters, start: State<f64>, phase: f64) -> Case {
-        Case { parameters, start, start_phase: phase, section_phase: phase }
+    pub fn at_section(
+        parameters: Parameters,
+        start: impl Into<description::State>,
+        phase: f64,
+    ) -> Case {
+        Case { parameters, start: start.into(), start_phase: phase, section_phase: phase }
     }
 
     /// Time of the start since the last passage of the section phase [s]; zero where the phases are equal.
@@ -42,12 +46,12 @@ impl Case {
     where
         S: Stroboscopic<f64, 3, State = State<f64>>,
     {
-        Trajectory::begun(system, self.start, self.start_time(), tolerance)
+        Trajectory::begun(system, State::from(&self.start), self.start_time(), tolerance)
     }
 
     /// The case for the engine, its friction read as `R` says.
     pub fn read<R: Reading>(&self) -> orbit::Case<CapsuleSystem<R>, 3> {
         let system = CapsuleSystem::new(self.parameters.clone(), self.section_phase);
-        orbit::Case { system, start: self.start, begins: self.start_time() }
+        orbit::Case { system, start: State::from(&self.start), begins: self.start_time() }
     }
 }

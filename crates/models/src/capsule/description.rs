@@ -4,8 +4,10 @@ use super::friction_rules::RULES;
 use super::output::{Output, Outputs};
 use super::parameter::Parameter;
 use super::resistance::{Resistance, Switching};
+use super::state::State;
 use crate::description::{
-    self, Choice, Description, OutputDescription, ParameterDescription, Roles,
+    self, Choice, CoordinateDescription, Description, OutputDescription, ParameterDescription,
+    Roles,
 };
 use crate::quantity::shown::{shown, words};
 use crate::quantity::{Dimension, Quantity, Shown};
@@ -30,6 +32,8 @@ quantities! {
         "relative displacement at the start";
     START_Y1 "start_y1" Velocity, shown("Initial", "*y*_{1}", "m/s", 1.0),
         "velocity of the mass at the start";
+    START_X2 "start_x2" Length, shown("Initial", "*x*_{2}", "mm", 1e3),
+        "displacement of the capsule at the start";
     START_Y2 "start_y2" Velocity, shown("Initial", "*y*_{2}", "m/s", 1.0),
         "velocity of the capsule at the start";
     START_PHASE "start_phase" Angle, shown("Initial phase", "*φ*", "rad", 1.0),
@@ -137,6 +141,13 @@ pub static CAPSULE: Description = Description {
             option_tags: &["Filippov", "AsPrinted"],
         },
     ],
+    coordinates: &[
+        CoordinateDescription { name: "r", tag: "StartR", start: START_R },
+        CoordinateDescription { name: "y1", tag: "StartY1", start: START_Y1 },
+        CoordinateDescription { name: "x2", tag: "StartX2", start: START_X2 },
+        CoordinateDescription { name: "y2", tag: "StartY2", start: START_Y2 },
+    ],
+    drift: Some(2),
     outputs: &OUTPUTS,
     roles: Roles {
         drive_frequency: Parameter::Omega as usize,
@@ -252,6 +263,28 @@ impl From<Output> for description::Output {
 impl PartialEq<Output> for description::Output {
     fn eq(&self, other: &Output) -> bool {
         *self == description::Output::from(*other)
+    }
+}
+
+impl From<State<f64>> for description::State {
+    fn from(state: State<f64>) -> Self {
+        description::State::new(&CAPSULE, &state.coordinates())
+    }
+}
+
+impl From<&description::State> for State<f64> {
+    fn from(state: &description::State) -> Self {
+        let &[r, y1, x2, y2] = state.values() else {
+            panic!("{state:?} is no state of the capsule")
+        };
+        State { r, y1, x2, y2 }
+    }
+}
+
+/// A capsule at rest in its middle, as the model where none is named.
+impl Default for description::State {
+    fn default() -> Self {
+        description::State::origin(&CAPSULE)
     }
 }
 

@@ -49,5 +49,5 @@ pub use settle::{Orbit, outputs, per_cycle, settle, settle_all, settle_as, settl
 pub use simulate::{
     Event, Sample, Simulation, SimulationSize, simulate, simulate_case, simulate_case_within,
 };
-pub use state::{EventKind, Jet, State};
+pub use state::{CapsuleState, EventKind, Jet, State};
 pub use system::{AsPrinted, CapsuleSystem, Filippov, Reading};

@@ -49,7 +49,7 @@ pub struct Orbit {
     /// Samples of the motion, where the protocol asks for them.
     pub history: Option<History>,
     /// Where it was last.
-    pub end: State<f64>,
+    pub end: description::State,
     /// Why it could not be followed, if so.
     pub failure: Option<Failure>,
 }
@@ -58,7 +58,7 @@ pub struct Orbit {
 pub fn settle(
     parameters: &Parameters,
     phase: f64,
-    start: State<f64>,
+    start: impl Into<description::State>,
     protocol: &Protocol,
 ) -> Orbit {
     settle_case(&Case::at_section(parameters.clone(), start, phase), protocol)
@@ -161,7 +161,7 @@ impl Orbit {
             section: orbit.section,
             impacts: orbit.observed.impact_points.0.into_iter().map(|(_, it)| it).collect(),
             history,
-            end: orbit.end,
+            end: orbit.end.into(),
             failure: orbit.failure,
         }
     }

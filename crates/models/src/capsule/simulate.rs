@@ -14,7 +14,7 @@ use super::parameters::CapsuleParameters as _;
 use super::printed::PrintedCapsule;
 use super::resistance::Switching;
 use super::state::{EventKind, State};
-use crate::description::Parameters;
+use crate::description::{self, Parameters};
 
 /// State and sums at the end of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -74,7 +74,7 @@ pub struct SimulationSize {
 pub fn simulate(
     parameters: &Parameters,
     phase: f64,
-    start: State<f64>,
+    start: impl Into<description::State>,
     cycles: u64,
     tolerance: f64,
 ) -> Simulation {

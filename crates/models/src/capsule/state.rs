@@ -7,6 +7,8 @@ use serde::Serialize;
 use capsulemap_engine::flow::Event;
 use capsulemap_engine::lane::{Lane, Series, series, side_by_side};
 
+use crate::description;
+
 /// Positions and velocities [m, m/s].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct State<L> {
@@ -21,6 +23,18 @@ pub struct State<L> {
 }
 
 side_by_side!(State { r, y1, x2, y2 });
+
+/// What a state of the capsule is, by the names of its coordinates.
+pub trait CapsuleState {
+    /// It with its coordinates by their names.
+    fn capsule(&self) -> State<f64>;
+}
+
+impl CapsuleState for description::State {
+    fn capsule(&self) -> State<f64> {
+        self.into()
+    }
+}
 
 impl State<f64> {
     /// r, y1, x2 and y2.

@@ -6,6 +6,7 @@ pub mod parameter;
 pub mod parameters;
 pub mod roles;
 pub mod rules;
+pub mod state;
 
 use std::fmt::{self, Debug, Formatter};
 
@@ -15,6 +16,7 @@ pub use parameter::{Parameter, ParameterDescription};
 pub use parameters::{Fault, Parameters};
 pub use roles::Roles;
 pub use rules::{NotGiven, Remark, Rules, Threshold};
+pub use state::{CoordinateDescription, State, StateCoordinate};
 
 /// What a model says of itself.
 pub struct Description {
@@ -24,6 +26,10 @@ pub struct Description {
     pub parameters: &'static [ParameterDescription],
     /// What is chosen beside the values of parameters, as the law of a force.
     pub choices: &'static [Choice],
+    /// The coordinates of its state, in the order of section points.
+    pub coordinates: &'static [CoordinateDescription],
+    /// The coordinate that drifts, by its place among them, on which no motion depends: section points do not have it.
+    pub drift: Option<usize>,
     /// The numbers that sum up a case, in the order of tables and files.
     pub outputs: &'static [OutputDescription],
     /// What some of them are for.
@@ -51,6 +57,22 @@ impl Description {
     /// Every parameter, in the order of tables and files.
     pub fn parameters(&'static self) -> impl DoubleEndedIterator<Item = Parameter> + Clone {
         (0..self.parameters.len()).map(move |index| Parameter::of(self, index))
+    }
+
+    /// Every coordinate of the state.
+    pub fn coordinates(&'static self) -> impl DoubleEndedIterator<Item = StateCoordinate> + Clone {
+        (0..self.coordinates.len()).map(move |index| StateCoordinate::of(self, index))
+    }
+
+    /// The coordinate that drifts.
+    pub fn drift(&'static self) -> Option<StateCoordinate> {
+        self.drift.map(|index| StateCoordinate::of(self, index))
+    }
+
+    /// The coordinates of section points: all but that which drifts.
+    pub fn section_coordinates(&'static self) -> impl Iterator<Item = StateCoordinate> + Clone {
+        let all = (0..self.coordinates.len()).filter(move |index| Some(*index) != self.drift);
+        all.map(move |index| StateCoordinate::of(self, index))
     }
 
     /// Every output, in the order of tables and files.

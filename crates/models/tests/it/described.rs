@@ -19,6 +19,8 @@ static OTHER: Description = Description {
         is_asked_for: false,
     }],
     choices: &[],
+    coordinates: &[],
+    drift: None,
     outputs: &[],
     roles: CAPSULE.roles,
     rules: CAPSULE.rules,
