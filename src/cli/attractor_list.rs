@@ -112,9 +112,13 @@ pub fn tables(dataset: &Dataset) -> String {
             let outputs = [speed_output, work_output];
             let [speed, work] = outputs.map(Output::name).map(|key| number(&it[key]));
             let [share, error] = ["share", "share_error"].map(|key| number(&it[key]));
+            let error = match it["share_error"].is_null() {
+                true => "of those computed, others are missing".to_owned(),
+                false => format!("± {error}"),
+            };
             let _ = writeln!(
                 text,
-                "  {:>3}  {motion:<14} {speed:>12}  {work:>17}  {share} ± {error}",
+                "  {:>3}  {motion:<14} {speed:>12}  {work:>17}  {share} {error}",
                 it[ATTRACTOR.name]
             );
         }

@@ -290,6 +290,9 @@ fn told(view: &View<'_>, number: usize) -> String {
             if error > 0.0 { (1.0 - error.log10().floor()).clamp(0.0, 4.0) } else { 1.0 };
         let decimals = decimals as usize;
         parts.push(match error > 0.0 {
+            _ if error.is_nan() => {
+                format!("{share:.1} % of the starts computed, others are missing")
+            }
             true => format!("{share:.decimals$} ± {error:.decimals$} % of the starts"),
             false => format!("{share:.decimals$} % of the starts"),
         });

@@ -174,6 +174,8 @@ struct Bands {
     shares: Vec<Vec<f64>>,
     /// The largest standard error.
     error: f64,
+    /// Values of the axis at which starts are missing.
+    incomplete: usize,
 }
 
 impl Bands {
@@ -189,13 +191,23 @@ impl Bands {
             Ok(numbers.chunks(width).map(<[f64]>::to_vec).collect())
         };
         let errors = rows(ATTRACTOR_SHARE_ERROR.name)?;
+        let shares = rows(ATTRACTOR_SHARE.name)?;
+        let is_incomplete = |(shares, errors): &(&Vec<f64>, &Vec<f64>)| {
+            shares.iter().zip(*errors).any(|(share, error)| share.is_finite() && error.is_nan())
+        };
+        let incomplete = shares.iter().zip(&errors).filter(is_incomplete).count();
         let error = errors.into_iter().flatten().filter(|it| it.is_finite()).fold(0.0, f64::max);
-        Ok(Bands { shares: rows(ATTRACTOR_SHARE.name)?, error })
+        Ok(Bands { shares, error, incomplete })
     }
 
     /// How well the shares are known.
     fn note(&self) -> Text {
-        Text::plain(&format!("standard error at most {} %", significant(100.0 * self.error, 2)))
+        let error = format!("standard error at most {} %", significant(100.0 * self.error, 2));
+        Text::plain(&match self.incomplete {
+            0 => error,
+            1 => format!("{error}; at one value starts are missing"),
+            several => format!("{error}; at {several} values starts are missing"),
+        })
     }
 
     /// The attractors with what they are, and starts that lead to none.

@@ -18,7 +18,7 @@ pub struct Share {
     pub starts: usize,
     /// Their share of those that have been computed; starts whose attractor is not known count among these.
     pub value: f64,
-    /// The standard error of the share.
+    /// The standard error of the share; NaN of a grid of which starts are missing.
     pub error: f64,
     /// Wilson's interval at 95 percent, where the starts are drawn.
     pub interval: Option<[f64; 2]>,
@@ -52,7 +52,8 @@ pub fn shares_of_draws(
 /// The shares of `attractors` of the starts of a grid of this `shape`, the last axis fastest.
 ///
 /// Error: each start stands for its cell, and counts as a draw from the labels of its neighbours along the axes and its
-/// own. So only cells beside a boundary have an error, and that of a share falls with the cells along the boundary.
+/// own. So only cells beside a boundary have an error, and that of a share falls with the cells along the boundary. Where starts are
+/// missing there is none: those that have been computed lie together, and may lead elsewhere than the others.
 pub fn shares_of_grid(
     shape: &[usize],
     label: impl Fn(usize) -> Label,
@@ -60,6 +61,7 @@ pub fn shares_of_grid(
 ) -> Vec<Share> {
     let starts = shape.iter().product();
     let (counts, all) = counted(starts, &label, attractors);
+    let is_whole = all == starts;
     let mut variances = vec![0.0; attractors];
     let mut near: Vec<Label> = Vec::new();
     for start in 0..starts {
@@ -72,10 +74,10 @@ pub fn shares_of_grid(
             near.extend((at > 0).then(|| label(start - spacing)));
             near.extend((at + 1 < length).then(|| label(start + spacing)));
         }
-        if near.iter().all(|it| *it == near[0]) || near[0] == Label::Missing {
+        if near.iter().all(|it| *it == near[0]) {
             continue;
         }
-        let known = near.iter().filter(|it| **it != Label::Missing).count() as f64;
+        let known = near.len() as f64;
         for (place, it) in near.iter().enumerate() {
             if let Label::Attractor(number) = it
                 && !near[..place].contains(it)
@@ -86,8 +88,8 @@ pub fn shares_of_grid(
         }
     }
     let share = |(&starts, variance): (&usize, f64)| {
-        let (value, error) = (starts as f64 / all as f64, variance.sqrt() / all as f64);
-        Share { starts, value, error, interval: None }
+        let error = if is_whole { variance.sqrt() / all as f64 } else { f64::NAN };
+        Share { starts, value: starts as f64 / all as f64, error, interval: None }
     };
     counts.iter().zip(variances).map(share).collect()
 }
@@ -122,6 +124,19 @@ mod tests {
         let shares = shares_of_draws(4, |start| labels[start], 2);
         assert_eq!(shares.iter().map(|it| it.starts).collect::<Vec<_>>(), [1, 1]);
         assert!(shares.iter().all(|it| (it.value - 1.0 / 3.0).abs() < 1e-15));
+    }
+
+    #[test]
+    fn a_grid_of_which_starts_are_missing_has_no_errors() {
+        // Of a grid of two halves three quarters are computed.
+        let label = |start| match start {
+            0..8 => Label::Attractor(0),
+            8..12 => Label::Attractor(1),
+            _ => Label::Missing,
+        };
+        let shares = shares_of_grid(&[4, 4], label, 2);
+        assert_eq!(shares.iter().map(|it| it.starts).collect::<Vec<_>>(), [8, 4]);
+        assert!(shares.iter().all(|it| it.error.is_nan()), "{shares:?}");
     }
 
     #[test]
