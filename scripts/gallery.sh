@@ -54,6 +54,8 @@ else
     for study in overview hysteresis fig6; do
         "$program" sweep "studies/$study.toml" --no-figures
     done
+    # Its diagram shows the branches, too.
+    "$program" continue studies/hysteresis.toml
     # Runs draw into folders that git ignores.
     for picture in results/gallery/*/*.png; do
         drawn=results/${picture#results/gallery/}

@@ -114,7 +114,11 @@ pub fn draw(
     }
     explain(&mut canvas, &panels, paint.as_ref());
     let outside = measured.left_out(&panels);
-    Ok(canvas.finish(&view.about(&outputs, &attractors.free)).noting(left_out).noting(outside))
+    Ok(canvas
+        .finish(&view.about(&outputs, &attractors.free))
+        .noting(left_out)
+        .noting(outside)
+        .noting(marks.left_out()))
 }
 
 /// Draws symbols, without those that would hide an earlier one of their kind.

@@ -34,12 +34,28 @@ pub struct EventMarks {
     events: Vec<Event>,
     /// Value shown per value of the axis stored.
     factor: f64,
+    /// Events within the limits that are not marked: those of attractors without a colour of their own, and of kinds of which there
+    /// are too many.
+    left_out: [usize; 2],
 }
 
 impl EventMarks {
     /// None at all.
     pub fn none() -> EventMarks {
-        EventMarks { events: Vec::new(), factor: 1.0 }
+        EventMarks { events: Vec::new(), factor: 1.0, left_out: [0; 2] }
+    }
+
+    /// Which events are not marked, if any.
+    pub fn left_out(&self) -> Option<String> {
+        let [others, crowded] = self.left_out;
+        let parts = [
+            (others, "of attractors without a colour of their own"),
+            (crowded, "of kinds that would hide the diagram"),
+        ];
+        let told = parts.iter().filter(|(count, _)| *count > 0);
+        let told: Vec<String> = told.map(|(count, which)| format!("{count} {which}")).collect();
+        (!told.is_empty())
+            .then(|| format!("special points that are not marked: {}", told.join(", ")))
     }
 
     /// The events along the axis `x` of attractors with colours of their own, where the other axes are held.
@@ -50,9 +66,9 @@ impl EventMarks {
     ) -> Result<EventMarks, FigureError> {
         let quantity = view.quantity(x);
         let factor = quantity.factor;
-        let mut events = Vec::new();
+        let (mut events, mut others) = (Vec::new(), 0);
         if view.dataset.variable(EVENT_KIND.name).is_none() {
-            return Ok(EventMarks { events, factor });
+            return Ok(EventMarks { events, factor, left_out: [0; 2] });
         }
         let column = |name: &str| -> Result<Vec<f64>, FigureError> {
             Ok(view.take(name, &[])?.into_iter().collect())
@@ -66,8 +82,12 @@ impl EventMarks {
         for (i, kind) in kinds.iter().enumerate().filter(|(i, _)| on_line[*i]) {
             let name = flags.iter().find(|(code, _)| *code as f64 == *kind);
             let Some(symbol) = name.and_then(|(_, name)| Symbol::named(name)) else { continue };
-            let attractor = numbers[i] as i64;
-            if attractors.own.contains(&attractor) && quantity.is_within(places[i] * factor) {
+            if !quantity.is_within(places[i] * factor) {
+                continue;
+            }
+            if !attractors.own.contains(&(numbers[i] as i64)) {
+                others += 1;
+            } else {
                 events.push(Event {
                     symbol,
                     period: periods[i] as i64,
@@ -78,11 +98,13 @@ impl EventMarks {
         }
         let count = |symbol: Symbol| events.iter().filter(|it| it.symbol == symbol).count();
         let crowded: Vec<Symbol> = SYMBOLS.into_iter().filter(|it| count(*it) > MOST).collect();
+        let marked = events.len();
         events.retain(|event| !crowded.contains(&event.symbol));
+        let left_out = [others, marked - events.len()];
         // Where symbols overlap, that of the shortest orbit is drawn first.
         let layer = |symbol| SYMBOLS.iter().position(|it| *it == symbol);
         events.sort_by_key(|event| (layer(event.symbol), event.period));
-        Ok(EventMarks { events, factor })
+        Ok(EventMarks { events, factor, left_out })
     }
 
     /// The symbols that occur, with their names.

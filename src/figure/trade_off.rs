@@ -118,7 +118,7 @@ impl TradeOff<'_, '_> {
             self.paint.as_ref().map_or(Value::None, |paint| paint.value(case.case))
         };
         let told = self.paint.as_ref().map_or(String::new(), |it| format!(", {}", it.told()));
-        for (periodic, name) in [(true, "periodic cases"), (false, "other cases by their means")] {
+        for (periodic, name) in [(true, "periodic cases"), (false, "other cases")] {
             let ours = motions.cases().iter().filter(|it| motions.is_periodic(it) == periodic);
             let rows = ours.map(|it| (self.place((it.price, it.speed)), value(it)));
             panel.record_values(canvas, &format!("{name}{told}"), rows);
@@ -135,7 +135,7 @@ impl TradeOff<'_, '_> {
             self.free,
         );
         let motions = self.motions();
-        let aperiodic = motions.aperiodic();
+        let [by_means, undecided] = motions.aperiodic();
         let between: Vec<String> = self.fronts.iter().map(Front::about).collect();
         let not_shown: usize = match self.free.len() == self.view.axes().len() {
             true => 0,
@@ -148,9 +148,9 @@ impl TradeOff<'_, '_> {
             ),
         };
         format!(
-            "{shows}; {} periodic cases, {aperiodic} others as means over their cycles, {} without values, {}{not_shown}; the fronts \
+            "{shows}; {} periodic cases, {by_means} others as means over their cycles, {undecided} undecided, {} without values, {}{not_shown}; the fronts \
              are of motions that are not undecided and move faster than {:.1e} m/s",
-            motions.cases().len() - aperiodic,
+            motions.cases().len() - by_means - undecided,
             motions.left_out,
             between.join("; "),
             motions.at_rest
@@ -178,10 +178,13 @@ impl TradeOff<'_, '_> {
         if between.iter().any(|it| it.is_open()) {
             legend.push((Mark::Nothing, said(format!("{OPEN} not converged"))));
         }
-        let aperiodic = motions.aperiodic();
-        if aperiodic > 0 {
-            let text = said(format!("not periodic, by their means: {aperiodic}"));
-            legend.push((Mark::Disc(FAINT_INK, 1.4), text));
+        let [by_means, undecided] = motions.aperiodic();
+        for (count, words) in
+            [(by_means, "not periodic, by their means"), (undecided, "undecided, so on no front")]
+        {
+            if count > 0 {
+                legend.push((Mark::Disc(FAINT_INK, 1.4), said(format!("{words}: {count}"))));
+            }
         }
         if motions.left_out > 0 {
             let text = said(format!("without values, left out: {}", motions.left_out));

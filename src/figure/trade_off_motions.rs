@@ -151,9 +151,11 @@ impl<'a> Motions<'a> {
         self.outcomes.name(motion.case).filter(|_| motion.case < self.count)
     }
 
-    /// How many cases are shown that are not periodic.
-    pub fn aperiodic(&self) -> usize {
-        self.cases().iter().filter(|it| !self.is_periodic(it)).count()
+    /// How many cases are shown that are not periodic: those whose means take part, and those that are undecided.
+    pub fn aperiodic(&self) -> [usize; 2] {
+        let aperiodic = || self.cases().iter().filter(|it| !self.is_periodic(it));
+        let takes_part = aperiodic().filter(|it| self.outcome(it).is_none_or(takes_part)).count();
+        [takes_part, aperiodic().count() - takes_part]
     }
 
     /// The best in a direction; cases that are undecided or failed are not among them.

@@ -108,6 +108,11 @@ fn read_values(table: &Table<'_, '_>, coordinate: Option<Coordinate>) -> Option<
         to.fault(format!("{} is the same as `from`; expected another value", to.shown()));
         return None;
     }
+    if from != to && points == 1 {
+        let why = "1 takes no value but `from`: give that alone under `values`, or more points";
+        table.entry("points")?.fault(why.to_owned());
+        return None;
+    }
     let values = spacing.values(from, to, points as usize);
     if values.windows(2).any(|pair| pair[0] == pair[1]) {
         table

@@ -35,7 +35,8 @@ fn a_trade_off_has_a_front_for_each_direction_and_none_of_rounding() {
     assert!(!mixed.contains(front));
     // What is chaotic takes part by its means, as in `capsulemap tradeoff`.
     assert!(trade_off(&[0.01, 0.02, 0.03, f64::NAN], &[1, 3, 0, 4]).contains(front));
-    let counted = "1 periodic cases, 2 others as means over their cycles, 1 without values";
+    let counted =
+        "1 periodic cases, 0 others as means over their cycles, 2 undecided, 1 without values";
     assert!(mixed.contains(counted), "{mixed}");
     let of = vec!["outcome".to_string()];
     let request = Drawing { of, ..drawing("outcome", DrawingKind::TradeOff) };

@@ -37,7 +37,7 @@ entries! {
     FAILURE_TIME "failure_time" "s" Case, Real, None,
         "time at which the case could not be followed on";
     CERTIFICATE "certificate" "1" Case, Category(proofs), None,
-        "how the period was proven";
+        "how the period was verified";
     MULTIPLIER_REAL "multiplier_real" "1" CaseRow(MULTIPLIER.name), Real, None,
         "real part of a Floquet multiplier of the period";
     MULTIPLIER_IMAG "multiplier_imag" "1" CaseRow(MULTIPLIER.name), Real, None,

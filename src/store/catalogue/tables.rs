@@ -23,7 +23,7 @@ entries! {
         "cases that lead to the attractor";
     ATTRACTOR_SHARE "attractor_share" "1" Table(ATTRACTOR_INDEX.name), Real,
         shown("Share of the starts", "", "%", 100.0),
-        "share of the cases that lead to the attractor, among all that have been computed";
+        "share of the cases that lead to the attractor, among all that have been computed or inferred";
     ATTRACTOR_SHARE_ERROR "attractor_share_error" "1" Table(ATTRACTOR_INDEX.name), Real, None,
         "standard error of the share: of a grid by the cells beside the boundary, not a number where starts are missing; of draws that of a binomial";
     ATTRACTOR_SHARE_LOW "attractor_share_low" "1" Table(ATTRACTOR_INDEX.name), Real, None,
