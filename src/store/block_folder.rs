@@ -14,14 +14,13 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::block_file::{self, BlockFile, Column, Head, Numbers, Summary, Unusable};
-use super::catalogue::{CASE, RESIDUAL, starts};
+use super::catalogue::{CASE, END, RESIDUAL, starts};
 use super::file::{self, discard_unfinished_in, put};
 use super::lock::{Lock, Tried, try_lock};
 use super::{StoreError, Values, provenance, schema};
 use crate::of::default_model;
 use crate::orbit::Outcome;
 use crate::run::Record;
-use crate::store::catalogue::END;
 use crate::study::{Refine, Study};
 
 /// The fingerprint of the study and the program of the first run.

@@ -9,8 +9,7 @@ use super::{Axis, CaseSet, Continuation, Direction, Drawing, Grid, Inherit, Refi
 use crate::capsule::Case;
 use crate::description::{Output, Parameters, State};
 use crate::model::Model;
-use crate::of::default_model;
-use crate::of::model_of;
+use crate::of::{default_model, model_of};
 use crate::orbit::Protocol;
 
 /// What to compute.
