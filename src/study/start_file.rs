@@ -3,7 +3,6 @@
 use super::document::{Entry, Table};
 use super::{Axis, CaseSet, Coordinate, Direction, Inherit};
 use crate::description::State;
-use crate::of::default_model;
 use crate::quantity::Allowed;
 
 /// Keys of an inherited start, with the older name of the first.
@@ -52,7 +51,7 @@ pub(super) fn read_state(table: &Table<'_, '_>, usual: Start, varied: &[Coordina
     if let Some(phase) = quantity(Coordinate::PHASE, &both) {
         (start.start_phase, start.section_phase) = (phase, phase);
     }
-    for coordinate in default_model().section_coordinates() {
+    for coordinate in start.state.model().section_coordinates() {
         let given = quantity(coordinate.name(), &[Coordinate::Start(coordinate)]);
         start.state[coordinate] = given.unwrap_or(start.state[coordinate]);
     }

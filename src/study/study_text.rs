@@ -12,7 +12,6 @@ use super::{
 };
 use crate::capsule::Dimension;
 use crate::description::{Output, Parameter, State};
-use crate::of::default_model;
 use crate::orbit::{HistorySpan, Protocol};
 
 impl Study {
@@ -212,7 +211,7 @@ fn start(
     start_phase: f64,
     section_phase: f64,
 ) -> Vec<(&'static str, Coordinate, f64)> {
-    let coordinates = default_model().section_coordinates();
+    let coordinates = state.model().section_coordinates();
     let of_state = coordinates.map(|it| (it.name(), Coordinate::Start(it), state[it]));
     let phases = [
         ("start_phase", Coordinate::StartPhase, start_phase),

@@ -266,6 +266,13 @@ impl PartialEq<Output> for description::Output {
     }
 }
 
+/// Those of a capsule, as the model where none is named.
+impl Default for description::Parameters {
+    fn default() -> Self {
+        description::Parameters::of(&CAPSULE)
+    }
+}
+
 impl From<State<f64>> for description::State {
     fn from(state: State<f64>) -> Self {
         description::State::new(&CAPSULE, &state.coordinates())

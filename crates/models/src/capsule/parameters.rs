@@ -2,7 +2,6 @@
 
 use capsulemap_engine::flow::Metric;
 
-use super::description::CAPSULE;
 use super::drag::Drag;
 use super::parameter::Parameter;
 use super::resistance::{Resistance, Switching};
@@ -11,13 +10,6 @@ use crate::description::Parameters;
 /// The places of the two choices of a capsule.
 const RESISTANCE: usize = 0;
 const SWITCHING: usize = 1;
-
-/// A capsule, as the model where none is named.
-impl Default for Parameters {
-    fn default() -> Self {
-        Parameters::of(&CAPSULE)
-    }
-}
 
 /// What follows from the parameters of a capsule.
 pub trait CapsuleParameters: Sized {
@@ -100,7 +92,7 @@ impl CapsuleParameters for Parameters {
         let onset = self.resistance().onset_in_words();
         is_idle.then(|| {
             format!(
-                "mu_s below {onset} has no effect; the capsule breaks away at {onset} (m1 + m2) g = {} N",
+                "mu_s below {onset} has no effect; the capsule breaks away at {onset} (m1 + m2) g = {:.4} N",
                 drag.break_away
             )
         })

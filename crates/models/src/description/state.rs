@@ -101,6 +101,11 @@ impl State {
         state
     }
 
+    /// The model whose state it is.
+    pub fn model(&self) -> &'static Description {
+        self.model
+    }
+
     /// Every coordinate with its value.
     pub fn each(&self) -> impl Iterator<Item = (StateCoordinate, f64)> + '_ {
         self.model.coordinates().zip(self.values.iter().copied())
