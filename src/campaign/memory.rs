@@ -41,7 +41,10 @@ pub fn memory(study: &Study, threads: usize, probe: &Probe) -> Memory {
         None => (unfinished.max(most), most * threads),
     };
     let [computed, packed] = [computed, packed].map(|it| (it as f64).min(cases));
-    let records = computed * (size_of::<Record>() as f64 + all * NUMBER);
+    // Beside the record itself lie its outputs and the states of its start and its end.
+    let model = study.base.model();
+    let beside = (model.outputs.len() + 2 * model.coordinates.len()) as f64 * NUMBER;
+    let records = computed * (size_of::<Record>() as f64 + beside + all * NUMBER);
     let packing = packed * all * NUMBER * COPIES;
     let heads = study.blocks() as f64 * (MAKER + PLACE * numbers.len() as f64);
     let drawn = match &study.case_set {

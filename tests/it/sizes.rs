@@ -147,7 +147,7 @@ fn a_dry_run_tells_the_memory_of_the_run() {
     ];
     // The program and its tables, without a study.
     let bare = {
-        dir.put("bare.toml", format!("{PARAMETERS}{}", axes([1, 2])));
+        dir.put("bare.toml", format!("{PARAMETERS}{}", axes([2, 2])));
         most_memory(&dir, script, "bare")
     };
     for (name, study) in studies {
