@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 
-use crate::description::{Outputs, Parameter, Parameters};
-use crate::of::default_model;
+use crate::description::{Description, Outputs, Parameter, Parameters};
 use crate::orbit::Outcome;
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};
@@ -34,11 +33,14 @@ impl Conditions {
     /// The period and the outcome of a motion are those of the case that it is followed from.
     ///
     /// Fails with all conditions that cannot be kept between the cases.
-    pub fn of(conditions: &[Condition]) -> Result<Conditions, Vec<String>> {
+    pub fn of(
+        conditions: &[Condition],
+        model: &'static Description,
+    ) -> Result<Conditions, Vec<String>> {
         let mut found = Conditions { normal: normal(conditions), ..Conditions::default() };
         let mut faults = Vec::new();
         for condition in conditions {
-            if let Err(fault) = found.add(condition) {
+            if let Err(fault) = found.add(condition, model) {
                 faults.push(format!("\"{}\": {fault}", condition.text));
             }
         }
@@ -50,7 +52,7 @@ impl Conditions {
         if faults.is_empty() { Ok(found) } else { Err(faults) }
     }
 
-    fn add(&mut self, condition: &Condition) -> Result<(), String> {
+    fn add(&mut self, condition: &Condition, model: &'static Description) -> Result<(), String> {
         let Condition { name, limit, .. } = condition;
         let sides: &[Side] = match condition.comparison {
             Comparison::Less | Comparison::AtMost => &[Side::Upper],
@@ -67,14 +69,14 @@ impl Conditions {
             self.excludes_periodic |= !condition.comparison.holds(code, *limit);
             return Ok(());
         }
-        if let Some(parameter) = default_model().parameter(name) {
+        if let Some(parameter) = model.parameter(name) {
             if sides.is_empty() {
                 return Err("`--refine` cannot leave out a value of a parameter".to_owned());
             }
             self.bounds.extend(sides.iter().map(|side| (parameter, *side, *limit)));
             return Ok(());
         }
-        let smooth = || default_model().outputs().filter(|it| it.is_smooth());
+        let smooth = || model.outputs().filter(|it| it.is_smooth());
         match (smooth().find(|it| it.name() == name), sides) {
             (Some(output), [side]) => {
                 self.limits.push(Limit { output, side: *side, value: *limit });

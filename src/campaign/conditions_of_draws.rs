@@ -1,8 +1,7 @@
 //! What conditions on cases ask of a motion under tolerances, which has parameters, outputs, a period and an outcome of its own.
 
 use crate::capsule::Orbit;
-use crate::description::{Output, Parameter, Parameters};
-use crate::of::default_model;
+use crate::description::{Description, Output, Parameter, Parameters};
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};
 
@@ -27,24 +26,24 @@ enum Quantity {
 }
 
 impl Quantity {
-    fn named(name: &str) -> Option<Quantity> {
+    fn named(name: &str, model: &'static Description) -> Option<Quantity> {
         match name {
             _ if name == PERIOD.name => Some(Quantity::Period),
             _ if name == OUTCOME.name => Some(Quantity::Outcome),
-            _ => default_model()
+            _ => model
                 .parameter(name)
                 .map(Quantity::Parameter)
-                .or_else(|| default_model().output(name).map(Quantity::Output)),
+                .or_else(|| model.output(name).map(Quantity::Output)),
         }
     }
 }
 
 impl OfDraws {
     /// The conditions, those that cannot be judged apart.
-    pub fn of(conditions: &[Condition]) -> OfDraws {
+    pub fn of(conditions: &[Condition], model: &'static Description) -> OfDraws {
         let mut found = OfDraws::default();
         for condition in conditions {
-            match Quantity::named(&condition.name) {
+            match Quantity::named(&condition.name, model) {
                 Some(quantity) => found.judged.push((quantity, condition.clone())),
                 None => found.not_judged.push(condition.normal()),
             }

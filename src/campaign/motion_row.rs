@@ -5,8 +5,7 @@ use super::mean_errors::MeanErrors;
 use super::refined_motion::{RefinedMotion, Slopes};
 use super::robustness::Robustness;
 use crate::capsule::{Case, Section};
-use crate::description::{Output, Parameters, State};
-use crate::of::default_model;
+use crate::description::{Description, Output, Parameters, State};
 use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
@@ -60,12 +59,12 @@ pub struct Row {
 
 impl Row {
     /// Its start as a section point (SI).
-    pub fn start(&self) -> Section {
+    pub fn start(&self, model: &'static Description) -> Section {
         let value = |wanted: Coordinate| {
             let found = self.coordinates.iter().find(|(it, ..)| *it == wanted);
             found.map_or(0.0, |(_, value, _)| *value)
         };
-        let mut all = Coordinate::starts(default_model()).map(value);
+        let mut all = Coordinate::starts(model).map(value);
         std::array::from_fn(|_| all.next().unwrap_or(0.0))
     }
 }

@@ -318,7 +318,7 @@ impl Refinement<'_> {
         let Some(period) = row.period else { return Ok(None) };
         let section = match row.case {
             Some(case) => self.section(case)?,
-            None => Some(row.start()),
+            None => Some(row.start(self.study.base.model())),
         };
         let mut parameters = self.study.base.clone();
         let mut phase = self.study.section_phase;

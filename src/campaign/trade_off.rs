@@ -128,7 +128,7 @@ impl TradeOff<'_> {
             candidates: &found.all,
             optima: optima.clone(),
             refinement: study.as_ref().map(|study| Refinement {
-                asked: OfDraws::of(&conditions),
+                asked: OfDraws::of(&conditions, study.base.model()),
                 at_rest: optima.at_rest,
                 kinds: kinds.unwrap_or_default(),
                 ..self.refinement(study, (&rows, between), &none)
@@ -159,7 +159,7 @@ impl TradeOff<'_> {
         if !matches!(self.between, Between::Sought { .. }) {
             return Ok(Conditions::default());
         }
-        let found = Conditions::of(conditions);
+        let found = Conditions::of(conditions, self.of.model());
         let of = self.of.name();
         let price = (!self.of.is_smooth())
             .then(|| format!("`{of}` has no derivatives in the parameters; `--refine` needs them"));

@@ -16,7 +16,6 @@ use super::catalogue::{
 };
 use super::{Dataset, Values, boundary};
 use crate::attractor::{Entropy, Integrity, Share};
-use crate::of::default_model;
 use crate::orbit::Outcome;
 use crate::run::{
     AttractorEvent, AttractorRow, AttractorTable, Attractors, Edge, InferredSample, SharesAt,
@@ -65,6 +64,7 @@ fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
         _ => Vec::new(),
     };
     let longest = rows.iter().map(|row| points(row).len()).max().unwrap_or(0);
+    let model = dataset.model();
     dataset.put_coordinate(ATTRACTOR_INDEX, Values::count(rows.len()));
     let mut whole = |entry: Entry, of: fn(&AttractorRow) -> i64| {
         dataset.put_column(entry, Values::integers(rows.iter().map(of).collect()));
@@ -99,7 +99,7 @@ fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
     if rows.iter().any(|row| row.settling.is_some()) {
         real(ATTRACTOR_CYCLES_MEAN, &|row| row.settling.map_or(f64::NAN, |it| it.mean));
     }
-    for output in default_model().outputs() {
+    for output in model.outputs() {
         let entry = Place::Attractor.of(Entry::of_output(output));
         real(entry, &|row| row.record.orbit.outputs[output]);
     }

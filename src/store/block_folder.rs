@@ -18,7 +18,7 @@ use super::catalogue::{CASE, END, RESIDUAL, starts};
 use super::file::{self, discard_unfinished_in, put};
 use super::lock::{Lock, Tried, try_lock};
 use super::{StoreError, Values, provenance, schema};
-use crate::of::default_model;
+use crate::description::Description;
 use crate::orbit::Outcome;
 use crate::run::Record;
 use crate::study::{Refine, Study};
@@ -338,18 +338,18 @@ fn columns(study: &Study, records: &[Record]) -> Vec<Column> {
         let shares = records.iter().map(|record| record.orbit.outputs[rest_share]).collect();
         columns.push(Column { name: rest_share.name().to_owned(), numbers: Numbers::Real(shares) });
     }
-    columns.extend(beyond_variables(records));
+    columns.extend(beyond_variables(study.base.model(), records));
     columns
 }
 
 /// The columns of a block that are no variables of the results.
-fn beyond_variables(records: &[Record]) -> Vec<Column> {
+fn beyond_variables(model: &'static Description, records: &[Record]) -> Vec<Column> {
     let mut columns = Vec::new();
     let mut add = |name: &str, of: &dyn Fn(&Record) -> f64| {
         let numbers = Numbers::Real(records.iter().map(of).collect());
         columns.push(Column { name: name.to_owned(), numbers });
     };
-    let coordinates = default_model().section_coordinates();
+    let coordinates = model.section_coordinates();
     for ((coordinate, start), end) in coordinates.zip(starts()).zip(END) {
         add(start.name, &|it| it.start[coordinate]);
         add(end.name, &|it| it.orbit.end[coordinate]);

@@ -16,8 +16,7 @@ use super::schema;
 use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, StoreError, Values, Variable, provenance};
 use crate::capsule::REASONS;
-use crate::description::{Output, State};
-use crate::of::default_model;
+use crate::description::{Description, Output, State};
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
 use crate::run::{
@@ -89,7 +88,7 @@ impl<'a> Blocks<'a> {
         let mut found = Vec::new();
         for file in &self.files {
             if found.len() < most && file.head.block.outcomes.contains_key(FAILED) {
-                found.extend(failures(file, &self.cases_of(file)?)?);
+                found.extend(failures(file, &self.cases_of(file)?, self.study.base.model())?);
             }
         }
         found.truncate(most);
@@ -330,7 +329,11 @@ pub struct FailedCase {
 }
 
 /// The failed among the `cases` of a block file.
-fn failures(file: &BlockFile, cases: &[usize]) -> Result<Vec<FailedCase>, StoreError> {
+fn failures(
+    file: &BlockFile,
+    cases: &[usize],
+    model: &'static Description,
+) -> Result<Vec<FailedCase>, StoreError> {
     let starts: Vec<Vec<f64>> =
         starts().iter().map(|entry| file.reals(entry.name, 1)).collect::<Result<_, _>>()?;
     let times = file.reals(FAILURE_TIME.name, 1)?;
@@ -338,7 +341,7 @@ fn failures(file: &BlockFile, cases: &[usize]) -> Result<Vec<FailedCase>, StoreE
     let failed = |(place, code): (usize, &i64)| {
         let (_, reason) = REASONS.iter().find(|(reason, _)| *reason as i64 == *code)?;
         let start: Vec<f64> = starts.iter().map(|values| values[place]).collect();
-        let start = State::at_section(default_model(), &start);
+        let start = State::at_section(model, &start);
         Some(FailedCase { index: cases[place], start, reason, time: times[place] })
     };
     Ok(reasons.iter().enumerate().filter_map(failed).collect())

@@ -12,7 +12,6 @@ use crate::capsule::{CapsuleState as _, Case, State, settle_case};
 use crate::description::Description;
 use crate::figure::{label_colour, shown_quantity};
 use crate::flow::stop;
-use crate::of::default_model;
 use crate::orbit::{Machine, Outcome};
 use crate::run::{self, Attractors, Record, run_sample};
 use crate::store::catalogue::{OUTCOME, PERIOD};
@@ -58,14 +57,15 @@ impl Basin {
         let is_parameter = |it: &(Coordinate, f64)| !it.0.is_start();
         let at: Vec<(Coordinate, f64)> = given.iter().copied().filter(is_parameter).collect();
         let case = explored.near(&at, asked.sweep()?)?.case;
-        let mut axes = axes(asked, around(explored, &case))?;
+        let starts = coordinates(explored.study.base.model());
+        let mut axes = axes(asked, starts, around(explored, &case))?;
         let told = [0, 1].map(|axis| axis_json(explored, &axes[axis]));
         // Those of a study come with the slower first.
         axes.reverse();
         let mut begins = explored.study.case(0);
         given.iter().filter(|it| it.0.is_start()).for_each(|it| set(&mut begins, it.0, it.1));
         let mut basin = Drawing::new("basin", DrawingKind::Basin);
-        [basin.x, basin.y] = coordinates(default_model()).map(|it| Some(it.name().to_owned()));
+        [basin.x, basin.y] = starts.map(|it| Some(it.name().to_owned()));
         let study = Study {
             title: "Starts and where they lead".to_owned(),
             base: case.parameters,
@@ -188,14 +188,18 @@ impl Basin {
 }
 
 /// The axes that a request asks for, the faster first; `usual` are their ends where it does not.
-fn axes(asked: &Asked, usual: [[f64; 2]; 2]) -> Result<Vec<Axis>, Refusal> {
+fn axes(
+    asked: &Asked,
+    starts: [Coordinate; 2],
+    usual: [[f64; 2]; 2],
+) -> Result<Vec<Axis>, Refusal> {
     let axis = |axis: usize| {
         let [low, high] = ENDS[axis];
         let from = asked.number(low)?.unwrap_or(usual[axis][0]);
         let to = asked.number(high)?.unwrap_or(usual[axis][1]);
         match from < to {
             true => Ok(Axis {
-                coordinate: coordinates(default_model())[axis],
+                coordinate: starts[axis],
                 values: Spacing::Linear.values(from, to, SIDE),
             }),
             false => Err(Refusal::unfit(format!("{low} must be less than {high}"))),
