@@ -26,7 +26,8 @@ pub fn described(explored: &Explored, running: Value) -> Value {
     let directions = frame.coordinate(DIRECTION.name).map(|it| &it.flags);
     let directions = directions.into_iter().flatten().map(|(_, name)| name.clone());
     let kinds = [OUTCOME, PERIOD, ATTRACTOR].map(|it| it.name);
-    let outputs = study.base.model().outputs().map(|it| it.name()).chain(kinds);
+    let model = study.base.model();
+    let outputs = model.outputs().map(|it| it.name()).chain(kinds);
     let outputs = outputs.filter(|name| archive.unit(name).is_some()).map(shown);
     let varied = study.case_set.varied();
     let is_held =
@@ -36,7 +37,6 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         constant["value"] = json!(study.base[it]);
         constant
     };
-    let model = study.base.model();
     let has = |it: Output| archive.unit(it.name()).is_some();
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     json!({
@@ -46,7 +46,7 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "axes": study.axes().iter().map(of_axis).collect::<Vec<_>>(),
         "directions": directions.collect::<Vec<_>>(),
         "outputs": outputs.collect::<Vec<_>>(),
-        "constants": study.base.model().parameters().filter(is_held).map(constant).collect::<Vec<_>>(),
+        "constants": model.parameters().filter(is_held).map(constant).collect::<Vec<_>>(),
         "has_curves": has_branches(frame),
         "has_trade_off": has(model.speed()) && (has(model.work()) || has(model.power())),
         "running": running,

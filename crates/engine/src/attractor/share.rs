@@ -61,7 +61,13 @@ pub fn shares_of_grid(
 ) -> Vec<Share> {
     let starts = shape.iter().product();
     let (counts, all) = counted(starts, &label, attractors);
-    let is_whole = all == starts;
+    let share = |starts: usize, variance: f64| {
+        let (value, error) = (starts as f64 / all as f64, variance.sqrt() / all as f64);
+        Share { starts, value, error, interval: None }
+    };
+    if all < starts {
+        return counts.iter().map(|&starts| share(starts, f64::NAN)).collect();
+    }
     let mut variances = vec![0.0; attractors];
     let mut near: Vec<Label> = Vec::new();
     for start in 0..starts {
@@ -87,11 +93,7 @@ pub fn shares_of_grid(
             }
         }
     }
-    let share = |(&starts, variance): (&usize, f64)| {
-        let error = if is_whole { variance.sqrt() / all as f64 } else { f64::NAN };
-        Share { starts, value: starts as f64 / all as f64, error, interval: None }
-    };
-    counts.iter().zip(variances).map(share).collect()
+    counts.iter().zip(variances).map(|(&starts, variance)| share(starts, variance)).collect()
 }
 
 /// The starts of each attractor, and all that have been computed.
