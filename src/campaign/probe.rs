@@ -6,9 +6,10 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use crate::run::{
-    Estimate, Forecast, Machine, Record, RunError, run_blocks, run_sample, run_tiles,
+    CHECKED, Estimate, Forecast, Machine, Record, RunError, count_threads, run_blocks, run_sample,
+    run_tiles,
 };
-use crate::store::{file_bytes, numbers_of_case, packed_bytes, refined_file_bytes};
+use crate::store::{file_bytes, numbers_of_case, packed_bytes, refined_file_bytes, storing};
 use crate::study::{CaseSet, Direction, Refinement, Study, spread};
 
 use super::error::CampaignError;
@@ -29,8 +30,6 @@ const SPREAD: Duration = Duration::from_secs(3);
 const SIDES: [usize; 5] = [8, 4, 2, 1, 1];
 /// So many times longer a probe of a refined study takes at most, of which nothing is known before a tile is done.
 const PATIENCE: u32 = 12;
-/// Blocks are joined in about so many times the time that packing them takes: they are unpacked, and packed again.
-const JOINING: f64 = 1.3;
 
 /// What a probe has found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +40,7 @@ pub struct Probe {
     pub blocks: usize,
     /// The time it took.
     pub time: Duration,
-    /// Time that all cases would take on the same machine [s]; none if no case was done.
+    /// Time that all cases would take on the same machine, to be computed and packed, and of those that are inferred a sample to be checked [s]; none if no case was done.
     pub seconds: Option<Estimate>,
     /// Time that the search for attractors would take after that [s]; none if there is none.
     pub searching: Option<Estimate>,
@@ -120,10 +119,11 @@ struct Found<'a> {
     needed: usize,
 }
 
-/// Computes parts of `study`, spread over it, for about `span`, and searches for the attractors of a few; writes nothing.
+/// Computes parts of `study`, spread over it, for about `span`, and searches for the attractors of a few; writes nothing but
+/// to a folder for temporary files, which is removed.
 ///
 /// Method: the time that cases take goes with their cycles, see [`Forecast`]; that of the search for attractors is measured
-/// on parts of the study; that of writing goes with the time in which the numbers of a sample are packed.
+/// on parts of the study; those of packing and of writing on files with a sample of the cases, see [`storing`].
 ///
 /// Fails if the computation cannot be started.
 pub fn probe(
@@ -176,7 +176,7 @@ pub fn probe(
     }
     let searching = search_seconds(study, machine, span)?;
     reports.check()?;
-    found.estimate(time, searching)
+    found.estimate(machine, time, searching)
 }
 
 /// Cases of a study whose starts are not inherited, in runs of neighbours that lie spread over it: of what a probe has done when
@@ -292,14 +292,13 @@ impl Found<'_> {
     /// The estimate for all cases.
     fn estimate(
         mut self,
+        machine: Machine,
         time: Duration,
         searching: Option<Estimate>,
     ) -> Result<Probe, CampaignError> {
         let study = self.parts.study;
         let (cases, cycles) = self.computed;
         let pace = time.as_secs_f64() / cycles as f64;
-        let scaled = |it: Estimate| Estimate { value: it.value * pace, error: it.error * pace };
-        let seconds = self.forecast.cycles().map(scaled);
         self.records.sort_by_key(|record| record.index);
         self.records.dedup_by_key(|record| record.index);
         // Of a refined study fewer cases are kept than there are.
@@ -308,9 +307,15 @@ impl Found<'_> {
             None => 1.0,
         };
         let factor = kept * study.cases() as f64 / self.records.len() as f64;
-        let begun = Instant::now();
         let packed = packed_bytes(study, &self.records).map_err(CampaignError::Packing)?;
-        let packing = begun.elapsed().as_secs_f64();
+        let storing = storing(study, &self.records, kept)?;
+        let packing = storing.packing / count_threads(machine) as f64;
+        let inferred = (1.0 - kept) * study.cases() as f64;
+        let checking = inferred.min(CHECKED as f64) * time.as_secs_f64() / cases as f64;
+        let seconds = self.forecast.cycles().map(|cycles| Estimate {
+            value: cycles.value * pace + packing + checking,
+            error: cycles.error * pace,
+        });
         let bytes = packed as f64 * factor;
         let file_bytes = match study.refine {
             None => file_bytes(study, &self.records)?,
@@ -325,7 +330,7 @@ impl Found<'_> {
             time,
             seconds,
             searching,
-            writing: JOINING * packing * factor,
+            writing: storing.joining,
             most,
             unfinished: self.unfinished[1],
             bytes,

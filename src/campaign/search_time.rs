@@ -3,8 +3,8 @@
 use std::time::{Duration, Instant};
 
 use crate::run::{
-    Estimate, Machine, attractor_table, attractors, final_motions, has_attractors, links,
-    run_sample,
+    Estimate, FinalMotions, Machine, RunError, attractor_table, attractors, final_motions,
+    has_attractors, links, run_sample,
 };
 use crate::study::layout::linked_axis;
 use crate::study::{CaseSet, Study, spread};
@@ -18,12 +18,14 @@ const VALUES: usize = 16;
 const PAIRS: usize = 256;
 /// Starts of a cell of a part, at most.
 const STARTS: usize = 576;
+/// Starts, at most, by which it is measured what goes with their number.
+const MANY_STARTS: usize = 1 << 18;
 
 /// The time that the search for attractors of `study` takes [s], or none if it has none; no part is begun after `span`.
 ///
 /// Method: parts that have neighbouring values of the axis along which attractors are linked, and fewer lines and starts; time
-/// goes with the pairs of neighbouring cells. Where there is no such axis, fewer starts lead to the same attractors, of which
-/// the table takes nearly all the time.
+/// goes with the pairs of neighbouring cells. Where there is no such axis, fewer starts lead to the same attractors, and what
+/// goes with the number of starts is measured with many that end as the nearest of the few.
 pub(super) fn search_seconds(
     study: &Study,
     machine: Machine,
@@ -41,13 +43,64 @@ pub(super) fn search_seconds(
         let part = part(study, number);
         let chains: Vec<usize> = (0..part.chains()).collect();
         let motions = final_motions(&part, &run_sample(&part, machine, &chains, || ())?);
-        let begun = Instant::now();
-        let attractors = attractors(&part, &motions, machine, || ())?;
-        attractor_table(&part, &attractors, &motions, machine)?;
-        let whole = links(study).max(1) as f64 / links(&part).max(1) as f64;
-        found.push(begun.elapsed().as_secs_f64() * whole);
+        let few = seconds(&part, &motions, machine)?;
+        found.push(match links(study) {
+            0 => few + growth(study, (&part, &motions, few), machine)?,
+            links_of_all => few * links_of_all as f64 / links(&part).max(1) as f64,
+        });
     }
     Ok(Some(mean(&found)))
+}
+
+/// How long the search takes for the attractors of cases that have settled to these motions [s].
+fn seconds(study: &Study, motions: &FinalMotions, machine: Machine) -> Result<f64, RunError> {
+    let begun = Instant::now();
+    let attractors = attractors(study, motions, machine, || ())?;
+    attractor_table(study, &attractors, motions, machine)?;
+    Ok(begun.elapsed().as_secs_f64())
+}
+
+/// The time that all starts of `study` take beyond that of a part with few of them [s].
+fn growth(
+    study: &Study,
+    (part, few, least): (&Study, &FinalMotions, f64),
+    machine: Machine,
+) -> Result<f64, RunError> {
+    let many = thinned_to(study, MANY_STARTS);
+    if many.cases() <= part.cases() {
+        return Ok(0.0);
+    }
+    let nearest = |case: usize| Some((case, few.get(nearest(case, &many.shape(), &part.shape()))?));
+    let motions = FinalMotions::of(&many, (0..many.cases()).filter_map(nearest));
+    let more = (seconds(&many, &motions, machine)? - least).max(0.0);
+    let beyond = |cases: usize| (cases - part.cases()) as f64;
+    Ok(more * beyond(study.cases()) / beyond(many.cases()))
+}
+
+/// The case of a small grid that lies where `case` lies in a large one of as many axes.
+fn nearest(case: usize, large: &[usize], small: &[usize]) -> usize {
+    let (mut rest, mut found, mut spacing) = (case, 0, 1);
+    for (&large, &small) in large.iter().zip(small).rev() {
+        found += rest % large * small / large * spacing;
+        spacing *= small;
+        rest /= large;
+    }
+    found
+}
+
+/// The same study with at most so many starts, and nothing but starts that varies.
+fn thinned_to(study: &Study, starts: usize) -> Study {
+    let mut thin = Study { refine: None, ..study.clone() };
+    match &mut thin.case_set {
+        CaseSet::Draws(draws) => draws.count = draws.count.min(starts),
+        CaseSet::Grid(grid) => {
+            let most = root(starts, grid.axes.len());
+            for axis in &mut grid.axes {
+                axis.values = thinned(&axis.values, most, 0.5);
+            }
+        }
+    }
+    thin
 }
 
 /// A part of `study` by its number.

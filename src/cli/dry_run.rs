@@ -8,7 +8,7 @@ use super::terminal::print;
 use crate::campaign::{BlockStatus, Campaign, Probe, memory, probe, silent};
 use crate::capsule::printable::printable;
 use crate::figure::variables;
-use crate::run::{Estimate, Machine, has_attractors};
+use crate::run::{Estimate, count_threads, has_attractors};
 use crate::store;
 use crate::study::Study;
 
@@ -17,7 +17,7 @@ const DRAWING: f64 = 4e7;
 /// The probe ends after this time, with what has been begun.
 const PROBE: Duration = Duration::from_secs(5);
 
-/// Computes a few blocks, spread over the study, and says what all would take. Writes nothing.
+/// Computes a few blocks, spread over the study, and says what all would take. Keeps nothing.
 pub fn estimate(campaign: &Campaign<'_>) -> Result<(), Failure> {
     let blocks = campaign.status()?.blocks.unwrap_or_default();
     let probe = probe(campaign.study, campaign.machine, PROBE, &silent)?;
@@ -53,7 +53,7 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
         "{}\n  cases  {cases} in {all}\n{done}  time   {seconds}{more}\n  \
          room   {} for the blocks until they are joined, {} for the file{beside}\n  \
          memory about {computing} while cases are computed, {joining} while they are joined{figures}\n  \
-         estimated from {} in {}, computed in {}; nothing was written\n",
+         estimated from {} in {}, computed in {}; nothing was kept\n",
         printable(output),
         size_or_not(probe.bytes * left),
         size_or_not(probe.file_bytes),
@@ -83,12 +83,6 @@ fn seconds(probe: &Probe, left: f64, threads: usize) -> String {
 /// A size, where it is known.
 fn size_or_not(bytes: f64) -> String {
     if bytes.is_finite() { size(bytes) } else { "size not known".to_owned() }
-}
-
-/// Threads that compute.
-fn count_threads(machine: Machine) -> usize {
-    let all = || std::thread::available_parallelism().map_or(1, usize::from);
-    machine.threads.unwrap_or_else(all)
 }
 
 /// The most memory that a figure of the study takes, which holds the variables that it shows [bytes]; none if it has no figure.

@@ -18,8 +18,8 @@ pub struct InferredSample {
     pub elsewhere: usize,
 }
 
-/// Cases of the sample.
-const SAMPLE: usize = 1000;
+/// Cases of the sample, if so many are inferred.
+pub const SAMPLE: usize = 1000;
 
 /// Computes a sample of the starts whose attractors are inferred, spread evenly over the grid; none where none is.
 pub fn check_starts(

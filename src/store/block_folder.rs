@@ -33,7 +33,6 @@ const LOCK: &str = "lock";
 const TRIES: u32 = 10;
 /// Time between two tries.
 const PAUSE: Duration = Duration::from_millis(100);
-/// The output that tells whether the capsule never slides.
 /// Lines that are shown of a change of the study.
 const LINES_SHOWN: usize = 6;
 
