@@ -190,6 +190,8 @@ mod tests {
                 assert_eq!(first == 284, number == PARTS - 1, "{first}");
             }
         }
+        let places = [0, 2, 3, 4, 8].map(|case| nearest(case, &[3, 4], &[2, 2]));
+        assert_eq!(places, [0, 1, 1, 0, 2]);
         assert_eq!([root(16, 1), root(16, 2), root(17, 3), root(1, 0)], [16, 4, 2, 1]);
         assert_eq!(thinned(&[1.0, 2.0, 3.0, 4.0], 2, 0.5), [2.0, 4.0]);
     }
