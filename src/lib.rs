@@ -159,7 +159,7 @@
 #[doc(inline)]
 pub use capsulemap_engine::{attractor, branch, flow, in_lanes, lane, orbit, own_system};
 #[doc(inline)]
-pub use capsulemap_models::{capsule, description, model, of, quantity};
+pub use capsulemap_models::{capsule, description, face, model, motion, of, quantity};
 
 #[cfg(feature = "cli")]
 pub mod experiment;

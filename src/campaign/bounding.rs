@@ -5,7 +5,7 @@ use super::error::CampaignError;
 use super::margins::{Margin, Margins, margin};
 use super::refined_front::{Refinement, Whereabouts};
 use super::report::{Event, Reports, Stage};
-use crate::capsule::Section;
+use crate::description::Section;
 use crate::model::{Along, Model, Setting};
 use crate::run::on_all_threads;
 

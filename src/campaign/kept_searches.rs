@@ -15,7 +15,7 @@ use super::count::count;
 use super::error::CampaignError;
 use super::refined_motion::{Led, RefinedMotion, Slopes, Start};
 use crate::capsule::printable::printable;
-use crate::description::{Output, Outputs, Parameter};
+use crate::description::{Output, Outputs, Parameter, Section};
 use crate::store::{Archive, LineFile, Lines, provenance, read_lines, sealed, unsealed};
 use crate::study::Study;
 
@@ -217,7 +217,7 @@ struct Line {
 struct Written {
     from: Start,
     parameters: BTreeMap<String, Real>,
-    section: [f64; 3],
+    section: Vec<f64>,
     phase: f64,
     period: u64,
     outputs: BTreeMap<String, Real>,
@@ -276,7 +276,7 @@ impl Written {
         Written {
             from: motion.from,
             parameters: motion.parameters.each().map(parameter).collect(),
-            section: motion.section,
+            section: motion.section.to_vec(),
             phase: motion.phase,
             period: motion.period,
             outputs: motion.outputs.each().map(output).collect(),
@@ -288,6 +288,9 @@ impl Written {
 
     /// The motion; none where something is missing.
     fn motion(self, study: &Study) -> Option<RefinedMotion> {
+        if self.section.len() != study.base.model().section.len() {
+            return None;
+        }
         // Laws of friction and resistance do not vary.
         let mut parameters = study.base.clone();
         for parameter in study.base.model().parameters() {
@@ -309,7 +312,7 @@ impl Written {
         Some(RefinedMotion {
             from: self.from,
             parameters,
-            section: self.section,
+            section: Section::new(&self.section),
             phase: self.phase,
             period: self.period,
             outputs,

@@ -1,8 +1,7 @@
 //! How far a parameter of a periodic motion may fall and rise before it ends or loses its stability.
 
 use crate::branch::{SegmentEnd, SpecialKind, SpecialValue};
-use crate::capsule::Section;
-use crate::description::Parameter;
+use crate::description::{Parameter, Section};
 use crate::model::{Along, Model};
 
 /// Segments in which it is followed each way, so that special points of one segment that undo each other are rare.
@@ -55,9 +54,8 @@ pub struct Margins {
 }
 
 impl Change {
-    fn at(special: &SpecialValue<3>) -> Self {
-        let SpecialValue { kind, value, uncertainty, .. } = *special;
-        Change { value, uncertainty, kind }
+    fn at(special: &SpecialValue<Section>) -> Self {
+        Change { value: special.value, uncertainty: special.uncertainty, kind: special.kind }
     }
 
     /// The name of what happens, as in files.
@@ -123,7 +121,8 @@ pub fn margin(
         };
         let special = before_turning(&found.special, by.signum());
         let has_turned = special.len() < found.special.len();
-        let ends = |it: &SpecialValue<3>| !it.is_stable_beyond || it.kind == SpecialKind::Fold;
+        let ends =
+            |it: &SpecialValue<Section>| !it.is_stable_beyond || it.kind == SpecialKind::Fold;
         let end = special.iter().position(ends);
         // Where a branch turns back at a kink, that is its last change of events.
         let turns = has_turned || found.end == SegmentEnd::Ended;
@@ -148,8 +147,8 @@ pub fn margin(
 }
 
 /// The special points of a segment before it turns back, if it does, where the parameter goes so.
-fn before_turning(special: &[SpecialValue<3>], ahead: f64) -> &[SpecialValue<3>] {
-    let goes_back = |pair: &[SpecialValue<3>]| ahead * (pair[1].value - pair[0].value) < 0.0;
+fn before_turning(special: &[SpecialValue<Section>], ahead: f64) -> &[SpecialValue<Section>] {
+    let goes_back = |pair: &[SpecialValue<Section>]| ahead * (pair[1].value - pair[0].value) < 0.0;
     let turn = special.windows(2).position(goes_back);
     &special[..turn.map_or(special.len(), |before| before + 1)]
 }

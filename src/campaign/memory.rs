@@ -1,10 +1,9 @@
 //! How much memory a campaign takes, estimated from what it holds.
 
-use crate::run::{FinalMotion, MapPoint, Record, TILES_TOGETHER, has_attractors};
+use super::probe::Probe;
+use crate::run::{FinalMotions, MapPoint, Record, TILES_TOGETHER, has_attractors};
 use crate::store::{MOST_NUMBERS, numbers_of_case};
 use crate::study::{CaseSet, Refine, Study};
-
-use super::probe::Probe;
 
 /// What the program itself takes, with its libraries and tables [bytes]; measured by `scripts/memory.sh`.
 const PROGRAM: f64 = 3e7;
@@ -65,7 +64,7 @@ pub fn memory(study: &Study, threads: usize, probe: &Probe) -> Memory {
     let linking = match has_attractors(study) {
         // Labels of the cases in turn by tile, by attractor and as they are written.
         true if study.refine.is_some() => 3.0 * cases * size_of::<Option<u32>>() as f64,
-        true => cases * (size_of::<Option<FinalMotion>>() + 2 * size_of::<Option<u32>>()) as f64,
+        true => cases * (FinalMotions::bytes_of_case(study) + 2 * size_of::<Option<u32>>()) as f64,
         false => 0.0,
     };
     let slab = (cases * widest).min(MOST_NUMBERS as f64) * NUMBER;

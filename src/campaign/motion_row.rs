@@ -4,8 +4,8 @@ use super::margins::Margins;
 use super::mean_errors::MeanErrors;
 use super::refined_motion::{RefinedMotion, Slopes};
 use super::robustness::Robustness;
-use crate::capsule::{Case, Section};
-use crate::description::{Description, Output, Parameters, State};
+use crate::capsule::Case;
+use crate::description::{Description, Output, Parameters, Section, State};
 use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
@@ -64,8 +64,7 @@ impl Row {
             let found = self.coordinates.iter().find(|(it, ..)| *it == wanted);
             found.map_or(0.0, |(_, value, _)| *value)
         };
-        let mut all = Coordinate::starts(model).map(value);
-        std::array::from_fn(|_| all.next().unwrap_or(0.0))
+        Coordinate::starts(model).map(value).collect()
     }
 }
 

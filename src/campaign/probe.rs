@@ -5,16 +5,15 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
+use super::error::CampaignError;
+use super::report::{Event, Report, Reports};
+use super::search_time::{PARTS, neighbours, search_seconds};
 use crate::run::{
     CHECKED, Estimate, Forecast, Machine, Record, RunError, count_threads, run_blocks, run_sample,
     run_tiles,
 };
 use crate::store::{file_bytes, numbers_of_case, packed_bytes, refined_file_bytes, storing};
 use crate::study::{CaseSet, Direction, Refinement, Study, spread};
-
-use super::error::CampaignError;
-use super::report::{Event, Report, Reports};
-use super::search_time::{PARTS, neighbours, search_seconds};
 
 /// Records whose size is measured.
 const WEIGHED: usize = 4096;

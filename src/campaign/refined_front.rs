@@ -10,13 +10,14 @@ use super::motion_row::Row;
 use super::refined_motion::{DrawnMotion, Led, RefinedMotion, Slopes, Start, distinct, words};
 use super::replay::Replay;
 use super::report::silent;
-use crate::capsule::{Case, Orbit, Section, settle_case};
-use crate::description::{Output, Outputs, Parameter, Parameters, State};
+use crate::capsule::{Case, Orbit, settle_case};
+use crate::description::{Output, Outputs, Parameter, Parameters, Section, State};
 use crate::model::Setting;
 use crate::orbit::{Outcome, Protocol};
 use crate::run::{Machine, on_all_threads};
 use crate::store::Archive;
-use crate::store::catalogue::SECTION;
+use crate::store::StoreError;
+use crate::store::catalogue::{self, Entry};
 use crate::study::{Coordinate, Study};
 use crate::tradeoff::{
     Best, Candidate, Direction, Family, Goal, MOST_FREE, OperatingPoint, best, left,
@@ -335,12 +336,13 @@ impl Refinement<'_> {
     /// A section point of a periodic case: from the file, or computed again where that keeps none.
     fn section(&self, case: usize) -> Result<Option<Section>, CampaignError> {
         let at = [self.study.case_set.position(case)];
-        let mut point = [f64::NAN; 3];
-        for (coordinate, entry) in point.iter_mut().zip(SECTION) {
+        let coordinate = |entry: Entry| -> Result<f64, StoreError> {
             let rows = self.archive.rows(entry.name, &at)?;
             let first = rows.first().and_then(|row| row.to_real().into_iter().next());
-            *coordinate = first.unwrap_or(f64::NAN);
-        }
+            Ok(first.unwrap_or(f64::NAN))
+        };
+        let entries = catalogue::section(self.study.base.model()).into_iter();
+        let point: Section = entries.map(coordinate).collect::<Result<_, StoreError>>()?;
         if point.iter().all(|it| it.is_finite()) {
             return Ok(Some(point));
         }

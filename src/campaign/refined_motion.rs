@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::capsule::Section;
-use crate::description::{Output, Outputs, Parameter, Parameters, State};
+use crate::description::{Output, Outputs, Parameter, Parameters, Section, State};
 use crate::study::Coordinate;
 use crate::tradeoff::{Candidate, Family, Hold, Side};
 

@@ -2,14 +2,13 @@
 
 use std::time::{Duration, Instant};
 
+use super::error::CampaignError;
 use crate::run::{
     Estimate, FinalMotions, Machine, RunError, attractor_table, attractors, final_motions,
     has_attractors, links, run_sample,
 };
 use crate::study::layout::linked_axis;
 use crate::study::{CaseSet, Study, spread};
-
-use super::error::CampaignError;
 
 /// Parts that are spread along an axis, and the values of each.
 pub(super) const PARTS: usize = 8;

@@ -229,10 +229,10 @@ to = \"5 N\"
         let mut outputs = Outputs::unknown(&CAPSULE);
         outputs[capsule::Output::ProgressionSpeed] = 0.0125;
         let multipliers =
-            [Complex { re: multiplier, im: 0.0 }, Complex::default(), Complex::default()];
+            vec![Complex { re: multiplier, im: 0.0 }, Complex::default(), Complex::default()];
         Point {
             parameter,
-            section: vec![[0.0; 3]],
+            section: vec![[0.0; 3].into()],
             multipliers,
             residual: 0.0,
             measured: outputs,

@@ -285,7 +285,7 @@ fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> S
         let _ = writeln!(text, "failed: {failure}");
     }
     let _ = writeln!(text, "\noutcome: {}, after {} cycles", verdict(orbit), orbit.cycles);
-    if let Some(failure) = orbit.failure {
+    if let Some(failure) = &orbit.failure {
         let _ = writeln!(text, "  {failure}");
         return text;
     }

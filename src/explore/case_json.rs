@@ -41,12 +41,12 @@ fn orbit_json(orbit: &Orbit) -> Value {
     for (output, value) in orbit.outputs.each() {
         object.insert(output.name().to_owned(), json!(value));
     }
-    let Certificate { proof, multipliers, neutral, .. } = orbit.certificate;
-    object.insert(CERTIFICATE.name.to_owned(), json!(Proof::NAMES[proof as usize].0));
-    let parts = multipliers.map(|multiplier| [multiplier.re, multiplier.im]);
+    let Certificate { proof, multipliers, neutral, .. } = &orbit.certificate;
+    object.insert(CERTIFICATE.name.to_owned(), json!(Proof::NAMES[*proof as usize].0));
+    let parts: Vec<[f64; 2]> = multipliers.iter().map(|it| [it.re, it.im]).collect();
     object.insert("multipliers".to_owned(), json!(parts));
     object.insert("neutral_direction".to_owned(), json!(neutral));
-    let failure = orbit.failure.map(|failure| failure.to_string());
+    let failure = orbit.failure.as_ref().map(|failure| failure.to_string());
     object.insert("failure".to_owned(), json!(failure));
     Value::Object(object)
 }
@@ -54,8 +54,8 @@ fn orbit_json(orbit: &Orbit) -> Value {
 /// What the numbers of an orbit do not say by themselves.
 pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
     let mut remarks = Vec::new();
-    if let Some([r, y1, y2]) = orbit.certificate.neutral {
-        let [r, y1, y2] = [r, y1, y2].map(|x| (x * 1e4).round() / 1e4 + 0.0);
+    if let Some(direction) = orbit.certificate.neutral {
+        let [r, y1, y2] = direction.array().map(|x: f64| (x * 1e4).round() / 1e4 + 0.0);
         let speed = if orbit.outputs[orbit.outputs.model().rest_share()] < 1.0 {
             ", and with it the speed"
         } else {
@@ -66,7 +66,7 @@ pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
              periodic orbits along (omega r, y1, y2) = ({r}, {y1}, {y2}); the start decides which{speed}"
         ));
     }
-    let rests = orbit.section.first().is_some_and(|&[_, _, y2]| y2 == 0.0);
+    let rests = orbit.section.first().is_some_and(|point| point[2] == 0.0);
     if orbit.outcome == Outcome::Periodic && rests && parameters.break_away() > 0.0 {
         remarks.push(
             "the capsule sticks at the section: its multiplier 0 is that of disturbances after which it sticks again"

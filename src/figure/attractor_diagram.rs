@@ -27,12 +27,12 @@ use super::text::Text;
 use super::track::elsewhere;
 use super::view::View;
 use crate::description::Description;
-use crate::store::catalogue::{Entry, SECTION, SECTION_R};
+use crate::store::catalogue::{Entry, section};
 
 /// Panels of the diagram, unless others are asked for: those of them that the results hold.
 pub fn usual_panels(model: &'static Description) -> Vec<Entry> {
     let outputs = [model.speed(), model.work(), model.exponent()].map(Entry::of_output);
-    [SECTION_R].into_iter().chain(outputs).collect()
+    section(model).into_iter().take(1).chain(outputs).collect()
 }
 
 /// Symbols of one kind nearer than this would hide each other [pt].
@@ -54,7 +54,8 @@ pub fn draw(
         .iter()
         .map(|output| points(view, output, &values, (attractors, paint.as_ref()), &looks))
         .collect::<Result<Vec<_>, _>>()?;
-    let has_section = SECTION.iter().any(|entry| outputs.iter().any(|it| it == entry.name));
+    let has_section =
+        section(view.model()).iter().any(|entry| outputs.iter().any(|it| it == entry.name));
     let marks = match has_section && view.shows("events") {
         true => EventMarks::of(view, x_name, attractors)?,
         false => EventMarks::none(),

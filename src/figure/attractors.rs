@@ -66,7 +66,7 @@ impl<'a> Attractors<'a> {
         if !numbered || view.dataset.variable(ATTRACTOR.name).is_none() {
             return Ok(None);
         }
-        let starts: Vec<&str> = starts().into_iter().map(|entry| entry.name).collect();
+        let starts: Vec<&str> = starts(view.model()).into_iter().map(|entry| entry.name).collect();
         let joins = |name: &&str| starts.contains(name) || *name == DIRECTION.name;
         let free: Vec<&str> =
             std::iter::once(x).chain(view.free_axes().into_iter().filter(joins)).collect();

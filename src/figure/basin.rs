@@ -23,8 +23,7 @@ use super::view::View;
 use crate::description::Description;
 use crate::store::catalogue::{
     ATTRACTOR, ATTRACTOR_INDEX, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE,
-    ATTRACTOR_SHARE_ERROR, EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, Entry, Place, SECTION,
-    starts,
+    ATTRACTOR_SHARE_ERROR, Entry, Place, edges, section, starts,
 };
 use crate::study::{Coordinate, Drawing};
 use crate::tradeoff::NOISE;
@@ -45,12 +44,12 @@ pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What basins read: the attractor of each case, and the table of the attractors.
 fn reads(_: &Drawing, model: &'static Description) -> Names {
-    let sections = SECTION.map(|entry| Place::Attractor.of(entry));
+    let sections = section(model).into_iter().map(|entry| Place::Attractor.of(entry));
     let phases = [Coordinate::StartPhase, Coordinate::SectionPhase].map(Entry::of_coordinate);
     Names::of(outcome::READS)
         .and([ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR])
         .and(sections)
-        .and([EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2])
+        .and(edges(model))
         .and(inferred::READS)
         .and(phases)
         .and([
@@ -67,7 +66,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         ));
     }
     let plane = Plane::of(view, "a figure of basins")?;
-    let of_starts: Vec<&str> = starts().into_iter().map(|entry| entry.name).collect();
+    let of_starts: Vec<&str> = starts(view.model()).into_iter().map(|entry| entry.name).collect();
     for name in [plane.x_name, plane.y_name] {
         if !of_starts.contains(&name) {
             let allowed = of_starts.join(", ");
@@ -219,7 +218,8 @@ impl Basins {
 
 /// The section points of the periodic attractors, by attractor, where the section is at the phase of the starts.
 pub(super) fn section_points(view: &View<'_>, plane: &Plane<'_>) -> Vec<((f64, f64), RGBColor)> {
-    let places = in_plane(view, plane, SECTION.map(|entry| Place::Attractor.of(entry)));
+    let sections = section(view.model()).into_iter().map(|entry| Place::Attractor.of(entry));
+    let places = in_plane(view, plane, &sections.collect::<Vec<_>>());
     let cycles = places.len() / view.coordinate_values(ATTRACTOR_INDEX.name).len().max(1);
     let coloured = |(place, at): (usize, (f64, f64))| (at, colour(place / cycles.max(1)));
     let points = places.into_iter().enumerate().map(coloured);
@@ -228,20 +228,20 @@ pub(super) fn section_points(view: &View<'_>, plane: &Plane<'_>) -> Vec<((f64, f
 
 /// The section points of the saddles between basins.
 fn saddles(view: &View<'_>, plane: &Plane<'_>) -> Vec<(f64, f64)> {
-    let places = in_plane(view, plane, [EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2]);
+    let places = in_plane(view, plane, &edges(view.model()));
     places.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
 }
 
 /// Section points as they are seen in the plane of the starts, in the units of the figure; none where the section is at another
 /// phase than the starts.
-fn in_plane(view: &View<'_>, plane: &Plane<'_>, sections: [Entry; 3]) -> Vec<(f64, f64)> {
+fn in_plane(view: &View<'_>, plane: &Plane<'_>, sections: &[Entry]) -> Vec<(f64, f64)> {
     let phases = [Coordinate::StartPhase, Coordinate::SectionPhase]
         .map(|it| view.parameter(it.name(), &[]).ok().and_then(|it| it.first().copied()));
     if phases[0].is_none() || phases[0] != phases[1] {
         return Vec::new();
     }
     let of_axis = |name: &str| -> Vec<f64> {
-        let place = starts().iter().position(|entry| entry.name == name);
+        let place = starts(view.model()).iter().position(|entry| entry.name == name);
         let factor = view.quantity(name).factor;
         let values = place.map_or(Vec::new(), |place| view.column(sections[place]));
         values.into_iter().map(|value| value * factor).collect()

@@ -65,8 +65,8 @@ fn reads(drawing: &Drawing, model: &'static Description) -> Names {
         .and(attractors::READS)
         .and(category::reads(model))
         .and_named(drawing.colour_by.clone())
-        .and_all(event_marks::reads())
-        .and_all(track::reads(&outputs))
+        .and_all(event_marks::reads(model))
+        .and_all(track::reads(&outputs, model))
         .and_named(outputs)
 }
 

@@ -6,14 +6,15 @@ use super::kind::Names;
 use super::symbol::{SYMBOLS, Symbol};
 use super::text::Text;
 use super::view::View;
-use crate::store::catalogue::{EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, Place, SECTION};
+use crate::description::{Description, Section};
+use crate::store::catalogue::{EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, Place, section};
 
 /// Symbols of one kind beyond this number would hide the diagram, and the kind is left out.
 const MOST: usize = 40;
 
 /// What is read of the events.
-pub fn reads() -> Names {
-    let sections = SECTION.map(|entry| Place::Event.of(entry));
+pub fn reads(model: &'static Description) -> Names {
+    let sections = section(model).into_iter().map(|entry| Place::Event.of(entry));
     Names::of([EVENT_KIND, EVENT_ATTRACTOR, EVENT_PERIOD])
         .and(sections)
         .and(Place::Event.parameters())
@@ -26,7 +27,7 @@ struct Event {
     /// Value of the axis [SI].
     at: f64,
     /// Its section point [SI].
-    section: [f64; 3],
+    section: Section,
 }
 
 /// The events to be marked.
@@ -75,8 +76,10 @@ impl EventMarks {
         };
         let (kinds, numbers) = (column(EVENT_KIND.name)?, column(EVENT_ATTRACTOR.name)?);
         let (places, periods) = (column(&Place::Event.name(x))?, column(EVENT_PERIOD.name)?);
-        let [r, y1, y2] = SECTION.map(|entry| column(&Place::Event.name(entry.name)));
-        let (r, y1, y2) = (r?, y1?, y2?);
+        let coordinates = section(view.model()).into_iter();
+        let coordinates: Vec<Vec<f64>> = coordinates
+            .map(|entry| column(&Place::Event.name(entry.name)))
+            .collect::<Result<_, _>>()?;
         let on_line = on_line(view, x, kinds.len())?;
         let flags = view.flags(EVENT_KIND.name);
         for (i, kind) in kinds.iter().enumerate().filter(|(i, _)| on_line[*i]) {
@@ -92,7 +95,7 @@ impl EventMarks {
                     symbol,
                     period: periods[i] as i64,
                     at: places[i],
-                    section: [r[i], y1[i], y2[i]],
+                    section: coordinates.iter().map(|column| column[i]).collect(),
                 });
             }
         }
@@ -118,7 +121,7 @@ impl EventMarks {
     /// of its own orbit. No other output of that orbit is known, and on other panels there are none; nor is there a place for
     /// what happens to a motion that does not repeat.
     pub fn on(&self, view: &View<'_>, output: &str) -> Vec<(Symbol, f64, f64)> {
-        let Some(i) = SECTION.iter().position(|entry| entry.name == output) else {
+        let Some(i) = section(view.model()).iter().position(|entry| entry.name == output) else {
             return Vec::new();
         };
         let factor = view.quantity(output).factor;

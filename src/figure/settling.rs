@@ -17,7 +17,7 @@ use super::style::{INFERRED, INK};
 use super::text::Text;
 use super::view::View;
 use crate::description::Description;
-use crate::store::catalogue::{CYCLES, Entry, Place, SECTION, starts};
+use crate::store::catalogue::{CYCLES, Entry, Place, section, starts};
 use crate::study::{Coordinate, Drawing};
 
 /// Height of the frame [pt].
@@ -27,18 +27,18 @@ const HEIGHT: f64 = 170.0;
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What the figure reads: the cycles of each case, and the section points of the attractors.
-fn reads(_: &Drawing, _model: &'static Description) -> Names {
+fn reads(_: &Drawing, model: &'static Description) -> Names {
     let phases = [Coordinate::StartPhase, Coordinate::SectionPhase].map(Entry::of_coordinate);
     Names::of(outcome::READS)
         .and([CYCLES])
-        .and(SECTION.map(|entry| Place::Attractor.of(entry)))
+        .and(section(model).into_iter().map(|entry| Place::Attractor.of(entry)))
         .and(phases)
 }
 
 /// Draws the cycles that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let plane = Plane::of(view, "a figure of settling")?;
-    let of_starts: Vec<&str> = starts().into_iter().map(|entry| entry.name).collect();
+    let of_starts: Vec<&str> = starts(view.model()).into_iter().map(|entry| entry.name).collect();
     for name in [plane.x_name, plane.y_name] {
         if !of_starts.contains(&name) {
             let allowed = of_starts.join(", ");

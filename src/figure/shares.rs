@@ -52,7 +52,8 @@ fn reads(_: &Drawing, model: &'static Description) -> Names {
 /// Draws the bands that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let axis = view.dataset.attributes.get(ATTRACTOR_AXIS).map(String::as_str);
-    let of_starts = [&starts()[..], &[Entry::of_coordinate(Coordinate::StartPhase)]].concat();
+    let of_starts =
+        [&starts(view.model())[..], &[Entry::of_coordinate(Coordinate::StartPhase)]].concat();
     let is_start = |name: &&str| of_starts.iter().any(|entry| entry.name == *name);
     let along = axis.filter(|axis| {
         let mut others = view.axes().into_iter().filter(|name| name != axis).peekable();

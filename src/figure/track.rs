@@ -3,9 +3,10 @@
 use super::kind::Names;
 use super::symbol::Symbol;
 use super::view::View;
+use crate::description::{Description, Section};
 use crate::store::catalogue::{
     AT_BRANCH_POINTS, AT_SPECIAL_POINTS, BRANCH_STABLE, INDEX_REQUEST, OrbitColumns, Place,
-    REQUEST, REQUEST_ALONG, SECTION, SPECIAL_AFTER, SPECIAL_KIND,
+    REQUEST, REQUEST_ALONG, SPECIAL_AFTER, SPECIAL_KIND, section,
 };
 use crate::store::dataset::Dataset;
 
@@ -13,11 +14,11 @@ use crate::store::dataset::Dataset;
 const SAME: f64 = 1e-6;
 
 /// What is read of the branches whose orbits are shown as their `outputs`.
-pub fn reads(outputs: &[String]) -> Names {
+pub fn reads(outputs: &[String], model: &'static Description) -> Names {
     let places = [(Place::Branch, &AT_BRANCH_POINTS), (Place::Special, &AT_SPECIAL_POINTS)];
     let at = |(place, own): (Place, &OrbitColumns)| {
         let of_orbits = [own.branch, own.period].into_iter().chain(place.parameters());
-        let sections = SECTION.into_iter().map(move |entry| place.of(entry));
+        let sections = section(model).into_iter().map(move |entry| place.of(entry));
         let outputs = outputs.iter().map(move |output| place.name(output));
         Names::of(of_orbits.chain(sections)).and_named(outputs)
     };
@@ -126,7 +127,7 @@ struct Source {
     x: Rows,
     output: Rows,
     period: Rows,
-    section: [Rows; 3],
+    section: Vec<Rows>,
 }
 
 impl Source {
@@ -138,16 +139,17 @@ impl Source {
     ) -> Source {
         let [branch, period] = [own.branch, own.period].map(|it| Rows::new(dataset, it.name));
         let [x, output] = [x, output].map(|name| Rows::new(dataset, &place.name(name)));
-        let section = SECTION.map(|entry| Rows::new(dataset, &place.name(entry.name)));
+        let sections = section(dataset.model()).into_iter();
+        let section = sections.map(|entry| Rows::new(dataset, &place.name(entry.name))).collect();
         Source { branch, x, output, period, section }
     }
 
     /// The section points of the orbit at `place`.
-    fn orbit(&self, place: usize) -> Vec<[f64; 3]> {
+    fn orbit(&self, place: usize) -> Vec<Section> {
         let cycles = self.period.one(place).max(0.0) as usize;
         let point = |cycle: usize| {
             let value = |rows: &Rows| rows.at(place).get(cycle).copied().unwrap_or(f64::NAN);
-            [&self.section[0], &self.section[1], &self.section[2]].map(value)
+            self.section.iter().map(value).collect()
         };
         (0..cycles).map(point).collect()
     }
@@ -200,19 +202,20 @@ fn track(dataset: &Dataset, branch: usize, points: &Source, specials: &Source) -
 /// Keeps the cycles of an orbit in step with those of the orbit before it on the branch.
 struct Turning {
     /// Extent of each section coordinate on the branch.
-    extent: [f64; 3],
-    before: Vec<[f64; 3]>,
+    extent: Section,
+    before: Vec<Section>,
 }
 
 impl Turning {
     fn new(points: &Source, branch: usize) -> Turning {
-        let all: Vec<[f64; 3]> =
+        let all: Vec<Section> =
             points.branch.places(branch).into_iter().flat_map(|at| points.orbit(at)).collect();
-        let extent = [0, 1, 2].map(|i| {
+        let extent = |i: usize| {
             let low = all.iter().map(|point| point[i]).fold(f64::INFINITY, f64::min);
             let high = all.iter().map(|point| point[i]).fold(f64::NEG_INFINITY, f64::max);
             (high - low).max(f64::MIN_POSITIVE)
-        });
+        };
+        let extent = (0..points.section.len()).map(extent).collect();
         Turning { extent, before: Vec::new() }
     }
 
@@ -235,7 +238,7 @@ impl Turning {
     }
 
     /// By how many cycles `orbit` is turned against the one before.
-    fn nearest(&self, orbit: &[[f64; 3]]) -> usize {
+    fn nearest(&self, orbit: &[Section]) -> usize {
         let away = |turn: usize| -> f64 {
             let turned = orbit.iter().cycle().skip(turn);
             let pairs = self.before.iter().zip(turned);
@@ -245,8 +248,8 @@ impl Turning {
     }
 
     /// Square of the distance of two section points, relative to the extent of the branch.
-    fn apart(&self, a: &[f64; 3], b: &[f64; 3]) -> f64 {
-        (0..3)
+    fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
+        (0..a.len())
             .map(|i| {
                 let difference = (a[i] - b[i]) / self.extent[i];
                 difference * difference

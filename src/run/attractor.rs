@@ -6,17 +6,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use super::cases::{Rayon, RunError, pool};
+use super::infer::infer;
+use super::{FinalMotions, Machine};
 use crate::attractor::{Attractor, Bridge, Label, Links, Table};
 use crate::branch::{ONE_VALUE, SpecialKind, SpecialValue};
-use crate::capsule::Section;
+use crate::description::Section;
 use crate::lane::Instructions;
 use crate::model::{Along, Cell, LinearOrbits, Motions, Neighbours, Setting, Unlinked};
 use crate::study::layout::{Layout, linked_axis};
 use crate::study::{CaseSet, Coordinate, Direction, Study};
-
-use super::cases::{Rayon, RunError, pool};
-use super::infer::infer;
-use super::{FinalMotions, Machine};
 
 /// Lines are searched together that have so many cells: links that take long fill the lanes.
 const LINKS: usize = 32768;
@@ -65,7 +64,7 @@ pub struct Attractors {
     /// The events, line by line in the order of the parameter.
     pub events: Vec<AttractorEvent>,
     /// The attractors by their numbers, where all cases have the same parameters.
-    pub of_starts: Vec<Attractor<3>>,
+    pub of_starts: Vec<Attractor<Section>>,
 }
 
 impl Attractors {
@@ -143,7 +142,7 @@ fn links_of_lines(
     lines: &[Line<'_>],
     instructions: Instructions,
     linked: impl Fn() + Sync,
-) -> Vec<Vec<Links<3>>> {
+) -> Vec<Vec<Links<Section>>> {
     let last = lines[0].cells.len().saturating_sub(1);
     // Of one cell there are no links, and along another axis than a parameter none leads on.
     if last == 0 || lines[0].along(0).is_none() {
@@ -173,13 +172,12 @@ fn links_of_lines(
 }
 
 /// The attractors of all cells of some lines along a parameter, line by line, with their derivatives.
-fn linear_orbits(lines: &[Line<'_>], instructions: Instructions) -> Vec<Arc<LinearOrbits>> {
+fn linear_orbits(lines: &[Line<'_>], instructions: Instructions) -> Vec<LinearOrbits> {
     let (model, length) = (lines[0].study.model(), lines[0].cells.len());
-    let linear = together((0..lines.len() * length).collect(), &|next| {
+    together((0..lines.len() * length).collect(), &|next| {
         let cell = |place: usize| Some((place, lines[place / length].cell(place % length)?));
         model.linear_orbits(instructions, &mut || cell(next()?))
-    });
-    linear.into_iter().map(Arc::new).collect()
+    })
 }
 
 /// A line of a study, by its number.
@@ -188,7 +186,7 @@ struct Line<'a> {
     layout: &'a Layout,
     number: usize,
     /// The cells, their cases sorted by attractor.
-    cells: Vec<Arc<Table<3>>>,
+    cells: Vec<Arc<Table<Section>>>,
 }
 
 impl<'a> Line<'a> {
@@ -242,7 +240,7 @@ impl<'a> Line<'a> {
     }
 
     /// Adds its attractors, which go on so from cell to cell, to those of a study.
-    fn add_to(&self, found: &mut Attractors, links: &[Links<3>]) {
+    fn add_to(&self, found: &mut Attractors, links: &[Links<Section>]) {
         let Line { study, layout, cells, .. } = self;
         let between = |at: usize| self.neighbours(at);
         let bridges = study.model().bridges(cells, links, &between, &Rayon);
@@ -284,7 +282,7 @@ fn together<T: Send>(places: Vec<usize>, of_thread: &OfThread<'_, T>) -> Vec<T> 
 /// The attractors of two cells between which the cases lead that have this one of the `directions` of a cell in
 /// turn, each pair once.
 fn leads(
-    cells: &[Arc<Table<3>>; 2],
+    cells: &[Arc<Table<Section>>; 2],
     directions: &[Direction],
     direction: Direction,
 ) -> Vec<[usize; 2]> {
@@ -302,7 +300,11 @@ fn leads(
 }
 
 /// The numbers of the attractors of a line, cell by cell.
-fn numbers(cells: &[Arc<Table<3>>], links: &[Links<3>], bridges: &[Bridge<3>]) -> Vec<Vec<u32>> {
+fn numbers(
+    cells: &[Arc<Table<Section>>],
+    links: &[Links<Section>],
+    bridges: &[Bridge<Section>],
+) -> Vec<Vec<u32>> {
     let mut numbers: Vec<Vec<u32>> = Vec::with_capacity(cells.len());
     let mut count = 0;
     for (at, cell) in cells.iter().enumerate() {
@@ -327,13 +329,13 @@ fn numbers(cells: &[Arc<Table<3>>], links: &[Links<3>], bridges: &[Bridge<3>]) -
 
 /// The events of a line, in the order of the parameter.
 fn events(
-    cells: &[Arc<Table<3>>],
-    links: &[Links<3>],
-    bridges: &[Bridge<3>],
+    cells: &[Arc<Table<Section>>],
+    links: &[Links<Section>],
+    bridges: &[Bridge<Section>],
     numbers: &[Vec<u32>],
 ) -> Vec<AttractorEvent> {
     let mut events = Vec::new();
-    let mut add = |[at, place]: [usize; 2], special: &SpecialValue<3>| {
+    let mut add = |[at, place]: [usize; 2], special: &SpecialValue<Section>| {
         events.push(AttractorEvent {
             kind: special.kind,
             attractor: numbers[at][place],

@@ -10,7 +10,8 @@ use crate::attractor::{
     Attractor, Entropy, Integrity, Share, Uncertainty, entropy, shares_of_draws, shares_of_grid,
     uncertainty,
 };
-use crate::capsule::{CapsuleParameters as _, Case};
+use crate::description::Section;
+use crate::model::Setting;
 use crate::orbit::Outcome;
 use crate::study::{CaseSet, Study};
 
@@ -18,7 +19,7 @@ use crate::study::{CaseSet, Study};
 #[derive(Debug, Clone, PartialEq)]
 pub struct AttractorRow {
     /// What tells it from others; the section points of a periodic orbit begin with [`Attractor::least_point`].
-    pub attractor: Attractor<3>,
+    pub attractor: Attractor<Section>,
     /// The first of its cases, computed once more with all outputs.
     pub record: Record,
     /// The part of the starts that lead to it.
@@ -108,9 +109,9 @@ pub fn attractor_table(
     // Each with a certificate of its own.
     let followed = Study { early_decision: false, ..study.clone() };
     let records = run_sample(&followed, machine, &cases, || ())?;
-    let row = |(attractor, share): (&Attractor<3>, Share)| {
+    let row = |(attractor, share): (&Attractor<Section>, Share)| {
         let place = cases.binary_search(&attractor.case).expect("it is among them");
-        let attractor = begun_at_least(attractor.clone(), &study.case(attractor.case));
+        let attractor = begun_at_least(study, attractor.clone());
         let record = records[place].clone();
         AttractorRow { attractor, record, share, integrity: None, shock: f64::NAN, settling: None }
     };
@@ -135,9 +136,10 @@ pub fn attractor_table(
 }
 
 /// The same, a periodic orbit from its least section point on.
-fn begun_at_least(mut attractor: Attractor<3>, case: &Case) -> Attractor<3> {
+fn begun_at_least(study: &Study, mut attractor: Attractor<Section>) -> Attractor<Section> {
     if attractor.outcome == Outcome::Periodic {
-        let least = attractor.least_point(&case.parameters.metric());
+        let setting = Setting::of(&study.case(attractor.case));
+        let least = study.model().least_point(&setting, &attractor);
         attractor.points.rotate_left(least);
     }
     attractor

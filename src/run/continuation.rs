@@ -4,9 +4,11 @@ use std::fmt;
 
 use super::cases::{RunError, on_all_threads};
 use crate::branch::NotFollowed;
-use crate::capsule::branch::{self, Found};
-use crate::capsule::{Case, REASONS, Section, settle_case};
+use crate::capsule::{Case, REASONS, settle_case};
+use crate::description::Section;
 use crate::flow::Reason;
+use crate::motion::branch::Found;
+use crate::of::model_of;
 use crate::orbit::{Outcome, Protocol};
 use crate::study::{Continuation, FirstOrbit, Study};
 
@@ -73,7 +75,7 @@ fn continue_one(continuation: &Continuation, protocol: &Protocol) -> Continued {
         FirstOrbit::Newton { period } => (continuation.start.section(), period),
     };
     let request = continuation.request(section, period, protocol.tolerance);
-    branch::follow(&request).map_err(|why| match why {
+    model_of(&continuation.parameters).follow(&request).map_err(|why| match why {
         // A study has seen to it that the range holds the value, and names parameters of the capsule alone.
         NotFollowed::NoOrbit | NotFollowed::OutOfRange | NotFollowed::NoParameter => {
             NotContinued::NoOrbit

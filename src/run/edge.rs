@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Attractors;
 use crate::attractor::{Met, Saddle};
+use crate::description::Section;
 use crate::model::Setting;
 use crate::orbit::{Machine, Outcome};
 use crate::study::{CaseSet, Coordinate, Study};
@@ -20,7 +21,7 @@ pub struct Edge {
     /// The two attractors to which the motions on the two sides of the boundary beside it lead, by their numbers, the lower first.
     pub between: [u32; 2],
     /// The orbit.
-    pub saddle: Saddle<3>,
+    pub saddle: Saddle<Section>,
 }
 
 /// Whether saddles between basins are looked for: on a grid of starts that lie at the phase of the section.

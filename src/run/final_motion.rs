@@ -3,10 +3,11 @@
 use super::Record;
 use crate::attractor;
 use crate::capsule::Orbit;
+use crate::description::Section;
 use crate::study::Study;
 
 /// What a case has settled to.
-pub type FinalMotion = attractor::FinalMotion<3>;
+pub type FinalMotion = attractor::FinalMotion<Section>;
 
 /// The summary of a case that settled to `orbit`.
 pub fn final_motion(orbit: &Orbit) -> FinalMotion {
@@ -20,38 +21,68 @@ pub fn final_motion(orbit: &Orbit) -> FinalMotion {
 pub struct FinalMotions {
     /// The cases below, in rising order; none if they are all that the study has.
     cases: Option<Vec<usize>>,
-    motions: Vec<Option<FinalMotion>>,
+    /// What each has settled to, but for the section point.
+    motions: Vec<Option<attractor::FinalMotion<()>>>,
+    /// The section points, one after the other, each of so many coordinates: there may be millions.
+    points: Vec<f64>,
+    coordinates: usize,
 }
 
 impl FinalMotions {
     /// Those of a study, of which some cases are known, in any order; of a refined study only these are held.
     pub fn of(study: &Study, known: impl Iterator<Item = (usize, FinalMotion)>) -> FinalMotions {
+        let coordinates = study.base.model().section.len();
+        let blank = |cases: usize| FinalMotions {
+            cases: None,
+            motions: vec![None; cases],
+            points: vec![f64::NAN; coordinates * cases],
+            coordinates,
+        };
         if study.refine.is_some() {
             let mut known: Vec<(usize, FinalMotion)> = known.collect();
             known.sort_by_key(|(case, _)| *case);
             // Neighbouring tiles both have the cases between them.
             known.dedup_by_key(|(case, _)| *case);
-            let (cases, motions) = known.into_iter().map(|(case, it)| (case, Some(it))).unzip();
-            return FinalMotions { cases: Some(cases), motions };
+            let cases = Some(known.iter().map(|(case, _)| *case).collect());
+            let mut all = FinalMotions { cases, ..blank(known.len()) };
+            known.into_iter().enumerate().for_each(|(place, (_, motion))| all.put(place, motion));
+            return all;
         }
-        let mut motions = vec![None; study.cases()];
-        known.for_each(|(case, motion)| motions[case] = Some(motion));
-        FinalMotions { cases: None, motions }
+        let mut all = blank(study.cases());
+        known.for_each(|(case, motion)| all.put(case, motion));
+        all
+    }
+
+    /// Bytes that are held of each case of a study.
+    pub fn bytes_of_case(study: &Study) -> usize {
+        let coordinates = study.base.model().section.len();
+        size_of::<Option<attractor::FinalMotion<()>>>() + coordinates * size_of::<f64>()
+    }
+
+    fn put(&mut self, place: usize, motion: FinalMotion) {
+        self.points[self.coordinates * place..][..self.coordinates]
+            .copy_from_slice(&motion.section);
+        self.motions[place] = Some(motion.map(|_| ()));
+    }
+
+    /// What stands at a place among those that are held.
+    fn at(&self, place: usize) -> Option<FinalMotion> {
+        let point = || Section::new(&self.points[self.coordinates * place..][..self.coordinates]);
+        self.motions[place].map(|motion| motion.map(|()| point()))
     }
 
     /// What a case has settled to; none if it has not been computed.
     pub fn get(&self, case: usize) -> Option<FinalMotion> {
         match &self.cases {
-            None => self.motions[case],
-            Some(cases) => self.motions[cases.binary_search(&case).ok()?],
+            None => self.at(case),
+            Some(cases) => self.at(cases.binary_search(&case).ok()?),
         }
     }
 
     /// The cases that have been computed, in the order of their indices.
     pub fn known(&self) -> impl Iterator<Item = (usize, FinalMotion)> + '_ {
         let case = |place: usize| self.cases.as_ref().map_or(place, |cases| cases[place]);
-        let all = self.motions.iter().enumerate();
-        all.filter_map(move |(place, motion)| Some((case(place), (*motion)?)))
+        (0..self.motions.len()).filter_map(move |place| Some((case(place), self.at(place)?)))
     }
 }
 

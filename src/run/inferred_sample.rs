@@ -1,12 +1,11 @@
 //! A sample of the cases that are inferred is computed as a check.
 
-use crate::model::Setting;
-use crate::study::Study;
-
 use super::cases::spread;
 use super::map_point::{InferredCases, MapPoint};
 use super::refined::computed;
 use super::{Attractors, FinalMotions, Machine, Record, RunError, final_motion};
+use crate::model::Setting;
+use crate::study::Study;
 
 /// How many cases of a sample of those that are inferred are not as was inferred: lead to another attractor, or to none that is
 /// known; of a map, differ by more than the study allows.

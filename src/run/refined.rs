@@ -3,14 +3,14 @@
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use crate::attractor::{Label, Table};
-use crate::model::{Known, Motions, Setting};
-use crate::study::{Refine, Refinement, Refining, Study};
-
 use super::cases::{Chains, Rayon, Record, RunError, check, known_orbits, pool, run_on};
 use super::infer::{are_alike, label};
 use super::map_point::MapPoint;
 use super::{FinalMotion, FinalMotions, Machine, final_motion};
+use crate::attractor::{Label, Table};
+use crate::description::Section;
+use crate::model::{Known, Motions, Setting};
+use crate::study::{Refine, Refinement, Refining, Study};
 
 /// Tiles that are refined together: enough that their cases fill the lanes, and all that is lost by a kill.
 pub const TILES_TOGETHER: usize = 16;
@@ -91,7 +91,7 @@ trait Sorting: Sync {
 
 /// By the attractors of those that have been met.
 #[derive(Default)]
-struct ByAttractor(Table<3>);
+struct ByAttractor(Table<Section>);
 
 impl ByAttractor {
     fn of(&mut self, runner: &Runner<'_>, motions: &[(usize, FinalMotion)]) -> Vec<Label> {

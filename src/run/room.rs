@@ -1,7 +1,7 @@
 //! How much room the basins of a grid of starts have.
 
 use crate::attractor::{Integrity, Label, integrity};
-use crate::capsule::CapsuleParameters as _;
+use crate::model::Setting;
 use crate::study::{Axis, CaseSet, Coordinate, Study};
 
 /// The grid of the starts of a study, as distances are measured in it: omega r, y1 and y2 [m/s].
@@ -14,7 +14,7 @@ impl Room {
     /// That of the starts of a grid that begin with those of `case`, if all of its axes of starts are coordinates of the section.
     pub(super) fn of(study: &Study, case: usize) -> Option<Room> {
         let CaseSet::Grid(_) = study.case_set else { return None };
-        let metric = study.case(case).parameters.metric();
+        let scales = study.model().scales(&Setting::of(&study.case(case)));
         let names: Vec<Coordinate> = Coordinate::starts(study.base.model()).collect();
         let starts: Vec<&Axis> =
             study.axes().iter().filter(|axis| axis.coordinate.is_start()).collect();
@@ -24,7 +24,7 @@ impl Room {
         let mut axes = Vec::with_capacity(starts.len());
         for axis in &starts {
             let i = names.iter().position(|name| *name == axis.coordinate)?;
-            axes.push(axis.values.iter().map(|value| metric.scales[i] * value).collect());
+            axes.push(axis.values.iter().map(|value| scales[i] * value).collect());
         }
         Some(Room { axes })
     }

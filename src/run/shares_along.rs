@@ -1,14 +1,14 @@
 //! The shares of the starts that lead to each attractor, along a parameter.
 
+use super::room::Room;
+use super::shock::shocks;
+use super::{Attractors, FinalMotion, FinalMotions, Machine};
 use crate::attractor::{Attractor, Integrity, Label, Share, shares_of_grid};
+use crate::description::Section;
 use crate::model::Setting;
 use crate::orbit::Outcome;
 use crate::study::layout::Layout;
 use crate::study::{CaseSet, Study};
-
-use super::room::Room;
-use super::shock::shocks;
-use super::{Attractors, FinalMotion, FinalMotions, Machine};
 
 /// The attractors at one value of the parameter, by their numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,7 +77,7 @@ pub fn shares_along(
 }
 
 /// The attractor that a case has settled to, followed once more.
-fn attractor_of(study: &Study, case: usize, motion: &FinalMotion) -> Option<Attractor<3>> {
+fn attractor_of(study: &Study, case: usize, motion: &FinalMotion) -> Option<Attractor<Section>> {
     let setting = Setting::of(&study.case(case));
     study.model().attractor(&setting, case, motion, &study.protocol)
 }

@@ -1,7 +1,7 @@
 //! The minimal critical shocks of the attractors of a grid of starts.
 
-use crate::attractor::{Attractor, minimal_critical_shock};
-use crate::capsule::CapsuleParameters as _;
+use crate::attractor::Attractor;
+use crate::description::Section;
 use crate::model::Setting;
 use crate::orbit::{Machine, Outcome};
 use crate::study::Study;
@@ -17,7 +17,7 @@ const MOST_POINTS: usize = 16;
 pub(super) fn shocks(
     study: &Study,
     case: usize,
-    known: &[(u32, &Attractor<3>)],
+    known: &[(u32, &Attractor<Section>)],
     machine: Machine,
 ) -> Vec<f64> {
     // What does not repeat is told apart less surely, and takes long to follow.
@@ -25,20 +25,14 @@ pub(super) fn shocks(
         return vec![f64::NAN; known.len()];
     }
     let setting = Setting::of(&study.case(case));
-    let metric = setting.parameters.metric();
     let leads = study.model().leads(&setting, &study.protocol, machine, known.to_vec());
-    let is_disturbed = |it: &Attractor<3>| (1..=MOST_POINTS).contains(&it.points.len());
-    let shock = |(number, attractor): &(u32, &Attractor<3>)| {
+    let is_disturbed = |it: &Attractor<Section>| (1..=MOST_POINTS).contains(&it.points.len());
+    let shock = |(number, attractor): &(u32, &Attractor<Section>)| {
         // To a section point of any other attractor is a shock.
         let others = known.iter().filter(|(other, _)| other != number);
         let first = others.flat_map(|(_, other)| &other.points).next();
         let (Some(first), true) = (first, is_disturbed(attractor)) else { return f64::NAN };
-        let elsewhere = |points: &[[f64; 3]]| {
-            let leads = leads.of(points).into_iter();
-            leads.map(|it| it.is_some_and(|other| other != *number)).collect()
-        };
-        let found = minimal_critical_shock(&attractor.points, *first, &metric, &elsewhere);
-        found.map_or(f64::NAN, |shock| shock.size)
+        leads.shock(*number, &attractor.points, first).unwrap_or(f64::NAN)
     };
     known.iter().map(shock).collect()
 }

@@ -10,13 +10,14 @@ use super::catalogue::{
     ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, ATTRACTOR_SHARE_HIGH,
     ATTRACTOR_SHARE_LOW, BASIN_ENTROPY, BASIN_ENTROPY_BOX, BASIN_ENTROPY_ERROR,
     BOUNDARY_BASIN_ENTROPY, BOUNDARY_BASIN_ENTROPY_ERROR, EDGE_CYCLE, EDGE_HIGH, EDGE_INDEX,
-    EDGE_LOW, EDGE_MULTIPLIER_IMAG, EDGE_MULTIPLIER_REAL, EDGE_PERIOD, EDGE_RESIDUAL,
-    EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2, EVENT, EVENT_ATTRACTOR, EVENT_KIND,
-    EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, INFERRED_ELSEWHERE, INFERRED_SAMPLE, Place, SECTION,
+    EDGE_LOW, EDGE_MULTIPLIER_IMAG, EDGE_MULTIPLIER_REAL, EDGE_PERIOD, EDGE_RESIDUAL, EVENT,
+    EVENT_ATTRACTOR, EVENT_KIND, EVENT_PERIOD, EVENT_UNCERTAINTY, Entry, INFERRED_ELSEWHERE,
+    INFERRED_SAMPLE, Place, edges as edge_entries, section,
 };
 use super::{Dataset, Values, boundary};
 use crate::attractor::{Entropy, Integrity, Share};
 use crate::orbit::Outcome;
+use crate::orbit::matrix::Complex;
 use crate::run::{
     AttractorEvent, AttractorRow, AttractorTable, Attractors, Edge, InferredSample, SharesAt,
 };
@@ -107,14 +108,16 @@ fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
         let numbers = rows.iter().flat_map(|row| (0..width).map(move |at| of(row, at))).collect();
         Values::Real(ArrayD::from_shape_vec(IxDyn(&[rows.len(), width]), numbers).expect("a table"))
     };
-    let multipliers = |row: &AttractorRow| row.record.orbit.certificate.multipliers;
+    fn multipliers(row: &AttractorRow) -> &[Complex] {
+        &row.record.orbit.certificate.multipliers
+    }
     let real_parts = several(multipliers(&rows[0]).len(), &|row, at| multipliers(row)[at].re);
     let imaginary = several(multipliers(&rows[0]).len(), &|row, at| multipliers(row)[at].im);
     dataset.put_column(ATTRACTOR_MULTIPLIER_REAL, real_parts);
     dataset.put_column(ATTRACTOR_MULTIPLIER_IMAG, imaginary);
     if longest > 0 {
         dataset.put_coordinate(ATTRACTOR_CYCLE, Values::count(longest));
-        for (i, entry) in SECTION.into_iter().enumerate() {
+        for (i, entry) in section(dataset.model()).into_iter().enumerate() {
             let of = |row: &AttractorRow, cycle: usize| {
                 points(row).get(cycle).map_or(f64::NAN, |it| it[i])
             };
@@ -148,7 +151,7 @@ fn add_edges(dataset: &mut Dataset, edges: &[Edge]) {
     dataset.put_column(EDGE_MULTIPLIER_IMAG, imaginary);
     let longest = edges.iter().map(|edge| edge.saddle.points.len()).max().unwrap_or(1);
     dataset.put_coordinate(EDGE_CYCLE, Values::count(longest));
-    for (i, entry) in [EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2].into_iter().enumerate() {
+    for (i, entry) in edge_entries(dataset.model()).into_iter().enumerate() {
         let of = |edge: &Edge, at: usize| edge.saddle.points.get(at).map_or(f64::NAN, |it| it[i]);
         dataset.put_column(entry, several(longest, &of));
     }
@@ -237,6 +240,7 @@ fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
     whole(EVENT_KIND, |event| event.kind as i64);
     whole(EVENT_ATTRACTOR, |event| i64::from(event.attractor));
     whole(EVENT_PERIOD, |event| event.period as i64);
+    let sections = section(dataset.model());
     let mut real = |entry: Entry, of: &dyn Fn(&AttractorEvent) -> f64| {
         let values = Values::reals(events.iter().map(of).collect());
         dataset.put_column(entry, values);
@@ -250,7 +254,7 @@ fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
             real(Place::Event.of(Entry::of_parameter(parameter)), &at);
         }
     }
-    for (i, entry) in SECTION.into_iter().enumerate() {
+    for (i, entry) in sections.into_iter().enumerate() {
         real(Place::Event.of(entry), &|event| event.section[i]);
     }
     let uncertainties = events.iter().map(|event| event.uncertainty).collect();

@@ -14,7 +14,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::block_file::{self, BlockFile, Column, Head, Numbers, Summary, Unusable};
-use super::catalogue::{CASE, END, RESIDUAL, starts};
+use super::catalogue::{CASE, RESIDUAL, end, starts};
 use super::file::{self, discard_unfinished_in, put};
 use super::lock::{Lock, Tried, try_lock};
 use super::{StoreError, Values, provenance, schema};
@@ -349,7 +349,7 @@ fn beyond_variables(model: &'static Description, records: &[Record]) -> Vec<Colu
         columns.push(Column { name: name.to_owned(), numbers });
     };
     let coordinates = model.section_coordinates();
-    for ((coordinate, start), end) in coordinates.zip(starts()).zip(END) {
+    for ((coordinate, start), end) in coordinates.zip(starts(model)).zip(end(model)) {
         add(start.name, &|it| it.start[coordinate]);
         add(end.name, &|it| it.orbit.end[coordinate]);
     }

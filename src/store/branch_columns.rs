@@ -2,7 +2,7 @@
 
 use ndarray::{ArrayD, IxDyn};
 
-use super::catalogue::{BRANCH_CYCLE, Entry, OrbitColumns, Place, SECTION};
+use super::catalogue::{BRANCH_CYCLE, Entry, OrbitColumns, Place, section};
 use super::{Dataset, Values};
 use crate::capsule::branch::Point;
 use crate::description::{Output, Parameter};
@@ -63,7 +63,7 @@ pub fn add_points(
 fn add_sections(dataset: &mut Dataset, place: Place, rows: &[Row<'_>]) {
     let cycles = dataset.coordinate(BRANCH_CYCLE.name);
     let length = cycles.map_or(0, |cycles| cycles.values.shape()[0]);
-    for (i, entry) in SECTION.into_iter().enumerate() {
+    for (i, entry) in section(dataset.model()).into_iter().enumerate() {
         let of_row = |row: &Row<'_>| {
             let section = &row.point.section;
             (0..length).map(|n| section.get(n).map_or(f64::NAN, |it| it[i])).collect::<Vec<_>>()

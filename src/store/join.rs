@@ -7,8 +7,8 @@ use std::path::Path;
 use super::block_file::{BlockFile, Summary, Unusable};
 use super::block_folder::BlockFolder;
 use super::catalogue::{
-    BLOCK, BLOCK_CASES, BLOCK_FIRST_CASE, BLOCK_MAKER, CASE, CYCLES, END, Entry, FAILURE_REASON,
-    FAILURE_TIME, MULTIPLIER_IMAG, MULTIPLIER_REAL, OUTCOME, PERIOD, RESIDUAL, starts,
+    BLOCK, BLOCK_CASES, BLOCK_FIRST_CASE, BLOCK_MAKER, CASE, CYCLES, Entry, FAILURE_REASON,
+    FAILURE_TIME, MULTIPLIER_IMAG, MULTIPLIER_REAL, OUTCOME, PERIOD, RESIDUAL, end, starts,
 };
 use super::decode::Archive;
 use super::joined::{self, Column};
@@ -98,7 +98,9 @@ impl<'a> Blocks<'a> {
     /// What the cases have settled to, as far as they have been computed.
     pub fn final_motions(&self) -> Result<FinalMotions, StoreError> {
         let mut failed = None;
-        let of_file = |file| Ok(self.cases_of(file)?.into_iter().zip(final_states(file)?));
+        let of_file = |file| {
+            Ok(self.cases_of(file)?.into_iter().zip(final_states(file, self.study.base.model())?))
+        };
         // Block by block, so that no second list of all cases is held.
         let known = self.files.iter().map_while(|file| {
             let of_file: Result<_, StoreError> = of_file(file);
@@ -138,7 +140,7 @@ impl<'a> Blocks<'a> {
         for file in &self.files {
             let columns: Result<Vec<Vec<f64>>, StoreError> =
                 of.iter().map(|output| file.reals(output.name(), 1)).collect();
-            let (columns, motions) = (columns?, final_states(file)?);
+            let (columns, motions) = (columns?, final_states(file, self.study.base.model())?);
             for (place, (case, motion)) in self.cases_of(file)?.into_iter().zip(motions).enumerate()
             {
                 let output = |output: Output| {
@@ -335,7 +337,7 @@ fn failures(
     model: &'static Description,
 ) -> Result<Vec<FailedCase>, StoreError> {
     let starts: Vec<Vec<f64>> =
-        starts().iter().map(|entry| file.reals(entry.name, 1)).collect::<Result<_, _>>()?;
+        starts(model).iter().map(|entry| file.reals(entry.name, 1)).collect::<Result<_, _>>()?;
     let times = file.reals(FAILURE_TIME.name, 1)?;
     let reasons = file.integers(FAILURE_REASON.name, 1)?;
     let failed = |(place, code): (usize, &i64)| {
@@ -348,19 +350,26 @@ fn failures(
 }
 
 /// The final states of the cases of a block file.
-fn final_states(file: &BlockFile) -> Result<Vec<FinalMotion>, StoreError> {
+fn final_states(
+    file: &BlockFile,
+    model: &'static Description,
+) -> Result<Vec<FinalMotion>, StoreError> {
     let whole = |entry: Entry| file.integers(entry.name, 1);
     let (outcomes, periods) = (whole(OUTCOME)?, whole(PERIOD)?);
-    let [r, y1, y2] = END.map(|entry| file.reals(entry.name, 1));
-    let (r, y1, y2, residual) = (r?, y1?, y2?, file.reals(RESIDUAL.name, 1)?);
-    let [real, imag] = [MULTIPLIER_REAL, MULTIPLIER_IMAG].map(|entry| file.reals(entry.name, 3));
+    let end: Vec<Vec<f64>> =
+        end(model).iter().map(|entry| file.reals(entry.name, 1)).collect::<Result<_, _>>()?;
+    let residual = file.reals(RESIDUAL.name, 1)?;
+    let count = end.len();
+    let [real, imag] =
+        [MULTIPLIER_REAL, MULTIPLIER_IMAG].map(|entry| file.reals(entry.name, count));
     let (real, imag) = (real?, imag?);
-    let multipliers = |case: usize| {
-        std::array::from_fn(|i| Complex { re: real[3 * case + i], im: imag[3 * case + i] })
+    let multipliers = |case: usize| -> Vec<Complex> {
+        let parts = (count * case..count * (case + 1)).map(|at| (real[at], imag[at]));
+        parts.map(|(re, im)| Complex { re, im }).collect()
     };
     let outcome = |code: i64| Outcome::ALL.iter().copied().find(|it| *it as i64 == code);
     let state = |case: usize| {
-        let section = [r[case], y1[case], y2[case]];
+        let section = end.iter().map(|column| column[case]).collect();
         let period = periods[case] as u32;
         let outcome = outcome(outcomes[case]).unwrap_or(Outcome::Failed);
         FinalMotion::new(outcome, period, section, residual[case], &multipliers(case))

@@ -8,8 +8,7 @@ use super::catalogue::*;
 use super::names::OF_PROTOCOL;
 use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, Values, Variable, drawn, provenance};
-use crate::capsule::{History, Impact, Orbit};
-use crate::orbit::Certificate;
+use crate::motion::Orbit;
 use crate::orbit::matrix::Complex;
 use crate::run::Record;
 use crate::study::{CaseSet, Coordinate, Study};
@@ -203,23 +202,24 @@ fn add_verdicts(dataset: &mut Dataset, table: &Table<'_>) {
     table.put(dataset, OUTCOME, table.integers(|orbit| orbit.outcome as i64));
     table.put(dataset, PERIOD, table.integers(|orbit| orbit.period as i64));
     table.put(dataset, CYCLES, table.integers(|orbit| orbit.cycles as i64));
-    let reasons = table.integers(|orbit| orbit.failure.map_or(0, |why| why.reason as i64));
+    let reasons = table.integers(|orbit| orbit.failure.as_ref().map_or(0, |why| why.reason as i64));
     table.put(dataset, FAILURE_REASON, reasons);
-    let times = table.reals(|orbit| orbit.failure.map_or(f64::NAN, |why| why.time));
+    let times = table.reals(|orbit| orbit.failure.as_ref().map_or(f64::NAN, |why| why.time));
     table.put(dataset, FAILURE_TIME, times);
 }
 
 /// What is proven of the periods.
 fn add_certificates(dataset: &mut Dataset, table: &Table<'_>) {
     table.put(dataset, CERTIFICATE, table.integers(|orbit| orbit.certificate.proof as i64));
-    let count = Certificate::<3>::none().multipliers.len();
+    let model = table.study.base.model();
+    let count = model.section.len();
     dataset.put_coordinate(MULTIPLIER, Values::count(count));
     let of = |part: fn(&Complex) -> f64| {
         table.rows(count, move |orbit, i| orbit.certificate.multipliers.get(i).map(part))
     };
     table.put(dataset, MULTIPLIER_REAL, of(|multiplier| multiplier.re));
     table.put(dataset, MULTIPLIER_IMAG, of(|multiplier| multiplier.im));
-    for (i, entry) in NEUTRAL.into_iter().enumerate() {
+    for (i, entry) in neutral(model).into_iter().enumerate() {
         let part = |orbit: &Orbit| orbit.certificate.neutral.map_or(f64::NAN, |along| along[i]);
         table.put(dataset, entry, table.reals(part));
     }
@@ -231,7 +231,7 @@ fn add_section(dataset: &mut Dataset, table: &Table<'_>) {
         return;
     }
     dataset.put_coordinate(POINT, Values::count(length));
-    for (i, entry) in SECTION.into_iter().enumerate() {
+    for (i, entry) in section(table.study.base.model()).into_iter().enumerate() {
         let values = table.rows(length, |orbit, n| orbit.section.get(n).map(|point| point[i]));
         table.put(dataset, entry, values);
     }
@@ -243,13 +243,10 @@ fn add_impacts(dataset: &mut Dataset, table: &Table<'_>) {
         return;
     }
     dataset.put_coordinate(IMPACT_POINT, Values::count(length));
-    let of = |value: fn(&Impact<f64>) -> f64| {
-        table.rows(length, move |orbit, n| orbit.impacts.get(n).map(value))
-    };
-    table.put(dataset, IMPACT_PHASE, of(|impact| impact.phase));
-    table.put(dataset, IMPACT_Y1, of(|impact| impact.y1));
-    table.put(dataset, IMPACT_Y2, of(|impact| impact.y2));
-    table.put(dataset, IMPACT_VELOCITY, of(|impact| impact.y1 - impact.y2));
+    for (i, entry) in impacts(table.study.base.model()).into_iter().enumerate() {
+        let values = table.rows(length, |orbit, n| orbit.impacts.get(i)?.get(n).copied());
+        table.put(dataset, entry, values);
+    }
 }
 
 fn add_history(dataset: &mut Dataset, table: &Table<'_>) {
@@ -257,14 +254,8 @@ fn add_history(dataset: &mut Dataset, table: &Table<'_>) {
     let times =
         (0..span.samples()).map(|i| i as f64 / f64::from(span.per_cycle)).collect::<Vec<f64>>();
     dataset.put_coordinate(HISTORY_TIME, Values::reals(times));
-    let sampled = |value: fn(&History, usize) -> Option<f64>| {
-        table.rows(span.samples(), move |orbit, n| {
-            orbit.history.as_ref().and_then(|history| value(history, n))
-        })
-    };
-    table.put(dataset, HISTORY_R, sampled(|h, n| h.states.get(n).map(|state| state.r)));
-    table.put(dataset, HISTORY_Y1, sampled(|h, n| h.states.get(n).map(|state| state.y1)));
-    table.put(dataset, HISTORY_X2, sampled(|h, n| h.states.get(n).map(|state| state.x2)));
-    table.put(dataset, HISTORY_Y2, sampled(|h, n| h.states.get(n).map(|state| state.y2)));
-    table.put(dataset, HISTORY_DRIVE, sampled(|h, n| h.drive.get(n).copied()));
+    for (i, entry) in histories(table.study.base.model()).into_iter().enumerate() {
+        let values = table.rows(span.samples(), |orbit, n| orbit.history.get(i)?.get(n).copied());
+        table.put(dataset, entry, values);
+    }
 }

@@ -3,12 +3,11 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use crate::run::Record;
-use crate::study::{Axis, CaseSet, Grid, Study};
-
 use super::join::Blocks;
 use super::schema::numbers_of_case;
 use super::{BlockFolder, Company, StoreError};
+use crate::run::Record;
+use crate::study::{Axis, CaseSet, Grid, Study};
 
 /// Numbers of the sample, at most.
 const NUMBERS: usize = 2_000_000;

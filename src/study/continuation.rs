@@ -1,8 +1,8 @@
 //! The branches that a study asks for: periodic orbits, stable or not, continued in a parameter.
 
-use crate::capsule::Section;
-use crate::capsule::branch::Request;
-use crate::description::{Parameter, Parameters, State};
+use crate::description::{Parameter, Parameters, Section, State};
+use crate::motion::Setting;
+use crate::motion::branch::Request;
 
 /// How the first orbit of a branch is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,8 +49,7 @@ impl Continuation {
     /// The request to continue the orbit of `period` cycles near `section`.
     pub fn request(&self, section: Section, period: u64, tolerance: f64) -> Request {
         Request {
-            parameters: self.parameters.clone(),
-            phase: self.section_phase,
+            setting: Setting { parameters: self.parameters.clone(), phase: self.section_phase },
             section,
             period,
             along: self.along,

@@ -39,7 +39,7 @@ pub enum Side {
 
 impl Hold {
     /// Why a family ends beside an orbit with these multipliers.
-    pub fn edge(multipliers: &[Complex; 3]) -> Hold {
+    pub fn edge(multipliers: &[Complex]) -> Hold {
         let critical = multipliers.iter().find(|it| it.abs() > 1.0 - CRITICAL);
         match critical {
             Some(it) if it.im != 0.0 => Hold::NeimarkSacker,

@@ -2,9 +2,7 @@
 
 use super::limit::Limit;
 use super::quadratic::{MOST, Vector};
-use crate::capsule::{EventKind, Section};
-use crate::description::{Output, Outputs, Parameter};
-use crate::flow::Event;
+use crate::description::{Output, Outputs, Parameter, Section};
 use crate::model::{Model, Setting, StableOrbit};
 use crate::orbit::matrix::Complex;
 
@@ -33,9 +31,11 @@ pub struct OperatingPoint {
     /// The section point.
     pub section: Section,
     /// The multipliers, the largest magnitude first.
-    pub multipliers: [Complex; 3],
-    /// The cyclic sequence of events.
-    pub events: Vec<EventKind>,
+    pub multipliers: Vec<Complex>,
+    /// The cyclic sequence of events, by their numbers.
+    pub events: Vec<u8>,
+    /// How many of them are impacts.
+    pub impacts: usize,
     /// The outputs that change with parameters (SI).
     pub outputs: Outputs,
     /// The derivatives of the section point in the shares.
@@ -45,11 +45,6 @@ pub struct OperatingPoint {
 }
 
 impl OperatingPoint {
-    /// How often the mass meets the stop in a period.
-    pub fn impacts(&self) -> usize {
-        self.events.iter().filter(|event| event.is_impact()).count()
-    }
-
     /// How far it is from another, in shares of the ranges: the most of a parameter.
     pub fn apart(&self, other: &OperatingPoint) -> f64 {
         let pairs = self.shares.iter().zip(&other.shares);
@@ -95,7 +90,7 @@ impl Family {
     pub fn orbit(&self, shares: &Vector, guess: &Section) -> Option<OperatingPoint> {
         let setting = self.at(shares);
         let (period, tolerance) = (self.period, self.tolerance);
-        let StableOrbit { section, multipliers, events } =
+        let StableOrbit { section, multipliers, events, impacts } =
             self.model.stable_orbit(&setting, guess, period, tolerance)?;
         let unknown = Outputs::unknown(setting.parameters.model());
         let mut point = OperatingPoint {
@@ -103,8 +98,9 @@ impl Family {
             section,
             multipliers,
             events,
+            impacts,
             outputs: unknown.clone(),
-            section_slopes: [[0.0; 3]; MOST],
+            section_slopes: [Section::new(&[]); MOST],
             slopes: std::array::from_fn(|_| unknown.clone()),
         };
         for (place, (parameter, [low, high])) in self.free.iter().enumerate() {
@@ -112,7 +108,8 @@ impl Family {
                 self.model.sensitivity(&setting, &section, period, tolerance, *parameter)?;
             let range = high - low;
             point.outputs = found.outputs;
-            point.section_slopes[place] = found.section_slope.map(|slope| slope * range);
+            point.section_slopes[place] =
+                found.section_slope.iter().map(|slope| slope * range).collect();
             point.slopes[place] = found.slopes.map(|slope| slope * range);
         }
         Some(point)
@@ -120,11 +117,13 @@ impl Family {
 
     /// The stable orbit at other shares, sought where that at `from` leads along its tangent.
     pub fn moved(&self, from: &OperatingPoint, shares: &Vector) -> Option<OperatingPoint> {
-        let guess = std::array::from_fn(|coordinate| {
-            let along = from.section_slopes.iter().zip(shares.iter().zip(&from.shares));
+        let slopes = &from.section_slopes[..self.free.len()];
+        let coordinate = |coordinate: usize| {
+            let along = slopes.iter().zip(shares.iter().zip(&from.shares));
             let moved: f64 = along.map(|(slope, (to, at))| slope[coordinate] * (to - at)).sum();
             from.section[coordinate] + moved
-        });
+        };
+        let guess = (0..from.section.len()).map(coordinate).collect();
         self.orbit(shares, &guess)
     }
 }

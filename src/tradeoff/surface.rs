@@ -1,11 +1,10 @@
 //! A surface in the parameters on which the sequence of events changes: there the outputs have a kink.
 
-use crate::orbit::matrix::{dot, norm};
-
 use super::goal::{Measured, Multipliers};
 use super::hold::Hold;
 use super::operating_point::OperatingPoint;
 use super::quadratic::Vector;
+use crate::orbit::matrix::{dot, norm};
 
 /// Gradients that differ by less are those of one smooth piece.
 const KINK: f64 = 1e-4;
@@ -60,7 +59,7 @@ impl Surface {
         let normal = gradient.map(|part| part * unit);
         let (distance, reach) = (-jump * unit, towards * unit);
         let is_between = (-SLACK * reach..=(1.0 + SLACK) * reach).contains(&distance);
-        let has_same_impacts = here.impacts() == there.impacts();
+        let has_same_impacts = here.impacts == there.impacts;
         let hold = if has_same_impacts { Hold::EventSequence } else { Hold::Grazing };
         (steep > KINK && is_between).then(|| Surface {
             normal,

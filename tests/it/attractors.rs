@@ -267,7 +267,7 @@ fn a_multiplier_is_minus_one_where_the_period_doubles() {
             |point| image(&OneByOne, &capsule, point, &cycles),
             cycles.count,
             &metric,
-            &event.section,
+            &event.section.array(),
             0.5,
         )
         .expect("the integration continues");

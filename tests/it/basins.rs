@@ -60,7 +60,7 @@ fn every_case_does_what_the_table_says_of_its_attractor() {
         assert!(here.iter().all(|it| (speed(it) - speed(&row.record)).abs() < 1e-10));
         // The section points of all its cases, each measured from where it settled.
         for record in here {
-            for (a, b) in record.orbit.section[0].iter().zip(row.attractor.points[0]) {
+            for (a, b) in record.orbit.section[0].iter().zip(row.attractor.points[0].iter()) {
                 assert!((a - b).abs() < 1e-10, "{record:?}");
             }
         }

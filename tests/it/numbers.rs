@@ -13,6 +13,7 @@ use capsulemap::run::{self, Attractors, FinalMotions, Machine, Record};
 use capsulemap::study::{Axis, CaseSet, Coordinate, Direction, Grid, Inherit, Study};
 
 use super::draws::{self, ALONG, Random};
+use capsulemap::description::Section;
 
 /// The capsule of the issue at 40 rad/s.
 const CAPSULE_P: &str = "[parameters]\nc = \"0.44 N s/m\"\nmu_s = 0.437\nmu_d = 0.2185\n\
@@ -119,7 +120,7 @@ fn a_basin_that_has_vanished_does_not_revive() {
 
 impl Swept {
     /// The orbits on which the cases of a cell of a line in both directions end, with their numbers.
-    fn orbits(&self, at: usize) -> Vec<(Attractor<3>, u32)> {
+    fn orbits(&self, at: usize) -> Vec<(Attractor<Section>, u32)> {
         let (model, setting) = (self.study.model(), Setting::of(&self.study.case(2 * at)));
         let orbit = |case: usize| {
             let motion = self.final_motions.get(case)?;
@@ -152,8 +153,9 @@ fn line(base: &Parameters, parameter: Parameter, values: Vec<f64>) -> Study {
 fn renumbered(coarse: &Swept, fine: &Swept, at: usize) -> Vec<[u32; 2]> {
     let metric = coarse.study.case(2 * at).parameters.metric();
     let finer = fine.orbits(FINER * at);
-    let same = |(orbit, number): &(Attractor<3>, u32)| {
-        let found = finer.iter().find(|(it, _)| it.is(orbit, &metric));
+    let of_engine = |it: &Attractor<Section>| it.clone().map(|point| point.array());
+    let same = |(orbit, number): &(Attractor<Section>, u32)| {
+        let found = finer.iter().find(|(it, _)| of_engine(it).is(&of_engine(orbit), &metric));
         found.map(|(_, finer)| [*number, *finer])
     };
     coarse.orbits(at).iter().filter_map(same).collect()

@@ -12,6 +12,8 @@ use capsulemap::run::{self, Attractors, Edge};
 use capsulemap::study::Study;
 
 use super::program::TWO_MOTIONS;
+use capsulemap::attractor::Attractor;
+use capsulemap::description::Section;
 
 type Capsule = CapsuleSystem<Filippov>;
 
@@ -52,12 +54,14 @@ fn eigenvector(matrix: &Matrix<3>, value: f64) -> [f64; 3] {
 /// The attractors to which a small push along the unstable direction of a saddle leads, either way, whichever its size.
 fn pushed(study: &Study, found: &Attractors, edge: &Edge) -> [u32; 2] {
     let saddle = &edge.saddle;
-    let system: Capsule = study.case(0).read::<Filippov>().system;
+    let Setting { parameters, phase } = Setting::of(&study.case(0));
+    let system = Capsule::new(parameters, phase);
     let count = saddle.points.len() as u64;
     let cycles = Cycles { count, tolerance: study.protocol.tolerance };
-    let image = image(&OneByOne, &system, &saddle.points[0], &cycles).expect("it goes on");
+    let image = image(&OneByOne, &system, &saddle.points[0].array(), &cycles).expect("it goes on");
     let unstable = eigenvector(&image.jacobian, saddle.multipliers[0].re);
     let metric = system.metric();
+    let of_engine = |it: &Attractor<Section>| it.clone().map(|point| point.array());
     let leads = |push: f64| {
         let point: [f64; 3] = std::array::from_fn(|i| saddle.points[0][i] + push * unstable[i]);
         let [r, y1, y2] = point;
@@ -66,7 +70,10 @@ fn pushed(study: &Study, found: &Attractors, edge: &Edge) -> [u32; 2] {
         let met = study.model().attractor(&Setting::of(&case), 0, &motion, &study.protocol);
         let here = met.expect("an attractor");
         assert_eq!(here.outcome, Outcome::Periodic);
-        let place = found.of_starts.iter().position(|known| known.is(&here, &metric));
+        let place = found
+            .of_starts
+            .iter()
+            .position(|known| of_engine(known).is(&of_engine(&here), &metric));
         place.expect("a known one") as u32
     };
     let of_size = [1e-3, 1e-5, 1e-7].map(|size| {
@@ -108,9 +115,10 @@ fn a_saddle_names_the_attractors_of_its_own_boundary_among_three() {
     assert_eq!((found.of_starts.len(), study.cases()), (3, 10_000));
     // A push of the mass alone, which is no eigenvector, crosses the boundary, too; the orbit that follows tells the side by its
     // speed, without sections and metrics.
-    let speeds: Vec<f64> = found.of_starts.iter().map(|it| speed(&study, it.points[0])).collect();
+    let speeds: Vec<f64> =
+        found.of_starts.iter().map(|it| speed(&study, it.points[0].array())).collect();
     for edge in &edges {
-        let [r, y1, y2] = edge.saddle.points[0];
+        let [r, y1, y2] = edge.saddle.points[0].array();
         let sides = [1e-5, -1e-5].map(|push| {
             let here = speed(&study, [r, y1 + push, y2]);
             let place = speeds.iter().position(|it| (it - here).abs() < 1e-9);
@@ -123,7 +131,7 @@ fn a_saddle_names_the_attractors_of_its_own_boundary_among_three() {
     let pairs: Vec<[u32; 2]> = edges.iter().map(|edge| edge.between).collect();
     assert_eq!(pairs, [[0, 2], [1, 2]]);
     // No saddle stands for two boundaries.
-    let firsts: Vec<[f64; 3]> = edges.iter().map(|edge| edge.saddle.points[0]).collect();
+    let firsts: Vec<[f64; 3]> = edges.iter().map(|edge| edge.saddle.points[0].array()).collect();
     for (i, a) in firsts.iter().enumerate() {
         let is_same = |b: &[f64; 3]| (0..3).all(|at| (a[at] - b[at]).abs() < 1e-9);
         assert!(!firsts[..i].iter().any(is_same), "{edges:?}");
@@ -137,8 +145,7 @@ fn the_saddle_is_the_unstable_orbit_that_continuation_finds() {
     let (found, edges) = edges(&study);
     let (case, moving) = (study.case(0), &found.of_starts[1]);
     let request = Request {
-        parameters: case.parameters.clone(),
-        phase: case.section_phase,
+        setting: Setting::of(&case),
         section: moving.points[0],
         period: 1,
         along: Parameter::Omega.into(),

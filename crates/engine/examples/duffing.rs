@@ -122,7 +122,7 @@ fn main() {
 
     // The exponents of a periodic orbit are those of its multipliers, and sum up to -c.
     let first = &orbits[table.attractors[0].case];
-    let [a, b] = first.certificate.multipliers.map(|it| it.abs());
+    let [a, b] = [0, 1].map(|at| first.certificate.multipliers[at].abs());
     let time = first.period as f64 * first.duration;
     assert!((libm::log(a * b) / time + duffing.c).abs() < 1e-9);
     assert!((libm::log(a) / time - first.exponent.value).abs() < 1e-12);

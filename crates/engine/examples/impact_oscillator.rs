@@ -158,7 +158,7 @@ fn main() {
 
     // Areas of the section shrink by e^(-c T) in a cycle and by r^2 at an impact; the exponents are theirs.
     for (orbit, impacts) in orbits.iter().zip([0, 1]) {
-        let [a, b] = orbit.certificate.multipliers.map(|it| it.abs());
+        let [a, b] = [0, 1].map(|at| orbit.certificate.multipliers[at].abs());
         let shrinks =
             -impactor.c * orbit.duration + 2.0 * f64::from(impacts) * libm::log(impactor.r);
         assert!((libm::log(a * b) - shrinks).abs() < 1e-9);

@@ -4,6 +4,8 @@
 
 pub mod quantity;
 pub mod description;
+pub mod motion;
+pub mod face;
 pub mod capsule;
 pub mod model;
 pub mod of;

@@ -5,29 +5,14 @@ use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 
 use capsulemap_engine::attractor::{Attractor, Bridge, Executor, FinalMotion, Links, Met, Table};
-use capsulemap_engine::branch::{Linearised, Segment};
+use capsulemap_engine::branch::{NotFollowed, Segment};
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::matrix::Complex;
 use capsulemap_engine::orbit::{Machine, Protocol};
 
-use crate::capsule::{Case, EventKind, Orbit, Section, Sensitivity};
-use crate::description::{Outputs, Parameter, Parameters};
-
-/// What a motion depends on beside its start.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
-    /// The parameters.
-    pub parameters: Parameters,
-    /// Phase of the drive at the section [rad].
-    pub phase: f64,
-}
-
-impl Setting {
-    /// That of a case.
-    pub fn of(case: &Case) -> Setting {
-        Setting { parameters: case.parameters.clone(), phase: case.section_phase }
-    }
-}
+use crate::description::{Description, Outputs, Parameter, Section};
+use crate::motion::branch::{Found, Request};
+pub use crate::motion::{Case, Orbit, Sensitivity, Setting};
 
 /// Orbits that are known of one setting before other cases are followed, with their neighbourhoods.
 #[derive(Clone)]
@@ -60,7 +45,7 @@ pub struct Motions<'a> {
     /// How many there are.
     pub count: usize,
     /// The index of the case at a place and what it has settled to; none where it has not been computed.
-    pub at: &'a (dyn Fn(usize) -> (usize, Option<FinalMotion<3>>) + Sync),
+    pub at: &'a (dyn Fn(usize) -> (usize, Option<FinalMotion<Section>>) + Sync),
 }
 
 impl Debug for Motions<'_> {
@@ -88,11 +73,18 @@ pub struct Cell {
     /// Its value.
     pub value: f64,
     /// The attractors.
-    pub table: Arc<Table<3>>,
+    pub table: Arc<Table<Section>>,
 }
 
-/// The attractors of a cell by place with their derivatives; none where they do not repeat.
-pub type LinearOrbits = Vec<Option<Linearised<EventKind, 3>>>;
+/// The attractors of a cell by place with their derivatives.
+#[derive(Clone)]
+pub struct LinearOrbits(pub(crate) Arc<dyn Any + Send + Sync>);
+
+impl Debug for LinearOrbits {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("LinearOrbits").finish_non_exhaustive()
+    }
+}
 
 /// Two neighbouring cells along a parameter, see [`Neighbours`](capsulemap_engine::attractor::Neighbours) of the engine.
 #[derive(Debug, Clone)]
@@ -104,7 +96,7 @@ pub struct Neighbours {
     /// The two values of the parameter.
     pub values: [f64; 2],
     /// The cells.
-    pub cells: [Arc<Table<3>>; 2],
+    pub cells: [Arc<Table<Section>>; 2],
     /// Pairs of places between which cases lead that inherit their start from the first cell, and from the second; none where no
     /// case does.
     pub inherited: [Option<Vec<[usize; 2]>>; 2],
@@ -116,7 +108,7 @@ pub struct Unlinked {
     /// The cells.
     pub neighbours: Neighbours,
     /// The attractors of each with their derivatives.
-    pub linear: [Arc<LinearOrbits>; 2],
+    pub linear: [LinearOrbits; 2],
 }
 
 /// Which of some known attractors of one setting motions lead to.
@@ -126,11 +118,16 @@ pub trait Leads {
     fn of(&self, points: &[Section]) -> Vec<Option<u32>>;
 
     /// The attractor of a motion, told in the same manner.
-    fn number(&self, motion: &FinalMotion<3>) -> Option<u32>;
+    fn number(&self, motion: &FinalMotion<Section>) -> Option<u32>;
 
     /// The saddle on a boundary between two section points that lead to different attractors, see
     /// [`EdgeSearch`](capsulemap_engine::attractor::EdgeSearch).
-    fn saddle(&self, points: [Section; 2]) -> Option<Met<3>>;
+    fn saddle(&self, points: [Section; 2]) -> Option<Met<Section>>;
+
+    /// The size of the smallest disturbance at the points of an attractor that leads to another known one [units of the metric],
+    /// sought first towards a section point; none where none is found, see
+    /// [`minimal_critical_shock`](capsulemap_engine::attractor::minimal_critical_shock).
+    fn shock(&self, number: u32, points: &[Section], towards: &Section) -> Option<f64>;
 }
 
 /// A stable periodic orbit that is closed to rounding.
@@ -139,9 +136,11 @@ pub struct StableOrbit {
     /// Its section point (SI).
     pub section: Section,
     /// Its multipliers, the largest magnitude first [-].
-    pub multipliers: [Complex; 3],
-    /// Its cyclic sequence of events.
-    pub events: Vec<EventKind>,
+    pub multipliers: Vec<Complex>,
+    /// Its cyclic sequence of events, by their numbers.
+    pub events: Vec<u8>,
+    /// How many of them are impacts.
+    pub impacts: usize,
 }
 
 /// Batches of cycles, the one after the other.
@@ -157,6 +156,12 @@ pub struct Batches {
 ///
 /// What a case gives does not depend on the instructions, the threads or the cases beside it.
 pub trait Model: Debug + Send + Sync {
+    /// What it says of itself.
+    fn description(&self) -> &'static Description;
+
+    /// What the coordinates of section points are multiplied by to be compared with each other.
+    fn scales(&self, setting: &Setting) -> Section;
+
     /// What a case settles to, followed by itself and no further than into a neighbourhood of a `known` orbit of its setting.
     fn settle(&self, case: &Case, protocol: &Protocol, known: Option<&Known>) -> Orbit;
 
@@ -179,9 +184,12 @@ pub trait Model: Debug + Send + Sync {
         &self,
         setting: &Setting,
         case: usize,
-        motion: &FinalMotion<3>,
+        motion: &FinalMotion<Section>,
         protocol: &Protocol,
-    ) -> Option<Attractor<3>>;
+    ) -> Option<Attractor<Section>>;
+
+    /// The place of the section point of a periodic orbit at which it is told to begin, see [`Attractor::least_point`].
+    fn least_point(&self, setting: &Setting, attractor: &Attractor<Section>) -> usize;
 
     /// Sorts cases of one setting by attractor, see [`Table::sort`].
     fn table(
@@ -190,12 +198,12 @@ pub trait Model: Debug + Send + Sync {
         motions: Motions<'_>,
         protocol: &Protocol,
         executor: &dyn Executor,
-    ) -> Table<3>;
+    ) -> Table<Section>;
 
     /// Sorts more cases of the setting of a table, see [`Table::extend`].
     fn extend_table(
         &self,
-        table: &mut Table<3>,
+        table: &mut Table<Section>,
         setting: &Setting,
         motions: Motions<'_>,
         protocol: &Protocol,
@@ -217,17 +225,17 @@ pub trait Model: Debug + Send + Sync {
         instructions: Instructions,
         next: &mut dyn FnMut() -> Option<(usize, Unlinked)>,
         done: &mut dyn FnMut(),
-    ) -> Vec<(usize, Links<3>)>;
+    ) -> Vec<(usize, Links<Section>)>;
 
     /// The attractors of a line of cells that no case of some cells shows, see [`bridges`](capsulemap_engine::attractor::bridges);
     /// `between` gives a cell and the next.
     fn bridges(
         &self,
-        cells: &[Arc<Table<3>>],
-        links: &[Links<3>],
+        cells: &[Arc<Table<Section>>],
+        links: &[Links<Section>],
         between: &(dyn Fn(usize) -> Option<Neighbours> + Sync),
         executor: &dyn Executor,
-    ) -> Vec<Bridge<3>>;
+    ) -> Vec<Bridge<Section>>;
 
     /// What tells to which of the attractors that are `known` by their numbers motions of a setting lead.
     fn leads<'a>(
@@ -235,7 +243,7 @@ pub trait Model: Debug + Send + Sync {
         setting: &Setting,
         protocol: &Protocol,
         machine: Machine,
-        known: Vec<(u32, &'a Attractor<3>)>,
+        known: Vec<(u32, &'a Attractor<Section>)>,
     ) -> Box<dyn Leads + 'a>;
 
     /// The section points of so many cycles from a point on, that among them; none where it cannot be followed.
@@ -268,9 +276,15 @@ pub trait Model: Debug + Send + Sync {
         parameter: Parameter,
     ) -> Option<Sensitivity>;
 
+    /// Follows a branch of periodic orbits both ways from the one that is given, and what leaves it.
+    ///
+    /// # Errors
+    /// Where no periodic orbit is found near the point that is given, or none that a branch goes through.
+    fn follow(&self, request: &Request) -> Result<Found, NotFollowed>;
+
     /// The segment of a branch from a periodic orbit, by the value of the parameter there and its section points, to another
     /// value; see [`segment`](capsulemap_engine::branch::segment).
-    fn segment(&self, along: &Along, from: (f64, &[Section]), to: f64) -> Option<Segment<3>>;
+    fn segment(&self, along: &Along, from: (f64, &[Section]), to: f64) -> Option<Segment<Section>>;
 
     /// The outputs per cycle of batches of cycles from a section point on; none where it cannot be followed.
     fn batches(

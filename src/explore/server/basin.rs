@@ -9,7 +9,7 @@ use super::explored::Explored;
 use super::motion::{followed, shown};
 use crate::attractor::{Attractor, Label};
 use crate::capsule::{CapsuleState as _, Case, State, settle_case};
-use crate::description::Description;
+use crate::description::{Description, Section};
 use crate::figure::{label_colour, shown_quantity};
 use crate::flow::stop;
 use crate::orbit::{Machine, Outcome};
@@ -169,7 +169,7 @@ impl Basin {
     /// starts.
     fn attractors(&self, found: &Attractors, records: &[Record]) -> Vec<Value> {
         let is_in_plane = self.study.start_phase == self.study.section_phase;
-        let told = |(number, attractor): (usize, &Attractor<3>)| {
+        let told = |(number, attractor): (usize, &Attractor<Section>)| {
             let record = records.iter().find(|record| record.index == attractor.case)?;
             let orbit = &record.orbit;
             let is_periodic = orbit.outcome == Outcome::Periodic;

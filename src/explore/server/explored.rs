@@ -7,10 +7,10 @@ use std::sync::{Arc, Mutex};
 use super::answer::Refusal;
 use crate::campaign::{CampaignError, study_of};
 use crate::capsule::Case;
-use crate::description::{Output, State};
+use crate::description::{Output, Section, State};
 use crate::figure::variables;
 use crate::orbit::Protocol;
-use crate::store::catalogue::{SECTION_R, SECTION_Y1, SECTION_Y2};
+use crate::store::catalogue::{self, Entry};
 use crate::store::{Archive, Dataset};
 use crate::study::axis::{is_within, set};
 use crate::study::{Coordinate, Direction, Drawing, Study};
@@ -191,14 +191,15 @@ impl Explored {
     }
 
     /// The first section point of the motion of a case, if it has one.
-    fn section_point(&self, position: &[usize]) -> Result<Option<[f64; 3]>, Refusal> {
-        let mut point = [f64::NAN; 3];
-        for (value, entry) in point.iter_mut().zip([SECTION_R, SECTION_Y1, SECTION_Y2]) {
+    fn section_point(&self, position: &[usize]) -> Result<Option<Section>, Refusal> {
+        let coordinate = |entry: Entry| -> Result<f64, Refusal> {
             let rows = self.archive.rows(entry.name, &[position.to_vec()]);
             let rows = rows.map_err(|error| Refusal::unread(&error))?;
             let first = rows.first().and_then(|row| row.to_real().iter().next().copied());
-            *value = first.unwrap_or(f64::NAN);
-        }
+            Ok(first.unwrap_or(f64::NAN))
+        };
+        let entries = catalogue::section(self.study.base.model()).into_iter();
+        let point: Section = entries.map(coordinate).collect::<Result<_, Refusal>>()?;
         Ok(point.iter().all(|it| it.is_finite()).then_some(point))
     }
 }

@@ -201,7 +201,7 @@ fn shares(count: usize) -> Vec<f64> {
 fn told(share: f64, case: &Case, orbit: &Orbit) -> Value {
     let points: Vec<f32> = orbit.section.iter().map(|it| it[0] as f32).collect();
     let period = (orbit.outcome == Outcome::Periodic).then_some(orbit.period);
-    let end = (orbit.outcome != Outcome::Failed).then(|| orbit.end.section::<3>());
+    let end = (orbit.outcome != Outcome::Failed).then(|| orbit.end.section());
     let mut told = json!({
         "share": share,
         "end": end,

@@ -12,6 +12,7 @@ use crate::capsule::{
     ArcPoint, CapsuleParameters as _, CapsuleState as _, Case, Forces, Orbit, Simulation,
     SimulationSize, State, arc, settle_case, simulate_case_within,
 };
+use crate::description::Section;
 use crate::explore::case_json::{case_json, remarks};
 use crate::flow::stop;
 use crate::orbit::{HistorySpan, Outcome, Protocol};
@@ -42,7 +43,7 @@ pub struct Told {
     /// What the numbers do not say by themselves.
     remarks: Vec<String>,
     /// Its stroboscopic section.
-    stroboscopic: Vec<[f64; 3]>,
+    stroboscopic: Vec<Section>,
     history: Option<History>,
     /// The command that computes it.
     command: String,

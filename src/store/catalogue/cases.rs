@@ -1,9 +1,8 @@
 //! The entries of what each case has, beside its outputs, and of the dimensions along which it has several.
 
-use crate::quantity::shown::{shown, words};
-
 use super::entry::{Entry, Extent::*, Type::*, described, entries};
 use super::flags::{directions, outcomes, proofs, reasons};
+use crate::quantity::shown::{shown, words};
 
 /// The dimension of the cases of a block, which in a file of results is replaced by the axes.
 pub const CASE: &str = "case";
@@ -56,9 +55,6 @@ entries! {
 }
 
 described! {
-    NEUTRAL_R Case;
-    NEUTRAL_Y1 Case;
-    NEUTRAL_Y2 Case;
     SECTION_R CaseRow(POINT.name);
     SECTION_Y1 CaseRow(POINT.name);
     SECTION_Y2 CaseRow(POINT.name);
@@ -71,19 +67,9 @@ described! {
     HISTORY_X2 CaseRow(HISTORY_TIME.name);
     HISTORY_Y2 CaseRow(HISTORY_TIME.name);
     HISTORY_DRIVE CaseRow(HISTORY_TIME.name);
-    END_R Block;
-    END_Y1 Block;
-    END_Y2 Block;
     HISTORY_X1 Derived;
     HISTORY_CONTACT Derived;
     HISTORY_FRICTION Derived;
     VELOCITIES Derived;
     RELATIVE_VELOCITY Derived;
 }
-
-/// The coordinates of a section point.
-pub const SECTION: [Entry; 3] = [SECTION_R, SECTION_Y1, SECTION_Y2];
-/// The parts of the direction of the family of a neutral orbit.
-pub const NEUTRAL: [Entry; 3] = [NEUTRAL_R, NEUTRAL_Y1, NEUTRAL_Y2];
-/// Where a case ended.
-pub const END: [Entry; 3] = [END_R, END_Y1, END_Y2];

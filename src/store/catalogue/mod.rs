@@ -16,6 +16,6 @@ pub use branches::*;
 pub use cases::*;
 pub use entry::{Entry, Extent, Flags, Type};
 pub use flags::result;
-pub use model::starts;
+pub use model::{edges, end, histories, impacts, neutral, section, starts};
 pub use places::{Place, all, named};
 pub use tables::*;

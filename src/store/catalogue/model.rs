@@ -1,8 +1,9 @@
 //! The entries of parameters, starts and outputs, whose names the floors below give.
 
+use super::cases::{HISTORY_TIME, IMPACT_POINT, POINT};
 use super::entry::{Entry, Extent};
-use crate::description::{Output, Parameter};
-use crate::of::default_model;
+use super::tables::{EDGE_CYCLE, EDGE_INDEX};
+use crate::description::{Description, Output, Parameter};
 use crate::quantity::Quantity;
 use crate::study::Coordinate;
 
@@ -28,7 +29,41 @@ impl Entry {
     }
 }
 
+/// The coordinates of a section point.
+pub fn section(model: &'static Description) -> Vec<Entry> {
+    entries(model.section, Extent::CaseRow(POINT.name))
+}
+
+/// The parts of the direction of the family of a neutral orbit.
+pub fn neutral(model: &'static Description) -> Vec<Entry> {
+    entries(model.neutral, Extent::Case)
+}
+
+/// What is told of an impact.
+pub fn impacts(model: &'static Description) -> Vec<Entry> {
+    entries(model.impact, Extent::CaseRow(IMPACT_POINT.name))
+}
+
+/// What is kept of a motion at each time.
+pub fn histories(model: &'static Description) -> Vec<Entry> {
+    entries(model.histories, Extent::CaseRow(HISTORY_TIME.name))
+}
+
+/// The section points of saddles between basins.
+pub fn edges(model: &'static Description) -> Vec<Entry> {
+    entries(model.edge, Extent::TableRow(EDGE_INDEX.name, EDGE_CYCLE.name))
+}
+
+/// Where a case ended, in its section coordinates.
+pub fn end(model: &'static Description) -> Vec<Entry> {
+    entries(model.end, Extent::Block)
+}
+
+fn entries(quantities: &[Quantity], extent: Extent) -> Vec<Entry> {
+    quantities.iter().map(|quantity| Entry::of(*quantity, extent)).collect()
+}
+
 /// Where a case starts, which in a block may be where its neighbour settled.
-pub fn starts() -> Vec<Entry> {
-    Coordinate::starts(default_model()).map(Entry::of_coordinate).collect()
+pub fn starts(model: &'static Description) -> Vec<Entry> {
+    Coordinate::starts(model).map(Entry::of_coordinate).collect()
 }

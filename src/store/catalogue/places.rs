@@ -3,8 +3,8 @@
 use std::sync::LazyLock;
 
 use super::branches::{BRANCH_CYCLE, BRANCH_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT};
-use super::cases::SECTION;
 use super::entry::{Entry, Extent};
+use super::model::{edges, end, neutral, section};
 use super::tables::{ATTRACTOR_CYCLE, ATTRACTOR_INDEX, EVENT};
 use super::{branches, cases, tables};
 use crate::of::default_model;
@@ -117,7 +117,7 @@ impl Place {
             parameters.map(|it| self.here(Entry::of_parameter(it))).collect();
         let of_orbits = matches!(self, Place::Attractor | Place::Branch | Place::Special);
         if of_orbits || self == Place::Event {
-            columns.extend(SECTION.map(|entry| self.here(entry)));
+            columns.extend(section(default_model()).into_iter().map(|entry| self.here(entry)));
         }
         if of_orbits {
             let outputs = default_model().outputs().map(Entry::of_output);
@@ -134,8 +134,9 @@ pub fn all() -> &'static [Entry] {
         let study = Coordinate::all().map(Entry::of_coordinate);
         let outputs = default_model().outputs().map(Entry::of_output);
         let fixed = [cases::FIXED, cases::DESCRIBED, tables::FIXED, branches::FIXED].concat();
+        let described = [neutral, end, edges].map(|of| of(default_model())).concat();
         let columns = Place::ALL.into_iter().flat_map(Place::columns);
-        study.chain(outputs).chain(fixed).chain(columns).collect()
+        study.chain(outputs).chain(fixed).chain(described).chain(columns).collect()
     });
     &ALL
 }

@@ -1,10 +1,9 @@
 //! The entries of the tables beside the cases: attractors of starts, events of attractors, and blocks.
 
 use super::cases::MULTIPLIER;
-use crate::quantity::shown::shown;
-
 use super::entry::{Entry, Extent::*, Type::*, entries};
 use super::flags::{outcomes, proofs, specials};
+use crate::quantity::shown::shown;
 
 entries! {
     ATTRACTOR_INDEX "attractor_index" "1" Dimension, Whole, None,
@@ -72,12 +71,6 @@ entries! {
     EDGE_MULTIPLIER_IMAG "edge_multiplier_imag" "1"
         TableRow(EDGE_INDEX.name, MULTIPLIER.name), Real, None,
         "imaginary part of a Floquet multiplier of the saddle";
-    EDGE_SECTION_R "edge_section_r" "m" TableRow(EDGE_INDEX.name, EDGE_CYCLE.name), Real, None,
-        "relative displacement x1 - x2 of the saddle at the stroboscopic section";
-    EDGE_SECTION_Y1 "edge_section_y1" "m/s" TableRow(EDGE_INDEX.name, EDGE_CYCLE.name), Real, None,
-        "velocity of the mass on the saddle at the stroboscopic section";
-    EDGE_SECTION_Y2 "edge_section_y2" "m/s" TableRow(EDGE_INDEX.name, EDGE_CYCLE.name), Real, None,
-        "velocity of the capsule on the saddle at the stroboscopic section";
 
     BASIN_ENTROPY "basin_entropy" "1" Once, Real, None,
         "basin entropy: mean entropy of the attractors of the starts in a box, in nat";

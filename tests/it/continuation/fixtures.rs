@@ -59,8 +59,8 @@ pub fn point(parameter: f64, period: usize, height: f64, multiplier: f64) -> Poi
     outputs[Output::WorkNet] = 2e-3 + 1e-4 * height * height;
     Point {
         parameter,
-        section: vec![[1e-3 * height, 0.1 * height, 0.0]; period],
-        multipliers: [multiplier, 0.1, 0.0].map(|re| Complex { re, im: 0.0 }),
+        section: vec![[1e-3 * height, 0.1 * height, 0.0].into(); period],
+        multipliers: [multiplier, 0.1, 0.0].map(|re| Complex { re, im: 0.0 }).to_vec(),
         residual: 1e-13,
         measured: outputs,
         sequence: usize::from(height > 2.0),

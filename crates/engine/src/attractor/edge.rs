@@ -11,22 +11,37 @@ use crate::orbit::return_map::{Cycles, returned};
 /// An unstable periodic orbit on the boundary of two basins, with one multiplier beyond 1 in magnitude: its stable manifold is
 /// the boundary beside it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Saddle<const D: usize> {
+pub struct Saddle<P> {
     /// Its section points, from the least on as [`super::Attractor::least_point`] has it.
-    pub points: Vec<[f64; D]>,
+    pub points: Vec<P>,
     /// Its multipliers, the largest magnitude first [-].
-    pub multipliers: [Complex; D],
+    pub multipliers: Vec<Complex>,
     /// How far its section is from repeating after the period, relative to the motion [-].
     pub residual: f64,
 }
 
+impl<P> Saddle<P> {
+    /// The same with section points held in another way.
+    pub fn map<Q>(self, held: impl Fn(P) -> Q) -> Saddle<Q> {
+        let Saddle { points, multipliers, residual } = self;
+        Saddle { points: points.into_iter().map(held).collect(), multipliers, residual }
+    }
+}
+
 /// A saddle that a search has met, and what is on the two sides of the boundary there.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Met<const D: usize> {
+pub struct Met<P> {
     /// The attractors to which the motions on the two sides of the boundary lead, by their numbers.
     pub sides: [u32; 2],
     /// The orbit.
-    pub saddle: Saddle<D>,
+    pub saddle: Saddle<P>,
+}
+
+impl<P> Met<P> {
+    /// The same with section points held in another way.
+    pub fn map<Q>(self, held: impl Fn(P) -> Q) -> Met<Q> {
+        Met { sides: self.sides, saddle: self.saddle.map(held) }
+    }
 }
 
 /// Points at which a segment is divided at a time: they are followed side by side.
@@ -81,7 +96,7 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
     /// 2006). Where both come back to where they were, Newton's method on the return map closes the orbit. Guarantees: it
     /// closes to rounding and has exactly one multiplier beyond 1 in magnitude. Breaks: where the boundary is fractal the
     /// saddle depends on the starts, and is one of many.
-    pub fn saddle(&self, points: [[f64; D]; 2]) -> Option<Met<D>> {
+    pub fn saddle(&self, points: [[f64; D]; 2]) -> Option<Met<[f64; D]>> {
         let leads = (self.leads)(&points);
         let first = leads[0]?;
         if leads[1].is_none_or(|second| second == first) {
@@ -108,7 +123,7 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
     }
 
     /// A saddle with what small pushes along its unstable direction lead to, which are two attractors where it lies on their boundary.
-    fn met(&self, closed: Saddled<D>) -> Option<Met<D>> {
+    fn met(&self, closed: Saddled<D>) -> Option<Met<[f64; D]>> {
         let Saddled { saddle, pushes } = closed;
         let leads = (self.leads)(&pushes);
         let sides = [leads[0]?, leads[1]?];
@@ -196,7 +211,8 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
         let along = self.unstable(&closed.jacobian).map(|it| it * PUSH * size);
         let pushes =
             [1.0, -1.0].map(|side| std::array::from_fn(|i| closed.point[i] + side * along[i]));
-        let saddle = Saddle { points, multipliers, residual: closed.residual };
+        let saddle =
+            Saddle { points, multipliers: multipliers.to_vec(), residual: closed.residual };
         Some(Saddled { saddle, pushes })
     }
 
@@ -216,6 +232,6 @@ impl<M: System<D>, const D: usize> EdgeSearch<'_, M, D> {
 
 /// A saddle, and two points beside it, to either side along its unstable direction.
 struct Saddled<const D: usize> {
-    saddle: Saddle<D>,
+    saddle: Saddle<[f64; D]>,
     pushes: [[f64; D]; 2],
 }

@@ -5,7 +5,7 @@ use crate::orbit::{Orbit, Outcome};
 
 /// What a case has settled to, without the orbit itself, which can be followed again from its last point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FinalMotion<const D: usize> {
+pub struct FinalMotion<P> {
     /// What the case turned out to be.
     pub outcome: Outcome,
     /// Whether small pushes die out, by its multipliers.
@@ -13,28 +13,36 @@ pub struct FinalMotion<const D: usize> {
     /// Its period [cycles]; zero unless periodic.
     pub period: u32,
     /// The section point where it was last, from where it can be followed on.
-    pub section: [f64; D],
+    pub section: P,
     /// How far the section is from repeating after a period, relative to the motion [-].
     pub residual: f64,
     /// The least distance of a multiplier from one [-].
     pub from_one: f64,
 }
 
-impl<const D: usize> FinalMotion<D> {
+impl<P> FinalMotion<P> {
     /// The motion of a case with this outcome, period, last section point, and residual and multipliers of
     /// its certificate, the largest magnitude first; they are NaN where there is none.
     pub fn new(
         outcome: Outcome,
         period: u32,
-        section: [f64; D],
+        section: P,
         residual: f64,
-        multipliers: &[Complex; D],
+        multipliers: &[Complex],
     ) -> Self {
         let is_stable = multipliers[0].abs() < 1.0;
         let from_one = least_from_one(multipliers);
         FinalMotion { outcome, is_stable, period, section, residual, from_one }
     }
 
+    /// The same with the section point held in another way.
+    pub fn map<Q>(self, held: impl FnOnce(P) -> Q) -> FinalMotion<Q> {
+        let FinalMotion { outcome, is_stable, period, section, residual, from_one } = self;
+        FinalMotion { outcome, is_stable, period, section: held(section), residual, from_one }
+    }
+}
+
+impl<const D: usize> FinalMotion<[f64; D]> {
     /// The motion of what a case of any system has settled to.
     pub fn of<S, O>(orbit: &Orbit<S, O, D>, section: [f64; D]) -> Self {
         let certificate = &orbit.certificate;
@@ -49,8 +57,8 @@ mod tests {
 
     #[test]
     fn a_summary_is_small_and_a_missing_one_takes_no_more() {
-        assert_eq!(size_of::<FinalMotion<3>>(), 48);
-        assert_eq!(size_of::<Option<FinalMotion<3>>>(), 48);
+        assert_eq!(size_of::<FinalMotion<[f64; 3]>>(), 48);
+        assert_eq!(size_of::<Option<FinalMotion<[f64; 3]>>>(), 48);
     }
 
     #[test]

@@ -1,11 +1,10 @@
 //! When two motions are on one attractor.
 
+use super::final_motion::FinalMotion;
 use crate::flow::{Metric, System};
 use crate::orbit::precision::OBLIQUE;
 use crate::orbit::return_map::append_points;
 use crate::orbit::{Outcome, Protocol};
-
-use super::final_motion::FinalMotion;
 
 /// How many points of two motions that do not repeat are compared, one pair of numbers after the other, and the share of
 /// nearest neighbours in the same sample up to which they are one attractor.
@@ -20,26 +19,33 @@ const LEAST: f64 = 1e-6;
 
 /// An attractor as the cases with the same parameters show it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Attractor<const D: usize> {
+pub struct Attractor<P> {
     /// The first of its cases.
     pub case: usize,
     /// Periodic, chaotic or quasi-periodic.
     pub outcome: Outcome,
     /// Section points of a period, or a sample, which is held only until the cases are sorted.
-    pub points: Vec<[f64; D]>,
+    pub points: Vec<P>,
     /// How far each point may be from the true orbit, in the units of the metric.
     pub bound: f64,
     /// Size of the motion, in the units of the metric.
     pub size: f64,
 }
 
-impl<const D: usize> Attractor<D> {
+impl<P> Attractor<P> {
+    /// The same with section points held in another way.
+    pub fn map<Q>(self, held: impl Fn(P) -> Q) -> Attractor<Q> {
+        let Attractor { case, outcome, points, bound, size } = self;
+        Attractor { case, outcome, points: points.into_iter().map(held).collect(), bound, size }
+    }
+}
+
+impl<const D: usize> Attractor<[f64; D]> {
     /// What a case has ended on; none where that repels or is not known.
-    ///
     pub fn of<M: System<D>>(
         index: usize,
         system: &M,
-        motion: &FinalMotion<D>,
+        motion: &FinalMotion<[f64; D]>,
         protocol: &Protocol,
     ) -> Option<Self> {
         let wanted = match motion.outcome {

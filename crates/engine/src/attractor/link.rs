@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use super::identity::{Attractor, coincide, relative_bound};
+use super::table::Table;
 use crate::branch::{
     Along, Linearised, PeriodicOrbit, SegmentEnd, SpecialKind, SpecialValue, leads_to, linearised,
     succession,
@@ -11,27 +13,33 @@ use crate::orbit::matrix::least_from_one;
 use crate::orbit::passage::Integrator;
 use crate::orbit::{Outcome, Protocol};
 
-use super::identity::{Attractor, coincide, relative_bound};
-use super::table::Table;
-
 /// How the attractors of a cell continue in the next.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Links<const D: usize> {
+pub struct Links<P> {
     /// Pairs of places, in this cell and in the next, that are one attractor.
     pub pairs: Vec<[usize; 2]>,
     /// Special points of attractors of this cell, by place, and of the next.
-    pub special: [Vec<(usize, SpecialValue<D>)>; 2],
+    pub special: [Vec<(usize, SpecialValue<P>)>; 2],
     /// Orbits at the next cell, stable there, in which attractors of this one go on, by place, but that no case shows.
-    pub unseen: Vec<(usize, PeriodicOrbit<D>)>,
+    pub unseen: Vec<(usize, PeriodicOrbit<P>)>,
 }
 
-impl<const D: usize> Default for Links<D> {
+impl<P> Default for Links<P> {
     fn default() -> Self {
         Links { pairs: Vec::new(), special: [Vec::new(), Vec::new()], unseen: Vec::new() }
     }
 }
 
-impl<const D: usize> Links<D> {
+impl<P> Links<P> {
+    /// The same with section points held in another way.
+    pub fn map<Q>(self, held: impl Fn(P) -> Q + Copy) -> Links<Q> {
+        let Links { pairs, special, unseen } = self;
+        let special =
+            special.map(|side| side.into_iter().map(|(place, it)| (place, it.map(held))).collect());
+        let unseen = unseen.into_iter().map(|(place, it)| (place, it.map(held))).collect();
+        Links { pairs, special, unseen }
+    }
+
     /// Whether an attractor of a side is linked.
     fn has(&self, side: usize, place: usize) -> bool {
         self.pairs.iter().any(|pair| pair[side] == place)
@@ -40,8 +48,8 @@ impl<const D: usize> Links<D> {
 
 /// Whether an orbit that was continued to the parameters of an attractor is that attractor.
 pub(super) fn is_reached<const D: usize>(
-    orbit: &PeriodicOrbit<D>,
-    attractor: &Attractor<D>,
+    orbit: &PeriodicOrbit<[f64; D]>,
+    attractor: &Attractor<[f64; D]>,
     metric: &Metric<D>,
     protocol: &Protocol,
 ) -> bool {
@@ -77,7 +85,7 @@ pub struct Neighbours<M: System<D>, const D: usize> {
     /// The two values of the parameter.
     pub values: [f64; 2],
     /// The cells.
-    pub cells: [Arc<Table<D>>; 2],
+    pub cells: [Arc<Table<[f64; D]>>; 2],
     /// Pairs of places, in the first cell and in the second, between which cases lead that inherit their start from
     /// the first cell, and from the second; none where no case does.
     pub inherited: [Option<Vec<[usize; 2]>>; 2],
@@ -95,7 +103,7 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         &self,
         integrator: &dyn Integrator<M, D>,
         linear: [&LinearOrbits<M, D>; 2],
-    ) -> Links<D> {
+    ) -> Links<[f64; D]> {
         let (mut links, mut apart) = (Links::default(), Apart::default());
         let [periodic, mut lost] = self.by_outcome();
         for &(side, place) in &periodic {
@@ -128,7 +136,7 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         &self,
         side: usize,
         place: usize,
-        links: &Links<D>,
+        links: &Links<[f64; D]>,
         linear: [&LinearOrbits<M, D>; 2],
     ) -> Option<usize> {
         let from = linear[side].get(place)?.as_ref()?;
@@ -144,7 +152,7 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
         &self,
         integrator: &dyn Integrator<M, D>,
         (side, place): (usize, usize),
-        links: &mut Links<D>,
+        links: &mut Links<[f64; D]>,
         apart: &mut Apart,
     ) -> bool {
         let points = &self.cells[side].attractors[place].points;
@@ -177,10 +185,10 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
     /// other cell. One that does not repeat has no period, and no section point of its own.
     fn unresolved(
         &self,
-        special: &[(usize, SpecialValue<D>)],
+        special: &[(usize, SpecialValue<[f64; D]>)],
         side: usize,
         place: usize,
-    ) -> SpecialValue<D> {
+    ) -> SpecialValue<[f64; D]> {
         let [cell, to] = [self.values[side], self.values[1 - side]];
         let Attractor { outcome, points, .. } = &self.cells[side].attractors[place];
         let orbit = points.first().filter(|_| *outcome == Outcome::Periodic);
@@ -216,9 +224,14 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
     }
 
     /// The attractor of the other cell that is the orbit that was continued to it.
-    fn successor(&self, side: usize, links: &Links<D>, orbit: &PeriodicOrbit<D>) -> Option<usize> {
+    fn successor(
+        &self,
+        side: usize,
+        links: &Links<[f64; D]>,
+        orbit: &PeriodicOrbit<[f64; D]>,
+    ) -> Option<usize> {
         let metric = self.along.metric(orbit.value);
-        let is_next = |(place, other): &(usize, &Attractor<D>)| {
+        let is_next = |(place, other): &(usize, &Attractor<[f64; D]>)| {
             !links.has(1 - side, *place) && is_reached(orbit, other, &metric, &self.protocol)
         };
         let mut others = self.cells[1 - side].attractors.iter().enumerate();
@@ -230,7 +243,7 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
     /// Two attractors are one if cases lead from one to the other, see `Neighbours::led`, or, where no start is inherited, if
     /// both are the only ones left that do not repeat. An orbit that is known to be stable at the other value is no other
     /// attractor there, two that repeat are never linked so, and neither is one to which several lead.
-    fn inherit(&self, links: &mut Links<D>, apart: &Apart) {
+    fn inherit(&self, links: &mut Links<[f64; D]>, apart: &Apart) {
         let mut pairs = match &self.inherited {
             [None, None] => self.only_ones(links),
             [upward, downward] => {
@@ -264,7 +277,7 @@ impl<M: System<D>, const D: usize> Neighbours<M, D> {
     }
 
     /// The attractors that do not repeat, where each cell has just one that is not linked.
-    fn only_ones(&self, links: &Links<D>) -> Vec<[usize; 2]> {
+    fn only_ones(&self, links: &Links<[f64; D]>) -> Vec<[usize; 2]> {
         let left = |side: usize| {
             let attractors = self.cells[side].attractors.iter().enumerate();
             let mut left = attractors
@@ -292,9 +305,9 @@ pub fn linear_orbits<M: System<D>, const D: usize>(
     integrator: &dyn Integrator<M, D>,
     along: &Along<M, D>,
     value: f64,
-    cell: &Table<D>,
+    cell: &Table<[f64; D]>,
 ) -> Vec<Option<Linearised<M::Event, D>>> {
-    let periodic = |it: &Attractor<D>| it.outcome == Outcome::Periodic;
-    let linear = |it: &Attractor<D>| linearised(integrator, along, (value, &it.points));
+    let periodic = |it: &Attractor<[f64; D]>| it.outcome == Outcome::Periodic;
+    let linear = |it: &Attractor<[f64; D]>| linearised(integrator, along, (value, &it.points));
     cell.attractors.iter().map(|it| periodic(it).then(|| linear(it))?).collect()
 }

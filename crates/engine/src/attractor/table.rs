@@ -3,11 +3,10 @@
 use std::ops::Range;
 use std::sync::Mutex;
 
-use crate::flow::{Metric, Stroboscopic, System};
-use crate::orbit::{OrbitOf, Outcome, Protocol};
-
 use super::final_motion::FinalMotion;
 use super::identity::Attractor;
+use crate::flow::{Metric, Stroboscopic, System};
+use crate::orbit::{OrbitOf, Outcome, Protocol};
 
 /// So many cases at most are followed before they are sorted in turn, as there may be millions.
 const TOGETHER: usize = 4096;
@@ -46,12 +45,12 @@ pub(super) fn results<T: Send>(
 }
 
 /// The attractors at one set of parameters.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Table<const D: usize> {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table<P> {
     /// The attractor of each case, by its place in the list below; none where the case has none.
     pub of_case: Vec<Option<u32>>,
     /// The attractors in the order in which the cases show them.
-    pub attractors: Vec<Attractor<D>>,
+    pub attractors: Vec<Attractor<P>>,
     /// Their places in the order of their numbers, which does not depend on the order of the cases.
     ///
     /// First periodic orbits, then quasi-periodic and chaotic motions; orbits by their periods; then by the coordinates of a
@@ -63,7 +62,28 @@ pub struct Table<const D: usize> {
 /// To this share of the largest motion marks of attractors are rounded before they are compared.
 const ROUNDED: f64 = 1e-6;
 
-impl<const D: usize> Table<D> {
+impl<P> Default for Table<P> {
+    fn default() -> Self {
+        Table { of_case: Vec::new(), attractors: Vec::new(), order: Vec::new() }
+    }
+}
+
+impl<P> Table<P> {
+    /// The periods of the attractors that repeat, together [cycles].
+    pub fn cycles(&self) -> usize {
+        let periodic = self.attractors.iter().filter(|it| it.outcome == Outcome::Periodic);
+        periodic.map(|it| it.points.len()).sum()
+    }
+
+    /// The same with section points held in another way.
+    pub fn map<Q>(self, held: impl Fn(P) -> Q + Copy) -> Table<Q> {
+        let Table { of_case, attractors, order } = self;
+        let attractors = attractors.into_iter().map(|it| it.map(held)).collect();
+        Table { of_case, attractors, order }
+    }
+}
+
+impl<const D: usize> Table<[f64; D]> {
     /// Sorts so many cases of a `system` by attractor: `motion` tells the index and the motion of each.
     ///
     /// The executor follows many cases at a time and compares each with the attractors that are known by
@@ -71,7 +91,7 @@ impl<const D: usize> Table<D> {
     /// How many cases are followed at a time does not depend on the executor.
     pub fn sort<M: System<D>>(
         cases: usize,
-        motion: impl Fn(usize) -> (usize, Option<FinalMotion<D>>) + Sync,
+        motion: impl Fn(usize) -> (usize, Option<FinalMotion<[f64; D]>>) + Sync,
         system: &M,
         protocol: &Protocol,
         executor: &dyn Executor,
@@ -87,17 +107,11 @@ impl<const D: usize> Table<D> {
         table
     }
 
-    /// The periods of the attractors that repeat, together [cycles].
-    pub fn cycles(&self) -> usize {
-        let periodic = self.attractors.iter().filter(|it| it.outcome == Outcome::Periodic);
-        periodic.map(|it| it.points.len()).sum()
-    }
-
     /// Sorts so many more cases, which follow those that are sorted already; the order of the attractors is not told.
     pub fn extend<M: System<D>>(
         &mut self,
         cases: usize,
-        motion: impl Fn(usize) -> (usize, Option<FinalMotion<D>>) + Sync,
+        motion: impl Fn(usize) -> (usize, Option<FinalMotion<[f64; D]>>) + Sync,
         system: &M,
         protocol: &Protocol,
         executor: &dyn Executor,
@@ -112,7 +126,7 @@ impl<const D: usize> Table<D> {
                 Some(known.ok_or(found))
             };
             let last = cases.min(first + together);
-            let met: Vec<Option<Result<usize, Attractor<D>>>> =
+            let met: Vec<Option<Result<usize, Attractor<[f64; D]>>>> =
                 results(executor, first..last, meet);
             for met in met {
                 let add = |new| self.add(new, system, protocol);
@@ -144,14 +158,15 @@ impl<const D: usize> Table<D> {
     /// The place of an attractor, if it is known by the points that the known ones have.
     fn place<M: System<D>>(
         &self,
-        found: &mut Attractor<D>,
+        found: &mut Attractor<[f64; D]>,
         system: &M,
         protocol: &Protocol,
     ) -> Option<usize> {
         let (metric, outcome) = (system.metric(), found.outcome);
         (0..found.comparisons()).find_map(|comparison| {
-            let has_points =
-                |known: &Attractor<D>| known.outcome == outcome && known.has_points_for(comparison);
+            let has_points = |known: &Attractor<[f64; D]>| {
+                known.outcome == outcome && known.has_points_for(comparison)
+            };
             if !self.attractors.iter().any(has_points) {
                 return None;
             }
@@ -163,7 +178,7 @@ impl<const D: usize> Table<D> {
     /// The place of an attractor, which is added if it is not known; the known ones are followed as far as it takes.
     fn add<M: System<D>>(
         &mut self,
-        mut found: Attractor<D>,
+        mut found: Attractor<[f64; D]>,
         system: &M,
         protocol: &Protocol,
     ) -> usize {
@@ -186,7 +201,7 @@ pub fn attractors_of<M: System<D>, const D: usize>(
     system: &M,
     orbits: &[OrbitOf<M, D>],
     protocol: &Protocol,
-) -> Table<D> {
+) -> Table<[f64; D]> {
     let motion = |orbit: &OrbitOf<M, D>| FinalMotion::of(orbit, M::Single::point(&orbit.end));
     let motions: Vec<_> = orbits.iter().map(motion).collect();
     let motion = |place: usize| (place, Some(motions[place]));

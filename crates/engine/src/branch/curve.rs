@@ -1,7 +1,5 @@
 //! Curves of special points in two parameters.
 
-use crate::flow::System;
-
 use super::across::{Unknowns, across_section};
 use super::arclength::{CurvePoint, Plane, between, corrected, dot, norm, tangent};
 use super::corner::is_corner;
@@ -11,6 +9,7 @@ use super::orbits::{Orbits, STEEPEST};
 use super::periodic::{Goal, Periodic, passes};
 use super::step_control::{Advance, Bounds, StepControl};
 use super::{Curve, End, Request, Special, SpecialKind};
+use crate::flow::System;
 
 /// A curve begins at its special point to within this, relative to each unknown.
 const AT_SPECIAL: f64 = 1e-9;
@@ -71,7 +70,7 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
     request: &Request<M, D>,
     orbits: &Orbits<M, D, U>,
     through: (usize, usize),
-    special: &Special<O, D>,
+    special: &Special<O, [f64; D]>,
     traces: &mut Vec<Trace<M, D, W>>,
 ) -> Option<usize> {
     let (second, range) = request.second?;
@@ -118,7 +117,7 @@ pub fn trace<M: System<D>, O, const D: usize, const U: usize, const W: usize>(
 /// The period of a special orbit: half that of the branch where it merges in a grazing, and no other orbit lies on its curve.
 fn period<M: System<D>, O, const D: usize, const U: usize>(
     orbits: &Orbits<M, D, U>,
-    special: &Special<O, D>,
+    special: &Special<O, [f64; D]>,
 ) -> u64 {
     let merges = || {
         let at = orbits.unknowns(special.point.section.first()?, special.point.parameter);
@@ -131,7 +130,7 @@ fn period<M: System<D>, O, const D: usize, const U: usize>(
 /// The special point as a point of its curve, with the tangent there.
 fn start<M: System<D>, O, const D: usize, const W: usize>(
     locus: &Locus<M, D, W>,
-    special: &Special<O, D>,
+    special: &Special<O, [f64; D]>,
     second: f64,
 ) -> Option<LocusPoint<W>> {
     let section = special.point.section.first()?;

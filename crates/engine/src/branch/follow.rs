@@ -1,11 +1,6 @@
 //! From a request to what is found: the first orbit, its branch both ways, the doubled branches and the
 //! curves.
 
-use crate::flow::{Event, System};
-use crate::orbit::measured;
-use crate::orbit::neutral::may_be_neutral;
-use crate::orbit::passage::OneByOne;
-
 use super::arclength::{EXACT, Plane, corrected, tangent};
 use super::curve::{Trace, trace};
 use super::doubling::doubled;
@@ -19,6 +14,10 @@ use super::{
     Branch, BranchOf, End, Found, FoundOf, NotFollowed, Point, PointOf, Request, Special,
     SpecialKind,
 };
+use crate::flow::{Event, System};
+use crate::orbit::measured;
+use crate::orbit::neutral::may_be_neutral;
+use crate::orbit::passage::OneByOne;
 
 /// Cycles after which Newton's method is tried again from where the motion then is.
 const APPROACH: u64 = 4;
@@ -287,5 +286,6 @@ fn point<M: System<D>, const D: usize, const U: usize>(
         sequences.push(events);
         sequences.len() - 1
     });
+    let multipliers = multipliers.to_vec();
     Point { parameter, section, multipliers, residual, measured: orbit, sequence }
 }

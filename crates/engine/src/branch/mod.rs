@@ -62,13 +62,13 @@ pub struct Request<M: System<D>, const D: usize> {
 
 /// A periodic orbit on a branch, with an `O` that was measured of it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Point<O, const D: usize> {
+pub struct Point<O, P> {
     /// Value of the parameter that is followed.
     pub parameter: f64,
     /// The section points of one period.
-    pub section: Vec<[f64; D]>,
+    pub section: Vec<P>,
     /// Floquet multipliers of the period, the largest magnitude first.
-    pub multipliers: [Complex; D],
+    pub multipliers: Vec<Complex>,
     /// How far the section is from repeating, relative to the motion [-].
     pub residual: f64,
     /// What was measured over the period.
@@ -78,11 +78,11 @@ pub struct Point<O, const D: usize> {
 }
 
 /// A point of a branch of a system, with the orbit measured by the plain motion, if that can be followed.
-pub type PointOf<M, const D: usize> = Point<Option<OrbitOf<M, D>>, D>;
+pub type PointOf<M, const D: usize> = Point<Option<OrbitOf<M, D>>, [f64; D]>;
 /// A branch of a system.
-pub type BranchOf<M, const D: usize> = Branch<Option<OrbitOf<M, D>>, D>;
+pub type BranchOf<M, const D: usize> = Branch<Option<OrbitOf<M, D>>, [f64; D]>;
 /// What was found of a system.
-pub type FoundOf<M, const D: usize> = Found<Option<OrbitOf<M, D>>, D>;
+pub type FoundOf<M, const D: usize> = Found<Option<OrbitOf<M, D>>, [f64; D]>;
 
 /// What happens at a special point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,13 +115,13 @@ impl SpecialKind {
 
 /// A special point of a branch.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Special<O, const D: usize> {
+pub struct Special<O, P> {
     /// What happens there.
     pub kind: SpecialKind,
     /// It lies between this point of the branch and the next.
     pub after: usize,
     /// The orbit there.
-    pub point: Point<O, D>,
+    pub point: Point<O, P>,
     /// The curve in two parameters that goes through it.
     pub curve: Option<usize>,
 }
@@ -167,15 +167,15 @@ impl End {
 
 /// A branch of periodic orbits, from one end to the other.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Branch<O, const D: usize> {
+pub struct Branch<O, P> {
     /// Period of its orbits [cycles].
     pub period: u64,
     /// The branch that it left at a period doubling, and which of its special points that was.
     pub parent: Option<(usize, usize)>,
     /// Its orbits in order. Where a rigid impact passes the instant of the section, the section point jumps.
-    pub points: Vec<Point<O, D>>,
+    pub points: Vec<Point<O, P>>,
     /// Its special points in order.
-    pub special: Vec<Special<O, D>>,
+    pub special: Vec<Special<O, P>>,
     /// Why it ends at its first orbit and at its last.
     pub ends: [End; 2],
 }
@@ -197,9 +197,9 @@ pub struct Curve {
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found<O, const D: usize> {
+pub struct Found<O, P> {
     /// The branch through the first orbit, then those that doubling leads to.
-    pub branches: Vec<Branch<O, D>>,
+    pub branches: Vec<Branch<O, P>>,
     /// Curves in two parameters, where a second was asked for.
     pub curves: Vec<Curve>,
     /// Period doublings off which no orbit of twice the period was found, though it was asked for: the branch, and which of
@@ -223,24 +223,24 @@ pub enum NotFollowed {
     NoParameter,
 }
 
-impl<O, const D: usize> Found<O, D> {
-    /// The same with something else that is `measured` of each orbit.
-    pub fn map<P>(self, measured: impl Fn(f64, O) -> P) -> Found<P, D> {
-        let point = |it: Point<O, D>| Point {
+impl<O, P> Found<O, P> {
+    /// The same with something else that is `measured` of each orbit, and section points `held` in another way.
+    pub fn map<N, Q>(self, measured: impl Fn(f64, O) -> N, held: impl Fn(P) -> Q) -> Found<N, Q> {
+        let point = |it: Point<O, P>| Point {
             measured: measured(it.parameter, it.measured),
             parameter: it.parameter,
-            section: it.section,
+            section: it.section.into_iter().map(&held).collect(),
             multipliers: it.multipliers,
             residual: it.residual,
             sequence: it.sequence,
         };
-        let special = |it: Special<O, D>| Special {
+        let special = |it: Special<O, P>| Special {
             kind: it.kind,
             after: it.after,
             point: point(it.point),
             curve: it.curve,
         };
-        let branch = |it: Branch<O, D>| Branch {
+        let branch = |it: Branch<O, P>| Branch {
             period: it.period,
             parent: it.parent,
             points: it.points.into_iter().map(point).collect(),

@@ -1,9 +1,8 @@
 //! A segment of a branch: what becomes of a periodic orbit from one value of a parameter to another.
 
+use super::SpecialKind;
 use crate::flow::{Metric, System};
 use crate::orbit::matrix::Complex;
-
-use super::SpecialKind;
 
 /// Values of the parameter closer together than this, relative to them and for each cycle of the period, are one
 /// value: each cycle adds its rounding to the orbit's.
@@ -29,18 +28,25 @@ impl<M: System<D>, const D: usize> Along<M, D> {
 
 /// A periodic orbit at a value of a parameter.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PeriodicOrbit<const D: usize> {
+pub struct PeriodicOrbit<P> {
     /// The value.
     pub value: f64,
     /// Its section points, one for each cycle of its period.
-    pub points: Vec<[f64; D]>,
+    pub points: Vec<P>,
     /// Floquet multipliers of the period, the largest magnitude first.
-    pub multipliers: [Complex; D],
+    pub multipliers: Vec<Complex>,
     /// How far the section is from repeating, relative to the motion [-].
     pub residual: f64,
 }
 
-impl<const D: usize> PeriodicOrbit<D> {
+impl<P> PeriodicOrbit<P> {
+    /// The same with section points held in another way.
+    pub fn map<Q>(self, held: impl Fn(P) -> Q) -> PeriodicOrbit<Q> {
+        let PeriodicOrbit { value, points, multipliers, residual } = self;
+        let points = points.into_iter().map(held).collect();
+        PeriodicOrbit { value, points, multipliers, residual }
+    }
+
     /// Whether small perturbations decay.
     pub fn is_stable(&self) -> bool {
         self.multipliers[0].abs() < 1.0
@@ -49,7 +55,7 @@ impl<const D: usize> PeriodicOrbit<D> {
 
 /// A special point between two values of a parameter.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SpecialValue<const D: usize> {
+pub struct SpecialValue<P> {
     /// What happens.
     pub kind: SpecialKind,
     /// The value of the parameter.
@@ -59,16 +65,25 @@ pub struct SpecialValue<const D: usize> {
     /// Period of the orbit [cycles].
     pub period: u64,
     /// Its section point.
-    pub section: [f64; D],
+    pub section: P,
     /// Whether the branch goes on with stable orbits.
     pub is_stable_beyond: bool,
 }
 
+impl<P> SpecialValue<P> {
+    /// The same with the section point held in another way.
+    pub fn map<Q>(self, held: impl FnOnce(P) -> Q) -> SpecialValue<Q> {
+        let SpecialValue { kind, value, uncertainty, period, section, is_stable_beyond } = self;
+        let section = held(section);
+        SpecialValue { kind, value, uncertainty, period, section, is_stable_beyond }
+    }
+}
+
 /// How a segment ends.
 #[derive(Debug, Clone, PartialEq)]
-pub enum SegmentEnd<const D: usize> {
+pub enum SegmentEnd<P> {
     /// At the other value, with this orbit.
-    Reached(PeriodicOrbit<D>),
+    Reached(PeriodicOrbit<P>),
     /// Before: the branch turns back, or has a corner.
     Ended,
     /// Before: it runs into an orbit of half its period, which continues it.
@@ -79,9 +94,22 @@ pub enum SegmentEnd<const D: usize> {
 
 /// A segment of a branch.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Segment<const D: usize> {
+pub struct Segment<P> {
     /// The special points up to the one at which the orbit ceases to be stable, or at which the branch ends.
-    pub special: Vec<SpecialValue<D>>,
+    pub special: Vec<SpecialValue<P>>,
     /// How it ends.
-    pub end: SegmentEnd<D>,
+    pub end: SegmentEnd<P>,
+}
+
+impl<P> Segment<P> {
+    /// The same with section points held in another way.
+    pub fn map<Q>(self, held: impl Fn(P) -> Q + Copy) -> Segment<Q> {
+        let end = match self.end {
+            SegmentEnd::Reached(orbit) => SegmentEnd::Reached(orbit.map(held)),
+            SegmentEnd::Ended => SegmentEnd::Ended,
+            SegmentEnd::Merged => SegmentEnd::Merged,
+            SegmentEnd::Lost => SegmentEnd::Lost,
+        };
+        Segment { special: self.special.into_iter().map(|it| it.map(held)).collect(), end }
+    }
 }

@@ -1,8 +1,5 @@
 //! From a request for a segment to the segment: of an orbit, or of the attractor that it becomes.
 
-use crate::flow::System;
-use crate::orbit::passage::Integrator;
-
 use super::arclength::{ROUNDING, norm};
 use super::family::Family;
 use super::limited::Limited;
@@ -11,6 +8,8 @@ use super::scales::units;
 use super::segment::{Along, Segment, SegmentEnd};
 use super::special::Sought;
 use super::walk::{COARSE, LEAST_MOVE, Walk};
+use crate::flow::System;
+use crate::orbit::passage::Integrator;
 
 /// An attractor is followed through so many doublings and mergers at most.
 const CHANGES_OF_PERIOD: usize = 4;
@@ -29,7 +28,7 @@ pub fn segment<M: System<D>, const D: usize>(
     along: &Along<M, D>,
     from: (f64, &[[f64; D]]),
     to: f64,
-) -> Option<Segment<D>> {
+) -> Option<Segment<[f64; D]>> {
     segment_of(integrator, along, from, (to, 0))
 }
 
@@ -44,7 +43,7 @@ pub fn succession<M: System<D>, const D: usize>(
     along: &Along<M, D>,
     from: (f64, &[[f64; D]]),
     to: f64,
-) -> Option<Segment<D>> {
+) -> Option<Segment<[f64; D]>> {
     segment_of(integrator, along, from, (to, CHANGES_OF_PERIOD))
 }
 
@@ -53,7 +52,7 @@ fn segment_of<M: System<D>, const D: usize>(
     along: &Along<M, D>,
     from: (f64, &[[f64; D]]),
     to: (f64, usize),
-) -> Option<Segment<D>> {
+) -> Option<Segment<[f64; D]>> {
     if !along.system.has(along.parameter) {
         return None;
     }
@@ -73,7 +72,7 @@ fn segment_with<M: System<D>, const D: usize, const U: usize>(
     along: &Along<M, D>,
     (from, points): (f64, &[[f64; D]]),
     (to, changes): (f64, usize),
-) -> Option<Segment<D>> {
+) -> Option<Segment<[f64; D]>> {
     let Along { system, parameter, tolerance } = along;
     let family =
         Family { system: system.clone(), period: points.len() as u64, tolerance: *tolerance };

@@ -1,7 +1,5 @@
 //! The way of an orbit from one value of a parameter to another, and where its attractor goes on.
 
-use crate::flow::System;
-
 use super::arclength::{Plane, between, corrected, dot, moved, norm, tangent};
 use super::doubling::doubled;
 use super::grazing::grazed;
@@ -13,6 +11,7 @@ use super::segment::{ONE_VALUE, PeriodicOrbit, Segment, SegmentEnd, SpecialValue
 use super::special::Sought;
 use super::step_control::{Bounds, StepControl};
 use super::{End, SpecialKind};
+use crate::flow::System;
 
 /// Where events change without a grazing, the place is known to this share of a step.
 pub const COARSE: f64 = 1e-6;
@@ -28,6 +27,9 @@ const SAME: f64 = 1e-6;
 const SHORTEST: f64 = 1e-3;
 /// Beyond a merger the shorter orbit is begun by this share of the distance on, where its stability is not rounding.
 const BEYOND: f64 = 1e-6;
+
+/// A special point with the section points of the engine.
+type SpecialAt<const D: usize> = SpecialValue<[f64; D]>;
 
 /// Where an attractor goes on that an orbit has ceased to be.
 pub enum Onward<'a, M: System<D>, const D: usize, const U: usize> {
@@ -75,7 +77,7 @@ pub struct Begun<'a, M: System<D>, const D: usize, const U: usize> {
 
 /// The segment of an orbit, and where the attractor goes on that it has ceased to be.
 pub type Followed<'a, M, const D: usize, const U: usize> =
-    (Segment<D>, Option<Onward<'a, M, D, U>>);
+    (Segment<[f64; D]>, Option<Onward<'a, M, D, U>>);
 
 /// The way from one value of the parameter to another.
 #[derive(Clone)]
@@ -135,12 +137,12 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
     }
 
     /// The orbit at the end of the way.
-    fn reached(&self, last: &OrbitPoint<M::Event, D, U>) -> PeriodicOrbit<D> {
+    fn reached(&self, last: &OrbitPoint<M::Event, D, U>) -> PeriodicOrbit<[f64; D]> {
         let points = self.orbits.section_points(&last.at);
         PeriodicOrbit {
             value: self.to,
             points: points.iter().map(|at| self.orbits.section(at)).collect(),
-            multipliers: last.seen.multipliers(),
+            multipliers: last.seen.multipliers().to_vec(),
             residual: self.orbits.displacement(&last.at).map_or(f64::NAN, |apart| norm(&apart)),
         }
     }
@@ -150,7 +152,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
     fn merged(
         &self,
         last: &OrbitPoint<M::Event, D, U>,
-    ) -> Option<(Option<SpecialValue<D>>, Option<Onward<'a, M, D, U>>)> {
+    ) -> Option<(Option<SpecialAt<D>>, Option<Onward<'a, M, D, U>>)> {
         let (shorter, start) = self.half_period(last)?;
         let doubling = shorter.doubling(start);
         let value = doubling.as_ref().map(|it| shorter.special_value(it));
@@ -158,7 +160,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
     }
 
     /// The special point of an orbit at which the return map is discontinuous, within so much of the way.
-    fn discontinuity(&self, at: &OrbitPoint<M::Event, D, U>, within: f64) -> SpecialValue<D> {
+    fn discontinuity(&self, at: &OrbitPoint<M::Event, D, U>, within: f64) -> SpecialAt<D> {
         let (kind, point, uncertainty) = match grazed(&self.orbits, at) {
             Some(point) => (SpecialKind::Grazing, point, ONE_VALUE),
             None => (SpecialKind::EventSequence, at.clone(), within),
@@ -197,8 +199,8 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
     fn doubling_at(
         &self,
         fold: &SpecialOrbit<M::Event, D, U>,
-        value: &SpecialValue<D>,
-    ) -> Option<(SpecialValue<D>, Onward<'a, M, D, U>)> {
+        value: &SpecialAt<D>,
+    ) -> Option<(SpecialAt<D>, Onward<'a, M, D, U>)> {
         let (doubling, onward) = self.merged(&fold.point)?;
         let (doubling, onward) = (doubling?, onward?);
         let near = SAME * (self.to - self.from).abs();
@@ -224,7 +226,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Walk<'a, M, D, U> {
     }
 
     /// A special orbit by the value of its parameter.
-    fn special_value(&self, orbit: &SpecialOrbit<M::Event, D, U>) -> SpecialValue<D> {
+    fn special_value(&self, orbit: &SpecialOrbit<M::Event, D, U>) -> SpecialAt<D> {
         let SpecialOrbit { kind, uncertainty, point, is_stable_beyond, .. } = orbit;
         let Walk { orbits, from, to, .. } = self;
         let (value, period) = (orbits.parameter(&point.at), orbits.family.period);
@@ -249,7 +251,7 @@ struct Stretch<'a, M: System<D>, const D: usize, const U: usize> {
     ahead: f64,
     /// Whether all its orbits are stable.
     is_stable: bool,
-    special: Vec<SpecialValue<D>>,
+    special: Vec<SpecialAt<D>>,
     /// From the period doubling on at which the orbit has ceased to be stable, say.
     onward: Option<Onward<'a, M, D, U>>,
 }
@@ -263,7 +265,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Stretch<'a, M, D, U> {
     }
 
     /// Adds the next orbit, and says how the segment ends if it does.
-    fn advance(&mut self, walk: &Walk<'a, M, D, U>) -> Option<SegmentEnd<D>> {
+    fn advance(&mut self, walk: &Walk<'a, M, D, U>) -> Option<SegmentEnd<[f64; D]>> {
         if !self.is_stable {
             self.control.shortest = SHORTEST;
             // Of an unstable orbit only the end of its branch matters.
@@ -298,7 +300,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Stretch<'a, M, D, U> {
         &mut self,
         walk: &Walk<'a, M, D, U>,
         orbit: &SpecialOrbit<M::Event, D, U>,
-    ) -> Option<SegmentEnd<D>> {
+    ) -> Option<SegmentEnd<[f64; D]>> {
         let value = walk.special_value(orbit);
         if orbit.kind == SpecialKind::Fold {
             let Some((doubling, merged)) = walk.doubling_at(orbit, &value) else {
@@ -320,7 +322,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Stretch<'a, M, D, U> {
     }
 
     /// How it ends where it turns back without a fold: at a merger, or where derivatives jump.
-    fn turns(&mut self, walk: &Walk<'a, M, D, U>) -> SegmentEnd<D> {
+    fn turns(&mut self, walk: &Walk<'a, M, D, U>) -> SegmentEnd<[f64; D]> {
         let [.., before, last] = &self.half.points[..] else { return SegmentEnd::Lost };
         let (before, step) = (before.clone(), norm(&between(&before.at, &last.at)));
         if let Some(end) = self.merges(walk, &before) {
@@ -337,7 +339,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Stretch<'a, M, D, U> {
         &mut self,
         walk: &Walk<'a, M, D, U>,
         last: &OrbitPoint<M::Event, D, U>,
-    ) -> SegmentEnd<D> {
+    ) -> SegmentEnd<[f64; D]> {
         if !self.is_stable {
             return SegmentEnd::Lost;
         }
@@ -352,7 +354,7 @@ impl<'a, M: System<D>, const D: usize, const U: usize> Stretch<'a, M, D, U> {
         &mut self,
         walk: &Walk<'a, M, D, U>,
         last: &OrbitPoint<M::Event, D, U>,
-    ) -> Option<SegmentEnd<D>> {
+    ) -> Option<SegmentEnd<[f64; D]>> {
         let (doubling, merged) = walk.merged(last)?;
         self.special.extend(doubling);
         self.onward = self.onward.take().or(merged);

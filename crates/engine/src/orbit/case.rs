@@ -1,10 +1,9 @@
 //! A case, and what it has settled to.
 
-use crate::flow::System;
-
 use super::matrix::Complex;
 use super::protocol::Outcome;
 use super::{Certificate, Exponent, Failure};
+use crate::flow::System;
 
 /// One case.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +32,7 @@ pub struct Orbit<S, O, const D: usize> {
     /// Its period [cycles]; zero unless periodic.
     pub period: u64,
     /// What is proven of its period.
-    pub certificate: Certificate<D>,
+    pub certificate: Certificate<[f64; D]>,
     /// Its largest Lyapunov exponent, where it is known.
     pub exponent: Exponent,
     /// The longest period that is excluded, with all shorter ones [cycles]; NaN where none is known.
@@ -112,7 +111,7 @@ impl<S: Copy, O, const D: usize> Orbit<S, O, D> {
     }
 
     /// The multipliers of its period, the largest magnitude first; NaN where they are not known.
-    pub fn multipliers(&self) -> &[Complex; D] {
+    pub fn multipliers(&self) -> &[Complex] {
         &self.certificate.multipliers
     }
 }

@@ -1,13 +1,12 @@
 //! How a case comes to its end: it settles, an orbit is near or foretold, or its budget of cycles is used up.
 
-use crate::flow::System;
-
 use super::measure::Found;
 use super::settling::{Foretold, Settling, Verdict};
 use super::{Failure, Protocol, Trajectory};
+use crate::flow::System;
 
 /// How a case has come to its end.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum End<const D: usize> {
     /// It is found to do this.
     Found(Found<D>),

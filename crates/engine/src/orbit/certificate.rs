@@ -1,8 +1,6 @@
 //! What is proven of a periodic orbit: that it closes, how it answers to small pushes, and that its period
 //! is the least.
 
-use crate::flow::System;
-
 use super::Protocol;
 use super::matrix::{Complex, Matrix, eigenvalues};
 use super::neutral::{Neutral, close_neutral, may_be_neutral};
@@ -11,6 +9,7 @@ use super::passage::{Integrator, image};
 use super::precision::{OBLIQUE, closes, same};
 use super::recurrence::Settled;
 use super::return_map::Cycles;
+use crate::flow::System;
 
 /// How a period was proven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,8 +42,8 @@ impl Proof {
 }
 
 /// What is proven of a periodic orbit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Certificate<const D: usize> {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Certificate<P> {
     /// How.
     pub proof: Proof,
     /// How far the section is from repeating after a period, relative to the motion [-]; NaN without an
@@ -54,23 +53,31 @@ pub struct Certificate<const D: usize> {
     ///
     /// Of an orbit that sticks on a surface at the section one of them is 0: that of pushes off the surface,
     /// as far as they end on it again.
-    pub multipliers: [Complex; D],
+    pub multipliers: Vec<Complex>,
     /// The direction of the family that a neutral orbit belongs to, of length one in the units of the metric
     /// [-]; none of any other.
-    pub neutral: Option<[f64; D]>,
+    pub neutral: Option<P>,
 }
 
-impl<const D: usize> Certificate<D> {
+impl<const D: usize> Certificate<[f64; D]> {
     /// Nothing is proven.
     pub fn none() -> Self {
         let unknown = Complex { re: f64::NAN, im: f64::NAN };
-        let multipliers = [unknown; D];
+        let multipliers = vec![unknown; D];
         Certificate { proof: Proof::None, residual: f64::NAN, multipliers, neutral: None }
     }
+}
 
+impl<P> Certificate<P> {
     /// Whether small pushes die out; not where the multipliers are unknown.
     pub fn is_stable(&self) -> bool {
         self.multipliers[0].abs() < 1.0
+    }
+
+    /// The same with section points held in another way.
+    pub fn map<Q>(self, held: impl Fn(P) -> Q) -> Certificate<Q> {
+        let Certificate { proof, residual, multipliers, neutral } = self;
+        Certificate { proof, residual, multipliers, neutral: neutral.map(held) }
     }
 }
 

@@ -1,8 +1,5 @@
 //! What a settled case is measured to be, over the cycles that are kept.
 
-use crate::flow::{Metric, Observer, Stroboscopic, Switched, System};
-use crate::lane::Dual;
-
 use super::aperiodic::{Aperiodic, Departure, follow_aperiodic};
 use super::certificate::certify;
 use super::exponent::BATCHES;
@@ -18,9 +15,11 @@ use super::settling::Foretold;
 use super::{
     Case, Certificate, Exponent, Failure, Orbit, OrbitOf, Outcome, Proof, Protocol, Trajectory,
 };
+use crate::flow::{Metric, Observer, Stroboscopic, Switched, System};
+use crate::lane::Dual;
 
 /// What a case has been found to do.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum Found<const D: usize> {
     /// Its section repeats.
     Repeats(Settled),
@@ -41,7 +40,7 @@ pub(super) enum Told<const D: usize> {
 }
 
 /// A periodic orbit that a motion seems to tend to.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct ClosedOrbit<const D: usize> {
     verdict: Verdict<D>,
     /// Its section point.
@@ -55,7 +54,7 @@ impl<const D: usize> ClosedOrbit<D> {
         trajectory: &mut Trajectory<'_, S, D>,
     ) -> Found<D> {
         trajectory.leap(self.point);
-        Found::Orbit(self.verdict)
+        Found::Orbit(self.verdict.clone())
     }
 }
 
@@ -65,13 +64,13 @@ type Moving<'a, M, const D: usize> = Trajectory<'a, <M as System<D>>::Single, D>
 type Fails<M, const D: usize> = Failure<<M as System<D>>::State<f64>>;
 
 /// What is to be measured, and what is known of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Verdict<const D: usize> {
     outcome: Outcome,
     period: u64,
     /// Cycles to measure over.
     cycles: u64,
-    certificate: Certificate<D>,
+    certificate: Certificate<[f64; D]>,
     /// The exponent; of a periodic orbit that of its multipliers, once the duration of a cycle is known.
     exponent: Exponent,
     /// The longest period that is excluded, with all shorter ones [cycles].
@@ -89,6 +88,7 @@ impl<const D: usize> Verdict<D> {
         size: f64,
     ) -> Self {
         let proof = if neutral.is_some() { Proof::Neutral } else { Proof::Newton };
+        let multipliers = multipliers.to_vec();
         Verdict {
             outcome: Outcome::Periodic,
             period,
@@ -330,10 +330,10 @@ fn measure<M: System<D>, const D: usize>(
     let orbit = Orbit {
         outcome: verdict.outcome,
         period: verdict.period,
+        residual: certificate.residual,
         certificate,
         exponent: verdict.exponent(duration),
         excluded: verdict.excluded,
-        residual: certificate.residual,
         defect,
         size,
         cycles: trajectory.progress.cycles,
@@ -356,14 +356,14 @@ fn completed<const D: usize>(
     metric: &Metric<D>,
     [begins, ends]: [[f64; D]; 2],
     (size, touching_margin): (f64, f64),
-) -> Certificate<D> {
-    let Certificate { proof, multipliers, neutral, .. } = verdict.certificate;
-    if proof == Proof::None {
-        return verdict.certificate;
+) -> Certificate<[f64; D]> {
+    let certificate = verdict.certificate.clone();
+    if certificate.proof == Proof::None {
+        return certificate;
     }
     let gap = metric.distance(&ends, &begins);
     let residual = if gap == 0.0 { 0.0 } else { gap / size.max(verdict.size) };
     let touches = metric.scales[0] * touching_margin <= GRAZES * size;
-    let proof = if touches { Proof::Grazing } else { proof };
-    Certificate { proof, residual, multipliers, neutral }
+    let proof = if touches { Proof::Grazing } else { certificate.proof };
+    Certificate { proof, residual, ..certificate }
 }

@@ -15,6 +15,13 @@ pub struct Failure<S> {
     pub state: S,
 }
 
+impl<S> Failure<S> {
+    /// The same with the state told in another way.
+    pub fn map<T>(self, told: impl FnOnce(S) -> T) -> Failure<T> {
+        Failure { reason: self.reason, time: self.time, state: told(self.state) }
+    }
+}
+
 impl<S: fmt::Display> fmt::Display for Failure<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}, at t = {} s, {}", self.reason, self.time, self.state)

@@ -7,31 +7,32 @@ use capsulemap_engine::flow::Metric;
 use capsulemap_engine::orbit::{Outcome, Protocol};
 use capsulemap_models::capsule::branch::{Branch, Found, Request, Special, follow};
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, Orbit, Output, Parameter, Parameters, Section, State, Switching,
-    settle, simulate,
+    CapsuleParameters as _, Orbit, Output, Parameter, Parameters, State, Switching, settle,
+    simulate,
 };
 
 use super::draws;
+use capsulemap_models::description::Section;
+use capsulemap_models::motion::Setting;
 
 const TOLERANCE: f64 = 1e-12;
 
 /// The size of a section point under a drive of this frequency [m/s].
-fn size(omega: f64, point: &Section) -> f64 {
+fn size(omega: f64, point: &[f64; 3]) -> f64 {
     (Metric { scales: [omega, 1.0, 1.0] }).size(point)
 }
 
 /// The request to follow the orbit near a section point.
 pub fn request(
     parameters: &Parameters,
-    section: Section,
+    section: impl Into<Section>,
     period: u64,
     along: Parameter,
     range: [f64; 2],
 ) -> Request {
     Request {
-        parameters: parameters.clone(),
-        phase: 0.0,
-        section,
+        setting: Setting { parameters: parameters.clone(), phase: 0.0 },
+        section: section.into(),
         period,
         along: along.into(),
         range,
@@ -57,7 +58,7 @@ fn oscillator(p: &Parameters) -> [f64; 4] {
 }
 
 /// The section point of the stuck capsule that does not touch.
-pub fn quiet(p: &Parameters) -> Section {
+pub fn quiet(p: &Parameters) -> [f64; 3] {
     let [spring, damper, z, _] = oscillator(p);
     let (amplitude, phi) = (p[Parameter::Pd] / z, damper.atan2(spring));
     [amplitude * phi.cos(), p[Parameter::Omega] * amplitude * phi.sin(), 0.0]
@@ -154,7 +155,7 @@ fn multipliers_of_the_stuck_capsule_are_those_of_its_oscillator() {
     let (decay, turn) = (c / (2.0 * m), (k / m - (c / (2.0 * m)).powi(2)).sqrt());
     for point in &branch.points {
         let period = 2.0 * PI / point.parameter;
-        let [one, other, none] = point.multipliers;
+        let &[one, other, none] = &point.multipliers[..] else { panic!("multipliers") };
         let magnitude = (-decay * period).exp();
         let (re, im) = (magnitude * (turn * period).cos(), magnitude * (turn * period).sin());
         for multiplier in [one, other] {
@@ -168,7 +169,7 @@ fn multipliers_of_the_stuck_capsule_are_those_of_its_oscillator() {
         let exact = quiet(&p);
         for (i, exact) in exact.iter().enumerate() {
             let away = (point.section[0][i] - exact).abs();
-            assert!(away <= 1e-11 * size(point.parameter, &point.section[0]));
+            assert!(away <= 1e-11 * size(point.parameter, &point.section[0].array()));
         }
     }
 }
@@ -188,7 +189,8 @@ pub fn two_attractors(omega: f64) -> Parameters {
 }
 
 /// What the motion settles to from a section point.
-pub fn settled(p: &Parameters, [r, y1, y2]: Section) -> Orbit {
+pub fn settled(p: &Parameters, point: impl Into<Section>) -> Orbit {
+    let [r, y1, y2] = point.into().array();
     settle(p, 0.0, State { r, y1, x2: 0.0, y2 }, &Protocol::default())
 }
 
@@ -210,7 +212,7 @@ fn hysteresis_is_bounded_by_folds_with_an_unstable_branch_between() {
     let [upper, lower] = [folds[0], folds[1]];
     assert!(lower.point.parameter < 152.0 && upper.point.parameter > 164.0);
     for fold in [upper, lower] {
-        let [critical, ..] = fold.point.multipliers;
+        let &[critical, ..] = &fold.point.multipliers[..] else { panic!("multipliers") };
         assert!((critical.re - 1.0).abs() < 1e-9 && critical.im == 0.0, "{critical:?}");
     }
     // Just before the upper fold the moving orbit attracts; just beyond it there is none left.
@@ -226,15 +228,15 @@ fn hysteresis_is_bounded_by_folds_with_an_unstable_branch_between() {
     let between = &branch.points[upper.after + 1..lower.after];
     assert!(between.len() > 10);
     for point in between {
-        let [critical, ..] = point.multipliers;
+        let &[critical, ..] = &point.multipliers[..] else { panic!("multipliers") };
         assert!(critical.re > 1.0, "{}", point.parameter);
-        let [r, y1, y2] = point.section[0];
+        let [r, y1, y2] = point.section[0].array();
         let p = two_attractors(point.parameter);
         let start = State { r, y1, x2: 0.0, y2 };
         let end = simulate(&p, 0.0, start, 1, TOLERANCE).section[1];
         let apart = [end.r - r, end.y1 - y1, end.y2 - y2];
         let omega = point.parameter;
-        assert!(size(omega, &apart) < 1e-11 * size(omega, &point.section[0]));
+        assert!(size(omega, &apart) < 1e-11 * size(omega, &point.section[0].array()));
     }
 }
 
@@ -247,7 +249,7 @@ fn a_doubled_branch_leaves_and_returns() {
     let doublings = of_kind(&found.branches[0], SpecialKind::PeriodDoubling);
     assert_eq!((doublings.len(), found.branches.len()), (2, 2));
     for doubling in &doublings {
-        let [critical, ..] = doubling.point.multipliers;
+        let &[critical, ..] = &doubling.point.multipliers[..] else { panic!("multipliers") };
         assert!((critical.re + 1.0).abs() < 1e-9 && critical.im == 0.0, "{critical:?}");
     }
     let [first, last] = [doublings[0], doublings[1]].map(|doubling| doubling.point.parameter);
@@ -291,7 +293,7 @@ fn every_point_of_a_fold_curve_is_a_fold() {
     let mut whole = moving([145.0, 170.0]);
     let p = two_attractors(150.0);
     let start = settled(&p, [0.0, 0.3, 0.0]);
-    (whole.parameters, whole.section) = (p, start.section[0]);
+    (whole.setting.parameters, whole.section) = (p, start.section[0]);
     whole.second = Some((Parameter::Pd.into(), [2.7, 2.85]));
     let found = follow(&whole).expect("a branch");
     let through = |curve: &&capsulemap_engine::branch::Curve| {
@@ -332,7 +334,8 @@ fn whatever_is_followed_closes_and_ends() {
         let value = case.parameters[along];
         let range = [0.8 * value, 1.3 * value + 1e-4];
         let mut request = request(&case.parameters, orbit.section[0], orbit.period, along, range);
-        (request.phase, request.doublings, request.most_points) = (case.section_phase, 1, 400);
+        (request.setting.phase, request.doublings, request.most_points) =
+            (case.section_phase, 1, 400);
         let found = follow(&request).unwrap_or_else(|why| panic!("case {i}: {why:?}"));
         assert_closed(&found);
         followed += 1;
@@ -362,7 +365,7 @@ fn the_equation_as_printed_is_followed_too() {
     // Where the orbits attract, the motion from near them settles to the same speed.
     for point in points.iter().filter(|it| it.multipliers[0].abs() < 0.9).step_by(3) {
         p[Parameter::Pd] = point.parameter;
-        let [r, y1, y2] = point.section[0];
+        let [r, y1, y2] = point.section[0].array();
         let start = State { r, y1: y1 * 1.000_1, x2: 0.0, y2 };
         let orbit = settle(&p, 0.0, start, &Protocol::default());
         let speeds = [&orbit.outputs, &point.measured].map(|it| it[Output::ProgressionSpeed]);

@@ -2,7 +2,7 @@
 
 use capsulemap_engine::branch::{Curve, End, SpecialKind};
 use capsulemap_models::capsule::branch::{Found, Request, follow};
-use capsulemap_models::capsule::{CapsuleParameters as _, Parameter, Parameters, Section};
+use capsulemap_models::capsule::{CapsuleParameters as _, Parameter, Parameters};
 
 use super::branch::{assert_closed, of_kind, relative, request, settled};
 
@@ -24,7 +24,7 @@ fn opening(p: &Parameters) -> [f64; 2] {
 }
 
 /// The section point of the mass that swings against the stop and never leaves it.
-fn held(p: &Parameters) -> Section {
+fn held(p: &Parameters) -> [f64; 3] {
     let (w, springs) = (p[Parameter::Omega], p[Parameter::K1] + p[Parameter::K2]);
     let amplitude = p[Parameter::Pd] / opening(p)[0];
     let phi = (p[Parameter::C] * w).atan2(springs - p[Parameter::M1] * w * w);
@@ -70,7 +70,7 @@ fn assert_sound(request: &Request, found: &Found) {
     for (number, curve) in found.curves.iter().enumerate() {
         let (branch, special) = curve.through;
         let special = &found.branches[branch].special[special];
-        let at = [special.point.parameter, request.parameters[second]];
+        let at = [special.point.parameter, request.setting.parameters[second]];
         let away = |it: &[f64; 2]| relative(it[0], at[0]).max(relative(it[1], at[1]));
         let least = curve.points.iter().map(away).fold(f64::INFINITY, f64::min);
         assert!(special.kind == curve.kind && least < 1e-9, "curve {number}: {least:e}");

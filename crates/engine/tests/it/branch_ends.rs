@@ -87,7 +87,7 @@ fn a_branch_does_not_turn_back_onto_itself_at_a_corner() {
     let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
     assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
     let mut request = request(&p, orbit.section[0], 1, Parameter::MuS, [0.73, 0.74]);
-    request.parameters[Parameter::MuS] = 0.735;
+    request.setting.parameters[Parameter::MuS] = 0.735;
     let found = follow(&request).expect("the orbit goes on");
     let Branch { points, special, ends, .. } = &found.branches[0];
     assert!(points.is_sorted_by(|a, b| a.parameter < b.parameter), "it turns back");

@@ -35,7 +35,7 @@ fn a_stricter_run_finds_the_same_periods() {
                     // the motion on the orbit that was found must keep the period.
                     elsewhere += 1;
                     let Case { parameters, section_phase: phase, .. } = &cases[number];
-                    let [r, y1, y2] = once.section[0];
+                    let [r, y1, y2] = once.section[0].array();
                     let kept = settle(parameters, *phase, State { r, y1, x2: 0.0, y2 }, &strict);
                     let same = (kept.outcome, kept.period) == (Outcome::Periodic, once.period);
                     assert!(same, "case {number}: {} then {}", once.period, kept.period);
@@ -67,7 +67,7 @@ fn a_multiplier_near_minus_one_is_no_period_two() {
         let protocol = Protocol { accelerate, ..Protocol::default() };
         let orbit = settle(&case.parameters, case.section_phase, &case.start, &protocol);
         assert_eq!((orbit.outcome, orbit.period), (Outcome::Periodic, 1));
-        let [first, ..] = orbit.certificate.multipliers;
+        let &[first, ..] = &orbit.certificate.multipliers[..] else { panic!("multipliers") };
         assert!(first.re < -0.9 && first.abs() < 1.0, "{first:?}");
     }
 }
@@ -88,7 +88,7 @@ fn a_certified_orbit_closes_and_answers_pushes_as_its_multipliers_say() {
             orbit.certificate.multipliers[0].abs()
         );
         // Continued by the plain flow, the section repeats after the period and after no divisor of it.
-        let [r, y1, y2] = orbit.section[0];
+        let [r, y1, y2] = orbit.section[0].array();
         let start = State { r, y1, x2: 0.0, y2 };
         let run = simulate(&case.parameters, case.section_phase, start, orbit.period, 1e-13);
         let gap = |n: usize| {

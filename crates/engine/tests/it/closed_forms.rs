@@ -37,7 +37,7 @@ fn stuck_capsule_is_a_forced_linear_oscillator() {
         let (z, _) = impedance(&p);
         let amplitude = p[Parameter::Pd] / z;
         // r = R cos(wt - phi), with tan phi = c w / (k1 - m1 w^2).
-        let [r, y1, y2] = orbit.section[0];
+        let [r, y1, y2] = orbit.section[0].array();
         assert!(relative(r.hypot(y1 / omega), amplitude) < 1e-10, "{omega}");
         let phi =
             (p[Parameter::C] * omega).atan2(p[Parameter::K1] - p[Parameter::M1] * omega * omega);

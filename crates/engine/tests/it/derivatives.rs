@@ -8,7 +8,7 @@ use capsulemap_engine::orbit::return_map::{Cycles, jacobian, returned, seeded};
 use capsulemap_engine::orbit::{Outcome, Protocol};
 use capsulemap_models::capsule::{
     Capsule, CapsuleParameters as _, CapsuleState as _, Case, Parameter, Parameters,
-    PrintedCapsule, Section, State, settle,
+    PrintedCapsule, State, settle,
 };
 
 use super::differences::{TOLERANCE, distance, followed, size, slope};
@@ -22,7 +22,7 @@ pub struct Periodic {
     /// The case.
     pub case: Case,
     /// The point of the section.
-    pub point: Section,
+    pub point: [f64; 3],
     /// Period [cycles].
     pub period: u64,
 }
@@ -42,7 +42,7 @@ pub fn periodic(count: usize, seed: u64, change: impl Fn(&mut Case)) -> Vec<Peri
 }
 
 /// The Jacobian of the k-cycle map by the linearised flow.
-pub fn linearised<S>(system: &S, point: &Section, k: u64) -> Matrix<3>
+pub fn linearised<S>(system: &S, point: &[f64; 3], k: u64) -> Matrix<3>
 where
     S: Stroboscopic<Dual<f64, 3>, 3>,
 {
@@ -74,7 +74,7 @@ fn largest(a: &Matrix<3>) -> f64 {
 fn by_differences<S: Stroboscopic<f64, 3>>(
     system: &S,
     weights: [f64; 3],
-    point: &Section,
+    point: &[f64; 3],
     k: u64,
 ) -> (Matrix<3>, f64) {
     let reach = 1e-3 * size(point, &weights);

@@ -1,7 +1,7 @@
 //! Derivatives along parameters, and derivatives of derivatives, against differences.
 
 use capsulemap_engine::lane::{Dual, Lane};
-use capsulemap_models::capsule::{Capsule, CapsuleParameters as _, Parameter, Section};
+use capsulemap_models::capsule::{Capsule, CapsuleParameters as _, Parameter};
 
 use super::derivatives::{Periodic, dual_capsule, linearised, periodic, weights};
 use super::differences::{distance, followed, size, slope};
@@ -33,7 +33,7 @@ fn image<L: Lane<Mask = bool>>(of: &Periodic, direction: Parameter, value: L) ->
 
 /// The derivative along a parameter, of that parameter's relative change, carried and by differences; the
 /// doubt.
-fn along(of: &Periodic, direction: Parameter) -> (Section, Section, f64) {
+fn along(of: &Periodic, direction: Parameter) -> ([f64; 3], [f64; 3], f64) {
     let p = &of.case.parameters;
     let weights = [p[Parameter::Omega], 1.0, 1.0];
     let value = Dual::<f64, 1>::variable(p[direction], 0);

@@ -3,9 +3,7 @@
 use capsulemap_engine::flow::{Motion, Step, Stroboscopic};
 
 use capsulemap_engine::lane::{Dual, Instructions, Lane, Mask, Work};
-use capsulemap_models::capsule::{
-    Capsule, CapsuleParameters as _, CapsuleState as _, Case, Section, State,
-};
+use capsulemap_models::capsule::{Capsule, CapsuleParameters as _, CapsuleState as _, Case, State};
 
 use super::derivatives::dual_capsule;
 use super::draws;
@@ -16,7 +14,7 @@ const TOLERANCE: f64 = 1e-12;
 /// The bits of the section's coordinates and of their derivatives.
 type Bits = [[u64; 4]; 3];
 
-fn start(case: &Case) -> Section {
+fn start(case: &Case) -> [f64; 3] {
     let State { r, y1, y2, .. } = case.start.capsule();
     [r, y1, y2]
 }

@@ -13,8 +13,8 @@ use capsulemap_engine::orbit::exponent::stretching;
 use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{Outcome, Protocol, Trajectory};
 use capsulemap_models::capsule::{
-    Capsule, CapsuleParameters as _, CapsuleState as _, CapsuleSystem, Case, Filippov, Output,
-    Parameter, Section, State, settle,
+    Capsule, CapsuleCase as _, CapsuleParameters as _, CapsuleState as _, CapsuleSystem, Case,
+    Filippov, Output, Parameter, State, settle,
 };
 
 use super::draws;
@@ -185,7 +185,7 @@ fn an_orbit_stretches_as_its_largest_multiplier_says() {
     let mut compared = 0;
     for case in draws::cases(120, 21) {
         let orbit = settle(&case.parameters, case.section_phase, &case.start, &Protocol::default());
-        let [first, second, _] = orbit.certificate.multipliers;
+        let &[first, second, _] = &orbit.certificate.multipliers[..] else { panic!("multipliers") };
         // A pair of equal magnitudes turns its directions for ever, and means settle slowly.
         if orbit.outcome != Outcome::Periodic || second.abs() > 0.7 * first.abs() {
             continue;
@@ -223,7 +223,7 @@ fn a_capsule_at_rest_answers_as_the_linear_oscillator_it_is() {
 }
 
 /// Cases of a kind, with what they settle to.
-fn chaotic(count: usize) -> Vec<(Case, Section)> {
+fn chaotic(count: usize) -> Vec<(Case, [f64; 3])> {
     let protocol = Protocol::default();
     let cases = draws::cases(3000, 3);
     let orbits = draws::settled(&cases, &protocol, Instructions::widest());
@@ -285,15 +285,15 @@ fn an_exponent_is_as_exact_as_the_study_wants_it() {
 
 /// The rate at which a trajectory and another, put back to a distance of 1e-8 each cycle, part, and its
 /// standard error over ten batches [1/s].
-fn parting(case: &Case, start: Section, cycles: usize) -> (f64, f64) {
+fn parting(case: &Case, start: [f64; 3], cycles: usize) -> (f64, f64) {
     let p = &case.parameters;
     let system = Capsule::single(p, case.section_phase);
     let period = p.drive_period();
     let scales = [p[Parameter::Omega], 1.0, 1.0];
-    let distance = |difference: &Section| {
+    let distance = |difference: &[f64; 3]| {
         (0..3).map(|i| (difference[i] * scales[i]).powi(2)).sum::<f64>().sqrt()
     };
-    let state = |[r, y1, y2]: Section| State { r, y1, x2: 0.0, y2 };
+    let state = |[r, y1, y2]: [f64; 3]| State { r, y1, x2: 0.0, y2 };
     let apart = 1e-8;
     let mut neighbour = start;
     neighbour[1] += apart;
@@ -304,7 +304,7 @@ fn parting(case: &Case, start: Section, cycles: usize) -> (f64, f64) {
         first.cycle(|_| ()).expect("the integration continues");
         second.cycle(|_| ()).expect("the integration continues");
         let (a, b) = (first.section(), second.section());
-        let difference: Section = std::array::from_fn(|i| b[i] - a[i]);
+        let difference: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
         let now = distance(&difference);
         // Two motions that have become one are parted anew, along y1.
         let (stretch, direction) = if now == 0.0 {
@@ -331,9 +331,9 @@ fn smooth_means_tell_a_rotation_from_chaos() {
         let angle = 2.0 * PI * golden * n as f64;
         [angle.cos() + 0.3 * (2.0 * angle).sin(), angle.sin(), (angle.cos()).exp()]
     };
-    let rotation: Vec<Section> = (0..2048).map(rotation).collect();
+    let rotation: Vec<[f64; 3]> = (0..2048).map(rotation).collect();
     let mut x = 0.3;
-    let logistic: Vec<Section> = (0..2048)
+    let logistic: Vec<[f64; 3]> = (0..2048)
         .map(|_| {
             x = 4.0 * x * (1.0 - x);
             [x, 0.0, 0.0]

@@ -7,8 +7,8 @@ use capsulemap_engine::flow::{Event, Motion, Step, Switched};
 use capsulemap_engine::lane::{Instructions, Lane, Mask, SideBySide, Work};
 use capsulemap_engine::orbit::{OrbitOf, Protocol, Queue, settle_side_by_side};
 use capsulemap_models::capsule::{
-    self, AsPrinted, CapsuleParameters as _, CapsuleState as _, CapsuleSystem, Case, EventKind,
-    Filippov, Orbit, Parameters, Reading, Simulation, State, Switching,
+    self, AsPrinted, CapsuleCase as _, CapsuleParameters as _, CapsuleState as _, CapsuleSystem,
+    Case, EventKind, Filippov, Orbit, Parameters, Reading, Simulation, State, Switching, orbit_of,
 };
 
 /// [`capsule::simulate`], compared with the same case in the last lane of a vector of others.
@@ -74,7 +74,7 @@ fn among<R: Reading>(case: &Case, protocol: &Protocol) -> Orbit {
     let mut queue = CaseAmongOthers::<R> { case, given: 0, orbit: None };
     settle_side_by_side::<CapsuleSystem<R>, 3>(Instructions::widest(), protocol, &mut queue);
     let orbit = queue.orbit.expect("the case has been in the lanes to its end");
-    Orbit::of::<R>(orbit, case, protocol)
+    orbit_of::<R>(orbit, case, protocol)
 }
 
 /// Another case, under the same law of resistance.

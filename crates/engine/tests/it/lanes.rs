@@ -155,7 +155,7 @@ fn a_case_has_so_many_steps_and_no_more_by_any_instructions() {
         let protocol = Protocol { max_steps, ..usual };
         let alone: Vec<Orbit> = cases.iter().map(|case| settle_case(case, &protocol)).collect();
         for (limited, free) in alone.iter().zip(&unlimited) {
-            match limited.failure {
+            match &limited.failure {
                 Some(failure) => {
                     assert!(failure.reason == Reason::OutOfSteps, "{failure}");
                     assert_eq!(limited.outcome, Outcome::Failed);

@@ -7,9 +7,10 @@ use capsulemap_engine::orbit::neighbourhood::Neighbourhood;
 use capsulemap_engine::orbit::return_map::{Cycles, returned};
 use capsulemap_engine::orbit::{Outcome, Protocol};
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, Case, Filippov, Orbit, Parameter, Parameters, State,
+    CapsuleCase as _, CapsuleParameters as _, Case, Filippov, Orbit, Parameter, Parameters, State,
 };
 
+use super::direct_links::points;
 use super::draws::{Random, settled};
 
 /// Starts of a capsule with two motions.
@@ -36,7 +37,7 @@ fn what_enters_a_neighbourhood_tends_to_its_orbit() {
     let metric = system.metric();
     let mut orbits: Vec<Orbit> = Vec::new();
     for orbit in settled(&cases, &Protocol::default(), Instructions::widest()) {
-        let is_known = |it: &Orbit| coincide(&it.section, &orbit.section, 1e-6, &metric);
+        let is_known = |it: &Orbit| coincide(&points(it), &points(&orbit), 1e-6, &metric);
         if orbit.outcome == Outcome::Periodic && !orbits.iter().any(is_known) {
             orbits.push(orbit);
         }
@@ -44,7 +45,7 @@ fn what_enters_a_neighbourhood_tends_to_its_orbit() {
     assert_eq!(orbits.len(), 2);
     let mut random = Random::new(15);
     for orbit in orbits {
-        let (centre, period) = (orbit.section[0], orbit.period);
+        let (centre, period) = (orbit.section[0].array(), orbit.period);
         let of = |instructions| {
             Neighbourhood::of(&system, (centre, period), instructions, 1e-12).expect("it is stable")
         };

@@ -9,8 +9,8 @@ use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{Outcome, Proof, Protocol};
 use capsulemap_models::capsule::branch::follow;
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, CapsuleState as _, Case, Filippov, Orbit, Output, Parameter,
-    Parameters, State,
+    CapsuleCase as _, CapsuleParameters as _, CapsuleState as _, Case, Filippov, Orbit, Output,
+    Parameter, Parameters, State,
 };
 
 use super::branch::request;
@@ -39,7 +39,7 @@ fn check(orbit: &Orbit, about: &str) {
     assert_eq!(orbit.outputs[Output::LyapunovExponent], 0.0, "{about}");
     assert!(!orbit.certificate.is_stable(), "{about}");
     // Seen from a frame that moves at constant velocity, frictionless motion obeys the same equations.
-    let [r, y1, y2] = orbit.certificate.neutral.expect("a direction");
+    let [r, y1, y2]: [f64; 3] = orbit.certificate.neutral.expect("a direction").array();
     let half = std::f64::consts::FRAC_1_SQRT_2;
     assert!(r.abs() < 1e-7 && (y1 - half).abs() < 1e-7 && (y2 - half).abs() < 1e-7, "{about}");
 }
@@ -49,7 +49,7 @@ fn a_capsule_without_friction_of_sliding_is_neutral_and_of_least_period() {
     let p = frictionless();
     let orbit = settle(&p, 0.0, State::default(), &Protocol::default());
     check(&orbit, "from rest");
-    let [r, y1, y2] = orbit.section[0];
+    let [r, y1, y2] = orbit.section[0].array();
     let speed = orbit.outputs[Output::ProgressionSpeed];
     for faster in [-0.01, 0.003, 0.02] {
         let start = State { r, y1: y1 + faster, x2: 0.0, y2: y2 + faster };
@@ -103,7 +103,7 @@ fn an_orbit_that_attracts_belongs_to_no_family() {
             |point| image(&OneByOne, &capsule, point, &cycles),
             cycles.count,
             &metric,
-            &orbit.section[0],
+            &orbit.section[0].array(),
             (size, 1e-10),
         );
         assert_eq!(family, Ok(None), "{case:?}");

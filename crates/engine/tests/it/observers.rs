@@ -142,7 +142,7 @@ fn the_derivatives_of_the_sums_are_those_of_differences() {
             let law = case.parameters.resistance();
             let system = Capsule::new(constant, law, case.section_phase);
             let mut account = Account::new(constant, 0);
-            let from = point.map(Dual::constant);
+            let from = point.array().map(Dual::constant);
             observed(&system, from, &cycles, &mut account).expect("it goes on");
             let energies = account.energies;
             [

@@ -8,11 +8,12 @@ use capsulemap_engine::orbit::passage::{Integrator, OneByOne, ReturnRequest};
 use capsulemap_engine::orbit::passages::passages;
 use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::trajectory::Progress;
-use capsulemap_models::capsule::{
-    AsPrinted, CapsuleState as _, CapsuleSystem, Case, Filippov, Parameter, Reading, Resistance,
-};
 
 use super::draws::{self, Random};
+use capsulemap_models::capsule::{
+    AsPrinted, CapsuleCase, CapsuleState as _, CapsuleSystem, Case, Filippov, Parameter, Reading,
+    Resistance,
+};
 
 /// Capsules of each law.
 const CAPSULES: usize = 126;

@@ -94,8 +94,8 @@ struct Met {
 
 /// Impacts in the period of an orbit: areas of the section shrink by e^(-c T) in its duration T and by r^2 at each.
 /// None where the determinant is lost in rounding, as that of many impacts is.
-fn impacts(system: &Impactor<f64>, n: u64, multipliers: &[Complex; 2]) -> Option<u32> {
-    let [a, b] = multipliers.map(|it| it.abs());
+fn impacts(system: &Impactor<f64>, n: u64, multipliers: &[Complex]) -> Option<u32> {
+    let [a, b] = [0, 1].map(|at| multipliers[at].abs());
     let duration = 2.0 * PI * n as f64 / system.w;
     let number = (libm::log(a * b) + system.c * duration) / (2.0 * libm::log(system.r));
     ((number - number.round()).abs() < 1e-5).then_some(number.round() as u32)

@@ -5,7 +5,7 @@ use capsulemap_engine::orbit::matrix::{less_identity, solve};
 use capsulemap_engine::orbit::return_map::{Cycles, jacobian, observed, returned, seeded};
 use capsulemap_models::capsule::{
     Account, Capsule, CapsuleParameters as _, CapsuleSystem, Filippov, Output, Outputs, Parameter,
-    Parameters, Section, per_cycle, sensitivity,
+    Parameters, per_cycle, sensitivity,
 };
 
 use super::derivatives::{Periodic, periodic};
@@ -29,7 +29,7 @@ const STUDIES: f64 = 1e-13;
 const RESOLVED: f64 = 3e-7;
 
 /// The orbit near a section point, by Newton's method on the return map alone.
-fn closed(parameters: &Parameters, phase: f64, guess: Section, period: u64) -> Section {
+fn closed(parameters: &Parameters, phase: f64, guess: [f64; 3], period: u64) -> [f64; 3] {
     let of = |it: Parameter| -> Dual<f64, 3> { Dual::constant(parameters[it]) };
     let system = Capsule::new(of, parameters.resistance(), phase);
     let cycles = Cycles { count: period, tolerance: TOLERANCE };
@@ -45,7 +45,7 @@ fn closed(parameters: &Parameters, phase: f64, guess: Section, period: u64) -> S
 }
 
 /// The outputs over a period from a section point, in plain numbers.
-fn outputs(parameters: &Parameters, phase: f64, point: Section, period: u64) -> Outputs {
+fn outputs(parameters: &Parameters, phase: f64, point: [f64; 3], period: u64) -> Outputs {
     let system = Capsule::single(parameters, phase);
     let cycles = Cycles { count: period, tolerance: TOLERANCE };
     let mut account = Account::single(parameters, 0);

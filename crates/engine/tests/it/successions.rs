@@ -13,9 +13,11 @@ use capsulemap_engine::orbit::passage::{
     Integrator, OneByOne, Passage, PlainRequest, PlainReturns, ReturnRequest,
 };
 use capsulemap_models::capsule::branch::{Request, follow};
-use capsulemap_models::capsule::{Case, Filippov, Orbit, Parameter};
 
+use super::direct_links::points;
 use super::draws::{self, ALONG, Random};
+use capsulemap_models::capsule::{CapsuleCase, Case, Filippov, Orbit, Parameter};
+use capsulemap_models::motion::Setting;
 
 /// Capsules that are drawn.
 const CAPSULES: usize = 400;
@@ -66,14 +68,14 @@ fn attractors_are_followed_for_so_many_cycles_and_tell_no_special_point_that_is_
         let along = Along { system, parameter, tolerance: protocol.tolerance };
         let counting = Counting::default();
         let about = format!("{case:?} along {parameter:?} to {to:?}");
-        let found = succession(&counting, &along, (from, &orbit.section), to).expect(&about);
+        let found = succession(&counting, &along, (from, &points(orbit)), to).expect(&about);
         assert!(counting.0.get() <= MOST_CYCLES, "{about}: {} cycles", counting.0.get());
         lost += usize::from(found.end == SegmentEnd::Lost);
         let range = [from.min(to), from.max(to)];
         let Some(known) = of_branches(case, orbit, (parameter, range)) else { continue };
         // Of the orbit of half the period there is no branch here, of what is not resolved no place, and of an orbit that has
         // lost its stability only the end is looked for, without a look at what is before it.
-        let is_known = |it: &SpecialValue<3>| {
+        let is_known = |it: &SpecialValue<[f64; 3]>| {
             let periods = [orbit.period, 2 * orbit.period];
             periods.contains(&it.period) && it.kind != SpecialKind::Unresolved
         };
@@ -104,8 +106,7 @@ fn of_branches(
     (along, range): (Parameter, [f64; 2]),
 ) -> Option<Vec<(SpecialKind, f64)>> {
     let found = follow(&Request {
-        parameters: case.parameters.clone(),
-        phase: case.section_phase,
+        setting: Setting::of(case),
         section: orbit.section[0],
         period: orbit.period,
         along: along.into(),

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use super::draws::{self, Random};
 use super::rigid_branches::impact_oscillator::Impactor;
+use capsulemap_models::motion::Setting;
 
 /// A capsule with many special points, small and large branches of twice and four times the period, and period doublings
 /// next to grazings and folds.
@@ -42,8 +43,7 @@ fn special(parameters: &Parameters, asked: Asked, below: f64) -> Vec<(SpecialKin
     let Asked { along, range, longest_step, phase, doublings } = asked;
     let orbit = settle(parameters, phase, State::default(), &Protocol::default());
     let found = follow(&Request {
-        parameters: parameters.clone(),
-        phase,
+        setting: Setting { parameters: parameters.clone(), phase },
         section: orbit.section[0],
         period: orbit.period,
         along: along.into(),
@@ -271,8 +271,7 @@ fn random_branches_are_the_same_by_any_settings() {
             };
             let orbit = settle_case(&case, &Protocol::default());
             Request {
-                parameters: parameters.clone(),
-                phase,
+                setting: Setting { parameters: parameters.clone(), phase },
                 section: orbit.section[point % orbit.section.len()],
                 period: orbit.period,
                 along: along.into(),

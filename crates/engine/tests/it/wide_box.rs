@@ -4,7 +4,7 @@ use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{HistorySpan, Outcome, Proof, Protocol};
 use capsulemap_models::capsule::{
     AsPrinted, CapsuleParameters as _, CapsuleState as _, Case, History, Orbit, Output, Parameter,
-    Reading, Resistance, Section, State, Switching, simulate,
+    Reading, Resistance, State, Switching, simulate,
 };
 
 use super::draws;
@@ -16,13 +16,13 @@ fn count() -> usize {
 }
 
 /// How far two section points are apart, a displacement r counting as omega r [m/s].
-fn apart(a: &Section, b: &Section, omega: f64) -> f64 {
+fn apart(a: &[f64; 3], b: &[f64; 3], omega: f64) -> f64 {
     (omega * (a[0] - b[0]).abs()).max((a[1] - b[1]).abs()).max((a[2] - b[2]).abs())
 }
 
 /// The section points of the motion from the orbit's own, without derivatives and more accurately.
-fn points(case: &Case, orbit: &Orbit) -> Vec<Section> {
-    let [r, y1, y2] = orbit.section[0];
+fn points(case: &Case, orbit: &Orbit) -> Vec<[f64; 3]> {
+    let [r, y1, y2] = orbit.section[0].array();
     let start = State { r, y1, x2: 0.0, y2 };
     let run = simulate(&case.parameters, case.section_phase, start, orbit.period, 1e-14);
     run.section.iter().map(|sample| [sample.r, sample.y1, sample.y2]).collect()
@@ -98,7 +98,7 @@ fn as_printed_no_period_is_wrong_and_few_cases_that_repeat_are_undecided() {
 fn is_held(case: &Case, orbit: &Orbit) -> bool {
     let p = &case.parameters;
     let span = HistorySpan { cycles: orbit.period as u32, per_cycle: 400, from_start: true };
-    let [r, y1, y2] = orbit.section[0];
+    let [r, y1, y2] = orbit.section[0].array();
     let from = Case::at_section(p.clone(), State { r, y1, x2: 0.0, y2 }, case.section_phase);
     let system = AsPrinted::single(p, case.section_phase);
     let history = History::sample(&system, &from, span, 1e-12).expect("it goes on");
@@ -112,7 +112,7 @@ fn is_held(case: &Case, orbit: &Orbit) -> bool {
 /// A push of the capsule off rest, either way, has died after a period: without derivatives, the multiplier 0.
 fn comes_back(case: &Case, orbit: &Orbit, about: &str) {
     let omega = case.parameters[Parameter::Omega];
-    let [r, y1, _] = orbit.section[0];
+    let [r, y1, _] = orbit.section[0].array();
     let size = points(case, orbit).iter().map(|it| apart(it, &[0.0; 3], omega)).fold(0.0, f64::max);
     for push in [1e-7, -1e-7] {
         let start = State { r, y1, x2: 0.0, y2: push * size };
@@ -130,7 +130,7 @@ fn comes_back(case: &Case, orbit: &Orbit, about: &str) {
 fn check_period(case: &Case, orbit: &Orbit, about: &str) {
     let omega = case.parameters[Parameter::Omega];
     let points = points(case, orbit);
-    let size = |point: &Section| apart(point, &[0.0; 3], omega);
+    let size = |point: &[f64; 3]| apart(point, &[0.0; 3], omega);
     let largest = points.iter().map(size).fold(0.0, f64::max);
     if largest < 1e-12 {
         return; // at rest
@@ -159,13 +159,13 @@ fn certified_orbits_are_those_of_a_second_method() {
             if orbit.outcome != Outcome::Periodic || !is_quick {
                 continue;
             }
-            let [r, y1, y2] = orbit.section[0];
+            let [r, y1, y2] = orbit.section[0].array();
             let sections =
                 follow(p, case.section_phase, State { r, y1, x2: 0.0, y2 }, orbit.period);
             let omega = p[Parameter::Omega];
             let end = sections.last().expect("the start");
-            let size = apart(&orbit.section[0], &[0.0; 3], omega);
-            let gap = apart(&orbit.section[0], &[end[0], end[1], end[3]], omega) / size;
+            let size = apart(&orbit.section[0].array(), &[0.0; 3], omega);
+            let gap = apart(&orbit.section[0].array(), &[end[0], end[1], end[3]], omega) / size;
             let speed = end[2] / (orbit.period as f64 * p.drive_period());
             let misses = (speed - orbit.outputs[Output::ProgressionSpeed]).abs() / size;
             assert!(gap < 1e-7 && misses < 1e-7, "{gap:e} {misses:e}: {case:?}");

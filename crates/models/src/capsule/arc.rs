@@ -3,7 +3,6 @@
 use capsulemap_engine::flow::{Event as _, Stroboscopic};
 use capsulemap_engine::lane::series;
 
-use super::case::Case;
 use super::failure::Failure;
 use super::filippov::Capsule;
 use super::locomotion::Locomotion;
@@ -11,8 +10,10 @@ use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::printed::PrintedCapsule;
 use super::resistance::Switching;
+use super::simulate::trajectory;
 use super::state::{EventKind, State};
 use crate::description::Parameters;
+use crate::motion::Case;
 
 /// A point of an arc.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,7 +59,7 @@ fn arc_on<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
     let p_d = case.parameters[Parameter::Pd];
     let mut points = Vec::new();
     let mut next = 1;
-    let mut trajectory = case.trajectory(system, tolerance);
+    let mut trajectory = trajectory(case, system, tolerance);
     trajectory.cycle(|step| {
         let jet = system.jet(&step.jet);
         let mut put = |h: f64| {

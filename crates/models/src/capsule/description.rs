@@ -84,6 +84,13 @@ quantities! {
     RELATIVE_VELOCITY "relative_velocity" Velocity, shown("", "*y*_{1} − *y*_{2}", "m/s", 1.0),
         "velocity of the mass less that of the capsule";
 
+    EDGE_SECTION_R "edge_section_r" Length, None,
+        "relative displacement x1 - x2 of the saddle at the stroboscopic section";
+    EDGE_SECTION_Y1 "edge_section_y1" Velocity, None,
+        "velocity of the mass on the saddle at the stroboscopic section";
+    EDGE_SECTION_Y2 "edge_section_y2" Velocity, None,
+        "velocity of the capsule on the saddle at the stroboscopic section";
+
     END_R "end_r" Length, None,
         "relative displacement at the end of the case";
     END_Y1 "end_y1" Velocity, None,
@@ -95,6 +102,15 @@ quantities! {
 /// What each point of the sections has: of the stroboscopic section, and of the impacts.
 pub const POINTS: &[Quantity] =
     &[SECTION_R, SECTION_Y1, SECTION_Y2, IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2, IMPACT_VELOCITY];
+
+/// The coordinates of a point of the stroboscopic section.
+pub const SECTION: &[Quantity] = &[SECTION_R, SECTION_Y1, SECTION_Y2];
+
+/// What is told of an impact.
+pub const IMPACT: &[Quantity] = &[IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2, IMPACT_VELOCITY];
+
+/// What is kept of a motion at each time.
+pub const HISTORIES: &[Quantity] = &[HISTORY_R, HISTORY_Y1, HISTORY_X2, HISTORY_Y2, HISTORY_DRIVE];
 
 /// What a motion has at each time, each by itself.
 pub const SIGNALS: &[Quantity] = &[
@@ -148,6 +164,12 @@ pub static CAPSULE: Description = Description {
         CoordinateDescription { name: "y2", tag: "StartY2", start: START_Y2 },
     ],
     drift: Some(2),
+    section: SECTION,
+    neutral: &[NEUTRAL_R, NEUTRAL_Y1, NEUTRAL_Y2],
+    edge: &[EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2],
+    end: &[END_R, END_Y1, END_Y2],
+    impact: IMPACT,
+    histories: HISTORIES,
     outputs: &OUTPUTS,
     roles: Roles {
         drive_frequency: Parameter::Omega as usize,

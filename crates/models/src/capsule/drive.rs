@@ -4,11 +4,6 @@ use capsulemap_engine::lane::{Lane, Series, elementary::sin_cos_of_a_turn, serie
 
 use super::parameter::Parameter;
 
-/// The same phase within 0..2 pi [rad].
-pub fn reduced(phase: f64) -> f64 {
-    phase.rem_euclid(2.0 * std::f64::consts::PI)
-}
-
 /// Amplitude, frequency and phase at t = 0.
 #[derive(Debug, Clone, Copy)]
 pub struct Drive<L> {

@@ -5,9 +5,6 @@ use capsulemap_engine::orbit;
 
 use super::state::State;
 
-/// A point of the stroboscopic section: r [m], y1 [m/s], y2 [m/s].
-pub type Section = [f64; 3];
-
 /// Where and why a capsule failed.
 pub type Failure = orbit::Failure<State<f64>>;
 

@@ -5,13 +5,14 @@ use capsulemap_engine::lane::elementary::not_finite;
 use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, series, side_by_side};
 
 use super::drag::Drag;
-use super::drive::{Drive, reduced};
+use super::drive::Drive;
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::resistance::Resistance;
 use super::state::{EventKind, Jet, State};
 use crate::description::Parameters;
+use crate::motion::reduced;
 
 /// Guard of the contact, `r - delta` while closed and `delta - r` while open.
 const CONTACT: usize = 0;

@@ -5,11 +5,12 @@ use capsulemap_engine::lane::series;
 use capsulemap_engine::orbit::HistorySpan;
 
 use super::Failure;
-use super::case::Case;
 use super::locomotion::Locomotion;
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
+use super::simulate::trajectory;
 use super::state::State;
+use crate::motion::Case;
 
 /// Samples at even times, both ends included.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -31,7 +32,7 @@ impl History {
         let drive_period = case.parameters.drive_period();
         let between = drive_period / f64::from(span.per_cycle);
         let p_d = case.parameters[Parameter::Pd];
-        let mut trajectory = case.trajectory(system, tolerance);
+        let mut trajectory = trajectory(case, system, tolerance);
         let mut history = History::default();
         // When a cycle of the history begins, since that of the drive.
         let mut begins = case.start_time();
@@ -63,5 +64,12 @@ impl History {
             history.drive.extend(history.drive.first().copied());
         }
         Ok(history)
+    }
+
+    /// What the description of the capsule has of it, see
+    /// [`HISTORIES`](super::description::HISTORIES).
+    pub fn columns(&self) -> Vec<Vec<f64>> {
+        let of = |value: fn(&State<f64>) -> f64| self.states.iter().map(value).collect();
+        vec![of(|it| it.r), of(|it| it.y1), of(|it| it.x2), of(|it| it.y2), self.drive.clone()]
     }
 }

@@ -3,7 +3,6 @@
 pub mod account;
 mod arc;
 pub mod branch;
-mod case;
 pub mod description;
 pub mod filippov;
 pub mod drag;
@@ -29,12 +28,12 @@ pub mod state;
 pub mod system;
 
 pub use crate::description::{Fault, Parameters};
+pub use crate::motion::{Case, Orbit, Sensitivity};
 pub use crate::quantity::{Allowed, Dimension, parse_quantity};
 pub use account::{Account, Energies, Impact};
 pub use arc::{ArcPoint, arc};
-pub use case::Case;
 pub use drive::Drive;
-pub use failure::{Failure, REASONS, Section};
+pub use failure::{Failure, REASONS};
 pub use filippov::Capsule;
 pub use forces::Forces;
 pub use history::History;
@@ -44,8 +43,10 @@ pub use parameter::Parameter;
 pub use parameters::CapsuleParameters;
 pub use printed::PrintedCapsule;
 pub use resistance::{Resistance, Switching};
-pub use sensitivity::{Sensitivity, sensitivity};
-pub use settle::{Orbit, outputs, per_cycle, settle, settle_all, settle_as, settle_case};
+pub use sensitivity::sensitivity;
+pub use settle::{
+    CapsuleCase, orbit_of, outputs, per_cycle, settle, settle_all, settle_as, settle_case,
+};
 pub use simulate::{
     Event, Sample, Simulation, SimulationSize, simulate, simulate_case, simulate_case_within,
 };

@@ -8,13 +8,14 @@ use capsulemap_engine::flow::{Event, Field, Stroboscopic, Switched, Zeros};
 use capsulemap_engine::lane::{Lane, Mask, ORDER, Series, elementary, series, side_by_side};
 
 use super::drag::Drag;
-use super::drive::{Drive, reduced};
+use super::drive::Drive;
 use super::locomotion::Locomotion;
 use super::regime::{CONTACT, PrintedMode, Regime, Rules, sign};
 use super::resistance::Resistance;
 use super::state::{EventKind, Jet, State};
 use super::{CapsuleParameters as _, Parameter};
 use crate::description::Parameters;
+use crate::motion::reduced;
 
 /// The capsule with the switching as printed, one set of parameters per lane.
 #[derive(Debug, Clone, Copy)]

@@ -1,10 +1,10 @@
 //! A simulated motion at given times, as sensors would see it, with exact derivatives in parameters and in the start.
 
-use crate::capsule::drive::reduced;
 use crate::capsule::{
     AsPrinted, CapsuleParameters as _, Dimension, Filippov, Jet, Locomotion, Parameter, Parameters,
     Reading, State, Switching,
 };
+use crate::motion::reduced;
 use capsulemap_engine::flow::{
     Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, cycle,
 };

@@ -1,7 +1,7 @@
 //! How the section point and the outputs of a periodic orbit change with a parameter, exactly.
 
-use crate::capsule::{Account, CapsuleSystem, Parameter, Reading, Section, per_cycle};
-use crate::description;
+use crate::capsule::{Account, CapsuleSystem, Parameter, Reading, per_cycle};
+use crate::motion::Sensitivity;
 use capsulemap_engine::flow::System;
 use capsulemap_engine::lane::Dual;
 use capsulemap_engine::orbit::matrix::{less_identity, solve};
@@ -11,17 +11,6 @@ use capsulemap_engine::orbit::return_map::{Cycles, jacobian, observed, seeded};
 const DIRECTIONS: usize = 4;
 /// The place of the parameter among them.
 const FREE: usize = 3;
-
-/// The outputs of a periodic orbit, and its derivatives in a parameter.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sensitivity {
-    /// The outputs that are smooth, NaN for others (SI).
-    pub outputs: description::Outputs,
-    /// The derivative of the section point (SI).
-    pub section_slope: Section,
-    /// The derivatives of the outputs (SI).
-    pub slopes: description::Outputs,
-}
 
 /// The derivatives of the periodic orbit through `section`, of this `period` [cycles], in a parameter; none where the motion
 /// cannot be followed, or where a multiplier is one, so that no orbit goes on there.
@@ -42,7 +31,7 @@ pub struct Sensitivity {
 /// side that the orbit takes.
 pub fn sensitivity<R: Reading>(
     system: &CapsuleSystem<R>,
-    (section, period): (&Section, u64),
+    (section, period): (&[f64; 3], u64),
     tolerance: f64,
     parameter: Parameter,
 ) -> Option<Sensitivity> {
@@ -62,7 +51,7 @@ pub fn sensitivity<R: Reading>(
     };
     Some(Sensitivity {
         outputs: outputs.map(|it| it.value).into(),
-        section_slope,
+        section_slope: section_slope.into(),
         slopes: outputs.map(total).into(),
     })
 }

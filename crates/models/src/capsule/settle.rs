@@ -8,51 +8,24 @@ use capsulemap_engine::orbit::{
 };
 
 use super::account::{Account, Energies, Impact};
-use super::case::Case;
+use super::description::CAPSULE;
 use super::history::History;
 use super::mean_errors;
 use super::output::{Output, Outputs};
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::resistance::Switching;
+use super::sensitivity::sensitivity;
 use super::state::State;
 use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
-use super::{Failure, Section};
-use crate::description::{self, Parameters};
+use crate::description::{self, Description, Parameters, Section};
+use crate::face::{Face, engine_case};
+use crate::motion::{Case, Orbit, Sensitivity};
 
 /// The mean friction force of a periodic orbit, relative to the forces that act, is rounding below this.
 const BALANCED: f64 = 1e-5;
 /// The same for steps of a coarse tolerance, relative to it.
 const PER_STEP: f64 = 1e3;
-
-/// What a case settled to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Orbit {
-    /// What it turned out to be.
-    pub outcome: Outcome,
-    /// Its period [cycles]; zero unless periodic.
-    pub period: u64,
-    /// What is proven of its period.
-    ///
-    /// Of an orbit that is at rest on the ground at the section one multiplier is 0. It is that of pushes along
-    /// y2 as far as they end on the stick surface y2 = 0, |F| <= f_b again; where |F| is above the friction
-    /// of sliding, f_d(0+) < |F| <= f_b, a push off the surface, however small, makes the capsule slide away.
-    pub certificate: Certificate<3>,
-    /// Cycles followed since the first section, measuring included.
-    pub cycles: u64,
-    /// Per-cycle sums and the like; NaN where the case failed.
-    pub outputs: description::Outputs,
-    /// Section points of the measured cycles, up to `Protocol::points`.
-    pub section: Vec<Section>,
-    /// Impacts of the measured cycles, up to `Protocol::impact_points`.
-    pub impacts: Vec<Impact<f64>>,
-    /// Samples of the motion, where the protocol asks for them.
-    pub history: Option<History>,
-    /// Where it was last.
-    pub end: description::State,
-    /// Why it could not be followed, if so.
-    pub failure: Option<Failure>,
-}
 
 /// Settles a case that starts on its section, at `phase` of the drive [rad], as [`settle_case`] does.
 pub fn settle(
@@ -79,7 +52,7 @@ pub fn settle_case(case: &Case, protocol: &Protocol) -> Orbit {
 /// Follows a capsule, its friction read as `R` says, as [`settle_case`] does.
 pub fn settle_as<R: Reading>(case: &Case, protocol: &Protocol) -> Orbit {
     let orbit = orbit::settle(&case.read::<R>(), protocol);
-    Orbit::of::<R>(orbit, case, protocol)
+    orbit_of::<R>(orbit, case, protocol)
 }
 
 /// What each of the cases settles to, in their order; see [`orbit::settle_all`].
@@ -97,6 +70,18 @@ pub fn settle_all(cases: &[Case], protocol: &Protocol, machine: Machine) -> Vec<
     cases.iter().map(next).map(|orbit| orbit.expect("every case is settled")).collect()
 }
 
+/// A case of the capsule for the engine.
+pub trait CapsuleCase {
+    /// It with its friction read as `R` says.
+    fn read<R: Reading>(&self) -> orbit::Case<CapsuleSystem<R>, 3>;
+}
+
+impl CapsuleCase for Case {
+    fn read<R: Reading>(&self) -> orbit::Case<CapsuleSystem<R>, 3> {
+        engine_case(self)
+    }
+}
+
 /// The orbits of the cases that are read so, in their order.
 fn settle_read<R: Reading>(
     cases: &[Case],
@@ -108,62 +93,107 @@ fn settle_read<R: Reading>(
         cases.iter().filter(|case| case.parameters.switching() == switching).collect();
     let read: Vec<_> = chosen.iter().map(|case| case.read::<R>()).collect();
     let orbits = orbit::settle_all(&read, protocol, machine).into_iter().zip(chosen);
-    orbits.map(|(orbit, case)| Orbit::of::<R>(orbit, case, protocol)).collect()
+    orbits.map(|(orbit, case)| orbit_of::<R>(orbit, case, protocol)).collect()
 }
 
-impl Orbit {
-    /// A settled case with its outputs, and its history where the protocol asks for it.
-    pub fn of<R: Reading>(
-        orbit: OrbitOf<CapsuleSystem<R>, 3>,
-        case: &Case,
-        protocol: &Protocol,
-    ) -> Orbit {
-        let is_balanced = is_balanced(&orbit, &case.parameters, protocol.tolerance);
-        let orbit = if is_balanced { orbit } else { orbit.withdrawn() };
-        let settled = State { x2: 0.0, ..orbit.end };
-        let wanted = protocol.history.filter(|_| orbit.failure.is_none());
-        let history = wanted.map(|span: HistorySpan| {
-            let on = Case::at_section(case.parameters.clone(), settled, case.section_phase);
-            let from = if span.from_start { case } else { &on };
-            let system = R::single(&case.parameters, case.section_phase);
-            History::sample(&system, from, span, protocol.tolerance)
-        });
-        match history.transpose() {
-            Ok(history) => Orbit::measured(orbit, &case.parameters, history, protocol),
-            Err(failure) => {
-                let failed = OrbitOf::<CapsuleSystem<R>, 3> {
-                    outcome: Outcome::Failed,
-                    period: 0,
-                    certificate: Certificate::none(),
-                    section: Vec::new(),
-                    failure: Some(failure),
-                    observed: Account::single(&case.parameters, 0),
-                    batches: Vec::new(),
-                    ..orbit
-                };
-                Orbit::measured(failed, &case.parameters, None, protocol)
-            }
+/// A settled case with its outputs, and its history where the protocol asks for it.
+pub fn orbit_of<R: Reading>(
+    orbit: OrbitOf<CapsuleSystem<R>, 3>,
+    case: &Case,
+    protocol: &Protocol,
+) -> Orbit {
+    let is_balanced = is_balanced(&orbit, &case.parameters, protocol.tolerance);
+    let orbit = if is_balanced { orbit } else { orbit.withdrawn() };
+    let settled = State { x2: 0.0, ..orbit.end };
+    let wanted = protocol.history.filter(|_| orbit.failure.is_none());
+    let history = wanted.map(|span: HistorySpan| {
+        let on = Case::at_section(case.parameters.clone(), settled, case.section_phase);
+        let from = if span.from_start { case } else { &on };
+        let system = R::single(&case.parameters, case.section_phase);
+        History::sample(&system, from, span, protocol.tolerance)
+    });
+    match history.transpose() {
+        Ok(history) => measured(orbit, &case.parameters, history, protocol),
+        Err(failure) => {
+            let failed = OrbitOf::<CapsuleSystem<R>, 3> {
+                outcome: Outcome::Failed,
+                period: 0,
+                certificate: Certificate::none(),
+                section: Vec::new(),
+                failure: Some(failure),
+                observed: Account::single(&case.parameters, 0),
+                batches: Vec::new(),
+                ..orbit
+            };
+            measured(failed, &case.parameters, None, protocol)
         }
     }
+}
 
-    fn measured(
-        orbit: orbit::Orbit<State<f64>, Account<f64>, 3>,
-        parameters: &Parameters,
-        history: Option<History>,
-        protocol: &Protocol,
-    ) -> Orbit {
-        Orbit {
-            outputs: outputs(&orbit, parameters, protocol.recurrence).into(),
-            outcome: orbit.outcome,
-            period: orbit.period,
-            certificate: orbit.certificate,
-            cycles: orbit.cycles,
-            section: orbit.section,
-            impacts: orbit.observed.impact_points.0.into_iter().map(|(_, it)| it).collect(),
-            history,
-            end: orbit.end.into(),
-            failure: orbit.failure,
-        }
+fn measured(
+    orbit: orbit::Orbit<State<f64>, Account<f64>, 3>,
+    parameters: &Parameters,
+    history: Option<History>,
+    protocol: &Protocol,
+) -> Orbit {
+    let impact = |value: fn(&Impact<f64>) -> f64| {
+        orbit.observed.impact_points.0.iter().map(|(_, it)| value(it)).collect()
+    };
+    Orbit {
+        outputs: outputs(&orbit, parameters, protocol.recurrence).into(),
+        impacts: vec![
+            impact(|it| it.phase),
+            impact(|it| it.y1),
+            impact(|it| it.y2),
+            impact(|it| it.y1 - it.y2),
+        ],
+        outcome: orbit.outcome,
+        period: orbit.period,
+        certificate: orbit.certificate.map(Section::from),
+        cycles: orbit.cycles,
+        section: orbit.section.into_iter().map(Section::from).collect(),
+        history: history.map_or_else(Vec::new, |it| it.columns()),
+        end: orbit.end.into(),
+        failure: orbit.failure.map(|it| it.map(description::State::from)),
+    }
+}
+
+impl<R: Reading> Face<3> for CapsuleSystem<R> {
+    fn description() -> &'static Description {
+        &CAPSULE
+    }
+
+    fn of(parameters: &Parameters, phase: f64) -> Self {
+        CapsuleSystem::new(parameters.clone(), phase)
+    }
+
+    fn which(parameter: description::Parameter) -> Parameter {
+        Parameter::which(parameter)
+    }
+
+    fn state(state: &description::State) -> State<f64> {
+        state.into()
+    }
+
+    fn orbit(orbit: OrbitOf<Self, 3>, case: &Case, protocol: &Protocol) -> Orbit {
+        orbit_of::<R>(orbit, case, protocol)
+    }
+
+    fn outputs(&self, orbit: &OrbitOf<Self, 3>, recurrence: f64) -> description::Outputs {
+        outputs(orbit, &self.parameters, recurrence).into()
+    }
+
+    fn per_cycle(&self, observed: &Account<f64>, cycles: f64) -> description::Outputs {
+        per_cycle(observed, |it| self.parameters[it], cycles).into()
+    }
+
+    fn sensitivity(
+        &self,
+        orbit: (&[f64; 3], u64),
+        tolerance: f64,
+        parameter: Parameter,
+    ) -> Option<Sensitivity> {
+        sensitivity(self, orbit, tolerance, parameter)
     }
 }
 

@@ -7,7 +7,6 @@ use capsulemap_engine::orbit::Trajectory;
 
 use super::Failure;
 use super::account::{Account, Energies};
-use super::case::Case;
 use super::filippov::Capsule;
 use super::locomotion::Locomotion;
 use super::parameters::CapsuleParameters as _;
@@ -15,6 +14,7 @@ use super::printed::PrintedCapsule;
 use super::resistance::Switching;
 use super::state::{EventKind, State};
 use crate::description::{self, Parameters};
+use crate::motion::Case;
 
 /// State and sums at the end of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -107,7 +107,7 @@ fn simulate_on<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
     tolerance: f64,
 ) -> Simulation {
     let mut account = Account::single(&case.parameters, 0);
-    let mut trajectory = case.trajectory(system, tolerance);
+    let mut trajectory = trajectory(case, system, tolerance);
     let (mut section, mut events) = (Vec::new(), Vec::new());
     let mut failure = None;
     loop {
@@ -136,6 +136,14 @@ fn simulate_on<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
         }
     }
     Simulation { section, events, failure }
+}
+
+/// The way of a case from its start, as `system` moves.
+pub(super) fn trajectory<'a, S>(case: &Case, system: &'a S, tolerance: f64) -> Trajectory<'a, S, 3>
+where
+    S: Stroboscopic<f64, 3, State = State<f64>>,
+{
+    Trajectory::begun(system, State::from(&case.start), case.start_time(), tolerance)
 }
 
 fn sample<S: Locomotion<f64> + Stroboscopic<f64, 3>>(

@@ -6,9 +6,12 @@ pub mod parameter;
 pub mod parameters;
 pub mod roles;
 pub mod rules;
+pub mod section;
 pub mod state;
 
 use std::fmt::{self, Debug, Formatter};
+
+use crate::quantity::Quantity;
 
 pub use choice::Choice;
 pub use output::{Output, OutputDescription, Outputs};
@@ -16,6 +19,7 @@ pub use parameter::{Parameter, ParameterDescription};
 pub use parameters::{Fault, Parameters};
 pub use roles::Roles;
 pub use rules::{NotGiven, Remark, Rules, Threshold};
+pub use section::{MOST_COORDINATES, Section};
 pub use state::{CoordinateDescription, State, StateCoordinate};
 
 /// What a model says of itself.
@@ -30,6 +34,18 @@ pub struct Description {
     pub coordinates: &'static [CoordinateDescription],
     /// The coordinate that drifts, by its place among them, on which no motion depends: section points do not have it.
     pub drift: Option<usize>,
+    /// The coordinates of a point of the stroboscopic section.
+    pub section: &'static [Quantity],
+    /// The parts of the direction of the family of a neutral orbit, in the units of the metric.
+    pub neutral: &'static [Quantity],
+    /// The section coordinates of a saddle between two basins.
+    pub edge: &'static [Quantity],
+    /// The section coordinates of where a case was last.
+    pub end: &'static [Quantity],
+    /// What is told of an impact.
+    pub impact: &'static [Quantity],
+    /// What is kept of a motion at each time.
+    pub histories: &'static [Quantity],
     /// The numbers that sum up a case, in the order of tables and files.
     pub outputs: &'static [OutputDescription],
     /// What some of them are for.

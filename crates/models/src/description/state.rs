@@ -1,9 +1,9 @@
 //! A state of a model: a value for each of its coordinates.
 
-use std::fmt::{self, Debug, Formatter};
+use std::fmt::{self, Debug, Display, Formatter};
 use std::ops::{Index, IndexMut};
 
-use super::Description;
+use super::{Description, Section};
 use crate::quantity::Quantity;
 
 /// What a model says of a coordinate of its state.
@@ -70,6 +70,20 @@ impl Debug for State {
     }
 }
 
+/// Its coordinates by name, with their units.
+impl Display for State {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for (place, (coordinate, value)) in self.each().enumerate() {
+            let (comma, unit) = (if place == 0 { "" } else { ", " }, coordinate.start().dimension);
+            write!(f, "{comma}{} = {value}", coordinate.name())?;
+            if !unit.unit().is_empty() {
+                write!(f, " {}", unit.unit())?;
+            }
+        }
+        Ok(())
+    }
+}
+
 impl From<&State> for State {
     fn from(state: &State) -> State {
         state.clone()
@@ -117,14 +131,8 @@ impl State {
     }
 
     /// The section point: all coordinates but that which drifts.
-    ///
-    /// # Panics
-    /// Where the section has another number of coordinates.
-    pub fn section<const D: usize>(&self) -> [f64; D] {
-        let mut all = self.model.section_coordinates().map(|it| self[it]);
-        let point = std::array::from_fn(|_| all.next().expect("a coordinate of the section"));
-        assert!(all.next().is_none(), "the section has more coordinates");
-        point
+    pub fn section(&self) -> Section {
+        self.model.section_coordinates().map(|it| self[it]).collect()
     }
 
     /// The same, with that which drifts as in another state.

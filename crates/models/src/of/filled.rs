@@ -8,70 +8,68 @@ use capsulemap_engine::orbit::{
     self, KnownOrbits, OrbitOf, Protocol, Queue, Underway, settle_side_by_side,
 };
 
-use crate::capsule::{CapsuleSystem, Case, Orbit, Reading};
+use crate::face::{Face, engine_case};
 use crate::model::{CaseQueue, Unfinished};
+use crate::motion::{Case, Orbit};
 
 /// Orbits that are known of the setting of all cases.
-type Known<R> = Arc<KnownOrbits<CapsuleSystem<R>, 3>>;
+type Known<M, const D: usize> = Arc<KnownOrbits<M, D>>;
 
 /// Settles the cases of a queue, see [`settle_queue`](crate::model::Model::settle_queue).
-pub(super) fn settle<R: Reading>(
+pub(super) fn settle<M: Face<D>, const D: usize>(
     instructions: Instructions,
     protocol: &Protocol,
-    known: Option<Known<R>>,
+    known: Option<Known<M, D>>,
     queue: &mut dyn CaseQueue,
 ) -> Vec<Box<dyn Unfinished>> {
-    let mut filled = Filled::<R> { queue, protocol, known, cases: BTreeMap::new() };
-    let left = settle_side_by_side::<CapsuleSystem<R>, 3>(instructions, protocol, &mut filled);
-    let part = |underway: Underway<CapsuleSystem<R>, 3>| -> Box<dyn Unfinished> {
+    let mut filled = Filled::<M, D> { queue, protocol, known, cases: BTreeMap::new() };
+    let left = settle_side_by_side::<M, D>(instructions, protocol, &mut filled);
+    let part = |underway: Underway<M, D>| -> Box<dyn Unfinished> {
         let case = filled.taken(underway.number());
-        Box::new(Left::<R> { underway, case })
+        Box::new(Left::<M, D> { underway, case })
     };
     left.into_iter().map(part).collect()
 }
 
 /// A queue with the cases of it that are in lanes, by their numbers.
-struct Filled<'a, R: Reading> {
+struct Filled<'a, M: Face<D>, const D: usize> {
     queue: &'a mut dyn CaseQueue,
     protocol: &'a Protocol,
-    known: Option<Known<R>>,
+    known: Option<Known<M, D>>,
     cases: BTreeMap<usize, Case>,
 }
 
-impl<R: Reading> Filled<'_, R> {
+impl<M: Face<D>, const D: usize> Filled<'_, M, D> {
     /// The case of a number, which is in no lane any more.
     fn taken(&mut self, number: usize) -> Case {
         self.cases.remove(&number).expect("the case was in a lane")
     }
 }
 
-impl<R: Reading> Queue<CapsuleSystem<R>, 3> for Filled<'_, R> {
-    fn next(
-        &mut self,
-        done: Option<(usize, OrbitOf<CapsuleSystem<R>, 3>)>,
-    ) -> Option<(usize, orbit::Case<CapsuleSystem<R>, 3>)> {
+impl<M: Face<D>, const D: usize> Queue<M, D> for Filled<'_, M, D> {
+    fn next(&mut self, done: Option<(usize, OrbitOf<M, D>)>) -> Option<(usize, orbit::Case<M, D>)> {
         let done = done.map(|(number, orbit)| {
             let case = self.taken(number);
-            (number, Orbit::of::<R>(orbit, &case, self.protocol))
+            (number, M::orbit(orbit, &case, self.protocol))
         });
         let (number, case) = self.queue.next(done)?;
-        let read = case.read();
+        let read = engine_case(&case);
         self.cases.insert(number, case);
         Some((number, read))
     }
 
-    fn known(&self) -> Option<Known<R>> {
+    fn known(&self) -> Option<Known<M, D>> {
         self.known.clone()
     }
 }
 
 /// A case that has left its lane unfinished.
-struct Left<R: Reading> {
-    underway: Underway<CapsuleSystem<R>, 3>,
+struct Left<M: Face<D>, const D: usize> {
+    underway: Underway<M, D>,
     case: Case,
 }
 
-impl<R: Reading> Unfinished for Left<R> {
+impl<M: Face<D>, const D: usize> Unfinished for Left<M, D> {
     fn number(&self) -> usize {
         self.underway.number()
     }
@@ -79,6 +77,6 @@ impl<R: Reading> Unfinished for Left<R> {
     fn finish(self: Box<Self>, protocol: &Protocol) -> Orbit {
         let Left { underway, case } = *self;
         let (_, orbit) = underway.finish(protocol);
-        Orbit::of::<R>(orbit, &case, protocol)
+        M::orbit(orbit, &case, protocol)
     }
 }

@@ -1,8 +1,9 @@
-//! The one implementation of the door, generic over how the friction of the capsule is read.
+//! The one implementation of the door, generic over systems with a face.
 
 mod filled;
 mod leads;
 
+use std::fmt::{self, Debug, Formatter};
 use std::iter;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -10,8 +11,8 @@ use std::sync::Arc;
 use capsulemap_engine::attractor::{
     self, Attractor, Bridge, Executor, FinalMotion, Links, Table, linear_orbits,
 };
-use capsulemap_engine::branch::{self, Segment, cyclic};
-use capsulemap_engine::flow::System;
+use capsulemap_engine::branch::{self, Linearised, NotFollowed, Segment, cyclic};
+use capsulemap_engine::flow::{Event as _, System};
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::matrix::eigenvalues;
 use capsulemap_engine::orbit::newton::close;
@@ -20,15 +21,15 @@ use capsulemap_engine::orbit::return_map::{Cycles, append_points, observed};
 use capsulemap_engine::orbit::{Batch, KnownOrbits, Machine, Protocol, Underway, settle_all};
 
 use crate::capsule::description::CAPSULE;
-use crate::capsule::{
-    Account, AsPrinted, CapsuleParameters as _, CapsuleSystem, Case, Filippov, Orbit, Parameter,
-    Parameters, Reading, Section, Sensitivity, Switching, per_cycle, sensitivity,
-};
-use crate::description::{self, Description, Outputs};
+use crate::capsule::{AsPrinted, CapsuleParameters as _, CapsuleSystem, Filippov, Switching};
+use crate::description::{Description, Outputs, Parameter, Parameters, Section};
+use crate::face::{self, Face, engine_case, system};
 use crate::model::{
     Along, Batches, CaseQueue, Cell, Known, Leads, LinearOrbits, Model, Motions, Neighbours,
-    Setting, StableOrbit, Unfinished, Unlinked,
+    StableOrbit, Unfinished, Unlinked,
 };
+use crate::motion::branch::{Found, Request};
+use crate::motion::{Case, Orbit, Sensitivity, Setting};
 
 /// An orbit closes to this residual, relative to the motion; a larger one is seen in the outputs.
 const EXACT: f64 = 1e-11;
@@ -36,12 +37,17 @@ const EXACT: f64 = 1e-11;
 /// map it may end early.
 const AGAIN: usize = 4;
 
-/// The capsule, its friction read as `R` says, as a model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Of<R>(PhantomData<R>);
+/// A system with a face, as a model.
+pub struct Of<M, const D: usize>(PhantomData<fn() -> M>);
 
-static FILIPPOV: Of<Filippov> = Of(PhantomData);
-static AS_PRINTED: Of<AsPrinted> = Of(PhantomData);
+impl<M: Face<D>, const D: usize> Debug for Of<M, D> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Of").field(&M::description().name).finish()
+    }
+}
+
+static FILIPPOV: Of<CapsuleSystem<Filippov>, 3> = Of(PhantomData);
+static AS_PRINTED: Of<CapsuleSystem<AsPrinted>, 3> = Of(PhantomData);
 
 /// The model of capsules with these parameters, by how their friction is read.
 // Inlined into another crate, it would have the tables of both implementations, and so the lanes, compiled there once more.
@@ -58,31 +64,53 @@ pub fn default_model() -> &'static Description {
     &CAPSULE
 }
 
-/// The system of a setting.
-fn system<R: Reading>(setting: &Setting) -> CapsuleSystem<R> {
-    CapsuleSystem::new(setting.parameters.clone(), setting.phase)
+/// Section points as the engine has them.
+fn arrays<const D: usize>(points: &[Section]) -> Vec<[f64; D]> {
+    points.iter().map(Section::array).collect()
+}
+
+/// The attractors of a cell for the engine, which does not ask which case has which.
+fn table_of<const D: usize>(table: &Table<Section>) -> Arc<Table<[f64; D]>> {
+    let attractors = table.attractors.iter().map(|it| it.clone().map(|point| point.array()));
+    Arc::new(Table {
+        of_case: Vec::new(),
+        attractors: attractors.collect(),
+        order: table.order.clone(),
+    })
 }
 
 /// What is held along a parameter, for the engine.
-fn along<R: Reading>(it: &Along) -> branch::Along<CapsuleSystem<R>, 3> {
-    let (parameter, tolerance) = (Parameter::which(it.parameter), it.tolerance);
+fn along<M: Face<D>, const D: usize>(it: &Along) -> branch::Along<M, D> {
+    let (parameter, tolerance) = (M::which(it.parameter), it.tolerance);
     branch::Along { system: system(&it.setting), parameter, tolerance }
 }
 
 /// Two neighbouring cells, for the engine.
-fn neighbours<R: Reading>(it: Neighbours) -> attractor::Neighbours<CapsuleSystem<R>, 3> {
+fn neighbours<M: Face<D>, const D: usize>(it: Neighbours) -> attractor::Neighbours<M, D> {
     let Neighbours { protocol, values, cells, inherited, .. } = it;
+    let cells = cells.map(|cell| table_of(&cell));
     attractor::Neighbours { along: along(&it.along), protocol, values, cells, inherited }
 }
 
 /// What follows the orbits of computations that run side by side.
-type Integration<'a, R> = dyn Integrator<CapsuleSystem<R>, 3> + 'a;
+type Integration<'a, M, const D: usize> = dyn Integrator<M, D> + 'a;
+/// The attractors of a cell by place with their derivatives, as the engine has them.
+type LinearOf<M, const D: usize> = Vec<Option<Linearised<<M as System<D>>::Event, D>>>;
 
-impl<R: Reading> Model for Of<R> {
+impl<M: Face<D>, const D: usize> Model for Of<M, D> {
+    fn description(&self) -> &'static Description {
+        M::description()
+    }
+
+    fn scales(&self, setting: &Setting) -> Section {
+        system::<M, D>(setting).metric().scales.into()
+    }
+
     fn settle(&self, case: &Case, protocol: &Protocol, known: Option<&Known>) -> Orbit {
-        let known = known.map(orbits_of::<R>);
-        let (_, orbit) = Underway::new(0, case.read::<R>(), protocol, known).finish(protocol);
-        Orbit::of::<R>(orbit, case, protocol)
+        let known = known.map(orbits_of::<M, D>);
+        let (_, orbit) =
+            Underway::new(0, engine_case::<M, D>(case), protocol, known).finish(protocol);
+        M::orbit(orbit, case, protocol)
     }
 
     fn settle_queue(
@@ -92,7 +120,7 @@ impl<R: Reading> Model for Of<R> {
         known: Option<&Known>,
         queue: &mut dyn CaseQueue,
     ) -> Vec<Box<dyn Unfinished>> {
-        filled::settle::<R>(instructions, protocol, known.map(orbits_of::<R>), queue)
+        filled::settle::<M, D>(instructions, protocol, known.map(orbits_of::<M, D>), queue)
     }
 
     fn known_orbits(
@@ -101,7 +129,7 @@ impl<R: Reading> Model for Of<R> {
         protocol: &Protocol,
         machine: Machine,
     ) -> Option<Known> {
-        let sample: Vec<_> = sample.iter().map(Case::read::<R>).collect();
+        let sample: Vec<_> = sample.iter().map(engine_case::<M, D>).collect();
         let system = sample.first()?.system.clone();
         let orbits = settle_all(&sample, protocol, machine);
         let instructions = machine.instructions_for(sample.len());
@@ -113,10 +141,17 @@ impl<R: Reading> Model for Of<R> {
         &self,
         setting: &Setting,
         case: usize,
-        motion: &FinalMotion<3>,
+        motion: &FinalMotion<Section>,
         protocol: &Protocol,
-    ) -> Option<Attractor<3>> {
-        Attractor::of(case, &system::<R>(setting), motion, protocol)
+    ) -> Option<Attractor<Section>> {
+        let motion = motion.map(|it| it.array());
+        let found = Attractor::of(case, &system::<M, D>(setting), &motion, protocol)?;
+        Some(found.map(Into::into))
+    }
+
+    fn least_point(&self, setting: &Setting, attractor: &Attractor<Section>) -> usize {
+        let metric = system::<M, D>(setting).metric();
+        attractor.clone().map(|it| it.array()).least_point(&metric)
     }
 
     fn table(
@@ -125,19 +160,23 @@ impl<R: Reading> Model for Of<R> {
         motions: Motions<'_>,
         protocol: &Protocol,
         executor: &dyn Executor,
-    ) -> Table<3> {
-        Table::sort(motions.count, motions.at, &system::<R>(setting), protocol, executor)
+    ) -> Table<Section> {
+        let (at, system) = (at::<D>(motions), system::<M, D>(setting));
+        Table::sort(motions.count, at, &system, protocol, executor).map(Into::into)
     }
 
     fn extend_table(
         &self,
-        table: &mut Table<3>,
+        table: &mut Table<Section>,
         setting: &Setting,
         motions: Motions<'_>,
         protocol: &Protocol,
         executor: &dyn Executor,
     ) {
-        table.extend(motions.count, motions.at, &system::<R>(setting), protocol, executor);
+        let mut extended = std::mem::take(table).map(|it| it.array());
+        let (at, system) = (at::<D>(motions), system::<M, D>(setting));
+        extended.extend(motions.count, at, &system, protocol, executor);
+        *table = extended.map(Into::into);
     }
 
     fn linear_orbits(
@@ -146,9 +185,10 @@ impl<R: Reading> Model for Of<R> {
         next: &mut dyn FnMut() -> Option<(usize, Cell)>,
     ) -> Vec<(usize, LinearOrbits)> {
         let computations = iter::from_fn(next).map(|(place, cell)| {
-            let along = along::<R>(&cell.along);
-            move |integrator: &Integration<'_, R>| {
-                (place, linear_orbits(integrator, &along, cell.value, &cell.table))
+            let (along, table) = (along::<M, D>(&cell.along), table_of(&cell.table));
+            move |integrator: &Integration<'_, M, D>| {
+                let linear = linear_orbits(integrator, &along, cell.value, &table);
+                (place, LinearOrbits(Arc::new(linear)))
             }
         });
         Batch::all(instructions, computations, || ())
@@ -159,12 +199,13 @@ impl<R: Reading> Model for Of<R> {
         instructions: Instructions,
         next: &mut dyn FnMut() -> Option<(usize, Unlinked)>,
         done: &mut dyn FnMut(),
-    ) -> Vec<(usize, Links<3>)> {
+    ) -> Vec<(usize, Links<Section>)> {
         let computations = iter::from_fn(next).map(|(place, unlinked)| {
             let Unlinked { neighbours: cells, linear } = unlinked;
-            let neighbours = neighbours::<R>(cells);
-            move |integrator: &Integration<'_, R>| {
-                (place, neighbours.link(integrator, [&linear[0], &linear[1]]))
+            let neighbours = neighbours::<M, D>(cells);
+            move |integrator: &Integration<'_, M, D>| {
+                let [before, after] = linear.each_ref().map(linear_of::<M, D>);
+                (place, neighbours.link(integrator, [before, after]).map(Into::into))
             }
         });
         Batch::all(instructions, computations, done)
@@ -172,13 +213,17 @@ impl<R: Reading> Model for Of<R> {
 
     fn bridges(
         &self,
-        cells: &[Arc<Table<3>>],
-        links: &[Links<3>],
+        cells: &[Arc<Table<Section>>],
+        links: &[Links<Section>],
         between: &(dyn Fn(usize) -> Option<Neighbours> + Sync),
         executor: &dyn Executor,
-    ) -> Vec<Bridge<3>> {
-        let between = |at: usize| between(at).map(neighbours::<R>);
-        attractor::bridges(cells, links, between, executor)
+    ) -> Vec<Bridge<Section>> {
+        let between = |at: usize| between(at).map(neighbours::<M, D>);
+        let cells: Vec<_> = cells.iter().map(|cell| table_of(cell)).collect();
+        let links: Vec<Links<[f64; D]>> =
+            links.iter().map(|it| it.clone().map(|point| point.array())).collect();
+        let bridges = attractor::bridges(&cells, &links, between, executor);
+        bridges.into_iter().map(|it| it.map(Into::into)).collect()
     }
 
     fn leads<'a>(
@@ -186,9 +231,13 @@ impl<R: Reading> Model for Of<R> {
         setting: &Setting,
         protocol: &Protocol,
         machine: Machine,
-        known: Vec<(u32, &'a Attractor<3>)>,
+        known: Vec<(u32, &'a Attractor<Section>)>,
     ) -> Box<dyn Leads + 'a> {
-        Box::new(leads::LeadsOf::<R>::new(system(setting), protocol, machine, known))
+        let known = known
+            .into_iter()
+            .map(|(number, it)| (number, it.clone().map(|point| point.array())))
+            .collect();
+        Box::new(leads::LeadsOf::<M, D>::new(system(setting), protocol, machine, known))
     }
 
     fn section_points(
@@ -198,9 +247,9 @@ impl<R: Reading> Model for Of<R> {
         cycles: u64,
         tolerance: f64,
     ) -> Option<Vec<Section>> {
-        let mut points = vec![from];
-        append_points(&system::<R>(setting), &mut points, cycles as usize, tolerance)?;
-        Some(points)
+        let mut points = vec![from.array()];
+        append_points(&system::<M, D>(setting), &mut points, cycles as usize, tolerance)?;
+        Some(points.into_iter().map(Into::into).collect())
     }
 
     fn stable_orbit(
@@ -210,13 +259,14 @@ impl<R: Reading> Model for Of<R> {
         period: u64,
         tolerance: f64,
     ) -> Option<StableOrbit> {
-        let system = system::<R>(setting);
+        let system = system::<M, D>(setting);
+        let guess = &guess.array();
         let metric = system.metric();
         let cycles = Cycles { count: period, tolerance };
         let size = metric.size(guess).max(system.expected_size());
-        let image_of = |point: &Section| image(&OneByOne, &system, point, &cycles);
+        let image_of = |point: &[f64; D]| image(&OneByOne, &system, point, &cycles);
         let closed_near =
-            |guess: &Section| close(image_of, period, &metric, guess, size).ok().flatten();
+            |guess: &[f64; D]| close(image_of, period, &metric, guess, size).ok().flatten();
         let mut closed = closed_near(guess)?;
         for _ in 0..AGAIN {
             if closed.residual <= EXACT {
@@ -234,11 +284,17 @@ impl<R: Reading> Model for Of<R> {
             system,
             along: None,
             point: section,
-            units: [1.0; 3],
+            units: [1.0; D],
             cycles,
             watched: true,
         });
-        Some(StableOrbit { section, multipliers, events: cyclic(&passed.ok()?.events) })
+        let events = cyclic(&passed.ok()?.events);
+        Some(StableOrbit {
+            section: section.into(),
+            multipliers: multipliers.to_vec(),
+            impacts: events.iter().filter(|event| event.is_impact()).count(),
+            events: events.iter().map(|event| event.number()).collect(),
+        })
     }
 
     fn sensitivity(
@@ -247,14 +303,20 @@ impl<R: Reading> Model for Of<R> {
         section: &Section,
         period: u64,
         tolerance: f64,
-        parameter: description::Parameter,
+        parameter: Parameter,
     ) -> Option<Sensitivity> {
-        let parameter = Parameter::which(parameter);
-        sensitivity(&system::<R>(setting), (section, period), tolerance, parameter)
+        let orbit = (&section.array(), period);
+        system::<M, D>(setting).sensitivity(orbit, tolerance, M::which(parameter))
     }
 
-    fn segment(&self, it: &Along, from: (f64, &[Section]), to: f64) -> Option<Segment<3>> {
-        branch::segment(&OneByOne, &along::<R>(it), from, to)
+    fn follow(&self, request: &Request) -> Result<Found, NotFollowed> {
+        face::follow::<M, D>(request)
+    }
+
+    fn segment(&self, it: &Along, from: (f64, &[Section]), to: f64) -> Option<Segment<Section>> {
+        let (value, points) = from;
+        let from = (value, &arrays(points)[..]);
+        Some(branch::segment(&OneByOne, &along::<M, D>(it), from, to)?.map(Into::into))
     }
 
     fn batches(
@@ -265,19 +327,33 @@ impl<R: Reading> Model for Of<R> {
         tolerance: f64,
     ) -> Option<Vec<Outputs>> {
         let cycles = Cycles { count: batches.cycles, tolerance };
-        let system = system::<R>(setting);
-        let of = |parameter: Parameter| setting.parameters[parameter];
-        let mut point = from;
+        let system = system::<M, D>(setting);
+        let mut point = from.array();
         let batch = |_| {
-            let mut account = Account::new(of, 0);
-            point = observed(&system.system(of), point, &cycles, &mut account).ok()?;
-            Some(per_cycle(&account, of, cycles.count as f64).into())
+            let mut observer = system.observer(0);
+            point = observed(&system.single(), point, &cycles, &mut observer).ok()?;
+            Some(system.per_cycle(&observer, cycles.count as f64))
         };
         (0..batches.count).map(batch).collect()
     }
 }
 
 /// The orbits that are known, as this model has found them.
-fn orbits_of<R: Reading>(known: &Known) -> Arc<KnownOrbits<CapsuleSystem<R>, 3>> {
+fn orbits_of<M: Face<D>, const D: usize>(known: &Known) -> Arc<KnownOrbits<M, D>> {
     known.0.clone().downcast().expect("they are of this model")
+}
+
+/// The attractors of a cell with their derivatives, as this model has found them.
+fn linear_of<M: Face<D>, const D: usize>(linear: &LinearOrbits) -> &LinearOf<M, D> {
+    linear.0.downcast_ref().expect("they are of this model")
+}
+
+/// The final motions of some cases for the engine.
+fn at<const D: usize>(
+    motions: Motions<'_>,
+) -> impl Fn(usize) -> (usize, Option<FinalMotion<[f64; D]>>) + Sync + '_ {
+    move |place| {
+        let (case, motion) = (motions.at)(place);
+        (case, motion.map(|it| it.map(|point| point.array())))
+    }
 }

@@ -179,7 +179,7 @@ pub fn all_returns<M: Subject<D>, const D: usize>() {
 fn verdict<M: Subject<D>, const D: usize>(orbit: &OrbitOf<M, D>) -> String {
     let numbers = [orbit.residual, orbit.defect, orbit.size, orbit.duration, orbit.excluded];
     let exponent = [orbit.exponent.value, orbit.exponent.uncertainty];
-    let multipliers = orbit.multipliers().map(|it| [it.re.to_bits(), it.im.to_bits()]);
+    let multipliers = orbit.multipliers().iter().map(|it| [it.re.to_bits(), it.im.to_bits()]);
     let failure = orbit.failure.map(|failure| (failure.reason, failure.time.to_bits()));
     format!(
         "{:?} {} {:?} {:x?} {multipliers:x?} {:x?} {:x?} {} {} {failure:?}",

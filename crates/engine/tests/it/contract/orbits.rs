@@ -151,7 +151,7 @@ fn certified<'a, M: Subject<D>, const D: usize>(
         point: orbit.section[0],
         size: orbit.size,
         period: orbit.period,
-        multipliers: *orbit.multipliers(),
+        multipliers: orbit.multipliers().try_into().expect("one for each coordinate"),
     })
 }
 

@@ -2,8 +2,8 @@
 
 use capsulemap_engine::orbit::{Case, Outcome, Protocol, settle};
 use capsulemap_models::capsule::{
-    AsPrinted, CapsuleParameters as _, CapsuleSystem, Filippov, Parameter, Parameters, Reading,
-    Resistance, State,
+    AsPrinted, CapsuleCase as _, CapsuleParameters as _, CapsuleSystem, Filippov, Parameter,
+    Parameters, Reading, Resistance, State,
 };
 
 use super::super::directions::DIRECTIONS;
@@ -240,7 +240,7 @@ fn an_equilibrium_is_certified_with_its_decay_or_not_at_all() {
     let orbit = settle(&Case::new(belt, [1.0, 0.0]), &Protocol::default());
     let rate = 0.5 * (belt.c - belt.a / belt.s * libm::exp(-belt.v / belt.s));
     let turn = 2.0 * std::f64::consts::PI / (1.0 - rate * rate).sqrt();
-    let [found] = orbit.certificate.multipliers;
+    let &[found] = &orbit.certificate.multipliers[..] else { panic!("multipliers") };
     let exact = libm::exp(-rate * turn);
     let is_right = (found.abs() - exact).abs() < 1e-6 && (orbit.duration - turn).abs() < 1e-6;
     assert!(orbit.outcome != Outcome::Periodic || is_right, "{found:?} {exact}: {orbit:?} {turn}");

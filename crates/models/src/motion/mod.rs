@@ -1,0 +1,10 @@
+//! A case of a model: where it starts, what it settles to, and what a branch through it is.
+
+pub mod branch;
+mod case;
+mod orbit;
+mod setting;
+
+pub use case::{Case, reduced};
+pub use orbit::{Failure, Orbit};
+pub use setting::{Sensitivity, Setting};
