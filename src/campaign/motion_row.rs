@@ -72,7 +72,7 @@ impl Rows {
     /// The columns of the cases in `archive`, called `file`.
     pub fn of(table: &CaseTable<'_>, archive: &Archive, file: &str) -> Result<Rows, StoreError> {
         let mut coordinates = Vec::new();
-        for coordinate in Coordinate::all() {
+        for coordinate in Coordinate::all(archive.frame().model()) {
             let Some(Column { values, .. }) = table.column(coordinate.name())? else { continue };
             let varies = values.iter().any(|value| *value != values[0]);
             coordinates.push((coordinate, values, varies));

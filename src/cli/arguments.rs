@@ -7,9 +7,8 @@ use std::path::Path;
 use super::failure::Failure;
 use crate::campaign::quoted;
 use crate::capsule::{Dimension, parse_quantity};
-use crate::description::Output;
+use crate::description::{Description, Output};
 use crate::lane::Instructions;
-use crate::of::default_model;
 use crate::run::Machine;
 use crate::study::document::unknown;
 
@@ -40,12 +39,15 @@ pub fn named<T: Copy + Send + Sync + 'static>(
         .map(move |given| find(&given).expect("only known names get here"))
 }
 
-/// The output that an option names.
-pub fn output(option: &str, name: &str) -> Result<Output, String> {
-    let names = default_model().outputs().map(|output| output.name());
-    default_model()
-        .output(name)
-        .ok_or_else(|| format!("{option}: {}", unknown("output", name, names)))
+/// The output of a model that an option names; its power if it names none.
+pub fn price(
+    option: &str,
+    name: Option<&str>,
+    model: &'static Description,
+) -> Result<Output, String> {
+    let Some(name) = name else { return Ok(model.power()) };
+    let names = model.outputs().map(|output| output.name());
+    model.output(name).ok_or_else(|| format!("{option}: {}", unknown("output", name, names)))
 }
 
 /// What follows a command in a hint, so that it runs as it is printed: the study, and the output where it was given.

@@ -16,7 +16,6 @@ use crate::capsule::Dimension;
 use crate::capsule::printable::printable;
 use crate::experiment::{Column, Presence};
 use crate::figure::{Measured, Place};
-use crate::of::default_model;
 use crate::store::{self, Archive, Dataset, StoreError, catalogue};
 use crate::study::appearance::dimension_of;
 use crate::study::document::unknown;
@@ -162,8 +161,9 @@ impl Figure {
             return Ok(());
         }
         let axes = archive.frame().coordinates.iter().map(|(name, _)| name.as_str());
-        let axes = axes.filter(|name| Coordinate::all().any(|it| it.name() == *name));
-        let outputs = default_model().outputs().map(|it| it.name());
+        let model = archive.frame().model();
+        let axes = axes.filter(|name| Coordinate::all(model).any(|it| it.name() == *name));
+        let outputs = model.outputs().map(|it| it.name());
         let outputs = outputs.filter(|name| archive.unit(name).is_some());
         let known = COLOURED_BY.into_iter().chain(axes).chain(outputs);
         let fault = unknown("output, axis or kind", name, known);
@@ -194,8 +194,9 @@ impl Figure {
 
     /// Where axes are held, and those that are held at several values.
     fn held(&self, kind: DrawingKind, dataset: &Dataset) -> Result<Held, Failure> {
-        let axes: Vec<Coordinate> =
-            Coordinate::all().filter(|axis| dataset.coordinate(axis.name()).is_some()).collect();
+        let axes: Vec<Coordinate> = Coordinate::all(dataset.model())
+            .filter(|axis| dataset.coordinate(axis.name()).is_some())
+            .collect();
         let mut held: BTreeMap<String, Vec<f64>> = BTreeMap::new();
         let mut faults = Vec::new();
         for text in &self.at {
@@ -246,7 +247,7 @@ fn measured(path: &Path, archive: &Archive) -> Result<Measured, Failure> {
     let axes = archive.frame().coordinates.iter().map(|it| it.0.as_str());
     let names = axes.chain(archive.variables().map(|it| it.0));
     let column = |name: &str| {
-        let name = catalogue::named(name)?.name;
+        let name = catalogue::named(name, archive.frame().model())?.name;
         let dimension = dimension(archive, name).ok()?;
         Some(Column { name, dimension, presence: Presence::Optional })
     };
@@ -262,7 +263,7 @@ fn dimension(archive: &Archive, name: &str) -> Result<Dimension, String> {
         let unit = archive.unit(name)?;
         Some(Dimension::ALL.into_iter().find(|it| it.unit() == unit).unwrap_or(Dimension::Number))
     };
-    dimension_of(name).or_else(|fault| of_variable().ok_or(fault))
+    dimension_of(name, archive.frame().model()).or_else(|fault| of_variable().ok_or(fault))
 }
 
 /// The study in the file, which asks for figures.

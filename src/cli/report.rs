@@ -4,12 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::output;
+use super::arguments::price;
 use super::failure::Failure;
 use super::target::Target;
 use crate::capsule::printable::printable;
 use crate::explore::{GENERATOR, Request, report};
-use crate::of::default_model;
 use crate::store;
 
 const EXAMPLES: &str = "\
@@ -27,9 +26,9 @@ compute them again. It needs no network and no other file. Motions between the c
 pub struct Report {
     /// The file of results.
     file: PathBuf,
-    /// The output that should be small: an energy per cycle, `power`, `energy_per_metre` or another.
-    #[arg(long, value_name = "OUTPUT", default_value = default_model().power().name())]
-    of: String,
+    /// The output that should be small: an energy per cycle, one over a distance or another; the power by default.
+    #[arg(long, value_name = "OUTPUT")]
+    of: Option<String>,
     /// The page; beside the file of results, with its name, by default.
     #[arg(long, value_name = "FILE.html")]
     output: Option<PathBuf>,
@@ -41,8 +40,9 @@ pub struct Report {
 impl Report {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let of = output("--of", &self.of).map_err(Failure::request)?;
         let archive = store::open(&self.file).map_err(Failure::request)?;
+        let model = archive.frame().model();
+        let of = price("--of", self.of.as_deref(), model).map_err(Failure::request)?;
         let page = self.output.clone().unwrap_or_else(|| self.file.with_extension("html"));
         let target = Target::of(&page, |page| self.check(page))?;
         target.put(&report(&Request { archive: &archive, file: &self.file, of })?, &[])
@@ -56,7 +56,7 @@ impl Report {
             Err(said) if said.kind() == std::io::ErrorKind::NotFound => Ok(()),
             Ok(bytes) if self.overwrite || is_ours(&bytes) => Ok(()),
             _ => Err(Failure::request(format!(
-                "{}: exists and is no report of this program; name another --output, or replace it with --overwrite",
+                "{}: exists and is no report of this program; name another --price, or replace it with --overwrite",
                 printable(page)
             ))),
         }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{named, output};
+use super::arguments::{named, price};
 use super::failure::Failure;
 use super::optima_text::{csv, json, table};
 use super::readable::count;
@@ -17,8 +17,7 @@ use crate::campaign::{
 };
 use crate::capsule::Dimension;
 use crate::capsule::printable::printable;
-use crate::description::{Output, Parameter};
-use crate::of::default_model;
+use crate::description::{Description, Output, Parameter};
 use crate::store::{self, Archive, StoreError, quantity};
 use crate::study::document::unknown;
 use crate::tradeoff::Direction;
@@ -43,9 +42,9 @@ Conditions then bound the search: parameters, and up to 3 outputs that change sm
 pub struct Tradeoff {
     /// The file of results.
     file: PathBuf,
-    /// The output that should be small: an energy per cycle, `power`, `energy_per_metre` or another.
-    #[arg(long, value_name = "OUTPUT", default_value = default_model().power().name())]
-    of: String,
+    /// The output that should be small: an energy per cycle, one over a distance or another; the power by default.
+    #[arg(long, value_name = "OUTPUT")]
+    of: Option<String>,
     /// Motions to compare; `either` compares magnitudes of speeds.
     #[arg(long, value_parser = named(&Direction::NAMES), default_value = "either")]
     direction: Direction,
@@ -113,8 +112,8 @@ struct Request {
 impl Tradeoff {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
-        let request = self.request()?;
         let archive = store::open(&self.file).map_err(Failure::request)?;
+        let request = self.request(archive.frame().model())?;
         let kept = self.refine.then(|| self.kept(&archive)).transpose()?;
         let threads = self.threads.map(|threads| threads as usize);
         let trade_off = TradeOff {
@@ -173,30 +172,35 @@ impl Tradeoff {
         }
     }
 
-    fn request(&self) -> Result<Request, Failure> {
+    fn request(&self, model: &'static Description) -> Result<Request, Failure> {
         let mut faults = Vec::new();
-        let of = output("--of", &self.of).unwrap_or_else(|fault| {
+        let of = price("--of", self.of.as_deref(), model).unwrap_or_else(|fault| {
             faults.push(fault);
-            default_model().power()
+            model.power()
         });
         let mut read = |option: &str, text: &Option<String>, unit: &str| {
             let value = quantity(text.as_deref()?, unit);
             value.map_err(|fault| faults.push(format!("--{option}: {fault}"))).ok()
         };
-        let speed_unit = default_model().speed().unit();
+        let speed_unit = model.speed().unit();
         let [at_rest, budget, speed] = [
             read("at-rest", &self.at_rest, speed_unit),
             read("budget", &self.budget, of.unit()),
             read("speed", &self.speed, speed_unit),
         ];
         let tolerances =
-            self.tolerances.as_ref().map(|text| self.read_tolerances(text, &mut faults));
+            self.tolerances.as_ref().map(|text| self.read_tolerances(text, model, &mut faults));
         let request = Request { of, at_rest, budget, speed, tolerances };
         if faults.is_empty() { Ok(request) } else { Err(Failure::requests(&faults)) }
     }
 
     /// The tolerances in a text; faults are noted.
-    fn read_tolerances(&self, text: &str, faults: &mut Vec<String>) -> Tolerances {
+    fn read_tolerances(
+        &self,
+        text: &str,
+        model: &'static Description,
+        faults: &mut Vec<String>,
+    ) -> Tolerances {
         let mut each: Vec<(Parameter, f64)> = Vec::new();
         for part in text.split(',') {
             let fault = |message: String| format!("--tolerances {}: {message}", part.trim());
@@ -204,11 +208,8 @@ impl Tradeoff {
                 faults.push(fault("expected PARAMETER = PERCENT".to_owned()));
                 continue;
             };
-            let symbols = || default_model().parameters().map(|it| it.symbol());
-            match (
-                default_model().parameter(name.trim()),
-                quantity(value, Dimension::Number.unit()),
-            ) {
+            let symbols = || model.parameters().map(|it| it.symbol());
+            match (model.parameter(name.trim()), quantity(value, Dimension::Number.unit())) {
                 (None, _) => faults.push(fault(unknown("parameter", name.trim(), symbols()))),
                 (_, Err(message)) => {
                     faults.push(fault(format!(

@@ -50,8 +50,9 @@ pub enum Undrawn {
 /// The study of one case: a motion of another study, with its history.
 fn study(row: &Row, of: &Study, cycles: u32) -> Study {
     let base = of.base.clone();
-    let mut study = Study { base, outputs: vec![of.base.model().speed()], ..Study::default() };
-    let mut start = State::default();
+    let mut study =
+        Study { base, outputs: vec![of.base.model().speed()], ..Study::of(of.base.model()) };
+    let mut start = State::origin(of.base.model());
     for (coordinate, value, _) in &row.coordinates {
         match coordinate {
             Coordinate::Parameter(parameter) => study.base[*parameter] = *value,

@@ -40,11 +40,11 @@ pub struct Curve {
 pub const KIND: Kind = Kind { needs: Needs::Branches, reads, draw };
 
 /// What is read of the curves, and of the special points that they go through.
-pub fn reads(_: &Drawing, _model: &'static Description) -> Names {
+pub fn reads(_: &Drawing, model: &'static Description) -> Names {
     let places = [Place::Request, Place::Special, Place::Curve];
     Names::of([CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH])
         .and([SPECIAL_BRANCH, SPECIAL_CURVE, INDEX_REQUEST])
-        .and(places.into_iter().flat_map(Place::parameters))
+        .and(places.into_iter().flat_map(|place| place.parameters(model)))
 }
 
 /// Draws the curves that `view` asks for.

@@ -17,7 +17,7 @@ pub fn reads(model: &'static Description) -> Names {
     let sections = section(model).into_iter().map(|entry| Place::Event.of(entry));
     Names::of([EVENT_KIND, EVENT_ATTRACTOR, EVENT_PERIOD])
         .and(sections)
-        .and(Place::Event.parameters())
+        .and(Place::Event.parameters(model))
 }
 
 /// One event.

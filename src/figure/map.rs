@@ -35,7 +35,7 @@ pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let output = output(drawing, model);
     let output = output.as_str();
-    let entry = catalogue::named(output);
+    let entry = catalogue::named(output, model);
     let sorted = entry.is_none_or(|entry| !matches!(entry.numbers, Type::Real));
     let sorting = category::reads(model).into_iter().filter(|_| sorted);
     let names = Names::of(outcome::READS).and(inferred::READS).and(sorting);

@@ -56,7 +56,7 @@ pub struct OverMap {
 
 /// The names of the variables that [`over_map`] reads.
 pub fn over_map_variables(drawing: &Drawing, model: &'static Description) -> BTreeSet<String> {
-    let at_points = Place::Branch.parameters();
+    let at_points = Place::Branch.parameters(model);
     let names =
         curves::reads(drawing, model).and([AT_BRANCH_POINTS.branch, AT_SPECIAL_POINTS.branch]);
     names.and([SPECIAL_KIND]).and(at_points).and(varied::READS).into_set()

@@ -61,7 +61,7 @@ impl Quantity {
         let unit = stored.map_or("", |it| it.unit.as_str());
         let least = if is_result { rounding(unit) } else { 0.0 };
         let is_ratio = is_result && unit == "1";
-        match catalogue::named(name).and_then(|entry| entry.shown) {
+        match catalogue::named(name, dataset.model()).and_then(|entry| entry.shown) {
             Some(Shown { label, symbol, unit, factor }) => Quantity {
                 key: name.to_owned(),
                 name: Text::plain(label),

@@ -17,14 +17,14 @@ const SAME: f64 = 1e-6;
 pub fn reads(outputs: &[String], model: &'static Description) -> Names {
     let places = [(Place::Branch, &AT_BRANCH_POINTS), (Place::Special, &AT_SPECIAL_POINTS)];
     let at = |(place, own): (Place, &OrbitColumns)| {
-        let of_orbits = [own.branch, own.period].into_iter().chain(place.parameters());
+        let of_orbits = [own.branch, own.period].into_iter().chain(place.parameters(model));
         let sections = section(model).into_iter().map(move |entry| place.of(entry));
         let outputs = outputs.iter().map(move |output| place.name(output));
         Names::of(of_orbits.chain(sections)).and_named(outputs)
     };
     let names = places.into_iter().map(at).fold(Names::default(), Names::and_all);
     let own = [INDEX_REQUEST, BRANCH_STABLE, SPECIAL_AFTER, SPECIAL_KIND];
-    names.and(own).and(Place::Request.parameters())
+    names.and(own).and(Place::Request.parameters(model))
 }
 
 /// Whether each branch of the study lies where `view` holds the axes other than those that are `drawn`.

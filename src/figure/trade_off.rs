@@ -37,7 +37,7 @@ pub fn price<'d>(drawing: &'d Drawing, model: &'static Description) -> &'d str {
 
 /// What a trade-off reads: both quantities, the energy per metre, what was drawn, and the outcomes.
 fn reads(drawing: &Drawing, model: &'static Description) -> Names {
-    let drawn = Coordinate::all().map(|it| it.name().to_owned());
+    let drawn = Coordinate::all(model).map(|it| it.name().to_owned());
     Names::of(outcome::READS)
         .and([model.speed(), model.energy_per_distance()].map(catalogue::Entry::of_output))
         .and(category::reads(model))

@@ -160,7 +160,7 @@ fn path(
 ) -> Result<Path, FigureError> {
     let mut along = Vec::new();
     for name in axes {
-        let coordinate = Coordinate::all().find(|it| it.name() == name);
+        let coordinate = Coordinate::all(view.model()).find(|it| it.name() == name);
         let coordinate = coordinate
             .ok_or_else(|| view.unfit(format!("`{name}` is no parameter or start of a motion")))?;
         let of_case: Vec<f64> = view.parameter(name, free)?.into_iter().collect();

@@ -209,5 +209,5 @@ pub fn coordinates(view: &View<'_>, free: &[&str]) -> Vec<Coordinate> {
         let over = view.dataset.variable(name).map(|it| &it.dimensions[..]);
         free.contains(&DRAW.name) && over.is_some_and(|it| it == [DRAW.name])
     };
-    Coordinate::all().filter(|it| is_long(it.name()) || is_drawn(it.name())).collect()
+    Coordinate::all(view.model()).filter(|it| is_long(it.name()) || is_drawn(it.name())).collect()
 }

@@ -1,6 +1,7 @@
 //! The units of quantities, as figures show them.
 
 use crate::capsule::Dimension;
+use crate::description::Description;
 use crate::quantity::units::unit;
 use crate::study::appearance::{NATURAL, dimension_of};
 
@@ -22,7 +23,7 @@ impl ShownUnit {
     ///
     /// Says what does not fit.
     pub fn of(
-        name: &str,
+        (name, model): (&str, &'static Description),
         wanted: &str,
         natural: impl FnOnce() -> Option<f64>,
     ) -> Result<ShownUnit, String> {
@@ -33,7 +34,7 @@ impl ShownUnit {
             let divisor = "/√(*k*_{1}/*m*_{1})";
             return Ok(ShownUnit { unit: String::new(), divisor, factor: 1.0 / frequency });
         }
-        let dimension = dimension_of(name)?;
+        let dimension = dimension_of(name, model)?;
         let (known, size) = unit(wanted, dimension)
             .ok_or_else(|| format!("`unit` of {name}: unknown unit \"{wanted}\""))?;
         let is_turns = dimension == Dimension::AngularFrequency && !known.starts_with("rad");

@@ -15,14 +15,14 @@ use super::unit::ShownUnit;
 use super::varied::varied;
 use crate::campaign::KeptFront;
 use crate::description::{Description, Output, Parameter};
-use crate::store::catalogue::{self, DIRECTION, DRAW, Entry, Extent, HISTORY_TIME};
+use crate::store::catalogue::{self, DIRECTION, DRAW, Entry, HISTORY_TIME};
 use crate::store::dataset::{Dataset, Variable};
 use crate::study::axis::{is_within, range};
 use crate::study::{Direction, Drawing};
 
 /// Whether a dimension lies within a case or beside the cases, and is no axis of the study.
 fn is_inner(dimension: &str) -> bool {
-    catalogue::named(dimension).is_some_and(|entry| entry.extent == Extent::Dimension)
+    catalogue::is_dimension(dimension)
 }
 
 /// Panels along one axis that stand side by side at most.
@@ -78,7 +78,8 @@ impl<'a> View<'a> {
         }
         let mut chosen = BTreeMap::new();
         for (name, set) in &drawing.settings {
-            let unit = |unit| ShownUnit::of(name, unit, || view.natural_frequency());
+            let unit =
+                |unit| ShownUnit::of((name, view.model()), unit, || view.natural_frequency());
             let unit = set.unit.map(unit).transpose().map_err(|why| view.unfit(why))?;
             chosen.insert(name.clone(), Rc::new(Chosen::new(set.clone(), unit)));
         }

@@ -1,6 +1,7 @@
 //! The variables of the branches in a file of results, beside those of the sweep.
 
 use super::branch_columns::add_points;
+use super::catalogue;
 use super::catalogue::*;
 use super::flat::Flat;
 use super::{Dataset, Values, Variable};
@@ -92,11 +93,18 @@ fn integers(dataset: &mut Dataset, entry: Entry, values: impl Iterator<Item = i6
     dataset.put_column(entry, Values::integers(values.collect()));
 }
 
+/// A column of parameters of the model.
+fn by_symbol(dataset: &mut Dataset, entry: Entry, of: impl Iterator<Item = Parameter>) {
+    let values = Values::integers(of.map(|parameter| parameter.index() as i64).collect());
+    let symbols = catalogue::parameters(dataset.model());
+    dataset.put_column(entry, values).flags = symbols;
+}
+
 /// The parameter, the start and the result of each branch of the study.
 fn add_requests(dataset: &mut Dataset, study: &Study, continued: &[Continued]) {
     let branches = &study.branches;
     integers(dataset, REQUEST_RESULT, continued.iter().map(result));
-    integers(dataset, REQUEST_ALONG, branches.iter().map(|branch| branch.along.index() as i64));
+    by_symbol(dataset, REQUEST_ALONG, branches.iter().map(|branch| branch.along));
     reals(dataset, REQUEST_PHASE, branches.iter().map(|branch| branch.section_phase));
     for parameter in study.base.model().parameters() {
         let values = branches.iter().map(|branch| branch.parameters[parameter]);
@@ -108,7 +116,7 @@ fn add_requests(dataset: &mut Dataset, study: &Study, continued: &[Continued]) {
 fn add_index(dataset: &mut Dataset, flat: &Flat<'_>) {
     let branches = &flat.branches;
     integers(dataset, INDEX_REQUEST, branches.iter().map(|branch| branch.request as i64));
-    integers(dataset, INDEX_ALONG, branches.iter().map(|branch| branch.along.index() as i64));
+    by_symbol(dataset, INDEX_ALONG, branches.iter().map(|branch| branch.along));
     integers(dataset, INDEX_PERIOD, branches.iter().map(|branch| branch.period as i64));
     let parents = branches.iter().map(|branch| branch.parent.map_or(-1, |(parent, _)| parent));
     integers(dataset, INDEX_PARENT, parents);

@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use ndarray::{ArrayD, IxDyn};
 
 use super::catalogue::{Entry, Flags};
+use super::names::MODEL;
 use crate::description::Description;
+use crate::of::all_models;
 use crate::of::default_model;
 
 /// The numbers of a variable.
@@ -130,7 +132,9 @@ pub struct Dataset {
 impl Dataset {
     /// The model whose results they are.
     pub fn model(&self) -> &'static Description {
-        default_model()
+        let name = self.attributes.get(MODEL);
+        let named = name.and_then(|name| all_models().into_iter().find(|it| it.name == name));
+        named.unwrap_or_else(default_model)
     }
 
     /// The coordinate called `name`.

@@ -9,6 +9,9 @@ pub const FORMAT: &str = "capsulemap_format";
 /// The layout that this version writes and reads.
 pub const FORMAT_WRITTEN: &str = "1";
 
+/// Root attribute: the model whose results they are, unless it is that of studies which name none.
+pub const MODEL: &str = "model";
+
 /// Root attribute: what else describes the whole file and is no variable over the cases, as CF has it.
 pub const COORDINATES: &str = "coordinates";
 /// Root attributes that begin so hold numbers where they can.

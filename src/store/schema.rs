@@ -5,10 +5,12 @@ use std::collections::BTreeMap;
 use ndarray::{ArrayD, IxDyn};
 
 use super::catalogue::*;
+use super::names::MODEL;
 use super::names::OF_PROTOCOL;
 use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, Values, Variable, drawn, provenance};
 use crate::motion::Orbit;
+use crate::of::default_model;
 use crate::orbit::matrix::Complex;
 use crate::run::Record;
 use crate::study::{CaseSet, Coordinate, Study};
@@ -88,6 +90,9 @@ pub fn frame(study: &Study) -> Dataset {
     dataset.attributes.insert("title".to_owned(), study.title.clone());
     dataset.attributes.extend(provenance::attributes());
     dataset.attributes.extend(protocol(study));
+    if study.base.model() != default_model() {
+        dataset.attributes.insert(MODEL.to_owned(), study.base.model().name.to_owned());
+    }
     let choices = study.base.choices().map(|(name, chosen)| (name.to_owned(), chosen.to_owned()));
     dataset.attributes.extend(choices);
     dataset.attributes.insert(FINGERPRINT.to_owned(), study.fingerprint());
@@ -183,7 +188,7 @@ fn add_axes(dataset: &mut Dataset, study: &Study) {
 
 /// Everything that the axes leave constant, so that a file holds every parameter of its cases.
 fn add_constants(dataset: &mut Dataset, study: &Study) {
-    for constant in Coordinate::all() {
+    for constant in Coordinate::all(study.base.model()) {
         if study.case_set.varied().contains(&constant) {
             continue;
         }

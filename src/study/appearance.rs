@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::Coordinate;
 use super::document::unknown;
 use crate::capsule::description;
-use crate::of::default_model;
+use crate::description::Description;
 use crate::quantity::Dimension;
 use crate::quantity::units::{expectation, unit};
 
@@ -174,10 +174,10 @@ const MOST_DECIMALS: usize = 12;
 /// What is set of the quantities of a figure, by their names.
 pub type Settings = BTreeMap<String, QuantitySettings>;
 
-/// The dimension of what a figure can show; the error names what there is.
-pub fn dimension_of(name: &str) -> Result<Dimension, String> {
-    let coordinates = Coordinate::all().map(Coordinate::quantity);
-    let outputs = default_model().outputs().map(|it| it.quantity());
+/// The dimension of what a figure of the results of a model can show; the error names what there is.
+pub fn dimension_of(name: &str, model: &'static Description) -> Result<Dimension, String> {
+    let coordinates = Coordinate::all(model).map(Coordinate::quantity);
+    let outputs = model.outputs().map(|it| it.quantity());
     let of_motions = [description::POINTS, description::SIGNALS, description::TOGETHER].concat();
     let described = coordinates.chain(outputs).chain(of_motions);
     let described = described.map(|it| (it.name, it.dimension));

@@ -4,7 +4,6 @@ use std::fmt::{self, Debug, Formatter};
 
 use crate::capsule::{Case, description};
 use crate::description::{Description, Parameter, StateCoordinate};
-use crate::of::default_model;
 use crate::quantity::{Allowed, Dimension, Quantity};
 
 /// What varies along an axis.
@@ -38,9 +37,8 @@ impl Coordinate {
     /// The older name of an axis over [`Coordinate::StartPhase`], which is still read.
     pub const PHASE: &str = "phase";
 
-    /// Everything that an axis may vary.
-    pub fn all() -> impl Iterator<Item = Coordinate> {
-        let model = default_model();
+    /// Everything that an axis of a study of a model may vary.
+    pub fn all(model: &'static Description) -> impl Iterator<Item = Coordinate> {
         let phases = [Coordinate::StartPhase, Coordinate::SectionPhase];
         let starts = Coordinate::starts(model).chain(phases);
         model.parameters().map(Coordinate::Parameter).chain(starts)

@@ -64,13 +64,18 @@ fn read_draws(table: Table<'_, '_>) -> Draws {
 
 /// What varies along an axis.
 fn read_name(table: &Table<'_, '_>, name: Option<&Entry<'_, '_>>) -> Option<Coordinate> {
-    let names: Vec<(&str, Coordinate)> = Coordinate::all()
+    let names: Vec<(&str, Coordinate)> = Coordinate::all(table.model())
         .map(|coordinate| (coordinate.name(), coordinate))
         .chain([(Coordinate::PHASE, Coordinate::StartPhase)])
         .collect();
     if name.is_none() {
-        let expected = "a parameter, start_r, start_y1, start_y2, start_phase or section_phase";
-        table.missing("name", expected);
+        let others = Coordinate::all(table.model())
+            .filter(|it| !matches!(it, Coordinate::Parameter(_)))
+            .map(Coordinate::name);
+        let others: Vec<&str> = others.collect();
+        if let [others @ .., last] = &others[..] {
+            table.missing("name", &format!("a parameter, {} or {last}", others.join(", ")));
+        }
     }
     name?.one_of("axis", &names)
 }

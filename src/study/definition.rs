@@ -7,6 +7,7 @@ use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 use super::grid::Chain;
 use super::{Axis, CaseSet, Continuation, Direction, Drawing, Grid, Inherit, Refine, Refinement};
 use crate::capsule::Case;
+use crate::description::Description;
 use crate::description::{Output, Parameters, State};
 use crate::model::Model;
 use crate::of::{default_model, model_of};
@@ -48,21 +49,28 @@ pub struct Study {
 }
 
 impl Default for Study {
-    /// One case with the default parameters, from rest, all of whose outputs are kept.
+    /// That of the model where none is named, see [`Study::of`].
     fn default() -> Self {
+        Study::of(default_model())
+    }
+}
+
+impl Study {
+    /// One case of a model with its default parameters, from its origin, all of whose outputs are kept.
+    pub fn of(model: &'static Description) -> Self {
         Study {
             title: String::new(),
             text: String::new(),
             remarks: Vec::new(),
-            base: Parameters::default(),
-            start: State::default(),
+            base: Parameters::of(model),
+            start: State::origin(model),
             start_phase: 0.0,
             section_phase: 0.0,
             case_set: CaseSet::default(),
             protocol: Protocol::default(),
             early_decision: true,
             refine: None,
-            outputs: default_model().outputs().collect(),
+            outputs: model.outputs().collect(),
             branches: Vec::new(),
             drawings: Vec::new(),
         }

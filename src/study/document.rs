@@ -7,6 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::capsule::{Allowed, Dimension};
+use crate::description::Description;
 
 use crate::capsule::printable::one_line;
 use crate::quantity::units::{expectation, parse_in};
@@ -58,13 +59,15 @@ impl std::error::Error for Faults {}
 #[derive(Debug)]
 pub struct Reader<'a> {
     text: &'a str,
+    /// The model that the document is about.
+    model: &'static Description,
     faults: RefCell<Vec<Fault>>,
 }
 
 impl<'a> Reader<'a> {
-    /// Nothing wrong yet.
-    pub fn new(text: &'a str) -> Self {
-        Reader { text, faults: RefCell::default() }
+    /// Nothing wrong yet in a document about a model.
+    pub fn new(text: &'a str, model: &'static Description) -> Self {
+        Reader { text, model, faults: RefCell::default() }
     }
 
     /// Notes a fault at a byte of the text, if it has a place.
@@ -144,6 +147,11 @@ impl<'r, 'a> Table<'r, 'a> {
     /// The whole document as a table.
     pub fn new(reader: &'r Reader<'a>, table: &'r DeTable<'a>) -> Self {
         Table { reader, path: String::new(), place: None, table, asked: RefCell::default() }
+    }
+
+    /// The model that the document is about.
+    pub fn model(&self) -> &'static Description {
+        self.reader.model
     }
 
     fn path_of(&self, key: &str) -> String {

@@ -118,7 +118,7 @@ fn read_settings(table: &Table<'_, '_>) -> Settings {
     let mut settings = Settings::new();
     for (key, setting) in Setting::NAMES {
         for (name, entry) in table.table(key).iter().flat_map(Table::entries) {
-            let put = dimension_of(&name).and_then(|dimension| {
+            let put = dimension_of(&name, table.model()).and_then(|dimension| {
                 let Some(parts) = entry.parts() else { return Ok(()) };
                 let of_name = settings.entry(name).or_default();
                 of_name.put(setting, dimension, (&parts, parse_quantity))
@@ -218,7 +218,7 @@ fn read_texts(table: &Table<'_, '_>) -> Texts {
         let Some(place) = entry.table() else { continue };
         let mut at = BTreeMap::new();
         for (name, entry) in place.entries() {
-            match dimension_of(&name) {
+            match dimension_of(&name, table.model()) {
                 Ok(dimension) => at.extend(entry.quantity(dimension).map(|value| (name, value))),
                 Err(fault) => entry.fault(fault),
             }

@@ -6,8 +6,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::document::Faults;
+use super::study_file::model_in;
 use crate::capsule::printable::one_line;
-use crate::of::default_model;
 
 /// The key by which a study names its parameter file.
 pub const KEY: &str = "include";
@@ -56,15 +56,17 @@ pub fn include(study: &str, file: &str, parameters: &str) -> Result<Included, St
     };
     let (document, _) = DeTable::parse_recoverable(study);
     let document = document.get_ref();
+    let model = model_in(document);
     let own = set_by(document);
     let mut lines = Vec::new();
     for (key, value) in values.iter() {
         let symbol = key.get_ref();
         let line = line_of(key.span().start);
-        if default_model().parameter(symbol).is_none() {
+        if model.parameter(symbol).is_none() {
             return Err(format!(
-                "{shown}: line {line}: parameters.{}: is no parameter of the capsule",
-                one_line(symbol)
+                "{shown}: line {line}: parameters.{}: is no parameter of the {}",
+                one_line(symbol),
+                model.name
             ));
         }
         if !own.iter().any(|it| it == symbol) {

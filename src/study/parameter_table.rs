@@ -9,8 +9,8 @@ pub(super) fn read_parameters(
     top: &Table<'_, '_>,
     varied: &[Coordinate],
 ) -> (Parameters, Vec<String>) {
-    let mut parameters = Parameters::default();
-    let model = parameters.model();
+    let model = top.model();
+    let mut parameters = Parameters::of(model);
     let mut given = Vec::new();
     let table = top.table("parameters");
     let on_axis = |parameter: Parameter| varied.contains(&Coordinate::Parameter(parameter));

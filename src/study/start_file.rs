@@ -2,14 +2,14 @@
 
 use super::document::{Entry, Table};
 use super::{Axis, CaseSet, Coordinate, Direction, Inherit};
-use crate::description::State;
+use crate::description::{Description, State};
 use crate::quantity::Allowed;
 
 /// Keys of an inherited start, with the older name of the first.
 const INHERITED: [&str; 3] = ["inherit", "follow", "directions"];
 
 /// Where a motion starts, and where its section is.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Start {
     /// The state.
     pub state: State,
@@ -19,10 +19,18 @@ pub(super) struct Start {
     pub section_phase: f64,
 }
 
+impl Start {
+    /// The origin of a model, at the phase zero.
+    fn of(model: &'static Description) -> Start {
+        Start { state: State::origin(model), start_phase: 0.0, section_phase: 0.0 }
+    }
+}
+
 /// Reads `[start]`, and its `inherit` into `case_set`; what is given there must not vary.
 pub(super) fn read_start(top: &Table<'_, '_>, case_set: &mut CaseSet) -> Start {
-    let Some(table) = top.table("start") else { return Start::default() };
-    let start = read_state(&table, Start::default(), &case_set.varied());
+    let usual = Start::of(top.model());
+    let Some(table) = top.table("start") else { return usual };
+    let start = read_state(&table, usual, &case_set.varied());
     match case_set {
         CaseSet::Grid(grid) => grid.inherit = read_inherit(&table, &grid.axes),
         CaseSet::Draws(_) => {

@@ -1,6 +1,7 @@
 //! The study file: which keys it has, what they mean and what is allowed.
 
-use toml::de::DeTable;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 use super::Refine;
 use super::axis_file::read_case_set;
@@ -13,8 +14,8 @@ use super::parameter_table::read_parameters;
 use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
 use crate::capsule::Dimension;
-use crate::description::Output;
-use crate::of::default_model;
+use crate::description::{Description, Output};
+use crate::of::{all_models, default_model};
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
 
@@ -30,14 +31,15 @@ const LONGEST_PERIOD: u64 = 100_000;
 impl Study {
     /// Reads a study from its text; all faults are reported at once. `name` is the file's, for messages.
     pub fn parse(name: &str, text: &str) -> Result<Study, Faults> {
-        let reader = Reader::new(text);
         let (document, errors) = DeTable::parse_recoverable(text);
+        let reader = Reader::new(text, model_in(document.get_ref()));
         if !errors.is_empty() {
             // What follows a broken line cannot be judged.
             errors.iter().for_each(|error| reader.syntax(error));
             return Err(reader.faults(name));
         }
         let top = Table::new(&reader, document.get_ref());
+        check_model(&top);
         let title = read_title(&top);
         // The name of a parameter file stands for its values, which are in the text by now.
         if let Some(entry) = top.entry(include::KEY) {
@@ -76,6 +78,26 @@ impl Study {
     }
 }
 
+/// The key by which a study names its model.
+const MODEL: &str = "model";
+
+/// The model that a study names; that of studies which name none where it names none that is known.
+pub(super) fn model_in(document: &DeTable<'_>) -> &'static Description {
+    let named = match document.get(MODEL).map(Spanned::get_ref) {
+        Some(DeValue::String(name)) => all_models().into_iter().find(|it| it.name == *name),
+        _ => None,
+    };
+    named.unwrap_or_else(default_model)
+}
+
+/// Checks that a study names a model that is known, if it names one.
+fn check_model(top: &Table<'_, '_>) {
+    if let Some(entry) = top.entry(MODEL) {
+        let names: Vec<(&str, ())> = all_models().iter().map(|it| (it.name, ())).collect();
+        entry.one_of("model", &names);
+    }
+}
+
 fn read_title(top: &Table<'_, '_>) -> String {
     let Some(entry) = top.entry("title") else { return String::new() };
     let title = entry.text().unwrap_or("");
@@ -89,7 +111,11 @@ fn read_title(top: &Table<'_, '_>) -> String {
 fn check_size(reader: &Reader<'_>, study: &Study) {
     let protocol = &study.protocol;
     let samples = protocol.history.map_or(0, |span| span.samples());
-    let each = study.outputs.len() + 3 * (protocol.points + protocol.impact_points) + 5 * samples;
+    let model = study.base.model();
+    let each = study.outputs.len()
+        + model.section.len() * protocol.points
+        + model.impact.len() * protocol.impact_points
+        + model.histories.len() * samples;
     let numbers = study.shape().into_iter().try_fold(each.max(1), usize::checked_mul);
     if numbers.is_none_or(|numbers| numbers > MOST_NUMBERS) {
         let cases = study.shape().iter().map(|&length| length as f64).product::<f64>();
@@ -166,7 +192,7 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
 }
 
 fn read_outputs(top: &Table<'_, '_>) -> Vec<Output> {
-    let model = default_model();
+    let model = top.model();
     let Some(entry) = top.entry("outputs") else { return model.outputs().collect() };
     let names: Vec<(&str, Output)> =
         model.outputs().map(|output| (output.name(), output)).collect();

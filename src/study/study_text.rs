@@ -11,6 +11,7 @@ use super::{
     QuantitySettings, Refine, Setting, Spacing, Study,
 };
 use crate::capsule::Dimension;
+use crate::description::Description;
 use crate::description::{Output, Parameter, State};
 use crate::orbit::{HistorySpan, Protocol};
 
@@ -41,7 +42,9 @@ impl Study {
         for branch in &self.branches {
             self.write_branch(&mut document, branch);
         }
-        self.drawings.iter().for_each(|drawing| write_drawing(&mut document, drawing));
+        self.drawings
+            .iter()
+            .for_each(|drawing| write_drawing(&mut document, drawing, self.base.model()));
         document.0
     }
 
@@ -300,7 +303,7 @@ fn write_basin(document: &mut Document, study: &Study) {
     }
 }
 
-fn write_drawing(document: &mut Document, drawing: &Drawing) {
+fn write_drawing(document: &mut Document, drawing: &Drawing, model: &'static Description) {
     document.element("figures");
     document.put("name", text(&drawing.name));
     document.put("kind", text(drawing.kind.name()));
@@ -314,7 +317,7 @@ fn write_drawing(document: &mut Document, drawing: &Drawing) {
     }
     if !drawing.at.is_empty() || !drawing.panels.is_empty() {
         let value = |name: &str, value: f64| {
-            let known = Coordinate::all().find(|coordinate| coordinate.name() == name);
+            let known = Coordinate::all(model).find(|coordinate| coordinate.name() == name);
             known.map_or(number(value), |it| quantity(value, it.dimension()))
         };
         let one = drawing.at.iter().map(|(name, it)| (text(name), value(name, *it)));
@@ -355,7 +358,7 @@ fn write_drawing(document: &mut Document, drawing: &Drawing) {
     }
     if !drawing.texts.is_empty() {
         let place = |(name, value): (&String, &f64)| {
-            let dimension = dimension_of(name).unwrap_or(Dimension::Number);
+            let dimension = dimension_of(name, model).unwrap_or(Dimension::Number);
             (text(name), quantity(*value, dimension))
         };
         let words =
@@ -367,7 +370,7 @@ fn write_drawing(document: &mut Document, drawing: &Drawing) {
     document.put("svg_text", drawing.svg_text);
     for (key, setting) in Setting::NAMES {
         let of_quantity = |(name, set): (&String, &QuantitySettings)| {
-            let dimension = dimension_of(name).unwrap_or(Dimension::Number);
+            let dimension = dimension_of(name, model).unwrap_or(Dimension::Number);
             let parts = set.parts(setting, |value| plain_quantity(value, dimension))?;
             let parts: Vec<String> = parts.iter().map(|part| text(part)).collect();
             let value = if setting.is_list() { list(parts.into_iter()) } else { parts.concat() };

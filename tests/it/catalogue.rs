@@ -89,7 +89,7 @@ fn spelled(path: &str, text: &str) -> Vec<String> {
     let others: Vec<&str> = others.copied().collect();
     let prefixes = ["event_{", "request_{", "branch_{", "special_{", "curve_{"];
     let is_name = |literal: &&str| {
-        catalogue::named(literal).is_some()
+        catalogue::named(literal, &CAPSULE).is_some()
             || prefixes.iter().any(|prefix| literal.starts_with(prefix))
     };
     let spelled = literals(text).into_iter().filter(is_name);
@@ -125,7 +125,7 @@ fn what_a_study_may_draw_is_in_the_catalogue() {
     let outputs: Vec<_> = CAPSULE.outputs().collect();
     for (_, kind) in DrawingKind::NAMES {
         for name in kind.can_show(&outputs) {
-            let extent = catalogue::named(name).expect(name).extent;
+            let extent = catalogue::named(name, &CAPSULE).expect(name).extent;
             let drawn = matches!(extent, Extent::Case | Extent::CaseRow(_) | Extent::Derived);
             assert!(drawn, "{name}");
         }
@@ -135,13 +135,13 @@ fn what_a_study_may_draw_is_in_the_catalogue() {
 #[test]
 fn what_can_be_set_of_figures_is_in_the_catalogue_with_its_dimension() {
     for name in SET {
-        let entry = catalogue::named(name).expect(name);
-        assert_eq!(dimension_of(name).expect(name).unit(), entry.unit, "{name}");
+        let entry = catalogue::named(name, &CAPSULE).expect(name);
+        assert_eq!(dimension_of(name, &CAPSULE).expect(name).unit(), entry.unit, "{name}");
     }
     let outputs: Vec<_> = CAPSULE.outputs().collect();
     for (_, kind) in DrawingKind::NAMES {
         for name in kind.can_show(&outputs) {
-            assert!(dimension_of(name).is_ok(), "{name}");
+            assert!(dimension_of(name, &CAPSULE).is_ok(), "{name}");
         }
     }
 }
@@ -265,7 +265,7 @@ refine = { progression_speed = "1 mm/s", work_positive = "1 mJ" }
 
 /// What is wrong with a variable, or with a coordinate; nothing if it is as the catalogue says.
 fn fault(dataset: &Dataset, name: &str, variable: &Variable) -> Option<String> {
-    let Some(entry) = catalogue::named(name) else { return Some(format!("{name}: unknown")) };
+    let Some(entry) = catalogue::named(name, &CAPSULE) else { return Some(format!("{name}: unknown")) };
     let of_axis = dataset.attributes.get(ATTRACTOR_AXIS).and_then(|it| dataset.coordinate(it));
     let unit = match entry.unit {
         "" => of_axis.map_or("1", |axis| axis.unit.as_str()),
@@ -293,7 +293,7 @@ fn fault(dataset: &Dataset, name: &str, variable: &Variable) -> Option<String> {
 
 /// Whether a dimension is an axis of the study.
 fn is_axis(dimension: &str) -> bool {
-    catalogue::named(dimension).is_some_and(|entry| entry.extent == Extent::Study)
+    catalogue::named(dimension, &CAPSULE).is_some_and(|entry| entry.extent == Extent::Study)
 }
 
 #[test]
@@ -321,7 +321,7 @@ fn files_hold_what_the_catalogue_says() {
         let symbols = Parameter::ALL.iter().map(|parameter| format!("_{}", parameter.symbol()));
         symbols.into_iter().any(|symbol| entry.name.ends_with(&symbol))
     };
-    let stored = catalogue::all().iter().filter(is_stored).filter(|it| !of_parameter(it));
+    let stored = catalogue::all(&CAPSULE).iter().filter(is_stored).filter(|it| !of_parameter(it));
     let never: Vec<&str> = stored.map(|it| it.name).filter(|it| !seen.contains(*it)).collect();
     assert!(never.is_empty(), "no file has {never:?}");
 }

@@ -94,7 +94,7 @@ impl Random {
     }
 
     fn case_set(&mut self) -> CaseSet {
-        let mut coordinates = self.some(&Coordinate::all().collect::<Vec<_>>());
+        let mut coordinates = self.some(&Coordinate::all(&CAPSULE).collect::<Vec<_>>());
         coordinates.truncate(self.below(5));
         if self.below(3) == 0 && !coordinates.is_empty() {
             let ranges = coordinates.into_iter().map(|it| self.range(it)).collect();

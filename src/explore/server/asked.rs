@@ -1,6 +1,7 @@
 //! What a request asks for, by names and values.
 
 use super::answer::Refusal;
+use crate::description::Description;
 use crate::study::{Coordinate, Direction};
 
 /// The parameters of a request, each once.
@@ -43,10 +44,13 @@ impl Asked {
         }
     }
 
-    /// The parameters and coordinates of the start that are given, in SI.
-    pub fn coordinates(&self) -> Result<Vec<(Coordinate, f64)>, Refusal> {
+    /// The parameters and coordinates of the start of a model that are given, in SI.
+    pub fn coordinates(
+        &self,
+        model: &'static Description,
+    ) -> Result<Vec<(Coordinate, f64)>, Refusal> {
         let given = |it: Coordinate| Ok(self.number(it.name())?.map(|value| (it, value)));
-        Coordinate::all().filter_map(|it| given(it).transpose()).collect()
+        Coordinate::all(model).filter_map(|it| given(it).transpose()).collect()
     }
 
     /// The direction in which the starts of a case were inherited, if it is given.
@@ -59,8 +63,8 @@ impl Asked {
     }
 
     /// Fails if there is a parameter that is neither a coordinate nor `known`.
-    pub fn only(&self, known: &[&str]) -> Result<(), Refusal> {
-        let is_coordinate = |name: &str| Coordinate::all().any(|it| it.name() == name);
+    pub fn only(&self, model: &'static Description, known: &[&str]) -> Result<(), Refusal> {
+        let is_coordinate = |name: &str| Coordinate::all(model).any(|it| it.name() == name);
         match self
             .0
             .iter()

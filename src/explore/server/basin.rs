@@ -52,8 +52,8 @@ impl Basin {
     /// Fails if a coordinate is out of its bounds or the ends of an axis are one.
     pub fn of(explored: &Explored, asked: &Asked) -> Result<Basin, Refusal> {
         let known = ENDS.iter().flatten().copied().chain(["sweep", "kind", "format"]);
-        asked.only(&known.collect::<Vec<_>>())?;
-        let given = asked.coordinates()?;
+        asked.only(explored.model(), &known.collect::<Vec<_>>())?;
+        let given = asked.coordinates(explored.model())?;
         let is_parameter = |it: &(Coordinate, f64)| !it.0.is_start();
         let at: Vec<(Coordinate, f64)> = given.iter().copied().filter(is_parameter).collect();
         let case = explored.near(&at, asked.sweep()?)?.case;
@@ -75,7 +75,7 @@ impl Basin {
             case_set: CaseSet::Grid(Grid { axes, inherit: None }),
             protocol: explored.protocol(),
             drawings: vec![basin],
-            ..Study::default()
+            ..Study::of(explored.model())
         };
         match study.validated("the study of the basin") {
             Ok(study) => Ok(Basin { study, axes: told }),

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex};
 use super::answer::Refusal;
 use crate::campaign::{CampaignError, study_of};
 use crate::capsule::Case;
+use crate::description::Description;
 use crate::description::{Output, Section, State};
 use crate::figure::variables;
 use crate::orbit::Protocol;
@@ -110,6 +111,11 @@ impl Explored {
             }
         };
         others.map(place).collect()
+    }
+
+    /// The model of its results.
+    pub fn model(&self) -> &'static Description {
+        self.study.base.model()
     }
 
     /// How cases are integrated and judged here: with the tolerance and the budget of the study, which are what the command of

@@ -58,11 +58,15 @@ impl Line {
         let end = |it: Coordinate| {
             Ok::<_, Refusal>(asked.number(&format!("to_{}", it.name()))?.map(|to| (it, to)))
         };
-        let to: Vec<(Coordinate, f64)> =
-            Coordinate::all().filter_map(|it| end(it).transpose()).collect::<Result<_, _>>()?;
+        let to: Vec<(Coordinate, f64)> = Coordinate::all(explored.model())
+            .filter_map(|it| end(it).transpose())
+            .collect::<Result<_, _>>()?;
         let names: Vec<String> = to.iter().map(|(it, _)| format!("to_{}", it.name())).collect();
-        asked.only(&names.iter().map(String::as_str).chain(KNOWN).collect::<Vec<_>>())?;
-        let from = asked.coordinates()?;
+        asked.only(
+            explored.model(),
+            &names.iter().map(String::as_str).chain(KNOWN).collect::<Vec<_>>(),
+        )?;
+        let from = asked.coordinates(explored.model())?;
         let inherits = match asked.text("start") {
             None | Some("inherit") => true,
             Some("afresh") => false,
@@ -113,7 +117,7 @@ impl Line {
             case_set: CaseSet::Grid(Grid { axes: vec![axis], inherit }),
             protocol: self.protocol,
             drawings: vec![diagram],
-            ..Study::default()
+            ..Study::of(self.first.parameters.model())
         };
         study.validated("the study of the line").ok()
     }

@@ -19,12 +19,12 @@ const KNOWN: [&str; 7] = ["of", "x", "y", "sweep", "curves", "kind", "format"];
 
 /// The figure that a request asks for; the axes that are not drawn are held where it says.
 pub fn drawing(explored: &Explored, asked: &Asked, kind: DrawingKind) -> Result<Drawing, Refusal> {
-    asked.only(&KNOWN)?;
+    asked.only(explored.model(), &KNOWN)?;
     let [x, y, of] = ["x", "y", "of"].map(|name| asked.text(name).map(str::to_owned));
     let is_drawn = |name: &str| x.as_deref() == Some(name) || y.as_deref() == Some(name);
     let is_axis = |name: &str| explored.study.axes().iter().any(|it| it.coordinate.name() == name);
     let mut at = BTreeMap::new();
-    for (coordinate, value) in asked.coordinates()? {
+    for (coordinate, value) in asked.coordinates(explored.model())? {
         match coordinate.name() {
             name if !is_axis(name) => {
                 return Err(Refusal::unfit(format!("{name}: is no axis of these results")));

@@ -77,9 +77,9 @@ struct History {
 ///
 /// Fails if a coordinate is out of its bounds, or it takes longer than a click may.
 pub fn motion(explored: &Explored, asked: &Asked) -> Result<Told, Refusal> {
-    asked.only(&[CYCLES.name, "sweep"])?;
+    asked.only(explored.model(), &[CYCLES.name, "sweep"])?;
     let cycles = asked.count(CYCLES.name, [0, 400], TRANSIENT as usize)? as u64;
-    let near = explored.near(&asked.coordinates()?, asked.sweep()?)?;
+    let near = explored.near(&asked.coordinates(explored.model())?, asked.sweep()?)?;
     let protocol = explored.protocol();
     let Near { case, index, is_exact, .. } = &near;
     let command = format!("{} --cycles {cycles}", command(case, &protocol));
@@ -135,21 +135,22 @@ fn other_mean(explored: &Explored, near: &Near, orbit: &Orbit) -> Result<Option<
 ///
 /// Fails as [`motion`] does.
 pub fn study(explored: &Explored, asked: &Asked) -> Result<Study, Refusal> {
-    asked.only(&[CYCLES.name, "sweep", "kind", "format"])?;
-    let case = explored.near(&asked.coordinates()?, asked.sweep()?)?.case;
+    asked.only(explored.model(), &[CYCLES.name, "sweep", "kind", "format"])?;
+    let case = explored.near(&asked.coordinates(explored.model())?, asked.sweep()?)?.case;
     let protocol = explored.protocol();
     let cycles = shown(&settle_case(&case, &protocol)) as u32;
     if stop::is_asked() {
         return Err(Refusal::late(BUDGET, INSTEAD));
     }
     let history = Some(HistorySpan { cycles, per_cycle: PER_CYCLE, from_start: false });
+    let model = case.parameters.model();
     Ok(Study {
         base: case.parameters,
         start: case.start,
         start_phase: case.start_phase,
         section_phase: case.section_phase,
         protocol: Protocol { history, ..protocol },
-        ..Study::default()
+        ..Study::of(model)
     })
 }
 

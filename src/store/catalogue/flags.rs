@@ -3,7 +3,7 @@
 use super::entry::Flags;
 use crate::branch::{End, SpecialKind};
 use crate::capsule::REASONS;
-use crate::of::default_model;
+use crate::description::Description;
 use crate::orbit::{Outcome, Proof};
 use crate::run::{Continued, NotContinued};
 use crate::study::Direction;
@@ -34,9 +34,14 @@ pub fn specials() -> Flags {
     SpecialKind::NAMES.map(|(name, kind)| (kind as i64, name.to_owned())).to_vec()
 }
 
-/// The parameters by their symbols.
-pub fn parameters() -> Flags {
-    default_model().parameters().map(|it| (it.index() as i64, it.symbol().to_owned())).collect()
+/// Those of the model of the results, which the column has, see [`parameters`].
+pub fn of_model() -> Flags {
+    Flags::new()
+}
+
+/// The parameters of a model by their symbols.
+pub fn parameters(model: &'static Description) -> Flags {
+    model.parameters().map(|it| (it.index() as i64, it.symbol().to_owned())).collect()
 }
 
 /// Why a branch or a curve ends.

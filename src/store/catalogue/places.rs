@@ -1,13 +1,14 @@
 //! The entries called after other variables at a place, and all entries together.
 
-use std::sync::LazyLock;
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
 
 use super::branches::{BRANCH_CYCLE, BRANCH_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT};
 use super::entry::{Entry, Extent};
-use super::model::{edges, end, neutral, section};
+use super::model::{edges, end, histories, impacts, neutral, section};
 use super::tables::{ATTRACTOR_CYCLE, ATTRACTOR_INDEX, EVENT};
 use super::{branches, cases, tables};
-use crate::of::default_model;
+use crate::description::Description;
 use crate::study::Coordinate;
 
 /// A table with columns called after parameters, outputs and section points.
@@ -59,23 +60,14 @@ impl Place {
         name.strip_prefix(self.prefix())
     }
 
-    /// The column here that is called after `entry`, a parameter, an output or a section point.
-    ///
-    /// # Panics
-    ///
-    /// If the table has no such column.
-    pub fn of(self, entry: Entry) -> Entry {
-        *named(&self.name(entry.name)).expect("a column of the catalogue")
+    /// The columns called after the parameters of a model.
+    pub fn parameters(self, model: &'static Description) -> impl Iterator<Item = Entry> {
+        model.parameters().map(move |parameter| self.of(Entry::of_parameter(parameter)))
     }
 
-    /// The columns called after the parameters.
-    pub fn parameters(self) -> impl Iterator<Item = Entry> {
-        default_model().parameters().map(move |parameter| self.of(Entry::of_parameter(parameter)))
-    }
-
-    /// The column here that is called after `entry`.
+    /// The column called after another variable, with what it is here.
     fn column(self, entry: Entry, meaning: &'static str) -> Entry {
-        let name = self.name(entry.name).leak();
+        let name = lasting(self.name(entry.name));
         let extent = match (self, entry.extent) {
             (Place::Attractor, Extent::CaseRow(_)) => {
                 Extent::TableRow(ATTRACTOR_INDEX.name, ATTRACTOR_CYCLE.name)
@@ -96,8 +88,8 @@ impl Place {
         Entry { name, meaning, extent, ..entry }
     }
 
-    /// The column called after another variable, with what it is here.
-    fn here(self, entry: Entry) -> Entry {
+    /// The column here that is called after `entry`, a parameter, an output or a section point.
+    pub fn of(self, entry: Entry) -> Entry {
         let place = match self {
             Place::Attractor => "attractor",
             Place::Event => "event",
@@ -106,64 +98,92 @@ impl Place {
             Place::Special => "special point",
             Place::Curve => "curve",
         };
-        self.column(entry, format!("{place}: {}", entry.meaning).leak())
+        self.column(entry, lasting(format!("{place}: {}", entry.meaning)))
     }
 
-    /// All columns called after other variables.
-    fn columns(self) -> Vec<Entry> {
+    /// All columns called after other variables of a model.
+    fn columns(self, model: &'static Description) -> Vec<Entry> {
         // All attractors of starts have the same parameters.
-        let parameters = default_model().parameters().filter(|_| self != Place::Attractor);
-        let mut columns: Vec<Entry> =
-            parameters.map(|it| self.here(Entry::of_parameter(it))).collect();
+        let parameters = self.parameters(model).filter(|_| self != Place::Attractor);
+        let mut columns: Vec<Entry> = parameters.collect();
         let of_orbits = matches!(self, Place::Attractor | Place::Branch | Place::Special);
         if of_orbits || self == Place::Event {
-            columns.extend(section(default_model()).into_iter().map(|entry| self.here(entry)));
+            columns.extend(section(model).into_iter().map(|entry| self.of(entry)));
         }
         if of_orbits {
-            let outputs = default_model().outputs().map(Entry::of_output);
-            columns.extend(outputs.map(|entry| self.here(entry)));
+            let outputs = model.outputs().map(Entry::of_output);
+            columns.extend(outputs.map(|entry| self.of(entry)));
         }
         columns
     }
 }
 
-/// Every entry: of the study, of its cases, and of the tables beside them.
-pub fn all() -> &'static [Entry] {
-    // The names of the columns are put together once, and live as long as the program.
-    static ALL: LazyLock<Vec<Entry>> = LazyLock::new(|| {
-        let study = Coordinate::all().map(Entry::of_coordinate);
-        let outputs = default_model().outputs().map(Entry::of_output);
-        let fixed = [cases::FIXED, cases::DESCRIBED, tables::FIXED, branches::FIXED].concat();
-        let described = [neutral, end, edges].map(|of| of(default_model())).concat();
-        let columns = Place::ALL.into_iter().flat_map(Place::columns);
-        study.chain(outputs).chain(fixed).chain(described).chain(columns).collect()
-    });
-    &ALL
+/// A text that is put together, and lives as long as the program: each is kept once.
+fn lasting(text: String) -> &'static str {
+    static TEXTS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+    let mut texts = TEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = texts.get(&*text) {
+        return known;
+    }
+    let text: &'static str = text.leak();
+    texts.insert(text);
+    text
 }
 
-/// The entry called `name`.
-pub fn named(name: &str) -> Option<&'static Entry> {
-    all().iter().find(|entry| entry.name == name)
+/// Every entry of the results of a model: of the study, of its cases, and of the tables beside them.
+pub fn all(model: &'static Description) -> &'static [Entry] {
+    type OfModels = Vec<(&'static Description, &'static [Entry])>;
+    static KNOWN: Mutex<OfModels> = Mutex::new(Vec::new());
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, all)) = known.iter().find(|(other, _)| *other == model) {
+        return all;
+    }
+    let study = Coordinate::all(model).map(Entry::of_coordinate);
+    let outputs = model.outputs().map(Entry::of_output);
+    let fixed = [cases::FIXED, cases::DESCRIBED, tables::FIXED, branches::FIXED].concat();
+    let described = [section, neutral, impacts, histories, end, edges].map(|of| of(model)).concat();
+    let columns = Place::ALL.into_iter().flat_map(|place| place.columns(model));
+    // What only the figures of the capsule know stands beside what each model describes.
+    let mut all: Vec<Entry> =
+        study.chain(outputs).chain(described).chain(fixed).chain(columns).collect();
+    let mut names = BTreeSet::new();
+    all.retain(|entry| names.insert(entry.name));
+    let all: &'static [Entry] = all.leak();
+    known.push((model, all));
+    all
+}
+
+/// Whether a dimension of files is called so that is no axis of a study, whatever its model.
+pub fn is_dimension(name: &str) -> bool {
+    let mut fixed = [cases::FIXED, tables::FIXED, branches::FIXED].into_iter().flatten();
+    fixed.any(|entry| entry.name == name && entry.extent == Extent::Dimension)
+}
+
+/// The entry called `name` of the results of a model.
+pub fn named(name: &str, model: &'static Description) -> Option<&'static Entry> {
+    all(model).iter().find(|entry| entry.name == name)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeSet;
+    use crate::of::default_model;
 
     #[test]
     fn every_name_stands_once_and_is_found() {
-        let names: BTreeSet<&str> = all().iter().map(|entry| entry.name).collect();
-        assert_eq!(names.len(), all().len());
-        assert!(all().iter().all(|entry| named(entry.name).is_some()));
-        assert!(named("nothing").is_none());
+        let names: BTreeSet<&str> = all(default_model()).iter().map(|entry| entry.name).collect();
+        assert_eq!(names.len(), all(default_model()).len());
+        assert!(
+            all(default_model()).iter().all(|entry| named(entry.name, default_model()).is_some())
+        );
+        assert!(named("nothing", default_model()).is_none());
     }
 
     #[test]
     fn what_lies_along_a_dimension_names_one() {
-        for entry in all() {
+        for entry in all(default_model()) {
             for name in entry.dimensions() {
-                let along = named(name).map(|it| it.extent);
+                let along = named(name, default_model()).map(|it| it.extent);
                 assert_eq!(along, Some(Extent::Dimension), "{}", entry.name);
             }
         }

@@ -2,6 +2,7 @@
 
 mod filled;
 mod leads;
+mod registry;
 
 use std::fmt::{self, Debug, Formatter};
 use std::iter;
@@ -20,9 +21,8 @@ use capsulemap_engine::orbit::passage::{Integrator, OneByOne, ReturnRequest, ima
 use capsulemap_engine::orbit::return_map::{Cycles, append_points, observed};
 use capsulemap_engine::orbit::{Batch, KnownOrbits, Machine, Protocol, Underway, settle_all};
 
-use crate::capsule::description::CAPSULE;
-use crate::capsule::{AsPrinted, CapsuleParameters as _, CapsuleSystem, Filippov, Switching};
-use crate::description::{Description, Outputs, Parameter, Parameters, Section};
+use crate::capsule::{AsPrinted, CapsuleSystem, Filippov};
+use crate::description::{Description, Outputs, Parameter, Section};
 use crate::face::{self, Face, engine_case, system};
 use crate::model::{
     Along, Batches, CaseQueue, Cell, Known, Leads, LinearOrbits, Model, Motions, Neighbours,
@@ -30,6 +30,8 @@ use crate::model::{
 };
 use crate::motion::branch::{Found, Request};
 use crate::motion::{Case, Orbit, Sensitivity, Setting};
+
+pub use registry::{NameTaken, all_models, default_model, model_of, register};
 
 /// An orbit closes to this residual, relative to the motion; a larger one is seen in the outputs.
 const EXACT: f64 = 1e-11;
@@ -40,29 +42,21 @@ const AGAIN: usize = 4;
 /// A system with a face, as a model.
 pub struct Of<M, const D: usize>(PhantomData<fn() -> M>);
 
+impl<M, const D: usize> Of<M, D> {
+    /// The model of systems of this kind.
+    pub const fn model() -> Self {
+        Of(PhantomData)
+    }
+}
+
 impl<M: Face<D>, const D: usize> Debug for Of<M, D> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Of").field(&M::description().name).finish()
     }
 }
 
-static FILIPPOV: Of<CapsuleSystem<Filippov>, 3> = Of(PhantomData);
-static AS_PRINTED: Of<CapsuleSystem<AsPrinted>, 3> = Of(PhantomData);
-
-/// The model of capsules with these parameters, by how their friction is read.
-// Inlined into another crate, it would have the tables of both implementations, and so the lanes, compiled there once more.
-#[inline(never)]
-pub fn model_of(parameters: &Parameters) -> &'static dyn Model {
-    match parameters.switching() {
-        Switching::Filippov => &FILIPPOV,
-        Switching::AsPrinted => &AS_PRINTED,
-    }
-}
-
-/// The model of studies that name none.
-pub fn default_model() -> &'static Description {
-    &CAPSULE
-}
+static FILIPPOV: Of<CapsuleSystem<Filippov>, 3> = Of::model();
+static AS_PRINTED: Of<CapsuleSystem<AsPrinted>, 3> = Of::model();
 
 /// Section points as the engine has them.
 fn arrays<const D: usize>(points: &[Section]) -> Vec<[f64; D]> {

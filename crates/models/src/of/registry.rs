@@ -1,0 +1,69 @@
+//! The models that studies can name.
+
+use std::fmt::{self, Display, Formatter};
+use std::sync::{PoisonError, RwLock};
+
+use super::{AS_PRINTED, FILIPPOV};
+use crate::capsule::description::CAPSULE;
+use crate::capsule::{CapsuleParameters as _, Switching};
+use crate::description::{Description, Parameters};
+use crate::model::Model;
+
+/// Those beside the capsule, in the order in which they were registered.
+static OTHERS: RwLock<Vec<&'static dyn Model>> = RwLock::new(Vec::new());
+
+/// A model of this name is there already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NameTaken(pub &'static str);
+
+impl Display for NameTaken {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "a model called {} is registered already", self.0)
+    }
+}
+
+impl std::error::Error for NameTaken {}
+
+/// Makes a model known to studies, which name it by `model = "..."`.
+///
+/// Fails where another has its name.
+pub fn register(model: &'static dyn Model) -> Result<(), NameTaken> {
+    let description = model.description();
+    let mut others = OTHERS.write().unwrap_or_else(PoisonError::into_inner);
+    let is_taken = |it: &&dyn Model| it.description().name == description.name;
+    if description.name == CAPSULE.name || others.iter().any(is_taken) {
+        return Err(NameTaken(description.name));
+    }
+    others.push(model);
+    Ok(())
+}
+
+/// The models that studies can name, that of studies which name none first.
+pub fn all_models() -> Vec<&'static Description> {
+    let others = OTHERS.read().unwrap_or_else(PoisonError::into_inner);
+    std::iter::once(&CAPSULE).chain(others.iter().map(|it| it.description())).collect()
+}
+
+/// The model of studies that name none.
+pub fn default_model() -> &'static Description {
+    &CAPSULE
+}
+
+/// The model that has these parameters; of a capsule by how its friction is read.
+///
+/// # Panics
+/// Where it is not registered.
+// Inlined into another crate, it would have the tables of all implementations, and so the lanes, compiled there once more.
+#[inline(never)]
+pub fn model_of(parameters: &Parameters) -> &'static dyn Model {
+    let description = parameters.model();
+    if *description == CAPSULE {
+        return match parameters.switching() {
+            Switching::Filippov => &FILIPPOV,
+            Switching::AsPrinted => &AS_PRINTED,
+        };
+    }
+    let others = OTHERS.read().unwrap_or_else(PoisonError::into_inner);
+    let found = others.iter().find(|it| it.description() == description);
+    *found.unwrap_or_else(|| panic!("the model {} is not registered", description.name))
+}
