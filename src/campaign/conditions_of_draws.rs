@@ -1,7 +1,7 @@
 //! What conditions on cases ask of a motion under tolerances, which has parameters, outputs, a period and an outcome of its own.
 
-use crate::capsule::Orbit;
 use crate::description::{Description, Output, Parameter, Parameters};
+use crate::motion::Orbit;
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::store::{Comparison, Condition};
 

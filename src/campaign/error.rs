@@ -4,12 +4,11 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
+use super::count::{counted, ranges};
+use crate::quantity::printable::printable;
 use crate::run::RunError;
 use crate::store::{StoreError, Unusable};
 use crate::study::Faults;
-
-use super::count::{counted, ranges};
-use crate::capsule::printable::printable;
 
 /// A campaign that did not come to its results. Its blocks are kept, whatever the cause.
 #[derive(Debug)]

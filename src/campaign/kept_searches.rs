@@ -14,8 +14,8 @@ use serde_json::{Value, json};
 use super::count::count;
 use super::error::CampaignError;
 use super::refined_motion::{Led, RefinedMotion, Slopes, Start};
-use crate::capsule::printable::printable;
 use crate::description::{Output, Outputs, Parameter, Section};
+use crate::quantity::printable::printable;
 use crate::store::{Archive, LineFile, Lines, provenance, read_lines, sealed, unsealed};
 use crate::study::Study;
 

@@ -2,7 +2,7 @@
 
 use super::error::CampaignError;
 use super::report::{Event, Report, Reports, Stage};
-use crate::capsule::Case;
+use crate::motion::Case;
 use crate::orbit::Protocol;
 use crate::run::{Machine, run_sample};
 use crate::study::Study;

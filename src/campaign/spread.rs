@@ -9,9 +9,9 @@ use super::motion_row::Row;
 use super::refined_front::Refinement;
 use super::replay::Replay;
 use super::report::silent;
-use crate::capsule::settle_case;
 use crate::description::Output;
 use crate::experiment::settled_motion::outputs_of_batches;
+use crate::of::settle_case;
 use crate::run::{Machine, on_all_threads};
 
 impl Refinement<'_> {

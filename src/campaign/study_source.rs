@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
+use super::error::CampaignError;
+use crate::quantity::printable::printable;
 use crate::store::catalogue::STUDY_TEXT;
 use crate::store::{self, Archive, Pipes};
 use crate::study::{Study, include};
-
-use super::error::CampaignError;
-use crate::capsule::printable::printable;
 
 /// The first bytes of an HDF5 file.
 const HDF5: &[u8] = b"\x89HDF";

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use clap::Args;
 
 use super::arguments::plain_or_quantity;
-use crate::capsule::Dimension;
+use crate::quantity::Dimension;
 use crate::quantity::units::parse_in;
 use crate::study::document::unknown;
 use crate::study::drawing::check_text;

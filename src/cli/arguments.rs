@@ -6,9 +6,9 @@ use std::path::Path;
 
 use super::failure::Failure;
 use crate::campaign::quoted;
-use crate::capsule::{Dimension, parse_quantity};
 use crate::description::{Description, Output};
 use crate::lane::Instructions;
+use crate::quantity::{Dimension, parse_quantity};
 use crate::run::Machine;
 use crate::study::document::unknown;
 

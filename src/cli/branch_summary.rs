@@ -5,9 +5,9 @@ use std::path::Path;
 
 use crate::branch::{Curve, End, SpecialKind, is_followed};
 use crate::capsule;
-use crate::capsule::branch::{Branch, Found, Special};
-use crate::capsule::printable::printable;
 use crate::description::Parameter;
+use crate::motion::branch::{Branch, Found, Special};
+use crate::quantity::printable::printable;
 use crate::run::Continued;
 use crate::study::{Continuation, FirstOrbit, Study};
 
@@ -198,9 +198,9 @@ fn ten_digits(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::capsule::branch::Point;
     use crate::capsule::description::CAPSULE;
     use crate::description::Outputs;
+    use crate::motion::branch::Point;
     use crate::orbit::matrix::Complex;
     use crate::run::NotContinued;
 

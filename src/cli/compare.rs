@@ -11,11 +11,11 @@ use super::files;
 use super::synthesize::case_of;
 use super::terminal::print;
 use super::varied::{Varied, threads, varied};
-use crate::capsule::printable::printable;
 use crate::experiment::least_squares::Loss;
 use crate::experiment::{Comparison, Effort, Free, Weights, compare, explain};
 use crate::figure::plot::draw_plot;
 use crate::figure::{Format, Place};
+use crate::quantity::printable::printable;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -13,8 +13,8 @@ use super::watch::Watch;
 use crate::campaign::{
     BranchesDone, Campaign, CampaignError, Event, Kept, output_path, read_study,
 };
-use crate::capsule::printable::printable;
 use crate::figure::Place;
+use crate::quantity::printable::printable;
 use crate::run::{Machine, NotContinued};
 use crate::store::{self, add_branches, folder};
 

@@ -5,10 +5,10 @@ use clap::ValueEnum;
 use super::failure::Failure;
 use super::terminal::notify;
 use crate::campaign::{KeptFront, KeptSearches, searches_path, study_of};
-use crate::capsule::printable::printable;
 use crate::figure::{
     FigureError, Files, Format, Measured, Needs, Place, Shown, draw, needs, variables,
 };
+use crate::quantity::printable::printable;
 use crate::store::{Archive, Dataset, StoreError, has_branches, has_cases};
 use crate::study::{Drawing, Study};
 

@@ -1,12 +1,13 @@
 //! Pictures of an identification and of a comparison: what was measured beside what a model gives.
 
-use crate::capsule::{CapsuleParameters as _, Dimension, Parameter};
+use crate::capsule::{CapsuleParameters as _, Parameter};
 use crate::experiment::friction::coast_down;
 use crate::experiment::identification::Evidence;
 use crate::experiment::line::Line;
 use crate::experiment::recording::GAP;
 use crate::experiment::{Coasting, Comparison, Given, Recording, Signal, Test, Verdict};
 use crate::figure::plot::{Look, Plot, PlotPanel, Series};
+use crate::quantity::Dimension;
 
 /// Height of a frame [pt].
 const HEIGHT: f64 = 110.0;

@@ -11,8 +11,8 @@ use super::failure::Failure;
 use super::stop::say_when_stopped;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, output_path, read_study};
-use crate::capsule::printable::printable;
 use crate::explore::{PrivateFolder, Server, Source};
+use crate::quantity::printable::printable;
 use crate::store::{self, StoreError};
 
 const EXAMPLES: &str = "\

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use super::readable::blocks_kept;
 use crate::campaign::{CampaignError, Cause};
-use crate::capsule::printable::printable;
+use crate::quantity::printable::printable;
 use crate::store::StoreError;
 
 /// A command that was not carried out.

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use super::failure::Failure;
-use crate::capsule::printable::printable;
-use crate::capsule::{Dimension, parse_quantity};
 use crate::experiment::{Column, Presence, Recording, Signal};
+use crate::quantity::printable::printable;
+use crate::quantity::{Dimension, parse_quantity};
 use crate::store::{self, Pipes};
 
 /// Rows that a recording of a motion must have.

@@ -11,7 +11,6 @@ use super::identify::shown;
 use super::synthesize::case_of;
 use super::terminal::print;
 use super::varied::{Varied, threads, varied};
-use crate::capsule::printable::printable;
 use crate::capsule::{CapsuleParameters as _, Parameter};
 use crate::experiment::comparison::signals_of;
 use crate::experiment::course::varies;
@@ -22,6 +21,7 @@ use crate::experiment::{
     Constant, Effort, Free, Frequencies, Harmonic, Identified, MotionFit, Recorded, Recording,
     Weights, fit_motion, harmonic,
 };
+use crate::quantity::printable::printable;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -4,8 +4,9 @@ use serde_json::json;
 
 use super::identify::shown;
 use super::varied::Varied;
-use crate::capsule::{CapsuleParameters as _, Dimension, Parameter};
+use crate::capsule::{CapsuleParameters as _, Parameter};
 use crate::experiment::{Drift, Fitted, MotionFit, Verdict};
+use crate::quantity::Dimension;
 
 /// A misfit above this is told.
 const LARGE: f64 = 1.5;

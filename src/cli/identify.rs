@@ -9,8 +9,7 @@ use super::experiment_figures::evidence_plot;
 use super::failure::Failure;
 use super::files;
 use super::terminal::print;
-use crate::capsule::printable::printable;
-use crate::capsule::{Dimension, Parameter};
+use crate::capsule::Parameter;
 use crate::experiment::estimate::{decimals, significant};
 use crate::experiment::identification::{
     Evidence, Other, impossible_rows, parameter_file, remarks,
@@ -19,6 +18,8 @@ use crate::experiment::recording::MOST_TOLD;
 use crate::experiment::{Estimate, Given, Identified, Recording, Test, Verdict, identify};
 use crate::figure::plot::{Plot, draw_plot};
 use crate::figure::{Format, Place};
+use crate::quantity::Dimension;
+use crate::quantity::printable::printable;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -11,8 +11,8 @@ use super::failure::Failure;
 use super::terminal::notify;
 use super::watch::Watch;
 use crate::campaign::{Campaign, Event, output_path, read_study};
-use crate::capsule::printable::printable;
 use crate::figure::Place;
+use crate::quantity::printable::printable;
 use crate::store;
 
 const EXAMPLES: &str = "\

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::arguments::plain_or_quantity;
-use crate::capsule::Dimension;
+use crate::quantity::Dimension;
 
 /// Phases of the drive as they are asked for.
 #[derive(Debug, Args)]

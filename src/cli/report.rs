@@ -7,8 +7,8 @@ use clap::Args;
 use super::arguments::price;
 use super::failure::Failure;
 use super::target::Target;
-use crate::capsule::printable::printable;
 use crate::explore::{GENERATOR, Request, report};
+use crate::quantity::printable::printable;
 use crate::store;
 
 const EXAMPLES: &str = "\

@@ -10,15 +10,16 @@ use super::failure::Failure;
 use super::phases::Phases;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
-use crate::capsule::printable::printable;
 use crate::capsule::{
-    self, CapsuleParameters as _, Case, Dimension, Orbit, Resistance, Simulation, Switching,
-    settle_case, simulate_case,
+    self, CapsuleParameters as _, Resistance, Simulation, Switching, simulate_case,
 };
 use crate::description::{Parameters, Remark, State};
 use crate::explore::{case_json, remarks};
-use crate::of::default_model;
+use crate::motion::{Case, Orbit};
+use crate::of::{default_model, settle_case};
 use crate::orbit::Protocol;
+use crate::quantity::Dimension;
+use crate::quantity::printable::printable;
 use crate::run::Machine;
 use crate::study::document::unknown;
 

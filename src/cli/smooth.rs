@@ -8,10 +8,10 @@ use clap::Args;
 use super::failure::Failure;
 use super::files;
 use super::target::Target;
-use crate::capsule::Dimension;
-use crate::capsule::printable::printable;
 use crate::experiment::estimate::significant;
 use crate::experiment::{Recording, Signal, Window, smoothed};
+use crate::quantity::Dimension;
+use crate::quantity::printable::printable;
 
 const EXAMPLES: &str = "\
 Examples:

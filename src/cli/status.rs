@@ -10,7 +10,7 @@ use super::readable::{count, counted, estimated, rate, size, time};
 use super::summary::outcomes;
 use super::terminal::print;
 use crate::campaign::{BlockStatus, Campaign, CampaignError, block_path, output_path, read_study};
-use crate::capsule::printable::printable;
+use crate::quantity::printable::printable;
 use crate::store::Archive;
 use crate::store::provenance::CREATED;
 use crate::study::Study;

@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::readable::{count, counted};
-use crate::capsule::printable::printable;
 use crate::orbit::Outcome;
+use crate::quantity::printable::printable;
 use crate::store::{Blocks, StoreError, Summary, by_outcome};
 use crate::study::Study;
 

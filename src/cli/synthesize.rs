@@ -9,14 +9,15 @@ use super::failure::Failure;
 use super::files;
 use super::terminal::print;
 use crate::campaign::{CampaignError, Replay, read_study_or_results};
-use crate::capsule::printable::printable;
-use crate::capsule::{
-    CapsuleParameters as _, CapsuleState as _, Case, Dimension, State, settle_case,
-};
+use crate::capsule::{CapsuleParameters as _, CapsuleState as _, State};
 use crate::description::Parameters;
 use crate::experiment::synthesis::recorded;
 use crate::experiment::{Laboratory, Sensor, Signal, SimpleTests, Started, Test, simple_tests};
+use crate::motion::Case;
+use crate::of::settle_case;
 use crate::orbit::Protocol;
+use crate::quantity::Dimension;
+use crate::quantity::printable::printable;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::files;
 use super::terminal::{notify, print};
-use crate::capsule::printable::printable;
+use crate::quantity::printable::printable;
 
 /// A file, or standard output.
 pub enum Target {

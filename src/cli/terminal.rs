@@ -11,7 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::failure::Failure;
-use crate::capsule::printable::{is_obeyed, numbered};
+use crate::quantity::printable::{is_obeyed, numbered};
 
 /// Messages that wait to be written at most; those beyond are dropped, and counted.
 const MOST_WAITING: usize = 4096;

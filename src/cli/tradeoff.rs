@@ -15,9 +15,9 @@ use super::watch::Stages;
 use crate::campaign::{
     Between, CampaignError, KeptSearches, Tolerances, TradeOff, searches_path, study_of,
 };
-use crate::capsule::Dimension;
-use crate::capsule::printable::printable;
 use crate::description::{Description, Output, Parameter};
+use crate::quantity::Dimension;
+use crate::quantity::printable::printable;
 use crate::store::{self, Archive, StoreError, quantity};
 use crate::study::document::unknown;
 use crate::tradeoff::Direction;

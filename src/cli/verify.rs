@@ -11,8 +11,8 @@ use super::readable::{count, counted};
 use super::terminal::{notify, print};
 use super::watch::Stages;
 use crate::campaign::{Event, Sample, Verified, verify};
-use crate::capsule::printable::printable;
 use crate::lane::Instructions;
+use crate::quantity::printable::printable;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -12,7 +12,7 @@ use super::stop::say_when_stopped;
 use super::summary::summary;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Event, Stage, Survey};
-use crate::capsule::printable::printable;
+use crate::quantity::printable::printable;
 use crate::store::Blocks;
 use crate::study::Study;
 

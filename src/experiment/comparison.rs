@@ -12,7 +12,8 @@ use super::settled_motion::{Settled, TOLERANCE};
 use super::simulated_span::check_span;
 use super::spikes::{Spikes, contact_period, contacts, per_cycle, spikes};
 use crate::capsule::sampled::{Signal, Started, sampled};
-use crate::capsule::{self, CapsuleParameters as _, Case, Parameter};
+use crate::capsule::{self, CapsuleParameters as _, Parameter};
+use crate::motion::Case;
 use crate::orbit::{Outcome, Protocol};
 
 /// Signals that repeat themselves with the motion, the best first.

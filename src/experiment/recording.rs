@@ -3,8 +3,8 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::capsule::Dimension;
-use crate::capsule::printable::one_line;
+use crate::quantity::Dimension;
+use crate::quantity::printable::one_line;
 
 /// So many faults of a file are kept and told; the others are counted.
 pub const MOST_TOLD: usize = 20;

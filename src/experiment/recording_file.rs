@@ -5,8 +5,8 @@ use std::io::Read;
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::recording::{Column, MOST_TOLD, Presence, Recording, RecordingFaults};
-use crate::capsule::Dimension;
-use crate::capsule::printable::excerpt;
+use crate::quantity::Dimension;
+use crate::quantity::printable::excerpt;
 use crate::quantity::units::{expectation, unit};
 
 /// So many columns of a header are named at most.

@@ -3,10 +3,10 @@
 use super::estimate::Estimate;
 use super::progression::Progression;
 use crate::capsule::sampled::{Signal, Started, sampled};
-use crate::capsule::{self, CapsuleState as _, Case, Orbit, Parameter, State, settle_case};
+use crate::capsule::{self, CapsuleState as _, Parameter, State, settle_case};
 use crate::description::Outputs;
 use crate::model::{Batches, Setting};
-use crate::motion::reduced;
+use crate::motion::{Case, Orbit, reduced};
 use crate::of::model_of;
 use crate::orbit::{Outcome, Protocol};
 

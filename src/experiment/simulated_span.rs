@@ -53,7 +53,7 @@ mod tests {
         let text = format!("t [s]\n{}\n", rows.join("\n"));
         let known = [crate::experiment::Column {
             name: "t",
-            dimension: crate::capsule::Dimension::Time,
+            dimension: crate::quantity::Dimension::Time,
             presence: crate::experiment::Presence::Required,
         }];
         let sampling = Recording::read("rig.csv", &text, &known, 2).expect("readable").sampling();

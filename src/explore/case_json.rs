@@ -2,8 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::capsule::{CapsuleParameters as _, Orbit, Simulation};
+use crate::capsule::{CapsuleParameters as _, Simulation};
 use crate::description::Parameters;
+use crate::motion::Orbit;
 use crate::orbit::{Certificate, Outcome, Proof};
 use crate::store::catalogue::{CERTIFICATE, CYCLES, OUTCOME, PERIOD};
 

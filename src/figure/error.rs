@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use crate::capsule::printable::printable;
+use crate::quantity::printable::printable;
 use crate::store::StoreError;
 use crate::study::document::nearest;
 

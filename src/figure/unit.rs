@@ -1,7 +1,7 @@
 //! The units of quantities, as figures show them.
 
-use crate::capsule::Dimension;
 use crate::description::Description;
+use crate::quantity::Dimension;
 use crate::quantity::units::unit;
 use crate::study::appearance::{NATURAL, dimension_of};
 

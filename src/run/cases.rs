@@ -8,11 +8,11 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::attractor::Executor;
-use crate::capsule::{Case, Orbit};
 use crate::description::State;
 use crate::flow::stop;
 use crate::lane::Instructions;
 use crate::model::{CaseQueue, Known, Model, Unfinished};
+use crate::motion::{Case, Orbit};
 use crate::orbit::{Machine, Outcome, STACK};
 use crate::study::Study;
 use crate::study::grid::Chain;

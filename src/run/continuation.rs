@@ -4,11 +4,11 @@ use std::fmt;
 
 use super::cases::{RunError, on_all_threads};
 use crate::branch::NotFollowed;
-use crate::capsule::{Case, REASONS, settle_case};
 use crate::description::Section;
 use crate::flow::Reason;
 use crate::motion::branch::Found;
-use crate::of::model_of;
+use crate::motion::{Case, REASONS};
+use crate::of::{model_of, settle_case};
 use crate::orbit::{Outcome, Protocol};
 use crate::study::{Continuation, FirstOrbit, Study};
 

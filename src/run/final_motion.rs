@@ -2,8 +2,8 @@
 
 use super::Record;
 use crate::attractor;
-use crate::capsule::Orbit;
 use crate::description::Section;
+use crate::motion::Orbit;
 use crate::study::Study;
 
 /// What a case has settled to.

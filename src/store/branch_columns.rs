@@ -4,8 +4,8 @@ use ndarray::{ArrayD, IxDyn};
 
 use super::catalogue::{BRANCH_CYCLE, Entry, OrbitColumns, Place, section};
 use super::{Dataset, Values};
-use crate::capsule::branch::Point;
 use crate::description::{Output, Parameter};
+use crate::motion::branch::Point;
 use crate::orbit::matrix::Complex;
 
 /// An orbit on a branch.

@@ -1,11 +1,9 @@
 //! Conditions on the numbers of cases, as a person writes them: `peak_contact_force < 30 N and outcome = periodic`.
 
-use crate::capsule::Dimension;
-use crate::capsule::parse_quantity;
-use crate::study::document::unknown;
-
 use super::case_table::{CaseTable, Column};
 use super::{StoreError, Unread};
+use crate::quantity::{Dimension, parse_quantity};
+use crate::study::document::unknown;
 
 /// How a number is compared with a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,8 +7,7 @@ use ndarray::{ArrayD, IxDyn};
 use super::catalogue::{Entry, Flags};
 use super::names::MODEL;
 use crate::description::Description;
-use crate::of::all_models;
-use crate::of::default_model;
+use crate::of::{all_models, default_model};
 
 /// The numbers of a variable.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! What can go wrong when a dataset is kept or read back, said so that a person can act on it.
 
-use crate::capsule::printable::printable;
+use crate::quantity::printable::printable;
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};

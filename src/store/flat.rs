@@ -2,8 +2,8 @@
 
 use super::branch_columns::Row;
 use crate::branch::{Curve, End, SpecialKind};
-use crate::capsule::branch::Branch;
 use crate::description::Parameter;
+use crate::motion::branch::Branch;
 use crate::run::Continued;
 use crate::study::Continuation;
 

@@ -15,8 +15,8 @@ use super::joined::{self, Column};
 use super::schema;
 use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, StoreError, Values, Variable, provenance};
-use crate::capsule::REASONS;
 use crate::description::{Description, Output, State};
+use crate::motion::REASONS;
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
 use crate::run::{

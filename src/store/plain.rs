@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::StoreError;
-use crate::capsule::printable::printable;
+use crate::quantity::printable::printable;
 
 /// File systems allow names of 255 bytes, and a file has a longer name until it is finished.
 pub const LONGEST_NAME: usize = 243;

@@ -2,8 +2,9 @@
 
 use std::fmt::{self, Debug, Formatter};
 
-use crate::capsule::{Case, description};
+use crate::capsule::description;
 use crate::description::{Description, Parameter, StateCoordinate};
+use crate::motion::Case;
 use crate::quantity::{Allowed, Dimension, Quantity};
 
 /// What varies along an axis.

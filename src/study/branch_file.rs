@@ -6,8 +6,8 @@ use super::continuation::{Continuation, FirstOrbit};
 use super::document::{Entry, Table, unknown};
 use super::start_file::{Start, read_state};
 use super::{CaseSet, Coordinate};
-use crate::capsule::Dimension;
 use crate::description::{Parameter, Parameters};
+use crate::quantity::Dimension;
 
 /// Longest step unless another is asked for, as a share of the range.
 const LONGEST_STEP: f64 = 0.02;

@@ -1,9 +1,8 @@
 //! Which cases a study has, as a function of an index: a grid or draws.
 
-use crate::capsule::Case;
-
 use super::axis::set;
 use super::{Axis, Coordinate, Draws, Grid};
+use crate::motion::Case;
 
 /// The cases of a study, each known by its index alone.
 ///

@@ -6,10 +6,9 @@ use siphasher::sip128::{Hash128, Hasher128, SipHasher13};
 
 use super::grid::Chain;
 use super::{Axis, CaseSet, Continuation, Direction, Drawing, Grid, Inherit, Refine, Refinement};
-use crate::capsule::Case;
-use crate::description::Description;
-use crate::description::{Output, Parameters, State};
+use crate::description::{Description, Output, Parameters, State};
 use crate::model::Model;
+use crate::motion::Case;
 use crate::of::{default_model, model_of};
 use crate::orbit::Protocol;
 

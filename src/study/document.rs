@@ -6,11 +6,10 @@ use std::fmt;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::capsule::{Allowed, Dimension};
 use crate::description::Description;
-
-use crate::capsule::printable::one_line;
+use crate::quantity::printable::one_line;
 use crate::quantity::units::{expectation, parse_in};
+use crate::quantity::{Allowed, Dimension};
 
 /// Characters of a line that are shown at most.
 const LONGEST_SHOWN: usize = 80;

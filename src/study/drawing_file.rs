@@ -7,8 +7,8 @@ use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
 use super::drawing::{COLOURED_BY, Held, Size, Sweep, Texts, check_panels, check_text};
 use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine};
-use crate::capsule::{Dimension, parse_quantity};
 use crate::description::{Output, Parameter};
+use crate::quantity::{Dimension, parse_quantity};
 
 /// The unit of widths [m].
 const MILLIMETRE: f64 = 1e-3;

@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::document::Faults;
 use super::study_file::model_in;
-use crate::capsule::printable::one_line;
+use crate::quantity::printable::one_line;
 
 /// The key by which a study names its parameter file.
 pub const KEY: &str = "include";

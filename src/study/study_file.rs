@@ -13,11 +13,11 @@ use super::include;
 use super::parameter_table::read_parameters;
 use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
-use crate::capsule::Dimension;
 use crate::description::{Description, Output};
 use crate::of::{all_models, default_model};
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
+use crate::quantity::Dimension;
 
 /// More numbers in the results than this (32 GB) are too, rather than found out after a night.
 const MOST_NUMBERS: usize = 4_000_000_000;

@@ -10,10 +10,9 @@ use super::{
     Axis, CaseSet, Continuation, Coordinate, Drawing, Draws, Fault, Faults, Grid, Inherit,
     QuantitySettings, Refine, Setting, Spacing, Study,
 };
-use crate::capsule::Dimension;
-use crate::description::Description;
-use crate::description::{Output, Parameter, State};
+use crate::description::{Description, Output, Parameter, State};
 use crate::orbit::{HistorySpan, Protocol};
+use crate::quantity::Dimension;
 
 impl Study {
     /// The study as the text of a study file, with all digits and in SI units.

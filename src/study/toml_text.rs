@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Write};
 
-use crate::capsule::Dimension;
+use crate::quantity::Dimension;
 
 /// A document that is being written.
 #[derive(Debug, Default)]

@@ -265,7 +265,9 @@ refine = { progression_speed = "1 mm/s", work_positive = "1 mJ" }
 
 /// What is wrong with a variable, or with a coordinate; nothing if it is as the catalogue says.
 fn fault(dataset: &Dataset, name: &str, variable: &Variable) -> Option<String> {
-    let Some(entry) = catalogue::named(name, &CAPSULE) else { return Some(format!("{name}: unknown")) };
+    let Some(entry) = catalogue::named(name, &CAPSULE) else {
+        return Some(format!("{name}: unknown"));
+    };
     let of_axis = dataset.attributes.get(ATTRACTOR_AXIS).and_then(|it| dataset.coordinate(it));
     let unit = match entry.unit {
         "" => of_axis.map_or("1", |axis| axis.unit.as_str()),

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use capsulemap::capsule::description::CAPSULE;
 use capsulemap::capsule::Output;
+use capsulemap::capsule::description::CAPSULE;
 use capsulemap::run::{self, Machine};
 use capsulemap::store;
 use capsulemap::study::{CaseSet, Coordinate, DrawKind, Draws, Range, Spacing, Study};

@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use capsulemap::capsule::Dimension;
 use capsulemap::experiment::{Column, Presence, Recording, Window, smoothed};
+use capsulemap::quantity::Dimension;
 use proptest::prelude::*;
 
 use super::damage::fuzz;

@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
-use capsulemap::capsule::{Parameter, parse_quantity};
+use capsulemap::capsule::Parameter;
+use capsulemap::quantity::parse_quantity;
 use capsulemap::store;
 use capsulemap::study::{DrawingKind, Study};
 

@@ -55,7 +55,7 @@ fn record(motion: &Started, (rate, cycles, noise): (f64, f64, f64), seed: u64) -
     let known: Vec<Column> = [Signal::X2, Signal::R, Signal::A1, Signal::Drive]
         .map(|it| (it.name(), it.dimension()))
         .into_iter()
-        .chain([("t", capsulemap::capsule::Dimension::Time)])
+        .chain([("t", capsulemap::quantity::Dimension::Time)])
         .map(|(name, dimension)| Column { name, dimension, presence: Presence::Required })
         .collect();
     Recording::read("motion.csv", &text, &known, 16).expect("readable")

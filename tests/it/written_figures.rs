@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use capsulemap::capsule::Allowed;
+use capsulemap::quantity::Allowed;
 use capsulemap::study::appearance::NATURAL;
 use capsulemap::study::{
     COLOURED_BY, CaseSet, ColourMap, Colouring, Continuation, Coordinate, Drawing, DrawingKind,

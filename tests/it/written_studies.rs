@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use capsulemap::capsule::description::CAPSULE;
 use capsulemap::capsule::{
-    Allowed, CapsuleParameters as _, Parameter, Parameters, Resistance, State, Switching,
+    CapsuleParameters as _, Parameter, Parameters, Resistance, State, Switching,
 };
 use capsulemap::orbit::{HistorySpan, Protocol};
+use capsulemap::quantity::Allowed;
 use capsulemap::study::{
     Axis, CaseSet, Continuation, Coordinate, Direction, DrawKind, Draws, FirstOrbit, Grid, Inherit,
     Range, Refine, Spacing, Study,

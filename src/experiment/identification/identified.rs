@@ -1,9 +1,10 @@
 //! The simple tests of a rig, and what is told of a constant that they give.
 
-use crate::capsule::{Dimension, Parameter};
+use crate::capsule::Parameter;
 use crate::experiment::estimate::Estimate;
 use crate::experiment::profile::Verdict;
 use crate::experiment::recording::{Column, Presence::Required};
+use crate::quantity::Dimension;
 
 /// A simple test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,9 +1,10 @@
 //! The parameter file of identified constants, which studies include.
 
 use super::identified::{Constant, Identified};
-use crate::capsule::{Dimension, Parameter};
+use crate::capsule::Parameter;
 use crate::description::Parameters;
 use crate::experiment::profile::Verdict;
+use crate::quantity::Dimension;
 
 /// Parameters that have no default in a study.
 const OPEN: [Parameter; 4] = [Parameter::Omega, Parameter::Pd, Parameter::K2, Parameter::Delta];

@@ -9,8 +9,8 @@ use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use serde_json::json as object;
 
-use crate::capsule::printable::printable;
 use crate::figure::FigureError;
+use crate::quantity::printable::printable;
 use crate::store::StoreError;
 
 /// The status of what takes too long: a gateway to a computation has waited for it.

@@ -6,10 +6,9 @@ use std::sync::{Arc, Mutex};
 
 use super::answer::Refusal;
 use crate::campaign::{CampaignError, study_of};
-use crate::capsule::Case;
-use crate::description::Description;
-use crate::description::{Output, Section, State};
+use crate::description::{Description, Output, Section, State};
 use crate::figure::variables;
+use crate::motion::Case;
 use crate::orbit::Protocol;
 use crate::store::catalogue::{self, Entry};
 use crate::store::{Archive, Dataset};

@@ -9,12 +9,14 @@ use super::computations::{BUDGET, MOTION_BUDGET};
 use super::explored::{Explored, Near};
 use crate::campaign::command;
 use crate::capsule::{
-    ArcPoint, CapsuleParameters as _, CapsuleState as _, Case, Forces, Orbit, Simulation,
-    SimulationSize, State, arc, settle_case, simulate_case_within,
+    ArcPoint, CapsuleParameters as _, CapsuleState as _, Forces, Simulation, SimulationSize, State,
+    arc, simulate_case_within,
 };
 use crate::description::Section;
 use crate::explore::case_json::{case_json, remarks};
 use crate::flow::stop;
+use crate::motion::{Case, Orbit};
+use crate::of::settle_case;
 use crate::orbit::{HistorySpan, Outcome, Protocol};
 use crate::store::catalogue::CYCLES;
 use crate::study::Study;

@@ -2,8 +2,8 @@
 
 use super::entry::Flags;
 use crate::branch::{End, SpecialKind};
-use crate::capsule::REASONS;
 use crate::description::Description;
+use crate::motion::REASONS;
 use crate::orbit::{Outcome, Proof};
 use crate::run::{Continued, NotContinued};
 use crate::study::Direction;

@@ -9,7 +9,7 @@ const OTHER_RULES: [&str; 3] =
 /// Where a file shows a path as it is.
 fn raw_paths(source: &Source) -> Option<String> {
     let is_raw = source.code.contains(".display()") && !OTHER_RULES.contains(&&*source.path);
-    is_raw.then(|| format!("{}: .display(); use capsule::printable", source.path))
+    is_raw.then(|| format!("{}: .display(); use quantity::printable", source.path))
 }
 
 #[test]

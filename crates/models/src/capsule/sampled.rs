@@ -1,10 +1,11 @@
 //! A simulated motion at given times, as sensors would see it, with exact derivatives in parameters and in the start.
 
 use crate::capsule::{
-    AsPrinted, CapsuleParameters as _, Dimension, Filippov, Jet, Locomotion, Parameter, Parameters,
-    Reading, State, Switching,
+    AsPrinted, CapsuleParameters as _, Filippov, Jet, Locomotion, Parameter, Parameters, Reading,
+    State, Switching,
 };
 use crate::motion::reduced;
+use crate::quantity::Dimension;
 use capsulemap_engine::flow::{
     Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, cycle,
 };

@@ -6,5 +6,5 @@ mod orbit;
 mod setting;
 
 pub use case::{Case, reduced};
-pub use orbit::{Failure, Orbit};
+pub use orbit::{Failure, Orbit, REASONS};
 pub use setting::{Sensitivity, Setting};

@@ -1,11 +1,18 @@
 //! What a case settles to.
 
+use capsulemap_engine::flow::Reason;
 use capsulemap_engine::orbit::{self, Certificate, Outcome};
 
 use crate::description::{Outputs, Section, State};
 
 /// Where and why a case failed.
 pub type Failure = orbit::Failure<State>;
+
+/// Why a case may fail, with its names in files; under a drive it always comes back to its section.
+pub const REASONS: [(Reason, &str); 4] = {
+    let [no_progress, not_finite, too_many_steps, _, out_of_steps] = Reason::NAMES;
+    [no_progress, not_finite, too_many_steps, out_of_steps]
+};
 
 /// What a case settled to.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,11 +3,14 @@
 use std::fmt::{self, Display, Formatter};
 use std::sync::{PoisonError, RwLock};
 
+use capsulemap_engine::orbit::Protocol;
+
 use super::{AS_PRINTED, FILIPPOV};
 use crate::capsule::description::CAPSULE;
 use crate::capsule::{CapsuleParameters as _, Switching};
 use crate::description::{Description, Parameters};
 use crate::model::Model;
+use crate::motion::{Case, Orbit};
 
 /// Those beside the capsule, in the order in which they were registered.
 static OTHERS: RwLock<Vec<&'static dyn Model>> = RwLock::new(Vec::new());
@@ -66,4 +69,9 @@ pub fn model_of(parameters: &Parameters) -> &'static dyn Model {
     let others = OTHERS.read().unwrap_or_else(PoisonError::into_inner);
     let found = others.iter().find(|it| it.description() == description);
     *found.unwrap_or_else(|| panic!("the model {} is not registered", description.name))
+}
+
+/// What a case settles to, see [`Model::settle`].
+pub fn settle_case(case: &Case, protocol: &Protocol) -> Orbit {
+    model_of(&case.parameters).settle(case, protocol, None)
 }

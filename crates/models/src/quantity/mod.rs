@@ -1,6 +1,7 @@
 //! Quantities as models describe them: names, dimensions and units, what they are, and how figures show them.
 
 pub mod dimension;
+pub mod printable;
 pub mod shown;
 pub mod units;
 

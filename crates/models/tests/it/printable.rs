@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use capsulemap_models::capsule::printable::{excerpt, printable};
+use capsulemap_models::quantity::printable::{excerpt, printable};
 
 #[test]
 fn names_are_shown_on_one_line_and_cut() {
