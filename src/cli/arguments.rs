@@ -8,8 +8,10 @@ use super::failure::Failure;
 use crate::campaign::quoted;
 use crate::description::{Description, Output};
 use crate::lane::Instructions;
+use crate::quantity::printable::printable;
 use crate::quantity::{Dimension, parse_quantity};
 use crate::run::Machine;
+use crate::store::Archive;
 use crate::study::document::unknown;
 
 /// What to run on, as far as this machine has it.
@@ -37,6 +39,21 @@ pub fn named<T: Copy + Send + Sync + 'static>(
     let find = |given: &str| names.iter().find(|(name, _)| *name == given).map(|&(_, value)| value);
     PossibleValuesParser::new(names.iter().map(|&(name, _)| name))
         .map(move |given| find(&given).expect("only known names get here"))
+}
+
+/// The model of results, of which motions gain something that has a cost.
+///
+/// Fails where they do not.
+pub fn with_trade_off(archive: &Archive) -> Result<&'static Description, Failure> {
+    let model = archive.frame().model();
+    match model.has_trade_off() {
+        true => Ok(model),
+        false => Err(Failure::request(format!(
+            "{}: motions of the model {} gain nothing that has a cost",
+            printable(archive.path()),
+            model.name
+        ))),
+    }
 }
 
 /// The output of a model that an option names; its power if it names none.

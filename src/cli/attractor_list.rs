@@ -16,7 +16,6 @@ use crate::store::{Dataset, Variable};
 /// The attractors in the order of their numbers, each as an object; empty where the file has no table of them, as that of a study
 /// along a parameter, which has a table for each of its values.
 pub fn attractors(dataset: &Dataset) -> Vec<Value> {
-    let (speed, work) = (dataset.model().speed(), dataset.model().work());
     let dimensions = dataset.variable(ATTRACTOR_KIND.name).map(|it| it.values.shape().len());
     if dimensions != Some(1) {
         return Vec::new();
@@ -28,18 +27,21 @@ pub fn attractors(dataset: &Dataset) -> Vec<Value> {
     let kind = |code: f64| flags.iter().find(|(it, _)| *it as f64 == code).map(|(_, name)| name);
     let periods = column(ATTRACTOR_PERIOD.name);
     let [shares, errors] = [ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR].map(|it| column(it.name));
-    let (speeds, energies) = (output(speed), output(work));
+    let outputs: Vec<(Output, Vec<f64>)> =
+        dataset.model().gain_and_work().into_iter().map(|it| (it, output(it))).collect();
     let at = |column: &[f64], number: usize| column.get(number).copied();
     let one = |number: usize| {
-        json!({
+        let mut told = json!({
             ATTRACTOR.name: number,
             "kind": kind(kinds[number]),
             PERIOD.name: at(&periods, number).filter(|period| *period > 0.0).map(|it| it as u64),
-            speed.name(): at(&speeds, number),
-            work.name(): at(&energies, number),
-            "share": at(&shares, number),
-            "share_error": at(&errors, number),
-        })
+        });
+        for (output, values) in &outputs {
+            told[output.name()] = json!(at(values, number));
+        }
+        told["share"] = json!(at(&shares, number));
+        told["share_error"] = json!(at(&errors, number));
+        told
     };
     (0..kinds.len()).map(one).collect()
 }
@@ -94,23 +96,29 @@ pub fn tables(dataset: &Dataset) -> String {
     let mut text = String::new();
     let (attractors, saddles) = (attractors(dataset), saddles(dataset));
     let number = |value: &Value| value.as_f64().map_or("-".to_owned(), |it| format!("{it:.6}"));
-    let (speed_output, work_output) = (dataset.model().speed(), dataset.model().work());
+    let outputs = dataset.model().gain_and_work();
+    let heading = |output: &Output| match *output == dataset.model().main_output() {
+        true => format!("{:>12}", format!("speed [{}]", output.unit())),
+        false => format!("{:>17}", format!("{} [{}]", output.name(), output.unit())),
+    };
+    let headings: Vec<String> = outputs.iter().map(heading).collect();
     if !attractors.is_empty() {
         text.push_str("\nattractors, by their numbers in the file; figures count from 1\n");
         let _ = writeln!(
             text,
-            "  {:>3}  {:<14} {:>12}  {:>12}  share of the starts",
+            "  {:>3}  {:<14} {}  share of the starts",
             "",
             "motion",
-            "speed [m/s]",
-            format!("{} [{}]", work_output.name(), work_output.unit())
+            headings.join("  ")
         );
         for it in &attractors {
             let kind = it["kind"].as_str().unwrap_or("-");
             let motion =
                 it[PERIOD.name].as_u64().map_or(kind.to_owned(), |it| format!("period {it}"));
-            let outputs = [speed_output, work_output];
-            let [speed, work] = outputs.map(Output::name).map(|key| number(&it[key]));
+            let values = outputs.iter().zip(&headings).map(|(output, heading)| {
+                format!("{:>width$}", number(&it[output.name()]), width = heading.chars().count())
+            });
+            let values = values.collect::<Vec<_>>().join("  ");
             let [share, error] = ["share", "share_error"].map(|key| number(&it[key]));
             let error = match it["share_error"].is_null() {
                 true => "of those computed, others are missing".to_owned(),
@@ -118,7 +126,7 @@ pub fn tables(dataset: &Dataset) -> String {
             };
             let _ = writeln!(
                 text,
-                "  {:>3}  {motion:<14} {speed:>12}  {work:>17}  {share} {error}",
+                "  {:>3}  {motion:<14} {values}  {share} {error}",
                 it[ATTRACTOR.name]
             );
         }

@@ -103,7 +103,11 @@ fn write_branch(text: &mut String, along: Parameter, branch: &Branch) {
         "1" => along.symbol().to_owned(),
         unit => format!("{} [{unit}]", along.symbol()),
     };
-    let _ = writeln!(text, "  {:<16} {heading:>16} {:>7} {:>14}", "", "period", "speed [mm/s]");
+    let (output, factor) = match along.model().has_trade_off() {
+        true => ("speed [mm/s]".to_owned(), 1e3),
+        false => (along.model().main_output().name().to_owned(), 1.0),
+    };
+    let _ = writeln!(text, "  {:<16} {heading:>16} {:>7} {output:>14}", "", "period");
     for Special { kind, point, .. } in &branch.special {
         let _ = writeln!(
             text,
@@ -111,7 +115,7 @@ fn write_branch(text: &mut String, along: Parameter, branch: &Branch) {
             kind_name(*kind),
             ten_digits(point.parameter),
             branch.period,
-            point.measured.speed() * 1e3
+            point.measured.main() * factor
         );
     }
 }

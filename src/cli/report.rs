@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::price;
+use super::arguments::{price, with_trade_off};
 use super::failure::Failure;
 use super::target::Target;
 use crate::explore::{GENERATOR, Request, report};
@@ -41,7 +41,7 @@ impl Report {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let archive = store::open(&self.file).map_err(Failure::request)?;
-        let model = archive.frame().model();
+        let model = with_trade_off(&archive)?;
         let of = price("--of", self.of.as_deref(), model).map_err(Failure::request)?;
         let page = self.output.clone().unwrap_or_else(|| self.file.with_extension("html"));
         let target = Target::of(&page, |page| self.check(page))?;
@@ -56,7 +56,7 @@ impl Report {
             Err(said) if said.kind() == std::io::ErrorKind::NotFound => Ok(()),
             Ok(bytes) if self.overwrite || is_ours(&bytes) => Ok(()),
             _ => Err(Failure::request(format!(
-                "{}: exists and is no report of this program; name another --price, or replace it with --overwrite",
+                "{}: exists and is no report of this program; name another --output, or replace it with --overwrite",
                 printable(page)
             ))),
         }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{named, price};
+use super::arguments::{named, price, with_trade_off};
 use super::failure::Failure;
 use super::optima_text::{csv, json, table};
 use super::readable::count;
@@ -113,7 +113,8 @@ impl Tradeoff {
     /// Carries the command out.
     pub fn run(&self) -> Result<(), Failure> {
         let archive = store::open(&self.file).map_err(Failure::request)?;
-        let request = self.request(archive.frame().model())?;
+        let model = with_trade_off(&archive)?;
+        let request = self.request(model)?;
         let kept = self.refine.then(|| self.kept(&archive)).transpose()?;
         let threads = self.threads.map(|threads| threads as usize);
         let trade_off = TradeOff {

@@ -57,11 +57,9 @@ pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Some(direction) = orbit.certificate.neutral {
         let [r, y1, y2] = direction.array().map(|x: f64| (x * 1e4).round() / 1e4 + 0.0);
-        let speed = if orbit.outputs[orbit.outputs.model().rest_share()] < 1.0 {
-            ", and with it the speed"
-        } else {
-            ""
-        };
+        let rest_share = orbit.outputs.model().rest_share();
+        let rests = rest_share.is_some_and(|share| orbit.outputs[share] >= 1.0);
+        let speed = if rests { "" } else { ", and with it the speed" };
         remarks.push(format!(
             "neutral: as far as rounding tells (a multiplier within 1e-7 of one) this is one of a family of \
              periodic orbits along (omega r, y1, y2) = ({r}, {y1}, {y2}); the start decides which{speed}"

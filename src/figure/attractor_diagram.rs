@@ -31,8 +31,8 @@ use crate::store::catalogue::{Entry, section};
 
 /// Panels of the diagram, unless others are asked for: those of them that the results hold.
 pub fn usual_panels(model: &'static Description) -> Vec<Entry> {
-    let outputs = [model.speed(), model.work(), model.exponent()].map(Entry::of_output);
-    section(model).into_iter().take(1).chain(outputs).collect()
+    let outputs = model.gain_and_work().into_iter().chain([model.exponent()]);
+    section(model).into_iter().take(1).chain(outputs.map(Entry::of_output)).collect()
 }
 
 /// Symbols of one kind nearer than this would hide each other [pt].

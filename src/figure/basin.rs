@@ -52,10 +52,8 @@ fn reads(_: &Drawing, model: &'static Description) -> Names {
         .and(edges(model))
         .and(inferred::READS)
         .and(phases)
-        .and([
-            Place::Attractor.of(Entry::of_output(model.speed())),
-            Entry::of_parameter(model.impact_surface()),
-        ])
+        .and([Place::Attractor.of(Entry::of_output(model.main_output()))])
+        .and(model.impact_surface().map(Entry::of_parameter))
 }
 
 /// Draws the basins that `view` asks for.
@@ -279,10 +277,11 @@ fn told(view: &View<'_>, number: usize) -> String {
         return format!("attractor {number}");
     }
     let mut parts = vec![motion(view, of(ATTRACTOR_KIND), of(ATTRACTOR_PERIOD))];
-    parts.extend(
-        of(Place::Attractor.of(Entry::of_output(view.model().speed())))
-            .map(|it| format!("{} mm/s", millimetres(it))),
-    );
+    let model = view.model();
+    if model.has_trade_off() {
+        let speed = of(Place::Attractor.of(Entry::of_output(model.speed())));
+        parts.extend(speed.map(|it| format!("{} mm/s", millimetres(it))));
+    }
     if let (Some(share), Some(error)) = (of(ATTRACTOR_SHARE), of(ATTRACTOR_SHARE_ERROR)) {
         let (share, error) = (100.0 * share, 100.0 * error);
         // Two digits of the error say how many of the share are known.
@@ -317,7 +316,7 @@ pub(super) fn millimetres(speed: f64) -> String {
 
 /// The ends of the line where the mass reaches the stop, if an axis is its displacement and the line lies on it.
 fn surface(view: &View<'_>, plane: &Plane<'_>) -> Option<[(f64, f64); 2]> {
-    let delta = view.model().impact_surface().symbol();
+    let delta = view.model().impact_surface()?.symbol();
     let factor = view.quantity(delta).factor;
     let gap = view.parameter(delta, &[]).ok()?.first().copied()? * factor;
     let displacement = Coordinate::starts(view.model()).next()?.name();

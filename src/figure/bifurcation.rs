@@ -25,12 +25,13 @@ use super::varied::along;
 use super::view::View;
 use super::{attractors, category, event_marks, track};
 use crate::description::Description;
-use crate::store::catalogue::{ATTRACTOR, DIRECTION, Entry, Place, SECTION_R};
+use crate::store::catalogue::{ATTRACTOR, DIRECTION, Entry, Place, section};
 use crate::study::Drawing;
 
 /// Panels of a bifurcation diagram, unless others are asked for.
-fn usual_panels(model: &'static Description) -> [Entry; 2] {
-    [SECTION_R, Entry::of_output(model.speed())]
+fn usual_panels(model: &'static Description) -> Vec<Entry> {
+    let section = section(model).into_iter().take(1);
+    section.chain([Entry::of_output(model.main_output())]).collect()
 }
 
 /// One direction along the axis: its place on the axis of directions, its name and colour.
@@ -104,7 +105,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         free.push(DIRECTION.name);
     }
     let outputs = match view.drawing.of.is_empty() {
-        true => usual_panels(view.model()).map(|entry| entry.name.to_owned()).to_vec(),
+        true => usual_panels(view.model()).iter().map(|entry| entry.name.to_owned()).collect(),
         false => view.drawing.of.clone(),
     };
     let quantity = view.quantity(x_name);

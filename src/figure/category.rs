@@ -15,13 +15,14 @@ use super::style::{
 };
 use super::text::Text;
 use super::view::View;
-use crate::description::Description;
+use crate::description::{Description, Output};
 use crate::store::catalogue::{ATTRACTOR, Entry, OUTCOME, PERIOD};
 
 /// What is read of each case, beside that by which they are sorted.
-pub fn reads(model: &'static Description) -> [Entry; 2] {
-    [OUTCOME, Entry::of_output(model.rest_share())]
+pub fn reads(model: &'static Description) -> Vec<Entry> {
+    [OUTCOME].into_iter().chain(model.rest_share().map(Entry::of_output)).collect()
 }
+
 /// Distance between a frame and the legend [pt].
 const LEGEND_GAP: f64 = 7.0;
 /// Distance between lines of the legend [pt].
@@ -212,10 +213,10 @@ fn by_name(name: &str) -> Option<(usize, Kind)> {
 
 /// Whether each periodic case is one in which the capsule never slides; empty where the results do not say.
 fn resting(view: &View<'_>, free: &[&str]) -> Result<Vec<bool>, FigureError> {
-    let rest_share = view.model().rest_share().name();
-    if view.dataset.variable(rest_share).is_none() {
+    let rest_share = view.model().rest_share().map(Output::name);
+    let Some(rest_share) = rest_share.filter(|name| view.dataset.variable(name).is_some()) else {
         return Ok(Vec::new());
-    }
+    };
     let outcomes = Outcomes::over(view, free)?;
     let shares = view.take(rest_share, free)?;
     let repeats =

@@ -15,7 +15,7 @@ use super::style::{
 };
 use super::text::Text;
 use super::view::View;
-use crate::description::Description;
+use crate::description::{Description, Parameter};
 use crate::store::catalogue::{
     Entry, HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_X1, HISTORY_X2,
     HISTORY_Y1, HISTORY_Y2, RELATIVE_VELOCITY, TIME, VELOCITIES,
@@ -69,7 +69,8 @@ fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let usual = PANELS.map(|entry| entry.name);
     let of = drawing.of.iter().map(String::as_str);
     let shown = of.chain(usual.into_iter().filter(|_| drawing.of.is_empty()));
-    let constants = [model.drive_frequency(), model.impact_surface()].map(Entry::of_parameter);
+    let constants = [model.drive_frequency()].into_iter().chain(model.impact_surface());
+    let constants = constants.map(Entry::of_parameter);
     let shown: Vec<Entry> = shown.flat_map(variables).copied().collect();
     let sources: Vec<Entry> = shown.iter().flat_map(|entry| sources(entry.name, model)).collect();
     Names::of(shown).and(sources).and(sources_of_arcs(model)).and(constants)
@@ -147,13 +148,12 @@ fn cell(cases: &[CasePanel<'_>], output: &str, place: usize) -> Result<Cell, Fig
         }
         curves.push(Curve { variable, points, stroke });
     }
-    let delta = view.model().impact_surface().symbol();
-    let gaps = match output == HISTORY_R.name && view.shows("gap") {
-        true => view.parameter(delta, free).ok(),
-        false => None,
-    };
-    let factor = view.quantity(delta).factor;
-    let gap = gaps.and_then(|gaps| gaps.iter().nth(case).map(|gap| gap * factor));
+    let is_shown = output == HISTORY_R.name && view.shows("gap");
+    let delta = view.model().impact_surface().filter(|_| is_shown).map(Parameter::symbol);
+    let gap = delta.and_then(|delta| {
+        let gap = view.parameter(delta, free).ok()?.iter().nth(case).copied()?;
+        Some(gap * view.quantity(delta).factor)
+    });
     Ok(Cell { output: output.to_string(), case: place, curves, gap })
 }
 
@@ -234,10 +234,10 @@ fn axes(
 fn legend(view: &View<'_>, cell: &Cell) -> Vec<(Mark, Text)> {
     let entry =
         |curve: &Curve| (Mark::Line(curve.stroke), view.quantity(curve.variable.name).short_name());
-    match (cell.gap, cell.curves.len()) {
-        (Some(_), _) => {
-            let delta = view.quantity(view.model().impact_surface().symbol());
-            vec![(Mark::Line(GAP_LINE), delta.short_name())]
+    let surface = view.model().impact_surface().filter(|_| cell.gap.is_some());
+    match (surface, cell.curves.len()) {
+        (Some(delta), _) => {
+            vec![(Mark::Line(GAP_LINE), view.quantity(delta.symbol()).short_name())]
         }
         (None, 1) => Vec::new(),
         _ => cell.curves.iter().map(entry).collect(),

@@ -95,7 +95,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 
 /// The output shown: the speed, unless another is asked for.
 fn output(drawing: &Drawing, model: &'static Description) -> String {
-    drawing.of.first().cloned().unwrap_or_else(|| model.speed().name().to_owned())
+    drawing.of.first().cloned().unwrap_or_else(|| model.main_output().name().to_owned())
 }
 
 /// The colours of the cases of all panels over a plane.

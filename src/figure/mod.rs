@@ -99,12 +99,15 @@ pub fn needs(kind: DrawingKind) -> Needs {
 /// The names of the variables whose numbers `drawing` shows or judges cases by; of others it needs no more
 /// than their labels.
 pub fn variables(drawing: &Drawing, model: &'static Description) -> BTreeSet<String> {
+    if !drawing.kind.suits(model) {
+        return BTreeSet::new();
+    }
     let reads = registry::kind(drawing.kind).reads;
     // Every figure looks for the parameters along which orbits were continued.
     let names = reads(drawing, model).and(varied::READS);
-    let of_natural = model.natural().map(Entry::of_parameter);
+    let of_natural = model.natural().into_iter().flatten().map(Entry::of_parameter);
     let is_natural = drawing.settings.values().any(|it| it.unit == Some(NATURAL));
-    names.and(of_natural.into_iter().filter(|_| is_natural)).into_set()
+    names.and(of_natural.filter(|_| is_natural)).into_set()
 }
 
 /// Draws `drawing` from the results in `shown` and writes `<folder>/<name>.<extension>` in each format of `place`,
@@ -145,6 +148,10 @@ pub fn picture<'a>(
 /// The drawing, and what it leaves out or takes for something else.
 fn drawn(shown: Shown<'_>, drawing: &Drawing) -> Result<(Drawn, Vec<String>), FigureError> {
     let view = View::new(shown, drawing)?;
+    if !drawing.kind.suits(view.model()) {
+        let name = view.model().name;
+        return Err(view.unfit(format!("motions of the model {name} gain nothing that has a cost")));
+    }
     check_request(&view)?;
     let drawn = (registry::kind(drawing.kind).draw)(&view)?;
     if let Some(fault) = view.fault_of_settings() {

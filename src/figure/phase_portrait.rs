@@ -50,7 +50,7 @@ fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let named = drawing.of.iter().flat_map(|name| sources(name, model));
     Names::of([HISTORY_R, HISTORY_Y1, HISTORY_Y2])
         .and([SECTION_R, SECTION_Y1, SECTION_Y2, IMPACT_Y1, IMPACT_Y2])
-        .and([Entry::of_parameter(model.impact_surface())])
+        .and(model.impact_surface().map(Entry::of_parameter))
         .and(named)
         .and(sources_of_arcs(model))
         .and_named(drawing.of.clone())
@@ -132,8 +132,10 @@ fn portrait(panel: &CasePanel<'_>, names: [&str; 2]) -> Result<Portrait, FigureE
     if orbit.is_empty() {
         return Err(view.unfit(format!("no sample lies in cycles {first} to {last}")));
     }
-    let delta = view.model().impact_surface().symbol();
-    let gap = view.parameter(delta, free).ok().and_then(|gaps| gaps.iter().nth(case).copied());
+    let gap = view
+        .model()
+        .impact_surface()
+        .and_then(|delta| view.parameter(delta.symbol(), free).ok()?.iter().nth(case).copied());
     let of_case = |entry: Entry| -> Result<Vec<f64>, FigureError> {
         if view.dataset.variable(entry.name).is_none() {
             return Ok(Vec::new());
@@ -196,8 +198,9 @@ fn legend(view: &View<'_>, portraits: &[Portrait]) -> Vec<(Mark, Text)> {
     if portraits.iter().any(|it| !it.impacts.is_empty()) {
         legend.push((Mark::Ring(VERMILION, IMPACT_RADIUS), Text::plain("impact")));
     }
-    if portraits.iter().any(|it| it.gap.iter().any(Option::is_some)) {
-        let delta = view.quantity(view.model().impact_surface().symbol()).short_name();
+    let has_gap = portraits.iter().any(|it| it.gap.iter().any(Option::is_some));
+    if let Some(delta) = view.model().impact_surface().filter(|_| has_gap) {
+        let delta = view.quantity(delta.symbol()).short_name();
         let words = Text::plain("contact, from\u{a0}").then(delta);
         legend.push((Mark::Patch(CONTACT), words));
     }

@@ -46,7 +46,7 @@ fn reads(_: &Drawing, model: &'static Description) -> Names {
     Names::of([ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR, ATTRACTOR_KIND, ATTRACTOR_PERIOD])
         .and([ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_INTEGRITY_FACTOR])
         .and([ATTRACTOR_INTEGRITY_ERROR])
-        .and([ATTRACTOR, Entry::of_output(model.speed())])
+        .and([ATTRACTOR, Entry::of_output(model.main_output())])
 }
 
 /// Draws the bands that `view` asks for.
@@ -161,6 +161,9 @@ fn columns(table: &ArrayD<f64>) -> Vec<Vec<f64>> {
 
 /// The range of the speeds of all cases that lead to an attractor, where the results have them.
 fn speeds(view: &View<'_>, number: usize) -> Option<String> {
+    if !view.model().has_trade_off() {
+        return None;
+    }
     let (labels, speeds) =
         (view.column(ATTRACTOR), view.column(Entry::of_output(view.model().speed())));
     let ours = labels.iter().zip(&speeds).filter(|(label, _)| **label == number as f64);

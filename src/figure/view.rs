@@ -99,7 +99,7 @@ impl<'a> View<'a> {
             let varies = self.coordinate_values(parameter.symbol()).len() > 1;
             values.first().copied().filter(|_| !varies)
         };
-        let [stiffness, mass] = self.model().natural();
+        let [stiffness, mass] = self.model().natural()?;
         Some((one(stiffness)? / one(mass)?).sqrt())
     }
 

@@ -10,7 +10,7 @@ use crate::study::{Refine, Refining, Study};
 pub struct MapPoint {
     /// The period [cycles]; zero where the motion does not repeat, which is like no other then.
     pub period: u32,
-    /// Whether the capsule never slides.
+    /// Whether it is always at rest.
     pub rests: bool,
     /// The outputs by which the map is refined, each as a multiple of the most by which it may differ.
     pub values: Box<[f64]>,
@@ -26,7 +26,7 @@ impl MapPoint {
         let value = |(of, most): &(Output, f64)| output(*of) / most;
         MapPoint {
             period: if outcome == Outcome::Periodic { period } else { 0 },
-            rests: output(study.base.model().rest_share()) >= 1.0,
+            rests: study.base.model().rest_share().is_some_and(|share| output(share) >= 1.0),
             values: within(study).iter().map(value).collect(),
         }
     }

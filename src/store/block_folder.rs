@@ -330,10 +330,10 @@ fn columns(study: &Study, records: &[Record]) -> Vec<Column> {
         let cases = records.iter().map(|record| record.index as i64).collect();
         columns.push(Column { name: CASE.to_owned(), numbers: Numbers::Integer(cases) });
     }
-    let rest_share = study.base.model().rest_share();
-    // What tells the cases of a refined map apart is whether the capsule never slides, too, whatever outputs are kept.
-    if let (Some(Refine::Outputs(_)), false) = (&study.refine, study.outputs.contains(&rest_share))
-    {
+    let left_out =
+        study.base.model().rest_share().filter(|rest_share| !study.outputs.contains(rest_share));
+    // What tells the cases of a refined map apart is whether they are always at rest, too, whatever outputs are kept.
+    if let (Some(Refine::Outputs(_)), Some(rest_share)) = (&study.refine, left_out) {
         let shares = records.iter().map(|record| record.orbit.outputs[rest_share]).collect();
         columns.push(Column { name: rest_share.name().to_owned(), numbers: Numbers::Real(shares) });
     }

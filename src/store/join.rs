@@ -135,7 +135,7 @@ impl<'a> Blocks<'a> {
     pub fn map_points(&self) -> Result<Vec<(usize, MapPoint)>, StoreError> {
         // Blocks have the share of rest even where the results leave it out.
         let refined = within(self.study).iter().map(|(output, _)| *output);
-        let of: Vec<Output> = refined.chain([self.study.base.model().rest_share()]).collect();
+        let of: Vec<Output> = refined.chain(self.study.base.model().rest_share()).collect();
         let mut known = Vec::new();
         for file in &self.files {
             let columns: Result<Vec<Vec<f64>>, StoreError> =
@@ -251,7 +251,7 @@ impl<'a> Blocks<'a> {
             filling.put_integers(places, &periods);
         } else if let Some(values) = refined.and_then(|of| values.get(of)) {
             filling.put_reals(places, values);
-        } else if name == self.study.base.model().rest_share().name() {
+        } else if self.study.base.model().rest_share().is_some_and(|it| it.name() == name) {
             let shares: Vec<f64> =
                 rests.iter().map(|rests| if *rests { 1.0 } else { f64::NAN }).collect();
             filling.put_reals(places, &shares);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::appearance::Settings;
 use super::grid::Direction;
 use crate::capsule::description;
-use crate::description::Output;
+use crate::description::{Description, Output};
 
 /// What there is for each case besides the outputs.
 const VERDICTS: [&str; 3] = ["outcome", "period", "cycles"];
@@ -146,6 +146,12 @@ impl DrawingKind {
     /// Its name.
     pub fn name(self) -> &'static str {
         DrawingKind::NAMES[self as usize].0
+    }
+
+    /// Whether motions of a model have what a figure of this kind shows: a gain and a cost, of a trade-off.
+    pub fn suits(self, model: &'static Description) -> bool {
+        let is_trade_off = matches!(self, DrawingKind::TradeOff | DrawingKind::TradeOffMaps);
+        !is_trade_off || model.has_trade_off()
     }
 
     /// What a figure of this kind can show of a study that keeps `outputs`.

@@ -68,6 +68,14 @@ fn read_drawing(
     outputs: &[Output],
 ) -> Drawing {
     let kind = table.entry("kind").and_then(|entry| entry.one_of("kind", DrawingKind::NAMES));
+    if let (Some(kind), Some(entry)) = (kind, table.entry("kind"))
+        && !kind.suits(table.model())
+    {
+        entry.fault(format!(
+            "motions of the model {} gain nothing that has a cost",
+            table.model().name
+        ));
+    }
     let names = abscissae(kind, axes, branches);
     let axis = |key: &str| {
         let name = table.entry(key)?.one_of("axis of this study", &names)?;

@@ -135,14 +135,17 @@ impl Basin {
     fn head(&self) -> Value {
         let [x, y] = &self.axes;
         let surface = self.study.base.model().impact_surface();
-        json!({
+        let mut head = json!({
             "study": self.study.text,
             "x": x,
             "y": y,
             "side": SIDE,
             "start": { "y2": self.study.start.capsule().y2, "phase": self.study.start_phase },
-            (surface.symbol()): self.study.base[surface],
-        })
+        });
+        if let Some(surface) = surface {
+            head[surface.symbol()] = json!(self.study.base[surface]);
+        }
+        head
     }
 
     /// What the coarse grid of a pass shows, and the attractors that are known by now.
@@ -180,7 +183,7 @@ impl Basin {
                 "label": number,
                 (OUTCOME.name): orbit.outcome.name(),
                 (PERIOD.name): is_periodic.then_some(orbit.period),
-                "speed": orbit.outputs.speed(),
+                "speed": orbit.outputs.main(),
                 "colour": label_colour(Some(number as u32)),
                 "points": points.map(|it| [it[0], it[1]]).collect::<Vec<_>>(),
             }))
@@ -232,8 +235,8 @@ fn around(explored: &Explored, case: &Case) -> [[f64; 2]; 2] {
     let points = followed(case, from, shown(&orbit), protocol.tolerance);
     let parameters = &case.parameters;
     let model = parameters.model();
-    let [stiffness, _] = model.natural();
-    let usual = parameters[model.drive_amplitude()] / parameters[stiffness];
+    let stiffness = model.natural().map_or(1.0, |[stiffness, _]| parameters[stiffness]);
+    let usual = parameters[model.drive_amplitude()] / stiffness;
     let omega = parameters[model.drive_frequency()];
     let widest = |of: fn(&State<f64>) -> f64, usual: f64| {
         let values = points.iter().flatten().map(|it| of(&it.state));

@@ -48,7 +48,9 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "outputs": outputs.collect::<Vec<_>>(),
         "constants": model.parameters().filter(is_held).map(constant).collect::<Vec<_>>(),
         "has_curves": has_branches(frame),
-        "has_trade_off": has(model.speed()) && (has(model.work()) || has(model.power())),
+        "has_trade_off": model.has_trade_off()
+            && has(model.speed())
+            && (has(model.work()) || has(model.power())),
         "running": running,
         "inherits": study.inherit().is_some(),
         "program": provenance::program(&frame.attributes),

@@ -27,8 +27,11 @@ const TOGETHER: usize = 32;
 /// The parameters of a request beside the ends of the line.
 const KNOWN: [&str; 6] = ["count", "start", "log", "sweep", "kind", "format"];
 /// The outputs that are sent of each case.
-fn shown_outputs(model: &'static Description) -> [Output; 3] {
-    [model.speed(), model.power(), model.exponent()]
+fn shown_outputs(model: &'static Description) -> Vec<Output> {
+    match model.has_trade_off() {
+        true => vec![model.speed(), model.power(), model.exponent()],
+        false => vec![model.main_output(), model.exponent()],
+    }
 }
 /// Why a line that goes along no axis has no study.
 pub const NO_STUDY: &str = "a study varies one coordinate along an axis, and this line varies several together; a line along one axis \

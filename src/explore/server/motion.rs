@@ -61,7 +61,7 @@ pub struct Told {
 struct History {
     cycles: u64,
     period: f64,
-    delta: f64,
+    delta: Option<f64>,
     t: Vec<f64>,
     x1: Vec<f32>,
     x2: Vec<f32>,
@@ -122,7 +122,10 @@ fn end_of_simulation(simulation: &Simulation, cycles: u64) -> Option<String> {
 
 /// Why the speed of a case of the file is not the one that the file has, where its motion does not repeat.
 fn other_mean(explored: &Explored, near: &Near, orbit: &Orbit) -> Result<Option<String>, Refusal> {
-    let kept = explored.kept(&near.position, explored.study.base.model().speed())?;
+    if !explored.model().has_trade_off() {
+        return Ok(None);
+    }
+    let kept = explored.kept(&near.position, explored.model().speed())?;
     let differs = near.is_exact && orbit.outcome != Outcome::Periodic;
     Ok(kept.filter(|_| differs).map(|kept| {
         format!(
@@ -175,7 +178,7 @@ fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
     Some(History {
         cycles,
         period: parameters.drive_period(),
-        delta: parameters[parameters.model().impact_surface()],
+        delta: parameters.model().impact_surface().map(|it| parameters[it]),
         t: points.iter().map(|it| it.time).collect(),
         x1: column(&|it| it.state.x2 + it.state.r),
         x2: column(&|it| it.state.x2),

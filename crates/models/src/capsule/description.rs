@@ -7,7 +7,7 @@ use super::resistance::{Resistance, Switching};
 use super::state::State;
 use crate::description::{
     self, Choice, CoordinateDescription, Description, OutputDescription, ParameterDescription,
-    Roles,
+    Roles, TradeOffRoles,
 };
 use crate::quantity::shown::{shown, words};
 use crate::quantity::{Dimension, Quantity, Shown};
@@ -174,13 +174,15 @@ pub static CAPSULE: Description = Description {
     roles: Roles {
         drive_frequency: Parameter::Omega as usize,
         drive_amplitude: Parameter::Pd as usize,
-        impact_surface: Parameter::Delta as usize,
-        natural: [Parameter::K1 as usize, Parameter::M1 as usize],
-        speed: Output::ProgressionSpeed as usize,
-        work: Output::WorkPositive as usize,
-        power: Output::Power as usize,
-        energy_per_distance: Output::EnergyPerMetre as usize,
-        rest_share: Output::StickShare as usize,
+        impact_surface: Some(Parameter::Delta as usize),
+        natural: Some([Parameter::K1 as usize, Parameter::M1 as usize]),
+        trade_off: Some(TradeOffRoles {
+            speed: Output::ProgressionSpeed as usize,
+            work: Output::WorkPositive as usize,
+            power: Output::Power as usize,
+            energy_per_distance: Output::EnergyPerMetre as usize,
+        }),
+        rest_share: Some(Output::StickShare as usize),
         event_counts: &[
             Output::ImpactsPerCycle as usize,
             Output::ForwardSlips as usize,

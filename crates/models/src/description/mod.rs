@@ -17,7 +17,7 @@ pub use choice::Choice;
 pub use output::{Output, OutputDescription, Outputs};
 pub use parameter::{Parameter, ParameterDescription};
 pub use parameters::{Fault, Parameters};
-pub use roles::Roles;
+pub use roles::{Roles, TradeOffRoles};
 pub use rules::{NotGiven, Remark, Rules, Threshold};
 pub use section::{MOST_COORDINATES, Section};
 pub use state::{CoordinateDescription, State, StateCoordinate};

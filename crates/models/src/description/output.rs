@@ -112,8 +112,16 @@ impl Outputs {
     }
 
     /// What the motion gains (SI).
+    ///
+    /// # Panics
+    /// Where motions of the model gain nothing.
     pub fn speed(&self) -> f64 {
         self[self.model.speed()]
+    }
+
+    /// The output that is shown where no other is asked for (SI).
+    pub fn main(&self) -> f64 {
+        self[self.model.main_output()]
     }
 
     /// The same outputs with other values.

@@ -9,20 +9,14 @@ pub struct Roles {
     pub drive_frequency: usize,
     /// Its amplitude, that of a force: a parameter.
     pub drive_amplitude: usize,
-    /// The value of the first coordinate on the surface of impacts: a parameter.
-    pub impact_surface: usize,
-    /// A stiffness and a mass, whose natural frequency figures take as a unit: parameters.
-    pub natural: [usize; 2],
-    /// What a motion gains: the output that is to be large, in one of two directions.
-    pub speed: usize,
-    /// What it costs over a cycle.
-    pub work: usize,
-    /// What it costs over time.
-    pub power: usize,
-    /// What it costs over the distance that it gains.
-    pub energy_per_distance: usize,
-    /// The share of time at which it is at rest.
-    pub rest_share: usize,
+    /// The value of the first coordinate on the surface of impacts, if there is one: a parameter.
+    pub impact_surface: Option<usize>,
+    /// A stiffness and a mass, whose natural frequency figures take as a unit, if there is one: parameters.
+    pub natural: Option<[usize; 2]>,
+    /// What a motion gains and costs, if it gains anything.
+    pub trade_off: Option<TradeOffRoles>,
+    /// The share of time at which a motion is at rest, if it can be.
+    pub rest_share: Option<usize>,
     /// How often each event happens in a cycle.
     pub event_counts: &'static [usize],
     /// The largest Lyapunov exponent.
@@ -35,6 +29,44 @@ pub struct Roles {
     pub defect: usize,
     /// How far the section is from repeating after the period.
     pub section_residual: usize,
+}
+
+/// Places among the outputs of a model of what a motion gains and costs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TradeOffRoles {
+    /// What it gains: the output that is to be large, in one of two directions.
+    pub speed: usize,
+    /// What it costs over a cycle.
+    pub work: usize,
+    /// What it costs over time.
+    pub power: usize,
+    /// What it costs over the distance that it gains.
+    pub energy_per_distance: usize,
+}
+
+/// Outputs of the trade-off by their roles: name of the function, and what it is.
+macro_rules! outputs_of_trade_off {
+    ($($role:ident $meaning:literal;)*) => {
+        impl Description {
+            $(
+                #[doc = $meaning]
+                ///
+                /// # Panics
+                /// Where motions of the model gain nothing, see [`Description::has_trade_off`].
+                pub const fn $role(&'static self) -> Output {
+                    let roles = self.roles.trade_off.expect("motions of the model gain something");
+                    Output::of(self, roles.$role)
+                }
+            )*
+        }
+    };
+}
+
+outputs_of_trade_off! {
+    speed "What a motion gains: the output that is to be large, in one of two directions.";
+    work "What a motion costs over a cycle.";
+    power "What a motion costs over time.";
+    energy_per_distance "What a motion costs over the distance that it gains.";
 }
 
 /// Outputs by their roles: name of the function, and what it is.
@@ -52,11 +84,6 @@ macro_rules! outputs_by_role {
 }
 
 outputs_by_role! {
-    speed "What a motion gains: the output that is to be large, in one of two directions.";
-    work "What a motion costs over a cycle.";
-    power "What a motion costs over time.";
-    energy_per_distance "What a motion costs over the distance that it gains.";
-    rest_share "The share of time at which a motion is at rest.";
     exponent "The largest Lyapunov exponent.";
     exponent_error "The standard error of the largest Lyapunov exponent.";
     excluded_period "The longest period that is excluded, with all shorter ones.";
@@ -75,14 +102,35 @@ impl Description {
         Parameter::of(self, self.roles.drive_amplitude)
     }
 
-    /// The value of the first coordinate on the surface of impacts.
-    pub const fn impact_surface(&'static self) -> Parameter {
-        Parameter::of(self, self.roles.impact_surface)
+    /// The value of the first coordinate on the surface of impacts, if there is one.
+    pub fn impact_surface(&'static self) -> Option<Parameter> {
+        self.roles.impact_surface.map(|index| Parameter::of(self, index))
     }
 
-    /// A stiffness and a mass, whose natural frequency figures take as a unit.
-    pub fn natural(&'static self) -> [Parameter; 2] {
-        self.roles.natural.map(|index| Parameter::of(self, index))
+    /// A stiffness and a mass, whose natural frequency figures take as a unit, if there is one.
+    pub fn natural(&'static self) -> Option<[Parameter; 2]> {
+        Some(self.roles.natural?.map(|index| Parameter::of(self, index)))
+    }
+
+    /// The share of time at which a motion is at rest, if it can be.
+    pub fn rest_share(&'static self) -> Option<Output> {
+        self.roles.rest_share.map(|index| Output::of(self, index))
+    }
+
+    /// Whether a motion gains anything, for which it has a cost.
+    pub fn has_trade_off(&'static self) -> bool {
+        self.roles.trade_off.is_some()
+    }
+
+    /// What is shown of a motion where nothing else is asked for: what it gains and costs over a cycle, if it does.
+    pub fn gain_and_work(&'static self) -> Vec<Output> {
+        let roles = self.roles.trade_off.map(|it| [it.speed, it.work]);
+        roles.into_iter().flatten().map(|index| Output::of(self, index)).collect()
+    }
+
+    /// The one output that is shown where no other is asked for: what a motion gains, or the first.
+    pub fn main_output(&'static self) -> Output {
+        Output::of(self, self.roles.trade_off.map_or(0, |it| it.speed))
     }
 
     /// How often each event happens in a cycle.
