@@ -1,6 +1,6 @@
 //! Campaigns without a terminal: stopped, resumed, shared, joined, verified and replayed by the library alone.
 
-mod place;
+pub mod place;
 
 use std::fs;
 use std::ops::ControlFlow;

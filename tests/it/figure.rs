@@ -12,7 +12,8 @@ pub mod fixtures;
 
 use fixtures::{Fixture, OUTCOMES, cascade, plane, steps, with_history};
 
-const ALL: [Format; 3] = [Format::Png, Format::Svg, Format::Pdf];
+/// Every format.
+pub const ALL: [Format; 3] = [Format::Png, Format::Svg, Format::Pdf];
 
 /// A folder for the figures of one test, kept in the build folder to be looked at.
 pub fn folder(name: &str) -> PathBuf {

@@ -59,6 +59,7 @@ mod mutants;
 mod numbers;
 mod one_coefficient;
 mod optima;
+mod other_models;
 mod own_capsule;
 mod outputs;
 mod panels;

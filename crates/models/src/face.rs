@@ -4,7 +4,7 @@ use capsulemap_engine::branch::{self, NotFollowed};
 use capsulemap_engine::flow::System;
 use capsulemap_engine::orbit::{self, OrbitOf, Protocol};
 
-use crate::description::{Description, Outputs, Parameter, Parameters, State};
+use crate::description::{Description, Outputs, Parameter, Parameters, Section, State};
 use crate::motion::branch::{Found, Request};
 use crate::motion::{Case, Orbit, Sensitivity, Setting};
 
@@ -22,8 +22,31 @@ pub trait Face<const D: usize>: System<D> + 'static {
     /// The state that is described so.
     fn state(state: &State) -> Self::State<f64>;
 
+    /// The same, told by the description.
+    fn told(state: &Self::State<f64>) -> State;
+
     /// What a case has settled to, with its outputs, and its history where the protocol asks for it.
-    fn orbit(orbit: OrbitOf<Self, D>, case: &Case, protocol: &Protocol) -> Orbit;
+    ///
+    /// Unless a model has it another way: without impacts and histories.
+    fn orbit(orbit: OrbitOf<Self, D>, case: &Case, protocol: &Protocol) -> Orbit {
+        let system = Self::of(&case.parameters, case.section_phase);
+        let outputs = match orbit.failure {
+            None => system.outputs(&orbit, protocol.recurrence),
+            Some(_) => Outputs::unknown(Self::description()),
+        };
+        Orbit {
+            outcome: orbit.outcome,
+            period: orbit.period,
+            certificate: orbit.certificate.map(Section::from),
+            cycles: orbit.cycles,
+            outputs,
+            section: orbit.section.into_iter().map(Section::from).collect(),
+            impacts: Vec::new(),
+            history: Vec::new(),
+            end: Self::told(&orbit.end),
+            failure: orbit.failure.map(|it| it.map(|state| Self::told(&state))),
+        }
+    }
 
     /// The outputs of an orbit that has closed; `recurrence` is how closely the section had to repeat, relative to the motion.
     fn outputs(&self, orbit: &OrbitOf<Self, D>, recurrence: f64) -> Outputs;

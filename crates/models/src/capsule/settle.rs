@@ -175,6 +175,10 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
         state.into()
     }
 
+    fn told(state: &State<f64>) -> description::State {
+        (*state).into()
+    }
+
     fn orbit(orbit: OrbitOf<Self, 3>, case: &Case, protocol: &Protocol) -> Orbit {
         orbit_of::<R>(orbit, case, protocol)
     }

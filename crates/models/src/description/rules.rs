@@ -48,3 +48,14 @@ pub struct Rules {
     /// Takes a value for a parameter that is not given from another that is; says which, if it did.
     pub complete: fn(&mut Parameters, Which<'_>) -> Option<NotGiven>,
 }
+
+impl Rules {
+    /// Of a model whose parameters all have an effect, whatever the others are, and stand for no other.
+    pub const NONE: Rules = Rules {
+        no_effect: |_, _| None,
+        no_effect_below: |_, _| None,
+        remarks: |_| Vec::new(),
+        missing: |_, _, _| None,
+        complete: |_, _| None,
+    };
+}
