@@ -36,25 +36,20 @@ name = \"of the middle\"
 along = \"wall\"
 from = \"0.4\"
 to = \"1.2\"
-[branches.parameters]
-wall = \"1.1\"
+at = { wall = \"1.1\", c = \"0.1\" }
 ";
 
-/// Starts of one oscillator.
+/// Starts of one oscillator, of which some never meet the wall again and others always do.
 const STARTS: &str = "model = \"impact-oscillator\"
-[parameters]
-w = \"2.6\"
-c = \"0.05\"
-wall = \"0.1\"
 [[axes]]
 name = \"start_x\"
-from = \"-1.5\"
-to = \"0.05\"
+from = \"-3\"
+to = \"0.9\"
 points = 40
 [[axes]]
 name = \"start_v\"
-from = \"-2\"
-to = \"2\"
+from = \"-3\"
+to = \"3\"
 points = 40
 ";
 
