@@ -77,7 +77,8 @@ fn add_multipliers(dataset: &mut Dataset, own: &OrbitColumns, rows: &[Row<'_>]) 
     let parts: [fn(&Complex) -> f64; 2] = [|multiplier| multiplier.re, |multiplier| multiplier.im];
     for (entry, part) in own.multipliers.into_iter().zip(parts) {
         let values = rows.iter().flat_map(|row| row.point.multipliers.iter().map(part)).collect();
-        dataset.put_column(entry, table(rows.len(), 3, values));
+        let count = dataset.model().section.len();
+        dataset.put_column(entry, table(rows.len(), count, values));
     }
 }
 

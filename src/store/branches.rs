@@ -54,7 +54,7 @@ pub fn add_branches(dataset: &mut Dataset, study: &Study, continued: &[Continued
         (INDEX, flat.branches.len()),
         (BRANCH_POINT, flat.points.len()),
         (BRANCH_CYCLE, longest.max().unwrap_or(0)),
-        (BRANCH_MULTIPLIER, 3),
+        (BRANCH_MULTIPLIER, dataset.model().section.len()),
         (SPECIAL_POINT, flat.specials.len()),
         (CURVE_INDEX, flat.curves.len()),
         (CURVE_POINT, flat.curve_points.len()),

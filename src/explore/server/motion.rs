@@ -80,6 +80,9 @@ struct History {
 /// Fails if a coordinate is out of its bounds, or it takes longer than a click may.
 pub fn motion(explored: &Explored, asked: &Asked) -> Result<Told, Refusal> {
     asked.only(explored.model(), &[CYCLES.name, "sweep"])?;
+    if explored.model().histories.is_empty() {
+        return Err(Refusal::unfit("the model of these results tells no histories of its motions"));
+    }
     let cycles = asked.count(CYCLES.name, [0, 400], TRANSIENT as usize)? as u64;
     let near = explored.near(&asked.coordinates(explored.model())?, asked.sweep()?)?;
     let protocol = explored.protocol();
