@@ -109,9 +109,11 @@ fn its_cases_are_those_of_the_engine_and_of_the_closed_form() {
         let Impactor { c, f, w, wall, .. } = oscillator.system;
         let stiffness = 1.0 - w * w;
         let amplitude = f / f64::hypot(stiffness, c * w);
-        if amplitude < 0.99 * wall {
-            let exact = f * stiffness / (stiffness * stiffness + c * w * c * w);
-            assert!((x[8 * index] - exact).abs() < 1e-9, "{} {exact}", x[8 * index]);
+        let exact = f * stiffness / (stiffness * stiffness + c * w * c * w);
+        // Beside the orbit without impacts there may be one with them, which is another.
+        let apart = (x[8 * index] - exact).abs();
+        if amplitude < 0.99 * wall && apart < 1e-3 {
+            assert!(apart < 1e-9, "{} {exact}", x[8 * index]);
             free += 1;
         } else if orbit.period == 1 && (orbit.section[0][0] - x[8 * index]).abs() < 1e-6 {
             assert!((orbit.size - sizes[index]).abs() < 1e-9 * sizes[index]);
