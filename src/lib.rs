@@ -152,7 +152,7 @@
 //! # The floors
 //!
 //! The modules are floors, and each uses only those before it: [`lane`], [`flow`], [`orbit`], [`branch`] and [`attractor`] of the crate
-//! `capsulemap-engine`, [`quantity`], [`capsule`], [`model`] and [`of`] of `capsulemap-models`, and then those of this crate in the order of this file; each
+//! `capsulemap-engine`, [`quantity`], [`description`], [`motion`], [`face`], [`capsule`], [`model`] and [`of`] of `capsulemap-models`, and then those of this crate in the order of this file; each
 //! opens with a sentence saying what it does. Nothing above the models is generic over a system: it asks [`model::Model`]. Without the
 //! feature `cli` the library ends at `tradeoff` and needs neither HDF5 nor plotters nor clap.
 

@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::document::Faults;
-use super::study_file::model_in;
+use super::named_model::model_in;
 use crate::quantity::printable::one_line;
 
 /// The key by which a study names its parameter file.

@@ -14,6 +14,7 @@ pub mod draws;
 pub mod grid;
 pub mod include;
 pub(crate) mod layout;
+mod named_model;
 mod parameter_table;
 mod refine_file;
 pub mod refinement;

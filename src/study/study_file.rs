@@ -1,7 +1,6 @@
 //! The study file: which keys it has, what they mean and what is allowed.
 
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 use super::Refine;
 use super::axis_file::read_case_set;
@@ -10,11 +9,11 @@ use super::definition::Study;
 use super::document::{Faults, Reader, Table};
 use super::drawing_file::read_drawings;
 use super::include;
+use super::named_model::{check_model, model_in};
 use super::parameter_table::read_parameters;
 use super::refine_file::{read_basin, read_map};
 use super::start_file::read_start;
-use crate::description::{Description, Output};
-use crate::of::{all_models, default_model};
+use crate::description::Output;
 use crate::orbit::exponent::BATCHES;
 use crate::orbit::{HistorySpan, Protocol};
 use crate::quantity::Dimension;
@@ -75,26 +74,6 @@ impl Study {
         top.finish();
         reader.finish(name)?;
         Ok(study)
-    }
-}
-
-/// The key by which a study names its model.
-const MODEL: &str = "model";
-
-/// The model that a study names; that of studies which name none where it names none that is known.
-pub(super) fn model_in(document: &DeTable<'_>) -> &'static Description {
-    let named = match document.get(MODEL).map(Spanned::get_ref) {
-        Some(DeValue::String(name)) => all_models().into_iter().find(|it| it.name == *name),
-        _ => None,
-    };
-    named.unwrap_or_else(default_model)
-}
-
-/// Checks that a study names a model that is known, if it names one.
-fn check_model(top: &Table<'_, '_>) {
-    if let Some(entry) = top.entry(MODEL) {
-        let names: Vec<(&str, ())> = all_models().iter().map(|it| (it.name, ())).collect();
-        entry.one_of("model", &names);
     }
 }
 

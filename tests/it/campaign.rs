@@ -323,7 +323,8 @@ fn a_probe_tells_time_and_room_and_writes_nothing() {
     // So short a study is over before the time.
     assert_eq!((found.cases, found.blocks), (3072, 6));
     let seconds = found.seconds.expect("a time");
-    assert!((seconds.value - found.time.as_secs_f64()).abs() < 1e-9 && seconds.error == 0.0);
+    // What it takes to pack the blocks comes on top.
+    assert!(seconds.value > found.time.as_secs_f64() && seconds.error == 0.0);
     assert!(found.bytes > 1e5 && found.bytes < 1e8, "{}", found.bytes);
     let part = probe(&study, Machine::default(), Duration::ZERO, &silent).expect("it is computed");
     assert!(part.cases < 3072, "{}", part.cases);

@@ -12,11 +12,12 @@ use std::path::{Path, PathBuf};
 pub const LIBRARY: [&str; 4] =
     ["src", "crates/engine/src", "crates/models/src", "crates/commit/src"];
 /// These, the tests and the benches.
-pub const FOLDERS: [&str; 8] = [
+pub const FOLDERS: [&str; 9] = [
     "src",
     "crates/engine/src",
     "crates/models/src",
     "crates/commit/src",
+    "crates/oscillators/src",
     "crates/engine/tests",
     "crates/models/tests",
     "tests",
@@ -24,7 +25,7 @@ pub const FOLDERS: [&str; 8] = [
 ];
 
 /// The floors from the ground up; a floor uses only those before it.
-const FLOORS: [&str; 19] = [
+const FLOORS: [&str; 21] = [
     "lane",
     "flow",
     "orbit",
@@ -32,6 +33,8 @@ const FLOORS: [&str; 19] = [
     "attractor",
     "quantity",
     "description",
+    "motion",
+    "face",
     "capsule",
     "model",
     "of",

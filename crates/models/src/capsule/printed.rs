@@ -14,8 +14,7 @@ use super::regime::{CONTACT, PrintedMode, Regime, Rules, sign};
 use super::resistance::Resistance;
 use super::state::{EventKind, Jet, State};
 use super::{CapsuleParameters as _, Parameter};
-use crate::description::Parameters;
-use crate::motion::reduced;
+use crate::{description::Parameters, motion};
 
 /// The capsule with the switching as printed, one set of parameters per lane.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +48,7 @@ impl<L: Lane> PrintedCapsule<L> {
             delta: of(Parameter::Delta),
             m1: of(Parameter::M1),
             m2: of(Parameter::M2),
-            drive: Drive::new(&of, L::splat(reduced(phase))),
+            drive: Drive::new(&of, L::splat(motion::reduced(phase))),
             drag: Drag::new(&of, law),
         }
     }

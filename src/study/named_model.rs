@@ -1,0 +1,28 @@
+//! The model that a study names: `model = "..."`.
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::document::Table;
+use crate::description::Description;
+use crate::of::{all_models, default_model};
+
+/// The key by which a study names its model.
+const MODEL: &str = "model";
+
+/// The model that a study names; that of studies which name none where it names none that is known.
+pub(super) fn model_in(document: &DeTable<'_>) -> &'static Description {
+    let named = match document.get(MODEL).map(Spanned::get_ref) {
+        Some(DeValue::String(name)) => all_models().into_iter().find(|it| it.name == *name),
+        _ => None,
+    };
+    named.unwrap_or_else(default_model)
+}
+
+/// Checks that a study names a model that is known, if it names one.
+pub(super) fn check_model(top: &Table<'_, '_>) {
+    if let Some(entry) = top.entry(MODEL) {
+        let names: Vec<(&str, ())> = all_models().iter().map(|it| (it.name, ())).collect();
+        entry.one_of("model", &names);
+    }
+}
