@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 use crate::capsule::{CapsuleParameters as _, Simulation};
 use crate::description::Parameters;
 use crate::motion::Orbit;
+use crate::of::model_of;
 use crate::orbit::{Certificate, Outcome, Proof};
 use crate::store::catalogue::{CERTIFICATE, CYCLES, OUTCOME, PERIOD};
 
@@ -56,22 +57,18 @@ fn orbit_json(orbit: &Orbit) -> Value {
 pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Some(direction) = orbit.certificate.neutral {
-        let [r, y1, y2] = direction.array().map(|x: f64| (x * 1e4).round() / 1e4 + 0.0);
+        let parts = direction.iter().map(|x| ((x * 1e4).round() / 1e4 + 0.0).to_string());
+        let parts = parts.collect::<Vec<_>>().join(", ");
+        let names = parameters.model().compared_as.join(", ");
         let rest_share = orbit.outputs.model().rest_share();
         let rests = rest_share.is_some_and(|share| orbit.outputs[share] >= 1.0);
         let speed = if rests { "" } else { ", and with it the speed" };
         remarks.push(format!(
             "neutral: as far as rounding tells (a multiplier within 1e-7 of one) this is one of a family of \
-             periodic orbits along (omega r, y1, y2) = ({r}, {y1}, {y2}); the start decides which{speed}"
+             periodic orbits along ({names}) = ({parts}); the start decides which{speed}"
         ));
     }
-    let rests = orbit.section.first().is_some_and(|point| point[2] == 0.0);
-    if orbit.outcome == Outcome::Periodic && rests && parameters.break_away() > 0.0 {
-        remarks.push(
-            "the capsule sticks at the section: its multiplier 0 is that of disturbances after which it sticks again"
-                .to_owned(),
-        );
-    }
+    remarks.extend(model_of(parameters).remarks(parameters, orbit));
     let model = parameters.model();
     let [exponent, uncertainty, excluded, defect] =
         [model.exponent(), model.exponent_error(), model.excluded_period(), model.defect()]

@@ -43,8 +43,8 @@ pub fn edges(study: &Study, attractors: &Attractors, machine: Machine) -> Vec<Ed
         return Vec::new();
     }
     let setting = Setting::of(&study.case(0));
-    let known = (0..).zip(&attractors.of_starts).collect();
-    let leads = study.model().leads(&setting, &study.protocol, machine, known);
+    let known: Vec<_> = (0..).zip(&attractors.of_starts).collect();
+    let leads = study.model().leads(&setting, &study.protocol, machine, &known);
     let point = |case: usize| study.case(case).start.section();
     let mut found = BTreeMap::new();
     let mut between_others = Vec::new();

@@ -45,9 +45,9 @@ fn elsewhere(
     attractors: &Attractors,
     machine: Machine,
 ) -> usize {
-    let known = (0..).zip(&attractors.of_starts).collect();
+    let known: Vec<_> = (0..).zip(&attractors.of_starts).collect();
     let setting = Setting::of(&study.case(0));
-    let leads = study.model().leads(&setting, &study.protocol, machine, known);
+    let leads = study.model().leads(&setting, &study.protocol, machine, &known);
     let goes_elsewhere = |record: &&Record| {
         let number = leads.number(&final_motion(&record.orbit));
         number != attractors.of_case[record.index]

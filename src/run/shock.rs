@@ -25,7 +25,7 @@ pub(super) fn shocks(
         return vec![f64::NAN; known.len()];
     }
     let setting = Setting::of(&study.case(case));
-    let leads = study.model().leads(&setting, &study.protocol, machine, known.to_vec());
+    let leads = study.model().leads(&setting, &study.protocol, machine, known);
     let is_disturbed = |it: &Attractor<Section>| (1..=MOST_POINTS).contains(&it.points.len());
     let shock = |(number, attractor): &(u32, &Attractor<Section>)| {
         // To a section point of any other attractor is a shock.

@@ -48,6 +48,11 @@ pub trait Face<const D: usize>: System<D> + 'static {
         }
     }
 
+    /// What is to be said of an orbit beside its numbers, in sentences.
+    fn remarks(_parameters: &Parameters, _orbit: &Orbit) -> Vec<String> {
+        Vec::new()
+    }
+
     /// The outputs of an orbit that has closed; `recurrence` is how closely the section had to repeat, relative to the motion.
     fn outputs(&self, orbit: &OrbitOf<Self, D>, recurrence: f64) -> Outputs;
 

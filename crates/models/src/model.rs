@@ -10,7 +10,7 @@ use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::matrix::Complex;
 use capsulemap_engine::orbit::{Machine, Protocol};
 
-use crate::description::{Description, Outputs, Parameter, Section};
+use crate::description::{Description, Outputs, Parameter, Parameters, Section};
 use crate::motion::branch::{Found, Request};
 pub use crate::motion::{Case, Orbit, Sensitivity, Setting};
 
@@ -159,6 +159,9 @@ pub trait Model: Debug + Send + Sync {
     /// What it says of itself.
     fn description(&self) -> &'static Description;
 
+    /// What is to be said of an orbit beside its numbers, in sentences.
+    fn remarks(&self, parameters: &Parameters, orbit: &Orbit) -> Vec<String>;
+
     /// What the coordinates of section points are multiplied by to be compared with each other.
     fn scales(&self, setting: &Setting) -> Section;
 
@@ -238,13 +241,13 @@ pub trait Model: Debug + Send + Sync {
     ) -> Vec<Bridge<Section>>;
 
     /// What tells to which of the attractors that are `known` by their numbers motions of a setting lead.
-    fn leads<'a>(
+    fn leads(
         &self,
         setting: &Setting,
         protocol: &Protocol,
         machine: Machine,
-        known: Vec<(u32, &'a Attractor<Section>)>,
-    ) -> Box<dyn Leads + 'a>;
+        known: &[(u32, &Attractor<Section>)],
+    ) -> Box<dyn Leads>;
 
     /// The section points of so many cycles from a point on, that among them; none where it cannot be followed.
     fn section_points(

@@ -212,6 +212,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
         number("section_x", "displacement at the stroboscopic section"),
         number("section_v", "velocity at the stroboscopic section"),
     ],
+    compared_as: &["w x", "v"],
     neutral: &[
         number("neutral_x", "part of w x in the direction of the family of a neutral orbit"),
         number("neutral_v", "part of v in the direction of the family of a neutral orbit"),

@@ -165,6 +165,7 @@ pub static CAPSULE: Description = Description {
     ],
     drift: Some(2),
     section: SECTION,
+    compared_as: &["omega r", "y1", "y2"],
     neutral: &[NEUTRAL_R, NEUTRAL_Y1, NEUTRAL_Y2],
     edge: &[EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2],
     end: &[END_R, END_Y1, END_Y2],

@@ -183,6 +183,13 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
         orbit_of::<R>(orbit, case, protocol)
     }
 
+    fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
+        let rests = orbit.section.first().is_some_and(|point| point[2] == 0.0);
+        let sticks = orbit.outcome == Outcome::Periodic && rests && parameters.break_away() > 0.0;
+        let remark = "the capsule sticks at the section: its multiplier 0 is that of disturbances after which it sticks again";
+        sticks.then(|| remark.to_owned()).into_iter().collect()
+    }
+
     fn outputs(&self, orbit: &OrbitOf<Self, 3>, recurrence: f64) -> description::Outputs {
         outputs(orbit, &self.parameters, recurrence).into()
     }

@@ -36,7 +36,9 @@ pub struct Description {
     pub drift: Option<usize>,
     /// The coordinates of a point of the stroboscopic section.
     pub section: &'static [Quantity],
-    /// The parts of the direction of the family of a neutral orbit, in the units of the metric.
+    /// As what the coordinates of section points are compared with each other, in words.
+    pub compared_as: &'static [&'static str],
+    /// The parts of the direction of the family of a neutral orbit, as they are compared.
     pub neutral: &'static [Quantity],
     /// The section coordinates of a saddle between two basins.
     pub edge: &'static [Quantity],

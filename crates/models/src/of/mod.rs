@@ -22,7 +22,7 @@ use capsulemap_engine::orbit::return_map::{Cycles, append_points, observed};
 use capsulemap_engine::orbit::{Batch, KnownOrbits, Machine, Protocol, Underway, settle_all};
 
 use crate::capsule::{AsPrinted, CapsuleSystem, Filippov};
-use crate::description::{Description, Outputs, Parameter, Section};
+use crate::description::{Description, Outputs, Parameter, Parameters, Section};
 use crate::face::{self, Face, engine_case, system};
 use crate::model::{
     Along, Batches, CaseQueue, Cell, Known, Leads, LinearOrbits, Model, Motions, Neighbours,
@@ -94,6 +94,10 @@ type LinearOf<M, const D: usize> = Vec<Option<Linearised<<M as System<D>>::Event
 impl<M: Face<D>, const D: usize> Model for Of<M, D> {
     fn description(&self) -> &'static Description {
         M::description()
+    }
+
+    fn remarks(&self, parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
+        M::remarks(parameters, orbit)
     }
 
     fn scales(&self, setting: &Setting) -> Section {
@@ -220,16 +224,16 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
         bridges.into_iter().map(|it| it.map(Into::into)).collect()
     }
 
-    fn leads<'a>(
+    fn leads(
         &self,
         setting: &Setting,
         protocol: &Protocol,
         machine: Machine,
-        known: Vec<(u32, &'a Attractor<Section>)>,
-    ) -> Box<dyn Leads + 'a> {
+        known: &[(u32, &Attractor<Section>)],
+    ) -> Box<dyn Leads> {
         let known = known
-            .into_iter()
-            .map(|(number, it)| (number, it.clone().map(|point| point.array())))
+            .iter()
+            .map(|(number, it)| (*number, Attractor::clone(it).map(|point| point.array())))
             .collect();
         Box::new(leads::LeadsOf::<M, D>::new(system(setting), protocol, machine, known))
     }

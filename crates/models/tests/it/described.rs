@@ -22,6 +22,7 @@ static OTHER: Description = Description {
     coordinates: &[],
     drift: None,
     section: &[],
+    compared_as: &[],
     neutral: &[],
     edge: &[],
     end: &[],
