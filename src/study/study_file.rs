@@ -38,8 +38,8 @@ impl Study {
             return Err(reader.faults(name));
         }
         let top = Table::new(&reader, document.get_ref());
-        check_model(&top);
         let title = read_title(&top);
+        check_model(&top);
         // The name of a parameter file stands for its values, which are in the text by now.
         if let Some(entry) = top.entry(include::KEY) {
             entry.fault("must be the name of one parameter file beside the study, as \"rig.toml\"");

@@ -283,7 +283,8 @@ fn fault(dataset: &Dataset, name: &str, variable: &Variable) -> Option<String> {
     let known = entry.flags();
     // What has not been computed has no outcome.
     let is_known = |flag: &(i64, String)| known.contains(flag) || flag.1 == "inferred";
-    let flags_fit = name == catalogue::BLOCK_MAKER.name || variable.flags.iter().all(is_known);
+    let of_file = matches!(entry.numbers, Type::CategoryOfFile);
+    let flags_fit = of_file || variable.flags.iter().all(is_known);
     let dimensions = variable.dimensions.iter().map(String::as_str);
     let inner: Vec<&str> = dimensions.filter(|dimension| !is_axis(dimension)).collect();
     let right = (variable.unit.as_str(), variable.long_name.as_str()) == (unit, entry.meaning)

@@ -1,7 +1,7 @@
 //! The entries of the branches, their special points and their curves.
 
 use super::entry::{Entry, Extent::*, Type::*, entries};
-use super::flags::{ends, of_model, results, specials, stabilities};
+use super::flags::{ends, results, specials, stabilities};
 
 /// The text of a file that names the branches of the study, one a line.
 pub const BRANCH_NAMES: &str = "branch_names";
@@ -11,7 +11,7 @@ entries! {
         "branch that the study asks for";
     REQUEST_RESULT "request_result" "1" Table(REQUEST.name), Category(results), None,
         "what came of the branch";
-    REQUEST_ALONG "request_along" "1" Table(REQUEST.name), Category(of_model), None,
+    REQUEST_ALONG "request_along" "1" Table(REQUEST.name), CategoryOfFile, None,
         "parameter that is followed";
     REQUEST_PHASE "request_phase" "rad" Table(REQUEST.name), Real, None,
         "phase of the drive at the section";
@@ -20,7 +20,7 @@ entries! {
         "branch that was followed";
     INDEX_REQUEST "index_request" "1" Table(INDEX.name), Whole, None,
         "branch of the study that led here";
-    INDEX_ALONG "index_along" "1" Table(INDEX.name), Category(of_model), None,
+    INDEX_ALONG "index_along" "1" Table(INDEX.name), CategoryOfFile, None,
         "parameter that is followed";
     INDEX_PERIOD "index_period" "1" Table(INDEX.name), Whole, None,
         "period of its orbits in drive cycles";

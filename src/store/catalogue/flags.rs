@@ -34,11 +34,6 @@ pub fn specials() -> Flags {
     SpecialKind::NAMES.map(|(name, kind)| (kind as i64, name.to_owned())).to_vec()
 }
 
-/// Those of the model of the results, which the column has, see [`parameters`].
-pub fn of_model() -> Flags {
-    Flags::new()
-}
-
 /// The parameters of a model by their symbols.
 pub fn parameters(model: &'static Description) -> Flags {
     model.parameters().map(|it| (it.index() as i64, it.symbol().to_owned())).collect()

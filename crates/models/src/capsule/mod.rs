@@ -7,6 +7,7 @@ pub mod description;
 pub mod filippov;
 pub mod drag;
 pub mod drive;
+mod face;
 mod failure;
 mod forces;
 mod friction_rules;
