@@ -91,3 +91,28 @@ pub fn final_motions(study: &Study, records: &[Record]) -> FinalMotions {
     let of = |record: &Record| (record.index, final_motion(&record.orbit));
     FinalMotions::of(study, records.iter().map(of))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::Outcome;
+    use crate::study::Refine;
+
+    #[test]
+    fn what_is_held_flat_comes_back_as_it_was() {
+        let text = "[parameters]\nk2 = \"18.96 kN/m\"\ndelta = \"1.5 mm\"\np_d = \"3 N\"\n\
+                    [[axes]]\nname = \"omega\"\nfrom = \"30 rad/s\"\nto = \"90 rad/s\"\npoints = 5\n";
+        let study = Study::parse("study.toml", text).unwrap_or_else(|faults| panic!("{faults}"));
+        let motion = |case: usize| {
+            let section = [case as f64, 0.5, -1.0].into();
+            FinalMotion::new(Outcome::Periodic, case as u32, section, 1e-13, &[])
+        };
+        let known = [4, 1].map(|case| (case, motion(case)));
+        let refined = Study { refine: Some(Refine::Attractors), ..study.clone() };
+        for study in [study, refined] {
+            let all = FinalMotions::of(&study, known.into_iter());
+            assert_eq!(all.known().collect::<Vec<_>>(), [1, 4].map(|case| (case, motion(case))));
+            assert_eq!((all.get(4), all.get(2)), (Some(motion(4)), None));
+        }
+    }
+}

@@ -4,7 +4,7 @@ use capsulemap_models::capsule::description::CAPSULE;
 use capsulemap_models::capsule::{
     CapsuleParameters as _, Forces, Output, Parameter, Parameters, Resistance, State, Switching,
 };
-use capsulemap_models::description::{Description, ParameterDescription};
+use capsulemap_models::description::{self, Description, ParameterDescription, Section};
 use capsulemap_models::of::default_model;
 use capsulemap_models::quantity::{Allowed, Dimension, Quantity};
 
@@ -120,4 +120,26 @@ fn what_is_said_to_have_no_effect_has_none() {
         }
     }
     assert!(idle > 20, "{idle}");
+}
+
+#[test]
+fn a_state_is_shown_with_its_units_as_the_capsule_shows_it() {
+    let state = State { r: 1.5e-3, y1: -0.25, x2: 4.0, y2: 0.0 };
+    assert_eq!(description::State::from(state).to_string(), state.to_string());
+}
+
+#[test]
+fn a_section_point_is_the_list_of_its_coordinates() {
+    let point = description::State::from(State { r: 1.0, y1: 2.0, x2: 3.0, y2: 4.0 }).section();
+    assert_eq!(
+        (point.array(), format!("{point:?}")),
+        ([1.0, 2.0, 4.0], "[1.0, 2.0, 4.0]".to_owned())
+    );
+    assert!(
+        point == [1.0, 2.0, 4.0]
+            && point != [1.0, 2.0]
+            && point == point.iter().copied().collect::<Section>()
+    );
+    let at = description::State::at_section(&CAPSULE, &point);
+    assert_eq!(State::from(&at), State { r: 1.0, y1: 2.0, x2: 0.0, y2: 4.0 });
 }
