@@ -5,14 +5,14 @@ use std::f64::consts::PI;
 use capsulemap_engine::flow::{Event, Field, Stroboscopic, Switched, Taylor, Zeros};
 use capsulemap_engine::lane::elementary::{not_finite, sin_cos};
 use capsulemap_engine::lane::{Lane, ORDER, Series, series};
-use capsulemap_engine::orbit::OrbitOf;
+use capsulemap_engine::orbit::{self, OrbitOf, Protocol};
 use capsulemap_engine::{in_lanes, own_system};
 use capsulemap_models::description::{
     CoordinateDescription, Description, Output, OutputDescription, Outputs, Parameter,
     ParameterDescription, Parameters, Roles, Rules, State,
 };
-use capsulemap_models::face::Face;
-use capsulemap_models::motion::Sensitivity;
+use capsulemap_models::face::{Face, engine_case};
+use capsulemap_models::motion::{Case, Sensitivity};
 use capsulemap_models::of::Of;
 use capsulemap_models::quantity::{Allowed, Dimension, Quantity};
 
@@ -300,4 +300,10 @@ impl Face<2> for Impactor<f64> {
     fn sensitivity(&self, _: (&[f64; 2], u64), _: f64, _: &'static str) -> Option<Sensitivity> {
         None
     }
+}
+
+/// The oscillator of a case, and what the engine alone says that it settles to.
+pub fn settled(case: &Case, protocol: &Protocol) -> (Impactor<f64>, OrbitOf<Impactor<f64>, 2>) {
+    let case = engine_case::<Impactor<f64>, 2>(case);
+    (case.system, orbit::settle(&case, protocol))
 }

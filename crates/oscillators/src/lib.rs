@@ -2,4 +2,4 @@
 
 mod impact;
 
-pub use impact::{IMPACT, IMPACT_OSCILLATOR, Impactor};
+pub use impact::{IMPACT, IMPACT_OSCILLATOR, Impactor, settled};
