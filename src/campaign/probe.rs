@@ -12,13 +12,11 @@ use crate::run::{
     CHECKED, Estimate, Forecast, Machine, Record, RunError, count_threads, run_blocks, run_sample,
     run_tiles,
 };
-use crate::store::{file_bytes, numbers_of_case, packed_bytes, refined_file_bytes, storing};
+use crate::store::{RUN, file_bytes, numbers_of_case, packed_bytes, refined_file_bytes, storing};
 use crate::study::{CaseSet, Direction, Refinement, Study, spread};
 
 /// Records whose size is measured.
 const WEIGHED: usize = 4096;
-/// Records are kept in runs of so many neighbours, as equal numbers beside each other are compressed.
-const RUN: usize = 128;
 /// Runs that are computed together, which fill the lanes.
 const RUNS_TOGETHER: usize = 4;
 /// Numbers in the tiles of a refined study whose size in the file is measured, at most.
@@ -39,7 +37,8 @@ pub struct Probe {
     pub blocks: usize,
     /// The time it took.
     pub time: Duration,
-    /// Time that all cases would take on the same machine, to be computed and packed, and of those that are inferred a sample to be checked [s]; none if no case was done.
+    /// Time that all cases would take on the same machine, to be computed and packed, and of those that are inferred a sample to
+    /// be checked [s]; none if no case was done.
     pub seconds: Option<Estimate>,
     /// Time that the search for attractors would take after that [s]; none if there is none.
     pub searching: Option<Estimate>,

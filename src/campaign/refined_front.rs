@@ -17,8 +17,6 @@ use crate::of::settle_case;
 use crate::orbit::{Outcome, Protocol};
 use crate::run::{Machine, on_all_threads};
 use crate::store::Archive;
-use crate::store::StoreError;
-use crate::store::catalogue::{self, Entry};
 use crate::study::{Coordinate, Study};
 use crate::tradeoff::{
     Best, Candidate, Direction, Family, Goal, MOST_FREE, OperatingPoint, best, left,
@@ -336,16 +334,8 @@ impl Refinement<'_> {
 
     /// A section point of a periodic case: from the file, or computed again where that keeps none.
     fn section(&self, case: usize) -> Result<Option<Section>, CampaignError> {
-        let at = [self.study.case_set.position(case)];
-        let coordinate = |entry: Entry| -> Result<f64, StoreError> {
-            let rows = self.archive.rows(entry.name, &at)?;
-            let first = rows.first().and_then(|row| row.to_real().into_iter().next());
-            Ok(first.unwrap_or(f64::NAN))
-        };
-        let entries = catalogue::section(self.study.base.model()).into_iter();
-        let point: Section = entries.map(coordinate).collect::<Result<_, StoreError>>()?;
-        if point.iter().all(|it| it.is_finite()) {
-            return Ok(Some(point));
+        if let Some(kept) = self.archive.section_point(&self.study.case_set.position(case))? {
+            return Ok(Some(kept));
         }
         let replay = Replay::new(self.study, case)?;
         let orbit = settle_case(&replay.as_run(Machine::single(), &silent)?, replay.protocol());

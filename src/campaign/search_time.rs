@@ -39,12 +39,12 @@ pub(super) fn search_seconds(
         if begun.elapsed() > span && !found.is_empty() {
             break;
         }
-        let part = part(study, number);
+        let part = part(study, number, STARTS);
         let chains: Vec<usize> = (0..part.chains()).collect();
         let motions = final_motions(&part, &run_sample(&part, machine, &chains, || ())?);
         let few = seconds(&part, &motions, machine)?;
         found.push(match links(study) {
-            0 => few + growth(study, (&part, &motions, few), machine)?,
+            0 => few + growth((study, number), (&part, &motions, few), machine)?,
             links_of_all => few * links_of_all as f64 / links(&part).max(1) as f64,
         });
     }
@@ -61,19 +61,20 @@ fn seconds(study: &Study, motions: &FinalMotions, machine: Machine) -> Result<f6
 
 /// The time that all starts of `study` take beyond that of a part with few of them [s].
 fn growth(
-    study: &Study,
-    (part, few, least): (&Study, &FinalMotions, f64),
+    (study, number): (&Study, usize),
+    (few, motions, least): (&Study, &FinalMotions, f64),
     machine: Machine,
 ) -> Result<f64, RunError> {
-    let many = thinned_to(study, MANY_STARTS);
-    if many.cases() <= part.cases() {
+    let many = part(study, number, MANY_STARTS);
+    if many.cases() <= few.cases() {
         return Ok(0.0);
     }
-    let nearest = |case: usize| Some((case, few.get(nearest(case, &many.shape(), &part.shape()))?));
-    let motions = FinalMotions::of(&many, (0..many.cases()).filter_map(nearest));
+    let (large, small) = (many.shape(), few.shape());
+    let as_nearest = |case: usize| Some((case, motions.get(nearest(case, &large, &small))?));
+    let motions = FinalMotions::of(&many, (0..many.cases()).filter_map(as_nearest));
     let more = (seconds(&many, &motions, machine)? - least).max(0.0);
-    let beyond = |cases: usize| (cases - part.cases()) as f64;
-    Ok(more * beyond(study.cases()) / beyond(many.cases()))
+    let beyond = |study: &Study| (study.cases() - few.cases()) as f64;
+    Ok(more * beyond(study) / beyond(&many))
 }
 
 /// The case of a small grid that lies where `case` lies in a large one of as many axes.
@@ -87,26 +88,11 @@ fn nearest(case: usize, large: &[usize], small: &[usize]) -> usize {
     found
 }
 
-/// The same study with at most so many starts, and nothing but starts that varies.
-fn thinned_to(study: &Study, starts: usize) -> Study {
-    let mut thin = Study { refine: None, ..study.clone() };
-    match &mut thin.case_set {
-        CaseSet::Draws(draws) => draws.count = draws.count.min(starts),
-        CaseSet::Grid(grid) => {
-            let most = root(starts, grid.axes.len());
-            for axis in &mut grid.axes {
-                axis.values = thinned(&axis.values, most, 0.5);
-            }
-        }
-    }
-    thin
-}
-
-/// A part of `study` by its number.
-fn part(study: &Study, number: usize) -> Study {
+/// A part of `study` by its number, with so many starts of a cell at most.
+fn part(study: &Study, number: usize, most: usize) -> Study {
     let mut part = Study { refine: None, ..study.clone() };
     match &mut part.case_set {
-        CaseSet::Draws(draws) => draws.count = draws.count.min(STARTS),
+        CaseSet::Draws(draws) => draws.count = draws.count.min(most),
         CaseSet::Grid(grid) => {
             let linked = linked_axis(study);
             let starts = grid.axes.iter().filter(|axis| axis.coordinate.is_start()).count();
@@ -115,7 +101,7 @@ fn part(study: &Study, number: usize) -> Study {
                 let values = &axis.values;
                 axis.values = match () {
                     () if Some(place) == linked => neighbours(values, number).to_vec(),
-                    () if axis.coordinate.is_start() => thinned(values, root(STARTS, starts), 0.5),
+                    () if axis.coordinate.is_start() => thinned(values, root(most, starts), 0.5),
                     () => {
                         let offset = (number as f64 + 0.5) / PARTS as f64;
                         thinned(values, root(PAIRS / VALUES, lines), offset)
@@ -181,7 +167,7 @@ mod tests {
         let shares = parsed(&[&[force, axis("omega", "rad/s", 300)], &starts[..]].concat());
         for (study, linked, shape) in [(&map, 1, &[16, 16][..]), (&shares, 0, &[16, 24, 24])] {
             for number in 0..PARTS {
-                let part = part(study, number);
+                let part = part(study, number, STARTS);
                 assert_eq!(part.shape()[..shape.len()], *shape);
                 let [few, all] = [&part, study].map(|it| &it.axes()[linked].values);
                 let first = all.iter().position(|it| it == &few[0]).expect("one of all");

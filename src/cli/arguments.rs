@@ -49,9 +49,9 @@ pub fn with_trade_off(archive: &Archive) -> Result<&'static Description, Failure
     match model.has_trade_off() {
         true => Ok(model),
         false => Err(Failure::request(format!(
-            "{}: motions of the model {} gain nothing that has a cost",
+            "{}: {}",
             printable(archive.path()),
-            model.name
+            model.without_trade_off()
         ))),
     }
 }

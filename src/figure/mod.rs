@@ -149,8 +149,7 @@ pub fn picture<'a>(
 fn drawn(shown: Shown<'_>, drawing: &Drawing) -> Result<(Drawn, Vec<String>), FigureError> {
     let view = View::new(shown, drawing)?;
     if !drawing.kind.suits(view.model()) {
-        let name = view.model().name;
-        return Err(view.unfit(format!("motions of the model {name} gain nothing that has a cost")));
+        return Err(view.unfit(view.model().without_trade_off()));
     }
     check_request(&view)?;
     let drawn = (registry::kind(drawing.kind).draw)(&view)?;

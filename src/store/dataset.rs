@@ -7,7 +7,7 @@ use ndarray::{ArrayD, IxDyn};
 use super::catalogue::{Entry, Flags};
 use super::names::MODEL;
 use crate::description::Description;
-use crate::of::{all_models, default_model};
+use crate::of::{default_model, model_called};
 
 /// The numbers of a variable.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,8 +131,7 @@ pub struct Dataset {
 impl Dataset {
     /// The model whose results they are.
     pub fn model(&self) -> &'static Description {
-        let name = self.attributes.get(MODEL);
-        let named = name.and_then(|name| all_models().into_iter().find(|it| it.name == name));
+        let named = self.attributes.get(MODEL).and_then(|name| model_called(name));
         named.unwrap_or_else(default_model)
     }
 

@@ -11,12 +11,10 @@ use crate::study::{Axis, CaseSet, Grid, Study};
 
 /// Numbers of the sample, at most.
 const NUMBERS: usize = 2_000_000;
-/// Of more records some runs of so many neighbours are taken, as equal numbers beside each other are compressed.
-const RUN: usize = 128;
+/// Records are taken in runs of so many neighbours, as equal numbers beside each other are compressed.
+pub const RUN: usize = 128;
 /// Cases of the smallest trial, which takes the time that goes with no case.
 const FEW: usize = 16;
-/// Cases of a block of a small study.
-const WHOLE_BLOCK: usize = 512;
 /// Each trial is made so many times, of which the shortest counts.
 const TRIES: usize = 2;
 
@@ -78,14 +76,22 @@ fn shortest(
     (Ok(least), sample.cases())
 }
 
-/// A study with so many cases, and those that are missing, along one axis, which are stored as those of `study`.
+/// A study with so many cases, and those that are missing, which are stored as those of `study`.
 fn sample(study: &Study, records: usize, computed: f64) -> Study {
-    let cases = (records as f64 / computed.clamp(f64::MIN_POSITIVE, 1.0)).round() as usize;
+    let alone = along_one_axis(study, records);
     // A block that is not whole is missing.
-    let cases = if records < WHOLE_BLOCK { records } else { cases.min(study.cases()).max(records) };
-    let axes = study.case_set.varied().into_iter().take(1);
-    let values: Vec<f64> = (0..cases).map(|case| case as f64).collect();
-    let axes = axes.map(|coordinate| Axis { coordinate, values: values.clone() }).collect();
+    if alone.blocks() == 1 {
+        return alone;
+    }
+    let cases = (records as f64 / computed.clamp(f64::MIN_POSITIVE, 1.0)).round() as usize;
+    along_one_axis(study, cases.min(study.cases()).max(records))
+}
+
+/// A study with so many cases along one axis.
+fn along_one_axis(study: &Study, cases: usize) -> Study {
+    let values = (0..cases).map(|case| case as f64).collect();
+    let coordinate = study.case_set.varied().into_iter().next();
+    let axes = coordinate.map(|coordinate| Axis { coordinate, values }).into_iter().collect();
     Study {
         case_set: CaseSet::Grid(Grid { axes, inherit: None }),
         refine: None,

@@ -71,10 +71,7 @@ fn read_drawing(
     if let (Some(kind), Some(entry)) = (kind, table.entry("kind"))
         && !kind.suits(table.model())
     {
-        entry.fault(format!(
-            "motions of the model {} gain nothing that has a cost",
-            table.model().name
-        ));
+        entry.fault(table.model().without_trade_off());
     }
     let names = abscissae(kind, axes, branches);
     let axis = |key: &str| {

@@ -5,7 +5,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::document::Table;
 use crate::description::Description;
-use crate::of::{all_models, default_model};
+use crate::of::{all_models, default_model, model_called};
 
 /// The key by which a study names its model.
 const MODEL: &str = "model";
@@ -13,7 +13,7 @@ const MODEL: &str = "model";
 /// The model that a study names; that of studies which name none where it names none that is known.
 pub(super) fn model_in(document: &DeTable<'_>) -> &'static Description {
     let named = match document.get(MODEL).map(Spanned::get_ref) {
-        Some(DeValue::String(name)) => all_models().into_iter().find(|it| it.name == *name),
+        Some(DeValue::String(name)) => model_called(name),
         _ => None,
     };
     named.unwrap_or_else(default_model)

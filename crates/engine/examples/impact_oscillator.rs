@@ -1,4 +1,4 @@
-//! A driven mass at a wall, x'' + c x' + x = f cos(w t) with an impact x' -> -r x' at x = wall, as a system of one's
+//! A driven mass at a wall, x'' + c x' + x = f cos(w t + phase) with an impact x' -> -r x' at x = wall, as a system of one's
 //! own: settled, certified, its two attractors told apart, and continued through a fold, an impact on the instant of
 //! the section and a grazing.
 //!
@@ -27,6 +27,8 @@ pub struct Impactor<L> {
     pub r: L,
     /// Where the wall stands; the mass stays below it.
     pub wall: L,
+    /// Phase of the force at the section [rad].
+    pub phase: L,
 }
 
 /// What happens to the mass.
@@ -47,7 +49,7 @@ impl Event for Wall {
     }
 }
 
-own_system!(Impactor { c, f, w, r, wall }
+own_system!(Impactor { c, f, w, r, wall, phase }
     section 2 state [L; 2], mode (), event Wall, scales |it| [it.w, 1.0]);
 
 in_lanes! {
@@ -63,7 +65,7 @@ in_lanes! {
         }
 
         fn expand(&self, _: &(), time: L, state: &[L; 2], jet: &mut Taylor<L, 2>) {
-            let (mut sin, mut cos) = sin_cos(self.w * time);
+            let (mut sin, mut cos) = sin_cos(self.w * time + self.phase);
             jet.begin(state);
             for k in 0..ORDER {
                 let per = L::splat(series::INVERSE[k + 1]);
@@ -137,7 +139,7 @@ impl Field for Impactor<f64> {
     }
 
     fn rates(&self, _: &(), time: f64, [x, v]: &[f64; 2]) -> [f64; 2] {
-        [*v, self.f * libm::cos(self.w * time) - x - self.c * v]
+        [*v, self.f * libm::cos(self.w * time + self.phase) - x - self.c * v]
     }
 
     fn weights(&self) -> [f64; 2] {
@@ -146,7 +148,7 @@ impl Field for Impactor<f64> {
 }
 
 fn main() {
-    let impactor = Impactor { c: 0.1, f: 1.0, w: 1.5, r: 0.7, wall: 1.0 };
+    let impactor = Impactor { c: 0.1, f: 1.0, w: 1.5, r: 0.7, wall: 1.0, phase: 0.0 };
     let protocol = Protocol::default();
     // From near its steady answer the mass stays below the wall; from rest it goes on meeting it.
     let cases = [[-0.8, 0.0], [0.0, 0.0]].map(|start| Case::new(impactor, start));

@@ -1,12 +1,6 @@
 //! A driven mass at a wall as a model: x'' + c x' + x = f cos(w t + phase), with an impact x' -> -r x' at x = wall.
 
-use std::f64::consts::PI;
-
-use capsulemap_engine::flow::{Event, Field, Stroboscopic, Switched, Taylor, Zeros};
-use capsulemap_engine::lane::elementary::{not_finite, sin_cos};
-use capsulemap_engine::lane::{Lane, ORDER, Series, series};
 use capsulemap_engine::orbit::{self, OrbitOf, Protocol};
-use capsulemap_engine::{in_lanes, own_system};
 use capsulemap_models::description::{
     CoordinateDescription, Description, Output, OutputDescription, Outputs, Parameter,
     ParameterDescription, Parameters, Roles, Rules, State,
@@ -16,137 +10,12 @@ use capsulemap_models::motion::{Case, Sensitivity};
 use capsulemap_models::of::Of;
 use capsulemap_models::quantity::{Allowed, Dimension, Quantity};
 
-/// The system: a struct of its parameters, in numbers of any kind.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Impactor<L> {
-    /// Damping.
-    pub c: L,
-    /// Amplitude of the force.
-    pub f: L,
-    /// Angular frequency of the force.
-    pub w: L,
-    /// Coefficient of restitution.
-    pub r: L,
-    /// Where the wall stands; the mass stays below it.
-    pub wall: L,
-    /// Phase of the force at the section [rad].
-    pub phase: L,
-}
+// Of the example only its system is used here, not its program.
+#[path = "../../engine/examples/impact_oscillator.rs"]
+#[allow(dead_code)]
+mod example;
 
-/// What happens to the mass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Wall {
-    /// It meets the wall.
-    Impact = 1,
-}
-
-impl Event for Wall {
-    const ALL: &'static [Wall] = &[Wall::Impact];
-    fn number(self) -> u8 {
-        self as u8
-    }
-    fn is_impact(self) -> bool {
-        true
-    }
-}
-
-own_system!(Impactor { c, f, w, r, wall, phase }
-    section 2 state [L; 2], mode (), event Wall, scales |it| [it.w, 1.0]);
-
-in_lanes! {
-    impl<L: Lane> Switched<L> for Impactor<L> {
-        type State = [L; 2];
-        type Mode = ();
-        type Jet = Taylor<L, 2>;
-        type Event = Wall;
-        const GUARDS: usize = 1;
-
-        fn period(&self) -> L {
-            L::splat(2.0 * PI) / self.w
-        }
-
-        fn expand(&self, _: &(), time: L, state: &[L; 2], jet: &mut Taylor<L, 2>) {
-            let (mut sin, mut cos) = sin_cos(self.w * time + self.phase);
-            jet.begin(state);
-            for k in 0..ORDER {
-                let per = L::splat(series::INVERSE[k + 1]);
-                let force = self.f * cos - jet[0][k] - self.c * jet[1][k];
-                jet[0][k + 1] = jet[1][k] * per;
-                jet[1][k + 1] = force * per;
-                (sin, cos) = (self.w * cos * per, -(self.w * sin * per));
-            }
-        }
-
-        fn pace<'a>(&self, jet: &'a Taylor<L, 2>) -> [&'a Series<L>; 2] {
-            [&jet[0], &jet[1]]
-        }
-
-        /// Positive as long as the mass is below the wall.
-        fn guard(&self, _: usize, _: &(), jet: &Taylor<L, 2>, guard: &mut Series<L>) {
-            *guard = jet[0].map(|term| -term);
-            guard[0] = self.wall - jet[0][0];
-        }
-
-        fn at(&self, jet: &Taylor<L, 2>, h: L) -> [L; 2] {
-            jet.at(h)
-        }
-
-        /// The mass is put on the wall, which the guard is told: it leaves from zero, with a rate.
-        fn switch(
-            &self,
-            _: usize,
-            due: L::Mask,
-            _: &mut (),
-            [x, v]: &mut [L; 2],
-            zeros: &mut Zeros<L>,
-            _: L,
-        ) -> L {
-            *x = L::select(due, self.wall, *x);
-            *v = L::select(due, -(self.r * *v), *v);
-            zeros[0] = L::select(due, L::splat(1.0), zeros[0]);
-            L::select(due, Wall::Impact.code(), L::splat(0.0))
-        }
-
-        fn lost(&self, [x, v]: &[L; 2]) -> L::Mask {
-            not_finite(*x + *v)
-        }
-
-        fn touching<'a>(&self, jet: &'a Taylor<L, 2>) -> Option<(&'a Series<L>, L)> {
-            Some((&jet[0], self.wall))
-        }
-    }
-
-    impl<L: Lane> Stroboscopic<L, 2> for Impactor<L> {
-        fn point(state: &[L; 2]) -> [L; 2] {
-            *state
-        }
-
-        fn state(point: [L; 2]) -> [L; 2] {
-            point
-        }
-    }
-}
-
-/// The equations as they are written, by which every step is checked.
-impl Field for Impactor<f64> {
-    type Coordinates = [f64; 2];
-
-    fn coordinates(state: &[f64; 2]) -> [f64; 2] {
-        *state
-    }
-
-    fn motion(&self, jet: &Taylor<f64, 2>, h: f64) -> ([f64; 2], [f64; 2]) {
-        jet.motion(h)
-    }
-
-    fn rates(&self, _: &(), time: f64, [x, v]: &[f64; 2]) -> [f64; 2] {
-        [*v, self.f * libm::cos(self.w * time + self.phase) - x - self.c * v]
-    }
-
-    fn weights(&self) -> [f64; 2] {
-        [self.w, 1.0]
-    }
-}
+pub use example::Impactor;
 
 /// The impact oscillator as a model.
 pub static IMPACT: Of<Impactor<f64>, 2> = Of::model();

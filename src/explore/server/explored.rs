@@ -6,11 +6,10 @@ use std::sync::{Arc, Mutex};
 
 use super::answer::Refusal;
 use crate::campaign::{CampaignError, study_of};
-use crate::description::{Description, Output, Section, State};
+use crate::description::{Description, Output, State};
 use crate::figure::variables;
 use crate::motion::Case;
 use crate::orbit::Protocol;
-use crate::store::catalogue::{self, Entry};
 use crate::store::{Archive, Dataset};
 use crate::study::axis::{is_within, set};
 use crate::study::{Coordinate, Direction, Drawing, Study};
@@ -163,7 +162,8 @@ impl Explored {
         if given.iter().any(|(it, _)| it.is_start()) {
             start = "where it was asked to".to_owned();
         } else if self.study.inherit().is_some() {
-            match self.section_point(&position)? {
+            let kept = self.archive.section_point(&position);
+            match kept.map_err(|error| Refusal::unread(&error))? {
                 Some(point) => {
                     case.start = State::at_section(self.study.base.model(), &point);
                     case.start_phase = case.section_phase;
@@ -189,23 +189,8 @@ impl Explored {
 
     /// What the file has of an output for the case at a place, if it has it.
     pub fn kept(&self, position: &[usize], output: Output) -> Result<Option<f64>, Refusal> {
-        let rows = self.archive.rows(output.name(), &[position.to_vec()]);
-        let rows = rows.map_err(|error| Refusal::unread(&error))?;
-        let first = rows.first().and_then(|row| row.to_real().iter().next().copied());
-        Ok(first.filter(|it| it.is_finite()))
-    }
-
-    /// The first section point of the motion of a case, if it has one.
-    fn section_point(&self, position: &[usize]) -> Result<Option<Section>, Refusal> {
-        let coordinate = |entry: Entry| -> Result<f64, Refusal> {
-            let rows = self.archive.rows(entry.name, &[position.to_vec()]);
-            let rows = rows.map_err(|error| Refusal::unread(&error))?;
-            let first = rows.first().and_then(|row| row.to_real().iter().next().copied());
-            Ok(first.unwrap_or(f64::NAN))
-        };
-        let entries = catalogue::section(self.study.base.model()).into_iter();
-        let point: Section = entries.map(coordinate).collect::<Result<_, Refusal>>()?;
-        Ok(point.iter().all(|it| it.is_finite()).then_some(point))
+        let first = self.archive.first(output.name(), position);
+        Ok(Some(first.map_err(|error| Refusal::unread(&error))?).filter(|it| it.is_finite()))
     }
 }
 

@@ -171,6 +171,7 @@ fn branches_of_one_impact_are_those_of_the_closed_form() {
             w: random.logarithmic(0.4, 4.0),
             r: random.uniform(0.3, 0.95),
             wall: random.uniform(0.0, 2.0),
+            phase: 0.0,
         };
         let start = [system.wall - random.uniform(0.0, 1.0), random.uniform(-3.0, 3.0)];
         let orbit = settle(&Case::new(system, start), &Protocol::default());

@@ -8,7 +8,8 @@ use capsulemap_engine::orbit::{Case, Outcome, Protocol, settle};
 use super::rigid_branches::impact_oscillator::Impactor;
 
 /// The oscillator of the published curves.
-const PUBLISHED: Impactor<f64> = Impactor { c: 0.04, f: 0.38, w: 0.799, r: 0.9, wall: 1.0 };
+const PUBLISHED: Impactor<f64> =
+    Impactor { c: 0.04, f: 0.38, w: 0.799, r: 0.9, wall: 1.0, phase: 0.0 };
 /// Its fold of the orbits of one impact in two cycles, as published, and where the published curve of folds ends.
 const FOLD: f64 = 0.362_836_201_980_888_74;
 const LAST: f64 = 0.788_138;
@@ -113,7 +114,7 @@ fn curves_of_folds_go_on_past_an_impact_on_the_instant_of_the_section() {
 /// Exercise 15.2 of Dankowicz and Schilder, Recipes for Continuation (2013): at resonance the amplitude without impacts is f / c.
 #[test]
 fn an_orbit_of_one_impact_is_followed_through_the_grazing_at_which_it_begins() {
-    let system = Impactor { c: 0.1, f: 1.0, w: 1.0, r: 0.8, wall: 1.0 };
+    let system = Impactor { c: 0.1, f: 1.0, w: 1.0, r: 0.8, wall: 1.0, phase: 0.0 };
     for step in STEPS {
         let found = followed(system, ([0.0, 1.0], 1), [[0.05, 1.0], [0.9, 1.1]], step);
         let branch = &found.branches[0];

@@ -133,7 +133,7 @@ fn a_doubled_branch_begins_next_to_its_parent() {
 
 /// The branch of the rigid impact oscillator along the amplitude of its force.
 fn rigid(f: f64, section: [f64; 2], longest_step: f64) -> branch::BranchOf<Impactor<f64>, 2> {
-    let system = Impactor { c: 0.04, f, w: 0.81, r: 0.9, wall: 1.0 };
+    let system = Impactor { c: 0.04, f, w: 0.81, r: 0.9, wall: 1.0, phase: 0.0 };
     let found = branch::follow(&branch::Request {
         system,
         section,

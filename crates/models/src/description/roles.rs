@@ -122,6 +122,11 @@ impl Description {
         self.roles.trade_off.is_some()
     }
 
+    /// Why nothing that is about a gain and its cost suits motions of it, in a sentence.
+    pub fn without_trade_off(&self) -> String {
+        format!("motions of the model {} gain nothing that has a cost", self.name)
+    }
+
     /// What is shown of a motion where nothing else is asked for: what it gains and costs over a cycle, if it does.
     pub fn gain_and_work(&'static self) -> Vec<Output> {
         let roles = self.roles.trade_off.map(|it| [it.speed, it.work]);

@@ -31,7 +31,9 @@ use crate::model::{
 use crate::motion::branch::{Found, Request};
 use crate::motion::{Case, Orbit, Sensitivity, Setting};
 
-pub use registry::{NameTaken, all_models, default_model, model_of, register, settle_case};
+pub use registry::{
+    NameTaken, all_models, default_model, model_called, model_of, register, settle_case,
+};
 
 /// An orbit closes to this residual, relative to the motion; a larger one is seen in the outputs.
 const EXACT: f64 = 1e-11;

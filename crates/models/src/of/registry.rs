@@ -47,6 +47,11 @@ pub fn all_models() -> Vec<&'static Description> {
     std::iter::once(&CAPSULE).chain(others.iter().map(|it| it.description())).collect()
 }
 
+/// The model of this name, if there is one.
+pub fn model_called(name: &str) -> Option<&'static Description> {
+    all_models().into_iter().find(|it| it.name == name)
+}
+
 /// The model of studies that name none.
 pub fn default_model() -> &'static Description {
     &CAPSULE
