@@ -13,9 +13,11 @@ use super::decode::Archive;
 use super::faults::faults;
 use super::input::{Pipes, open_input};
 use super::lock::{Lock, Tried, try_lock};
+use super::names::MODEL;
 use super::plain::{NO_TEXT, place};
 use super::watched::Watched;
 use super::{Dataset, StoreError, difference, encode};
+use crate::of::model_called;
 
 /// How often a folder is tried that another run holds, and the time between two tries: ten minutes in all.
 const HOLD_TRIES: u32 = 3000;
@@ -100,7 +102,7 @@ pub fn read(path: &Path) -> Result<Dataset, StoreError> {
 pub fn open(path: &Path) -> Result<Archive, StoreError> {
     let (checksum, checked) = checksum_of(path)?;
     match checksum {
-        Checksum::Valid => Archive::decode(path, checked),
+        Checksum::Valid => decoded(path, checked),
         Checksum::Invalid => Err(StoreError::Damaged { path: path.to_owned() }),
         Checksum::Absent => {
             let why = "the checksum at its end is missing: it was cut short, or another program wrote it or \
@@ -113,7 +115,19 @@ pub fn open(path: &Path) -> Result<Archive, StoreError> {
 /// The same, and whether every byte has been checked, which cannot be done of a file that another program has changed.
 pub fn open_changed(path: &Path) -> Result<(Archive, bool), StoreError> {
     let (checksum, checked) = checksum_of(path)?;
-    Archive::decode(path, checked).map(|archive| (archive, checksum == Checksum::Valid))
+    decoded(path, checked).map(|archive| (archive, checksum == Checksum::Valid))
+}
+
+/// A file of results of a model that is known.
+fn decoded(path: &Path, checked: Watched) -> Result<Archive, StoreError> {
+    let archive = Archive::decode(path, checked)?;
+    match archive.frame().attributes.get(MODEL) {
+        Some(name) if model_called(name).is_none() => {
+            let why = format!("its results are of the model {name}, which is not known here");
+            Err(StoreError::Foreign { path: path.to_owned(), why })
+        }
+        _ => Ok(archive),
+    }
 }
 
 /// What the checksum of the HDF5 file at `path` tells, and the file as it was before that.

@@ -169,6 +169,17 @@ fn its_basins_branches_and_diagrams_are_drawn() {
 }
 
 #[test]
+fn results_of_a_model_that_is_not_known_are_refused() {
+    let (folder, archive) = swept(STARTS);
+    let mut whole = archive.dataset(|_, _| true).expect("it reads back");
+    whole.attributes.insert("model".to_owned(), "pendulum".to_owned());
+    let path = folder.path().join("other.h5");
+    store::write(&whole, &path).expect("it is written");
+    let said = store::open(&path).expect_err("nobody knows it").to_string();
+    assert!(said.contains("its results are of the model pendulum, which is not known"), "{said}");
+}
+
+#[test]
 fn its_parameters_are_called_as_it_calls_them() {
     let names: Vec<&str> = IMPACT_OSCILLATOR.parameters().map(Parameter::symbol).collect();
     assert_eq!(names, ["c", "f", "w", "r", "wall"]);
