@@ -61,8 +61,8 @@ pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
         let parts = parts.collect::<Vec<_>>().join(", ");
         let names = parameters.model().compared_as.join(", ");
         let rest_share = orbit.outputs.model().rest_share();
-        let rests = rest_share.is_some_and(|share| orbit.outputs[share] >= 1.0);
-        let speed = if rests { "" } else { ", and with it the speed" };
+        let moves = rest_share.is_some_and(|share| orbit.outputs[share] < 1.0);
+        let speed = if moves { ", and with it the speed" } else { "" };
         remarks.push(format!(
             "neutral: as far as rounding tells (a multiplier within 1e-7 of one) this is one of a family of \
              periodic orbits along ({names}) = ({parts}); the start decides which{speed}"

@@ -183,7 +183,7 @@ impl Basin {
                 "label": number,
                 (OUTCOME.name): orbit.outcome.name(),
                 (PERIOD.name): is_periodic.then_some(orbit.period),
-                "speed": orbit.outputs.main(),
+                "speed": self.study.base.model().has_trade_off().then(|| orbit.outputs.speed()),
                 "colour": label_colour(Some(number as u32)),
                 "points": points.map(|it| [it[0], it[1]]).collect::<Vec<_>>(),
             }))
