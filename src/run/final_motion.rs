@@ -96,6 +96,7 @@ pub fn final_motions(study: &Study, records: &[Record]) -> FinalMotions {
 mod tests {
     use super::*;
     use crate::orbit::Outcome;
+    use crate::orbit::matrix::Complex;
     use crate::study::Refine;
 
     #[test]
@@ -105,7 +106,13 @@ mod tests {
         let study = Study::parse("study.toml", text).unwrap_or_else(|faults| panic!("{faults}"));
         let motion = |case: usize| {
             let section = [case as f64, 0.5, -1.0].into();
-            FinalMotion::new(Outcome::Periodic, case as u32, section, 1e-13, &[])
+            FinalMotion::new(
+                Outcome::Periodic,
+                case as u32,
+                section,
+                1e-13,
+                &[Complex { re: 0.5, im: 0.0 }],
+            )
         };
         let known = [4, 1].map(|case| (case, motion(case)));
         let refined = Study { refine: Some(Refine::Attractors), ..study.clone() };
