@@ -10,13 +10,11 @@ use super::failure::Failure;
 use super::phases::Phases;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
-use crate::capsule::{
-    self, CapsuleParameters as _, Resistance, Simulation, Switching, simulate_case,
-};
-use crate::description::{Parameters, Remark, State};
+use crate::capsule::{self, CapsuleParameters as _, Resistance, Switching};
+use crate::description::{Description, Parameters, Remark, State};
 use crate::explore::{case_json, remarks};
-use crate::motion::{Case, Orbit};
-use crate::of::{default_model, settle_case};
+use crate::motion::{Case, Orbit, Simulation, SimulationSize};
+use crate::of::{model_of, settle_case};
 use crate::orbit::Protocol;
 use crate::quantity::Dimension;
 use crate::quantity::printable::printable;
@@ -110,7 +108,8 @@ impl Simulate {
         for Remark { text: why, .. } in (parameters.model().rules.remarks)(parameters) {
             notify(&format!("note: {why}"));
         }
-        let simulation = simulate_case(&case, self.cycles, protocol.tolerance);
+        let most = SimulationSize { cycles: self.cycles, events: usize::MAX };
+        let simulation = model_of(parameters).simulate(&case, most, protocol.tolerance);
         let orbit = settle_case(&case, &protocol);
         if self.json {
             print(&format!("{:#}\n", case_json(parameters, &simulation, &orbit)))
@@ -132,7 +131,7 @@ impl Simulate {
         let case = match self.start {
             Some(_) => {
                 let mut faults = Vec::new();
-                let start = self.start(&mut faults);
+                let start = self.start(study.base.model(), &mut faults);
                 if !faults.is_empty() {
                     return Err(Failure::requests(&faults));
                 }
@@ -186,7 +185,7 @@ impl Simulate {
         let is_given = |parameter| given.iter().any(|(_, other, _)| *other == parameter);
         let completed = (model.rules.complete)(&mut parameters, &is_given);
         let notes = completed.map(|it| it.why).into_iter().collect();
-        let start = self.start(&mut faults);
+        let start = self.start(model, &mut faults);
         let [start_phase, section_phase] = self.phases.read(&mut faults);
         if !Protocol::TOLERANCES.contains(&self.tolerance) {
             faults.push(format!("--tolerance {}: must lie between 1e-15 and 1e-3", self.tolerance));
@@ -205,9 +204,8 @@ impl Simulate {
         }
     }
 
-    fn start(&self, faults: &mut Vec<String>) -> State {
-        let mut start = State::default();
-        let model = default_model();
+    fn start(&self, model: &'static Description, faults: &mut Vec<String>) -> State {
+        let mut start = State::origin(model);
         let parts = self.start.iter().flat_map(|text| text.split(','));
         let mut given = Vec::new();
         for (name, text) in pairs("--start", parts, faults) {
@@ -255,34 +253,59 @@ fn quantity(
     plain_or_quantity(text, dimension).map_err(fault).ok()
 }
 
+/// A coordinate of the state as the table of a motion shows it.
+struct ShownCoordinate {
+    head: String,
+    /// What its values in SI are multiplied by.
+    factor: f64,
+}
+
+impl ShownCoordinate {
+    /// The one at a place among those of a model, in the unit that figures of histories show.
+    fn of(model: &'static Description, place: usize) -> ShownCoordinate {
+        let name = model.coordinates[place].name;
+        let si = model.coordinates[place].start.dimension.unit();
+        let kept = model.motion.histories.get(place).and_then(|it| it.shown);
+        let (unit, factor) = kept.map_or((si, 1.0), |it| (it.unit, it.factor));
+        let head = if unit.is_empty() || unit == "1" {
+            name.to_owned()
+        } else {
+            format!("{name} [{unit}]")
+        };
+        ShownCoordinate { head, factor }
+    }
+}
+
 /// What a person wants to see first.
 fn summary(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> String {
     let given: Vec<String> = parameters
         .each()
         .map(|(parameter, value)| format!("{} = {value}", parameter.symbol()))
         .collect();
-    let mut text = format!(
-        "{} (SI)\n\n{:>5} {:>12} {:>14} {:>14} {:>14} {:>14} {:>8}\n",
-        given.join(", "),
-        "cycle",
-        "t [s]",
-        "r [mm]",
-        "y1 [m/s]",
-        "x2 [mm]",
-        "y2 [m/s]",
-        "impacts"
-    );
+    let model = parameters.model();
+    let coordinates: Vec<ShownCoordinate> =
+        (0..model.coordinates.len()).map(|place| ShownCoordinate::of(model, place)).collect();
+    let mut text = format!("{} (SI)\n\n{:>5} {:>12}", given.join(", "), "cycle", "t [s]");
+    // Writing to a String cannot fail.
+    for it in &coordinates {
+        let _ = write!(text, " {:>14}", it.head);
+    }
+    for count in model.motion.counts {
+        let _ = write!(text, " {count:>8}");
+    }
+    text.push('\n');
     for sample in &simulation.section {
-        let (r, x2) = (sample.r * 1e3, sample.x2 * 1e3);
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            text,
-            "{:>5} {:>12.6} {r:>14.9} {:>14.9} {x2:>14.9} {:>14.9} {:>8}",
-            sample.n, sample.t, sample.y1, sample.y2, sample.impacts
-        );
+        let _ = write!(text, "{:>5} {:>12.6}", sample.cycle, sample.time);
+        for (it, value) in coordinates.iter().zip(sample.state.values()) {
+            let _ = write!(text, " {:>14.9}", value * it.factor);
+        }
+        for count in &sample.counts {
+            let _ = write!(text, " {count:>8}");
+        }
+        text.push('\n');
     }
     let _ = writeln!(text, "{} events; --json lists them", simulation.events.len());
-    if let Some(failure) = simulation.failure {
+    if let Some(failure) = &simulation.failure {
         let _ = writeln!(text, "failed: {failure}");
     }
     let _ = writeln!(text, "\noutcome: {}, after {} cycles", verdict(orbit), orbit.cycles);

@@ -2,19 +2,21 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::capsule::{CapsuleParameters as _, Simulation};
-use crate::description::Parameters;
-use crate::motion::Orbit;
+use crate::description::{Description, Parameters, State};
+use crate::motion::{Event, Orbit, Sample, Simulation};
 use crate::of::model_of;
 use crate::orbit::{Certificate, Outcome, Proof};
 use crate::store::catalogue::{CERTIFICATE, CYCLES, OUTCOME, PERIOD};
 
 /// The case as one object: its parameters, the section and the events from its start, and the orbit that it settles to, in SI.
 pub fn case_json(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> Value {
+    let model = parameters.model();
+    let section = simulation.section.iter().map(|it| sample_json(model, it));
+    let events = simulation.events.iter().map(|it| event_json(model, it));
     json!({
         "parameters": parameters_json(parameters),
-        "section": simulation.section,
-        "events": simulation.events,
+        "section": section.collect::<Vec<_>>(),
+        "events": events.collect::<Vec<_>>(),
         "failure": failure_json(simulation),
         "orbit": orbit_json(orbit),
     })
@@ -31,8 +33,32 @@ fn parameters_json(parameters: &Parameters) -> Value {
     Value::Object(object)
 }
 
+/// A motion at a section: its cycle and time, where it is, and what the model sums up and counts from the start.
+fn sample_json(model: &Description, sample: &Sample) -> Value {
+    let mut object = Map::new();
+    object.insert("n".to_owned(), json!(sample.cycle));
+    object.insert("t".to_owned(), json!(sample.time));
+    put_state(&mut object, &sample.state);
+    let sums = model.motion.sums.iter().zip(sample.sums.iter().map(|sum| json!(sum)));
+    let counts = model.motion.counts.iter().zip(sample.counts.iter().map(|count| json!(count)));
+    object.extend(sums.chain(counts).map(|(name, value)| ((*name).to_owned(), value)));
+    Value::Object(object)
+}
+
+fn event_json(model: &Description, event: &Event) -> Value {
+    let mut object = Map::new();
+    object.insert("t".to_owned(), json!(event.time));
+    object.insert("kind".to_owned(), json!(model.event(event.number)));
+    put_state(&mut object, &event.state);
+    Value::Object(object)
+}
+
+fn put_state(object: &mut Map<String, Value>, state: &State) {
+    object.extend(state.each().map(|(it, value)| (it.name().to_owned(), json!(value))));
+}
+
 fn failure_json(simulation: &Simulation) -> Value {
-    simulation.failure.map_or(Value::Null, |failure| json!(failure.to_string()))
+    simulation.failure.as_ref().map_or(Value::Null, |failure| json!(failure.to_string()))
 }
 
 fn orbit_json(orbit: &Orbit) -> Value {

@@ -16,27 +16,9 @@ use super::style::{
 use super::text::Text;
 use super::view::View;
 use crate::description::{Description, Parameter};
-use crate::store::catalogue::{
-    Entry, HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_X1, HISTORY_X2,
-    HISTORY_Y1, HISTORY_Y2, RELATIVE_VELOCITY, TIME, VELOCITIES,
-};
-use crate::study::Drawing;
+use crate::store::catalogue::{Entry, TIME};
+use crate::study::{Drawing, DrawingKind};
 
-/// Panels of a history, unless others are asked for.
-const PANELS: [Entry; 3] = [HISTORY_X2, HISTORY_R, VELOCITIES];
-/// What a history can show, each with its variables.
-const SHOWN: [(Entry, &[Entry]); 10] = [
-    (HISTORY_X1, &[HISTORY_X1]),
-    (HISTORY_X2, &[HISTORY_X2]),
-    (HISTORY_R, &[HISTORY_R]),
-    (VELOCITIES, &[HISTORY_Y1, HISTORY_Y2]),
-    (HISTORY_Y1, &[HISTORY_Y1]),
-    (HISTORY_Y2, &[HISTORY_Y2]),
-    (RELATIVE_VELOCITY, &[RELATIVE_VELOCITY]),
-    (HISTORY_DRIVE, &[HISTORY_DRIVE]),
-    (HISTORY_CONTACT, &[HISTORY_CONTACT]),
-    (HISTORY_FRICTION, &[HISTORY_FRICTION]),
-];
 /// Height of a frame [pt].
 const HEIGHT: f64 = 82.0;
 /// The line at the gap between mass and plate.
@@ -44,8 +26,8 @@ const GAP_LINE: Stroke = Stroke { colour: FAINT_INK, width: REFERENCE_WIDTH, das
 
 /// One curve of a panel.
 struct Curve {
-    /// Its variable.
-    variable: Entry,
+    /// The name of what it shows.
+    variable: &'static str,
     /// Values over time.
     points: Vec<(f64, f64)>,
     /// Colour and width.
@@ -66,23 +48,27 @@ pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What a history reads: the variables of what it shows, and what time and gap follow from.
 fn reads(drawing: &Drawing, model: &'static Description) -> Names {
-    let usual = PANELS.map(|entry| entry.name);
-    let of = drawing.of.iter().map(String::as_str);
-    let shown = of.chain(usual.into_iter().filter(|_| drawing.of.is_empty()));
+    let usual = model.motion.panels.iter().copied().filter(|_| drawing.of.is_empty());
+    let of = drawing.of.iter().map(String::as_str).chain(usual);
+    let shown: Vec<&str> = of.flat_map(|name| variables(name, model)).collect();
     let constants = [model.drive_frequency()].into_iter().chain(model.impact_surface());
     let constants = constants.map(Entry::of_parameter);
-    let shown: Vec<Entry> = shown.flat_map(variables).copied().collect();
-    let sources: Vec<Entry> = shown.iter().flat_map(|entry| sources(entry.name, model)).collect();
-    Names::of(shown).and(sources).and(sources_of_arcs(model)).and(constants)
+    let sources: Vec<Entry> = shown.iter().flat_map(|name| sources(name, model)).collect();
+    let shown = shown.into_iter().map(str::to_owned).collect::<Vec<_>>();
+    Names::of(sources).and(sources_of_arcs(model)).and(constants).and_named(shown)
 }
 
 /// Draws the history that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let cases = case_panels(view)?;
-    let outputs: Vec<String> = match (view.drawing.of.is_empty(), cases.len()) {
-        (false, _) => view.drawing.of.clone(),
-        (true, 1) => PANELS.map(|entry| entry.name.to_owned()).to_vec(),
-        (true, _) => vec![PANELS[0].name.to_owned()],
+    let usual = view.model().motion.panels;
+    if usual.is_empty() {
+        return Err(view.without_histories());
+    }
+    let shown = if cases.len() == 1 { usual } else { &usual[..1] };
+    let outputs: Vec<String> = match view.drawing.of.is_empty() {
+        false => view.drawing.of.clone(),
+        true => shown.iter().map(|name| (*name).to_owned()).collect(),
     };
     let mut cells = Vec::new();
     for output in &outputs {
@@ -106,24 +92,32 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     Ok(canvas.finish(&view.about(&outputs, &cases[0].free())))
 }
 
-/// The variables of an output; none where a history cannot show it.
-fn variables(output: &str) -> &'static [Entry] {
-    let found = SHOWN.iter().find(|(entry, _)| entry.name == output);
-    found.map_or(&[], |(_, variables)| variables)
+/// The names of the signals of an output; none where a history cannot show it.
+fn variables(output: &str, model: &'static Description) -> Vec<&'static str> {
+    match (model.signal(output), model.signal_group(output)) {
+        (Some(signal), _) => vec![signal.name()],
+        (None, Some(group)) => group.signals.to_vec(),
+        (None, None) => Vec::new(),
+    }
 }
 
-/// The variables of an output, with their colours.
-fn curves_of(view: &View<'_>, output: &str) -> Result<Vec<(Entry, Stroke)>, FigureError> {
+/// Whether a signal is another than the first of a group.
+fn is_later(name: &str, model: &'static Description) -> bool {
+    model.motion.groups.iter().any(|group| group.signals.iter().skip(1).any(|it| *it == name))
+}
+
+/// The signals of an output, with their colours.
+fn curves_of(view: &View<'_>, output: &str) -> Result<Vec<(&'static str, Stroke)>, FigureError> {
+    let model = view.model();
     let blue = Stroke::solid(BLUE, CURVE_WIDTH);
     let red = Stroke::solid(VERMILION, CURVE_WIDTH);
-    let variables = variables(output);
+    let variables = variables(output, model);
     if variables.is_empty() {
-        let known: Vec<&str> = SHOWN.iter().map(|(entry, _)| entry.name).collect();
-        let known = known.join(", ");
+        let known = DrawingKind::History.can_show(model, &[]).join(", ");
         return Err(view.unfit(format!("a history cannot show `{output}`; it can show {known}")));
     }
-    let colour = |entry: &Entry| if entry.name == HISTORY_Y2.name { red } else { blue };
-    Ok(variables.iter().map(|entry| (*entry, colour(entry))).collect())
+    let colour = |name: &str| if is_later(name, model) { red } else { blue };
+    Ok(variables.into_iter().map(|name| (name, colour(name))).collect())
 }
 
 /// A quantity of one of `cases`, by its place among them.
@@ -138,7 +132,7 @@ fn cell(cases: &[CasePanel<'_>], output: &str, place: usize) -> Result<Cell, Fig
     let shown = |cycle: f64| (first - 1e-9..=last + 1e-9).contains(&cycle);
     let mut curves = Vec::new();
     for (variable, stroke) in curves_of(view, output)? {
-        let both = cycles.iter().zip(motion.shown(variable.name)?);
+        let both = cycles.iter().zip(motion.shown(variable)?);
         let both = both.filter(|(cycle, _)| shown(**cycle));
         let points: Vec<_> =
             both.map(|(cycle, value)| (cycle * std::f64::consts::TAU / omega, value)).collect();
@@ -148,7 +142,8 @@ fn cell(cases: &[CasePanel<'_>], output: &str, place: usize) -> Result<Cell, Fig
         }
         curves.push(Curve { variable, points, stroke });
     }
-    let is_shown = output == HISTORY_R.name && view.shows("gap");
+    let met = view.model().signal_of_coordinate(0).map(|it| it.name());
+    let is_shown = met == Some(output) && view.shows("gap");
     let delta = view.model().impact_surface().filter(|_| is_shown).map(Parameter::symbol);
     let gap = delta.and_then(|delta| {
         let gap = view.parameter(delta, free).ok()?.iter().nth(case).copied()?;
@@ -233,7 +228,7 @@ fn axes(
 
 fn legend(view: &View<'_>, cell: &Cell) -> Vec<(Mark, Text)> {
     let entry =
-        |curve: &Curve| (Mark::Line(curve.stroke), view.quantity(curve.variable.name).short_name());
+        |curve: &Curve| (Mark::Line(curve.stroke), view.quantity(curve.variable).short_name());
     let surface = view.model().impact_surface().filter(|_| cell.gap.is_some());
     match (surface, cell.curves.len()) {
         (Some(delta), _) => {
@@ -251,7 +246,7 @@ fn draw_cell(canvas: &mut Canvas, panel: &Panel, cell: &Cell) {
     }
     for curve in &cell.curves {
         panel.curve(canvas, &curve.points, curve.stroke);
-        panel.record(canvas, curve.variable.name, curve.points.iter().copied());
+        panel.record(canvas, curve.variable, curve.points.iter().copied());
     }
     panel.finish(canvas);
 }

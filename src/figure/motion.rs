@@ -4,16 +4,12 @@ use std::f64::consts::TAU;
 
 use super::error::FigureError;
 use super::view::View;
-use crate::capsule::{CapsuleParameters as _, Forces, State, arc};
-use crate::description::{Description, Parameters};
-use crate::store::catalogue::{
-    Entry, HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_TIME, HISTORY_X1,
-    HISTORY_X2, HISTORY_Y1, HISTORY_Y2, RELATIVE_VELOCITY,
-};
+use crate::description::{Description, Parameters, SignalKind, Source, State};
+use crate::motion::{Case, Stretch};
+use crate::of::model_of;
+use crate::store::catalogue::{Entry, HISTORY_TIME, histories, impacts, section};
 use crate::study::Coordinate;
 
-/// The variables of a state.
-const STATES: [Entry; 4] = [HISTORY_R, HISTORY_Y1, HISTORY_X2, HISTORY_Y2];
 /// Points of a motion that is computed again between its samples, at most: in all, in a cycle of the drive, and from a
 /// sample to the next.
 const MOST_POINTS: usize = 64_000;
@@ -24,16 +20,15 @@ const TOLERANCE: f64 = 1e-10;
 /// By how much of the largest the motion from a sample may miss the next.
 const MISSED: f64 = 1e-6;
 
-/// What the quantity called `name` is found from.
+/// What the signal called `name` is found from, where it is not kept itself.
 pub fn sources(name: &str, model: &'static Description) -> Vec<Entry> {
-    match name {
-        _ if name == HISTORY_X1.name => vec![HISTORY_X2, HISTORY_R],
-        _ if name == RELATIVE_VELOCITY.name => vec![HISTORY_Y1, HISTORY_Y2],
-        _ if name == HISTORY_CONTACT.name || name == HISTORY_FRICTION.name => {
-            let parameters = model.parameters().map(Entry::of_parameter);
-            parameters.chain(STATES).collect()
+    let coordinates = histories(model).into_iter().take(model.coordinates.len());
+    match model.signal(name).map(|it| it.source) {
+        None | Some(Source::Kept(_)) => Vec::new(),
+        Some(Source::State(_)) => coordinates.collect(),
+        Some(Source::Parameters(_)) => {
+            model.parameters().map(Entry::of_parameter).chain(coordinates).collect()
         }
-        _ => Vec::new(),
     }
 }
 
@@ -41,7 +36,7 @@ pub fn sources(name: &str, model: &'static Description) -> Vec<Entry> {
 pub fn sources_of_arcs(model: &'static Description) -> Vec<Entry> {
     let parameters = model.parameters().map(Entry::of_parameter);
     let phases = [Coordinate::StartPhase, Coordinate::SectionPhase].map(Entry::of_coordinate);
-    parameters.chain(phases).chain(STATES).chain([HISTORY_DRIVE]).collect()
+    parameters.chain(phases).chain(histories(model)).collect()
 }
 
 /// A case of a figure, by its place among those over the axes `free`.
@@ -54,13 +49,24 @@ pub struct Motion<'v, 'a> {
 }
 
 /// Points of a motion, in the order of time.
-#[derive(Default)]
 struct Points {
     /// Cycles since the first.
     cycles: Vec<f64>,
-    states: Vec<State<f64>>,
-    /// Force of the drive [N].
-    drive: Vec<f64>,
+    /// What is kept of the motion: by what it is, then by point.
+    histories: Vec<Vec<f64>>,
+}
+
+/// The samples of a motion that are followed from each to the next.
+struct Samples {
+    parameters: Parameters,
+    /// Cycles since the first.
+    cycles: Vec<f64>,
+    /// What is kept of the motion: by what it is, then by sample.
+    histories: Vec<Vec<f64>>,
+    /// The largest magnitude of each.
+    sizes: Vec<f64>,
+    /// Parts into which the time from a sample to the next is cut.
+    count: u32,
 }
 
 impl<'v, 'a> Motion<'v, 'a> {
@@ -94,55 +100,76 @@ impl<'v, 'a> Motion<'v, 'a> {
 
     /// The same in SI.
     fn samples(&self, name: &str) -> Result<Vec<f64>, FigureError> {
-        let both = |a: Entry, b: Entry, of: fn(f64, f64) -> f64| {
-            let (a, b) = (self.stored(a.name)?, self.stored(b.name)?);
-            Ok(a.into_iter().zip(b).map(|(a, b)| of(a, b)).collect())
+        let signal = self.view.model().signal(name);
+        let Some(signal) = signal.filter(|it| !matches!(it.source, Source::Kept(_))) else {
+            return self.kept(name);
         };
-        match name {
-            _ if name == HISTORY_X1.name => both(HISTORY_X2, HISTORY_R, |x2, r| x2 + r),
-            _ if name == RELATIVE_VELOCITY.name => both(HISTORY_Y1, HISTORY_Y2, |y1, y2| y1 - y2),
-            _ if name == HISTORY_CONTACT.name => self.forces(|forces| forces.contact),
-            _ if name == HISTORY_FRICTION.name => {
-                if !self.parameters()?.switching().balances_at_rest() {
-                    let why = "the friction at rest is not that of the equation as printed";
-                    return Err(self.view.unfit(why));
-                }
-                self.forces(|forces| forces.friction)
-            }
-            _ => self.stored(name),
+        let parameters = self.parameters()?;
+        if let Some(why) = (signal.missing)(&parameters) {
+            return Err(self.view.unfit(why));
         }
+        Ok(signal.values(&parameters, &self.histories(self.view.model().coordinates.len())?))
     }
 
-    /// The values of a variable at its points.
-    fn stored(&self, name: &str) -> Result<Vec<f64>, FigureError> {
-        if let Some(Points { states, drive, .. }) = &self.points {
-            let of = |value: fn(&State<f64>) -> f64| Ok(states.iter().map(value).collect());
-            match name {
-                _ if name == HISTORY_R.name => return of(|state| state.r),
-                _ if name == HISTORY_Y1.name => return of(|state| state.y1),
-                _ if name == HISTORY_X2.name => return of(|state| state.x2),
-                _ if name == HISTORY_Y2.name => return of(|state| state.y2),
-                _ if name == HISTORY_DRIVE.name => return Ok(drive.clone()),
-                _ => {}
-            }
+    /// What is kept of it: the first so many.
+    fn histories(&self, count: usize) -> Result<Vec<Vec<f64>>, FigureError> {
+        let kept = self.view.model().motion.histories.iter().take(count);
+        kept.map(|it| self.kept(it.name)).collect()
+    }
+
+    /// The values of what is kept under this name at its points.
+    fn kept(&self, name: &str) -> Result<Vec<f64>, FigureError> {
+        let mut known = self.view.model().motion.histories.iter();
+        let place = known.position(|it| it.name == name);
+        if let (Some(points), Some(place)) = (&self.points, place) {
+            return Ok(points.histories[place].clone());
         }
         let count = self.cycles()?.len();
         let all = self.view.take(name, self.free)?;
         Ok(all.iter().skip(self.case * count).take(count).copied().collect())
     }
 
-    /// A force at each point.
-    fn forces(&self, of: impl Fn(Forces) -> f64) -> Result<Vec<f64>, FigureError> {
-        let parameters = self.parameters()?;
-        let states = self.states()?;
-        Ok(states.iter().map(|state| of(Forces::of(&parameters, state))).collect())
+    /// The values of a coordinate at its section points (SI); none of what goes on from cycle to cycle, and where the study keeps no
+    /// points.
+    pub fn at_sections(&self, name: &str) -> Result<Vec<f64>, FigureError> {
+        let model = self.view.model();
+        self.at_points(name, &section(model), |_, point| State::at_section(model, point))
     }
 
-    /// The states at its points.
-    fn states(&self) -> Result<Vec<State<f64>>, FigureError> {
-        let [r, y1, x2, y2] = STATES.map(|it| self.stored(it.name));
-        let all = r?.into_iter().zip(y1?).zip(x2?).zip(y2?);
-        Ok(all.map(|(((r, y1), x2), y2)| State { r, y1, x2, y2 }).collect())
+    /// The same at its impacts.
+    pub fn at_impacts(&self, name: &str) -> Result<Vec<f64>, FigureError> {
+        let model = self.view.model();
+        self.at_points(name, &impacts(model), model.motion.at_impact)
+    }
+
+    /// The values of a coordinate at points that have these numbers, of which the states follow.
+    fn at_points(
+        &self,
+        name: &str,
+        numbers: &[Entry],
+        state: impl Fn(&Parameters, &[f64]) -> State,
+    ) -> Result<Vec<f64>, FigureError> {
+        let signal = self.view.model().signal(name);
+        let signal = signal.filter(|it| it.kind == SignalKind::Coordinate);
+        let has = |it: &Entry| self.view.dataset.variable(it.name).is_some();
+        let Some(signal) = signal.filter(|_| !numbers.is_empty() && numbers.iter().all(has)) else {
+            return Ok(Vec::new());
+        };
+        let parameters = self.parameters()?;
+        let columns = numbers.iter().map(|it| self.row(it.name));
+        let columns = columns.collect::<Result<Vec<_>, FigureError>>()?;
+        let value = |place: usize| {
+            let point: Vec<f64> = columns.iter().map(|column| column[place]).collect();
+            signal.in_state(&parameters, &state(&parameters, &point))
+        };
+        Ok((0..columns[0].len()).filter_map(value).collect())
+    }
+
+    /// The numbers of the case along the last dimension of a variable.
+    fn row(&self, name: &str) -> Result<Vec<f64>, FigureError> {
+        let all = self.view.take(name, self.free)?;
+        let count = all.shape().last().copied().unwrap_or(0);
+        Ok(all.iter().skip(self.case * count).take(count).copied().collect())
     }
 
     /// The parameters of the case.
@@ -183,55 +210,69 @@ impl<'v, 'a> Motion<'v, 'a> {
         if count < 2 {
             return None;
         }
-        let (parameters, states) = (self.parameters().ok()?, self.states().ok()?);
-        let drive = self.stored(HISTORY_DRIVE.name).ok()?;
-        let phase = self.phase(&parameters, &cycles, &drive)?;
-        let size = |of: fn(&State<f64>) -> f64| {
-            states.iter().map(of).fold(0.0, |most: f64, value| most.max(value.abs()))
-        };
-        let sizes = [size(|it| it.r), size(|it| it.y1), size(|it| it.y2)];
-        let mut points = Points::default();
-        let omega = parameters[parameters.model().drive_frequency()];
-        for (place, state) in states.iter().enumerate() {
-            points.put(cycles[place], *state, drive[place]);
-            let Some(next) = states.get(place + 1) else { break };
-            if !(is_shown(cycles[place]) && is_shown(cycles[place + 1])) {
+        let histories = self.histories(usize::MAX).ok()?;
+        let largest = |most: f64, value: &f64| most.max(value.abs());
+        let sizes = histories.iter().map(|column| column.iter().fold(0.0, largest)).collect();
+        let parameters = self.parameters().ok()?;
+        let samples = Samples { parameters, cycles, histories, sizes, count };
+        let phase = self.phase(&samples)?;
+        let mut points =
+            Points { cycles: Vec::new(), histories: vec![Vec::new(); samples.histories.len()] };
+        for place in 0..samples.cycles.len() {
+            points.put(samples.cycles[place], &samples.histories, place);
+            let Some(next) = samples.cycles.get(place + 1) else { break };
+            let begins = samples.cycles[place];
+            if !(is_shown(begins) && is_shown(*next)) {
                 continue;
             }
-            let phases = [place, place + 1].map(|at| phase + TAU * cycles[at]);
-            let arc = arc(&parameters, *state, phases, count, TOLERANCE).ok()?;
-            let (end, between) = arc.split_last()?;
-            let missed = [end.state.r - next.r, end.state.y1 - next.y1, end.state.y2 - next.y2];
-            let meets = |(missed, size): (&f64, f64)| missed.abs() <= MISSED * size;
-            if !missed.iter().zip(sizes).all(meets) {
-                return None;
-            }
-            for point in between {
-                points.put(cycles[place] + point.time * omega / TAU, point.state, point.drive);
+            let arc = samples.arc(place, phase)?;
+            let end = arc.times.len() - 1;
+            for between in 1..end {
+                let share = arc.times[between] / arc.times[end];
+                points.put(begins + share * (next - begins), &arc.histories, between);
             }
         }
         Some(points)
     }
 
-    /// The phase of the drive at the first sample, that of the start or of the section; none if the force of the drive
-    /// tells of another.
-    fn phase(&self, parameters: &Parameters, cycles: &[f64], drive: &[f64]) -> Option<f64> {
-        let p_d = parameters[parameters.model().drive_amplitude()];
+    /// The phase of the drive at the first sample, that of the section or of the start; none if neither leads to the second.
+    fn phase(&self, samples: &Samples) -> Option<f64> {
         let phases = [Coordinate::SectionPhase, Coordinate::StartPhase];
         phases.into_iter().find_map(|coordinate| {
             let phase = self.number(coordinate.name()).ok()?;
-            let meets = |(cycle, force): (&f64, &f64)| {
-                (p_d * (phase + TAU * cycle).cos() - force).abs() <= MISSED * p_d
-            };
-            cycles.iter().zip(drive).take(3).all(meets).then_some(phase)
+            samples.arc(0, phase).map(|_| phase)
         })
     }
 }
 
+impl Samples {
+    /// The motion from a sample to the next, where the drive is at `phase` at the first [rad]; none where it does not lead there.
+    fn arc(&self, place: usize, phase: f64) -> Option<Stretch> {
+        let model = self.parameters.model();
+        let [start_phase, section_phase] =
+            [place, place + 1].map(|at| phase + TAU * self.cycles[at]);
+        let case = Case {
+            parameters: self.parameters.clone(),
+            start: model.state_of(&self.histories, place),
+            start_phase,
+            section_phase,
+        };
+        let arc = model_of(&self.parameters).arc(&case, self.count, TOLERANCE).ok()?;
+        let end = arc.times.len() - 1;
+        let meets = |column: usize| {
+            let ends = [(0, place), (end, place + 1)].map(|(at, sample)| {
+                (arc.histories[column][at] - self.histories[column][sample]).abs()
+            });
+            Some(column) == model.drift || ends.iter().all(|it| *it <= MISSED * self.sizes[column])
+        };
+        (0..self.sizes.len()).all(meets).then_some(arc)
+    }
+}
+
 impl Points {
-    fn put(&mut self, cycle: f64, state: State<f64>, drive: f64) {
+    /// Adds what is kept of a motion at a place.
+    fn put(&mut self, cycle: f64, histories: &[Vec<f64>], place: usize) {
         self.cycles.push(cycle);
-        self.states.push(state);
-        self.drive.push(drive);
+        self.histories.iter_mut().zip(histories).for_each(|(column, of)| column.push(of[place]));
     }
 }

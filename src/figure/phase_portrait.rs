@@ -16,10 +16,7 @@ use super::style::{
 use super::text::Text;
 use super::view::View;
 use crate::description::Description;
-use crate::store::catalogue::{
-    Entry, HISTORY_R, HISTORY_Y1, HISTORY_Y2, IMPACT_Y1, IMPACT_Y2, RELATIVE_VELOCITY, SECTION_R,
-    SECTION_Y1, SECTION_Y2,
-};
+use crate::store::catalogue::{Entry, histories, impacts, section};
 use crate::study::Drawing;
 
 /// Height of the frame [pt].
@@ -30,8 +27,6 @@ const HEIGHT_OF_SEVERAL: f64 = 120.0;
 const SECTION_RADIUS: f64 = 2.2;
 /// Radius of impact points [pt].
 const IMPACT_RADIUS: f64 = 2.2;
-/// The coordinates shown, unless others are asked for.
-const COORDINATES: [Entry; 2] = [HISTORY_R, RELATIVE_VELOCITY];
 
 /// What a portrait shows, in the units of its axes.
 struct Portrait {
@@ -48,8 +43,9 @@ pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 /// What a portrait reads: the motion, the points of both sections, and the gap.
 fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let named = drawing.of.iter().flat_map(|name| sources(name, model));
-    Names::of([HISTORY_R, HISTORY_Y1, HISTORY_Y2])
-        .and([SECTION_R, SECTION_Y1, SECTION_Y2, IMPACT_Y1, IMPACT_Y2])
+    Names::of(histories(model))
+        .and(section(model))
+        .and(impacts(model))
         .and(model.impact_surface().map(Entry::of_parameter))
         .and(named)
         .and(sources_of_arcs(model))
@@ -58,9 +54,10 @@ fn reads(drawing: &Drawing, model: &'static Description) -> Names {
 
 /// Draws the phase portraits that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let names: [&str; 2] = match &view.drawing.of[..] {
-        [] => COORDINATES.map(|entry| entry.name),
-        [x, y] => [x, y],
+    let names: [&str; 2] = match (&view.drawing.of[..], view.model().motion.portrait) {
+        ([x, y], _) => [x, y],
+        ([], Some(names)) => names,
+        ([], None) => return Err(view.without_histories()),
         _ => return Err(view.unfit("`of` names the coordinates of both axes of a phase portrait")),
     };
     let cases = case_panels(view)?;
@@ -136,56 +133,22 @@ fn portrait(panel: &CasePanel<'_>, names: [&str; 2]) -> Result<Portrait, FigureE
         .model()
         .impact_surface()
         .and_then(|delta| view.parameter(delta.symbol(), free).ok()?.iter().nth(case).copied());
-    let of_case = |entry: Entry| -> Result<Vec<f64>, FigureError> {
-        if view.dataset.variable(entry.name).is_none() {
-            return Ok(Vec::new());
-        }
-        let all = view.take(entry.name, free)?;
-        let count = all.shape().last().copied().unwrap_or(0);
-        Ok(all.iter().skip(case * count).take(count).copied().collect())
-    };
-    let less = |a: Vec<f64>, b: Vec<f64>| a.into_iter().zip(b).map(|(a, b)| a - b).collect();
-    // What sections tell of a coordinate; nothing of displacements, which go on from cycle to cycle.
-    let at_section = |name: &str| -> Result<Vec<f64>, FigureError> {
-        match name {
-            _ if name == HISTORY_R.name => of_case(SECTION_R),
-            _ if name == HISTORY_Y1.name => of_case(SECTION_Y1),
-            _ if name == HISTORY_Y2.name => of_case(SECTION_Y2),
-            _ if name == RELATIVE_VELOCITY.name => {
-                Ok(less(of_case(SECTION_Y1)?, of_case(SECTION_Y2)?))
-            }
-            _ => Ok(Vec::new()),
-        }
-    };
-    let at_impact = |name: &str| -> Result<Vec<f64>, FigureError> {
-        match (name, gap) {
-            (name, Some(gap)) if name == HISTORY_R.name => {
-                Ok(of_case(IMPACT_Y1)?.into_iter().map(|_| gap).collect())
-            }
-            (name, _) if name == HISTORY_Y1.name => of_case(IMPACT_Y1),
-            (name, _) if name == HISTORY_Y2.name => of_case(IMPACT_Y2),
-            (name, _) if name == RELATIVE_VELOCITY.name => {
-                Ok(less(of_case(IMPACT_Y1)?, of_case(IMPACT_Y2)?))
-            }
-            _ => Ok(Vec::new()),
-        }
-    };
     let factors = names.map(|name| view.quantity(name).factor);
     let both = |x: Vec<f64>, y: Vec<f64>| -> Vec<(f64, f64)> {
         let places = x.into_iter().zip(y).map(|(x, y)| (x * factors[0], y * factors[1]));
         places.filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
     };
     let sections = match view.shows("stroboscopic") {
-        true => both(at_section(names[0])?, at_section(names[1])?),
+        true => both(motion.at_sections(names[0])?, motion.at_sections(names[1])?),
         false => Vec::new(),
     };
     let impacts = match view.shows("impacts") {
-        true => both(at_impact(names[0])?, at_impact(names[1])?),
+        true => both(motion.at_impacts(names[0])?, motion.at_impacts(names[1])?),
         false => Vec::new(),
     };
     let shown = gap.filter(|_| view.shows("contact"));
-    let reached =
-        |at: usize| shown.filter(|_| names[at] == HISTORY_R.name).map(|it| it * factors[at]);
+    let met = view.model().signal_of_coordinate(0).map(|it| it.name());
+    let reached = |at: usize| shown.filter(|_| met == Some(names[at])).map(|it| it * factors[at]);
     Ok(Portrait { orbit, sections, impacts, gap: [reached(0), reached(1)] })
 }
 

@@ -6,6 +6,7 @@ use super::cloud::{self, Dot};
 use super::error::FigureError;
 use super::header::Header;
 use super::kind::{Kind, Names, Needs};
+use super::motion::Motion;
 use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::Pointing;
 use super::quantity::Quantity;
@@ -13,9 +14,7 @@ use super::style::{INK, TWO_COLUMNS};
 use super::text::Text;
 use super::view::View;
 use crate::description::Description;
-use crate::store::catalogue::{
-    Entry, IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2, RELATIVE_VELOCITY, SECTION_R, SECTION_Y1,
-};
+use crate::store::catalogue::{Entry, impacts, section};
 use crate::study::Drawing;
 
 /// Height of the frames [pt].
@@ -27,8 +26,9 @@ const NARROW: f64 = 120.0;
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What sections read.
-fn reads(_: &Drawing, _model: &'static Description) -> Names {
-    Names::of([SECTION_R, SECTION_Y1, IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2])
+fn reads(_: &Drawing, model: &'static Description) -> Names {
+    let parameters = model.parameters().map(Entry::of_parameter);
+    Names::of(section(model)).and(impacts(model)).and(parameters)
 }
 
 /// A section: its two coordinates, and its points in the units of the figure.
@@ -104,22 +104,31 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 }
 
 fn stroboscopic(view: &View<'_>) -> Result<Option<Section>, FigureError> {
-    if view.dataset.variable(SECTION_R.name).is_none() {
-        return Ok(None);
-    }
-    let quantities = [SECTION_R, SECTION_Y1].map(|entry| view.quantity(entry.name));
-    let [x, y] = [shown(view, SECTION_R)?, shown(view, SECTION_Y1)?];
-    Ok(Some(section("stroboscopic section point", quantities, x, y)))
+    let [x, y] = match section(view.model())[..] {
+        [x, y, ..] if view.dataset.variable(x.name).is_some() => [x, y],
+        _ => return Ok(None),
+    };
+    let quantities = [x, y].map(|entry| view.quantity(entry.name));
+    let name = "stroboscopic section point";
+    Ok(Some(section_of(name, quantities, shown(view, x)?, shown(view, y)?)))
 }
 
+/// The first number that is told of an impact, and the ordinate of a phase portrait there.
 fn at_impacts(view: &View<'_>) -> Result<Option<Section>, FigureError> {
-    if view.dataset.variable(IMPACT_PHASE.name).is_none() {
+    let model = view.model();
+    let (Some(first), Some([_, ordinate])) =
+        (impacts(model).first().copied(), model.motion.portrait)
+    else {
+        return Ok(None);
+    };
+    if view.dataset.variable(first.name).is_none() {
         return Ok(None);
     }
-    let quantities = [IMPACT_PHASE, RELATIVE_VELOCITY].map(|entry| view.quantity(entry.name));
-    let [y1, y2] = [shown(view, IMPACT_Y1)?, shown(view, IMPACT_Y2)?];
-    let relative = y1.iter().zip(&y2).map(|(y1, y2)| y1 - y2).collect();
-    Ok(Some(section("kept impact", quantities, shown(view, IMPACT_PHASE)?, relative)))
+    let quantities = [first.name, ordinate].map(|name| view.quantity(name));
+    let factor = quantities[1].factor;
+    let values = Motion::sampled(view, &[], 0).at_impacts(ordinate)?;
+    let values = values.into_iter().map(|value| value * factor).collect();
+    Ok(Some(section_of("kept impact", quantities, shown(view, first)?, values)))
 }
 
 /// The numbers of a case, in the units of the figure.
@@ -128,7 +137,7 @@ fn shown(view: &View<'_>, entry: Entry) -> Result<Vec<f64>, FigureError> {
 }
 
 /// A section with the points that a case has.
-fn section(name: &'static str, quantities: [Quantity; 2], x: Vec<f64>, y: Vec<f64>) -> Section {
+fn section_of(name: &'static str, quantities: [Quantity; 2], x: Vec<f64>, y: Vec<f64>) -> Section {
     let both = x.into_iter().zip(y).map(|(x, y)| [x, y]);
     let points: Vec<[f64; 2]> = both.filter(|at| at.iter().all(|it| it.is_finite())).collect();
     Section { name, quantities, points }

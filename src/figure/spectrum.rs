@@ -18,10 +18,8 @@ use super::scale::{Scale, Spacing};
 use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, ONE_COLUMN, REFERENCE_WIDTH, TWO_COLUMNS};
 use super::text::Text;
 use super::view::View;
-use crate::description::Description;
-use crate::store::catalogue::{
-    Entry, HISTORY_X1, HISTORY_X2, RELATIVE_VELOCITY, SPECTRUM_FREQUENCY,
-};
+use crate::description::{Description, SignalKind};
+use crate::store::catalogue::{Entry, SPECTRUM_FREQUENCY};
 use crate::study::Drawing;
 
 /// Height of a frame [pt].
@@ -35,16 +33,16 @@ const REACH: f64 = 1e-3;
 pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What spectra are of.
-fn outputs(drawing: &Drawing) -> Vec<String> {
-    match drawing.of.is_empty() {
-        true => vec![RELATIVE_VELOCITY.name.to_owned()],
-        false => drawing.of.clone(),
+fn outputs(drawing: &Drawing, model: &'static Description) -> Vec<String> {
+    match model.motion.portrait.filter(|_| drawing.of.is_empty()) {
+        Some([_, usual]) => vec![usual.to_owned()],
+        None => drawing.of.clone(),
     }
 }
 
 /// What a spectrum reads: the motion, and the frequency of the drive.
 fn reads(drawing: &Drawing, model: &'static Description) -> Names {
-    let outputs = outputs(drawing);
+    let outputs = outputs(drawing, model);
     let needed: Vec<Entry> = outputs.iter().flat_map(|name| sources(name, model)).collect();
     Names::of(needed).and([Entry::of_parameter(model.drive_frequency())]).and_named(outputs)
 }
@@ -63,7 +61,7 @@ struct Spectrum {
 /// Draws the spectra that `view` asks for: a row for each quantity, a column for each case.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let cases = case_panels(view)?;
-    let outputs = outputs(view.drawing);
+    let outputs = outputs(view.drawing, view.model());
     let mut spectra = Vec::new();
     for output in &outputs {
         for panel in &cases {
@@ -188,7 +186,8 @@ fn spectrum(panel: &CasePanel<'_>, output: &str) -> Result<Spectrum, FigureError
     if values.iter().any(|value| !value.is_finite()) {
         return Ok(found(Vec::new()));
     }
-    let goes_on = [HISTORY_X1.name, HISTORY_X2.name].contains(&output);
+    let kind = view.model().signal(output).map(|it| it.kind);
+    let goes_on = kind == Some(SignalKind::Drifting);
     let advance = if goes_on { (values[count] - values[0]) / count as f64 } else { 0.0 };
     let level: Vec<f64> =
         values[..count].iter().enumerate().map(|(at, value)| value - advance * at as f64).collect();

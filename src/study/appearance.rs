@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use super::Coordinate;
 use super::document::unknown;
-use crate::capsule::description;
 use crate::description::Description;
 use crate::quantity::Dimension;
 use crate::quantity::units::{expectation, unit};
@@ -178,7 +177,9 @@ pub type Settings = BTreeMap<String, QuantitySettings>;
 pub fn dimension_of(name: &str, model: &'static Description) -> Result<Dimension, String> {
     let coordinates = Coordinate::all(model).map(Coordinate::quantity);
     let outputs = model.outputs().map(|it| it.quantity());
-    let of_motions = [description::POINTS, description::SIGNALS, description::TOGETHER].concat();
+    let signals = model.motion.signals.iter().map(|it| it.quantity);
+    let groups = model.motion.groups.iter().map(|it| it.quantity);
+    let of_motions = model.points().chain(signals).chain(groups);
     let described = coordinates.chain(outputs).chain(of_motions);
     let described = described.map(|it| (it.name, it.dimension));
     let known: Vec<(&str, Dimension)> = described.chain(OTHERS).collect();

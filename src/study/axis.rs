@@ -2,10 +2,25 @@
 
 use std::fmt::{self, Debug, Formatter};
 
-use crate::capsule::description;
 use crate::description::{Description, Parameter, StateCoordinate};
 use crate::motion::Case;
+use crate::quantity::shown::shown;
 use crate::quantity::{Allowed, Dimension, Quantity};
+
+/// The phase of the drive at the start.
+const START_PHASE: Quantity = Quantity {
+    name: "start_phase",
+    dimension: Dimension::Angle,
+    meaning: "phase of the drive at the start",
+    shown: shown("Initial phase", "*φ*", "rad", 1.0),
+};
+/// The phase of the drive at the stroboscopic section.
+const SECTION_PHASE: Quantity = Quantity {
+    name: "section_phase",
+    dimension: Dimension::Angle,
+    meaning: "phase of the drive at the stroboscopic section",
+    shown: shown("Section phase", "*φ*_{s}", "rad", 1.0),
+};
 
 /// What varies along an axis.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -55,8 +70,8 @@ impl Coordinate {
         match self {
             Coordinate::Parameter(parameter) => parameter.quantity(),
             Coordinate::Start(coordinate) => coordinate.start(),
-            Coordinate::StartPhase => description::START_PHASE,
-            Coordinate::SectionPhase => description::SECTION_PHASE,
+            Coordinate::StartPhase => START_PHASE,
+            Coordinate::SectionPhase => SECTION_PHASE,
         }
     }
 

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use super::appearance::Settings;
 use super::grid::Direction;
-use crate::capsule::description;
-use crate::description::{Description, Output};
+use crate::description::{Description, Output, Signal, SignalKind};
 
 /// What there is for each case besides the outputs.
 const VERDICTS: [&str; 3] = ["outcome", "period", "cycles"];
@@ -27,16 +26,18 @@ enum Shows {
 
 impl Shows {
     /// The names, as the model describes them.
-    fn names(self) -> Vec<&'static str> {
-        let signals = description::SIGNALS.iter();
+    fn names(self, model: &'static Description) -> Vec<&'static str> {
+        let signals = model.motion.signals.iter();
         match self {
             Shows::Verdicts => VERDICTS.to_vec(),
-            Shows::Points => description::POINTS.iter().map(|it| it.name).collect(),
-            Shows::Histories => signals.chain(description::TOGETHER).map(|it| it.name).collect(),
-            Shows::Signals => signals.map(|it| it.name).collect(),
+            Shows::Points => model.points().map(|it| it.name).collect(),
+            Shows::Histories => {
+                let groups = model.motion.groups.iter().map(|it| it.quantity.name);
+                signals.map(Signal::name).chain(groups).collect()
+            }
+            Shows::Signals => signals.map(Signal::name).collect(),
             Shows::Coordinates => {
-                let coordinates = signals.filter(|it| description::is_coordinate(it));
-                coordinates.map(|it| it.name).collect()
+                signals.filter(|it| it.kind != SignalKind::Force).map(Signal::name).collect()
             }
         }
     }
@@ -154,11 +155,11 @@ impl DrawingKind {
         !is_trade_off || model.has_trade_off()
     }
 
-    /// What a figure of this kind can show of a study that keeps `outputs`.
-    pub fn can_show(self, outputs: &[Output]) -> Vec<&'static str> {
+    /// What a figure of this kind can show of a study of a model that keeps `outputs`.
+    pub fn can_show(self, model: &'static Description, outputs: &[Output]) -> Vec<&'static str> {
         let keys = self.keys();
         let outputs = if keys.outputs { outputs } else { &[] };
-        let others = keys.others.iter().flat_map(|it| it.names());
+        let others = keys.others.iter().flat_map(|it| it.names(model));
         outputs.iter().map(|output| output.name()).chain(others).collect()
     }
 }

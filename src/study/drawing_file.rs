@@ -179,6 +179,7 @@ fn read_name(entry: &Entry<'_, '_>) -> Option<String> {
 
 /// The names of what is drawn, those that the kind of figure can show.
 fn read_of(of: &Entry<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output]) -> Vec<String> {
+    let model = of.model();
     let list = of.list();
     let Some(kind) = kind else { return Vec::new() };
     let most = kind.keys().most;
@@ -194,7 +195,7 @@ fn read_of(of: &Entry<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output]) ->
         of.fault("expected the coordinates of both axes, found one");
     }
     let names: Vec<(&str, &str)> =
-        kind.can_show(outputs).into_iter().map(|name| (name, name)).collect();
+        kind.can_show(model, outputs).into_iter().map(|name| (name, name)).collect();
     let known = |entry: &Entry<'_, '_>| entry.one_of("output for this kind of figure", &names);
     list.iter().filter_map(known).map(str::to_owned).collect()
 }

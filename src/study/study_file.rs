@@ -93,8 +93,8 @@ fn check_size(reader: &Reader<'_>, study: &Study) {
     let model = study.base.model();
     let each = study.outputs.len()
         + model.section.len() * protocol.points
-        + model.impact.len() * protocol.impact_points
-        + model.histories.len() * samples;
+        + model.motion.impact.len() * protocol.impact_points
+        + model.motion.histories.len() * samples;
     let numbers = study.shape().into_iter().try_fold(each.max(1), usize::checked_mul);
     if numbers.is_none_or(|numbers| numbers > MOST_NUMBERS) {
         let cases = study.shape().iter().map(|&length| length as f64).product::<f64>();

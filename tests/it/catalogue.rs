@@ -124,7 +124,7 @@ fn a_name_by_hand_is_seen() {
 fn what_a_study_may_draw_is_in_the_catalogue() {
     let outputs: Vec<_> = CAPSULE.outputs().collect();
     for (_, kind) in DrawingKind::NAMES {
-        for name in kind.can_show(&outputs) {
+        for name in kind.can_show(&CAPSULE, &outputs) {
             let extent = catalogue::named(name, &CAPSULE).expect(name).extent;
             let drawn = matches!(extent, Extent::Case | Extent::CaseRow(_) | Extent::Derived);
             assert!(drawn, "{name}");
@@ -140,7 +140,7 @@ fn what_can_be_set_of_figures_is_in_the_catalogue_with_its_dimension() {
     }
     let outputs: Vec<_> = CAPSULE.outputs().collect();
     for (_, kind) in DrawingKind::NAMES {
-        for name in kind.can_show(&outputs) {
+        for name in kind.can_show(&CAPSULE, &outputs) {
             assert!(dimension_of(name, &CAPSULE).is_ok(), "{name}");
         }
     }

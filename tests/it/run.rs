@@ -5,6 +5,7 @@ use std::path::Path;
 
 use capsulemap::capsule::{CapsuleState as _, Output, Parameter, State, settle};
 use capsulemap::lane::Instructions;
+use capsulemap::of::default_model;
 use capsulemap::store::{self, Dataset, Values, Variable};
 use capsulemap::study::{DrawingKind, Study};
 use serde_json::Value;
@@ -42,7 +43,7 @@ fn rich_figures() -> String {
     let mut figure = |name: &str, kind: &str, more: &str| {
         text += &format!("[[figures]]\nname = \"{name}\"\nkind = \"{kind}\"\n{more}\n");
     };
-    let names = DrawingKind::History.can_show(&[]);
+    let names = DrawingKind::History.can_show(default_model(), &[]);
     let histories = format!("\"{}\"", names.join("\", \""));
     figure("h", "history", &format!("of = [{histories}]\nat = {{ p_d = \"4 N\" }}"));
     figure("p", "phase-portrait", "cycles = [0, 1]");

@@ -33,8 +33,11 @@ impl Random {
             wanted.then(|| self.one(&names).to_owned())
         };
         let (x, y) = (name_of(), name_of());
-        let mut of: Vec<String> =
-            self.some(&kind.can_show(&study.outputs)).into_iter().map(str::to_owned).collect();
+        let mut of: Vec<String> = self
+            .some(&kind.can_show(study.base.model(), &study.outputs))
+            .into_iter()
+            .map(str::to_owned)
+            .collect();
         of.truncate(kind.keys().most);
         if kind == DrawingKind::PhasePortrait && of.len() == 1 {
             of.clear();

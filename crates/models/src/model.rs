@@ -12,7 +12,9 @@ use capsulemap_engine::orbit::{Machine, Protocol};
 
 use crate::description::{Description, Outputs, Parameter, Parameters, Section};
 use crate::motion::branch::{Found, Request};
-pub use crate::motion::{Case, Orbit, Sensitivity, Setting};
+pub use crate::motion::{
+    Case, Failure, Orbit, Sensitivity, Setting, Simulation, SimulationSize, Stretch,
+};
 
 /// Orbits that are known of one setting before other cases are followed, with their neighbourhoods.
 #[derive(Clone)]
@@ -168,6 +170,9 @@ pub trait Model: Debug + Send + Sync {
     /// What a case settles to, followed by itself and no further than into a neighbourhood of a `known` orbit of its setting.
     fn settle(&self, case: &Case, protocol: &Protocol, known: Option<&Known>) -> Orbit;
 
+    /// What each of some cases settles to, in their order; see [`settle_all`](capsulemap_engine::orbit::settle_all).
+    fn settle_all(&self, cases: &[Case], protocol: &Protocol, machine: Machine) -> Vec<Orbit>;
+
     /// Settles the cases of a queue by these instructions, as many side by side as there are lanes, until there are no more; returns
     /// the last few unfinished. All cases have the setting of the `known` orbits, if there are any.
     fn settle_queue(
@@ -248,6 +253,17 @@ pub trait Model: Debug + Send + Sync {
         machine: Machine,
         known: &[(u32, &Attractor<Section>)],
     ) -> Box<dyn Leads>;
+
+    /// Follows a case from its start to the first section, and for cycles from there, no further than to the last section before
+    /// which it has no more events than `most` says. Times and sums are counted from the start.
+    fn simulate(&self, case: &Case, most: SimulationSize, tolerance: f64) -> Simulation;
+
+    /// The motion of a case from its start to the next section: both ends, at so many even times after the start, of which the end
+    /// is the last, and at every event between.
+    ///
+    /// # Errors
+    /// Where the motion cannot be followed.
+    fn arc(&self, case: &Case, count: u32, tolerance: f64) -> Result<Stretch, Failure>;
 
     /// The section points of so many cycles from a point on, that among them; none where it cannot be followed.
     fn section_points(

@@ -1,9 +1,10 @@
 //! A driven mass at a wall as a model: x'' + c x' + x = f cos(w t + phase), with an impact x' -> -r x' at x = wall.
 
+use capsulemap_engine::flow::Step;
 use capsulemap_engine::orbit::{self, OrbitOf, Protocol};
 use capsulemap_models::description::{
-    CoordinateDescription, Description, Output, OutputDescription, Outputs, Parameter,
-    ParameterDescription, Parameters, Roles, Rules, State,
+    Chart, CoordinateDescription, Description, MotionDescription, Output, OutputDescription,
+    Outputs, Parameter, ParameterDescription, Parameters, Roles, Rules, Signal, SignalKind, State,
 };
 use capsulemap_models::face::{Face, engine_case};
 use capsulemap_models::motion::{Case, Sensitivity};
@@ -45,6 +46,11 @@ const fn output(
 ) -> OutputDescription {
     OutputDescription { quantity: number(name, meaning), tag, is_smooth: false }
 }
+
+const DISPLACEMENT: Quantity = number("history_x", "displacement");
+const VELOCITY: Quantity = number("history_v", "velocity");
+const FORCE: Quantity = number("history_force", "driving force");
+const SPRING_FORCE: Quantity = number("history_spring", "force of the spring");
 
 /// The names of the parameters in the system, in the order of the description.
 const NAMES: [&str; 5] = ["c", "f", "w", "r", "wall"];
@@ -94,8 +100,24 @@ pub static IMPACT_OSCILLATOR: Description = Description {
         number("end_x", "displacement at the end of the case"),
         number("end_v", "velocity at the end of the case"),
     ],
-    impact: &[],
-    histories: &[],
+    motion: MotionDescription {
+        histories: &[DISPLACEMENT, VELOCITY, FORCE],
+        signals: &[
+            Signal::kept(DISPLACEMENT, SignalKind::Coordinate, 0),
+            Signal::kept(VELOCITY, SignalKind::Coordinate, 1),
+            Signal::kept(FORCE, SignalKind::Force, 2),
+            Signal::force(SPRING_FORCE, |_, state| -state.values()[0]),
+        ],
+        panels: &[DISPLACEMENT.name, VELOCITY.name],
+        charts: &[
+            Chart { title: "Displacement", signals: &[DISPLACEMENT.name] },
+            Chart { title: "Velocity", signals: &[VELOCITY.name] },
+            Chart { title: "Force", signals: &[FORCE.name, SPRING_FORCE.name] },
+        ],
+        portrait: Some([DISPLACEMENT.name, VELOCITY.name]),
+        events: &["impact"],
+        ..MotionDescription::NONE
+    },
     outputs: &[
         output(("size", "Size"), "largest of w x and v at the section"),
         output(("lyapunov_exponent", "LyapunovExponent"), "largest Lyapunov exponent"),
@@ -111,6 +133,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
         natural: None,
         trade_off: None,
         rest_share: None,
+        key_outputs: &[0, 1],
         event_counts: &[],
         exponent: 1,
         exponent_error: 2,
@@ -142,6 +165,10 @@ impl Face<2> for Impactor<f64> {
 
     fn told(state: &[f64; 2]) -> State {
         State::new(&IMPACT_OSCILLATOR, state)
+    }
+
+    fn driven(&self, _: &Self, step: &Step<f64, Self>, h: f64) -> Vec<f64> {
+        vec![self.f * libm::cos(self.w * (step.start + h) + self.phase)]
     }
 
     fn outputs(&self, orbit: &OrbitOf<Self, 2>, _: f64) -> Outputs {

@@ -8,13 +8,13 @@ use super::computations::BUDGET;
 use super::explored::Explored;
 use super::motion::{followed, shown};
 use crate::attractor::{Attractor, Label};
-use crate::capsule::{CapsuleState as _, State};
 use crate::description::{Description, Section};
 use crate::figure::{label_colour, shown_quantity};
 use crate::flow::stop;
 use crate::motion::Case;
 use crate::of::settle_case;
 use crate::orbit::{Machine, Outcome};
+use crate::quantity::Dimension;
 use crate::run::{self, Attractors, Record, run_sample};
 use crate::store::catalogue::{OUTCOME, PERIOD};
 use crate::study::axis::set;
@@ -28,13 +28,16 @@ const STEPS: [usize; 5] = [16, 8, 4, 2, 1];
 const TOGETHER: usize = 1024;
 /// How much wider than the motion the grid is.
 const WIDER: f64 = 2.0;
-/// What the ends of the grid are called in a request, by axis.
-const ENDS: [[&str; 2]; 2] = [["start_r_from", "start_r_to"], ["start_y1_from", "start_y1_to"]];
 /// The axes, the faster first.
 fn coordinates(model: &'static Description) -> [Coordinate; 2] {
     let mut all = Coordinate::starts(model);
     [(); 2].map(|()| all.next().expect("a section of two coordinates at least"))
 }
+/// What the ends of an axis are called in a request.
+fn ends(coordinate: Coordinate) -> [String; 2] {
+    ["from", "to"].map(|end| format!("{}_{end}", coordinate.name()))
+}
+
 /// What computes a basin that takes too long here.
 pub const INSTEAD: &str =
     "the study of the basin, which the page hands over, has no such limit: `capsulemap sweep`";
@@ -53,13 +56,14 @@ impl Basin {
     ///
     /// Fails if a coordinate is out of its bounds or the ends of an axis are one.
     pub fn of(explored: &Explored, asked: &Asked) -> Result<Basin, Refusal> {
-        let known = ENDS.iter().flatten().copied().chain(["sweep", "kind", "format"]);
+        let starts = coordinates(explored.model());
+        let ends = starts.map(ends);
+        let known = ends.iter().flatten().map(String::as_str).chain(["sweep", "kind", "format"]);
         asked.only(explored.model(), &known.collect::<Vec<_>>())?;
         let given = asked.coordinates(explored.model())?;
         let is_parameter = |it: &(Coordinate, f64)| !it.0.is_start();
         let at: Vec<(Coordinate, f64)> = given.iter().copied().filter(is_parameter).collect();
         let case = explored.near(&at, asked.sweep()?)?.case;
-        let starts = coordinates(explored.study.base.model());
         let mut axes = axes(asked, starts, around(explored, &case))?;
         let told = [0, 1].map(|axis| axis_json(explored, &axes[axis]));
         // Those of a study come with the slower first.
@@ -135,17 +139,25 @@ impl Basin {
     fn head(&self) -> Value {
         let [x, y] = &self.axes;
         let surface = self.study.base.model().impact_surface();
-        let mut head = json!({
+        json!({
             "study": self.study.text,
             "x": x,
             "y": y,
             "side": SIDE,
-            "start": { "y2": self.study.start.capsule().y2, "phase": self.study.start_phase },
-        });
-        if let Some(surface) = surface {
-            head[surface.symbol()] = json!(self.study.base[surface]);
-        }
-        head
+            "held": self.held(),
+            "surface": surface.map(|it| self.study.base[it]),
+        })
+    }
+
+    /// What the starts share beside the coordinates of the plane: the others of the section, and the phase.
+    fn held(&self) -> Vec<Value> {
+        let others = self.study.base.model().section_coordinates().skip(self.axes.len());
+        let told = |name: &str, value: f64, unit: &str| json!({ "name": name, "value": value, "unit": unit });
+        let start = &self.study.start;
+        let mut held: Vec<Value> =
+            others.map(|it| told(it.name(), start[it], it.start().dimension.unit())).collect();
+        held.push(told("phase", self.study.start_phase, Dimension::Angle.unit()));
+        held
     }
 
     /// What the coarse grid of a pass shows, and the attractors that are known by now.
@@ -199,9 +211,9 @@ fn axes(
     usual: [[f64; 2]; 2],
 ) -> Result<Vec<Axis>, Refusal> {
     let axis = |axis: usize| {
-        let [low, high] = ENDS[axis];
-        let from = asked.number(low)?.unwrap_or(usual[axis][0]);
-        let to = asked.number(high)?.unwrap_or(usual[axis][1]);
+        let [low, high] = ends(starts[axis]);
+        let from = asked.number(&low)?.unwrap_or(usual[axis][0]);
+        let to = asked.number(&high)?.unwrap_or(usual[axis][1]);
         match from < to {
             true => Ok(Axis {
                 coordinate: starts[axis],
@@ -210,7 +222,7 @@ fn axes(
             false => Err(Refusal::unfit(format!("{low} must be less than {high}"))),
         }
     };
-    (0..ENDS.len()).map(axis).collect()
+    (0..starts.len()).map(axis).collect()
 }
 
 /// An axis of starts, its ends in the unit shown.
@@ -231,24 +243,27 @@ fn coarse(step: usize) -> impl Iterator<Item = usize> {
 fn around(explored: &Explored, case: &Case) -> [[f64; 2]; 2] {
     let protocol = explored.protocol();
     let orbit = settle_case(case, &protocol);
-    let from = State { x2: 0.0, ..orbit.end.capsule() };
-    let points = followed(case, from, shown(&orbit), protocol.tolerance);
+    let from = orbit.end.clone().without_drift();
+    let stretch = followed(case, from, shown(&orbit), protocol.tolerance);
     let parameters = &case.parameters;
     let model = parameters.model();
     let stiffness = model.natural().map_or(1.0, |[stiffness, _]| parameters[stiffness]);
     let usual = parameters[model.drive_amplitude()] / stiffness;
     let omega = parameters[model.drive_frequency()];
-    let widest = |of: fn(&State<f64>) -> f64, usual: f64| {
-        let values = points.iter().flatten().map(|it| of(&it.state));
+    let widest = |place: usize, usual: f64| {
+        let column = stretch.as_ref().map(|it| &it.histories[place]);
+        let values = column.into_iter().flatten();
         let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| {
-            [low.min(it), high.max(it)]
+            [low.min(*it), high.max(*it)]
         });
         let half = WIDER * 0.5 * (high - low);
         let middle = 0.5 * (high + low);
         let is_wide = half.is_finite() && half > 0.0;
         if is_wide { [middle - half, middle + half] } else { [-usual, usual] }.map(rounded)
     };
-    [widest(|it| it.r, usual), widest(|it| it.y1, usual * omega)]
+    let mut places = (0..model.coordinates.len()).filter(|place| Some(*place) != model.drift);
+    [usual, usual * omega]
+        .map(|usual| places.next().map_or([-usual, usual], |at| widest(at, usual)))
 }
 
 /// A number to three digits.

@@ -3,9 +3,9 @@
 use serde_json::{Value, json};
 
 use super::explored::Explored;
-use crate::description::{Output, Parameter};
+use crate::description::{Chart, Description, Output, Parameter};
 use crate::figure::shown_quantity;
-use crate::store::catalogue::{ATTRACTOR, DIRECTION, OUTCOME, PERIOD, STUDY_TEXT};
+use crate::store::catalogue::{ATTRACTOR, DIRECTION, OUTCOME, PERIOD, STUDY_TEXT, section};
 use crate::store::{has_branches, provenance};
 use crate::study::Coordinate;
 
@@ -13,10 +13,7 @@ use crate::study::Coordinate;
 pub fn described(explored: &Explored, running: Value) -> Value {
     let Explored { archive, file, study, .. } = explored;
     let frame = archive.frame();
-    let shown = |name: &str| {
-        let it = shown_quantity(name, frame);
-        json!({ "name": name, "label": it.label, "unit": it.unit, "factor": it.factor })
-    };
+    let shown = |name: &str| shown_json(explored, name);
     let axis = |name: &str, values: Vec<f64>| {
         let mut axis = shown(name);
         axis["values"] = json!(values);
@@ -51,9 +48,63 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "has_trade_off": model.has_trade_off()
             && has(model.speed())
             && (has(model.work()) || has(model.power())),
+        "model": model_json(explored),
         "running": running,
         "inherits": study.inherit().is_some(),
         "program": provenance::program(&frame.attributes),
         "study": frame.texts.get(STUDY_TEXT).map_or("", String::as_str),
     })
+}
+
+/// How figures show the quantity of this name.
+fn shown_json(explored: &Explored, name: &str) -> Value {
+    let it = shown_quantity(name, explored.archive.frame());
+    json!({ "name": name, "label": it.label, "unit": it.unit, "factor": it.factor })
+}
+
+/// What the page has to know of the model: its starts, sections, states, histories and key numbers, as figures show them.
+fn model_json(explored: &Explored) -> Value {
+    let model: &'static Description = explored.model();
+    let shown = |name: &str| shown_json(explored, name);
+    let starts = Coordinate::starts(model).chain([Coordinate::StartPhase]);
+    let surface = model.impact_surface().map(|it| shown(it.symbol()));
+    json!({
+        "starts": starts.map(|it| shown(it.name())).collect::<Vec<_>>(),
+        "section": section(model).iter().map(|it| shown(it.name)).collect::<Vec<_>>(),
+        "state": (0..model.coordinates.len()).map(|at| state_json(explored, at)).collect::<Vec<_>>(),
+        "charts": model.motion.charts.iter().map(|it| chart_json(explored, it)).collect::<Vec<_>>(),
+        "portrait": model.motion.portrait.map(|names| names.map(shown)),
+        "surface": surface,
+        "meets_surface": model.signal_of_coordinate(0).map(|it| it.name()),
+        "key_outputs": model.key_outputs().map(|it| shown(it.name())).collect::<Vec<_>>(),
+        "main_output": shown(model.main_output().name()),
+    })
+}
+
+/// A coordinate of the state, by its name, in the unit of its history.
+fn state_json(explored: &Explored, place: usize) -> Value {
+    let model = explored.model();
+    let name = model.coordinates[place].name;
+    let of =
+        model.motion.histories.get(place).map_or(model.coordinates[place].start.name, |it| it.name);
+    let mut told = shown_json(explored, of);
+    told["name"] = json!(name);
+    let unit = told["unit"].as_str().unwrap_or_default();
+    told["label"] =
+        json!(if unit.is_empty() { name.to_owned() } else { format!("{name} ({unit})") });
+    told
+}
+
+/// A chart with its signals, each with its name without the unit, which the label of the chart has.
+fn chart_json(explored: &Explored, chart: &Chart) -> Value {
+    let signals: Vec<Value> = chart.signals.iter().map(|name| shown_json(explored, name)).collect();
+    let unit = signals.first().and_then(|it| it["unit"].as_str()).unwrap_or_default().to_owned();
+    let in_unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+    let label = format!("{}{in_unit}", chart.title);
+    let named = |mut signal: Value| {
+        let words = signal["label"].as_str().unwrap_or_default();
+        signal["label"] = json!(words.strip_suffix(&in_unit).unwrap_or(words));
+        signal
+    };
+    json!({ "label": label, "signals": signals.into_iter().map(named).collect::<Vec<_>>() })
 }

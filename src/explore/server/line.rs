@@ -6,13 +6,12 @@ use super::answer::Refusal;
 use super::asked::Asked;
 use super::computations::BUDGET;
 use super::explored::Explored;
-use crate::capsule::settle_all;
 use crate::description::{Description, Output, State};
 use crate::flow::stop;
 use crate::motion::{Case, Orbit};
-use crate::of::settle_case;
+use crate::of::{model_of, settle_case};
 use crate::orbit::{Machine, Outcome, Protocol};
-use crate::store::catalogue::{OUTCOME, PERIOD, SECTION_R};
+use crate::store::catalogue::{OUTCOME, PERIOD, section};
 use crate::study::axis::set;
 use crate::study::{
     Axis, CaseSet, Coordinate, Direction, Drawing, DrawingKind, Grid, Inherit, Spacing, Study,
@@ -159,7 +158,8 @@ impl Line {
         let cases = self.cases();
         let shares = shares(cases.len());
         for (part, shares) in cases.chunks(TOGETHER).zip(shares.chunks(TOGETHER)) {
-            let orbits = settle_all(part, &self.protocol, Machine::default());
+            let orbits =
+                model_of(&part[0].parameters).settle_all(part, &self.protocol, Machine::default());
             if stop::is_asked() {
                 return;
             }
@@ -217,9 +217,10 @@ fn told(share: f64, case: &Case, orbit: &Orbit) -> Value {
         "phase": case.section_phase,
         (OUTCOME.name): orbit.outcome.name(),
         (PERIOD.name): period,
-        (SECTION_R.name): points,
     });
-    for output in shown_outputs(orbit.outputs.model()) {
+    let model = orbit.outputs.model();
+    told[section(model)[0].name] = json!(points);
+    for output in shown_outputs(model) {
         told[output.name()] = json!(orbit.outputs[output]);
     }
     told

@@ -1,5 +1,8 @@
 //! The motion of one case, computed as it is asked for.
 
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
 use serde::Serialize;
 use serde_json::Value;
 
@@ -8,15 +11,11 @@ use super::asked::Asked;
 use super::computations::{BUDGET, MOTION_BUDGET};
 use super::explored::{Explored, Near};
 use crate::campaign::command;
-use crate::capsule::{
-    ArcPoint, CapsuleParameters as _, CapsuleState as _, Forces, Simulation, SimulationSize, State,
-    arc, simulate_case_within,
-};
-use crate::description::Section;
+use crate::description::{Section, Signal, State};
 use crate::explore::case_json::{case_json, remarks};
 use crate::flow::stop;
-use crate::motion::{Case, Orbit};
-use crate::of::settle_case;
+use crate::motion::{Case, Orbit, Simulation, SimulationSize, Stretch};
+use crate::of::{model_of, settle_case};
 use crate::orbit::{HistorySpan, Outcome, Protocol};
 use crate::store::catalogue::CYCLES;
 use crate::study::Study;
@@ -46,6 +45,8 @@ pub struct Told {
     remarks: Vec<String>,
     /// Its stroboscopic section.
     stroboscopic: Vec<Section>,
+    /// The same points in the coordinates of the phase portrait.
+    portrait: Vec<[f64; 2]>,
     history: Option<History>,
     /// The command that computes it.
     command: String,
@@ -61,17 +62,11 @@ pub struct Told {
 struct History {
     cycles: u64,
     period: f64,
-    delta: Option<f64>,
+    /// Where the first coordinate meets the surface of impacts.
+    surface: Option<f64>,
     t: Vec<f64>,
-    x1: Vec<f32>,
-    x2: Vec<f32>,
-    r: Vec<f32>,
-    y1: Vec<f32>,
-    y2: Vec<f32>,
-    drive: Vec<f32>,
-    contact: Vec<f32>,
-    /// None where the reading of the model gives the capsule at rest no force.
-    friction: Option<Vec<f32>>,
+    /// The signals by their names; those are missing that motions with these parameters do not have.
+    signals: BTreeMap<&'static str, Vec<f32>>,
 }
 
 /// The case that is asked for: what `capsulemap simulate --json` prints of it, its remarks, the command, and the histories of
@@ -80,16 +75,13 @@ struct History {
 /// Fails if a coordinate is out of its bounds, or it takes longer than a click may.
 pub fn motion(explored: &Explored, asked: &Asked) -> Result<Told, Refusal> {
     asked.only(explored.model(), &[CYCLES.name, "sweep"])?;
-    if explored.model().histories.is_empty() {
-        return Err(Refusal::unfit("the model of these results tells no histories of its motions"));
-    }
     let cycles = asked.count(CYCLES.name, [0, 400], TRANSIENT as usize)? as u64;
     let near = explored.near(&asked.coordinates(explored.model())?, asked.sweep()?)?;
     let protocol = explored.protocol();
     let Near { case, index, is_exact, .. } = &near;
     let command = format!("{} --cycles {cycles}", command(case, &protocol));
     let most = SimulationSize { cycles, events: MOST_EVENTS };
-    let simulation = simulate_case_within(case, most, protocol.tolerance);
+    let simulation = model_of(&case.parameters).simulate(case, most, protocol.tolerance);
     let orbit = settle_case(case, &protocol);
     let history = history(case, &orbit, protocol.tolerance);
     if stop::is_asked() {
@@ -104,12 +96,26 @@ pub fn motion(explored: &Explored, asked: &Asked) -> Result<Told, Refusal> {
         simulate: case_json(&case.parameters, &simulation, &orbit),
         remarks,
         history,
+        portrait: on_portrait(case, &orbit.section),
         stroboscopic: orbit.section,
         command,
         nearest: *index,
         exact: *is_exact,
         start: near.start,
     })
+}
+
+/// Section points in the coordinates of the phase portrait; none where the model has none.
+fn on_portrait(case: &Case, points: &[Section]) -> Vec<[f64; 2]> {
+    let parameters = &case.parameters;
+    let model = parameters.model();
+    let signals = model.motion.portrait.map(|names| names.map(|name| model.signal(name)));
+    let Some([Some(x), Some(y)]) = signals else { return Vec::new() };
+    let place = |point: &Section| {
+        let state = State::at_section(model, point);
+        Some([x.in_state(parameters, &state)?, y.in_state(parameters, &state)?])
+    };
+    points.iter().filter_map(place).collect()
 }
 
 /// Where the simulation ends before its cycles do, and what has all of them.
@@ -173,24 +179,21 @@ pub fn shown(orbit: &Orbit) -> u64 {
 /// The motion that a case settles to over some cycles, with its events, in columns in SI; nothing where it failed.
 fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
     let cycles = shown(orbit);
-    let from = State { x2: 0.0, ..orbit.end.capsule() };
-    let points = followed(case, from, cycles, tolerance).filter(|_| orbit.failure.is_none())?;
-    let column = |of: &dyn Fn(&ArcPoint) -> f64| points.iter().map(|it| of(it) as f32).collect();
+    let from = orbit.end.clone().without_drift();
+    let stretch = followed(case, from, cycles, tolerance).filter(|_| orbit.failure.is_none())?;
     let parameters = &case.parameters;
-    let friction = || column(&|it| Forces::of(parameters, &it.state).friction);
+    let model = parameters.model();
+    let column = |it: &Signal| {
+        let values = it.values(parameters, &stretch.histories);
+        (it.name(), values.into_iter().map(|value| value as f32).collect())
+    };
+    let signals = model.motion.signals.iter().filter(|it| (it.missing)(parameters).is_none());
     Some(History {
         cycles,
         period: parameters.drive_period(),
-        delta: parameters.model().impact_surface().map(|it| parameters[it]),
-        t: points.iter().map(|it| it.time).collect(),
-        x1: column(&|it| it.state.x2 + it.state.r),
-        x2: column(&|it| it.state.x2),
-        r: column(&|it| it.state.r),
-        y1: column(&|it| it.state.y1),
-        y2: column(&|it| it.state.y2),
-        drive: column(&|it| it.drive),
-        contact: column(&|it| Forces::of(parameters, &it.state).contact),
-        friction: parameters.switching().balances_at_rest().then(friction),
+        surface: model.impact_surface().map(|it| parameters[it]),
+        signals: signals.map(column).collect(),
+        t: stretch.times,
     })
 }
 
@@ -207,30 +210,29 @@ impl History {
     }
 }
 
-/// The motion from a point of the section, half a cycle after the other, as far as the most points.
-pub fn followed(
-    case: &Case,
-    from: State<f64>,
-    cycles: u64,
-    tolerance: f64,
-) -> Option<Vec<ArcPoint>> {
-    let half = 0.5 * case.parameters.drive_period();
-    let mut state = from;
-    let phase = case.section_phase;
-    let drive = case.parameters[case.parameters.model().drive_amplitude()] * phase.cos();
-    let mut points = vec![ArcPoint { time: 0.0, state, drive }];
+/// The motion from a point of the section, half a cycle after the other, as far as the most points; none where the model tells no
+/// histories of its motions.
+pub fn followed(case: &Case, from: State, cycles: u64, tolerance: f64) -> Option<Stretch> {
+    let parameters = &case.parameters;
+    let model = parameters.model();
+    if model.motion.histories.is_empty() {
+        return None;
+    }
+    let half = 0.5 * parameters.drive_period();
+    let turned = |halves: u64| case.section_phase + PI * (halves % 2) as f64;
     let count = (2 * POINTS / cycles as u32).clamp(LEAST_POINTS, POINTS);
+    let mut stretch = Stretch::of(model);
+    let mut start = from;
     for number in 0..2 * cycles {
-        let begins = number as f64 * half;
-        let turned = |halves: u64| phase + std::f64::consts::PI * (halves % 2) as f64;
-        let phases = [turned(number), turned(number + 1)];
-        let part = arc(&case.parameters, state, phases, count, tolerance).ok()?;
-        state = part.last()?.state;
-        points.extend(part.into_iter().map(|it| ArcPoint { time: begins + it.time, ..it }));
-        if points.len() >= MOST_POINTS {
-            points.truncate(MOST_POINTS);
+        let [start_phase, section_phase] = [number, number + 1].map(turned);
+        let part = Case { parameters: parameters.clone(), start, start_phase, section_phase };
+        let part = model_of(parameters).arc(&part, count, tolerance).ok()?;
+        start = part.state(part.times.len() - 1);
+        stretch.append(number as f64 * half, &part);
+        if stretch.times.len() >= MOST_POINTS {
+            stretch.truncate(MOST_POINTS);
             break;
         }
     }
-    Some(points)
+    Some(stretch)
 }

@@ -1,6 +1,6 @@
 //! The entries of what each case has, beside its outputs, and of the dimensions along which it has several.
 
-use super::entry::{Entry, Extent::*, Type::*, described, entries};
+use super::entry::{Entry, Extent::*, Type::*, entries};
 use super::flags::{directions, outcomes, proofs, reasons};
 use crate::quantity::shown::{shown, words};
 
@@ -52,24 +52,4 @@ entries! {
     SPECTRUM_FREQUENCY "spectrum_frequency" "rad/s" Derived, Real,
         shown("Frequency", "", "Hz", 0.5 * std::f64::consts::FRAC_1_PI),
         "frequency of a part of a spectrum";
-}
-
-described! {
-    SECTION_R CaseRow(POINT.name);
-    SECTION_Y1 CaseRow(POINT.name);
-    SECTION_Y2 CaseRow(POINT.name);
-    IMPACT_PHASE CaseRow(IMPACT_POINT.name);
-    IMPACT_Y1 CaseRow(IMPACT_POINT.name);
-    IMPACT_Y2 CaseRow(IMPACT_POINT.name);
-    IMPACT_VELOCITY CaseRow(IMPACT_POINT.name);
-    HISTORY_R CaseRow(HISTORY_TIME.name);
-    HISTORY_Y1 CaseRow(HISTORY_TIME.name);
-    HISTORY_X2 CaseRow(HISTORY_TIME.name);
-    HISTORY_Y2 CaseRow(HISTORY_TIME.name);
-    HISTORY_DRIVE CaseRow(HISTORY_TIME.name);
-    HISTORY_X1 Derived;
-    HISTORY_CONTACT Derived;
-    HISTORY_FRICTION Derived;
-    VELOCITIES Derived;
-    RELATIVE_VELOCITY Derived;
 }

@@ -107,18 +107,4 @@ macro_rules! entries {
     };
 }
 
-/// Entries of real numbers for quantities that the model describes, as constants called as there, and all of them as `DESCRIBED`:
-/// constant and extent.
-macro_rules! described {
-    ($($constant:ident $extent:expr;)*) => {
-        $(
-            #[doc = concat!("What the capsule describes as `", stringify!($constant), "`.")]
-            pub const $constant: Entry =
-                Entry::of(crate::capsule::description::$constant, $extent);
-        )*
-        /// Every entry of this file that the model describes, in its order.
-        pub(super) const DESCRIBED: &[Entry] = &[$($constant,)*];
-    };
-}
-
-pub(super) use {described, entries};
+pub(super) use entries;

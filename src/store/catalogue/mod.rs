@@ -16,6 +16,6 @@ pub use branches::*;
 pub use cases::*;
 pub use entry::{Entry, Extent, Flags, Type};
 pub use flags::{parameters, result};
-pub use model::{edges, end, histories, impacts, neutral, section, starts};
+pub use model::{derived, edges, end, histories, impacts, neutral, section, starts};
 pub use places::{Place, all, is_dimension, named};
 pub use tables::*;

@@ -3,7 +3,7 @@
 use super::cases::{HISTORY_TIME, IMPACT_POINT, POINT};
 use super::entry::{Entry, Extent};
 use super::tables::{EDGE_CYCLE, EDGE_INDEX};
-use crate::description::{Description, Output, Parameter};
+use crate::description::{Description, Output, Parameter, Signal, Source};
 use crate::quantity::Quantity;
 use crate::study::Coordinate;
 
@@ -41,12 +41,20 @@ pub fn neutral(model: &'static Description) -> Vec<Entry> {
 
 /// What is told of an impact.
 pub fn impacts(model: &'static Description) -> Vec<Entry> {
-    entries(model.impact, Extent::CaseRow(IMPACT_POINT.name))
+    entries(model.motion.impact, Extent::CaseRow(IMPACT_POINT.name))
 }
 
 /// What is kept of a motion at each time.
 pub fn histories(model: &'static Description) -> Vec<Entry> {
-    entries(model.histories, Extent::CaseRow(HISTORY_TIME.name))
+    entries(model.motion.histories, Extent::CaseRow(HISTORY_TIME.name))
+}
+
+/// What figures derive from what is kept of a motion: signals, and groups of them.
+pub fn derived(model: &'static Description) -> Vec<Entry> {
+    let is_derived = |it: &&Signal| !matches!(it.source, Source::Kept(_));
+    let signals = model.motion.signals.iter().filter(is_derived).map(|it| it.quantity);
+    let groups = model.motion.groups.iter().map(|it| it.quantity);
+    signals.chain(groups).map(|quantity| Entry::of(quantity, Extent::Derived)).collect()
 }
 
 /// The section points of saddles between basins.

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::branches::{BRANCH_CYCLE, BRANCH_POINT, CURVE_POINT, REQUEST, SPECIAL_POINT};
 use super::entry::{Entry, Extent};
-use super::model::{edges, end, histories, impacts, neutral, section};
+use super::model::{derived, edges, end, histories, impacts, neutral, section};
 use super::tables::{ATTRACTOR_CYCLE, ATTRACTOR_INDEX, EVENT};
 use super::{branches, cases, tables};
 use crate::description::Description;
@@ -140,10 +140,10 @@ pub fn all(model: &'static Description) -> &'static [Entry] {
     }
     let study = Coordinate::all(model).map(Entry::of_coordinate);
     let outputs = model.outputs().map(Entry::of_output);
-    let fixed = [cases::FIXED, cases::DESCRIBED, tables::FIXED, branches::FIXED].concat();
-    let described = [section, neutral, impacts, histories, end, edges].map(|of| of(model)).concat();
+    let fixed = [cases::FIXED, tables::FIXED, branches::FIXED].concat();
+    let described =
+        [section, neutral, impacts, histories, derived, end, edges].map(|of| of(model)).concat();
     let columns = Place::ALL.into_iter().flat_map(|place| place.columns(model));
-    // What only the figures of the capsule know stands beside what each model describes.
     let mut all: Vec<Entry> =
         study.chain(outputs).chain(described).chain(fixed).chain(columns).collect();
     let mut names = BTreeSet::new();

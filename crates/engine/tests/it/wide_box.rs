@@ -3,9 +3,10 @@
 use capsulemap_engine::lane::Instructions;
 use capsulemap_engine::orbit::{HistorySpan, Outcome, Proof, Protocol};
 use capsulemap_models::capsule::{
-    AsPrinted, CapsuleParameters as _, CapsuleState as _, Case, History, Orbit, Output, Parameter,
-    Reading, Resistance, State, Switching, simulate,
+    AsPrinted, CapsuleParameters as _, CapsuleState as _, CapsuleSystem, Case, Orbit, Output,
+    Parameter, Resistance, State, Switching, simulate,
 };
+use capsulemap_models::face::samples;
 
 use super::draws;
 use super::second_method::follow;
@@ -100,13 +101,14 @@ fn is_held(case: &Case, orbit: &Orbit) -> bool {
     let span = HistorySpan { cycles: orbit.period as u32, per_cycle: 400, from_start: true };
     let [r, y1, y2] = orbit.section[0].array();
     let from = Case::at_section(p.clone(), State { r, y1, x2: 0.0, y2 }, case.section_phase);
-    let system = AsPrinted::single(p, case.section_phase);
-    let history = History::sample(&system, &from, span, 1e-12).expect("it goes on");
+    let history =
+        samples::<CapsuleSystem<AsPrinted>, 3>(&from, span, 1e-12).expect("it goes on").histories;
     let force = |state: &State<f64>| {
         let contact = p[Parameter::K2] * (state.r - p[Parameter::Delta]).max(0.0);
         p[Parameter::K1] * state.r + contact + p[Parameter::C] * (state.y1 - state.y2)
     };
-    history.states.iter().any(|state| force(state).abs() > 1.01 * p.drag().static_limit)
+    let limit = 1.01 * p.drag().static_limit;
+    (0..history[0].len()).any(|at| force(&(&p.model().state_of(&history, at)).into()).abs() > limit)
 }
 
 /// A push of the capsule off rest, either way, has died after a period: without derivatives, the multiplier 0.

@@ -1,13 +1,15 @@
 //! What the capsule says of itself: the quantities of its starts, sections, impacts, histories, parameters and outputs.
 
+use super::forces::Forces;
 use super::friction_rules::RULES;
 use super::output::{Output, Outputs};
 use super::parameter::Parameter;
+use super::parameters::CapsuleParameters as _;
 use super::resistance::{Resistance, Switching};
-use super::state::State;
+use super::state::{CapsuleState as _, State};
 use crate::description::{
-    self, Choice, CoordinateDescription, Description, OutputDescription, ParameterDescription,
-    Roles, TradeOffRoles,
+    self, Chart, Choice, CoordinateDescription, Description, MotionDescription, OutputDescription,
+    ParameterDescription, Roles, Signal, SignalGroup, SignalKind, TradeOffRoles,
 };
 use crate::quantity::shown::{shown, words};
 use crate::quantity::{Dimension, Quantity, Shown};
@@ -36,10 +38,6 @@ quantities! {
         "displacement of the capsule at the start";
     START_Y2 "start_y2" Velocity, shown("Initial", "*y*_{2}", "m/s", 1.0),
         "velocity of the capsule at the start";
-    START_PHASE "start_phase" Angle, shown("Initial phase", "*φ*", "rad", 1.0),
-        "phase of the drive at the start";
-    SECTION_PHASE "section_phase" Angle, shown("Section phase", "*φ*_{s}", "rad", 1.0),
-        "phase of the drive at the stroboscopic section";
 
     NEUTRAL_R "neutral_r" Number, None,
         "part of omega r in the direction of the family of a neutral orbit";
@@ -99,10 +97,6 @@ quantities! {
         "velocity of the capsule at the end of the case";
 }
 
-/// What each point of the sections has: of the stroboscopic section, and of the impacts.
-pub const POINTS: &[Quantity] =
-    &[SECTION_R, SECTION_Y1, SECTION_Y2, IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2, IMPACT_VELOCITY];
-
 /// The coordinates of a point of the stroboscopic section.
 pub const SECTION: &[Quantity] = &[SECTION_R, SECTION_Y1, SECTION_Y2];
 
@@ -112,26 +106,74 @@ pub const IMPACT: &[Quantity] = &[IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2, IMPACT_VEL
 /// What is kept of a motion at each time.
 pub const HISTORIES: &[Quantity] = &[HISTORY_R, HISTORY_Y1, HISTORY_X2, HISTORY_Y2, HISTORY_DRIVE];
 
-/// What a motion has at each time, each by itself.
-pub const SIGNALS: &[Quantity] = &[
-    HISTORY_X1,
-    HISTORY_X2,
-    HISTORY_R,
-    HISTORY_Y1,
-    HISTORY_Y2,
-    RELATIVE_VELOCITY,
-    HISTORY_DRIVE,
-    HISTORY_CONTACT,
-    HISTORY_FRICTION,
+/// What a motion has at each time.
+const SIGNALS: &[Signal] = &[
+    Signal::of_state(HISTORY_X1, SignalKind::Drifting, |it| {
+        let State { r, x2, .. } = it.capsule();
+        x2 + r
+    }),
+    Signal::kept(HISTORY_X2, SignalKind::Drifting, 2),
+    Signal::kept(HISTORY_R, SignalKind::Coordinate, 0),
+    Signal::kept(HISTORY_Y1, SignalKind::Coordinate, 1),
+    Signal::kept(HISTORY_Y2, SignalKind::Coordinate, 3),
+    Signal::of_state(RELATIVE_VELOCITY, SignalKind::Coordinate, |it| {
+        let State { y1, y2, .. } = it.capsule();
+        y1 - y2
+    }),
+    Signal::kept(HISTORY_DRIVE, SignalKind::Force, 4),
+    Signal::force(HISTORY_CONTACT, |parameters, it| Forces::of(parameters, &it.capsule()).contact),
+    Signal {
+        missing: |parameters| {
+            let why = "the friction at rest is not that of the equation as printed";
+            (!parameters.switching().balances_at_rest()).then_some(why)
+        },
+        ..Signal::force(HISTORY_FRICTION, |parameters, it| {
+            Forces::of(parameters, &it.capsule()).friction
+        })
+    },
 ];
 
-/// Several of these that are shown together.
-pub const TOGETHER: &[Quantity] = &[VELOCITIES];
-
-/// Whether a signal tells where the capsule is or how fast it is, as the axes of a phase portrait do, and no force.
-pub fn is_coordinate(signal: &Quantity) -> bool {
-    matches!(signal.dimension, Dimension::Length | Dimension::Velocity)
-}
+/// What the capsule says of its motion over time.
+const MOTION: MotionDescription = MotionDescription {
+    histories: HISTORIES,
+    signals: SIGNALS,
+    groups: &[SignalGroup { quantity: VELOCITIES, signals: &[HISTORY_Y1.name, HISTORY_Y2.name] }],
+    panels: &[HISTORY_X2.name, HISTORY_R.name, VELOCITIES.name],
+    charts: &[
+        Chart {
+            title: "Displacement",
+            signals: &[HISTORY_R.name, HISTORY_X1.name, HISTORY_X2.name],
+        },
+        Chart { title: "Velocity", signals: &[HISTORY_Y1.name, HISTORY_Y2.name] },
+        Chart {
+            title: "Force",
+            signals: &[HISTORY_DRIVE.name, HISTORY_CONTACT.name, HISTORY_FRICTION.name],
+        },
+    ],
+    portrait: Some([HISTORY_R.name, RELATIVE_VELOCITY.name]),
+    impact: IMPACT,
+    at_impact: |parameters, told| {
+        let r = parameters[Parameter::Delta];
+        State { r, y1: told[1], x2: 0.0, y2: told[2] }.into()
+    },
+    events: &[
+        "contact-closed",
+        "contact-opened",
+        "slip-forward",
+        "slip-backward",
+        "stick",
+        "reversal",
+    ],
+    sums: &[
+        "work_net",
+        "work_positive",
+        "work_absolute",
+        "work_actuator",
+        "friction_loss",
+        "damper_loss",
+    ],
+    counts: &["impacts"],
+};
 
 /// The capsule.
 pub static CAPSULE: Description = Description {
@@ -169,8 +211,7 @@ pub static CAPSULE: Description = Description {
     neutral: &[NEUTRAL_R, NEUTRAL_Y1, NEUTRAL_Y2],
     edge: &[EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2],
     end: &[END_R, END_Y1, END_Y2],
-    impact: IMPACT,
-    histories: HISTORIES,
+    motion: MOTION,
     outputs: &OUTPUTS,
     roles: Roles {
         drive_frequency: Parameter::Omega as usize,
@@ -184,6 +225,21 @@ pub static CAPSULE: Description = Description {
             energy_per_distance: Output::EnergyPerMetre as usize,
         }),
         rest_share: Some(Output::StickShare as usize),
+        key_outputs: &[
+            Output::ProgressionSpeed as usize,
+            Output::ProgressionPerCycle as usize,
+            Output::WorkNet as usize,
+            Output::WorkPositive as usize,
+            Output::FrictionLoss as usize,
+            Output::DamperLoss as usize,
+            Output::Power as usize,
+            Output::EnergyPerMetre as usize,
+            Output::CostOfTransport as usize,
+            Output::ImpactsPerCycle as usize,
+            Output::StickShare as usize,
+            Output::PeakContactForce as usize,
+            Output::LyapunovExponent as usize,
+        ],
         event_counts: &[
             Output::ImpactsPerCycle as usize,
             Output::ForwardSlips as usize,

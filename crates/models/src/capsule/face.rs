@@ -1,14 +1,17 @@
 //! What makes the capsule a model.
 
+use capsulemap_engine::flow::Step;
+use capsulemap_engine::lane::series;
 use capsulemap_engine::orbit::{OrbitOf, Outcome, Protocol};
 
-use super::account::Account;
+use super::account::{Account, Energies, Impact};
 use super::description::CAPSULE;
+use super::locomotion::Locomotion as _;
 use super::parameter::Parameter;
 use super::parameters::CapsuleParameters as _;
 use super::sensitivity::sensitivity;
-use super::settle::{orbit_of, outputs, per_cycle};
-use super::state::State;
+use super::settle::{is_balanced, outputs, per_cycle};
+use super::state::{EventKind, State};
 use super::system::{CapsuleSystem, Reading};
 use crate::description::{self, Description, Parameters};
 use crate::face::Face;
@@ -35,8 +38,57 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
         (*state).into()
     }
 
-    fn orbit(orbit: OrbitOf<Self, 3>, case: &Case, protocol: &Protocol) -> Orbit {
-        orbit_of::<R>(orbit, case, protocol)
+    fn driven(&self, single: &R::Single, step: &Step<f64, R::Single>, h: f64) -> Vec<f64> {
+        vec![self.parameters[Parameter::Pd] * series::value(&single.jet(&step.jet).cos, h)]
+    }
+
+    /// The series ends within rounding of zero, on either side: just before it rests or turns round, the capsule still slides, and
+    /// friction is that of sliding.
+    fn at_event(
+        &self,
+        single: &R::Single,
+        (ended, event): (&R::Mode<f64>, EventKind),
+        [before, _]: [State<f64>; 2],
+    ) -> Vec<description::State> {
+        let sliding = State { y2: single.direction(ended) * f64::MIN_POSITIVE, ..before };
+        match event {
+            EventKind::Stick => vec![sliding.into(), State { y2: 0.0, ..before }.into()],
+            EventKind::Reversal => vec![sliding.into()],
+            _ => vec![before.into()],
+        }
+    }
+
+    fn sums(observed: &Account<f64>) -> Vec<f64> {
+        let Energies {
+            work_net,
+            work_positive,
+            work_absolute,
+            work_actuator,
+            friction_loss,
+            damper_loss,
+        } = observed.energies;
+        vec![work_net, work_positive, work_absolute, work_actuator, friction_loss, damper_loss]
+    }
+
+    fn counts(observed: &Account<f64>) -> Vec<u64> {
+        vec![observed.impacts as u64]
+    }
+
+    fn judged(orbit: OrbitOf<Self, 3>, case: &Case, protocol: &Protocol) -> OrbitOf<Self, 3> {
+        let is_balanced = is_balanced(&orbit, &case.parameters, protocol.tolerance);
+        if is_balanced { orbit } else { orbit.withdrawn() }
+    }
+
+    fn impacts(observed: &Account<f64>) -> Vec<Vec<f64>> {
+        let column = |value: fn(&Impact<f64>) -> f64| {
+            observed.impact_points.0.iter().map(|(_, it)| value(it)).collect()
+        };
+        vec![
+            column(|it| it.phase),
+            column(|it| it.y1),
+            column(|it| it.y2),
+            column(|it| it.y1 - it.y2),
+        ]
     }
 
     fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {

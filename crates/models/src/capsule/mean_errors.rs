@@ -6,7 +6,6 @@ use capsulemap_engine::orbit::{self, Outcome};
 
 use super::account::{Account, Energies};
 use super::output::{Output, Outputs};
-use super::parameters::CapsuleParameters as _;
 use super::state::State;
 use crate::description::Parameters;
 

@@ -1,7 +1,6 @@
 //! The vibro-impact capsule: its parameters, forces and modes, and what its motion costs and yields.
 
 pub mod account;
-mod arc;
 pub mod branch;
 pub mod description;
 pub mod filippov;
@@ -11,7 +10,6 @@ mod face;
 mod failure;
 mod forces;
 mod friction_rules;
-pub mod history;
 mod locomotion;
 pub mod mean_errors;
 pub mod output;
@@ -30,12 +28,10 @@ pub mod system;
 pub use crate::description::{Fault, Parameters};
 pub use crate::motion::{Case, Orbit, Sensitivity};
 pub use account::{Account, Energies, Impact};
-pub use arc::{ArcPoint, arc};
 pub use drive::Drive;
 pub use failure::Failure;
 pub use filippov::Capsule;
 pub use forces::Forces;
-pub use history::History;
 pub use locomotion::{Contact, Locomotion, StickSlip};
 pub use output::{Output, Outputs};
 pub use parameter::Parameter;
@@ -46,8 +42,6 @@ pub use sensitivity::sensitivity;
 pub use settle::{
     CapsuleCase, orbit_of, outputs, per_cycle, settle, settle_all, settle_as, settle_case,
 };
-pub use simulate::{
-    Event, Sample, Simulation, SimulationSize, simulate, simulate_case, simulate_case_within,
-};
+pub use simulate::{Event, Sample, Simulation, simulate, simulate_case};
 pub use state::{CapsuleState, EventKind, Jet, State};
 pub use system::{AsPrinted, CapsuleSystem, Filippov, Reading};

@@ -3,12 +3,9 @@
 use std::f64::consts::PI;
 
 use capsulemap_engine::lane::Lane;
-use capsulemap_engine::orbit::{
-    self, Certificate, Exponent, HistorySpan, Machine, OrbitOf, Outcome, Protocol, precision,
-};
+use capsulemap_engine::orbit::{self, Exponent, Machine, OrbitOf, Outcome, Protocol, precision};
 
-use super::account::{Account, Energies, Impact};
-use super::history::History;
+use super::account::{Account, Energies};
 use super::mean_errors;
 use super::output::{Output, Outputs};
 use super::parameter::Parameter;
@@ -16,8 +13,8 @@ use super::parameters::CapsuleParameters as _;
 use super::resistance::Switching;
 use super::state::State;
 use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
-use crate::description::{self, Parameters, Section};
-use crate::face::engine_case;
+use crate::description::{self, Parameters};
+use crate::face::{self, engine_case};
 use crate::motion::{Case, Orbit};
 
 /// The mean friction force of a periodic orbit, relative to the forces that act, is rounding below this.
@@ -100,67 +97,14 @@ pub fn orbit_of<R: Reading>(
     case: &Case,
     protocol: &Protocol,
 ) -> Orbit {
-    let is_balanced = is_balanced(&orbit, &case.parameters, protocol.tolerance);
-    let orbit = if is_balanced { orbit } else { orbit.withdrawn() };
-    let settled = State { x2: 0.0, ..orbit.end };
-    let wanted = protocol.history.filter(|_| orbit.failure.is_none());
-    let history = wanted.map(|span: HistorySpan| {
-        let on = Case::at_section(case.parameters.clone(), settled, case.section_phase);
-        let from = if span.from_start { case } else { &on };
-        let system = R::single(&case.parameters, case.section_phase);
-        History::sample(&system, from, span, protocol.tolerance)
-    });
-    match history.transpose() {
-        Ok(history) => measured(orbit, &case.parameters, history, protocol),
-        Err(failure) => {
-            let failed = OrbitOf::<CapsuleSystem<R>, 3> {
-                outcome: Outcome::Failed,
-                period: 0,
-                certificate: Certificate::none(),
-                section: Vec::new(),
-                failure: Some(failure),
-                observed: Account::single(&case.parameters, 0),
-                batches: Vec::new(),
-                ..orbit
-            };
-            measured(failed, &case.parameters, None, protocol)
-        }
-    }
-}
-
-fn measured(
-    orbit: orbit::Orbit<State<f64>, Account<f64>, 3>,
-    parameters: &Parameters,
-    history: Option<History>,
-    protocol: &Protocol,
-) -> Orbit {
-    let impact = |value: fn(&Impact<f64>) -> f64| {
-        orbit.observed.impact_points.0.iter().map(|(_, it)| value(it)).collect()
-    };
-    Orbit {
-        outputs: outputs(&orbit, parameters, protocol.recurrence).into(),
-        impacts: vec![
-            impact(|it| it.phase),
-            impact(|it| it.y1),
-            impact(|it| it.y2),
-            impact(|it| it.y1 - it.y2),
-        ],
-        outcome: orbit.outcome,
-        period: orbit.period,
-        certificate: orbit.certificate.map(Section::from),
-        cycles: orbit.cycles,
-        section: orbit.section.into_iter().map(Section::from).collect(),
-        history: history.map_or_else(Vec::new, |it| it.columns()),
-        end: orbit.end.into(),
-        failure: orbit.failure.map(|it| it.map(description::State::from)),
-    }
+    face::orbit_of::<CapsuleSystem<R>, 3>(orbit, case, protocol)
 }
 
 /// Whether the friction of a periodic orbit has a mean of zero, as that of a motion that repeats must.
 ///
 /// Beside a velocity that no ground would bring to rest in a lifetime, a section repeats to every digit while the
 /// capsule slows down.
-fn is_balanced(
+pub(super) fn is_balanced(
     orbit: &orbit::Orbit<State<f64>, Account<f64>, 3>,
     parameters: &Parameters,
     tolerance: f64,

@@ -2,19 +2,15 @@
 
 use serde::Serialize;
 
-use capsulemap_engine::flow::{Event as _, Observer, Stroboscopic};
-use capsulemap_engine::orbit::Trajectory;
-
 use super::Failure;
 use super::account::{Account, Energies};
-use super::filippov::Capsule;
-use super::locomotion::Locomotion;
 use super::parameters::CapsuleParameters as _;
-use super::printed::PrintedCapsule;
 use super::resistance::Switching;
 use super::state::{EventKind, State};
+use super::system::{AsPrinted, CapsuleSystem, Filippov, Reading};
 use crate::description::{self, Parameters};
-use crate::motion::Case;
+use crate::face::{AtEvent, AtSection, Followed, followed};
+use crate::motion::{Case, SimulationSize};
 
 /// State and sums at the end of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -61,15 +57,6 @@ pub struct Simulation {
     pub failure: Option<Failure>,
 }
 
-/// How much of a motion is followed and kept at most.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SimulationSize {
-    /// Drive cycles from the first section.
-    pub cycles: u64,
-    /// Events.
-    pub events: usize,
-}
-
 /// Follows a case that starts on its section, at `phase` of the drive [rad], as [`simulate_case`] does.
 pub fn simulate(
     parameters: &Parameters,
@@ -84,81 +71,23 @@ pub fn simulate(
 /// Follows the capsule from the start of `case` to the first section, and for `cycles` drive cycles from
 /// there. Times and sums are counted from the start.
 pub fn simulate_case(case: &Case, cycles: u64, tolerance: f64) -> Simulation {
-    simulate_case_within(case, SimulationSize { cycles, events: usize::MAX }, tolerance)
-}
-
-/// The same, and no further than to the last section before which it has no more events than `most` says.
-pub fn simulate_case_within(case: &Case, most: SimulationSize, tolerance: f64) -> Simulation {
-    let Case { parameters, section_phase, .. } = case;
-    match parameters.switching() {
-        Switching::Filippov => {
-            simulate_on(&Capsule::single(parameters, *section_phase), case, most, tolerance)
-        }
-        Switching::AsPrinted => {
-            simulate_on(&PrintedCapsule::single(parameters, *section_phase), case, most, tolerance)
-        }
+    match case.parameters.switching() {
+        Switching::Filippov => simulate_as::<Filippov>(case, cycles, tolerance),
+        Switching::AsPrinted => simulate_as::<AsPrinted>(case, cycles, tolerance),
     }
 }
 
-fn simulate_on<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
-    system: &S,
-    case: &Case,
-    most: SimulationSize,
-    tolerance: f64,
-) -> Simulation {
-    let mut account = Account::single(&case.parameters, 0);
-    let mut trajectory = trajectory(case, system, tolerance);
-    let (mut section, mut events) = (Vec::new(), Vec::new());
-    let mut failure = None;
-    loop {
-        if trajectory.is_at_section() {
-            section.push(sample(&trajectory, &account));
-        }
-        if section.len() as u64 > most.cycles {
-            break;
-        }
-        let before = events.len();
-        let begun = trajectory.cycle_began();
-        let followed = trajectory.cycle(|step| {
-            account.see(system, step);
-            if let Some(kind) = EventKind::from_code(step.event) {
-                let state = system.jet(&step.jet).state(step.length);
-                events.push(Event { t: begun + (step.start + step.length), kind, state });
-            }
-        });
-        if let Err(why) = followed {
-            failure = Some(why);
-            break;
-        }
-        if events.len() > most.events {
-            events.truncate(before);
-            break;
-        }
-    }
-    Simulation { section, events, failure }
-}
-
-/// The way of a case from its start, as `system` moves.
-pub(super) fn trajectory<'a, S>(case: &Case, system: &'a S, tolerance: f64) -> Trajectory<'a, S, 3>
-where
-    S: Stroboscopic<f64, 3, State = State<f64>>,
-{
-    Trajectory::begun(system, State::from(&case.start), case.start_time(), tolerance)
-}
-
-fn sample<S: Locomotion<f64> + Stroboscopic<f64, 3>>(
-    trajectory: &Trajectory<'_, S, 3>,
-    account: &Account<f64>,
-) -> Sample {
-    let State { r, y1, x2, y2 } = trajectory.state();
-    Sample {
-        n: trajectory.progress.cycles,
-        t: trajectory.cycle_began(),
-        r,
-        y1,
-        x2,
-        y2,
-        energies: account.energies,
-        impacts: account.impacts as u64,
-    }
+fn simulate_as<R: Reading>(case: &Case, cycles: u64, tolerance: f64) -> Simulation {
+    let most = SimulationSize { cycles, events: usize::MAX };
+    let Followed { section, events, failure } =
+        followed::<CapsuleSystem<R>, 3>(case, most, tolerance);
+    let sample = |it: AtSection<State<f64>, Account<f64>>| {
+        let State { r, y1, x2, y2 } = it.state;
+        let (energies, impacts) = (it.observed.energies, it.observed.impacts as u64);
+        Sample { n: it.cycle, t: it.time, r, y1, x2, y2, energies, impacts }
+    };
+    let event =
+        |it: AtEvent<EventKind, State<f64>>| Event { t: it.time, kind: it.event, state: it.state };
+    let (samples, events) = (section.into_iter().map(sample), events.into_iter().map(event));
+    Simulation { section: samples.collect(), events: events.collect(), failure }
 }

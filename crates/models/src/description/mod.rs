@@ -1,6 +1,7 @@
 //! What a model says of itself in words that do not depend on it: parameters and choices by name, and values of them.
 
 pub mod choice;
+pub mod motion;
 pub mod output;
 pub mod parameter;
 pub mod parameters;
@@ -14,6 +15,7 @@ use std::fmt::{self, Debug, Formatter};
 use crate::quantity::Quantity;
 
 pub use choice::Choice;
+pub use motion::{Chart, MotionDescription, Signal, SignalGroup, SignalKind, Source};
 pub use output::{Output, OutputDescription, Outputs};
 pub use parameter::{Parameter, ParameterDescription};
 pub use parameters::{Fault, Parameters};
@@ -44,10 +46,8 @@ pub struct Description {
     pub edge: &'static [Quantity],
     /// The section coordinates of where a case was last.
     pub end: &'static [Quantity],
-    /// What is told of an impact.
-    pub impact: &'static [Quantity],
-    /// What is kept of a motion at each time.
-    pub histories: &'static [Quantity],
+    /// What it says of a motion over time.
+    pub motion: MotionDescription,
     /// The numbers that sum up a case, in the order of tables and files.
     pub outputs: &'static [OutputDescription],
     /// What some of them are for.

@@ -1,5 +1,6 @@
 //! A value for every parameter of a model, and what is chosen beside them.
 
+use std::f64::consts::PI;
 use std::fmt::{self, Debug, Formatter};
 use std::ops::{Index, IndexMut};
 
@@ -62,6 +63,11 @@ impl Parameters {
     /// Every parameter with its value (SI).
     pub fn each(&self) -> impl Iterator<Item = (Parameter, f64)> + '_ {
         self.model.parameters().zip(self.values.iter().copied())
+    }
+
+    /// The period of the drive [s].
+    pub fn drive_period(&self) -> f64 {
+        2.0 * PI / self[self.model.drive_frequency()]
     }
 
     /// Every value that is not allowed.

@@ -17,6 +17,8 @@ pub struct Roles {
     pub trade_off: Option<TradeOffRoles>,
     /// The share of time at which a motion is at rest, if it can be.
     pub rest_share: Option<usize>,
+    /// What sums up a motion at first sight.
+    pub key_outputs: &'static [usize],
     /// How often each event happens in a cycle.
     pub event_counts: &'static [usize],
     /// The largest Lyapunov exponent.
@@ -136,6 +138,11 @@ impl Description {
     /// The one output that is shown where no other is asked for: what a motion gains, or the first.
     pub fn main_output(&'static self) -> Output {
         Output::of(self, self.roles.trade_off.map_or(0, |it| it.speed))
+    }
+
+    /// What sums up a motion at first sight.
+    pub fn key_outputs(&'static self) -> impl Iterator<Item = Output> {
+        self.roles.key_outputs.iter().map(move |index| Output::of(self, *index))
     }
 
     /// How often each event happens in a cycle.

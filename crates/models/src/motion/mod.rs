@@ -4,7 +4,11 @@ pub mod branch;
 mod case;
 mod orbit;
 mod setting;
+mod simulation;
+mod stretch;
 
 pub use case::{Case, reduced};
 pub use orbit::{Failure, Orbit, REASONS};
 pub use setting::{Sensitivity, Setting};
+pub use simulation::{Event, Sample, Simulation, SimulationSize};
+pub use stretch::Stretch;

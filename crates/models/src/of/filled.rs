@@ -8,7 +8,7 @@ use capsulemap_engine::orbit::{
     self, KnownOrbits, OrbitOf, Protocol, Queue, Underway, settle_side_by_side,
 };
 
-use crate::face::{Face, engine_case};
+use crate::face::{Face, engine_case, orbit_of};
 use crate::model::{CaseQueue, Unfinished};
 use crate::motion::{Case, Orbit};
 
@@ -50,7 +50,7 @@ impl<M: Face<D>, const D: usize> Queue<M, D> for Filled<'_, M, D> {
     fn next(&mut self, done: Option<(usize, OrbitOf<M, D>)>) -> Option<(usize, orbit::Case<M, D>)> {
         let done = done.map(|(number, orbit)| {
             let case = self.taken(number);
-            (number, M::orbit(orbit, &case, self.protocol))
+            (number, orbit_of::<M, D>(orbit, &case, self.protocol))
         });
         let (number, case) = self.queue.next(done)?;
         let read = engine_case(&case);
@@ -77,6 +77,6 @@ impl<M: Face<D>, const D: usize> Unfinished for Left<M, D> {
     fn finish(self: Box<Self>, protocol: &Protocol) -> Orbit {
         let Left { underway, case } = *self;
         let (_, orbit) = underway.finish(protocol);
-        M::orbit(orbit, &case, protocol)
+        orbit_of::<M, D>(orbit, &case, protocol)
     }
 }

@@ -29,7 +29,9 @@ use crate::model::{
     StableOrbit, Unfinished, Unlinked,
 };
 use crate::motion::branch::{Found, Request};
-use crate::motion::{Case, Orbit, Sensitivity, Setting};
+use crate::motion::{
+    Case, Failure, Orbit, Sensitivity, Setting, Simulation, SimulationSize, Stretch,
+};
 
 pub use registry::{
     NameTaken, all_models, default_model, model_called, model_of, register, settle_case,
@@ -110,7 +112,13 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
         let known = known.map(orbits_of::<M, D>);
         let (_, orbit) =
             Underway::new(0, engine_case::<M, D>(case), protocol, known).finish(protocol);
-        M::orbit(orbit, case, protocol)
+        face::orbit_of::<M, D>(orbit, case, protocol)
+    }
+
+    fn settle_all(&self, cases: &[Case], protocol: &Protocol, machine: Machine) -> Vec<Orbit> {
+        let read: Vec<_> = cases.iter().map(engine_case::<M, D>).collect();
+        let orbits = settle_all(&read, protocol, machine).into_iter().zip(cases);
+        orbits.map(|(orbit, case)| face::orbit_of::<M, D>(orbit, case, protocol)).collect()
     }
 
     fn settle_queue(
@@ -238,6 +246,14 @@ impl<M: Face<D>, const D: usize> Model for Of<M, D> {
             .map(|(number, it)| (*number, Attractor::clone(it).map(|point| point.array())))
             .collect();
         Box::new(leads::LeadsOf::<M, D>::new(system(setting), protocol, machine, known))
+    }
+
+    fn simulate(&self, case: &Case, most: SimulationSize, tolerance: f64) -> Simulation {
+        face::simulate::<M, D>(case, most, tolerance)
+    }
+
+    fn arc(&self, case: &Case, count: u32, tolerance: f64) -> Result<Stretch, Failure> {
+        face::arc::<M, D>(case, count, tolerance).map_err(|it| it.map(|state| M::told(&state)))
     }
 
     fn section_points(

@@ -4,7 +4,9 @@ use capsulemap_models::capsule::description::CAPSULE;
 use capsulemap_models::capsule::{
     CapsuleParameters as _, Forces, Output, Parameter, Parameters, Resistance, State, Switching,
 };
-use capsulemap_models::description::{self, Description, ParameterDescription, Section};
+use capsulemap_models::description::{
+    self, Description, MotionDescription, ParameterDescription, Section,
+};
 use capsulemap_models::of::default_model;
 use capsulemap_models::quantity::{Allowed, Dimension, Quantity};
 
@@ -26,8 +28,7 @@ static OTHER: Description = Description {
     neutral: &[],
     edge: &[],
     end: &[],
-    impact: &[],
-    histories: &[],
+    motion: MotionDescription::NONE,
     outputs: &[],
     roles: CAPSULE.roles,
     rules: CAPSULE.rules,

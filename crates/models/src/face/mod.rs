@@ -1,0 +1,194 @@
+//! What makes a system of the engine a model: its description, and how what the engine computes of it is told by that.
+
+mod followed;
+mod stretch;
+
+use capsulemap_engine::branch::{self, NotFollowed};
+use capsulemap_engine::flow::{Step, System};
+use capsulemap_engine::orbit::{self, Certificate, OrbitOf, Outcome, Protocol};
+
+use crate::description::{Description, Outputs, Parameter, Parameters, Section, State};
+use crate::motion::branch::{Found, Request};
+use crate::motion::{Case, Orbit, Sensitivity, Setting};
+
+pub use followed::{AtEvent, AtSection, Followed, followed, simulate};
+pub use stretch::{arc, samples};
+
+/// A system with a face.
+pub trait Face<const D: usize>: System<D> + 'static {
+    /// What it says of itself.
+    fn description() -> &'static Description;
+
+    /// The system with these parameters, whose drive is at `phase` at the section [rad].
+    fn of(parameters: &Parameters, phase: f64) -> Self;
+
+    /// The parameter that is described so.
+    fn which(parameter: Parameter) -> Self::Parameter;
+
+    /// The state that is described so.
+    fn state(state: &State) -> Self::State<f64>;
+
+    /// The same, told by the description.
+    fn told(state: &Self::State<f64>) -> State;
+
+    /// What depends on time alone, as the force of a drive, `h` after the beginning of a step: what is kept of a motion beside its
+    /// coordinates.
+    fn driven(&self, _: &Self::Single, _step: &Step<f64, Self::Single>, _h: f64) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// The states to be told of at an event that ends a mode, by those before and after it; forces follow from them.
+    ///
+    /// Unless a model has it another way: that before it, and that after it where they differ.
+    fn at_event(
+        &self,
+        _: &Self::Single,
+        _ended: (&Self::Mode<f64>, Self::Event),
+        [before, after]: [Self::State<f64>; 2],
+    ) -> Vec<State> {
+        let mut states = vec![Self::told(&before), Self::told(&after)];
+        states.dedup();
+        states
+    }
+
+    /// What is summed up of a motion from its start, by the model's `sums`.
+    fn sums(_observed: &Self::Observer) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// What is counted of a motion from its start, by the model's `counts`.
+    fn counts(_observed: &Self::Observer) -> Vec<u64> {
+        Vec::new()
+    }
+
+    /// What a case has settled to, withdrawn where the model can tell that it has not.
+    fn judged(orbit: OrbitOf<Self, D>, _case: &Case, _protocol: &Protocol) -> OrbitOf<Self, D> {
+        orbit
+    }
+
+    /// The impacts of the measured cycles: by what the model tells of an impact, then by impact.
+    fn impacts(_observed: &Self::Observer) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
+
+    /// What is to be said of an orbit beside its numbers, in sentences.
+    fn remarks(_parameters: &Parameters, _orbit: &Orbit) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The outputs of an orbit that has closed; `recurrence` is how closely the section had to repeat, relative to the motion.
+    fn outputs(&self, orbit: &OrbitOf<Self, D>, recurrence: f64) -> Outputs;
+
+    /// The outputs that are sums, per cycle, of what was observed over so many cycles; NaN for others.
+    fn per_cycle(&self, observed: &Self::Observer, cycles: f64) -> Outputs;
+
+    /// The derivatives in a parameter of the periodic orbit through a section point, of this period [cycles].
+    fn sensitivity(
+        &self,
+        orbit: (&[f64; D], u64),
+        tolerance: f64,
+        parameter: Self::Parameter,
+    ) -> Option<Sensitivity>;
+}
+
+/// What a case has settled to, with its outputs, and its history where the protocol asks for it.
+pub fn orbit_of<M: Face<D>, const D: usize>(
+    orbit: OrbitOf<M, D>,
+    case: &Case,
+    protocol: &Protocol,
+) -> Orbit {
+    let system = M::of(&case.parameters, case.section_phase);
+    let orbit = M::judged(orbit, case, protocol);
+    let (orbit, history) = match history::<M, D>(&orbit, case, protocol) {
+        Ok(history) => (orbit, history),
+        Err(failure) => (failed(&system, orbit, failure), Vec::new()),
+    };
+    let outputs = match orbit.failure {
+        None => system.outputs(&orbit, protocol.recurrence),
+        Some(_) => Outputs::unknown(M::description()),
+    };
+    Orbit {
+        outcome: orbit.outcome,
+        period: orbit.period,
+        certificate: orbit.certificate.map(Section::from),
+        cycles: orbit.cycles,
+        outputs,
+        section: orbit.section.into_iter().map(Section::from).collect(),
+        impacts: M::impacts(&orbit.observed),
+        history,
+        end: M::told(&orbit.end),
+        failure: orbit.failure.map(|it| it.map(|state| M::told(&state))),
+    }
+}
+
+/// The history of a motion where the protocol asks for it: from the start of its case, or from where it has settled, with what
+/// drifts at zero.
+fn history<M: Face<D>, const D: usize>(
+    orbit: &OrbitOf<M, D>,
+    case: &Case,
+    protocol: &Protocol,
+) -> Result<Vec<Vec<f64>>, orbit::Failure<M::State<f64>>> {
+    let Some(span) = protocol.history.filter(|_| orbit.failure.is_none()) else {
+        return Ok(Vec::new());
+    };
+    let settled = M::told(&orbit.end).without_drift();
+    let on = Case::at_section(case.parameters.clone(), settled, case.section_phase);
+    let from = if span.from_start { case } else { &on };
+    Ok(samples::<M, D>(from, span, protocol.tolerance)?.histories)
+}
+
+/// An orbit whose history cannot be followed.
+fn failed<M: Face<D>, const D: usize>(
+    system: &M,
+    orbit: OrbitOf<M, D>,
+    failure: orbit::Failure<M::State<f64>>,
+) -> OrbitOf<M, D> {
+    OrbitOf::<M, D> {
+        outcome: Outcome::Failed,
+        period: 0,
+        certificate: Certificate::none(),
+        section: Vec::new(),
+        failure: Some(failure),
+        observed: system.observer(0),
+        batches: Vec::new(),
+        ..orbit
+    }
+}
+
+/// The system of a setting.
+pub fn system<M: Face<D>, const D: usize>(setting: &Setting) -> M {
+    M::of(&setting.parameters, setting.phase)
+}
+
+/// A case for the engine.
+pub fn engine_case<M: Face<D>, const D: usize>(case: &Case) -> orbit::Case<M, D> {
+    let system = M::of(&case.parameters, case.section_phase);
+    orbit::Case { system, start: M::state(&case.start), begins: case.start_time() }
+}
+
+/// Follows a branch of periodic orbits both ways from the one that is given, and what leaves it.
+///
+/// # Errors
+/// Where no periodic orbit is found near the point that is given, or none that a branch goes through.
+pub fn follow<M: Face<D>, const D: usize>(request: &Request) -> Result<Found, NotFollowed> {
+    let Request { setting, along, tolerance, .. } = request;
+    let system = system::<M, D>(setting);
+    let found = branch::follow(&branch::Request {
+        system: system.clone(),
+        section: request.section.array(),
+        period: request.period,
+        along: M::which(*along),
+        range: request.range,
+        doublings: request.doublings,
+        second: request.second.map(|(second, range)| (M::which(second), range)),
+        longest_step: request.longest_step,
+        most_points: request.most_points,
+        tolerance: *tolerance,
+    })?;
+    let Protocol { recurrence, .. } = Protocol::with_tolerance(*tolerance);
+    let measured = |value: f64, orbit: Option<OrbitOf<M, D>>| match orbit {
+        Some(orbit) => system.with(M::which(*along), value).outputs(&orbit, recurrence),
+        None => Outputs::unknown(M::description()),
+    };
+    Ok(found.map(measured, Into::into))
+}

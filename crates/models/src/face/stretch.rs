@@ -1,0 +1,151 @@
+//! Stretches of a motion: samples at even times, and arcs between them with every event.
+
+use capsulemap_engine::flow::{Event as _, Step, Switched as _};
+use capsulemap_engine::orbit::{self, HistorySpan, Trajectory};
+
+use super::{Face, engine_case};
+use crate::motion::{Case, Stretch};
+
+/// Why the motion of a system could not be followed.
+type Failure<M, const D: usize> =
+    orbit::Failure<<M as capsulemap_engine::flow::System<D>>::State<f64>>;
+
+/// The motion from the start of a case at even times, both ends included, each from its step's series, which is exact to
+/// `tolerance` too.
+///
+/// # Errors
+/// Where the motion cannot be followed.
+pub fn samples<M: Face<D>, const D: usize>(
+    case: &Case,
+    span: HistorySpan,
+    tolerance: f64,
+) -> Result<Stretch, Failure<M, D>> {
+    let orbit::Case { system, start, begins: first_begins } = engine_case::<M, D>(case);
+    let single = system.single();
+    let period = single.period();
+    let between = period / f64::from(span.per_cycle);
+    let mut trajectory = Trajectory::begun(&single, start, first_begins, tolerance);
+    let mut stretch = Stretch::of(M::description());
+    // When a cycle of the history begins, since that of the drive.
+    let mut begins = first_begins;
+    let ends_at_section = begins == 0.0;
+    let wanted = span.samples() - usize::from(ends_at_section);
+    let (mut next, mut cycles) = (0, 0);
+    while stretch.times.len() < wanted {
+        trajectory.cycle(|step| {
+            let end = step.start + step.length;
+            while stretch.times.len() < wanted {
+                let at = begins + f64::from(next) * between;
+                if at > end || at >= period {
+                    return;
+                }
+                let h = (at - step.start).max(0.0);
+                let time = f64::from(cycles) * period + f64::from(next) * between;
+                let state = M::told(&single.at(&step.jet, h));
+                stretch.push(time, &state, &system.driven(&single, step, h));
+                next += 1;
+                if next == span.per_cycle {
+                    (next, begins, cycles) = (0, begins + period, cycles + 1);
+                }
+            }
+        })?;
+        begins -= period;
+    }
+    if ends_at_section {
+        // What depends on time alone is at the last section what it was at the first.
+        let coordinates = M::description().coordinates.len();
+        let driven: Vec<f64> = stretch.histories[coordinates..].iter().map(|it| it[0]).collect();
+        let time = f64::from(cycles) * period;
+        stretch.push(time, &M::told(&trajectory.state()), &driven);
+    }
+    Ok(stretch)
+}
+
+/// An event whose state after it is not known yet.
+struct Pending<M: Face<D>, const D: usize> {
+    time: f64,
+    before: M::State<f64>,
+    mode: M::Mode<f64>,
+    event: M::Event,
+    driven: Vec<f64>,
+}
+
+/// A stretch that is being followed.
+struct Following<'a, M: Face<D>, const D: usize> {
+    system: &'a M,
+    single: &'a M::Single,
+    stretch: Stretch,
+    /// When it began, since the section [s].
+    begins: f64,
+    pending: Option<Pending<M, D>>,
+}
+
+impl<M: Face<D>, const D: usize> Following<'_, M, D> {
+    /// Adds the instant `h` after the beginning of a step.
+    fn put(&mut self, step: &Step<f64, M::Single>, h: f64) {
+        let state = M::told(&self.single.at(&step.jet, h));
+        let driven = self.system.driven(self.single, step, h);
+        self.stretch.push(step.start + h - self.begins, &state, &driven);
+    }
+
+    /// Remembers the event at the end of a step, if there is one.
+    fn note_event(&mut self, step: &Step<f64, M::Single>) {
+        self.pending = M::Event::from_code(step.event).map(|event| Pending {
+            time: step.start + step.length - self.begins,
+            before: self.single.at(&step.jet, step.length),
+            mode: step.mode,
+            event,
+            driven: self.system.driven(self.single, step, step.length),
+        });
+    }
+
+    /// Adds the states at the event before, which has led to a state.
+    fn after_event(&mut self, after: M::State<f64>) {
+        let Some(Pending { time, before, mode, event, driven }) = self.pending.take() else {
+            return;
+        };
+        for state in self.system.at_event(self.single, (&mode, event), [before, after]) {
+            self.stretch.push(time, &state, &driven);
+        }
+    }
+}
+
+/// The motion of a case from its start to the next section: both ends, at so many even times after the start, of which the end is
+/// the last, and at every event between.
+///
+/// # Errors
+/// Where the motion cannot be followed.
+pub fn arc<M: Face<D>, const D: usize>(
+    case: &Case,
+    count: u32,
+    tolerance: f64,
+) -> Result<Stretch, Failure<M, D>> {
+    let orbit::Case { system, start, begins } = engine_case::<M, D>(case);
+    let single = system.single();
+    let duration = single.period() - begins;
+    let between = duration / f64::from(count);
+    let mut trajectory = Trajectory::begun(&single, start, begins, tolerance);
+    let stretch = Stretch::of(M::description());
+    let mut following =
+        Following { system: &system, single: &single, stretch, begins, pending: None };
+    let mut next = 0;
+    // What depends on time alone, at the end.
+    let mut driven = Vec::new();
+    trajectory.cycle(|step| {
+        following.after_event(single.at(&step.jet, 0.0));
+        if next == 0 {
+            following.stretch.push(0.0, &case.start, &system.driven(&single, step, 0.0));
+            next = 1;
+        }
+        // The last of the even times is the end, whatever rounding makes of it.
+        while next < count && begins + f64::from(next) * between <= step.start + step.length {
+            following.put(step, (begins + f64::from(next) * between - step.start).max(0.0));
+            next += 1;
+        }
+        following.note_event(step);
+        driven = system.driven(&single, step, step.length);
+    })?;
+    following.after_event(trajectory.state());
+    following.stretch.push(duration, &M::told(&trajectory.state()), &driven);
+    Ok(following.stretch)
+}
