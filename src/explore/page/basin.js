@@ -1,16 +1,18 @@
 // The basins at some parameters: which attractor each start leads to, painted coarse and then finer.
 
 import * as ask from "./ask.js";
-import { button, element, labelled, say, said, table } from "./element.js";
+import { button, element, labelled, parted, say, said, table } from "./element.js";
 import { isReversed } from "./form.js";
 import { handOver, saveButtons } from "./keep.js";
 import { cross, cursor, dot, entry, rimmed } from "./marks.js";
+import { model, shown } from "./model.js";
 import { Plane } from "./plane.js";
-import { result, short } from "./ticks.js";
+import { short } from "./ticks.js";
 
 const UNDECIDED = [136, 136, 136];
-const MM = 1e3;
-const RANGE = ["start_r_from", "start_r_to", "start_y1_from", "start_y1_to"];
+// The coordinates of the starts of the plane, and what the ends of their ranges are called in requests.
+const plane = () => model.starts.slice(0, 2);
+const ends = () => plane().flatMap(({ name }) => [`${name}_from`, `${name}_to`]);
 
 // The colour of the attractor within black, which is seen on the basin of the same colour.
 function sectionPoint(drawn, place, shade) {
@@ -18,7 +20,7 @@ function sectionPoint(drawn, place, shade) {
   dot(drawn, place, shade, 3.5);
 }
 
-/** The basins on a canvas, as a plane; `stop` is where r = delta, and `points` are section points with their colours, in SI. */
+/** The basins on a canvas, as a plane; `stop` is where the first coordinate meets the surface of impacts, and `points` are section points with their colours, in SI. */
 class BasinPlane extends Plane {
   over(drawn, to) {
     if (!this.hasStop()) return;
@@ -61,15 +63,14 @@ export class Basin {
 
   // The range of starts by numbers.
   ranges() {
-    const words = ["x1 − x2 (mm) from", "to", "y1 (m/s) from", "to"], names = ["x1 − x2 from", "x1 − x2 to", "y1 from", "y1 to"];
-    this.inputs = RANGE.map((name, i) => element("input", { name, type: "number", step: "any", required: true, ariaLabel: names[i] }));
+    const words = plane().flatMap(({ label }) => [`${label} from`, "to"]), names = plane().flatMap(({ label }) => ["from", "to"].map((end) => `${parted(label)[0]} ${end}`));
+    this.inputs = ends().map((name, i) => element("input", { name, type: "number", step: "any", required: true, ariaLabel: names[i] }));
     const form = element("form", { className: "row" }, ...this.inputs.map((it, i) => labelled(words[i], it)), element("button", { textContent: "Compute" }));
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       const pairs = [this.inputs.slice(0, 2), this.inputs.slice(2)];
       if (pairs.some((ends, i) => isReversed(...ends, words[2 * i].replace(" from", "")))) return;
-      const [r0, r1, y0, y1] = this.inputs.map((it) => Number(it.value));
-      this.on.range([r0 / MM, r1 / MM, y0, y1]);
+      this.on.range(this.inputs.map((it, i) => Number(it.value) / plane()[i >> 1].factor));
     });
     const whole = button("Usual range", () => this.on.range(null));
     form.append(whole);
@@ -78,7 +79,7 @@ export class Basin {
 
   /** Computes the basins at parameters; `words` say them. `range` is that of the starts, or none for the usual. */
   async show(parameters, range, words) {
-    const pairs = range ? Object.fromEntries(RANGE.map((name, i) => [name, range[i]])) : {};
+    const pairs = range ? Object.fromEntries(ends().map((name, i) => [name, range[i]])) : {};
     const request = { ...parameters, ...pairs }, asked = JSON.stringify(request);
     if (asked === this.asked) return;
     this.stop();
@@ -127,12 +128,12 @@ export class Basin {
 
   describe(head) {
     this.head = head;
-    this.plane.stop = head.delta ?? NaN;
-    const { start } = head;
+    this.plane.stop = head.surface ?? NaN;
     // The plane varies the other two coordinates of the start.
-    if (start) this.heading.textContent = `At ${this.at}. Every start has y2 = ${short(start.y2)} m/s, phase = ${short(start.phase)} rad.`;
-    const ends = [head.x.range[0] / head.x.factor * MM, head.x.range[1] / head.x.factor * MM, ...head.y.range.map((it) => it / head.y.factor)];
-    this.inputs.forEach((input, i) => { input.value = String(Number(ends[i].toPrecision(6))); });
+    const held = head.held.map(({ name, value, unit }) => `${name} = ${short(value)}${unit && ` ${unit}`}`).join(", ");
+    this.heading.textContent = `At ${this.at}. Every start has ${held}.`;
+    const all = [...head.x.range, ...head.y.range];
+    this.inputs.forEach((input, i) => { input.value = String(Number(all[i].toPrecision(6))); });
     handOver("basin", "Basin: study for capsulemap sweep", head.study, true);
   }
 
@@ -158,14 +159,14 @@ export class Basin {
 
   // What lies over the basins.
   explain() {
-    const { plane } = this, made = [];
-    if (plane.hasStop()) made.push(entry("stop, x1 − x2 = delta", (drawn, [x, y]) => {
+    const { plane, head } = this, made = [];
+    if (plane.hasStop()) made.push(entry(`surface of impacts, ${parted(head.x.label)[0]} = ${model.surface.name}`, (drawn, [x, y]) => {
       drawn.setLineDash([4, 3]);
       rimmed(drawn, () => { drawn.moveTo(x, y - 9); drawn.lineTo(x, y + 9); }, "#000000", 1.5);
       drawn.setLineDash([]);
     }));
     const isSeen = plane.points.some(({ at }) => plane.isSeen(plane.shares(at)));
-    if (isSeen) made.push(entry("section point of an attractor, in its colour, projected: its y2 is its own", (drawn, at) => sectionPoint(drawn, at, "#888888")));
+    if (isSeen) made.push(entry(`section point of an attractor, in its colour${head.held.length > 1 ? `, projected: its ${head.held[0].name} is its own` : ""}`, (drawn, at) => sectionPoint(drawn, at, "#888888")));
     if (plane.chosen) made.push(entry("chosen start", (drawn, at) => cross(drawn, at)));
     this.legend.replaceChildren(...made);
   }
@@ -178,11 +179,11 @@ export class Basin {
     const named = (text, colour) => element("span", {}, swatch(colour), text);
     const rows = attractors.map((it) => {
       const period = it.outcome === "periodic" ? `periodic, period ${it.period}` : it.outcome;
-      return [named(String(it.label + 1), it.colour), period, result(it.speed === null ? null : it.speed * MM, "mm/s"), part(count(it.label))];
+      return [named(String(it.label + 1), it.colour), period, shown(it[model.main_output.name], model.main_output), part(count(it.label))];
     });
     const known = new Set(attractors.map((it) => it.label)), others = labels.filter((it) => !known.has(it)).length;
     if (others) rows.push([named("none", unknown || UNDECIDED), "undecided", "–", part(others)]);
-    this.attractors.replaceChildren(table("Attractors of the basin", ["attractor", "motion", "speed (mm/s)", "share of starts"], rows));
+    this.attractors.replaceChildren(table("Attractors of the basin", ["attractor", "motion", model.main_output.label, "share of starts"], rows));
   }
 
   hover(at, isKey) {
@@ -202,9 +203,8 @@ export class Basin {
     if (!this.data) return;
     const [x, y] = [coordinates?.[this.data.x.name], coordinates?.[this.data.y.name]];
     const isAt = Object.entries(this.parameters).every(([name, value]) => coordinates?.[name] === value);
-    const { y2, phase } = this.head.start || {}, { start_y2 = y2, start_phase = phase } = coordinates || {};
-    // A start with another y2 or another phase lies in another plane.
-    const isHere = isAt && start_y2 === y2 && start_phase === phase;
+    // A start that has another phase, or another of the coordinates that the plane does not vary, lies in another plane.
+    const isHere = isAt && this.head.held.every(({ name, value }) => (coordinates?.[`start_${name}`] ?? value) === value);
     const place = isHere && x !== undefined && y !== undefined ? this.plane.shares([x, y]) : null;
     this.plane.chosen = place;
     if (place) this.plane.mark = place;

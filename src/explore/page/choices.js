@@ -20,7 +20,7 @@ export class Choices {
   /** The output and the axes of the map; the last two axes unless others are chosen. */
   chosen() {
     const { axes, outputs } = this.file, known = (key, all) => all.find((it) => it.name === view.text(key));
-    const usual = outputs.find((it) => it.name === "progression_speed") || outputs[0];
+    const usual = outputs.find((it) => it.name === this.file.model.main_output.name) || outputs[0];
     const x = known("x", axes) || axes.at(-1), others = axes.filter((it) => it !== x);
     const y = others.find((it) => it.name === view.text("y")) || others.at(-1);
     return { of: (known("of", outputs) || usual).name, x: x?.name, y: y?.name };

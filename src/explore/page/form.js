@@ -5,16 +5,8 @@ import { by, element, labelled } from "./element.js";
 /** A number of the form that is this near to a value of the axis, relative to it, is that value. */
 const SAME = 1e-9;
 
-/** Coordinates of the start, as they are shown. */
-export const STARTS = {
-  start_r: { label: "Initial x1 − x2 (mm)", factor: 1e3 },
-  start_y1: { label: "Initial y1 (m/s)", factor: 1 },
-  start_y2: { label: "Initial y2 (m/s)", factor: 1 },
-  start_phase: { label: "Initial phase (rad)", factor: 1 },
-};
-
-// Those that no axis of the file has.
-const starts = ({ axes }) => Object.entries(STARTS).map(([name, it]) => ({ name, ...it })).filter(({ name }) => axes.every((it) => it.name !== name));
+// The coordinates of the start that no axis of the file has.
+const starts = ({ axes, model }) => model.starts.filter(({ name }) => axes.every((it) => it.name !== name));
 
 // The value of a field in SI: one of those that are `known` where it is that near.
 function value(input, { factor }, known) {

@@ -1,16 +1,16 @@
 // The bifurcation diagram along a line over the map, drawn as it is computed.
 
 import * as ask from "./ask.js";
-import { element, folded, labelled, say, said, select } from "./element.js";
+import { element, folded, labelled, parted, say, said, select } from "./element.js";
 import { copyButton, handOver, saveButtons } from "./keep.js";
 import { entry } from "./marks.js";
+import { mainOutput, model, shown } from "./model.js";
 import { colours, context, frame, redrawn, share } from "./plot.js";
-import { range, result, short } from "./ticks.js";
+import { range, short } from "./ticks.js";
 
 /** Values along a line. */
 const COUNT = 300;
 const STARTS = [["inherit", "where the value before it settled"], ["afresh", "from the initial state of the study"]];
-const MM = 1e3;
 
 const square = (drawn, x, y, r) => drawn.fillRect(x - r, y - r, 2 * r, 2 * r);
 const plus = (drawn, x, y, r) => { drawn.beginPath(); drawn.moveTo(x - 2 * r, y); drawn.lineTo(x + 2 * r, y); drawn.moveTo(x, y - 2 * r); drawn.lineTo(x, y + 2 * r); drawn.stroke(); };
@@ -107,7 +107,7 @@ export class Line {
 
   finish() {
     const failed = this.points.filter((it) => it.outcome === "failed").length;
-    const without = this.points.filter((it) => it.outcome !== "failed" && !it.section_r.length).length;
+    const without = this.points.filter((it) => it.outcome !== "failed" && !this.section(it).length).length;
     const seconds = ((performance.now() - this.began) / 1e3).toFixed(1);
     const more = [failed && `${failed} failed and have no points`, without && `${without} others have no points`].filter((it) => it);
     this.told.textContent = [`${this.points.length} values in ${seconds} s`, ...more].join("; ").concat(".");
@@ -119,9 +119,9 @@ export class Line {
 
   summary() {
     const count = (of) => this.points.filter(of).length;
-    const speeds = this.speeds().filter(Number.isFinite), [low, high] = range(speeds, 0);
+    const outputs = this.outputs().filter(Number.isFinite), [low, high] = range(outputs, 0), { label, unit } = model.main_output;
     const periodic = count((it) => it.outcome === "periodic");
-    return `${this.points.length} values, ${periodic} periodic; speed from ${short(low, 4)} to ${short(high, 4)} mm/s`;
+    return `${this.points.length} values, ${periodic} periodic; ${parted(label)[0]} from ${short(low, 4)} to ${short(high, 4)} ${unit}`.trim();
   }
 
   figure() {
@@ -136,12 +136,19 @@ export class Line {
     return names.length ? { log: names.join(",") } : {};
   }
 
-  speeds() { return this.points.map((it) => (it.progression_speed === null ? NaN : it.progression_speed * MM)); }
+  // The first coordinate of the section points of a value, in SI.
+  section(it) { return it[model.section[0].name]; }
+
+  // The main output at each value, in the unit shown.
+  outputs() {
+    const { name, factor } = model.main_output;
+    return this.points.map((it) => (it[name] === null ? NaN : it[name] * factor));
+  }
 
   rows() {
-    const speed = (it) => result(it.progression_speed === null ? null : it.progression_speed * MM, "mm/s");
-    const section = (it) => (it.section_r.length > 8 ? `${it.section_r.length} points` : it.section_r.map((r) => short(r * MM, 5)).join("; ") || "none");
-    return this.points.map((it) => [...this.varied().map((axis) => short(this.place(it.share)[axis.name] * axis.factor)), it.outcome, it.period ?? "–", section(it), speed(it)]);
+    const { main_output: main, section: [first] } = model, coordinates = (all) => all.map((value) => short(value * first.factor, 5)).join("; ");
+    const section = (it) => (this.section(it).length > 8 ? `${this.section(it).length} points` : coordinates(this.section(it)) || "none");
+    return this.points.map((it) => [...this.varied().map((axis) => short(this.place(it.share)[axis.name] * axis.factor)), it.outcome, it.period ?? "–", section(it), shown(it[main.name], main)]);
   }
 
   // The axes whose values differ along the line.
@@ -151,15 +158,15 @@ export class Line {
   }
 
   table() {
-    const head = [...this.varied().map((it) => it.label), "outcome", "period", "Section x1 − x2 (mm)", "Speed (mm/s)"];
+    const head = [...this.varied().map((it) => it.label), "outcome", "period", model.section[0].label, model.main_output.label];
     return folded("Values along the line", head, () => this.rows());
   }
 
   /** The same with all digits that are known, in SI and by the names of the program. */
   csv() {
-    const axes = this.varied(), head = [...axes.map((it) => it.name), "outcome", "period", "progression_speed", "section_r"];
+    const axes = this.varied(), { main_output: main, section: [first] } = model, head = [...axes.map((it) => it.name), "outcome", "period", main.name, first.name];
     const number = (value) => (value === null || value === undefined ? "" : String(value));
-    const row = (it) => [...axes.map(({ name }) => this.place(it.share)[name]), it.outcome, number(it.period), number(it.progression_speed), it.section_r.join(" ")];
+    const row = (it) => [...axes.map(({ name }) => this.place(it.share)[name]), it.outcome, number(it.period), number(it[main.name]), this.section(it).join(" ")];
     return [head, ...this.points.map(row)].map((cells) => cells.join(",")).join("\n").concat("\n");
   }
 
@@ -207,8 +214,7 @@ export class Line {
   words(place) {
     const it = this.points[place], at = this.place(it.share);
     const where = this.line.axes.map((axis) => said(axis.label, at[axis.name] * axis.factor)).join(", ");
-    const speed = it.progression_speed === null ? "no speed" : `speed ${result(it.progression_speed * MM, "mm/s")} mm/s`;
-    return `${where}: ${it.outcome}${it.period ? `, period ${it.period}` : ""}, ${speed}`;
+    return `${where}: ${it.outcome}${it.period ? `, period ${it.period}` : ""}, ${mainOutput(it[model.main_output.name])}`;
   }
 
   choose(place) {
@@ -217,9 +223,9 @@ export class Line {
     const at = this.place(point.share);
     if (!point.end) return this.on.choose(at);
     // Of several motions at these parameters the one that the line has is shown, whatever the sweep of the file.
-    const [start_r, start_y1, start_y2] = point.end;
+    const start = Object.fromEntries(point.end.map((value, i) => [model.starts[i].name, value]));
     delete at.sweep;
-    this.on.choose({ ...at, start_r, start_y1, start_y2, start_phase: point.phase, from: "line" });
+    this.on.choose({ ...at, ...start, start_phase: point.phase, from: "line" });
   }
 
   key(event) {
@@ -236,16 +242,16 @@ export class Line {
   draw() {
     const made = context(this.canvas), { drawn } = made;
     if (!this.line) return;
-    const x = this.axis(), [above, below] = this.areas(made), shades = colours(), speeds = this.speeds();
+    const x = this.axis(), [above, below] = this.areas(made), shades = colours(), outputs = this.outputs(), [first] = model.section;
     const at = (share) => this.place(share)[this.line.along.name] * this.line.along.factor;
-    const sections = this.points.flatMap((it) => it.section_r.map((r) => r * MM));
-    const upper = frame(drawn, above, { ...x, label: "" }, { range: range(sections), label: "Section x1 − x2 (mm)" });
-    const lower = frame(drawn, below, { ...x, label: this.label() }, { range: range(speeds), label: "Speed (mm/s)" });
+    const sections = this.points.flatMap((it) => this.section(it).map((value) => value * first.factor));
+    const upper = frame(drawn, above, { ...x, label: "" }, { range: range(sections), label: first.label });
+    const lower = frame(drawn, below, { ...x, label: this.label() }, { range: range(outputs), label: model.main_output.label });
     this.points.forEach((point, i) => {
       const across = upper.x(at(point.share)), { shade, put } = kind(point.outcome);
       [drawn.fillStyle, drawn.strokeStyle, drawn.lineWidth] = [shades[shade], shades[shade], 1];
-      for (const r of point.section_r) put(drawn, across, upper.y(r * MM), 1);
-      if (Number.isFinite(speeds[i])) put(drawn, across, lower.y(speeds[i]), 1.3);
+      for (const value of this.section(point)) put(drawn, across, upper.y(value * first.factor), 1);
+      if (Number.isFinite(outputs[i])) put(drawn, across, lower.y(outputs[i]), 1.3);
     });
     if (this.spot !== null && this.points[this.spot]) this.drawSpot(drawn, upper.x(at(this.points[this.spot].share)), above, below);
     this.explain(shades);
@@ -269,7 +275,7 @@ export class Line {
   }
 
   explain(shades) {
-    const outcomes = [...new Set(this.points.filter((it) => it.section_r.length).map((it) => it.outcome))].sort();
+    const outcomes = [...new Set(this.points.filter((it) => this.section(it).length).map((it) => it.outcome))].sort();
     const text = JSON.stringify([outcomes, shades]);
     if (text === this.legend.dataset.text) return;
     this.legend.dataset.text = text;

@@ -1,32 +1,38 @@
 // The charts of a motion: histories, phase portrait and stroboscopic section.
 
 import uPlot from "./uPlot.esm.js";
-import { element } from "./element.js";
+import { element, parted } from "./element.js";
+import { model } from "./model.js";
 import { colours, context, frame, redrawn, room, within } from "./plot.js";
 import { range, short } from "./ticks.js";
 
-const MM = 1e3;
 const HEIGHT = 170;
-/** The histories: label, and columns with their names, colours, factors and dashes. */
-const CHARTS = [
-  ["Displacement (mm)", [["r", "x1 − x2", "first", MM], ["x1", "x1", "second", MM, [7, 3]], ["x2", "x2", "third", MM, [2, 3]]]],
-  ["Velocity (mm/s)", [["y1", "y1", "second", MM], ["y2", "y2", "third", MM, [7, 3]]]],
-  ["Force (N)", [["drive", "drive", "fourth", 1, [7, 3]], ["contact", "contact", "first", 1], ["friction", "friction", "third", 1, [2, 3]]]],
-];
+/** The colours and dashes of the signals of a chart, in their order. */
+const SHADES = ["first", "second", "third", "fourth"];
+const DASHES = [undefined, [7, 3], [2, 3], [10, 3]];
 
-const columns = (history, all) => all.filter(([name]) => history[name]);
-const scaled = (history, [name, , , factor]) => history[name].map((value) => value * factor);
+// The charts that a motion has: their labels, and their signals with their names, words, colours, factors and dashes.
+const charts = ({ signals }) => model.charts.map(({ label, signals: all }) => [
+  label, all.map(({ name, label: words, factor }, i) => [name, words, SHADES[i], factor, DASHES[i]]).filter(([name]) => signals[name]),
+]).filter(([, all]) => all.length);
+const scaled = ({ signals }, [name, , , factor]) => signals[name].map((value) => value * factor);
 
-// Relative displacement and velocity.
-const portrait = ({ r, y1, y2 }) => [r.map((value) => value * MM), y1.map((value, i) => (value - y2[i]) * MM)];
-const section = ({ stroboscopic }) => [0, 1].map((i) => stroboscopic.map((it) => it[i] * MM));
+// The curve of the phase portrait, and the points of the section.
+const portrait = ({ signals }) => model.portrait.map(({ name, factor }) => signals[name].map((value) => value * factor));
+const section = ({ stroboscopic }) => model.section.slice(0, 2).map(({ factor }, i) => stroboscopic.map((it) => it[i] * factor));
+
+// Where the surface of impacts lies along the abscissa of the portrait; none where it does not.
+function surface({ surface: at }) {
+  const [{ name, factor }] = model.portrait;
+  return at !== null && name === model.meets_surface ? at * factor : null;
+}
 
 /** The ranges of everything that is drawn of a motion, by the name of its axis. */
 function ranges(it) {
   const made = { "Time (s)": [0, it.history.t.at(-1)] };
-  for (const [label, all] of CHARTS) made[label] = range(columns(it.history, all).flatMap((column) => scaled(it.history, column)));
-  const [x, y] = portrait(it.history), [sx, sy] = section(it);
-  return { ...made, x: range([...x, it.history.delta * MM]), y: range(y), sx: range(sx), sy: range(sy) };
+  for (const [label, all] of charts(it.history)) made[label] = range(all.flatMap((column) => scaled(it.history, column)));
+  const [x, y] = portrait(it.history), [sx, sy] = section(it), stop = surface(it.history);
+  return { ...made, x: range(stop === null ? x : [...x, stop]), y: range(y), sx: range(sx), sy: range(sy) };
 }
 
 /** Ranges that hold all motions, over the time of the shortest history; none where no motion has a history. */
@@ -52,7 +58,7 @@ export class Charts {
   /** Shows a motion with a history; `scales` are ranges to keep to, or none for its own. */
   show(it, scales) {
     Object.assign(this, { it, scales: scales || ranges(it) });
-    const shown = CHARTS.map(([label, all]) => [label, columns(it.history, all)]), key = JSON.stringify([shown, colours()]);
+    const shown = charts(it.history), key = JSON.stringify([shown, colours()]);
     if (key !== this.key) this.build(shown);
     this.key = key;
     shown.forEach(([label, all], i) => this.fill(this.plots[i], label, all));
@@ -78,9 +84,9 @@ export class Charts {
   }
 
   describe() {
-    const { history, stroboscopic } = this.it, [x, y] = portrait(history), ends = (values) => range(values, 0).map((value) => short(value, 4)).join(" to ");
+    const { history, stroboscopic } = this.it, [x, y] = portrait(history), stop = surface(history), ends = (values) => range(values, 0).map((value) => short(value, 4)).join(" to ");
     const words = [
-      `Phase portrait: x1 − x2 from ${ends(x)} mm, y1 − y2 from ${ends(y)} mm/s, the stop at ${short(history.delta * MM)} mm`,
+      `Phase portrait: ${model.portrait.map(({ label, unit }, i) => `${parted(label)[0]} from ${ends([x, y][i])}${unit && ` ${unit}`}`).join(", ")}${stop === null ? "" : `, the surface of impacts at ${short(stop)}`}`,
       `Stroboscopic section: ${stroboscopic.length} points; the table of section points has them`,
     ];
     this.canvases.forEach((canvas, i) => canvas.setAttribute("aria-label", words[i]));
@@ -119,27 +125,29 @@ function ring(drawn, x, y, radius) {
   drawn.arc(x, y, radius, 0, 2 * Math.PI);
 }
 
-function drawPortrait(canvas, { history, stroboscopic }, scales) {
-  const made = context(canvas), { drawn } = made, area = room(made), shades = colours(), [xs, ys] = portrait(history);
-  const place = frame(drawn, area, { range: scales.x, label: "x1 − x2 (mm)" }, { range: scales.y, label: "y1 − y2 (mm/s)" });
+function drawPortrait(canvas, { history, portrait: points }, scales) {
+  const made = context(canvas), { drawn } = made, area = room(made), shades = colours(), [xs, ys] = portrait(history), [x, y] = model.portrait, stop = surface(history);
+  const place = frame(drawn, area, { range: scales.x, label: x.label }, { range: scales.y, label: y.label });
   within(drawn, area, () => {
-    [drawn.strokeStyle, drawn.lineWidth] = [shades.ink, 1];
-    drawn.setLineDash([5, 4]);
-    drawn.beginPath(); drawn.moveTo(place.x(history.delta * MM), area.top); drawn.lineTo(place.x(history.delta * MM), area.bottom); drawn.stroke();
-    drawn.setLineDash([]);
+    if (stop !== null) {
+      [drawn.strokeStyle, drawn.lineWidth] = [shades.ink, 1];
+      drawn.setLineDash([5, 4]);
+      drawn.beginPath(); drawn.moveTo(place.x(stop), area.top); drawn.lineTo(place.x(stop), area.bottom); drawn.stroke();
+      drawn.setLineDash([]);
+    }
     [drawn.strokeStyle, drawn.lineWidth] = [shades.first, 1.4];
     drawn.beginPath();
-    xs.forEach((x, i) => drawn.lineTo(place.x(x), place.y(ys[i])));
+    xs.forEach((it, i) => drawn.lineTo(place.x(it), place.y(ys[i])));
     drawn.stroke();
   });
   // Rings at the frame are not cut off.
   [drawn.strokeStyle, drawn.fillStyle, drawn.lineWidth] = [shades.second, shades.paper, 1.5];
-  for (const [r, y1, y2] of stroboscopic) { ring(drawn, place.x(r * MM), place.y((y1 - y2) * MM), 3.2); drawn.fill(); drawn.stroke(); }
+  for (const at of points) { ring(drawn, place.x(at[0] * x.factor), place.y(at[1] * y.factor), 3.2); drawn.fill(); drawn.stroke(); }
 }
 
 function drawSection(canvas, it, scales) {
-  const made = context(canvas), { drawn } = made, area = room(made), [xs, ys] = section(it);
-  const place = frame(drawn, area, { range: scales.sx, label: "Section x1 − x2 (mm)" }, { range: scales.sy, label: "Section y1 (mm/s)" });
+  const made = context(canvas), { drawn } = made, area = room(made), [xs, ys] = section(it), [x, y] = model.section;
+  const place = frame(drawn, area, { range: scales.sx, label: x.label }, { range: scales.sy, label: y.label });
   drawn.fillStyle = colours().second;
-  xs.forEach((x, i) => { ring(drawn, place.x(x), place.y(ys[i]), xs.length > 20 ? 1.6 : 3.2); drawn.fill(); });
+  xs.forEach((it, i) => { ring(drawn, place.x(it), place.y(ys[i]), xs.length > 20 ? 1.6 : 3.2); drawn.fill(); });
 }

@@ -2,7 +2,6 @@
 
 import * as ask from "./ask.js";
 import { by, say, said } from "./element.js";
-import { STARTS } from "./form.js";
 import { handOver } from "./keep.js";
 import { common } from "./motion.js";
 import { keyNumbers } from "./numbers.js";
@@ -24,7 +23,7 @@ export class Motions {
 
   /** The coordinates of a case in words. */
   words(coordinates) {
-    const starts = coordinates.from ? [] : Object.entries(STARTS).map(([name, it]) => ({ name, ...it }));
+    const starts = coordinates.from ? [] : this.file.model.starts;
     const shown = [...this.file.axes, ...this.file.constants, ...starts];
     const isNew = (it, i) => shown.findIndex((other) => other.name === it.name) === i;
     const words = shown.filter((it, i) => isNew(it, i) && it.name in coordinates).map((it) => said(it.label, coordinates[it.name] * it.factor));

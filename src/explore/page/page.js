@@ -11,6 +11,7 @@ import { handOver, quoted, save } from "./keep.js";
 import { legend } from "./legend.js";
 import { Line, longer } from "./line.js";
 import { CellMap } from "./map.js";
+import { learn } from "./model.js";
 import { Motions } from "./motions.js";
 import { bare, mark, select, showCurves, showTradeOff } from "./overlay.js";
 import { recoloured } from "./plot.js";
@@ -374,4 +375,7 @@ addEventListener("results-changed", ({ detail }) => {
 });
 pressed("anew-button", openAnew);
 const file = await ask.object("/api/file").catch(fault);
-if (file) await open(file);
+if (file) {
+  learn(file.model);
+  await open(file);
+}

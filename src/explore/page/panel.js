@@ -2,15 +2,14 @@
 
 import { button, element, sentence } from "./element.js";
 import { saveButtons } from "./keep.js";
+import { mainOutput, model } from "./model.js";
 import { Charts } from "./motion.js";
 import { keyNumbers, tables } from "./numbers.js";
-import { result } from "./ticks.js";
 import { asked } from "./view.js";
 
 /** A motion in a few words. */
 export function summary({ simulate: { orbit } }) {
-  const speed = orbit.progression_speed === null ? "no speed" : `speed ${result(orbit.progression_speed * 1e3, "mm/s")} mm/s`;
-  return `${orbit.outcome === "periodic" ? `periodic, period ${orbit.period}` : orbit.outcome}, ${speed}`;
+  return `${orbit.outcome === "periodic" ? `periodic, period ${orbit.period}` : orbit.outcome}, ${mainOutput(orbit[model.main_output.name])}`;
 }
 
 function about(it, { from }) {
@@ -33,7 +32,7 @@ export class Panel {
       saveButtons(`${id}-portrait`, "portrait", () => ({ kind: "phase-portrait", ...coordinates() })));
     const place = element("div", { className: "charts" });
     this.charts = new Charts(place);
-    this.note = element("p", { className: "note", textContent: "Histories begin at the section, after the transient. Phase portrait: the dashed line is the stop, rings are stroboscopic points." });
+    this.note = element("p", { className: "note", textContent: `Histories begin at the section, after the transient. Phase portrait: ${model.surface ? "the dashed line is the surface of impacts, " : ""}rings are stroboscopic points.` });
     this.numbers = element("div");
     this.tables = element("div");
     const buttons = element("div", { className: "buttons" }, this.actions, this.saving);

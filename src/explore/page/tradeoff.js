@@ -9,18 +9,13 @@ import { cross, dot, dots, entry, front, rectangle } from "./marks.js";
 import { colours, context, frame, redrawn, room, within } from "./plot.js";
 import { range, result, short } from "./ticks.js";
 
-/** The outputs that a motion costs. */
-const PRICES = ["work_positive", "power", "energy_per_metre", "cost_of_transport"];
 /** Ratio of prices above which their logarithm is shown. */
 const MANY = 1000;
 const STILL = 4;
 
 /** The outputs of a file that can be a price: their names and labels. */
 export function prices(file) {
-  const known = new Map(file.outputs.map((it) => [it.name, it.label]));
-  const label = (name) => known.get(name) ?? (name === "power" && known.has("work_positive") ? "Power (positive work)" : null);
-  if (!known.has("progression_speed")) return [];
-  return PRICES.map((name) => [name, label(name)]).filter(([, text]) => text);
+  return file.model.costs.map(({ name, label }) => [name, label]);
 }
 
 /** The trade-off in its place. `on` is told of the `price`, a `choose`n cell, the cell under the pointer and a `brush`ed rectangle. */

@@ -30,6 +30,7 @@ const ASSETS: &[(&str, &[u8])] = assets![
     "line.js",
     "map.js",
     "marks.js",
+    "model.js",
     "motion.js",
     "motions.js",
     "numbers.js",

@@ -186,6 +186,7 @@ impl Basin {
     /// starts.
     fn attractors(&self, found: &Attractors, records: &[Record]) -> Vec<Value> {
         let is_in_plane = self.study.start_phase == self.study.section_phase;
+        let main = self.study.base.model().main_output();
         let told = |(number, attractor): (usize, &Attractor<Section>)| {
             let record = records.iter().find(|record| record.index == attractor.case)?;
             let orbit = &record.orbit;
@@ -195,7 +196,7 @@ impl Basin {
                 "label": number,
                 (OUTCOME.name): orbit.outcome.name(),
                 (PERIOD.name): is_periodic.then_some(orbit.period),
-                "speed": self.study.base.model().has_trade_off().then(|| orbit.outputs.speed()),
+                (main.name()): orbit.outputs[main],
                 "colour": label_colour(Some(number as u32)),
                 "points": points.map(|it| [it[0], it[1]]).collect::<Vec<_>>(),
             }))

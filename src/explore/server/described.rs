@@ -76,9 +76,21 @@ fn model_json(explored: &Explored) -> Value {
         "portrait": model.motion.portrait.map(|names| names.map(shown)),
         "surface": surface,
         "meets_surface": model.signal_of_coordinate(0).map(|it| it.name()),
+        "costs": costs(explored).into_iter().map(|it| shown(it.name())).collect::<Vec<_>>(),
         "key_outputs": model.key_outputs().map(|it| shown(it.name())).collect::<Vec<_>>(),
         "main_output": shown(model.main_output().name()),
     })
+}
+
+/// What motions cost, as far as the file has it or, of the power, what it follows from; none where it does not have what they gain.
+fn costs(explored: &Explored) -> Vec<Output> {
+    let model: &'static Description = explored.model();
+    let has = |it: Output| explored.archive.unit(it.name()).is_some();
+    if !model.has_trade_off() || !has(model.speed()) {
+        return Vec::new();
+    }
+    let is_known = |it: &Output| has(*it) || (*it == model.power() && has(model.work()));
+    model.costs().filter(is_known).collect()
 }
 
 /// A coordinate of the state, by its name, in the unit of its history.

@@ -223,6 +223,12 @@ pub static CAPSULE: Description = Description {
             work: Output::WorkPositive as usize,
             power: Output::Power as usize,
             energy_per_distance: Output::EnergyPerMetre as usize,
+            costs: &[
+                Output::WorkPositive as usize,
+                Output::Power as usize,
+                Output::EnergyPerMetre as usize,
+                Output::CostOfTransport as usize,
+            ],
         }),
         rest_share: Some(Output::StickShare as usize),
         key_outputs: &[

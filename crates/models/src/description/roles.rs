@@ -44,6 +44,8 @@ pub struct TradeOffRoles {
     pub power: usize,
     /// What it costs over the distance that it gains.
     pub energy_per_distance: usize,
+    /// All that can be held against what it gains.
+    pub costs: &'static [usize],
 }
 
 /// Outputs of the trade-off by their roles: name of the function, and what it is.
@@ -133,6 +135,12 @@ impl Description {
     pub fn gain_and_work(&'static self) -> Vec<Output> {
         let roles = self.roles.trade_off.map(|it| [it.speed, it.work]);
         roles.into_iter().flatten().map(|index| Output::of(self, index)).collect()
+    }
+
+    /// All that can be held against what a motion gains, if it gains anything.
+    pub fn costs(&'static self) -> impl Iterator<Item = Output> {
+        let costs = self.roles.trade_off.map_or(&[][..], |it| it.costs);
+        costs.iter().map(move |index| Output::of(self, *index))
     }
 
     /// The one output that is shown where no other is asked for: what a motion gains, or the first.
