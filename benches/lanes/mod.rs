@@ -1,6 +1,6 @@
 //! Cases that are integrated side by side, and nothing else.
 
-use capsulemap::capsule::{Capsule, Parameters, State};
+use capsulemap::capsule::{Capsule, CapsuleParameters, Parameters, State};
 use capsulemap::flow::{Motion, Step};
 use capsulemap::lane::{Instructions, Lane, Mask, SideBySide, Work};
 

@@ -169,10 +169,8 @@ pub fn command(case: &Case, protocol: &Protocol) -> String {
         }
     }
     let model = parameters.model();
-    let of_section = model.section_coordinates();
-    let of_section: Vec<_> =
-        of_section.map(|it| format!("{}={:?}", it.name(), start[it])).collect();
-    text += &format!(" --start {}", of_section.join(","));
+    let given = model.start_coordinates().map(|it| format!("{}={:?}", it.name(), start[it]));
+    text += &format!(" --start {}", given.collect::<Vec<_>>().join(","));
     if let Some(drift) = model.drift().filter(|it| start[*it] != 0.0) {
         text += &format!(",{}={:?}", drift.name(), start[drift]);
     }

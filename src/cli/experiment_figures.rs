@@ -1,6 +1,6 @@
 //! Pictures of an identification and of a comparison: what was measured beside what a model gives.
 
-use crate::capsule::Parameter;
+use crate::capsule::{CapsuleParameters as _, Parameter};
 use crate::experiment::friction::coast_down;
 use crate::experiment::identification::Evidence;
 use crate::experiment::line::Line;

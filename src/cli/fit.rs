@@ -11,7 +11,7 @@ use super::identify::shown;
 use super::synthesize::case_of;
 use super::terminal::print;
 use super::varied::{Varied, threads, varied};
-use crate::capsule::Parameter;
+use crate::capsule::{CapsuleParameters as _, Parameter};
 use crate::experiment::comparison::signals_of;
 use crate::experiment::course::varies;
 use crate::experiment::identification::parameter_file;

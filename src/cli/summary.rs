@@ -45,9 +45,9 @@ pub fn summary(
         let _ = write!(text, "    replay: capsulemap simulate --study {path} --case {index}");
         let (start, usual) = (failed.start, study.case(index).start.without_drift());
         if start != usual {
-            let of_section = study.base.model().section_coordinates();
-            let of_section = of_section.map(|it| format!("{}={}", it.name(), start[it]));
-            let _ = write!(text, " --start {}", of_section.collect::<Vec<_>>().join(","));
+            let coordinates = study.base.model().start_coordinates();
+            let given = coordinates.map(|it| format!("{}={}", it.name(), start[it]));
+            let _ = write!(text, " --start {}", given.collect::<Vec<_>>().join(","));
         }
         text.push('\n');
     }

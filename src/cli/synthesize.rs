@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::files;
 use super::terminal::print;
 use crate::campaign::{CampaignError, Replay, read_study_or_results};
-use crate::capsule::{CapsuleState as _, State};
+use crate::capsule::{CapsuleParameters as _, CapsuleState as _, State};
 use crate::description::Parameters;
 use crate::experiment::synthesis::recorded;
 use crate::experiment::{Laboratory, Sensor, Signal, SimpleTests, Started, Test, simple_tests};

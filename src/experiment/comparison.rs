@@ -12,7 +12,7 @@ use super::settled_motion::{Settled, TOLERANCE};
 use super::simulated_span::check_span;
 use super::spikes::{Spikes, contact_period, contacts, per_cycle, spikes};
 use crate::capsule::sampled::{Signal, Started, sampled};
-use crate::capsule::{self, Parameter};
+use crate::capsule::{self, CapsuleParameters as _, Parameter};
 use crate::motion::Case;
 use crate::orbit::{Outcome, Protocol};
 

@@ -4,7 +4,7 @@ use super::agreement::Difference;
 use super::comparison::Comparison;
 use super::course::Recorded;
 use super::motion_fit::{Effort, Free, Side, best_values};
-use crate::capsule::{self, Parameter, State, settle_case};
+use crate::capsule::{self, CapsuleParameters as _, Parameter, State, settle_case};
 use crate::motion::Case;
 use crate::orbit::{Outcome, Protocol};
 

@@ -112,11 +112,13 @@ pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
             ));
         }
         Outcome::Undecided if exponent.is_finite() && exponent + 5.0 * uncertainty < 0.0 => {
-            let cycles = 25.0 / (-exponent * parameters.drive_period());
+            let enough = parameters.period_of_drive().map_or(String::new(), |period| {
+                let cycles = 25.0 / (-exponent * period);
+                format!("; at that rate some {cycles:.0} cycles would do (--max-cycles), and more if it slows down")
+            });
+            let time = -1.0 / exponent;
             remarks.push(format!(
-                "undecided: the motion approaches an orbit too slowly for the cycles given, by e in {:.3} s; \
-                 at that rate some {cycles:.0} cycles would do (--max-cycles), and more if it slows down",
-                -1.0 / exponent
+                "undecided: the motion approaches an orbit too slowly for the cycles given, by e in {time:.3} s{enough}"
             ));
         }
         Outcome::Undecided => remarks.push(

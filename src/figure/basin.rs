@@ -45,7 +45,7 @@ pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 /// What basins read: the attractor of each case, and the table of the attractors.
 fn reads(_: &Drawing, model: &'static Description) -> Names {
     let sections = section(model).into_iter().map(|entry| Place::Attractor.of(entry));
-    let phases = [Coordinate::StartPhase, Coordinate::SectionPhase].map(Entry::of_coordinate);
+    let phases = Coordinate::phases(model).map(Entry::of_coordinate);
     Names::of(outcome::READS)
         .and([ATTRACTOR, ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR])
         .and(sections)

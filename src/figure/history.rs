@@ -51,7 +51,7 @@ fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let usual = model.motion.panels.iter().copied().filter(|_| drawing.of.is_empty());
     let of = drawing.of.iter().map(String::as_str).chain(usual);
     let shown: Vec<&str> = of.flat_map(|name| variables(name, model)).collect();
-    let constants = [model.drive_frequency()].into_iter().chain(model.impact_surface());
+    let constants = model.drive_frequency().into_iter().chain(model.impact_surface());
     let constants = constants.map(Entry::of_parameter);
     let sources: Vec<Entry> = shown.iter().flat_map(|name| sources(name, model)).collect();
     let shown = shown.into_iter().map(str::to_owned).collect::<Vec<_>>();
@@ -126,8 +126,7 @@ fn cell(cases: &[CasePanel<'_>], output: &str, place: usize) -> Result<Cell, Fig
     let free: &[&str] = &cases[place].free();
     let motion = Motion::drawn(view, free, case);
     let cycles = motion.cycles()?;
-    let omega = view.parameter(view.model().drive_frequency().symbol(), free)?;
-    let omega = omega.iter().nth(case).copied().unwrap_or(f64::NAN);
+    let omega = motion.frequency()?;
     let [first, last] = view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     let shown = |cycle: f64| (first - 1e-9..=last + 1e-9).contains(&cycle);
     let mut curves = Vec::new();

@@ -35,7 +35,7 @@ pub fn sources(name: &str, model: &'static Description) -> Vec<Entry> {
 /// What is found from, of a motion that is [drawn](Motion::drawn).
 pub fn sources_of_arcs(model: &'static Description) -> Vec<Entry> {
     let parameters = model.parameters().map(Entry::of_parameter);
-    let phases = [Coordinate::StartPhase, Coordinate::SectionPhase].map(Entry::of_coordinate);
+    let phases = Coordinate::phases(model).map(Entry::of_coordinate);
     parameters.chain(phases).chain(histories(model)).collect()
 }
 
@@ -92,6 +92,14 @@ impl<'v, 'a> Motion<'v, 'a> {
         if cycles.is_empty() { Err(self.view.without_histories()) } else { Ok(cycles) }
     }
 
+    /// The frequency of the drive [rad/s].
+    pub fn frequency(&self) -> Result<f64, FigureError> {
+        match self.view.model().drive_frequency() {
+            Some(frequency) => self.number(frequency.symbol()),
+            None => Err(self.view.unfit("its cycles are none of a drive, and last differently")),
+        }
+    }
+
     /// The values of the quantity called `name` at its points, in the unit of the figure.
     pub fn shown(&self, name: &str) -> Result<Vec<f64>, FigureError> {
         let factor = self.view.quantity(name).factor;
@@ -100,15 +108,21 @@ impl<'v, 'a> Motion<'v, 'a> {
 
     /// The same in SI.
     fn samples(&self, name: &str) -> Result<Vec<f64>, FigureError> {
-        let signal = self.view.model().signal(name);
+        let model = self.view.model();
+        let signal = model.signal(name);
         let Some(signal) = signal.filter(|it| !matches!(it.source, Source::Kept(_))) else {
             return self.kept(name);
         };
+        let histories = self.histories(model.coordinates.len())?;
+        if let Source::State(value) = signal.source {
+            let states = (0..histories[0].len()).map(|place| model.state_of(&histories, place));
+            return Ok(states.map(|state| value(&state)).collect());
+        }
         let parameters = self.parameters()?;
         if let Some(why) = (signal.missing)(&parameters) {
             return Err(self.view.unfit(why));
         }
-        Ok(signal.values(&parameters, &self.histories(self.view.model().coordinates.len())?))
+        Ok(signal.values(&parameters, &histories))
     }
 
     /// What is kept of it: the first so many.
@@ -133,13 +147,17 @@ impl<'v, 'a> Motion<'v, 'a> {
     /// points.
     pub fn at_sections(&self, name: &str) -> Result<Vec<f64>, FigureError> {
         let model = self.view.model();
-        self.at_points(name, &section(model), |_, point| State::at_section(model, point))
+        self.at_points(name, &section(model), |point| State::at_section(model, point))
     }
 
     /// The same at its impacts.
     pub fn at_impacts(&self, name: &str) -> Result<Vec<f64>, FigureError> {
         let model = self.view.model();
-        self.at_points(name, &impacts(model), model.motion.at_impact)
+        let Some(at_impact) = model.motion.at_impact else { return Ok(Vec::new()) };
+        // Where the surface is not known, neither is the coordinate that meets it.
+        let surface = model.impact_surface().and_then(|it| self.number(it.symbol()).ok());
+        let surface = surface.unwrap_or(f64::NAN);
+        self.at_points(name, &impacts(model), |told| at_impact(surface, told))
     }
 
     /// The values of a coordinate at points that have these numbers, of which the states follow.
@@ -147,7 +165,7 @@ impl<'v, 'a> Motion<'v, 'a> {
         &self,
         name: &str,
         numbers: &[Entry],
-        state: impl Fn(&Parameters, &[f64]) -> State,
+        state: impl Fn(&[f64]) -> State,
     ) -> Result<Vec<f64>, FigureError> {
         let signal = self.view.model().signal(name);
         let signal = signal.filter(|it| it.kind == SignalKind::Coordinate);
@@ -155,12 +173,11 @@ impl<'v, 'a> Motion<'v, 'a> {
         let Some(signal) = signal.filter(|_| !numbers.is_empty() && numbers.iter().all(has)) else {
             return Ok(Vec::new());
         };
-        let parameters = self.parameters()?;
         let columns = numbers.iter().map(|it| self.row(it.name));
         let columns = columns.collect::<Result<Vec<_>, FigureError>>()?;
         let value = |place: usize| {
             let point: Vec<f64> = columns.iter().map(|column| column[place]).collect();
-            signal.in_state(&parameters, &state(&parameters, &point))
+            signal.in_state(&state(&point))
         };
         Ok((0..columns[0].len()).filter_map(value).collect())
     }

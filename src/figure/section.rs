@@ -27,8 +27,8 @@ pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What sections read.
 fn reads(_: &Drawing, model: &'static Description) -> Names {
-    let parameters = model.parameters().map(Entry::of_parameter);
-    Names::of(section(model)).and(impacts(model)).and(parameters)
+    let surface = model.impact_surface().map(Entry::of_parameter);
+    Names::of(section(model)).and(impacts(model)).and(surface)
 }
 
 /// A section: its two coordinates, and its points in the units of the figure.

@@ -28,7 +28,7 @@ pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What the figure reads: the cycles of each case, and the section points of the attractors.
 fn reads(_: &Drawing, model: &'static Description) -> Names {
-    let phases = [Coordinate::StartPhase, Coordinate::SectionPhase].map(Entry::of_coordinate);
+    let phases = Coordinate::phases(model).map(Entry::of_coordinate);
     Names::of(outcome::READS)
         .and([CYCLES])
         .and(section(model).into_iter().map(|entry| Place::Attractor.of(entry)))

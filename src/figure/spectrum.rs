@@ -44,7 +44,8 @@ fn outputs(drawing: &Drawing, model: &'static Description) -> Vec<String> {
 fn reads(drawing: &Drawing, model: &'static Description) -> Names {
     let outputs = outputs(drawing, model);
     let needed: Vec<Entry> = outputs.iter().flat_map(|name| sources(name, model)).collect();
-    Names::of(needed).and([Entry::of_parameter(model.drive_frequency())]).and_named(outputs)
+    let frequency = model.drive_frequency().map(Entry::of_parameter);
+    Names::of(needed).and(frequency).and_named(outputs)
 }
 
 /// The spectrum of a quantity of a case, in the units of the figure.
@@ -173,8 +174,7 @@ fn spectrum(panel: &CasePanel<'_>, output: &str) -> Result<Spectrum, FigureError
     if !(cycles >= 1.0 && count < times.len()) {
         return Err(view.unfit("a spectrum needs the history of a whole cycle"));
     }
-    let omega = view.parameter(view.model().drive_frequency().symbol(), free)?;
-    let omega = omega.iter().nth(case).copied().unwrap_or(f64::NAN);
+    let omega = motion.frequency()?;
     let drive = omega * view.quantity(SPECTRUM_FREQUENCY.name).factor;
     let found = |lines: Vec<(f64, f64)>| Spectrum {
         output: output.to_owned(),

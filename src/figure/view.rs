@@ -271,10 +271,9 @@ impl<'a> View<'a> {
     /// The variable called `name`.
     pub fn variable(&self, name: &str) -> Result<&'a Variable, FigureError> {
         self.dataset.variable(name).ok_or_else(|| {
-            let variables = &self.dataset.variables;
+            let (kind, variables) = (self.drawing.kind, &self.dataset.variables);
             let outputs: Vec<Output> = self.model().outputs().collect();
-            let drawable =
-                self.drawing.kind.can_show(self.model(), &outputs).into_iter().map(str::to_owned);
+            let drawable = kind.can_show(self.model(), &outputs).into_iter().map(str::to_owned);
             let present: Vec<String> = drawable.filter(|it| variables.contains_key(it)).collect();
             let all = || variables.keys().cloned().collect();
             self.missing("variable", name, if present.is_empty() { all() } else { present })

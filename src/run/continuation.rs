@@ -6,8 +6,8 @@ use super::cases::{RunError, on_all_threads};
 use crate::branch::NotFollowed;
 use crate::description::Section;
 use crate::flow::Reason;
+use crate::motion::Case;
 use crate::motion::branch::Found;
-use crate::motion::{Case, REASONS};
 use crate::of::{model_of, settle_case};
 use crate::orbit::{Outcome, Protocol};
 use crate::study::{Continuation, FirstOrbit, Study};
@@ -41,7 +41,7 @@ impl fmt::Display for NotContinued {
                 f.write_str("no periodic orbit was found near the start; give one closer to it")
             }
             NotContinued::Failed(reason) => {
-                let name = REASONS.iter().find(|(known, _)| known == reason);
+                let name = Reason::NAMES.iter().find(|(known, _)| known == reason);
                 let name = name.map_or("", |(_, name)| name);
                 write!(f, "the motion could not be followed there ({name})")
             }

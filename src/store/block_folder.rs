@@ -348,9 +348,10 @@ fn beyond_variables(model: &'static Description, records: &[Record]) -> Vec<Colu
         let numbers = Numbers::Real(records.iter().map(of).collect());
         columns.push(Column { name: name.to_owned(), numbers });
     };
-    let coordinates = model.section_coordinates();
-    for ((coordinate, start), end) in coordinates.zip(starts(model)).zip(end(model)) {
+    for (coordinate, start) in model.start_coordinates().zip(starts(model)) {
         add(start.name, &|it| it.start[coordinate]);
+    }
+    for (coordinate, end) in model.section_coordinates().zip(end(model)) {
         add(end.name, &|it| it.orbit.end[coordinate]);
     }
     add(RESIDUAL.name, &|it| it.orbit.certificate.residual);

@@ -103,9 +103,12 @@ fn by_symbol(dataset: &mut Dataset, entry: Entry, of: impl Iterator<Item = Param
 /// The parameter, the start and the result of each branch of the study.
 fn add_requests(dataset: &mut Dataset, study: &Study, continued: &[Continued]) {
     let branches = &study.branches;
-    integers(dataset, REQUEST_RESULT, continued.iter().map(result));
+    let results = Values::integers(continued.iter().map(result).collect());
+    dataset.put_column(REQUEST_RESULT, results).flags = catalogue::results(dataset.model());
     by_symbol(dataset, REQUEST_ALONG, branches.iter().map(|branch| branch.along));
-    reals(dataset, REQUEST_PHASE, branches.iter().map(|branch| branch.section_phase));
+    if study.base.model().has_drive() {
+        reals(dataset, REQUEST_PHASE, branches.iter().map(|branch| branch.section_phase));
+    }
     for parameter in study.base.model().parameters() {
         let values = branches.iter().map(|branch| branch.parameters[parameter]);
         reals(dataset, Place::Request.of(Entry::of_parameter(parameter)), values);

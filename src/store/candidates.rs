@@ -78,13 +78,12 @@ fn column(table: &CaseTable<'_>, output: Output) -> Result<Column, Unread> {
         Ok(Some(Column { values, ..a }))
     };
     let model = table.model();
-    let (work, omega) = (model.work().name(), model.drive_frequency().symbol());
-    let speed = model.speed().name();
-    let found = match output {
-        _ if output == model.power() => {
-            both(work, omega, |work, omega| work * omega / std::f64::consts::TAU)?
+    let (work, speed) = (model.work().name(), model.speed().name());
+    let found = match (output, model.drive_frequency()) {
+        (_, Some(omega)) if output == model.power() => {
+            both(work, omega.symbol(), |work, omega| work * omega / std::f64::consts::TAU)?
         }
-        _ if output == model.energy_per_distance() => match column(table, model.power()) {
+        (..) if output == model.energy_per_distance() => match column(table, model.power()) {
             Ok(power) => table.column(speed)?.map(|speeds| {
                 let both = power.values.iter().zip(&speeds.values);
                 let values = both.map(|(power, speed)| power / speed.abs()).collect();

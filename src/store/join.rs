@@ -16,7 +16,7 @@ use super::schema;
 use super::slab::{Filling, INFERRED, MISSING, Slab};
 use super::{Dataset, StoreError, Values, Variable, provenance};
 use crate::description::{Description, Output, State};
-use crate::motion::REASONS;
+use crate::motion::reasons;
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
 use crate::run::{
@@ -339,14 +339,17 @@ fn failures(
     let starts: Vec<Vec<f64>> =
         starts(model).iter().map(|entry| file.reals(entry.name, 1)).collect::<Result<_, _>>()?;
     let times = file.reals(FAILURE_TIME.name, 1)?;
-    let reasons = file.integers(FAILURE_REASON.name, 1)?;
+    let codes = file.integers(FAILURE_REASON.name, 1)?;
+    let names = reasons(model);
     let failed = |(place, code): (usize, &i64)| {
-        let (_, reason) = REASONS.iter().find(|(reason, _)| *reason as i64 == *code)?;
-        let start: Vec<f64> = starts.iter().map(|values| values[place]).collect();
-        let start = State::at_section(model, &start);
+        let (_, reason) = names.iter().find(|(reason, _)| *reason as i64 == *code)?;
+        let mut start = State::origin(model);
+        for (coordinate, values) in model.start_coordinates().zip(&starts) {
+            start[coordinate] = values[place];
+        }
         Some(FailedCase { index: cases[place], start, reason, time: times[place] })
     };
-    Ok(reasons.iter().enumerate().filter_map(failed).collect())
+    Ok(codes.iter().enumerate().filter_map(failed).collect())
 }
 
 /// The final states of the cases of a block file.

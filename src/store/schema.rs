@@ -162,9 +162,9 @@ impl Table<'_> {
     }
 
     /// Adds a variable over the cases, with what each case has several of.
-    fn put(&self, dataset: &mut Dataset, entry: Entry, values: Values) {
+    fn put<'d>(&self, dataset: &'d mut Dataset, entry: Entry, values: Values) -> &'d mut Variable {
         let dimensions: Vec<&str> = std::iter::once(CASE).chain(entry.dimensions()).collect();
-        dataset.put(entry, &dimensions, values);
+        dataset.put(entry, &dimensions, values)
     }
 }
 
@@ -207,8 +207,9 @@ fn add_verdicts(dataset: &mut Dataset, table: &Table<'_>) {
     table.put(dataset, OUTCOME, table.integers(|orbit| orbit.outcome as i64));
     table.put(dataset, PERIOD, table.integers(|orbit| orbit.period as i64));
     table.put(dataset, CYCLES, table.integers(|orbit| orbit.cycles as i64));
-    let reasons = table.integers(|orbit| orbit.failure.as_ref().map_or(0, |why| why.reason as i64));
-    table.put(dataset, FAILURE_REASON, reasons);
+    let why = table.integers(|orbit| orbit.failure.as_ref().map_or(0, |why| why.reason as i64));
+    let names = reasons(table.study.base.model());
+    table.put(dataset, FAILURE_REASON, why).flags = names;
     let times = table.reals(|orbit| orbit.failure.as_ref().map_or(f64::NAN, |why| why.time));
     table.put(dataset, FAILURE_TIME, times);
 }

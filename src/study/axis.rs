@@ -2,25 +2,10 @@
 
 use std::fmt::{self, Debug, Formatter};
 
+use crate::description::phases::{SECTION_PHASE, START_PHASE};
 use crate::description::{Description, Parameter, StateCoordinate};
 use crate::motion::Case;
-use crate::quantity::shown::shown;
 use crate::quantity::{Allowed, Dimension, Quantity};
-
-/// The phase of the drive at the start.
-const START_PHASE: Quantity = Quantity {
-    name: "start_phase",
-    dimension: Dimension::Angle,
-    meaning: "phase of the drive at the start",
-    shown: shown("Initial phase", "*φ*", "rad", 1.0),
-};
-/// The phase of the drive at the stroboscopic section.
-const SECTION_PHASE: Quantity = Quantity {
-    name: "section_phase",
-    dimension: Dimension::Angle,
-    meaning: "phase of the drive at the stroboscopic section",
-    shown: shown("Section phase", "*φ*_{s}", "rad", 1.0),
-};
 
 /// What varies along an axis.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -53,16 +38,21 @@ impl Coordinate {
     /// The older name of an axis over [`Coordinate::StartPhase`], which is still read.
     pub const PHASE: &str = "phase";
 
+    /// The phases of the drive at the start and at the section; none of a model without a drive.
+    pub fn phases(model: &'static Description) -> impl Iterator<Item = Coordinate> {
+        let phases = [Coordinate::StartPhase, Coordinate::SectionPhase];
+        phases.into_iter().filter(|_| model.has_drive())
+    }
+
     /// Everything that an axis of a study of a model may vary.
     pub fn all(model: &'static Description) -> impl Iterator<Item = Coordinate> {
-        let phases = [Coordinate::StartPhase, Coordinate::SectionPhase];
-        let starts = Coordinate::starts(model).chain(phases);
+        let starts = Coordinate::starts(model).chain(Coordinate::phases(model));
         model.parameters().map(Coordinate::Parameter).chain(starts)
     }
 
-    /// The coordinates of the start of a model that are coordinates of its section, in its order.
+    /// The coordinates of the start of a model, in its order: all of its state but that which drifts.
     pub fn starts(model: &'static Description) -> impl Iterator<Item = Coordinate> + Clone {
-        model.section_coordinates().map(Coordinate::Start)
+        model.start_coordinates().map(Coordinate::Start)
     }
 
     /// The quantity that the model describes.

@@ -66,7 +66,7 @@ fn read_draws(table: Table<'_, '_>) -> Draws {
 fn read_name(table: &Table<'_, '_>, name: Option<&Entry<'_, '_>>) -> Option<Coordinate> {
     let names: Vec<(&str, Coordinate)> = Coordinate::all(table.model())
         .map(|coordinate| (coordinate.name(), coordinate))
-        .chain([(Coordinate::PHASE, Coordinate::StartPhase)])
+        .chain(Coordinate::phases(table.model()).take(1).map(|it| (Coordinate::PHASE, it)))
         .collect();
     if name.is_none() {
         let others = Coordinate::all(table.model())

@@ -203,11 +203,6 @@ impl<'r, 'a> Table<'r, 'a> {
 }
 
 impl<'r, 'a> Entry<'r, 'a> {
-    /// The model that the document is about.
-    pub fn model(&self) -> &'static Description {
-        self.reader.model
-    }
-
     /// Notes a fault of this value.
     pub fn fault(&self, message: impl Into<String>) {
         self.reader.fault(Some(self.value.span().start), self.key.clone(), message);

@@ -97,7 +97,10 @@ fn read_drawing(
         title: table.entry("title").and_then(|entry| entry.text()).map(str::to_owned),
         x: axis("x"),
         y: axis("y"),
-        of: table.entry("of").map(|of| read_of(&of, kind, outputs)).unwrap_or_default(),
+        of: table
+            .entry("of")
+            .map(|of| read_of(&of, kind, table.model(), outputs))
+            .unwrap_or_default(),
         at,
         panels,
         cycles: table.entry("cycles").and_then(|entry| read_cycles(&entry)),
@@ -178,8 +181,12 @@ fn read_name(entry: &Entry<'_, '_>) -> Option<String> {
 }
 
 /// The names of what is drawn, those that the kind of figure can show.
-fn read_of(of: &Entry<'_, '_>, kind: Option<DrawingKind>, outputs: &[Output]) -> Vec<String> {
-    let model = of.model();
+fn read_of(
+    of: &Entry<'_, '_>,
+    kind: Option<DrawingKind>,
+    model: &'static Description,
+    outputs: &[Output],
+) -> Vec<String> {
     let list = of.list();
     let Some(kind) = kind else { return Vec::new() };
     let most = kind.keys().most;

@@ -55,18 +55,22 @@ pub(super) fn read_state(table: &Table<'_, '_>, usual: Start, varied: &[Coordina
         entry.allowed_quantity(coordinates[0].dimension(), Allowed::Finite)
     };
     let mut start = usual;
-    let both = [Coordinate::StartPhase, Coordinate::SectionPhase];
-    if let Some(phase) = quantity(Coordinate::PHASE, &both) {
-        (start.start_phase, start.section_phase) = (phase, phase);
-    }
-    for coordinate in start.state.model().section_coordinates() {
+    let coordinates = start.state.model().start_coordinates();
+    for coordinate in coordinates {
         let given = quantity(coordinate.name(), &[Coordinate::Start(coordinate)]);
         start.state[coordinate] = given.unwrap_or(start.state[coordinate]);
     }
-    for (key, coordinate, place) in [
-        ("start_phase", Coordinate::StartPhase, &mut start.start_phase),
-        ("section_phase", Coordinate::SectionPhase, &mut start.section_phase),
-    ] {
+    let both: Vec<Coordinate> = Coordinate::phases(start.state.model()).collect();
+    if both.is_empty() {
+        return start;
+    }
+    if let Some(phase) = quantity(Coordinate::PHASE, &both) {
+        (start.start_phase, start.section_phase) = (phase, phase);
+    }
+    for (coordinate, place) in
+        both.into_iter().zip([&mut start.start_phase, &mut start.section_phase])
+    {
+        let key = coordinate.name();
         *place = quantity(key, &[coordinate]).unwrap_or(*place);
         if table.entry(Coordinate::PHASE).is_some()
             && let Some(entry) = table.entry(key)

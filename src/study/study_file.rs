@@ -156,6 +156,12 @@ fn read_protocol(top: &Table<'_, '_>) -> Protocol {
         size("impact_points", 0, MOST_POINTS, &mut protocol.impact_points);
         table.finish();
     }
+    if let Some(history) = top.entry("history").filter(|_| !top.model().keeps_histories()) {
+        let name = top.model().name;
+        history.fault(format!(
+            "no histories are kept of motions of the model {name}: its cycles are none of a drive"
+        ));
+    }
     protocol.history = top.table("history").map(|table| {
         let whole = |key: &str, value: u32| {
             let found = table.entry(key).and_then(|entry| entry.whole(1, MOST_POINTS));

@@ -213,13 +213,10 @@ fn start(
     start_phase: f64,
     section_phase: f64,
 ) -> Vec<(&'static str, Coordinate, f64)> {
-    let coordinates = state.model().section_coordinates();
+    let coordinates = state.model().start_coordinates();
     let of_state = coordinates.map(|it| (it.name(), Coordinate::Start(it), state[it]));
-    let phases = [
-        ("start_phase", Coordinate::StartPhase, start_phase),
-        ("section_phase", Coordinate::SectionPhase, section_phase),
-    ];
-    of_state.chain(phases).collect()
+    let phases = Coordinate::phases(state.model()).zip([start_phase, section_phase]);
+    of_state.chain(phases.map(|(it, phase)| (it.name(), it, phase))).collect()
 }
 
 fn write_axis(document: &mut Document, axis: &Axis) {

@@ -65,7 +65,7 @@ fn a_click_gives_the_numbers_of_simulate() {
         }
         // The last point of the history is a multiple of the drive period after the first, and advances as the speed says.
         let history = &told["history"];
-        let (t, x2) = (numbers(&history["t"]), numbers(&history["x2"]));
+        let (t, x2) = (numbers(&history["t"]), numbers(&history["signals"]["history_x2"]));
         let cycles = history["cycles"].as_f64().expect("a number");
         let length = cycles * history["period"].as_f64().expect("a period");
         assert!((t[t.len() - 1] - length).abs() < 1e-9 * length);
@@ -208,7 +208,7 @@ fn a_basin_is_that_of_its_study_and_each_start_leads_where_it_says() {
         let told = explorer.object(&asked);
         let speed = |it: &Value| it.as_f64().expect("a speed");
         let shown = speed(&told["simulate"]["orbit"]["progression_speed"]);
-        assert!((shown - speed(&attractor["speed"])).abs() < 1e-9, "{asked}: {shown}");
+        assert!((shown - speed(&attractor["progression_speed"])).abs() < 1e-9, "{asked}: {shown}");
     }
 }
 

@@ -43,9 +43,8 @@ fn rich_figures() -> String {
     let mut figure = |name: &str, kind: &str, more: &str| {
         text += &format!("[[figures]]\nname = \"{name}\"\nkind = \"{kind}\"\n{more}\n");
     };
-    let names = DrawingKind::History.can_show(default_model(), &[]);
-    let histories = format!("\"{}\"", names.join("\", \""));
-    figure("h", "history", &format!("of = [{histories}]\nat = {{ p_d = \"4 N\" }}"));
+    let histories = DrawingKind::History.can_show(default_model(), &[]).join("\", \"");
+    figure("h", "history", &format!("of = [\"{histories}\"]\nat = {{ p_d = \"4 N\" }}"));
     figure("p", "phase-portrait", "cycles = [0, 1]");
     figure("b", "bifurcation", &format!("of = [{outputs}]\nx = \"p_d\""));
     let points = "\"section_r\", \"section_y1\", \"section_y2\", \"impact_phase\", \"impact_y1\", \"impact_y2\", \"period\", \"outcome\", \"cycles\"";

@@ -1,6 +1,8 @@
 //! Derivatives of sampled histories in parameters and starts, against differences, over the box of parameters that users may set.
 
-use capsulemap::capsule::{CapsuleState as _, Case, Parameter, Resistance, simulate_case};
+use capsulemap::capsule::{
+    CapsuleParameters as _, CapsuleState as _, Case, Parameter, Resistance, simulate_case,
+};
 use capsulemap::experiment::{Direction, Signal, Started, sampled};
 
 use super::draws;

@@ -3,8 +3,9 @@
 use capsulemap_engine::flow::Step;
 use capsulemap_engine::orbit::{self, OrbitOf, Protocol};
 use capsulemap_models::description::{
-    Chart, CoordinateDescription, Description, MotionDescription, Output, OutputDescription,
-    Outputs, Parameter, ParameterDescription, Parameters, Roles, Rules, Signal, SignalKind, State,
+    Chart, CoordinateDescription, Description, DriveRoles, MotionDescription, Output,
+    OutputDescription, Outputs, Parameter, ParameterDescription, Parameters, Roles, Rules, Signal,
+    SignalKind, State,
 };
 use capsulemap_models::face::{Face, engine_case};
 use capsulemap_models::motion::{Case, Sensitivity};
@@ -83,6 +84,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
         },
     ],
     drift: None,
+    on_section: &[0, 1],
     section: &[
         number("section_x", "displacement at the stroboscopic section"),
         number("section_v", "velocity at the stroboscopic section"),
@@ -127,8 +129,7 @@ pub static IMPACT_OSCILLATOR: Description = Description {
         output(("section_residual", "SectionResidual"), "how far the section is from repeating"),
     ],
     roles: Roles {
-        drive_frequency: 2,
-        drive_amplitude: 1,
+        drive: Some(DriveRoles { frequency: 2, amplitude: 1 }),
         impact_surface: Some(4),
         natural: None,
         trade_off: None,

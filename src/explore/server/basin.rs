@@ -8,7 +8,7 @@ use super::computations::BUDGET;
 use super::explored::Explored;
 use super::motion::{followed, shown};
 use crate::attractor::{Attractor, Label};
-use crate::description::{Description, Section};
+use crate::description::{Description, Parameter, Section};
 use crate::figure::{label_colour, shown_quantity};
 use crate::flow::stop;
 use crate::motion::Case;
@@ -151,12 +151,13 @@ impl Basin {
 
     /// What the starts share beside the coordinates of the plane: the others of the section, and the phase.
     fn held(&self) -> Vec<Value> {
-        let others = self.study.base.model().section_coordinates().skip(self.axes.len());
+        let others = self.study.base.model().start_coordinates().skip(self.axes.len());
         let told = |name: &str, value: f64, unit: &str| json!({ "name": name, "value": value, "unit": unit });
         let start = &self.study.start;
         let mut held: Vec<Value> =
             others.map(|it| told(it.name(), start[it], it.start().dimension.unit())).collect();
-        held.push(told("phase", self.study.start_phase, Dimension::Angle.unit()));
+        let phase = self.study.base.model().has_drive().then_some(self.study.start_phase);
+        held.extend(phase.map(|phase| told("phase", phase, Dimension::Angle.unit())));
         held
     }
 
@@ -249,8 +250,9 @@ fn around(explored: &Explored, case: &Case) -> [[f64; 2]; 2] {
     let parameters = &case.parameters;
     let model = parameters.model();
     let stiffness = model.natural().map_or(1.0, |[stiffness, _]| parameters[stiffness]);
-    let usual = parameters[model.drive_amplitude()] / stiffness;
-    let omega = parameters[model.drive_frequency()];
+    let of_drive = |it: Option<Parameter>| it.map_or(1.0, |it| parameters[it]);
+    let usual = of_drive(model.drive_amplitude()) / stiffness;
+    let omega = of_drive(model.drive_frequency());
     let widest = |place: usize, usual: f64| {
         let column = stretch.as_ref().map(|it| &it.histories[place]);
         let values = column.into_iter().flatten();

@@ -66,7 +66,7 @@ fn shown_json(explored: &Explored, name: &str) -> Value {
 fn model_json(explored: &Explored) -> Value {
     let model: &'static Description = explored.model();
     let shown = |name: &str| shown_json(explored, name);
-    let starts = Coordinate::starts(model).chain([Coordinate::StartPhase]);
+    let starts = Coordinate::starts(model).chain(Coordinate::phases(model).take(1));
     let surface = model.impact_surface().map(|it| shown(it.symbol()));
     json!({
         "starts": starts.map(|it| shown(it.name())).collect::<Vec<_>>(),

@@ -61,7 +61,8 @@ pub struct Told {
 #[derive(Serialize)]
 struct History {
     cycles: u64,
-    period: f64,
+    /// The period of the drive [s], if there is one.
+    period: Option<f64>,
     /// Where the first coordinate meets the surface of impacts.
     surface: Option<f64>,
     t: Vec<f64>,
@@ -107,13 +108,12 @@ pub fn motion(explored: &Explored, asked: &Asked) -> Result<Told, Refusal> {
 
 /// Section points in the coordinates of the phase portrait; none where the model has none.
 fn on_portrait(case: &Case, points: &[Section]) -> Vec<[f64; 2]> {
-    let parameters = &case.parameters;
-    let model = parameters.model();
+    let model = case.parameters.model();
     let signals = model.motion.portrait.map(|names| names.map(|name| model.signal(name)));
     let Some([Some(x), Some(y)]) = signals else { return Vec::new() };
     let place = |point: &Section| {
         let state = State::at_section(model, point);
-        Some([x.in_state(parameters, &state)?, y.in_state(parameters, &state)?])
+        Some([x.in_state(&state)?, y.in_state(&state)?])
     };
     points.iter().filter_map(place).collect()
 }
@@ -152,12 +152,15 @@ pub fn study(explored: &Explored, asked: &Asked) -> Result<Study, Refusal> {
     asked.only(explored.model(), &[CYCLES.name, "sweep", "kind", "format"])?;
     let case = explored.near(&asked.coordinates(explored.model())?, asked.sweep()?)?.case;
     let protocol = explored.protocol();
+    let model = case.parameters.model();
+    if !model.keeps_histories() {
+        return Err(Refusal::unfit("figures show no histories of motions without a drive"));
+    }
     let cycles = shown(&settle_case(&case, &protocol)) as u32;
     if stop::is_asked() {
         return Err(Refusal::late(BUDGET, INSTEAD));
     }
     let history = Some(HistorySpan { cycles, per_cycle: PER_CYCLE, from_start: false });
-    let model = case.parameters.model();
     Ok(Study {
         base: case.parameters,
         start: case.start,
@@ -190,7 +193,7 @@ fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
     let signals = model.motion.signals.iter().filter(|it| (it.missing)(parameters).is_none());
     Some(History {
         cycles,
-        period: parameters.drive_period(),
+        period: parameters.period_of_drive(),
         surface: model.impact_surface().map(|it| parameters[it]),
         signals: signals.map(column).collect(),
         t: stretch.times,
@@ -200,35 +203,43 @@ fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
 impl History {
     /// Where it ends before its cycles do.
     fn end(&self) -> Option<String> {
-        let (last, whole) = (self.t.last()?, self.cycles as f64 * self.period);
-        (self.t.len() >= MOST_POINTS).then(|| {
+        let (last, count, cycles) = (self.t.last()?, self.t.len(), self.cycles);
+        let whole = self.period.map(|period| format!(" of {:.4} s", cycles as f64 * period));
+        let whole = whole.unwrap_or_else(|| format!(", before {cycles} cycles"));
+        (count >= MOST_POINTS).then(|| {
             format!(
-                "the histories end after {last:.4} s of {whole:.4} s, as they have {} points by then",
-                self.t.len()
+                "the histories end after {last:.4} s{whole}, as they have {count} points by then"
             )
         })
     }
 }
 
-/// The motion from a point of the section, half a cycle after the other, as far as the most points; none where the model tells no
-/// histories of its motions.
+/// The motion from a point of the section over some cycles, as far as the most points; none where the model tells no histories of its
+/// motions.
 pub fn followed(case: &Case, from: State, cycles: u64, tolerance: f64) -> Option<Stretch> {
     let parameters = &case.parameters;
     let model = parameters.model();
     if model.motion.histories.is_empty() {
         return None;
     }
-    let half = 0.5 * parameters.drive_period();
-    let turned = |halves: u64| case.section_phase + PI * (halves % 2) as f64;
-    let count = (2 * POINTS / cycles as u32).clamp(LEAST_POINTS, POINTS);
+    // Under a drive the motion is followed by halves of a cycle, so that the phases of both ends differ.
+    let half = parameters.period_of_drive().map(|period| 0.5 * period);
+    let parts = if half.is_some() { 2 * cycles } else { cycles };
+    let turned = |halves: u64| match half {
+        Some(_) => case.section_phase + PI * (halves % 2) as f64,
+        None => 0.0,
+    };
+    let count = ((4 * u64::from(POINTS) / parts.max(1)) as u32).clamp(LEAST_POINTS, POINTS);
     let mut stretch = Stretch::of(model);
-    let mut start = from;
-    for number in 0..2 * cycles {
+    let (mut start, mut begins) = (from, 0.0);
+    for number in 0..parts {
         let [start_phase, section_phase] = [number, number + 1].map(turned);
         let part = Case { parameters: parameters.clone(), start, start_phase, section_phase };
         let part = model_of(parameters).arc(&part, count, tolerance).ok()?;
-        start = part.state(part.times.len() - 1);
-        stretch.append(number as f64 * half, &part);
+        let last = part.times.len() - 1;
+        start = part.state(last);
+        stretch.append(begins, &part);
+        begins = half.map_or(begins + part.times[last], |half| (number + 1) as f64 * half);
         if stretch.times.len() >= MOST_POINTS {
             stretch.truncate(MOST_POINTS);
             break;

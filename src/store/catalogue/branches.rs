@@ -1,7 +1,7 @@
 //! The entries of the branches, their special points and their curves.
 
 use super::entry::{Entry, Extent::*, Type::*, entries};
-use super::flags::{ends, results, specials, stabilities};
+use super::flags::{ends, specials, stabilities};
 
 /// The text of a file that names the branches of the study, one a line.
 pub const BRANCH_NAMES: &str = "branch_names";
@@ -9,7 +9,7 @@ pub const BRANCH_NAMES: &str = "branch_names";
 entries! {
     REQUEST "branch_request" "1" Dimension, Whole, None,
         "branch that the study asks for";
-    REQUEST_RESULT "request_result" "1" Table(REQUEST.name), Category(results), None,
+    REQUEST_RESULT "request_result" "1" Table(REQUEST.name), CategoryOfFile, None,
         "what came of the branch";
     REQUEST_ALONG "request_along" "1" Table(REQUEST.name), CategoryOfFile, None,
         "parameter that is followed";
@@ -23,7 +23,7 @@ entries! {
     INDEX_ALONG "index_along" "1" Table(INDEX.name), CategoryOfFile, None,
         "parameter that is followed";
     INDEX_PERIOD "index_period" "1" Table(INDEX.name), Whole, None,
-        "period of its orbits in drive cycles";
+        "period of its orbits in cycles";
     INDEX_PARENT "index_parent" "1" Table(INDEX.name), Whole, None,
         "branch that it left at a period doubling, or -1";
     INDEX_PARENT_SPECIAL "index_parent_special" "1" Table(INDEX.name), Whole, None,
@@ -36,13 +36,13 @@ entries! {
     BRANCH_POINT "branch_point" "1" Dimension, Whole, None,
         "point of the branches, one branch after the other";
     BRANCH_CYCLE "branch_cycle" "1" Dimension, Whole, None,
-        "drive cycle within the period";
+        "cycle within the period";
     BRANCH_MULTIPLIER "branch_multiplier" "1" Dimension, Whole, None,
         "Floquet multiplier, the largest magnitude first";
     BRANCH "branch" "1" Table(BRANCH_POINT.name), Whole, None,
         "branch that the orbit is on";
     BRANCH_PERIOD "branch_period" "1" Table(BRANCH_POINT.name), Whole, None,
-        "period in drive cycles";
+        "period in cycles";
     BRANCH_STABLE "branch_stable" "1" Table(BRANCH_POINT.name), Category(stabilities), None,
         "whether neighbours approach the orbit";
     BRANCH_RESIDUAL "branch_residual" "1" Table(BRANCH_POINT.name), Real, None,
@@ -67,7 +67,7 @@ entries! {
     SPECIAL_BRANCH "special_branch" "1" Table(SPECIAL_POINT.name), Whole, None,
         "branch that the orbit is on";
     SPECIAL_PERIOD "special_period" "1" Table(SPECIAL_POINT.name), Whole, None,
-        "period in drive cycles";
+        "period in cycles";
     SPECIAL_STABLE "special_stable" "1" Table(SPECIAL_POINT.name), Category(stabilities), None,
         "whether neighbours approach the orbit";
     SPECIAL_RESIDUAL "special_residual" "1" Table(SPECIAL_POINT.name), Real, None,
@@ -94,7 +94,7 @@ entries! {
     CURVE_KIND "curve_kind" "1" Table(CURVE_POINT.name), Category(specials), None,
         "what happens on the curve";
     CURVE_PERIOD "curve_period" "1" Table(CURVE_POINT.name), Whole, None,
-        "period of its orbits in drive cycles";
+        "period of its orbits in cycles";
     CURVE_THROUGH "curve_through" "1" Table(CURVE_POINT.name), Whole, None,
         "special point that it was followed from";
 }

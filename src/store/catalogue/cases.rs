@@ -1,7 +1,7 @@
 //! The entries of what each case has, beside its outputs, and of the dimensions along which it has several.
 
 use super::entry::{Entry, Extent::*, Type::*, entries};
-use super::flags::{directions, outcomes, proofs, reasons};
+use super::flags::{directions, outcomes, proofs};
 use crate::quantity::shown::{shown, words};
 
 /// The dimension of the cases of a block, which in a file of results is replaced by the axes.
@@ -21,17 +21,17 @@ entries! {
     IMPACT_POINT "impact_point" "1" Dimension, Whole, None,
         "point of the impact section";
     HISTORY_TIME "history_time" "1" Dimension, Real, None,
-        "time in drive cycles";
+        "time in cycles";
     MULTIPLIER "multiplier" "1" Dimension, Whole, None,
         "Floquet multiplier of the period, the largest magnitude first";
 
     OUTCOME "outcome" "1" Case, Category(outcomes), words("Outcome", ""),
         "what the case turned out to be";
     PERIOD "period" "1" Case, Whole, words("Period", ""),
-        "period in drive cycles, 0 unless periodic";
+        "period in cycles, 0 unless periodic";
     CYCLES "cycles" "1" Case, Whole, None,
-        "drive cycles followed, measuring included";
-    FAILURE_REASON "failure_reason" "1" Case, Category(reasons), None,
+        "cycles followed, measuring included";
+    FAILURE_REASON "failure_reason" "1" Case, CategoryOfFile, None,
         "why the case could not be followed";
     FAILURE_TIME "failure_time" "s" Case, Real, None,
         "time at which the case could not be followed on";

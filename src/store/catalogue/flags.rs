@@ -3,10 +3,14 @@
 use super::entry::Flags;
 use crate::branch::{End, SpecialKind};
 use crate::description::Description;
-use crate::motion::REASONS;
+use crate::flow::Reason;
+use crate::motion;
 use crate::orbit::{Outcome, Proof};
 use crate::run::{Continued, NotContinued};
 use crate::study::Direction;
+
+/// The number of a branch whose motion does not come back to its section.
+const NO_RETURN: i64 = 20;
 
 /// What a case turned out to be.
 pub fn outcomes() -> Flags {
@@ -14,8 +18,9 @@ pub fn outcomes() -> Flags {
 }
 
 /// Why the integration of a case failed; 0 where it did not.
-pub fn reasons() -> Flags {
-    let names = REASONS.map(|(reason, name)| (reason as i64, name.to_owned()));
+pub fn reasons(model: &Description) -> Flags {
+    let names = motion::reasons(model).into_iter();
+    let names = names.map(|(reason, name)| (reason as i64, name.to_owned()));
     std::iter::once((0, "none".to_owned())).chain(names).collect()
 }
 
@@ -53,7 +58,8 @@ pub fn stabilities() -> Flags {
 pub fn result(continued: &Continued) -> i64 {
     match continued {
         Ok(_) => 0,
-        // 1, 2, 3 and 5: a capsule always returns to its section.
+        // The number of this reason is that of `no-orbit`, which was there before it.
+        Err(NotContinued::Failed(Reason::NoReturn)) => NO_RETURN,
         Err(NotContinued::Failed(reason)) => *reason as i64,
         Err(NotContinued::NoOrbit) => 4,
         Err(NotContinued::Neutral) => 6,
@@ -63,16 +69,17 @@ pub fn result(continued: &Continued) -> i64 {
 }
 
 /// Everything that may come of a branch.
-pub fn results() -> Flags {
+pub fn results(model: &Description) -> Flags {
+    let reasons = motion::reasons(model).into_iter();
     let reasons =
-        REASONS.map(|(reason, name)| (Err(NotContinued::Failed(reason)), name.to_owned()));
+        reasons.map(|(reason, name)| (Err(NotContinued::Failed(reason)), name.to_owned()));
     let no_orbit = (Err(NotContinued::NoOrbit), "no-orbit".to_owned());
     let neutral = (Err(NotContinued::Neutral), "neutral".to_owned());
     let unsettled = Outcome::ALL
         .into_iter()
         .filter(|outcome| !matches!(outcome, Outcome::Periodic | Outcome::Failed))
         .map(|outcome| (Err(NotContinued::Unsettled(outcome)), outcome.name().to_owned()));
-    let failures = reasons.into_iter().chain([no_orbit, neutral]).chain(unsettled);
+    let failures = reasons.chain([no_orbit, neutral]).chain(unsettled);
     let followed = std::iter::once((0, "followed".to_owned()));
     followed.chain(failures.map(|(why, name)| (result(&why), name))).collect()
 }

@@ -15,7 +15,7 @@ pub use crate::quantity::Shown;
 pub use branches::*;
 pub use cases::*;
 pub use entry::{Entry, Extent, Flags, Type};
-pub use flags::{parameters, result};
+pub use flags::{parameters, reasons, result, results};
 pub use model::{derived, edges, end, histories, impacts, neutral, section, starts};
 pub use places::{Place, all, is_dimension, named};
 pub use tables::*;

@@ -9,11 +9,11 @@ entries! {
     ATTRACTOR_INDEX "attractor_index" "1" Dimension, Whole, None,
         "attractor of the starts of the study";
     ATTRACTOR_CYCLE "attractor_cycle" "1" Dimension, Whole, None,
-        "drive cycle of the period of an attractor";
+        "cycle of the period of an attractor";
     ATTRACTOR_KIND "attractor_kind" "1" Table(ATTRACTOR_INDEX.name), Category(outcomes), None,
         "what the attractor is";
     ATTRACTOR_PERIOD "attractor_period" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
-        "period of the attractor in drive cycles, 0 unless periodic";
+        "period of the attractor in cycles, 0 unless periodic";
     ATTRACTOR_CERTIFICATE "attractor_certificate" "1" Table(ATTRACTOR_INDEX.name), Category(proofs), None,
         "how the period of the attractor was verified";
     ATTRACTOR_CASE "attractor_case" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
@@ -38,9 +38,9 @@ entries! {
     ATTRACTOR_INTEGRITY_ERROR "attractor_integrity_error" "m/s" Table(ATTRACTOR_INDEX.name), Real, None,
         "diagonal of a cell of the grid, by which a boundary may be nearer than the integrity factor says";
     ATTRACTOR_CYCLES_MEAN "attractor_cycles_mean" "1" Table(ATTRACTOR_INDEX.name), Real, None,
-        "mean number of drive cycles for which the starts of the attractor were followed until it was decided";
+        "mean number of cycles for which the starts of the attractor were followed until it was decided";
     ATTRACTOR_CYCLES_MOST "attractor_cycles_most" "1" Table(ATTRACTOR_INDEX.name), Whole, None,
-        "largest number of drive cycles for which a start of the attractor was followed until it was decided";
+        "largest number of cycles for which a start of the attractor was followed until it was decided";
     ATTRACTOR_MULTIPLIER_REAL "attractor_multiplier_real" "1"
         TableRow(ATTRACTOR_INDEX.name, MULTIPLIER.name), Real, None,
         "real part of a Floquet multiplier of the attractor";
@@ -56,13 +56,13 @@ entries! {
     EDGE_INDEX "edge_index" "1" Dimension, Whole, None,
         "saddle on the boundary of two basins";
     EDGE_CYCLE "edge_cycle" "1" Dimension, Whole, None,
-        "drive cycle of the period of a saddle";
+        "cycle of the period of a saddle";
     EDGE_LOW "edge_attractor_low" "1" Table(EDGE_INDEX.name), Whole, None,
         "one of the two attractors whose basins the saddle lies between, that of the lower number";
     EDGE_HIGH "edge_attractor_high" "1" Table(EDGE_INDEX.name), Whole, None,
         "the other";
     EDGE_PERIOD "edge_period" "1" Table(EDGE_INDEX.name), Whole, None,
-        "period of the saddle in drive cycles";
+        "period of the saddle in cycles";
     EDGE_RESIDUAL "edge_residual" "1" Table(EDGE_INDEX.name), Real, None,
         "how far the section is from repeating after the period of the saddle, relative to the motion";
     EDGE_MULTIPLIER_REAL "edge_multiplier_real" "1"
@@ -110,7 +110,7 @@ entries! {
     EVENT_ATTRACTOR "event_attractor" "1" Table(EVENT.name), Whole, None,
         "attractor of the event";
     EVENT_PERIOD "event_period" "1" Table(EVENT.name), Whole, None,
-        "period of the orbit that changes, in drive cycles";
+        "period of the orbit that changes, in cycles";
     EVENT_UNCERTAINTY "event_uncertainty" "" Table(EVENT.name), Real, None,
         "how far the true value may be";
 

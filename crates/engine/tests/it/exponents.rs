@@ -13,8 +13,8 @@ use capsulemap_engine::orbit::exponent::stretching;
 use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{Outcome, Protocol, Trajectory};
 use capsulemap_models::capsule::{
-    Capsule, CapsuleCase as _, CapsuleState as _, CapsuleSystem, Case, Filippov, Output, Parameter,
-    State, settle,
+    Capsule, CapsuleCase as _, CapsuleParameters as _, CapsuleState as _, CapsuleSystem, Case,
+    Filippov, Output, Parameter, State, settle,
 };
 
 use super::draws;

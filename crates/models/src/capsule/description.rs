@@ -1,15 +1,14 @@
 //! What the capsule says of itself: the quantities of its starts, sections, impacts, histories, parameters and outputs.
 
-use super::forces::Forces;
 use super::friction_rules::RULES;
 use super::output::{Output, Outputs};
 use super::parameter::Parameter;
-use super::parameters::CapsuleParameters as _;
 use super::resistance::{Resistance, Switching};
-use super::state::{CapsuleState as _, State};
+use super::signals;
+use super::state::State;
 use crate::description::{
-    self, Chart, Choice, CoordinateDescription, Description, MotionDescription, OutputDescription,
-    ParameterDescription, Roles, Signal, SignalGroup, SignalKind, TradeOffRoles,
+    self, Choice, CoordinateDescription, Description, DriveRoles, OutputDescription,
+    ParameterDescription, Roles, TradeOffRoles,
 };
 use crate::quantity::shown::{shown, words};
 use crate::quantity::{Dimension, Quantity, Shown};
@@ -106,75 +105,6 @@ pub const IMPACT: &[Quantity] = &[IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2, IMPACT_VEL
 /// What is kept of a motion at each time.
 pub const HISTORIES: &[Quantity] = &[HISTORY_R, HISTORY_Y1, HISTORY_X2, HISTORY_Y2, HISTORY_DRIVE];
 
-/// What a motion has at each time.
-const SIGNALS: &[Signal] = &[
-    Signal::of_state(HISTORY_X1, SignalKind::Drifting, |it| {
-        let State { r, x2, .. } = it.capsule();
-        x2 + r
-    }),
-    Signal::kept(HISTORY_X2, SignalKind::Drifting, 2),
-    Signal::kept(HISTORY_R, SignalKind::Coordinate, 0),
-    Signal::kept(HISTORY_Y1, SignalKind::Coordinate, 1),
-    Signal::kept(HISTORY_Y2, SignalKind::Coordinate, 3),
-    Signal::of_state(RELATIVE_VELOCITY, SignalKind::Coordinate, |it| {
-        let State { y1, y2, .. } = it.capsule();
-        y1 - y2
-    }),
-    Signal::kept(HISTORY_DRIVE, SignalKind::Force, 4),
-    Signal::force(HISTORY_CONTACT, |parameters, it| Forces::of(parameters, &it.capsule()).contact),
-    Signal {
-        missing: |parameters| {
-            let why = "the friction at rest is not that of the equation as printed";
-            (!parameters.switching().balances_at_rest()).then_some(why)
-        },
-        ..Signal::force(HISTORY_FRICTION, |parameters, it| {
-            Forces::of(parameters, &it.capsule()).friction
-        })
-    },
-];
-
-/// What the capsule says of its motion over time.
-const MOTION: MotionDescription = MotionDescription {
-    histories: HISTORIES,
-    signals: SIGNALS,
-    groups: &[SignalGroup { quantity: VELOCITIES, signals: &[HISTORY_Y1.name, HISTORY_Y2.name] }],
-    panels: &[HISTORY_X2.name, HISTORY_R.name, VELOCITIES.name],
-    charts: &[
-        Chart {
-            title: "Displacement",
-            signals: &[HISTORY_R.name, HISTORY_X1.name, HISTORY_X2.name],
-        },
-        Chart { title: "Velocity", signals: &[HISTORY_Y1.name, HISTORY_Y2.name] },
-        Chart {
-            title: "Force",
-            signals: &[HISTORY_DRIVE.name, HISTORY_CONTACT.name, HISTORY_FRICTION.name],
-        },
-    ],
-    portrait: Some([HISTORY_R.name, RELATIVE_VELOCITY.name]),
-    impact: IMPACT,
-    at_impact: |parameters, told| {
-        let r = parameters[Parameter::Delta];
-        State { r, y1: told[1], x2: 0.0, y2: told[2] }.into()
-    },
-    events: &[
-        "contact-closed",
-        "contact-opened",
-        "slip-forward",
-        "slip-backward",
-        "stick",
-        "reversal",
-    ],
-    sums: &[
-        "work_net",
-        "work_positive",
-        "work_absolute",
-        "work_actuator",
-        "friction_loss",
-        "damper_loss",
-    ],
-    counts: &["impacts"],
-};
-
 /// The capsule.
 pub static CAPSULE: Description = Description {
     name: "capsule",
@@ -206,16 +136,19 @@ pub static CAPSULE: Description = Description {
         CoordinateDescription { name: "y2", tag: "StartY2", start: START_Y2 },
     ],
     drift: Some(2),
+    on_section: &[0, 1, 3],
     section: SECTION,
     compared_as: &["omega r", "y1", "y2"],
     neutral: &[NEUTRAL_R, NEUTRAL_Y1, NEUTRAL_Y2],
     edge: &[EDGE_SECTION_R, EDGE_SECTION_Y1, EDGE_SECTION_Y2],
     end: &[END_R, END_Y1, END_Y2],
-    motion: MOTION,
+    motion: signals::MOTION,
     outputs: &OUTPUTS,
     roles: Roles {
-        drive_frequency: Parameter::Omega as usize,
-        drive_amplitude: Parameter::Pd as usize,
+        drive: Some(DriveRoles {
+            frequency: Parameter::Omega as usize,
+            amplitude: Parameter::Pd as usize,
+        }),
         impact_surface: Some(Parameter::Delta as usize),
         natural: Some([Parameter::K1 as usize, Parameter::M1 as usize]),
         trade_off: Some(TradeOffRoles {

@@ -6,6 +6,7 @@ use capsulemap_engine::orbit::{self, Outcome};
 
 use super::account::{Account, Energies};
 use super::output::{Output, Outputs};
+use super::parameters::CapsuleParameters as _;
 use super::state::State;
 use crate::description::Parameters;
 

@@ -20,6 +20,7 @@ pub mod regime;
 pub mod resistance;
 pub mod sampled;
 mod sensitivity;
+mod signals;
 pub mod settle;
 pub mod simulate;
 pub mod state;

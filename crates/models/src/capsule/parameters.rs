@@ -28,6 +28,9 @@ pub trait CapsuleParameters: Sized {
     /// Chooses a reading of the switching.
     fn switch_by(&mut self, reading: Switching);
 
+    /// Period of the drive, `2 pi / omega` [s].
+    fn drive_period(&self) -> f64;
+
     /// How far two section points are apart: a displacement r counts as the velocity omega r, so that a section where y1 passes zero
     /// has a size too.
     fn metric(&self) -> Metric<3>;
@@ -69,6 +72,10 @@ impl CapsuleParameters for Parameters {
 
     fn switch_by(&mut self, reading: Switching) {
         self.choose(SWITCHING, reading as usize);
+    }
+
+    fn drive_period(&self) -> f64 {
+        2.0 * std::f64::consts::PI / self[Parameter::Omega]
     }
 
     fn metric(&self) -> Metric<3> {

@@ -5,6 +5,7 @@ pub mod motion;
 pub mod output;
 pub mod parameter;
 pub mod parameters;
+pub mod phases;
 pub mod roles;
 pub mod rules;
 pub mod section;
@@ -19,7 +20,7 @@ pub use motion::{Chart, MotionDescription, Signal, SignalGroup, SignalKind, Sour
 pub use output::{Output, OutputDescription, Outputs};
 pub use parameter::{Parameter, ParameterDescription};
 pub use parameters::{Fault, Parameters};
-pub use roles::{Roles, TradeOffRoles};
+pub use roles::{DriveRoles, Roles, TradeOffRoles};
 pub use rules::{NotGiven, Remark, Rules, Threshold};
 pub use section::{MOST_COORDINATES, Section};
 pub use state::{CoordinateDescription, State, StateCoordinate};
@@ -36,7 +37,9 @@ pub struct Description {
     pub coordinates: &'static [CoordinateDescription],
     /// The coordinate that drifts, by its place among them, on which no motion depends: section points do not have it.
     pub drift: Option<usize>,
-    /// The coordinates of a point of the stroboscopic section.
+    /// The coordinates of section points, by their places among them; of the others, those that do not drift are zero on the section.
+    pub on_section: &'static [usize],
+    /// The coordinates of a point of the section, which a drive passes once a cycle, and other systems where they say.
     pub section: &'static [Quantity],
     /// As what the coordinates of section points are compared with each other, in words.
     pub compared_as: &'static [&'static str],
@@ -87,8 +90,13 @@ impl Description {
         self.drift.map(|index| StateCoordinate::of(self, index))
     }
 
-    /// The coordinates of section points: all but that which drifts.
+    /// The coordinates of section points.
     pub fn section_coordinates(&'static self) -> impl Iterator<Item = StateCoordinate> + Clone {
+        self.on_section.iter().map(move |index| StateCoordinate::of(self, *index))
+    }
+
+    /// The coordinates that a start can have: all but that which drifts.
+    pub fn start_coordinates(&'static self) -> impl Iterator<Item = StateCoordinate> + Clone {
         let all = (0..self.coordinates.len()).filter(move |index| Some(*index) != self.drift);
         all.map(move |index| StateCoordinate::of(self, index))
     }

@@ -21,8 +21,9 @@ pub struct MotionDescription {
     pub portrait: Option<[&'static str; 2]>,
     /// What is told of an impact.
     pub impact: &'static [Quantity],
-    /// The state at an impact of which this is told; what drifts is zero.
-    pub at_impact: fn(&Parameters, &[f64]) -> State,
+    /// The state at an impact, by the value of the first coordinate on the surface and what is told of the impact; what drifts is
+    /// zero. None where impacts are not told of.
+    pub at_impact: Option<fn(f64, &[f64]) -> State>,
     /// The names of events, in the order of their numbers, from 1 on.
     pub events: &'static [&'static str],
     /// The names of what is summed up from the start of a motion (SI).
@@ -41,7 +42,7 @@ impl MotionDescription {
         charts: &[],
         portrait: None,
         impact: &[],
-        at_impact: |parameters, _| State::origin(parameters.model()),
+        at_impact: None,
         events: &[],
         sums: &[],
         counts: &[],
@@ -127,26 +128,24 @@ impl Signal {
         self.quantity.name
     }
 
-    /// Its value in a state; none where it depends on time beside the state.
-    pub fn in_state(&self, parameters: &Parameters, state: &State) -> Option<f64> {
+    /// Its value in a state; none where it depends on time or on parameters, too.
+    pub fn in_state(&self, state: &State) -> Option<f64> {
         match self.source {
             Source::Kept(place) => state.values().get(place).copied(),
             Source::State(value) => Some(value(state)),
-            Source::Parameters(value) => Some(value(parameters, state)),
+            Source::Parameters(_) => None,
         }
     }
 
     /// Its values along a motion, from what is kept of it.
     pub fn values(&self, parameters: &Parameters, histories: &[Vec<f64>]) -> Vec<f64> {
-        if let Source::Kept(place) = self.source {
-            return histories[place].clone();
-        }
         let model = parameters.model();
-        let value = |place: usize| {
-            let state = model.state_of(histories, place);
-            self.in_state(parameters, &state).expect("it follows from the state")
-        };
-        (0..histories[0].len()).map(value).collect()
+        let states = || (0..histories[0].len()).map(|place| model.state_of(histories, place));
+        match self.source {
+            Source::Kept(place) => histories[place].clone(),
+            Source::State(value) => states().map(|state| value(&state)).collect(),
+            Source::Parameters(value) => states().map(|state| value(parameters, &state)).collect(),
+        }
     }
 }
 
@@ -154,6 +153,11 @@ impl Description {
     /// What each point of the sections has: of the stroboscopic section, and of the impacts.
     pub fn points(&self) -> impl Iterator<Item = Quantity> {
         self.section.iter().chain(self.motion.impact).copied()
+    }
+
+    /// Whether files can keep histories of its motions: samples at even times, of cycles that last equally.
+    pub fn keeps_histories(&self) -> bool {
+        self.has_drive() && !self.motion.histories.is_empty()
     }
 
     /// The signal called `name`.

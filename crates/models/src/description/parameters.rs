@@ -65,9 +65,9 @@ impl Parameters {
         self.model.parameters().zip(self.values.iter().copied())
     }
 
-    /// The period of the drive [s].
-    pub fn drive_period(&self) -> f64 {
-        2.0 * PI / self[self.model.drive_frequency()]
+    /// The period of the drive [s]; none of a model without one.
+    pub fn period_of_drive(&self) -> Option<f64> {
+        Some(2.0 * PI / self[self.model.drive_frequency()?])
     }
 
     /// Every value that is not allowed.

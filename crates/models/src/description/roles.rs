@@ -5,10 +5,8 @@ use super::{Description, Output, Parameter};
 /// Places among the outputs of a model, and among its parameters, of those that the program does more with than to show them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Roles {
-    /// The frequency of the drive, of which a cycle is a period: a parameter.
-    pub drive_frequency: usize,
-    /// Its amplitude, that of a force: a parameter.
-    pub drive_amplitude: usize,
+    /// The drive, if there is one.
+    pub drive: Option<DriveRoles>,
     /// The value of the first coordinate on the surface of impacts, if there is one: a parameter.
     pub impact_surface: Option<usize>,
     /// A stiffness and a mass, whose natural frequency figures take as a unit, if there is one: parameters.
@@ -31,6 +29,15 @@ pub struct Roles {
     pub defect: usize,
     /// How far the section is from repeating after the period.
     pub section_residual: usize,
+}
+
+/// Places among the parameters of a model of those of its drive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DriveRoles {
+    /// Its frequency; a cycle is one of its periods.
+    pub frequency: usize,
+    /// Its amplitude, that of a force.
+    pub amplitude: usize,
 }
 
 /// Places among the outputs of a model of what a motion gains and costs.
@@ -96,14 +103,19 @@ outputs_by_role! {
 }
 
 impl Description {
-    /// The frequency of the drive, of which a cycle is a period.
-    pub const fn drive_frequency(&'static self) -> Parameter {
-        Parameter::of(self, self.roles.drive_frequency)
+    /// Whether it has a drive, whose period is a cycle; without one a cycle is from section to section.
+    pub fn has_drive(&self) -> bool {
+        self.roles.drive.is_some()
     }
 
-    /// The amplitude of the drive, that of a force.
-    pub const fn drive_amplitude(&'static self) -> Parameter {
-        Parameter::of(self, self.roles.drive_amplitude)
+    /// The frequency of the drive, of which a cycle is a period, if there is one.
+    pub fn drive_frequency(&'static self) -> Option<Parameter> {
+        self.roles.drive.map(|it| Parameter::of(self, it.frequency))
+    }
+
+    /// The amplitude of the drive, that of a force, if there is one.
+    pub fn drive_amplitude(&'static self) -> Option<Parameter> {
+        self.roles.drive.map(|it| Parameter::of(self, it.amplitude))
     }
 
     /// The value of the first coordinate on the surface of impacts, if there is one.

@@ -106,7 +106,7 @@ impl State {
         State { model, values: vec![0.0; model.coordinates.len()] }
     }
 
-    /// The state at a section point; what drifts is zero.
+    /// The state at a section point; the other coordinates are zero.
     pub fn at_section(model: &'static Description, point: &[f64]) -> State {
         let mut state = State::origin(model);
         for (coordinate, value) in model.section_coordinates().zip(point) {
@@ -130,7 +130,7 @@ impl State {
         &self.values
     }
 
-    /// The section point: all coordinates but that which drifts.
+    /// The section point.
     pub fn section(&self) -> Section {
         self.model.section_coordinates().map(|it| self[it]).collect()
     }

@@ -128,7 +128,8 @@ fn history<M: Face<D>, const D: usize>(
     case: &Case,
     protocol: &Protocol,
 ) -> Result<Vec<Vec<f64>>, orbit::Failure<M::State<f64>>> {
-    let Some(span) = protocol.history.filter(|_| orbit.failure.is_none()) else {
+    let is_kept = orbit.failure.is_none() && M::description().keeps_histories();
+    let Some(span) = protocol.history.filter(|_| is_kept) else {
         return Ok(Vec::new());
     };
     let settled = M::told(&orbit.end).without_drift();

@@ -1,6 +1,6 @@
 //! Stretches of a motion: samples at even times, and arcs between them with every event.
 
-use capsulemap_engine::flow::{Event as _, Step, Switched as _};
+use capsulemap_engine::flow::{Event as _, Step, Switched};
 use capsulemap_engine::orbit::{self, HistorySpan, Trajectory};
 
 use super::{Face, engine_case};
@@ -110,6 +110,17 @@ impl<M: Face<D>, const D: usize> Following<'_, M, D> {
     }
 }
 
+/// The time until a motion comes to the section of an autonomous system [s].
+fn duration_of_cycle<M: Face<D>, const D: usize>(
+    single: &M::Single,
+    start: M::State<f64>,
+    tolerance: f64,
+) -> Result<f64, Failure<M, D>> {
+    let mut trajectory = Trajectory::<M::Single, D>::begun(single, start, 0.0, tolerance);
+    trajectory.cycle(|_| ())?;
+    Ok(trajectory.elapsed())
+}
+
 /// The motion of a case from its start to the next section: both ends, at so many even times after the start, of which the end is
 /// the last, and at every event between.
 ///
@@ -122,7 +133,10 @@ pub fn arc<M: Face<D>, const D: usize>(
 ) -> Result<Stretch, Failure<M, D>> {
     let orbit::Case { system, start, begins } = engine_case::<M, D>(case);
     let single = system.single();
-    let duration = single.period() - begins;
+    let duration = match <M::Single as Switched<f64>>::AUTONOMOUS {
+        true => duration_of_cycle::<M, D>(&single, start, tolerance)?,
+        false => single.period() - begins,
+    };
     let between = duration / f64::from(count);
     let mut trajectory = Trajectory::begun(&single, start, begins, tolerance);
     let stretch = Stretch::of(M::description());

@@ -23,9 +23,10 @@ impl Case {
         Case { parameters, start: start.into(), start_phase: phase, section_phase: phase }
     }
 
-    /// Time of the start since the last passage of the section phase [s]; zero where the phases are equal.
+    /// Time of the start since the last passage of the section phase [s]; zero where the phases are equal, and without a drive.
     pub fn start_time(&self) -> f64 {
-        let frequency = self.parameters[self.parameters.model().drive_frequency()];
+        let Some(frequency) = self.parameters.model().drive_frequency() else { return 0.0 };
+        let frequency = self.parameters[frequency];
         let turned = reduced(self.start_phase - self.section_phase);
         let time = turned / frequency;
         // A phase that is less by rounding alone is a whole turn ahead.

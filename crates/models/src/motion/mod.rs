@@ -8,7 +8,7 @@ mod simulation;
 mod stretch;
 
 pub use case::{Case, reduced};
-pub use orbit::{Failure, Orbit, REASONS};
+pub use orbit::{Failure, Orbit, reasons};
 pub use setting::{Sensitivity, Setting};
 pub use simulation::{Event, Sample, Simulation, SimulationSize};
 pub use stretch::Stretch;

@@ -3,16 +3,17 @@
 use capsulemap_engine::flow::Reason;
 use capsulemap_engine::orbit::{self, Certificate, Outcome};
 
-use crate::description::{Outputs, Section, State};
+use crate::description::{Description, Outputs, Section, State};
 
 /// Where and why a case failed.
 pub type Failure = orbit::Failure<State>;
 
-/// Why a case may fail, with its names in files; under a drive it always comes back to its section.
-pub const REASONS: [(Reason, &str); 4] = {
-    let [no_progress, not_finite, too_many_steps, _, out_of_steps] = Reason::NAMES;
-    [no_progress, not_finite, too_many_steps, out_of_steps]
-};
+/// Why a case of a model may fail, with its names in files; under a drive it always comes back to its section.
+pub fn reasons(model: &Description) -> Vec<(Reason, &'static str)> {
+    let always_returns = model.has_drive();
+    let is_reason = |(reason, _): &(Reason, _)| *reason != Reason::NoReturn || !always_returns;
+    Reason::NAMES.into_iter().filter(is_reason).collect()
+}
 
 /// What a case settled to.
 #[derive(Debug, Clone, PartialEq)]

@@ -23,6 +23,7 @@ static OTHER: Description = Description {
     choices: &[],
     coordinates: &[],
     drift: None,
+    on_section: &[],
     section: &[],
     compared_as: &[],
     neutral: &[],

@@ -1,0 +1,76 @@
+//! What the capsule says of its motion over time: signals, forces among them, impacts, events and sums.
+
+use super::description::{
+    HISTORIES, HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_X1, HISTORY_X2,
+    HISTORY_Y1, HISTORY_Y2, IMPACT, RELATIVE_VELOCITY, VELOCITIES,
+};
+use super::forces::Forces;
+use super::parameters::CapsuleParameters as _;
+use super::state::{CapsuleState as _, State};
+use crate::description::{Chart, MotionDescription, Signal, SignalGroup, SignalKind};
+
+/// What a motion has at each time.
+const SIGNALS: &[Signal] = &[
+    Signal::of_state(HISTORY_X1, SignalKind::Drifting, |it| {
+        let State { r, x2, .. } = it.capsule();
+        x2 + r
+    }),
+    Signal::kept(HISTORY_X2, SignalKind::Drifting, 2),
+    Signal::kept(HISTORY_R, SignalKind::Coordinate, 0),
+    Signal::kept(HISTORY_Y1, SignalKind::Coordinate, 1),
+    Signal::kept(HISTORY_Y2, SignalKind::Coordinate, 3),
+    Signal::of_state(RELATIVE_VELOCITY, SignalKind::Coordinate, |it| {
+        let State { y1, y2, .. } = it.capsule();
+        y1 - y2
+    }),
+    Signal::kept(HISTORY_DRIVE, SignalKind::Force, 4),
+    Signal::force(HISTORY_CONTACT, |parameters, it| Forces::of(parameters, &it.capsule()).contact),
+    Signal {
+        missing: |parameters| {
+            let why = "the friction at rest is not that of the equation as printed";
+            (!parameters.switching().balances_at_rest()).then_some(why)
+        },
+        ..Signal::force(HISTORY_FRICTION, |parameters, it| {
+            Forces::of(parameters, &it.capsule()).friction
+        })
+    },
+];
+
+/// What the capsule says of its motion over time.
+pub(super) const MOTION: MotionDescription = MotionDescription {
+    histories: HISTORIES,
+    signals: SIGNALS,
+    groups: &[SignalGroup { quantity: VELOCITIES, signals: &[HISTORY_Y1.name, HISTORY_Y2.name] }],
+    panels: &[HISTORY_X2.name, HISTORY_R.name, VELOCITIES.name],
+    charts: &[
+        Chart {
+            title: "Displacement",
+            signals: &[HISTORY_R.name, HISTORY_X1.name, HISTORY_X2.name],
+        },
+        Chart { title: "Velocity", signals: &[HISTORY_Y1.name, HISTORY_Y2.name] },
+        Chart {
+            title: "Force",
+            signals: &[HISTORY_DRIVE.name, HISTORY_CONTACT.name, HISTORY_FRICTION.name],
+        },
+    ],
+    portrait: Some([HISTORY_R.name, RELATIVE_VELOCITY.name]),
+    impact: IMPACT,
+    at_impact: Some(|r, told| State { r, y1: told[1], x2: 0.0, y2: told[2] }.into()),
+    events: &[
+        "contact-closed",
+        "contact-opened",
+        "slip-forward",
+        "slip-backward",
+        "stick",
+        "reversal",
+    ],
+    sums: &[
+        "work_net",
+        "work_positive",
+        "work_absolute",
+        "work_actuator",
+        "friction_loss",
+        "damper_loss",
+    ],
+    counts: &["impacts"],
+};
