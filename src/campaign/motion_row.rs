@@ -64,7 +64,7 @@ impl Row {
             let found = self.coordinates.iter().find(|(it, ..)| *it == wanted);
             found.map_or(0.0, |(_, value, _)| *value)
         };
-        Coordinate::starts(model).map(value).collect()
+        Coordinate::of_section(model).map(value).collect()
     }
 }
 

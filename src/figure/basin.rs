@@ -58,13 +58,13 @@ fn reads(_: &Drawing, model: &'static Description) -> Names {
 
 /// Draws the basins that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let of_starts: Vec<&str> = starts(view.model()).into_iter().map(|entry| entry.name).collect();
     if view.dataset.variable(ATTRACTOR.name).is_none() {
-        return Err(view.unfit(
-            "the results tell no attractors; it needs two axes of start_r, start_y1, start_y2",
-        ));
+        let axes = of_starts.join(", ");
+        let why = format!("the results tell no attractors; it needs two axes of {axes}");
+        return Err(view.unfit(why));
     }
     let plane = Plane::of(view, "a figure of basins")?;
-    let of_starts: Vec<&str> = starts(view.model()).into_iter().map(|entry| entry.name).collect();
     for name in [plane.x_name, plane.y_name] {
         if !of_starts.contains(&name) {
             let allowed = of_starts.join(", ");
@@ -233,15 +233,19 @@ fn saddles(view: &View<'_>, plane: &Plane<'_>) -> Vec<(f64, f64)> {
 /// Section points as they are seen in the plane of the starts, in the units of the figure; none where the section is at another
 /// phase than the starts.
 fn in_plane(view: &View<'_>, plane: &Plane<'_>, sections: &[Entry]) -> Vec<(f64, f64)> {
-    let phases = [Coordinate::StartPhase, Coordinate::SectionPhase]
-        .map(|it| view.parameter(it.name(), &[]).ok().and_then(|it| it.first().copied()));
-    if phases[0].is_none() || phases[0] != phases[1] {
+    let model = view.model();
+    let phase = |it: Coordinate| view.parameter(it.name(), &[]).ok()?.first().copied();
+    let phases: Vec<Option<f64>> = Coordinate::phases(model).map(phase).collect();
+    if phases.contains(&None) || phases.first() != phases.last() {
         return Vec::new();
     }
+    let columns: Vec<Vec<f64>> = sections.iter().map(|entry| view.column(*entry)).collect();
+    let points = columns.first().map_or(0, Vec::len);
     let of_axis = |name: &str| -> Vec<f64> {
-        let place = starts(view.model()).iter().position(|entry| entry.name == name);
+        let place = Coordinate::of_section(model).position(|it| it.name() == name);
         let factor = view.quantity(name).factor;
-        let values = place.map_or(Vec::new(), |place| view.column(sections[place]));
+        // What is no coordinate of the section is zero there.
+        let values = place.map_or(vec![0.0; points], |place| columns[place].clone());
         values.into_iter().map(|value| value * factor).collect()
     };
     of_axis(plane.x_name).into_iter().zip(of_axis(plane.y_name)).collect()

@@ -24,11 +24,13 @@ pub struct Edge {
     pub saddle: Saddle<Section>,
 }
 
-/// Whether saddles between basins are looked for: on a grid of starts that lie at the phase of the section.
+/// Whether saddles between basins are looked for: on a grid of starts that lie at the phase of the section; without a drive they need
+/// not lie on the section.
 pub fn has_edges(study: &Study) -> bool {
     let is_grid = matches!(study.case_set, CaseSet::Grid(_));
     let in_section = study.case_set.varied().iter().all(|it| matches!(it, Coordinate::Start(_)));
-    is_grid && in_section && study.start_phase == study.section_phase
+    let at_section = study.base.model().has_drive() && study.start_phase == study.section_phase;
+    is_grid && in_section && at_section
 }
 
 /// The saddles between the basins of a study, one at most for each two; none is looked for where an attractor does not repeat.

@@ -15,7 +15,7 @@ impl Room {
     pub(super) fn of(study: &Study, case: usize) -> Option<Room> {
         let CaseSet::Grid(_) = study.case_set else { return None };
         let scales = study.model().scales(&Setting::of(&study.case(case)));
-        let names: Vec<Coordinate> = Coordinate::starts(study.base.model()).collect();
+        let names: Vec<Coordinate> = Coordinate::of_section(study.base.model()).collect();
         let starts: Vec<&Axis> =
             study.axes().iter().filter(|axis| axis.coordinate.is_start()).collect();
         if starts.is_empty() {

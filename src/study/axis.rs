@@ -55,6 +55,11 @@ impl Coordinate {
         model.start_coordinates().map(Coordinate::Start)
     }
 
+    /// Those of them that are coordinates of section points, in the order of these.
+    pub fn of_section(model: &'static Description) -> impl Iterator<Item = Coordinate> + Clone {
+        model.section_coordinates().map(Coordinate::Start)
+    }
+
     /// The quantity that the model describes.
     pub fn quantity(self) -> Quantity {
         match self {

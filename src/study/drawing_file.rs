@@ -7,7 +7,7 @@ use super::axis::{is_within, range};
 use super::document::{Entry, Table, unknown};
 use super::drawing::{COLOURED_BY, Held, Size, Sweep, Texts, check_panels, check_text};
 use super::{Axis, CaseSet, Continuation, Coordinate, Drawing, DrawingKind, Refine};
-use crate::description::{Output, Parameter};
+use crate::description::{Description, Output, Parameter};
 use crate::quantity::{Dimension, parse_quantity};
 
 /// The unit of widths [m].

@@ -3,14 +3,15 @@
 use capsulemap_engine::flow::Step;
 use capsulemap_engine::orbit::{self, OrbitOf, Protocol};
 use capsulemap_models::description::{
-    Chart, CoordinateDescription, Description, DriveRoles, MotionDescription, Output,
-    OutputDescription, Outputs, Parameter, ParameterDescription, Parameters, Roles, Rules, Signal,
-    SignalKind, State,
+    Chart, CoordinateDescription, Description, DriveRoles, MotionDescription, Outputs, Parameter,
+    Parameters, Roles, Rules, Signal, SignalKind, State,
 };
 use capsulemap_models::face::{Face, engine_case};
 use capsulemap_models::motion::{Case, Sensitivity};
 use capsulemap_models::of::Of;
-use capsulemap_models::quantity::{Allowed, Dimension, Quantity};
+use capsulemap_models::quantity::{Allowed, Quantity};
+
+use super::words::{number, output, outputs_of, parameter};
 
 // Of the example only its system is used here, not its program.
 #[path = "../../engine/examples/impact_oscillator.rs"]
@@ -21,32 +22,6 @@ pub use example::Impactor;
 
 /// The impact oscillator as a model.
 pub static IMPACT: Of<Impactor<f64>, 2> = Of::model();
-
-/// A quantity without a unit.
-const fn number(name: &'static str, meaning: &'static str) -> Quantity {
-    Quantity { name, dimension: Dimension::Number, meaning, shown: None }
-}
-
-const fn parameter(
-    (name, tag): (&'static str, &'static str),
-    meaning: &'static str,
-    (allowed, default): (Allowed, f64),
-) -> ParameterDescription {
-    ParameterDescription {
-        quantity: number(name, meaning),
-        tag,
-        allowed,
-        default,
-        is_asked_for: false,
-    }
-}
-
-const fn output(
-    (name, tag): (&'static str, &'static str),
-    meaning: &'static str,
-) -> OutputDescription {
-    OutputDescription { quantity: number(name, meaning), tag, is_smooth: false }
-}
 
 const DISPLACEMENT: Quantity = number("history_x", "displacement");
 const VELOCITY: Quantity = number("history_v", "velocity");
@@ -173,19 +148,18 @@ impl Face<2> for Impactor<f64> {
     }
 
     fn outputs(&self, orbit: &OrbitOf<Self, 2>, _: f64) -> Outputs {
-        let values = [
-            orbit.size,
-            orbit.exponent.value,
-            orbit.exponent.uncertainty,
-            orbit.excluded,
-            orbit.defect,
-            orbit.residual,
-        ];
-        let mut outputs = Outputs::unknown(&IMPACT_OSCILLATOR);
-        for (index, value) in values.into_iter().enumerate() {
-            outputs[Output::of(&IMPACT_OSCILLATOR, index)] = value;
-        }
-        outputs
+        let exponent = orbit.exponent;
+        outputs_of(
+            &IMPACT_OSCILLATOR,
+            &[
+                orbit.size,
+                exponent.value,
+                exponent.uncertainty,
+                orbit.excluded,
+                orbit.defect,
+                orbit.residual,
+            ],
+        )
     }
 
     /// None of them is a sum.

@@ -8,7 +8,7 @@ use super::computations::BUDGET;
 use super::explored::Explored;
 use super::motion::{followed, shown};
 use crate::attractor::{Attractor, Label};
-use crate::description::{Description, Parameter, Section};
+use crate::description::{Description, Parameter, Section, State};
 use crate::figure::{label_colour, shown_quantity};
 use crate::flow::stop;
 use crate::motion::Case;
@@ -187,7 +187,12 @@ impl Basin {
     /// starts.
     fn attractors(&self, found: &Attractors, records: &[Record]) -> Vec<Value> {
         let is_in_plane = self.study.start_phase == self.study.section_phase;
-        let main = self.study.base.model().main_output();
+        let model = self.study.base.model();
+        let main = model.main_output();
+        let in_plane = |point: &Section| {
+            let state = State::at_section(model, point);
+            model.start_coordinates().take(2).map(|it| state[it]).collect::<Vec<f64>>()
+        };
         let told = |(number, attractor): (usize, &Attractor<Section>)| {
             let record = records.iter().find(|record| record.index == attractor.case)?;
             let orbit = &record.orbit;
@@ -199,7 +204,7 @@ impl Basin {
                 (PERIOD.name): is_periodic.then_some(orbit.period),
                 (main.name()): orbit.outputs[main],
                 "colour": label_colour(Some(number as u32)),
-                "points": points.map(|it| [it[0], it[1]]).collect::<Vec<_>>(),
+                "points": points.map(in_plane).collect::<Vec<_>>(),
             }))
         };
         found.of_starts.iter().enumerate().filter_map(told).collect()
