@@ -6,6 +6,7 @@ use super::refined_motion::{RefinedMotion, Slopes};
 use super::robustness::Robustness;
 use crate::description::{Description, Output, Parameters, Section, State};
 use crate::motion::Case;
+use crate::of::default_model;
 use crate::orbit::{Outcome, Protocol};
 use crate::store::catalogue::{ATTRACTOR, ATTRACTOR_SHARE, OUTCOME, PERIOD};
 use crate::store::{Archive, CaseTable, Column, StoreError};
@@ -163,6 +164,9 @@ fn replay(motion: &RefinedMotion, protocol: &Protocol) -> String {
 pub fn command(case: &Case, protocol: &Protocol) -> String {
     let Case { parameters, start, start_phase, section_phase } = case;
     let mut text = "capsulemap simulate".to_owned();
+    if parameters.model() != default_model() {
+        text += &format!(" --model {}", parameters.model().name);
+    }
     for (parameter, value) in parameters.each() {
         if value != parameter.default_value() {
             text += &format!(" --set {}={value:?}", parameter.symbol());

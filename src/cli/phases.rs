@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::arguments::plain_or_quantity;
+use crate::description::Description;
 use crate::quantity::Dimension;
 
 /// Phases of the drive as they are asked for.
@@ -21,14 +22,22 @@ pub struct Phases {
 }
 
 impl Phases {
-    /// The phases at the start and at the section [rad]; faults are noted.
-    pub fn read(&self, faults: &mut Vec<String>) -> [f64; 2] {
+    /// The phases at the start and at the section [rad]; faults are noted, as where the model has no drive.
+    pub fn read(&self, model: &Description, faults: &mut Vec<String>) -> [f64; 2] {
+        let all = [
+            ("--phase", &self.phase),
+            ("--start-phase", &self.start_phase),
+            ("--section-phase", &self.section_phase),
+        ];
+        for (option, _) in all.into_iter().filter(|it| it.1.is_some() && !model.has_drive()) {
+            faults.push(format!("{option}: the model {} has no drive", model.name));
+        }
         let mut read = |option: &str, text: &Option<String>| {
             let fault = |message| faults.push(format!("{option}: {message}"));
             plain_or_quantity(text.as_ref()?, Dimension::Angle).map_err(fault).ok()
         };
         let both = read("--phase", &self.phase).unwrap_or(0.0);
-        let own = [("--start-phase", &self.start_phase), ("--section-phase", &self.section_phase)];
+        let [_, own @ ..] = all;
         own.map(|(option, text)| read(option, text).unwrap_or(both))
     }
 }

@@ -10,11 +10,12 @@ use super::failure::Failure;
 use super::phases::Phases;
 use super::terminal::{notify, print};
 use crate::campaign::{CampaignError, Replay, read_study_or_results, silent};
+use crate::capsule::description::CAPSULE;
 use crate::capsule::{self, CapsuleParameters as _, Resistance, Switching};
 use crate::description::{Description, Parameters, Remark, State};
 use crate::explore::{case_json, remarks};
 use crate::motion::{Case, Orbit, Simulation, SimulationSize};
-use crate::of::{model_of, settle_case};
+use crate::of::{all_models, default_model, model_called, model_of, settle_case};
 use crate::orbit::Protocol;
 use crate::quantity::Dimension;
 use crate::quantity::printable::printable;
@@ -42,6 +43,10 @@ pub struct Simulate {
     /// Its number, counted from 0 with the last axis fastest, as in the reports of failures.
     #[arg(long, requires = "study")]
     case: Option<usize>,
+    /// Another model than the capsule, of those that this program knows; its parameters are given by --set.
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["study", "omega", "p_d", "k2", "delta",
+        "friction_switching", "resistance"])]
+    model: Option<String>,
     /// Frequency of the drive, as "77.91 rad/s" or "12.4 Hz".
     #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     omega: Option<String>,
@@ -152,9 +157,11 @@ impl Simulate {
 
     fn request(&self) -> Result<Request, Failure> {
         let mut faults = Vec::new();
-        let mut parameters = Parameters::default();
-        parameters.switch_by(self.friction_switching);
-        parameters.resist_by(self.resistance);
+        let mut parameters = Parameters::of(self.chosen_model(&mut faults));
+        if *parameters.model() == CAPSULE {
+            parameters.switch_by(self.friction_switching);
+            parameters.resist_by(self.resistance);
+        }
         let own = [
             ("--omega", capsule::Parameter::Omega, &self.omega),
             ("--p-d", capsule::Parameter::Pd, &self.p_d),
@@ -186,7 +193,7 @@ impl Simulate {
         let completed = (model.rules.complete)(&mut parameters, &is_given);
         let notes = completed.map(|it| it.why).into_iter().collect();
         let start = self.start(model, &mut faults);
-        let [start_phase, section_phase] = self.phases.read(&mut faults);
+        let [start_phase, section_phase] = self.phases.read(model, &mut faults);
         if !Protocol::TOLERANCES.contains(&self.tolerance) {
             faults.push(format!("--tolerance {}: must lie between 1e-15 and 1e-3", self.tolerance));
         }
@@ -202,6 +209,17 @@ impl Simulate {
         } else {
             Err(Failure::requests(&faults))
         }
+    }
+
+    /// The model that is asked for; the usual one where it is not known.
+    fn chosen_model(&self, faults: &mut Vec<String>) -> &'static Description {
+        let Some(name) = &self.model else { return default_model() };
+        let known = model_called(name);
+        if known.is_none() {
+            let names = all_models().into_iter().map(|it| it.name);
+            faults.push(format!("--model: {}", unknown("model", name, names)));
+        }
+        known.unwrap_or_else(default_model)
     }
 
     fn start(&self, model: &'static Description, faults: &mut Vec<String>) -> State {

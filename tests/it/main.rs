@@ -61,6 +61,7 @@ mod one_coefficient;
 mod optima;
 mod other_models;
 mod own_capsule;
+mod own_models;
 mod outputs;
 mod panels;
 mod phases;

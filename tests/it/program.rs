@@ -52,6 +52,8 @@ to = "28 rad/s"
 /// An empty folder to run the program in.
 pub struct WorkDir {
     folder: TempDir,
+    /// The program.
+    program: PathBuf,
 }
 
 /// What came of a run.
@@ -67,7 +69,12 @@ pub struct Ran {
 impl WorkDir {
     /// A new, empty one.
     pub fn new() -> Self {
-        WorkDir { folder: TempDir::new().expect("a folder for the test") }
+        WorkDir::of(PathBuf::from(env!("CARGO_BIN_EXE_capsulemap")))
+    }
+
+    /// A new, empty one to run another program in.
+    pub fn of(program: PathBuf) -> Self {
+        WorkDir { folder: TempDir::new().expect("a folder for the test"), program }
     }
 
     /// The folder.
@@ -87,7 +94,7 @@ impl WorkDir {
 
     /// The program, to be started with `arguments` in the folder.
     pub fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_capsulemap"));
+        let mut command = Command::new(&self.program);
         command.args(arguments).current_dir(self.folder()).stdin(Stdio::null());
         command
     }
@@ -100,7 +107,7 @@ impl WorkDir {
     /// Runs the program with its output in `shell` words: `$0` is the program.
     pub fn shell(&self, script: &str) -> Ran {
         let mut bash = Command::new("bash");
-        bash.args(["-c", script, env!("CARGO_BIN_EXE_capsulemap")]);
+        bash.args(["-c", script]).arg(&self.program);
         Ran::from(bash.current_dir(self.folder()).output().expect("bash starts"))
     }
 
