@@ -80,15 +80,17 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let saddles = if view.shows("saddles") { saddles(view, &plane) } else { Vec::new() };
     let surface = surface(view, &plane).filter(|_| view.shows("impact-surface"));
     let mut legend = basins.legend(view);
+    // A plane of all coordinates of a start is no projection.
+    let is_projected = of_starts.len() > 2;
     if !points.is_empty() {
-        legend.push((
-            Mark::Disc(INK, RADIUS),
-            Text::plain("section points of the orbits, projected onto the plane"),
-        ));
+        let more = if is_projected { ", projected onto the plane" } else { "" };
+        let words = Text::plain(&format!("section points of the orbits{more}"));
+        legend.push((Mark::Disc(INK, RADIUS), words));
     }
     if !saddles.is_empty() {
-        let ring = Mark::Ring(INK, RADIUS);
-        legend.push((ring, Text::plain("saddles on the boundary, projected alike")));
+        let more = if is_projected { ", projected alike" } else { "" };
+        let words = Text::plain(&format!("saddles on the boundary{more}"));
+        legend.push((Mark::Ring(INK, RADIUS), words));
     }
     if surface.is_some() {
         let dashed = Stroke::dashed(INK, REFERENCE_WIDTH);

@@ -169,17 +169,18 @@ impl<'v, 'a> Motion<'v, 'a> {
     ) -> Result<Vec<f64>, FigureError> {
         let signal = self.view.model().signal(name);
         let signal = signal.filter(|it| it.kind == SignalKind::Coordinate);
+        let Some(signal) = signal else { return Ok(Vec::new()) };
         let has = |it: &Entry| self.view.dataset.variable(it.name).is_some();
-        let Some(signal) = signal.filter(|_| !numbers.is_empty() && numbers.iter().all(has)) else {
-            return Ok(Vec::new());
-        };
-        let columns = numbers.iter().map(|it| self.row(it.name));
-        let columns = columns.collect::<Result<Vec<_>, FigureError>>()?;
+        let row = |it: &Entry| if has(it) { self.row(it.name) } else { Ok(Vec::new()) };
+        let rows = numbers.iter().map(row).collect::<Result<Vec<_>, FigureError>>()?;
+        let count = rows.iter().map(Vec::len).max().unwrap_or(0);
+        // What does not depend on a number that is not there is known all the same.
+        let number = |row: &Vec<f64>, place: usize| row.get(place).copied().unwrap_or(f64::NAN);
         let value = |place: usize| {
-            let point: Vec<f64> = columns.iter().map(|column| column[place]).collect();
+            let point: Vec<f64> = rows.iter().map(|row| number(row, place)).collect();
             signal.in_state(&state(&point))
         };
-        Ok((0..columns[0].len()).filter_map(value).collect())
+        Ok((0..count).filter_map(value).collect())
     }
 
     /// The numbers of the case along the last dimension of a variable.

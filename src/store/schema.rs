@@ -245,7 +245,7 @@ fn add_section(dataset: &mut Dataset, table: &Table<'_>) {
 
 fn add_impacts(dataset: &mut Dataset, table: &Table<'_>) {
     let length = table.study.protocol.impact_points;
-    if length == 0 {
+    if length == 0 || table.study.base.model().motion.impact.is_empty() {
         return;
     }
     dataset.put_coordinate(IMPACT_POINT, Values::count(length));

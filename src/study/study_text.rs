@@ -11,6 +11,7 @@ use super::{
     QuantitySettings, Refine, Setting, Spacing, Study,
 };
 use crate::description::{Description, Output, Parameter, State};
+use crate::of::default_model;
 use crate::orbit::{HistorySpan, Protocol};
 use crate::quantity::Dimension;
 
@@ -23,6 +24,9 @@ impl Study {
         let mut document = Document::default();
         if !self.title.is_empty() {
             document.put("title", text(&self.title));
+        }
+        if self.base.model() != default_model() {
+            document.put("model", text(self.base.model().name));
         }
         if !self.outputs.iter().copied().eq(self.base.model().outputs()) {
             let names = self.outputs.iter().map(|output| text(output.name()));

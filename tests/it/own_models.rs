@@ -24,6 +24,9 @@ const TWO_WALLS: &str = r#"model = "impact-oscillator"
 [parameters]
 f = "1"
 w = "1.5"
+[start]
+x = "-0.79"
+v = "0.14"
 [[axes]]
 name = "wall"
 values = ["0.5", "1.2"]
@@ -96,9 +99,11 @@ fn without_wall(c: f64, f: f64, w: f64, phase: f64) -> [f64; 3] {
 fn series(csv: &str) -> BTreeMap<String, Vec<[f64; 2]>> {
     let mut found = BTreeMap::<String, Vec<[f64; 2]>>::new();
     for line in csv.lines().filter(|it| it.starts_with(|first: char| first.is_ascii_digit())) {
-        let fields: Vec<&str> = line.split(',').collect();
-        let point = [2, 3].map(|at| fields[at].parse().expect("a number"));
-        found.entry(fields[1].to_owned()).or_default().push(point);
+        // The name of a series of lines has a comma of its own.
+        let fields: Vec<&str> = line.rsplit(',').collect();
+        let point = [2, 1].map(|at| fields[at].parse().expect("a number"));
+        let [.., name, _] = &fields[..] else { panic!("{line}") };
+        found.entry(name.trim_matches('"').to_owned()).or_default().push(point);
     }
     found
 }
@@ -204,16 +209,34 @@ fn without_a_drive_basins_and_branches_are_drawn_and_histories_refused() {
     work.put("a.toml", BELT);
     work.run(&["sweep", "a.toml", "--output", "a.h5", "--no-figures"]).done();
     work.run(&["continue", "a.toml", "--output", "a.h5", "--no-figures"]).done();
-    // The unstable cycle ends where steady sliding becomes unstable.
     let inspected = work.run(&["inspect", "a.h5"]).done().out;
-    assert!(inspected.contains("belt") && !inspected.contains("section_phase"), "{inspected}");
-    let points = data(&work, "basin", &[]);
-    assert!(!points.is_empty());
+    assert!(inspected.contains("model: belt"), "{inspected}");
+    assert!(!inspected.contains("phase") && !inspected.contains("impact"), "{inspected}");
+    // The stable cycle turns into the unstable one, which ends where steady sliding is no longer stable.
     let drawn = data(&work, "bifurcation", &["--x", "v", "--of", "section_x"]);
-    let branch = drawn.iter().filter(|it| it.0.contains("branch")).flat_map(|it| it.1);
-    let last = branch.map(|it| it[0]).fold(f64::INFINITY, f64::min);
+    let of = |wanted: &str| -> Vec<[f64; 2]> {
+        let lines = drawn.iter().filter(|it| it.0.starts_with(wanted));
+        lines.flat_map(|it| it.1).copied().collect()
+    };
+    let [stable, unstable] = ["stable orbits", "unstable orbits"].map(of);
+    let least = |all: &[[f64; 2]]| all.iter().map(|it| it[0]).fold(f64::INFINITY, f64::min);
     let exact = 0.5 * f64::ln(0.5 / (0.1 * 0.5));
-    assert!((last - 1.0).abs() < 1e-9 || (last - exact).abs() < 1e-7, "{last} {exact} {drawn:?}");
+    assert_eq!(least(&stable), 1.0);
+    assert!((least(&unstable) - exact).abs() < 1e-7, "{} {exact}", least(&unstable));
+    // Starts at rest within the unstable cycle slide on steadily, and those beyond it come to stick.
+    let edge =
+        unstable.iter().copied().min_by(|a, b| (a[0] - 1.5).abs().total_cmp(&(b[0] - 1.5).abs()));
+    let [_, edge] = edge.expect("an orbit");
+    let starts = data(&work, "basin", &[]);
+    let cells = fs::read_to_string(work.path("basin.csv")).expect("data");
+    let at_rest = starts["attractor"].iter().filter(|it| it[1] == 0.0 && it[0] > 0.5);
+    let mut sides = [0, 0];
+    for [x, _] in at_rest {
+        let sticks = cells.contains(&format!("\n1,attractor,{x},0,1\n"));
+        assert_eq!(sticks, *x > edge, "{x} {edge}");
+        sides[usize::from(sticks)] += 1;
+    }
+    assert!(sides[0] > 5 && sides[1] > 0, "{sides:?}");
     work.put("b.toml", format!("{BELT}[history]\ncycles = 2\n"));
     let refused = work.run(&["sweep", "b.toml", "--output", "b.h5"]);
     refused.refused(&["history", "the model belt", "none of a drive"]);
@@ -240,14 +263,14 @@ fn the_page_shows_what_the_model_says_of_itself() {
     assert_eq!(names(&model["starts"]), ["start_x", "start_v", "start_phase"]);
     assert_eq!(names(&model["portrait"]), ["history_x", "history_v"]);
     assert!(names(&model["costs"]).is_empty(), "{model}");
-    let told = explorer.object("/api/motion?wall=1.4&w=1.3&cycles=3");
+    let told = explorer.object("/api/motion?wall=1.4&w=1.7&cycles=3&start_x=-0.53&start_v=0.05");
     assert_eq!(told["simulate"], simulated(&work, &told));
     let history = &told["history"];
     let signals = &history["signals"];
     let [x, v] = ["history_x", "history_v"].map(|name| numbers(&signals[name]));
     let mut free = 0;
     for (at, time) in numbers(&history["t"]).into_iter().enumerate() {
-        let exact = without_wall(0.1, 1.0, 1.3, 1.3 * time);
+        let exact = without_wall(0.1, 1.0, 1.7, 1.7 * time);
         // The page has the digits of a screen.
         free += usize::from((x[at] - exact[0]).abs().max((v[at] - exact[1]).abs()) < 1e-6);
     }

@@ -5,6 +5,7 @@ use super::description::{
     HISTORY_Y1, HISTORY_Y2, IMPACT, RELATIVE_VELOCITY, VELOCITIES,
 };
 use super::forces::Forces;
+use super::output::Output;
 use super::parameters::CapsuleParameters as _;
 use super::state::{CapsuleState as _, State};
 use crate::description::{Chart, MotionDescription, Signal, SignalGroup, SignalKind};
@@ -64,13 +65,14 @@ pub(super) const MOTION: MotionDescription = MotionDescription {
         "stick",
         "reversal",
     ],
+    // Those of which the outputs are the parts of a cycle.
     sums: &[
-        "work_net",
-        "work_positive",
-        "work_absolute",
-        "work_actuator",
-        "friction_loss",
-        "damper_loss",
+        Output::WorkNet.name(),
+        Output::WorkPositive.name(),
+        Output::WorkAbsolute.name(),
+        Output::WorkActuator.name(),
+        Output::FrictionLoss.name(),
+        Output::DamperLoss.name(),
     ],
     counts: &["impacts"],
 };
