@@ -13,10 +13,11 @@ use super::house::{LIBRARY, sources, string_length};
 use super::program::WorkDir;
 
 /// The files that give parameters, starts, outputs and the dimensions of cases their names.
-const DEFINING: [&str; 5] = [
+const DEFINING: [&str; 6] = [
     "crates/models/src/capsule/parameter.rs",
     "crates/models/src/capsule/output.rs",
     "crates/models/src/capsule/description.rs",
+    "crates/models/src/description/phases.rs",
     "src/study/grid.rs",
     "src/study/draws.rs",
 ];
@@ -25,7 +26,7 @@ const DEFINING: [&str; 5] = [
 const OTHERS: [(&str, &[&str], &str); 16] = [
     ("src/study/study_file.rs", &["cycles", "attractor"], "keys of a study"),
     ("src/study/study_text.rs", KEYS, "keys of a study"),
-    ("src/study/start_file.rs", &["start_phase", "section_phase", "direction"], "keys of a study"),
+    ("src/study/start_file.rs", &["direction"], "keys of a study"),
     ("src/study/branch_file.rs", &["period"], "keys of a study"),
     ("src/study/drawing_file.rs", &["cycles"], "a key of a study"),
     ("src/study/drawing.rs", SHOWN, "what the key `of` may name, which a test here compares"),
@@ -46,7 +47,7 @@ const OTHERS: [(&str, &[&str], &str); 16] = [
 ];
 
 /// Keys of a study.
-const KEYS: &[&str] = &["start_phase", "section_phase", "period", "attractor", "cycles"];
+const KEYS: &[&str] = &["period", "attractor", "cycles"];
 
 /// Options that are called as parameters are.
 const OPTIONS: &[&str] = &["omega", "p_d", "k2", "delta", "start_phase", "section_phase"];
