@@ -8,7 +8,7 @@ use super::text::Text;
 use super::ticks::{power_of_ten, rounded, short};
 use super::unit::{ShownUnit, raised};
 use crate::store::catalogue::{self, Place, Shown};
-use crate::store::dataset::{Dataset, Values, Variable};
+use crate::store::dataset::{Dataset, Values};
 use crate::study::ScaleChoice;
 use crate::tradeoff::NOISE;
 
@@ -51,7 +51,8 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// The quantity called `name`, described by `dataset` where the catalogue has no form for it.
+    /// The quantity called `name`, described by `dataset` where the catalogue has no form for it, and by its meaning where that does
+    /// not hold it.
     pub fn named(name: &str, dataset: &Dataset) -> Quantity {
         let on_branches = || dataset.variable(&Place::Branch.name(name));
         let stored = dataset.variable(name).or_else(|| dataset.coordinate(name));
@@ -61,7 +62,8 @@ impl Quantity {
         let unit = stored.map_or("", |it| it.unit.as_str());
         let least = if is_result { rounding(unit) } else { 0.0 };
         let is_ratio = is_result && unit == "1";
-        match catalogue::named(name, dataset.model()).and_then(|entry| entry.shown) {
+        let described = catalogue::named(name, dataset.model());
+        match described.and_then(|entry| entry.shown) {
             Some(Shown { label, symbol, unit, factor }) => Quantity {
                 key: name.to_owned(),
                 name: Text::plain(label),
@@ -73,7 +75,13 @@ impl Quantity {
                 is_ratio,
                 chosen: Rc::default(),
             },
-            None => Quantity { whole, noise: least, is_ratio, ..Quantity::as_stored(name, stored) },
+            None => {
+                let words =
+                    stored.map(|it| it.long_name.as_str()).or(described.map(|it| it.meaning));
+                let unit = stored.map(|it| it.unit.as_str()).or(described.map(|it| it.unit));
+                let called = Quantity::called(name, words.unwrap_or(name), unit.unwrap_or("1"));
+                Quantity { whole, noise: least, is_ratio, ..called }
+            }
         }
     }
 
@@ -92,13 +100,12 @@ impl Quantity {
         }
     }
 
-    fn as_stored(name: &str, stored: Option<&Variable>) -> Quantity {
-        let words = stored.map_or("", |variable| variable.long_name.as_str());
-        let mut letters = if words.is_empty() { name } else { words }.chars();
+    /// A quantity called by words, with a unit as files have it.
+    fn called(key: &str, words: &str, unit: &str) -> Quantity {
+        let mut letters = if words.is_empty() { key } else { words }.chars();
         let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
-        let unit = stored.map_or("1", |variable| variable.unit.as_str());
         Quantity {
-            key: name.to_owned(),
+            key: key.to_owned(),
             name: Text::plain(&(first + letters.as_str())),
             symbol: String::new(),
             unit: if unit == "1" { String::new() } else { raised(unit) },

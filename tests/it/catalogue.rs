@@ -13,10 +13,11 @@ use super::house::{LIBRARY, sources, string_length};
 use super::program::WorkDir;
 
 /// The files that give parameters, starts, outputs and the dimensions of cases their names.
-const DEFINING: [&str; 6] = [
+const DEFINING: [&str; 7] = [
     "crates/models/src/capsule/parameter.rs",
     "crates/models/src/capsule/output.rs",
     "crates/models/src/capsule/description.rs",
+    "crates/models/src/capsule/quantities.rs",
     "crates/models/src/description/phases.rs",
     "src/study/grid.rs",
     "src/study/draws.rs",

@@ -17,9 +17,10 @@ const charts = ({ signals }) => model.charts.map(({ label, signals: all }) => [
 ]).filter(([, all]) => all.length);
 const scaled = ({ signals }, [name, , , factor]) => signals[name].map((value) => value * factor);
 
-// The curve of the phase portrait, and the points of the section.
+// The curve of the phase portrait, and the points of the section where that is a plane.
 const portrait = ({ signals }) => model.portrait.map(({ name, factor }) => signals[name].map((value) => value * factor));
-const section = ({ stroboscopic }) => model.section.slice(0, 2).map(({ factor }, i) => stroboscopic.map((it) => it[i] * factor));
+const isPlane = () => model.section.length > 1;
+const section = ({ stroboscopic }) => [0, 1].map((i) => (isPlane() ? stroboscopic.map((it) => it[i] * model.section[i].factor) : []));
 
 // Where the surface of impacts lies along the abscissa of the portrait; none where it does not.
 function surface({ surface: at }) {
@@ -48,7 +49,7 @@ export function common(motions) {
 export class Charts {
   constructor(place) {
     Object.assign(this, { place, plots: [], it: null });
-    this.canvases = [0, 1].map(() => element("canvas", { className: "portrait", role: "img" }));
+    this.canvases = (isPlane() ? [0, 1] : [0]).map(() => element("canvas", { className: "portrait", role: "img" }));
     this.portraits = element("div", { className: "portraits" }, ...this.canvases);
     const all = [drawPortrait, drawSection];
     this.canvases.forEach((canvas, i) => redrawn(canvas, () => this.it && all[i](canvas, this.it, this.scales)));
@@ -64,7 +65,7 @@ export class Charts {
     shown.forEach(([label, all], i) => this.fill(this.plots[i], label, all));
     this.describe();
     drawPortrait(this.canvases[0], it, this.scales);
-    drawSection(this.canvases[1], it, this.scales);
+    if (isPlane()) drawSection(this.canvases[1], it, this.scales);
   }
 
   build(shown) {

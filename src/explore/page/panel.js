@@ -46,7 +46,9 @@ export class Panel {
     this.heading.textContent = `${this.name}: ${words}`;
     if (isOther) this.tell(motion);
     const { it } = motion, hasHistory = !!it?.history;
-    this.saving.hidden = this.note.hidden = !hasHistory;
+    this.note.hidden = !hasHistory;
+    // Figures show the histories that files can keep.
+    this.saving.hidden = !hasHistory || !model.keeps_histories;
     if (hasHistory) this.charts.show(it, scales); else this.charts.clear();
   }
 

@@ -74,6 +74,7 @@ fn model_json(explored: &Explored) -> Value {
         "state": (0..model.coordinates.len()).map(|at| state_json(explored, at)).collect::<Vec<_>>(),
         "charts": model.motion.charts.iter().map(|it| chart_json(explored, it)).collect::<Vec<_>>(),
         "portrait": model.motion.portrait.map(|names| names.map(shown)),
+        "keeps_histories": model.keeps_histories(),
         "surface": surface,
         "meets_surface": model.signal_of_coordinate(0).map(|it| it.name()),
         "costs": costs(explored).into_iter().map(|it| shown(it.name())).collect::<Vec<_>>(),

@@ -16,6 +16,7 @@ pub mod output;
 pub mod parameter;
 pub mod parameters;
 pub mod printed;
+mod quantities;
 pub mod regime;
 pub mod resistance;
 pub mod sampled;

@@ -1,14 +1,22 @@
 //! What the capsule says of its motion over time: signals, forces among them, impacts, events and sums.
 
-use super::description::{
-    HISTORIES, HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_X1, HISTORY_X2,
-    HISTORY_Y1, HISTORY_Y2, IMPACT, RELATIVE_VELOCITY, VELOCITIES,
-};
 use super::forces::Forces;
 use super::output::Output;
 use super::parameters::CapsuleParameters as _;
+use super::quantities::{
+    HISTORY_CONTACT, HISTORY_DRIVE, HISTORY_FRICTION, HISTORY_R, HISTORY_X1, HISTORY_X2,
+    HISTORY_Y1, HISTORY_Y2, IMPACT_PHASE, IMPACT_VELOCITY, IMPACT_Y1, IMPACT_Y2, RELATIVE_VELOCITY,
+    VELOCITIES,
+};
 use super::state::{CapsuleState as _, State};
 use crate::description::{Chart, MotionDescription, Signal, SignalGroup, SignalKind};
+use crate::quantity::Quantity;
+
+/// What is told of an impact.
+const IMPACT: &[Quantity] = &[IMPACT_PHASE, IMPACT_Y1, IMPACT_Y2, IMPACT_VELOCITY];
+
+/// What is kept of a motion at each time.
+const HISTORIES: &[Quantity] = &[HISTORY_R, HISTORY_Y1, HISTORY_X2, HISTORY_Y2, HISTORY_DRIVE];
 
 /// What a motion has at each time.
 const SIGNALS: &[Signal] = &[
