@@ -9,8 +9,7 @@ use super::error::CampaignError;
 use super::report::{Event, Report, Reports};
 use super::search_time::{PARTS, neighbours, search_seconds};
 use crate::run::{
-    CHECKED, Estimate, Forecast, Machine, Record, RunError, count_threads, run_blocks, run_sample,
-    run_tiles,
+    CHECKED, Estimate, Forecast, Machine, Record, RunError, run_blocks, run_sample, run_tiles,
 };
 use crate::store::{RUN, file_bytes, numbers_of_case, packed_bytes, refined_file_bytes, storing};
 use crate::study::{CaseSet, Direction, Refinement, Study, spread};
@@ -307,7 +306,7 @@ impl Found<'_> {
         let factor = kept * study.cases() as f64 / self.records.len() as f64;
         let packed = packed_bytes(study, &self.records).map_err(CampaignError::Packing)?;
         let storing = storing(study, &self.records, kept)?;
-        let packing = storing.packing / count_threads(machine) as f64;
+        let packing = storing.packing / machine.threads() as f64;
         let inferred = (1.0 - kept) * study.cases() as f64;
         let checking = inferred.min(CHECKED as f64) * time.as_secs_f64() / cases as f64;
         let seconds = self.forecast.cycles().map(|cycles| Estimate {

@@ -8,7 +8,7 @@ use super::terminal::print;
 use crate::campaign::{BlockStatus, Campaign, Probe, memory, probe, silent};
 use crate::figure::variables;
 use crate::quantity::printable::printable;
-use crate::run::{Estimate, count_threads, has_attractors};
+use crate::run::{Estimate, has_attractors};
 use crate::store;
 use crate::study::Study;
 
@@ -37,9 +37,9 @@ fn text(campaign: &Campaign<'_>, blocks: &BlockStatus, probe: &Probe) -> String 
         ),
     };
     let (cases, all) = (count(study.cases()), counted(study.blocks(), "block"));
-    let memory = memory(study, count_threads(machine), probe);
+    let memory = memory(study, machine.threads(), probe);
     let [computing, joining] = [memory.computing, memory.joining].map(size);
-    let seconds = seconds(probe, left, count_threads(machine));
+    let seconds = seconds(probe, left, machine.threads());
     let more = if study.branches.is_empty() { "" } else { ", and more for branches" };
     let beside = match (has_attractors(study), study.branches.is_empty()) {
         (true, true) => ", and more for attractors",

@@ -266,6 +266,7 @@ mod tests {
 
     use super::*;
     use crate::figure::scale::Spacing;
+    use crate::store::Variable;
 
     fn quantity(unit: &str) -> Quantity {
         let mut dataset = Dataset::default();

@@ -142,12 +142,6 @@ pub(super) fn spread(place: usize, cases: usize) -> usize {
     ((u128::from(fraction) * cases as u128) >> 64) as usize
 }
 
-/// Threads that compute.
-pub fn count_threads(machine: Machine) -> usize {
-    let all = || std::thread::available_parallelism().map_or(1, usize::from);
-    machine.threads.unwrap_or_else(all)
-}
-
 /// So many worker threads; one per core for none.
 pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, RunError> {
     let stop = stop::current();

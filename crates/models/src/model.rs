@@ -161,6 +161,9 @@ pub trait Model: Debug + Send + Sync {
     /// What it says of itself.
     fn description(&self) -> &'static Description;
 
+    /// How many coordinates a point of its section has.
+    fn dimension(&self) -> usize;
+
     /// What is to be said of an orbit beside its numbers, in sentences.
     fn remarks(&self, parameters: &Parameters, orbit: &Orbit) -> Vec<String>;
 

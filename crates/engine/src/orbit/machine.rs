@@ -23,6 +23,12 @@ impl Machine {
         Machine { threads: Some(1), instructions: None }
     }
 
+    /// How many threads compute.
+    pub fn threads(&self) -> usize {
+        let all = || thread::available_parallelism().map_or(1, usize::from);
+        self.threads.unwrap_or_else(all)
+    }
+
     /// The instructions to move so many cases a thread by.
     pub fn instructions_for(&self, cases: usize) -> Instructions {
         self.instructions.unwrap_or_else(|| Instructions::suited_to(cases))
@@ -31,8 +37,7 @@ impl Machine {
     /// Calls `work` on as many threads as so many cases are worth, with the cases of a thread if they are
     /// shared out evenly, and the instructions for them.
     pub(super) fn share_out(&self, cases: usize, work: impl Fn(usize, Instructions) + Sync) {
-        let available = || thread::available_parallelism().map_or(1, usize::from);
-        let threads = self.threads.unwrap_or_else(available).clamp(1, cases.max(1));
+        let threads = self.threads().clamp(1, cases.max(1));
         let share = cases.div_ceil(threads);
         let instructions = self.instructions_for(share);
         let stop = stop::current();

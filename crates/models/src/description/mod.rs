@@ -1,6 +1,7 @@
 //! What a model says of itself in words that do not depend on it: parameters and choices by name, and values of them.
 
 pub mod choice;
+mod faults;
 pub mod motion;
 pub mod output;
 pub mod parameter;

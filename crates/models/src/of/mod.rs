@@ -34,7 +34,7 @@ use crate::motion::{
 };
 
 pub use registry::{
-    NameTaken, all_models, default_model, model_called, model_of, register, settle_case,
+    NotRegistered, all_models, default_model, model_called, model_of, register, settle_case,
 };
 
 /// An orbit closes to this residual, relative to the motion; a larger one is seen in the outputs.
@@ -98,6 +98,10 @@ type LinearOf<M, const D: usize> = Vec<Option<Linearised<<M as System<D>>::Event
 impl<M: Face<D>, const D: usize> Model for Of<M, D> {
     fn description(&self) -> &'static Description {
         M::description()
+    }
+
+    fn dimension(&self) -> usize {
+        D
     }
 
     fn remarks(&self, parameters: &Parameters, orbit: &Orbit) -> Vec<String> {

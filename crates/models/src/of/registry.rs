@@ -15,27 +15,44 @@ use crate::motion::{Case, Orbit};
 /// Those beside the capsule, in the order in which they were registered.
 static OTHERS: RwLock<Vec<&'static dyn Model>> = RwLock::new(Vec::new());
 
-/// A model of this name is there already.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NameTaken(pub &'static str);
+/// Why a model is not made known.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NotRegistered {
+    /// A model of this name is there already.
+    NameTaken(&'static str),
+    /// Its description does not fit together: its name, and all faults.
+    Unfit(&'static str, Vec<String>),
+}
 
-impl Display for NameTaken {
+impl Display for NotRegistered {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "a model called {} is registered already", self.0)
+        match self {
+            NotRegistered::NameTaken(name) => {
+                write!(f, "a model called {name} is registered already")
+            }
+            NotRegistered::Unfit(name, faults) => {
+                write!(f, "the description of the model {name}: {}", faults.join("; "))
+            }
+        }
     }
 }
 
-impl std::error::Error for NameTaken {}
+impl std::error::Error for NotRegistered {}
 
 /// Makes a model known to studies, which name it by `model = "..."`.
 ///
-/// Fails where another has its name.
-pub fn register(model: &'static dyn Model) -> Result<(), NameTaken> {
+/// # Errors
+/// Where another has its name, or its description does not fit together ([`Description::faults`]).
+pub fn register(model: &'static dyn Model) -> Result<(), NotRegistered> {
     let description = model.description();
+    let faults = description.faults(model.dimension());
+    if !faults.is_empty() {
+        return Err(NotRegistered::Unfit(description.name, faults));
+    }
     let mut others = OTHERS.write().unwrap_or_else(PoisonError::into_inner);
     let is_taken = |it: &&dyn Model| it.description().name == description.name;
     if description.name == CAPSULE.name || others.iter().any(is_taken) {
-        return Err(NameTaken(description.name));
+        return Err(NotRegistered::NameTaken(description.name));
     }
     others.push(model);
     Ok(())

@@ -1,8 +1,10 @@
 //! What the capsule says of itself holds for it, and a parameter of one model is none of another.
 
+use capsulemap_engine::flow::Event as _;
 use capsulemap_models::capsule::description::CAPSULE;
 use capsulemap_models::capsule::{
-    CapsuleParameters as _, Forces, Output, Parameter, Parameters, Resistance, State, Switching,
+    CapsuleParameters as _, EventKind, Forces, Output, Parameter, Parameters, Resistance, State,
+    Switching,
 };
 use capsulemap_models::description::{
     self, Description, MotionDescription, ParameterDescription, Section,
@@ -144,4 +146,36 @@ fn a_section_point_is_the_list_of_its_coordinates() {
     );
     let at = description::State::at_section(&CAPSULE, &point);
     assert_eq!(State::from(&at), State { r: 1.0, y1: 2.0, x2: 0.0, y2: 4.0 });
+}
+
+#[test]
+fn a_description_whose_parts_do_not_fit_together_says_which() {
+    assert_eq!(CAPSULE.faults(3), Vec::<String>::new());
+    let faults = CAPSULE.faults(2);
+    assert_eq!(faults.len(), 6, "{faults:?}");
+    assert!(faults[0].starts_with("on_section has 3 entries"), "{faults:?}");
+    // The roles of another model name what this one does not have, and its histories have no coordinates.
+    let faults = OTHER.faults(0);
+    for part in [
+        "a section point has 1 to 6 coordinates, not 0",
+        "a role names parameter 7 of 1, counted from 0",
+        "a role names output 0 of 0, counted from 0",
+    ] {
+        assert!(faults.iter().any(|it| it == part), "{part}: {faults:?}");
+    }
+}
+
+#[test]
+fn events_are_called_as_the_capsule_calls_them() {
+    for kind in EventKind::ALL {
+        let mut name = String::new();
+        for letter in format!("{kind:?}").chars() {
+            if letter.is_uppercase() && !name.is_empty() {
+                name.push('-');
+            }
+            name.push(letter.to_ascii_lowercase());
+        }
+        assert_eq!(CAPSULE.event(kind.number()), name);
+    }
+    assert_eq!(CAPSULE.motion.events.len(), EventKind::ALL.len());
 }
