@@ -55,21 +55,17 @@ pub(super) fn read_state(table: &Table<'_, '_>, usual: Start, varied: &[Coordina
         entry.allowed_quantity(coordinates[0].dimension(), Allowed::Finite)
     };
     let mut start = usual;
-    let coordinates = start.state.model().start_coordinates();
-    for coordinate in coordinates {
+    let both: Vec<Coordinate> = Coordinate::phases(start.state.model()).collect();
+    let phase = (!both.is_empty()).then(|| quantity(Coordinate::PHASE, &both)).flatten();
+    if let Some(phase) = phase {
+        (start.start_phase, start.section_phase) = (phase, phase);
+    }
+    for coordinate in start.state.model().start_coordinates() {
         let given = quantity(coordinate.name(), &[Coordinate::Start(coordinate)]);
         start.state[coordinate] = given.unwrap_or(start.state[coordinate]);
     }
-    let both: Vec<Coordinate> = Coordinate::phases(start.state.model()).collect();
-    if both.is_empty() {
-        return start;
-    }
-    if let Some(phase) = quantity(Coordinate::PHASE, &both) {
-        (start.start_phase, start.section_phase) = (phase, phase);
-    }
-    for (coordinate, place) in
-        both.into_iter().zip([&mut start.start_phase, &mut start.section_phase])
-    {
+    let places = [&mut start.start_phase, &mut start.section_phase];
+    for (coordinate, place) in both.into_iter().zip(places) {
         let key = coordinate.name();
         *place = quantity(key, &[coordinate]).unwrap_or(*place);
         if table.entry(Coordinate::PHASE).is_some()

@@ -14,7 +14,9 @@ use super::figure::{drawing, folder, into};
 /// A figure with its text as text, and the data behind it.
 fn drawn(dataset: &Dataset, request: &Drawing) -> (String, String) {
     let request = Drawing { svg_text: true, data: true, ..request.clone() };
-    let files = draw(dataset, &request, &into(&folder("settings"), &[Format::Svg])).expect("drawn");
+    // A folder of its own: the figures of all tests here have one name.
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = draw(dataset, &request, &into(folder.path(), &[Format::Svg])).expect("drawn");
     let [svg, csv] = [0, 1].map(|at| fs::read_to_string(&files.paths[at]).expect("a file"));
     (svg, csv)
 }
