@@ -178,7 +178,7 @@ fn the_same_dataset_gives_the_same_bytes() {
     let again = folder.path().join("other-name.nc");
     store::write(&rich(), &path).expect("it is written");
     // Times in HDF5 are whole seconds: wait until one has passed, or equality would prove nothing.
-    std::thread::sleep(std::time::Duration::from_millis(1100));
+    std::thread::sleep(Duration::from_millis(1100));
     store::write(&rich(), &again).expect("it is written");
     let (first, second) = (fs::read(&path).expect("bytes"), fs::read(&again).expect("bytes"));
     assert!(first == second, "two files of one dataset differ");
