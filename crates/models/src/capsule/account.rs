@@ -85,6 +85,21 @@ side_by_side!(Energies {
     damper_loss
 });
 
+impl<L: Copy> Energies<L> {
+    /// All of them, in their order.
+    pub fn all(&self) -> [L; 6] {
+        let Energies {
+            work_net,
+            work_positive,
+            work_absolute,
+            work_actuator,
+            friction_loss,
+            damper_loss,
+        } = *self;
+        [work_net, work_positive, work_absolute, work_actuator, friction_loss, damper_loss]
+    }
+}
+
 /// The constants of the capsules that are observed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Constants<L> {

@@ -4,7 +4,7 @@ use capsulemap_engine::flow::Step;
 use capsulemap_engine::lane::series;
 use capsulemap_engine::orbit::{OrbitOf, Outcome, Protocol};
 
-use super::account::{Account, Energies, Impact};
+use super::account::{Account, Impact};
 use super::description::CAPSULE;
 use super::locomotion::Locomotion as _;
 use super::parameter::Parameter;
@@ -59,15 +59,7 @@ impl<R: Reading> Face<3> for CapsuleSystem<R> {
     }
 
     fn sums(observed: &Account<f64>) -> Vec<f64> {
-        let Energies {
-            work_net,
-            work_positive,
-            work_absolute,
-            work_actuator,
-            friction_loss,
-            damper_loss,
-        } = observed.energies;
-        vec![work_net, work_positive, work_absolute, work_actuator, friction_loss, damper_loss]
+        observed.energies.all().to_vec()
     }
 
     fn counts(observed: &Account<f64>) -> Vec<u64> {

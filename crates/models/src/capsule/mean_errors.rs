@@ -4,7 +4,7 @@ use capsulemap_engine::orbit::exponent::BATCHES;
 use capsulemap_engine::orbit::measuring::batch_ends;
 use capsulemap_engine::orbit::{self, Outcome};
 
-use super::account::{Account, Energies};
+use super::account::Account;
 use super::output::{Output, Outputs};
 use super::parameters::CapsuleParameters as _;
 use super::state::State;
@@ -63,23 +63,8 @@ fn of_batches(orbit: &orbit::Orbit<State<f64>, Account<f64>, 3>) -> Vec<[f64; ER
 
 /// What an account has summed, in the order of [`ERRORS`].
 fn sums(account: &Account<f64>) -> [f64; ERRORS.len()] {
-    let Energies {
-        work_net,
-        work_positive,
-        work_absolute,
-        work_actuator,
-        friction_loss,
-        damper_loss,
-    } = account.energies;
-    [
-        account.advance,
-        work_net,
-        work_positive,
-        work_absolute,
-        work_actuator,
-        friction_loss,
-        damper_loss,
-    ]
+    let energies = account.energies.all();
+    std::array::from_fn(|at| if at == 0 { account.advance } else { energies[at - 1] })
 }
 
 /// The standard error of the mean of some numbers; NaN of fewer than two.
