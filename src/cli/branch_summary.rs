@@ -4,9 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::branch::{Curve, End, SpecialKind, is_followed};
-use crate::capsule;
 use crate::description::Parameter;
-use crate::motion::branch::{Branch, Found, Special};
+use crate::motion::branch::{Branch, Found, Point, Special};
 use crate::quantity::printable::printable;
 use crate::run::Continued;
 use crate::study::{Continuation, FirstOrbit, Study};
@@ -87,7 +86,7 @@ fn write_without_curve(text: &mut String, found: &Found) {
 }
 
 fn write_branch(text: &mut String, along: Parameter, branch: &Branch) {
-    let is_stable = |it: &&capsule::branch::Point| it.multipliers.iter().all(|m| m.abs() < 1.0);
+    let is_stable = |it: &&Point| it.multipliers.iter().all(|m| m.abs() < 1.0);
     let stable = branch.points.iter().filter(is_stable).count();
     let points = branch.points.len();
     let _ = writeln!(
@@ -202,9 +201,9 @@ fn ten_digits(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capsule;
     use crate::capsule::description::CAPSULE;
     use crate::description::Outputs;
-    use crate::motion::branch::Point;
     use crate::orbit::matrix::Complex;
     use crate::run::NotContinued;
 

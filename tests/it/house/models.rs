@@ -11,7 +11,7 @@ const CODE: [&str; 2] = ["R: Reading", "switching() {"];
 /// The capsule's own parameters and outputs, each behind this.
 const OWN: [&str; 2] = ["Parameter::", "Output::"];
 /// Files that know the rig of the capsule, or have options that are called after its parameters.
-const OF_THE_RIG: [&str; 8] = [
+const OF_THE_RIG: [&str; 9] = [
     "src/experiment/",
     "src/cli/compare_report.rs",
     "src/cli/experiment_figures.rs",
@@ -19,15 +19,30 @@ const OF_THE_RIG: [&str; 8] = [
     "src/cli/fit_report.rs",
     "src/cli/identify.rs",
     "src/cli/simulate.rs",
+    "src/cli/synthesize.rs",
     "src/cli/varied.rs",
 ];
+
+/// Files beside these that take something of the capsule's floor, and what.
+const OF_THE_FLOOR: [(&str, &str); 2] = [
+    ("src/campaign/mean_errors.rs", "the standard error of a mean"),
+    ("src/tradeoff/mod.rs", "what the library has under this path"),
+];
+
+/// Whether a file takes anything of the capsule outside its tests, where it may not.
+fn takes_of_the_capsule(source: &Source) -> bool {
+    let mut may = OF_THE_RIG.into_iter().chain(OF_THE_FLOOR.map(|(path, _)| path));
+    let code = source.code.split("#[cfg(test)]").next().unwrap_or_default();
+    code.contains("crate::capsule") && !may.any(|path| source.path.starts_with(path))
+}
 
 /// What a file names that only models may.
 fn model_faults(source: &Source) -> Vec<String> {
     let named = identifiers(&source.code).map(|(_, word, _)| word);
     let named = named.filter(|word| BELOW.contains(word));
     let found = named.chain(CODE.into_iter().filter(|code| source.code.contains(code)));
-    let found = found.map(str::to_owned).chain(own_quantities(source));
+    let taken = takes_of_the_capsule(source).then(|| "crate::capsule".to_owned());
+    let found = found.map(str::to_owned).chain(own_quantities(source)).chain(taken);
     found.map(|what| format!("{}: {what}; ask the model", source.path)).collect()
 }
 
@@ -59,7 +74,8 @@ fn nothing_above_the_models_tells_them_apart() {
 #[test]
 fn a_model_that_is_told_apart_is_seen() {
     for code in [
-        "use crate::capsule::Filippov;",
+        "use super::Filippov;",
+        "use crate::capsule::State;",
         "fn run<R: Reading>() {}",
         "match study.base.switching() {",
         "let case = case.read::<AsPrinted>();",
