@@ -20,6 +20,7 @@ impl Campaign<'_> {
         if self.study.branches.is_empty() {
             return Err(CampaignError::NoBranches);
         }
+        self.study.check_text("the study")?;
         let reports = Reports::new(report);
         let older = match self.kept()? {
             Some(older) if self.has_its_branches(&older) => {

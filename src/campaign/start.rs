@@ -17,9 +17,10 @@ impl Campaign<'_> {
     /// Guarantees: the file has the same bytes however often the run was stopped, in whatever order its blocks
     /// were computed and by however many tasks, but for the time in `created`.
     ///
-    /// Fails if something else is in the place of the file or of the blocks, if another run holds them,
-    /// or if the machine refuses to keep a block; what is done is kept.
+    /// Fails if the study is not the one that its text says, if something else is in the place of the file or of the blocks, if another
+    /// run holds them, or if the machine refuses to keep a block; what is done is kept.
     pub fn run(&self, task: Task, report: &Report<'_>) -> Result<Done, CampaignError> {
+        self.study.check_text("the study")?;
         let reports = Reports::new(report);
         match self.kept()? {
             Some(older) if self.suffices(&older) => return self.leave(older, &reports),

@@ -63,13 +63,23 @@ impl Study {
     pub fn validated(self, name: &str) -> Result<Study, Faults> {
         let read = Study::parse(name, &self.to_toml());
         let faults = match &read {
-            Ok(read) => self.differences(read),
+            Ok(read) => self.differences(read, UNWRITTEN),
             Err(faults) => {
                 let without_line = |fault: &Fault| Fault { line: None, ..fault.clone() };
                 faults.faults.iter().map(without_line).collect()
             }
         };
         if faults.is_empty() { read } else { Err(Faults { file: name.to_owned(), faults }) }
+    }
+
+    /// Makes sure that the study is the one that its text says: results keep the text, and are resumed and checked by it.
+    ///
+    /// # Errors
+    ///
+    /// What of a study that was changed in code is not as its text has it; [`Study::validated`] writes the text anew.
+    pub fn check_text(&self, name: &str) -> Result<(), Faults> {
+        let faults = self.differences(&Study::parse(name, &self.text)?, OUTDATED);
+        if faults.is_empty() { Ok(()) } else { Err(Faults { file: name.to_owned(), faults }) }
     }
 
     fn write_parameters(&self, document: &mut Document) {
@@ -140,9 +150,8 @@ impl Study {
         document.put("most_points", branch.most_points);
     }
 
-    /// What is not the same in the study that was `read` back.
-    fn differences(&self, read: &Study) -> Vec<Fault> {
-        let mut faults = Vec::new();
+    /// What is not the same in the study that was `read` back, in these words.
+    fn differences(&self, read: &Study, words: Words) -> Vec<Fault> {
         let mut own = self.clone();
         // What is held constant of a coordinate that varies does not count.
         for coordinate in self.case_set.varied() {
@@ -170,44 +179,60 @@ impl Study {
             branches,
             drawings,
         } = &own;
-        note(&mut faults, "title", title, &read.title);
-        note(&mut faults, "outputs", outputs, &read.outputs);
-        note(&mut faults, "parameters", base, &read.base);
-        note(&mut faults, "start", start, &read.start);
-        note(&mut faults, "start.start_phase", start_phase, &read.start_phase);
-        note(&mut faults, "start.section_phase", section_phase, &read.section_phase);
-        note(&mut faults, "axes", case_set, &read.case_set);
-        note(&mut faults, "protocol", protocol, &read.protocol);
-        note(&mut faults, "basin.early_decision", early_decision, &read.early_decision);
+        let mut compared = Compared { words, faults: Vec::new() };
+        compared.part("title", title, &read.title);
+        compared.part("outputs", outputs, &read.outputs);
+        compared.part("parameters", base, &read.base);
+        compared.part("start", start, &read.start);
+        compared.part("start.start_phase", start_phase, &read.start_phase);
+        compared.part("start.section_phase", section_phase, &read.section_phase);
+        compared.part("axes", case_set, &read.case_set);
+        compared.part("protocol", protocol, &read.protocol);
+        compared.part("basin.early_decision", early_decision, &read.early_decision);
         let refined_by =
             if let Some(Refine::Outputs(_)) = refine { "map.refine" } else { "basin.refine" };
-        note(&mut faults, refined_by, refine, &read.refine);
-        note_each(&mut faults, "branches", branches, &read.branches);
-        note_each(&mut faults, "figures", drawings, &read.drawings);
-        faults
+        compared.part(refined_by, refine, &read.refine);
+        compared.each("branches", branches, &read.branches);
+        compared.each("figures", drawings, &read.drawings);
+        compared.faults
     }
 }
 
-/// Notes a part of a study that is read back as another.
-fn note<T: PartialEq + Debug>(faults: &mut Vec<Fault>, key: &str, own: &T, read: &T) {
-    if own != read {
-        let message = format!("a study file cannot hold {own:?}; it would be read as {read:?}");
-        faults.push(Fault { line: None, key: key.to_owned(), message });
-    }
+/// What is said before a part of a study, and before what its text has of it.
+type Words = [&'static str; 2];
+/// Of what no text can say.
+const UNWRITTEN: Words = ["a study file cannot hold", "it would be read as"];
+/// Of what has changed since the text was written.
+const OUTDATED: Words = ["the study has", "its text has"];
+
+/// Parts of a study that are compared with those that its text has.
+struct Compared {
+    words: Words,
+    faults: Vec<Fault>,
 }
 
-/// Notes each part of a list that is read back as another, and parts that are read back as more or fewer.
-fn note_each<T: PartialEq + Debug>(faults: &mut Vec<Fault>, key: &str, own: &[T], read: &[T]) {
-    for (i, (own, read)) in own.iter().zip(read).enumerate() {
-        note(faults, &format!("{key}[{}]", i + 1), own, read);
+impl Compared {
+    /// Notes a part that its text has in another way.
+    fn part<T: PartialEq + Debug>(&mut self, key: &str, own: &T, read: &T) {
+        if own != read {
+            self.fault(key, format!("{own:?}"), format!("{read:?}"));
+        }
     }
-    if own.len() != read.len() {
-        let message = format!(
-            "a study file cannot hold these {}; they would be read as {}",
-            own.len(),
-            read.len()
-        );
-        faults.push(Fault { line: None, key: key.to_owned(), message });
+
+    /// Notes each part of a list that its text has in another way, and that it has more or fewer.
+    fn each<T: PartialEq + Debug>(&mut self, key: &str, own: &[T], read: &[T]) {
+        for (i, (own, read)) in own.iter().zip(read).enumerate() {
+            self.part(&format!("{key}[{}]", i + 1), own, read);
+        }
+        if own.len() != read.len() {
+            self.fault(key, format!("these {}", own.len()), read.len().to_string());
+        }
+    }
+
+    fn fault(&mut self, key: &str, own: String, read: String) {
+        let [before, then] = self.words;
+        let message = format!("{before} {own}; {then} {read}");
+        self.faults.push(Fault { line: None, key: key.to_owned(), message });
     }
 }
 

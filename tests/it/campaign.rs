@@ -329,3 +329,22 @@ fn a_probe_tells_time_and_room_and_writes_nothing() {
     let part = probe(&study, Machine::default(), Duration::ZERO, &silent).expect("it is computed");
     assert!(part.cases < 3072, "{}", part.cases);
 }
+
+#[test]
+fn a_study_that_is_not_as_its_text_says_is_not_run() {
+    let (_folder, output) = place();
+    let mut study = parse(CASES_AND_BRANCH);
+    study.protocol.max_cycles += 1;
+    let campaign = Campaign::new(&study, &output);
+    for said in [
+        campaign.run(Task::WHOLE, &silent).err().map(|it| it.to_string()),
+        campaign.continue_branches(&silent).err().map(|it| it.to_string()),
+    ] {
+        let said = said.expect("another text");
+        assert!(said.contains("protocol: the study has"), "{said}");
+        assert!(said.contains("its text has"), "{said}");
+    }
+    assert!(!output.exists());
+    let written = study.validated("study.toml").expect("it can be written");
+    Campaign::new(&written, &output).run(Task::WHOLE, &silent).expect("it runs");
+}
