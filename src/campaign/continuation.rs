@@ -2,14 +2,13 @@
 
 use std::time::Instant;
 
-use crate::run;
-use crate::store::{self, Dataset, add_branches, drop_branches, has_branches};
-
 use super::error::CampaignError;
 use super::kept::{Kept, check_branches};
 use super::report::{Event, Report, Reports, Stage};
 use super::request::{BranchesDone, Campaign, Complete};
 use super::result_file::prepare;
+use crate::run;
+use crate::store::{self, Dataset, add_branches, drop_branches, has_branches};
 
 impl Campaign<'_> {
     /// Continues the branches of the study and puts them into the file; cases that are there stay, and branches of

@@ -1,7 +1,5 @@
 //! Starts a campaign or resumes it: what is missing is computed, and joined unless tasks share the study.
 
-use crate::store::{BlockFolder, Company};
-
 use super::clear::clear_away;
 use super::error::CampaignError;
 use super::kept::{Kept, check_branches};
@@ -9,6 +7,7 @@ use super::report::{Event, Report, Reports};
 use super::request::{Campaign, Complete, Done};
 use super::result_file::{block_path, prepare};
 use super::share::Task;
+use crate::store::{BlockFolder, Company};
 
 impl Campaign<'_> {
     /// Computes the blocks of a task that are missing, and joins all if it is the only task. A run that was

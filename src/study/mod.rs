@@ -6,6 +6,7 @@ mod axis_file;
 pub mod block;
 mod branch_file;
 pub mod case_set;
+mod compared;
 pub mod continuation;
 pub mod document;
 pub mod drawing;
