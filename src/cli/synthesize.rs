@@ -9,6 +9,7 @@ use super::failure::Failure;
 use super::files;
 use super::terminal::print;
 use crate::campaign::{CampaignError, Replay, read_study_or_results};
+use crate::capsule::description::CAPSULE;
 use crate::capsule::{CapsuleParameters as _, CapsuleState as _, State};
 use crate::description::Parameters;
 use crate::experiment::synthesis::recorded;
@@ -191,9 +192,15 @@ fn settled(parameters: &Parameters, start: State<f64>, phase: f64) -> Started {
     Started { parameters: parameters.clone(), start: State { x2: 0.0, ..end.capsule() }, phase }
 }
 
-/// A case of a study or of a file of results, and the protocol of the study.
+/// A case of a study of the capsule or of a file of its results, and the protocol of the study.
 pub fn case_of(path: &Path, index: usize) -> Result<(Case, Protocol), Failure> {
     let study = read_study_or_results(path)?;
+    let model = study.base.model();
+    if *model != CAPSULE {
+        let (path, name) = (printable(path), model.name);
+        let why = "recordings are compared with motions of the capsule alone";
+        return Err(Failure::request(format!("{path}: it is about the model {name}; {why}")));
+    }
     let replay = Replay::new(&study, index).map_err(|error| match error {
         CampaignError::NoCase { index, cases } => {
             Failure::request(format!("--case {index}: {} has {cases} cases", printable(path)))

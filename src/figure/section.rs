@@ -50,6 +50,10 @@ impl Section {
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let sections: Vec<Section> =
         [stroboscopic(view)?, at_impacts(view)?].into_iter().flatten().collect();
+    if section(view.model()).len() < 2 {
+        let why = "section points of one coordinate have no plane; `bifurcation` shows them";
+        return Err(view.unfit(why));
+    }
     if sections.is_empty() {
         let why = "there are no section points; `points` of [protocol] says how many are kept";
         return Err(view.unfit(why));

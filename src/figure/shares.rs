@@ -125,8 +125,9 @@ impl Room {
         let all = self.numbers.iter().flatten().flatten().copied();
         let all: Vec<f64> = all.chain([0.0]).collect();
         let quantity = view.quantity(ATTRACTOR_INTEGRITY_FACTOR.name);
+        let unit = quantity.unit().content();
+        let note = format!("the balls may be smaller by {} {unit}", significant(self.error, 2));
         let y = AxisRequest::around(quantity, &all, 0.06);
-        let note = format!("the balls may be smaller by {} m/s", significant(self.error, 2));
         let legend = [("largest ball inside", false), ("minimal critical shock", true)]
             .map(|(name, dashed)| (Mark::Line(stroke(INK, dashed)), Text::plain(name)));
         let header = Header { note: Some(Text::plain(&note)), legend: legend.to_vec(), letter };

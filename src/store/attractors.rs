@@ -16,6 +16,7 @@ use super::catalogue::{
 };
 use super::{Dataset, Values, boundary};
 use crate::attractor::{Entropy, Integrity, Share};
+use crate::description::{Description, StateCoordinate};
 use crate::orbit::Outcome;
 use crate::orbit::matrix::Complex;
 use crate::run::{
@@ -104,6 +105,7 @@ fn add_rows(dataset: &mut Dataset, rows: &[AttractorRow]) {
         let entry = Place::Attractor.of(Entry::of_output(output));
         real(entry, &|row| row.record.orbit.outputs[output]);
     }
+    name_distances(dataset, model);
     let several = |width: usize, of: &dyn Fn(&AttractorRow, usize) -> f64| {
         let numbers = rows.iter().flat_map(|row| (0..width).map(move |at| of(row, at))).collect();
         Values::Real(ArrayD::from_shape_vec(IxDyn(&[rows.len(), width]), numbers).expect("a table"))
@@ -185,6 +187,8 @@ fn add_shares(dataset: &mut Dataset, axis: &str, along: &[SharesAt]) {
         let shocks = along.iter().flat_map(|at| at.shock.iter().copied()).collect();
         let shocks = ArrayD::from_shape_vec(shape.clone(), shocks).expect("one per attractor");
         dataset.put(ATTRACTOR_MINIMAL_CRITICAL_SHOCK, &dimensions, Values::Real(shocks));
+        let model = dataset.model();
+        name_distances(dataset, model);
     }
     let mut whole = |entry: Entry, of: fn(&Option<(Outcome, u32)>) -> i64| {
         let numbers = along.iter().flat_map(|at| at.motions.iter().map(of)).collect();
@@ -261,4 +265,24 @@ fn add_events(dataset: &mut Dataset, study: &Study, attractors: &Attractors) {
     let coordinate = attractors.axis.map(|axis| study.axes()[axis].coordinate);
     let unit = coordinate.map_or("1", |coordinate| coordinate.dimension().unit());
     dataset.put_column(EVENT_UNCERTAINTY, Values::reals(uncertainties)).unit = unit.to_owned();
+}
+
+/// Says of the distances between section points in what they are, and in which unit, as the model compares them.
+fn name_distances(dataset: &mut Dataset, model: &'static Description) {
+    let compared = match model.compared_as {
+        [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
+        all => all.join(", "),
+    };
+    // A coordinate that is compared as it is has the unit of the distance.
+    let as_it_is = |(it, words): &(StateCoordinate, &&str)| it.name() == **words;
+    let mut coordinates = model.section_coordinates().zip(model.compared_as);
+    let unit = coordinates.find(as_it_is).map(|(it, _)| it.start().dimension.unit());
+    for entry in
+        [ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_INTEGRITY_FACTOR, ATTRACTOR_INTEGRITY_ERROR]
+    {
+        if let Some(variable) = dataset.variables.get_mut(entry.name) {
+            variable.unit = unit.unwrap_or("1").to_owned();
+            variable.long_name = format!("{}, by {compared}", entry.meaning);
+        }
+    }
 }

@@ -19,10 +19,10 @@ pub(super) fn model_in(document: &DeTable<'_>) -> &'static Description {
     named.unwrap_or_else(default_model)
 }
 
-/// Checks that a study names a model that is known, if it names one.
-pub(super) fn check_model(top: &Table<'_, '_>) {
-    if let Some(entry) = top.entry(MODEL) {
+/// Whether a study names a model that is known, or none; a fault is noted where it does not.
+pub(super) fn check_model(top: &Table<'_, '_>) -> bool {
+    top.entry(MODEL).is_none_or(|entry| {
         let names: Vec<(&str, ())> = all_models().iter().map(|it| (it.name, ())).collect();
-        entry.one_of("model", &names);
-    }
+        entry.one_of("model", &names).is_some()
+    })
 }

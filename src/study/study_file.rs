@@ -39,7 +39,10 @@ impl Study {
         }
         let top = Table::new(&reader, document.get_ref());
         let title = read_title(&top);
-        check_model(&top);
+        if !check_model(&top) {
+            // What a model does not know cannot be judged where it is not known which.
+            return Err(reader.faults(name));
+        }
         // The name of a parameter file stands for its values, which are in the text by now.
         if let Some(entry) = top.entry(include::KEY) {
             entry.fault("must be the name of one parameter file beside the study, as \"rig.toml\"");

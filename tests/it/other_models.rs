@@ -155,6 +155,10 @@ fn its_basins_branches_and_diagrams_are_drawn() {
     let shares: Vec<f64> =
         whole.variable("attractor_share").expect("shares").values.to_real().into_iter().collect();
     assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-9 && shares.len() > 1, "{shares:?}");
+    // Distances are told as the model compares its section points, without a unit where they have none.
+    let ball = whole.variable("attractor_integrity_factor").expect("the room of the basins");
+    assert_eq!(ball.unit, "1");
+    assert!(ball.long_name.ends_with("by w x and v"), "{}", ball.long_name);
     let place = folder("other_models");
     draw(&whole, &drawing("basin", DrawingKind::Basin), &into(&place, &ALL)).expect("a figure");
     let (_folder, archive) = swept(LINE);

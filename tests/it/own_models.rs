@@ -199,6 +199,12 @@ fn histories_portraits_sections_and_spectra_are_those_of_its_motion() {
     let exact = f / f64::hypot(1.0 - w * w, c * w);
     assert!((frequency - w / TAU).abs() < 1e-9 && (amplitude - exact).abs() < 1e-9, "{lines:?}");
     data(&work, "section", &["--at", "wall=0.5"]);
+    // Recordings are those of the capsule.
+    work.put("r.csv", "t [s],x2 [mm]\n0,0\n0.1,0.2\n0.2,0.1\n");
+    for command in [&["compare", "r.csv", "a.toml"][..], &["synthesize", "a.toml", "--output", "r"]]
+    {
+        work.run(command).refused(&["the model impact-oscillator", "the capsule alone"]);
+    }
     let said = ["figure", "a.h5", "--kind", "history", "--of", "history_r"];
     work.run(&said).refused(&["history_r", "history_x, history_v, history_force, history_spring"]);
 }
@@ -237,6 +243,11 @@ fn without_a_drive_basins_and_branches_are_drawn_and_histories_refused() {
         sides[usize::from(sticks)] += 1;
     }
     assert!(sides[0] > 5 && sides[1] > 0, "{sides:?}");
+    let section = ["figure", "a.h5", "--kind", "section"];
+    work.run(&section).refused(&["section points of one coordinate have no plane"]);
+    work.put("b.toml", BELT.replace("\"belt\"", "\"belts\""));
+    let refused = work.run(&["sweep", "b.toml", "--output", "b.h5"]);
+    refused.refused(&["b.toml: 1 fault", "unknown model \"belts\"; did you mean \"belt\"?"]);
     work.put("b.toml", format!("{BELT}[history]\ncycles = 2\n"));
     let refused = work.run(&["sweep", "b.toml", "--output", "b.h5"]);
     refused.refused(&["history", "the model belt", "none of a drive"]);
@@ -263,6 +274,8 @@ fn the_page_shows_what_the_model_says_of_itself() {
     assert_eq!(names(&model["starts"]), ["start_x", "start_v", "start_phase"]);
     assert_eq!(names(&model["portrait"]), ["history_x", "history_v"]);
     assert!(names(&model["costs"]).is_empty(), "{model}");
+    let refused = explorer.get("/api/trade-off");
+    assert!(refused.status == 400 && refused.text().contains("gain nothing"), "{}", refused.text());
     let told = explorer.object("/api/motion?wall=1.4&w=1.7&cycles=3&start_x=-0.53&start_v=0.05");
     assert_eq!(told["simulate"], simulated(&work, &told));
     let history = &told["history"];

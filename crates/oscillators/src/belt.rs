@@ -36,7 +36,7 @@ pub static MASS_ON_BELT: Description = Description {
         parameter(("c", "C"), "damping", (Allowed::NonNegative, 0.1)),
         parameter(("a", "A"), "friction of fast sliding", (Allowed::NonNegative, 0.5)),
         parameter(("s", "S"), "Stribeck velocity", (Allowed::Positive, 0.5)),
-        parameter(("v", "V"), "velocity of the belt", (Allowed::Finite, 1.5)),
+        parameter(("v", "V"), "velocity of the belt", (Allowed::Positive, 1.5)),
     ],
     choices: &[],
     coordinates: &[

@@ -69,6 +69,9 @@ pub fn curves(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
 
 /// The trade-off of the cells of a map as one binary answer: prices, and speeds.
 pub fn trade_off(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
+    if !explored.model().has_trade_off() {
+        return Err(Refusal::unfit(explored.model().without_trade_off()));
+    }
     let drawing = drawing(explored, asked, DrawingKind::TradeOff)?;
     let dataset = explored.dataset(&drawing)?;
     let cells = trade_off_cells(&*dataset, &drawing).map_err(Refusal::undrawn)?;

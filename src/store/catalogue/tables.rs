@@ -31,10 +31,10 @@ entries! {
         "upper end of Wilson's interval of the share at 95 percent";
     ATTRACTOR_MINIMAL_CRITICAL_SHOCK "attractor_minimal_critical_shock" "m/s" Table(ATTRACTOR_INDEX.name), Real,
         shown("Distance to a boundary", "", "m/s", 1.0),
-        "smallest disturbance of omega r, y1 and y2 together at a section point of the attractor that is found to lead to another attractor";
+        "smallest disturbance at a section point of the attractor that is found to lead to another attractor";
     ATTRACTOR_INTEGRITY_FACTOR "attractor_integrity_factor" "m/s" Table(ATTRACTOR_INDEX.name), Real,
         shown("Distance to a boundary", "", "m/s", 1.0),
-        "radius of the largest ball of starts of the grid that all lead to the attractor, by omega r, y1 and y2";
+        "radius of the largest ball of starts of the grid that all lead to the attractor";
     ATTRACTOR_INTEGRITY_ERROR "attractor_integrity_error" "m/s" Table(ATTRACTOR_INDEX.name), Real, None,
         "diagonal of a cell of the grid, by which a boundary may be nearer than the integrity factor says";
     ATTRACTOR_CYCLES_MEAN "attractor_cycles_mean" "1" Table(ATTRACTOR_INDEX.name), Real, None,

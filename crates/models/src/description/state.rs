@@ -76,7 +76,7 @@ impl Display for State {
         for (place, (coordinate, value)) in self.each().enumerate() {
             let (comma, unit) = (if place == 0 { "" } else { ", " }, coordinate.start().dimension);
             write!(f, "{comma}{} = {value}", coordinate.name())?;
-            if !unit.unit().is_empty() {
+            if !matches!(unit.unit(), "" | "1") {
                 write!(f, " {}", unit.unit())?;
             }
         }
