@@ -4,22 +4,26 @@ use serde_json::{Map, Value, json};
 
 use crate::description::{Description, Parameters, State};
 use crate::motion::{Event, Orbit, Sample, Simulation};
-use crate::of::model_of;
+use crate::of::{default_model, model_of};
 use crate::orbit::{Certificate, Outcome, Proof};
 use crate::store::catalogue::{CERTIFICATE, CYCLES, OUTCOME, PERIOD};
 
-/// The case as one object: its parameters, the section and the events from its start, and the orbit that it settles to, in SI.
+/// The case as one object: its model, unless that is the usual one, its parameters, the section and the events from its start, and the orbit that it settles to, in SI.
 pub fn case_json(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> Value {
     let model = parameters.model();
     let section = simulation.section.iter().map(|it| sample_json(model, it));
     let events = simulation.events.iter().map(|it| event_json(model, it));
-    json!({
+    let mut object = json!({
         "parameters": parameters_json(parameters),
         "section": section.collect::<Vec<_>>(),
         "events": events.collect::<Vec<_>>(),
         "failure": failure_json(simulation),
         "orbit": orbit_json(orbit),
-    })
+    });
+    if model != default_model() {
+        object["model"] = json!(model.name);
+    }
+    object
 }
 
 fn parameters_json(parameters: &Parameters) -> Value {

@@ -132,6 +132,7 @@ fn one_case_is_simulated_with_its_events() {
         (&told["orbit"]["outcome"], &told["orbit"]["period"]),
         (&"periodic".into(), &1.into())
     );
+    assert_eq!(told["model"], "belt");
     let events = told["events"].as_array().expect("events");
     let number = |event: &Value, key: &str| event[key].as_f64().expect(key);
     let mut rests = 0;
