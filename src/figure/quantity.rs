@@ -63,11 +63,7 @@ impl Quantity {
         let least = if is_result { rounding(unit) } else { 0.0 };
         let is_ratio = is_result && unit == "1";
         let described = catalogue::named(name, dataset.model());
-        // In another unit than the catalogue has it, it is shown as it is stored.
-        let is_other =
-            described.is_some_and(|it| !unit.is_empty() && !it.unit.is_empty() && it.unit != unit);
-        let form = described.and_then(|entry| entry.shown);
-        match form.filter(|_| !is_other) {
+        match described.and_then(|entry| entry.shown) {
             Some(Shown { label, symbol, unit, factor }) => Quantity {
                 key: name.to_owned(),
                 name: Text::plain(label),

@@ -15,6 +15,7 @@ use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
 use super::plane::cells;
+use super::quantity::Quantity;
 use super::raster::{Fill, Raster};
 use super::scale::{Scale, finite_range};
 use super::style::{CURVE_WIDTH, INK};
@@ -124,9 +125,8 @@ impl Room {
     fn request(&self, view: &View<'_>, x: AxisRequest, letter: Option<char>) -> PanelRequest {
         let all = self.numbers.iter().flatten().flatten().copied();
         let all: Vec<f64> = all.chain([0.0]).collect();
-        let quantity = view.quantity(ATTRACTOR_INTEGRITY_FACTOR.name);
-        let unit = quantity.unit().content();
-        let note = format!("the balls may be smaller by {} {unit}", significant(self.error, 2));
+        let (quantity, unit) = distance(view);
+        let note = format!("the balls may be smaller by {}{unit}", significant(self.error, 2));
         let y = AxisRequest::around(quantity, &all, 0.06);
         let legend = [("largest ball inside", false), ("minimal critical shock", true)]
             .map(|(name, dashed)| (Mark::Line(stroke(INK, dashed)), Text::plain(name)));
@@ -261,5 +261,18 @@ impl Bands {
         }
         let column = |share: f64| cells.under(&panel.x.scale, share);
         canvas.image(panel.frame, &Raster::cells(panel.frame, column, row, colour));
+    }
+}
+
+/// A distance between section points, and its unit as words follow a number: the file has none where the model compares numbers.
+fn distance(view: &View<'_>) -> (Quantity, String) {
+    let quantity = view.quantity(ATTRACTOR_INTEGRITY_FACTOR.name);
+    let stored = view.dataset.variable(ATTRACTOR_INTEGRITY_FACTOR.name);
+    match stored.is_some_and(|it| it.unit == "1") {
+        true => (Quantity::labelled("Distance to a boundary"), String::new()),
+        false => {
+            let unit = format!(" {}", quantity.unit().content());
+            (quantity, unit)
+        }
     }
 }

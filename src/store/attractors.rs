@@ -282,7 +282,9 @@ fn name_distances(dataset: &mut Dataset, model: &'static Description) {
     {
         if let Some(variable) = dataset.variables.get_mut(entry.name) {
             variable.unit = unit.unwrap_or("1").to_owned();
-            variable.long_name = format!("{}, by {compared}", entry.meaning);
+            if entry.name != ATTRACTOR_INTEGRITY_ERROR.name {
+                variable.long_name = format!("{}, by {compared}", entry.meaning);
+            }
         }
     }
 }

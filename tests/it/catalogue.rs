@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 
 use capsulemap::capsule::Parameter;
 use capsulemap::capsule::description::CAPSULE;
-use capsulemap::store::catalogue::{self, ATTRACTOR_AXIS, Entry, Extent, Type};
+use capsulemap::store::catalogue::{
+    self, ATTRACTOR_AXIS, ATTRACTOR_INTEGRITY_FACTOR, ATTRACTOR_MINIMAL_CRITICAL_SHOCK, Entry,
+    Extent, Type,
+};
 use capsulemap::store::{self, Dataset, Values, Variable};
 use capsulemap::study::appearance::dimension_of;
 use capsulemap::study::{DrawingKind, Study};
@@ -289,7 +292,14 @@ fn fault(dataset: &Dataset, name: &str, variable: &Variable) -> Option<String> {
     let flags_fit = of_file || variable.flags.iter().all(is_known);
     let dimensions = variable.dimensions.iter().map(String::as_str);
     let inner: Vec<&str> = dimensions.filter(|dimension| !is_axis(dimension)).collect();
-    let right = (variable.unit.as_str(), variable.long_name.as_str()) == (unit, entry.meaning)
+    // Distances between section points are told as the model compares these.
+    let is_distance =
+        [ATTRACTOR_MINIMAL_CRITICAL_SHOCK, ATTRACTOR_INTEGRITY_FACTOR].map(|it| it.name);
+    let meaning = match is_distance.contains(&entry.name) {
+        true => format!("{}, by omega r, y1 and y2", entry.meaning),
+        false => entry.meaning.to_owned(),
+    };
+    let right = (variable.unit.as_str(), &variable.long_name) == (unit, &meaning)
         && (is_whole, is_category) == (whole, category)
         && flags_fit
         && inner == entry.dimensions();

@@ -201,7 +201,8 @@ fn histories_portraits_sections_and_spectra_are_those_of_its_motion() {
     assert!((frequency - w / TAU).abs() < 1e-9 && (amplitude - exact).abs() < 1e-9, "{lines:?}");
     data(&work, "section", &["--at", "wall=0.5"]);
     // Recordings are those of the capsule.
-    work.put("r.csv", "t [s],x2 [mm]\n0,0\n0.1,0.2\n0.2,0.1\n");
+    let rows: Vec<String> = (0..20).map(|it| format!("{},{it}\n", 0.1 * f64::from(it))).collect();
+    work.put("r.csv", format!("t [s],x2 [mm]\n{}", rows.concat()));
     for command in [&["compare", "r.csv", "a.toml"][..], &["synthesize", "a.toml", "--output", "r"]]
     {
         work.run(command).refused(&["the model impact-oscillator", "the capsule alone"]);
