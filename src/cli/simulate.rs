@@ -279,12 +279,12 @@ struct ShownCoordinate {
 }
 
 impl ShownCoordinate {
-    /// The one at a place among those of a model, in the unit that figures of histories show.
+    /// The one at a place among those of a model, in the unit that figures show.
     fn of(model: &'static Description, place: usize) -> ShownCoordinate {
         let name = model.coordinates[place].name;
-        let si = model.coordinates[place].start.dimension.unit();
-        let kept = model.motion.histories.get(place).and_then(|it| it.shown);
-        let (unit, factor) = kept.map_or((si, 1.0), |it| (it.unit, it.factor));
+        let quantity = model.coordinate_along(place);
+        let si = (quantity.dimension.unit(), 1.0);
+        let (unit, factor) = quantity.shown.map_or(si, |it| (it.unit, it.factor));
         let head = if unit.is_empty() || unit == "1" {
             name.to_owned()
         } else {

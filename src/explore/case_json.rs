@@ -8,7 +8,8 @@ use crate::of::{default_model, model_of};
 use crate::orbit::{Certificate, Outcome, Proof};
 use crate::store::catalogue::{CERTIFICATE, CYCLES, OUTCOME, PERIOD};
 
-/// The case as one object: its model, unless that is the usual one, its parameters, the section and the events from its start, and the orbit that it settles to, in SI.
+/// The case as one object: its model, unless that is the usual one, its parameters, the section and the events from its start, and
+/// the orbit that it settles to, in SI.
 pub fn case_json(parameters: &Parameters, simulation: &Simulation, orbit: &Orbit) -> Value {
     let model = parameters.model();
     let section = simulation.section.iter().map(|it| sample_json(model, it));

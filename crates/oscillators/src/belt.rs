@@ -6,7 +6,6 @@ use capsulemap_models::description::{
     Roles, Rules, Signal, SignalKind, State,
 };
 use capsulemap_models::face::Face;
-use capsulemap_models::motion::Sensitivity;
 use capsulemap_models::of::Of;
 use capsulemap_models::quantity::{Allowed, Quantity};
 
@@ -150,15 +149,5 @@ impl Face<1> for Belt<f64> {
                 orbit.residual,
             ],
         )
-    }
-
-    /// None of them is a sum.
-    fn per_cycle(&self, (): &(), _: f64) -> Outputs {
-        Outputs::unknown(&MASS_ON_BELT)
-    }
-
-    /// None of them is smooth.
-    fn sensitivity(&self, _: (&[f64; 1], u64), _: f64, _: &'static str) -> Option<Sensitivity> {
-        None
     }
 }

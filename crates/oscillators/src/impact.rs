@@ -7,7 +7,7 @@ use capsulemap_models::description::{
     Parameters, Roles, Rules, Signal, SignalKind, State,
 };
 use capsulemap_models::face::{Face, engine_case};
-use capsulemap_models::motion::{Case, Sensitivity};
+use capsulemap_models::motion::Case;
 use capsulemap_models::of::Of;
 use capsulemap_models::quantity::{Allowed, Quantity};
 
@@ -160,16 +160,6 @@ impl Face<2> for Impactor<f64> {
                 orbit.residual,
             ],
         )
-    }
-
-    /// None of them is a sum.
-    fn per_cycle(&self, (): &(), _: f64) -> Outputs {
-        Outputs::unknown(&IMPACT_OSCILLATOR)
-    }
-
-    /// None of them is smooth.
-    fn sensitivity(&self, _: (&[f64; 2], u64), _: f64, _: &'static str) -> Option<Sensitivity> {
-        None
     }
 }
 

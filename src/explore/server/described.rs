@@ -34,7 +34,6 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         constant["value"] = json!(study.base[it]);
         constant
     };
-    let has = |it: Output| archive.unit(it.name()).is_some();
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     json!({
         "title": if study.title.is_empty() { stem.as_ref() } else { study.title.as_str() },
@@ -45,9 +44,6 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "outputs": outputs.collect::<Vec<_>>(),
         "constants": model.parameters().filter(is_held).map(constant).collect::<Vec<_>>(),
         "has_curves": has_branches(frame),
-        "has_trade_off": model.has_trade_off()
-            && has(model.speed())
-            && (has(model.work()) || has(model.power())),
         "model": model_json(explored),
         "running": running,
         "inherits": study.inherit().is_some(),
@@ -98,9 +94,7 @@ fn costs(explored: &Explored) -> Vec<Output> {
 fn state_json(explored: &Explored, place: usize) -> Value {
     let model = explored.model();
     let name = model.coordinates[place].name;
-    let of =
-        model.motion.histories.get(place).map_or(model.coordinates[place].start.name, |it| it.name);
-    let mut told = shown_json(explored, of);
+    let mut told = shown_json(explored, model.coordinate_along(place).name);
     told["name"] = json!(name);
     let unit = told["unit"].as_str().unwrap_or_default();
     told["label"] =

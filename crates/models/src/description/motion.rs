@@ -176,6 +176,12 @@ impl Description {
         self.motion.signals.iter().find(is_it)
     }
 
+    /// The quantity by which the coordinate at a place is shown along a motion: that of histories, or of starts where none are kept.
+    pub fn coordinate_along(&self, place: usize) -> Quantity {
+        let kept = self.motion.histories.get(place).copied();
+        kept.unwrap_or_else(|| self.coordinates[place].start)
+    }
+
     /// The state at a place of a motion, from what is kept of it.
     pub fn state_of(&'static self, histories: &[Vec<f64>], place: usize) -> State {
         let values: Vec<f64> =

@@ -80,15 +80,23 @@ pub trait Face<const D: usize>: System<D> + 'static {
     fn outputs(&self, orbit: &OrbitOf<Self, D>, recurrence: f64) -> Outputs;
 
     /// The outputs that are sums, per cycle, of what was observed over so many cycles; NaN for others.
-    fn per_cycle(&self, observed: &Self::Observer, cycles: f64) -> Outputs;
+    ///
+    /// Unless a model has it another way: none is a sum.
+    fn per_cycle(&self, _observed: &Self::Observer, _cycles: f64) -> Outputs {
+        Outputs::unknown(Self::description())
+    }
 
     /// The derivatives in a parameter of the periodic orbit through a section point, of this period [cycles].
+    ///
+    /// Unless a model has it another way: no output is smooth.
     fn sensitivity(
         &self,
-        orbit: (&[f64; D], u64),
-        tolerance: f64,
-        parameter: Self::Parameter,
-    ) -> Option<Sensitivity>;
+        _orbit: (&[f64; D], u64),
+        _tolerance: f64,
+        _parameter: Self::Parameter,
+    ) -> Option<Sensitivity> {
+        None
+    }
 }
 
 /// What a case has settled to, with its outputs, and its history where the protocol asks for it.
