@@ -1,11 +1,10 @@
 //! What a motion does that does not repeat: whether neighbours part, or time averages settle all the same.
 
-use crate::flow::{
-    MAX_GUARDS, Metric, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, System,
-};
-use crate::lane::{Dual, Instructions, Lane, Mask, SideBySide, Work};
+use crate::flow::{Metric, Motion, Reason, STEPS_PER_CYCLE, Stroboscopic, System};
+use crate::lane::{Dual, Instructions, Lane, SideBySide, Work};
 
 use super::exponent::{Exponent, Stretching};
+use super::lanes::{EndedCycle, Lanes, Task};
 use super::recurrence::Settled;
 use super::{Outcome, Protocol};
 
@@ -63,11 +62,11 @@ impl<const D: usize> Aperiodic<D> {
 
 /// Where a motion begins that is followed.
 #[derive(Debug, Clone, Copy)]
-pub struct Departure<const D: usize> {
+pub struct Departure<'a, M, const D: usize> {
+    /// Its system.
+    pub system: &'a M,
     /// The point of the section.
     pub point: [f64; D],
-    /// The metric of its system.
-    pub metric: Metric<D>,
     /// Steps that it may take.
     pub max_steps: u64,
 }
@@ -81,102 +80,23 @@ struct Goal {
     error: f64,
 }
 
-/// One motion that is followed.
-struct Follower<const D: usize> {
-    metric: Metric<D>,
-    goal: Goal,
-    stretching: Stretching<D, 1>,
-    points: Vec<[f64; D]>,
-    /// Steps taken in the cycle, and before it.
-    steps: u64,
-    steps_before: u64,
-    max_steps: u64,
-    /// Duration of the cycles met [s].
-    elapsed: f64,
-    done: Option<Result<(), Reason>>,
-}
-
-/// Follows motions from `starts`, one in each lane of `system` and no more than there are lanes, for as many cycles as
-/// `protocol` gives the exponent, or until it is clear that neighbours part and the exponent is known as well as wanted.
+/// Follows motions for as many cycles as `protocol` gives the exponent, or until it is clear that neighbours part and the
+/// exponent is known as well as wanted; as many at a time as there are lanes.
 ///
-/// The bits of each do not depend on the others.
-#[inline(always)]
-pub fn follow_aperiodic<L, S, const D: usize>(
-    system: &S,
-    starts: &[Departure<D>],
-    protocol: &Protocol,
-) -> Vec<Result<Aperiodic<D>, Reason>>
-where
-    L: Lane,
-    S: Stroboscopic<Dual<L, 1>, D>,
-{
-    let Protocol { exponent_cycles, exponent_error, tolerance, .. } = *protocol;
-    let goal = Goal { cycles: exponent_cycles, error: exponent_error };
-    let mut followers: Vec<Follower<D>> =
-        starts.iter().map(|start| Follower::new(start, goal)).collect();
-    let start = |i: usize| Dual {
-        value: L::from_fn(|lane| starts[lane.min(starts.len() - 1)].point[i]),
-        gradient: [L::from_fn(|lane| match followers.get(lane) {
-            Some(follower) => follower.stretching.first()[i][0],
-            None => 0.0,
-        })],
-    };
-    let from = std::array::from_fn(start);
-    let mut motion = Motion::begun(system, Dual::splat(0.0), S::state(from));
-    let mut step = Step::default();
-    let until = system.period();
-    let mut first_steps = MAX_GUARDS;
-    while followers.iter().any(|follower| follower.done.is_none()) {
-        let (to, tolerance) =
-            if first_steps > 0 { (Dual::splat(0.0), 1.0) } else { (until, tolerance) };
-        motion.step(system, to, tolerance, &mut step);
-        if first_steps > 0 {
-            first_steps -= 1;
-            if first_steps == 0 {
-                motion.face_section(system, &mut step);
-            }
-            continue;
-        }
-        let broken = motion.broken(system);
-        let mut point = S::point(&motion.state);
-        for (lane, follower) in followers.iter_mut().enumerate() {
-            follower.steps += 1;
-            if follower.done.is_some() {
-                continue;
-            }
-            let out_of_steps = follower.out_of_steps();
-            if broken.lane(lane) || out_of_steps.is_some() {
-                let breakdown = motion.breakdown(system, lane).map(Reason::from);
-                let why = breakdown.or(out_of_steps).unwrap_or(Reason::TooManySteps);
-                follower.done = Some(Err(why));
-            } else if step.arrives.lane(lane) {
-                follower.steps_before += std::mem::take(&mut follower.steps);
-                follower.elapsed += motion.time.lane(lane);
-                let period = until.lane(lane);
-                follower.meet(lane, &mut point, |it| it.duration::<S, _>(period));
-            }
-        }
-        if step.arrives.any() {
-            motion.begin_cycle(step.arrives);
-            motion.state = S::state(point);
-        }
-    }
-    let told = followers.iter().enumerate();
-    told.map(|(lane, it)| it.tell(it.duration::<S, _>(until.lane(lane)))).collect()
-}
-
-/// Follows motions of systems from points of the section, each for so many steps at most, as [`follow_aperiodic`]
-/// does, as many at a time as there are lanes.
-pub fn follow_aperiodic_side_by_side<M: System<D>, const D: usize>(
+/// Guarantees: the same bits by any instructions, and whatever the other motions.
+///
+/// # Panics
+/// Where two systems are not alike, or the processor does not have the instructions.
+pub fn follow_aperiodic<M: System<D>, const D: usize>(
     instructions: Instructions,
-    starts: &[(&M, [f64; D], u64)],
+    starts: &[Departure<'_, M, D>],
     protocol: &Protocol,
 ) -> Vec<Result<Aperiodic<D>, Reason>> {
     instructions.run_on_a_vector(Crowd { starts, protocol })
 }
 
 struct Crowd<'a, M, const D: usize> {
-    starts: &'a [(&'a M, [f64; D], u64)],
+    starts: &'a [Departure<'a, M, D>],
     protocol: &'a Protocol,
 }
 
@@ -185,45 +105,155 @@ impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Self::Output {
-        let mut followed = Vec::with_capacity(self.starts.len());
-        for group in self.starts.chunks(L::WIDTH) {
-            let mut system = M::In::<Dual<L, 1>>::splat(&group[0].0.single());
-            for (lane, (one, ..)) in group.iter().enumerate() {
-                system.put(lane, &one.single());
-            }
-            let depart = |&(system, point, max_steps): &(&M, _, _)| Departure {
-                point,
-                metric: system.metric(),
-                max_steps,
-            };
-            let starts: Vec<_> = group.iter().map(depart).collect();
-            followed.extend(follow_aperiodic(&system, &starts, self.protocol));
+        let Some(first) = self.starts.first() else { return Vec::new() };
+        let Protocol { exponent_cycles, exponent_error, tolerance, .. } = *self.protocol;
+        let goal = Goal { cycles: exponent_cycles, error: exponent_error };
+        if goal.cycles == 0 {
+            return self
+                .starts
+                .iter()
+                .map(|it| Ok(Follower::new(0, it, goal).tell(f64::NAN)))
+                .collect();
         }
-        followed
+        let alike = |it: &Departure<'_, M, D>| it.system.is_alike(first.system);
+        assert!(self.starts.iter().all(alike), "motions side by side are alike");
+        let system = M::In::<Dual<L, 1>>::splat(&first.system.single());
+        // What moves to no purpose in a lane that is free.
+        let from = first.point.map(Dual::splat);
+        let motion = Motion::begun(&system, Dual::splat(0.0), M::In::<Dual<L, 1>>::state(from));
+        let mut lanes = Lanes::new(system, motion, tolerance);
+        let mut task = Parting {
+            starts: self.starts,
+            next: 0,
+            goal,
+            from,
+            told: self.starts.iter().map(|_| Err(Reason::TooManySteps)).collect(),
+        };
+        lanes.follow(&mut task);
+        task.told
     }
 }
 
+/// Follows motions with a neighbour each.
+struct Parting<'a, L, M, const D: usize> {
+    starts: &'a [Departure<'a, M, D>],
+    /// How many have entered.
+    next: usize,
+    goal: Goal,
+    /// Where the motion in each lane began.
+    from: [Dual<L, 1>; D],
+    told: Vec<Result<Aperiodic<D>, Reason>>,
+}
+
+impl<L: Lane, M: System<D>, const D: usize> Parting<'_, L, M, D> {
+    /// Tells what is known of a motion that is followed no further.
+    fn tell(&mut self, follower: &Follower<D>, period: f64) {
+        let duration = follower.duration::<M::Single, _>(period);
+        self.told[follower.number] = Ok(follower.tell(duration));
+    }
+}
+
+impl<L: Lane, M: System<D>, const D: usize> Task<Dual<L, 1>, M, D> for Parting<'_, L, M, D> {
+    type Kept = Follower<D>;
+
+    #[inline(always)]
+    fn fill(&mut self, lanes: &mut Lanes<Dual<L, 1>, M, Follower<D>, D>) -> bool {
+        if self.next >= self.starts.len() || lanes.count() == L::WIDTH {
+            return lanes.count() > 0;
+        }
+        let mut entrants = Vec::new();
+        for (lane, start) in lanes.free().zip(&self.starts[self.next..]) {
+            let follower = Follower::new(self.next + entrants.len(), start, self.goal);
+            let direction = follower.stretching.first();
+            for ((from, point), [along]) in self.from.iter_mut().zip(start.point).zip(direction) {
+                from.value = from.value.with_lane(lane, point);
+                from.gradient[0] = from.gradient[0].with_lane(lane, along);
+            }
+            lanes.system.put(lane, &start.system.single());
+            entrants.push((lane, follower));
+        }
+        self.next += entrants.len();
+        let state = M::In::<Dual<L, 1>>::state(self.from);
+        lanes.enter(Motion::begun(&lanes.system, Dual::splat(0.0), state));
+        for (lane, follower) in entrants {
+            let steps_left = follower.steps_left();
+            lanes.let_in(lane, follower);
+            lanes.allow(lane, steps_left);
+        }
+        true
+    }
+
+    #[inline(always)]
+    fn end_cycle(
+        &mut self,
+        lanes: &mut Lanes<Dual<L, 1>, M, Follower<D>, D>,
+        lane: usize,
+        cycle: EndedCycle,
+    ) {
+        let period = lanes.period(lane);
+        let mut point = M::In::<Dual<L, 1>>::point(&lanes.motion.state);
+        let Some(follower) = &mut lanes.kept[lane] else { return };
+        follower.count(cycle);
+        let direction = follower
+            .meet(point.map(|it| it.value.lane(lane)), point.map(|it| it.gradient[0].lane(lane)));
+        for (coordinate, along) in point.iter_mut().zip(direction) {
+            coordinate.gradient[0] = coordinate.gradient[0].with_lane(lane, along);
+        }
+        let is_done = follower.is_done(follower.duration::<M::Single, _>(period));
+        let steps_left = follower.steps_left();
+        lanes.motion.state = M::In::<Dual<L, 1>>::state(point);
+        if is_done {
+            let follower = lanes.take(lane);
+            self.tell(&follower, period);
+        } else {
+            lanes.allow(lane, steps_left);
+        }
+    }
+
+    #[inline(always)]
+    fn give_up(&mut self, lanes: &mut Lanes<Dual<L, 1>, M, Follower<D>, D>, lane: usize) {
+        let breakdown = lanes.breakdown(lane).map(Reason::from);
+        let out_of = match lanes.steps(lane) {
+            STEPS_PER_CYCLE.. => Reason::TooManySteps,
+            _ => Reason::OutOfSteps,
+        };
+        self.told[lanes.take(lane).number] = Err(breakdown.unwrap_or(out_of));
+    }
+}
+
+/// One motion that is followed.
+struct Follower<const D: usize> {
+    /// Its place among those that are to be followed.
+    number: usize,
+    metric: Metric<D>,
+    goal: Goal,
+    stretching: Stretching<D, 1>,
+    points: Vec<[f64; D]>,
+    /// Steps of the cycles met, and how many it may take in all.
+    steps: u64,
+    max_steps: u64,
+    /// Duration of the cycles met [s].
+    elapsed: f64,
+}
+
 impl<const D: usize> Follower<D> {
-    fn new(start: &Departure<D>, goal: Goal) -> Self {
-        let Departure { metric, max_steps, .. } = *start;
+    fn new<M: System<D>>(number: usize, start: &Departure<'_, M, D>, goal: Goal) -> Self {
+        let metric = start.system.metric();
         Follower {
+            number,
             metric,
             goal,
             stretching: Stretching::new(metric),
             points: Vec::new(),
             steps: 0,
-            steps_before: 0,
-            max_steps,
+            max_steps: start.max_steps,
             elapsed: 0.0,
-            done: (goal.cycles == 0).then_some(Ok(())),
         }
     }
 
-    /// Why it may take no more steps, if so.
-    fn out_of_steps(&self) -> Option<Reason> {
-        let cycle = (self.steps >= STEPS_PER_CYCLE).then_some(Reason::TooManySteps);
-        let all = self.steps_before + self.steps >= self.max_steps;
-        cycle.or(all.then_some(Reason::OutOfSteps))
+    /// Steps that the cycle which begins may take.
+    fn steps_left(&self) -> u64 {
+        STEPS_PER_CYCLE.min(self.max_steps.saturating_sub(self.steps))
     }
 
     /// Mean duration of the cycles, which is the period of the drive where there is one [s].
@@ -231,25 +261,24 @@ impl<const D: usize> Follower<D> {
         if S::AUTONOMOUS { self.elapsed / self.points.len() as f64 } else { period }
     }
 
-    /// Takes note of the section point in a lane and makes its direction one of unit length again.
-    fn meet<L: Lane>(
-        &mut self,
-        lane: usize,
-        point: &mut [Dual<L, 1>; D],
-        duration: impl Fn(&Self) -> f64,
-    ) {
-        let mut direction = point.map(|coordinate| [coordinate.gradient[0].lane(lane)]);
+    /// Counts a cycle.
+    fn count(&mut self, cycle: EndedCycle) {
+        self.steps += cycle.steps;
+        self.elapsed += cycle.duration;
+    }
+
+    /// Takes note of the section point and of how far a neighbour is there; the same direction, of unit length again.
+    fn meet(&mut self, point: [f64; D], direction: [f64; D]) -> [f64; D] {
+        let mut direction = direction.map(|along| [along]);
         self.stretching.meet(&mut direction);
-        for (coordinate, [gradient]) in point.iter_mut().zip(direction) {
-            coordinate.gradient[0] = coordinate.gradient[0].with_lane(lane, gradient);
-        }
-        self.points.push(point.map(|coordinate| coordinate.value.lane(lane)));
+        self.points.push(point);
+        direction.map(|[along]| along)
+    }
+
+    /// Whether it need not be followed further, in cycles of this mean duration [s].
+    fn is_done(&self, duration: f64) -> bool {
         let met = self.points.len();
-        if met as u64 >= self.goal.cycles
-            || (met.is_multiple_of(LOOK) && self.parts(duration(self)))
-        {
-            self.done = Some(Ok(()));
-        }
+        met as u64 >= self.goal.cycles || (met.is_multiple_of(LOOK) && self.parts(duration))
     }
 
     /// Whether it is clear already that neighbours part, and the exponent is known as well as wanted, in cycles of this mean
@@ -259,16 +288,13 @@ impl<const D: usize> Follower<D> {
         value > 1.0 / self.goal.error * uncertainty && self.stretching.total(0) > 2.0 * GROWTH
     }
 
-    fn tell(&self, duration: f64) -> Result<Aperiodic<D>, Reason> {
-        if let Some(Err(why)) = self.done {
-            return Err(why);
-        }
+    fn tell(&self, duration: f64) -> Aperiodic<D> {
         let metric = &self.metric;
         let size = metric.largest(&self.points);
         let [exponent] = self.stretching.exponents(duration);
         let recurs = recurrence(&self.points, metric, size);
         let longest = LONGEST.min(self.points.len().saturating_sub(1));
-        Ok(Aperiodic {
+        Aperiodic {
             exponent,
             growth: self.stretching.total(0),
             irregularity: irregularity(&self.points, metric, size),
@@ -276,8 +302,8 @@ impl<const D: usize> Follower<D> {
             recurs,
             last: self.points.last().copied().unwrap_or([0.0; D]),
             cycles: self.points.len() as u64,
-            steps: self.steps_before,
-        })
+            steps: self.steps,
+        }
     }
 }
 

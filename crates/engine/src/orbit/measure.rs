@@ -16,7 +16,7 @@ use super::{
     Case, Certificate, Exponent, Failure, Orbit, OrbitOf, Outcome, Proof, Protocol, Trajectory,
 };
 use crate::flow::{Metric, Observer, Stroboscopic, Switched, System};
-use crate::lane::Dual;
+use crate::lane::Instructions;
 
 /// What a case has been found to do.
 #[derive(Debug, Clone, PartialEq)]
@@ -169,16 +169,11 @@ fn judge<M: System<D>, const D: usize>(
         Found::Orbit(verdict) => Ok(verdict),
         Found::Aperiodic => {
             let start = Departure {
+                system: &case.system,
                 point: trajectory.section(),
-                metric: case.system.metric(),
                 max_steps: trajectory.progress.steps_left(protocol.max_steps),
             };
-            let followed = follow_aperiodic::<f64, M::In<Dual<f64, 1>>, D>(
-                &case.system.constant(),
-                &[start],
-                protocol,
-            );
-            match followed[0] {
+            match follow_aperiodic(Instructions::Scalar, &[start], protocol)[0] {
                 Ok(aperiodic) => {
                     judge(trajectory, case, Found::Followed(aperiodic), protocol, integrator)
                 }

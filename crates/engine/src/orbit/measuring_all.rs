@@ -1,11 +1,11 @@
 //! Cycles of many motions that are measured side by side.
 
-use std::cmp::Reverse;
 use std::collections::VecDeque;
 
-use crate::flow::{Motion, Observer, Step, Stroboscopic, Switched, System};
-use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
+use crate::flow::{Metric, Motion, Observer, Step, Stroboscopic, Switched, System};
+use crate::lane::{Instructions, Lane, SideBySide, Work};
 
+use super::lanes::{EndedCycle, Lanes, Task};
 use super::measuring::{Kept, MeasureRequest, Measured, batch_ends, measured_alone};
 use super::trajectory::Progress;
 
@@ -44,19 +44,6 @@ impl<M: System<D>, const D: usize> Work for Crowd<M, D> {
     }
 }
 
-/// A motion in a lane.
-struct Occupant<M: System<D>, const D: usize> {
-    /// Its place among those that are to be measured.
-    number: usize,
-    system: M::Single,
-    kept: Kept<D>,
-    progress: Progress,
-    cycles_left: u64,
-    batches: Vec<M::Observer>,
-    /// The cycles at which batches end that it has not come to.
-    ends: VecDeque<u64>,
-}
-
 /// The cycles of each, as many motions at a time as there are lanes.
 ///
 /// Method: the longest first, so that the lanes run empty together; a motion that cannot be followed begins again by
@@ -72,80 +59,134 @@ fn together<L: Lane, M: System<D>, const D: usize>(
             && (it.tolerance, it.observed_points) == (tolerance, points)
     };
     assert!(requests.iter().all(alike), "motions side by side are alike");
-    let mut system = M::In::<L>::splat(&first.system.single());
-    let mut motion = Motion::<L, M::In<L>>::splat(&first.motion);
-    let mut observed = M::Observers::<L>::splat(&first.system.observer(points));
-    let mut until = system.period();
-    let metrics: Vec<_> = requests.iter().map(|it| it.system.metric()).collect();
-    let mut next: Vec<usize> = (0..requests.len()).collect();
-    next.sort_by_key(|&number| Reverse(requests[number].cycles));
-    let mut next = next.into_iter();
-    let mut requests: Vec<_> = requests.into_iter().map(Some).collect();
-    let mut found: Vec<_> = requests.iter().map(|_| None).collect();
-    let mut occupants: Vec<Option<Occupant<M, D>>> = (0..L::WIDTH).map(|_| None).collect();
-    let mut step = Step::<L, M::In<L>>::default();
-    let mut one = Step::<f64, M::Single>::default();
-    loop {
-        for (lane, place) in occupants.iter_mut().enumerate() {
-            if place.is_none()
-                && let Some(number) = next.next()
-                && let Some(request) = &requests[number]
-            {
-                let single = request.system.single();
-                system.put(lane, &single);
-                motion.put(lane, &request.motion);
-                observed.put(lane, &request.system.observer(points));
-                let mut kept = Kept::new(request.points);
-                kept.begin_cycle(&metrics[number], M::Single::point(&request.motion.state));
-                let (progress, cycles_left) = (request.progress, request.cycles);
-                *place = Some(Occupant {
-                    number,
-                    system: single,
-                    kept,
-                    progress,
-                    cycles_left,
-                    batches: Vec::new(),
-                    ends: batch_ends(request.cycles, request.batches).collect(),
-                });
-                until = system.period();
-            }
+    let system = M::In::<L>::splat(&first.system.single());
+    let motion = Motion::<L, M::In<L>>::splat(&first.motion);
+    let mut waiting: Vec<usize> = (0..requests.len()).collect();
+    waiting.sort_by_key(|&number| requests[number].cycles);
+    let mut lanes = Lanes::new(system, motion, tolerance);
+    let mut task = Measuring::<L, M, D> {
+        observed: M::Observers::<L>::splat(&first.system.observer(points)),
+        waiting,
+        found: requests.iter().map(|_| None).collect(),
+        requests: requests.into_iter().map(Some).collect(),
+        one: Step::default(),
+    };
+    lanes.follow(&mut task);
+    task.found.into_iter().map(|it| it.expect("each has been measured")).collect()
+}
+
+/// Measures cycles.
+struct Measuring<L: Lane, M: System<D>, const D: usize> {
+    /// What is not in a lane has been measured, or waits.
+    requests: Vec<Option<MeasureRequest<M, D>>>,
+    /// The numbers of those that wait, the longest last.
+    waiting: Vec<usize>,
+    observed: M::Observers<L>,
+    found: Vec<Option<Measured<M, D>>>,
+    /// The step in one lane.
+    one: Step<f64, M::Single>,
+}
+
+/// A motion in a lane.
+struct Underway<M: System<D>, const D: usize> {
+    /// Its place among those that are to be measured.
+    number: usize,
+    request: MeasureRequest<M, D>,
+    system: M::Single,
+    metric: Metric<D>,
+    kept: Kept<D>,
+    progress: Progress,
+    cycles: u64,
+    batches: Vec<M::Observer>,
+    /// The cycles at which batches end that it has not come to.
+    ends: VecDeque<u64>,
+}
+
+impl<M: System<D>, const D: usize> Underway<M, D> {
+    fn new(number: usize, request: MeasureRequest<M, D>) -> Self {
+        let metric = request.system.metric();
+        let mut kept = Kept::new(request.points);
+        kept.begin_cycle(&metric, M::Single::point(&request.motion.state));
+        Underway {
+            number,
+            system: request.system.single(),
+            metric,
+            kept,
+            progress: request.progress,
+            cycles: 0,
+            batches: Vec::new(),
+            ends: batch_ends(request.cycles, request.batches).collect(),
+            request,
         }
-        if occupants.iter().all(Option::is_none) {
-            return found.into_iter().map(|it| it.expect("each has been measured")).collect();
+    }
+
+    /// Steps that the cycle may still take that begins.
+    fn steps_left(&self) -> u64 {
+        self.progress.deadline(self.request.max_steps) - self.progress.steps
+    }
+}
+
+impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Measuring<L, M, D> {
+    type Kept = Underway<M, D>;
+
+    #[inline(always)]
+    fn fill(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>) -> bool {
+        while let Some(lane) = lanes.free().next()
+            && let Some(number) = self.waiting.pop()
+            && let Some(request) = self.requests[number].take()
+        {
+            let MeasureRequest { system, motion, observed_points, .. } = &request;
+            self.observed.put(lane, &system.observer(*observed_points));
+            let (system, motion) = (system.single(), *motion);
+            let underway = Underway::new(number, request);
+            let steps_left = underway.steps_left();
+            lanes.put(lane, &system, &motion, underway);
+            lanes.allow(lane, steps_left);
         }
-        motion.step(&system, until, tolerance, &mut step);
-        observed.see(&system, &step);
-        let broken = motion.broken(&system);
-        let durations = motion.time;
-        motion.begin_cycle(step.arrives);
-        for (lane, place) in occupants.iter_mut().enumerate() {
-            let Some(occupant) = place else { continue };
-            let (number, progress) = (occupant.number, &mut occupant.progress);
-            let Some(request) = &requests[number] else { continue };
-            one.take_lane(lane, &step);
-            occupant.kept.see(&occupant.system, &metrics[number], &one);
-            progress.steps += 1;
-            let late = progress.steps >= progress.deadline(request.max_steps) && !one.arrives;
-            if broken.lane(lane) || late {
-                found[number] = requests[number].take().map(measured_alone);
-                *place = None;
-            } else if one.arrives {
-                progress.count(durations.lane(lane));
-                occupant.cycles_left -= 1;
-                let cycle = request.cycles - occupant.cycles_left;
-                if occupant.ends.front() == Some(&cycle) {
-                    occupant.ends.pop_front();
-                    occupant.batches.push(observed.lane(lane));
-                }
-                let here = M::Single::point(&motion.state.lane(lane));
-                if occupant.cycles_left > 0 {
-                    occupant.kept.begin_cycle(&metrics[number], here);
-                } else if let Some(Occupant { kept, progress, batches, .. }) = place.take() {
-                    let (motion, observed) = (motion.lane(lane), observed.lane(lane));
-                    found[number] =
-                        Some(Measured { motion, progress, observed, batches, kept, failure: None });
-                }
-            }
+        lanes.count() > 0
+    }
+
+    #[inline(always)]
+    fn see(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>) {
+        self.observed.see(&lanes.system, &lanes.step);
+        for (lane, underway) in lanes.kept.iter_mut().enumerate() {
+            let Some(Underway { system, metric, kept, .. }) = underway else { continue };
+            self.one.take_lane(lane, &lanes.step);
+            kept.see(system, metric, &self.one);
         }
+    }
+
+    #[inline(always)]
+    fn end_cycle(
+        &mut self,
+        lanes: &mut Lanes<L, M, Self::Kept, D>,
+        lane: usize,
+        cycle: EndedCycle,
+    ) {
+        let Some(underway) = &mut lanes.kept[lane] else { return };
+        underway.progress.steps += cycle.steps;
+        underway.progress.count(cycle.duration);
+        underway.cycles += 1;
+        if underway.ends.front() == Some(&underway.cycles) {
+            underway.ends.pop_front();
+            underway.batches.push(self.observed.lane(lane));
+        }
+        if underway.cycles < underway.request.cycles {
+            let here = M::Single::point(&lanes.motion.state.lane(lane));
+            underway.kept.begin_cycle(&underway.metric, here);
+            let steps_left = underway.steps_left();
+            lanes.allow(lane, steps_left);
+            return;
+        }
+        let Underway { number, progress, batches, kept, .. } = lanes.take(lane);
+        let (motion, observed) = (lanes.motion.lane(lane), self.observed.lane(lane));
+        self.found[number] =
+            Some(Measured { motion, progress, observed, batches, kept, failure: None });
+    }
+
+    #[inline(always)]
+    fn give_up(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>, lane: usize) {
+        let Underway { number, request, .. } = lanes.take(lane);
+        self.found[number] = Some(measured_alone(request));
     }
 }

@@ -9,6 +9,7 @@ pub mod extrema;
 mod extrapolation;
 mod francis;
 mod known_orbits;
+mod lanes;
 mod machine;
 pub mod matrix;
 mod measure;

@@ -1,13 +1,14 @@
 //! Returns that are followed side by side.
 
 use std::cmp::Reverse;
+use std::iter::Peekable;
+use std::vec;
 
-use crate::flow::{
-    Event, MAX_GUARDS, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System,
-};
-use crate::lane::{Dual, Instructions, Lane, Mask, SideBySide, Work, series};
+use crate::flow::{Event, Motion, Reason, Stroboscopic, Switched, System};
+use crate::lane::{Dual, Instructions, Lane, Mask, Series, SideBySide, Work, series};
 
 use super::extrema::SignChanges;
+use super::lanes::{EndedCycle, Lanes, Task};
 use super::passage::{Integrator, OneByOne, Passage, Passing, ReturnRequest, told, value_at};
 
 /// With no more than one lane in so many taken, returns are followed faster one by one.
@@ -81,20 +82,9 @@ fn in_lanes<L: Lane, M: System<D>, const D: usize, const U: usize>(
     system
 }
 
-/// A return in a lane.
-struct Occupant<E, const U: usize> {
-    /// Its place among those that are asked for.
-    number: usize,
-    passing: Passing<Dual<f64, U>, E>,
-    cycles: u64,
-    /// Steps of the cycle.
-    steps: u64,
-}
-
 /// The returns in their order, as many at a time as there are lanes.
 ///
-/// Method: the longest first, so that the lanes run empty together. The next motions enter free lanes by
-/// [`Motion::begun`] beside those that go on.
+/// Method: the longest first, so that the lanes run empty together.
 #[inline(always)]
 fn together<L: Lane, M: System<D>, const D: usize, const U: usize>(
     requests: &[&ReturnRequest<M, D>],
@@ -104,90 +94,124 @@ fn together<L: Lane, M: System<D>, const D: usize, const U: usize>(
     let tolerance = requests[0].cycles.tolerance;
     let equal = |it: &&ReturnRequest<M, D>| it.cycles.tolerance == tolerance;
     assert!(requests.iter().all(equal), "one tolerance serves all lanes");
-    let mut found: Vec<_> = requests.iter().map(|_| Err(Reason::TooManySteps)).collect();
-    let mut places: Vec<usize> = (0..requests.len()).collect();
-    places.sort_by_key(|&place| Reverse(requests[place].cycles.count));
-    let mut next = places.iter().copied().peekable();
-    let mut occupants: Vec<Option<Occupant<M::Event, U>>> = (0..L::WIDTH).map(|_| None).collect();
+    let mut waiting: Vec<usize> = (0..requests.len()).collect();
+    waiting.sort_by_key(|&number| Reverse(requests[number].cycles.count));
     // What moves to no purpose in a lane that is free.
-    let mut in_lane = vec![requests[places[0]]; L::WIDTH];
-    let mut system = in_lanes::<L, M, D, U>(&in_lane);
-    let mut entering = begun(&system, &in_lane);
-    let mut motion = begun(&system, &in_lane);
-    let mut until = system.period();
-    let mut step = Step::default();
-    let mut changes = SignChanges::<L::Plain, Dual<f64, U>>::none();
-    let (mut first_steps, mut enter) = (0, 0_u64);
-    loop {
-        let free = occupants.iter().filter(|it| it.is_none()).count();
+    let in_lane = vec![requests[waiting[0]]; L::WIDTH];
+    let system = in_lanes::<L, M, D, U>(&in_lane);
+    let motion = begun(&system, &in_lane);
+    let mut lanes = Lanes::new(system, motion, tolerance);
+    let mut task = Returning {
+        requests,
+        waiting: waiting.into_iter().peekable(),
+        in_lane,
+        changes: SignChanges::<L::Plain, Dual<f64, U>>::none(),
+        found: requests.iter().map(|_| Err(Reason::TooManySteps)).collect(),
+    };
+    lanes.follow(&mut task);
+    task.found
+}
+
+/// Follows motions to their returns.
+struct Returning<'a, P: Lane, M: System<D>, const D: usize, const U: usize> {
+    requests: &'a [&'a ReturnRequest<M, D>],
+    /// The numbers of those that wait.
+    waiting: Peekable<vec::IntoIter<usize>>,
+    /// The return in each lane, or one that was there.
+    in_lane: Vec<&'a ReturnRequest<M, D>>,
+    changes: SignChanges<P, Dual<f64, U>>,
+    found: Vec<Result<Passage<M::Event, D>, Reason>>,
+}
+
+/// A return in a lane.
+struct Underway<E, const U: usize> {
+    /// Its place among those that are asked for.
+    number: usize,
+    passing: Passing<Dual<f64, U>, E>,
+    cycles: u64,
+}
+
+impl<'a, L: Lane, M: System<D>, const D: usize, const U: usize> Task<Dual<L, U>, M, D>
+    for Returning<'a, L::Plain, M, D, U>
+{
+    type Kept = Underway<M::Event, U>;
+
+    #[inline(always)]
+    fn fill(&mut self, lanes: &mut Lanes<Dual<L, U>, M, Self::Kept, D>) -> bool {
+        let free = L::WIDTH - lanes.count();
+        let Some(&next) = self.waiting.peek() else { return lanes.count() > 0 };
         // It takes some steps to enter, so that short returns enter together.
-        let enough = |place: &usize| free as u64 * requests[*place].cycles.count >= L::WIDTH as u64;
-        if next.peek().is_none() && free == L::WIDTH {
-            return found;
-        } else if free > 0 && first_steps == 0 && next.peek().is_some_and(enough) {
-            let free = (0..L::WIDTH).filter(|&lane| occupants[lane].is_none());
-            let entrants: Vec<(usize, usize)> = free.zip(next.by_ref()).collect();
-            for &(lane, number) in &entrants {
-                in_lane[lane] = requests[number];
-                enter |= 1 << lane;
-            }
-            system = in_lanes::<L, M, D, U>(&in_lane);
-            until = system.period();
-            for (lane, number) in entrants {
-                let passing = Passing::new(until.value.lane(lane));
-                occupants[lane] = Some(Occupant { number, passing, cycles: 0, steps: 0 });
-            }
-            entering = begun(&system, &in_lane);
-            first_steps = MAX_GUARDS;
+        if free as u64 * self.requests[next].cycles.count < L::WIDTH as u64 {
+            return true;
         }
-        let enters = first_steps > 0;
-        let moving = if enters { &mut entering } else { &mut motion };
-        let (to, tolerance) = if enters { (Dual::splat(0.0), 1.0) } else { (until, tolerance) };
-        moving.step(&system, to, tolerance, &mut step);
-        if enters {
-            first_steps -= 1;
-            while first_steps == 0 && enter != 0 {
-                motion.take_lane(enter.trailing_zeros() as usize, &entering);
-                enter &= enter - 1;
-            }
-            continue;
+        let mut numbers = vec![None; L::WIDTH];
+        for lane in lanes.free() {
+            numbers[lane] = self.waiting.next();
+            self.in_lane[lane] = numbers[lane].map_or(self.in_lane[lane], |it| self.requests[it]);
         }
-        let watches = |lane: &usize| occupants[*lane].is_some() && in_lane[*lane].watched;
-        let watched = (0..L::WIDTH).filter(watches).fold(0, |bits, lane| bits | 1 << lane);
-        let watched = L::Mask::from_bits(watched);
-        if let Some((coordinate, _)) = system.touching(&step.jet).filter(|_| watched.any()) {
-            changes.of(coordinate, step.length.plain(), watched, one);
-        }
-        let broken = motion.broken(&system).bits();
-        let arrives = step.arrives.bits();
-        for (lane, place) in occupants.iter_mut().enumerate() {
-            let Some(occupant) = place else { continue };
-            let request = in_lane[lane];
-            occupant.steps += 1;
-            if request.watched {
-                occupant.see(&system, &step, (&changes, lane));
-            }
-            if broken >> lane & 1 != 0 {
-                let why = motion.breakdown(&system, lane).map(Reason::from);
-                found[occupant.number] = Err(why.unwrap_or(Reason::TooManySteps));
-                *place = None;
-            } else if arrives >> lane & 1 != 0 {
-                occupant.cycles += 1;
-                occupant.steps = 0;
-                if occupant.cycles >= request.cycles.count
-                    && let Some(Occupant { number, passing, .. }) = place.take()
-                {
-                    let end = M::In::<Dual<L, U>>::point(&motion.state);
-                    let end = std::array::from_fn(|i| one(&end[i], lane));
-                    found[number] = Ok(told(end, passing, f64::INFINITY));
-                }
-            } else if occupant.steps >= STEPS_PER_CYCLE {
-                *place = None;
+        lanes.system = in_lanes::<L, M, D, U>(&self.in_lane);
+        lanes.enter(begun(&lanes.system, &self.in_lane));
+        for (lane, number) in numbers.into_iter().enumerate() {
+            if let Some(number) = number {
+                let passing = Passing::new(lanes.period(lane));
+                lanes.let_in(lane, Underway { number, passing, cycles: 0 });
             }
         }
-        if step.arrives.any() {
-            motion.begin_cycle(step.arrives);
+        true
+    }
+
+    #[inline(always)]
+    fn see(&mut self, lanes: &mut Lanes<Dual<L, U>, M, Self::Kept, D>) {
+        let Lanes { system, step, kept, .. } = lanes;
+        let mut watched = 0;
+        for (lane, kept) in kept.iter().enumerate() {
+            watched |= u64::from(kept.is_some() && self.in_lane[lane].watched) << lane;
         }
+        if watched == 0 {
+            return;
+        }
+        let touching = system.touching(&step.jet);
+        if let Some((coordinate, _)) = touching {
+            let watched = L::Mask::from_bits(watched);
+            self.changes.of(coordinate, step.length.plain(), watched, one);
+        }
+        for (lane, underway) in kept.iter_mut().enumerate() {
+            let Some(underway) = underway.as_mut().filter(|_| watched >> lane & 1 != 0) else {
+                continue;
+            };
+            let event = M::Event::from_code(step.event.lane(lane));
+            let seen = (step.length.lane(lane), event);
+            if let Some((coordinate, surface)) = touching {
+                let at = |time: f64| value_in_lane(coordinate, lane, time);
+                let changes = (&self.changes, lane);
+                underway.passing.turn(changes, seen, at, || one(&surface, lane));
+            }
+            underway.passing.see(seen);
+        }
+    }
+
+    #[inline(always)]
+    fn end_cycle(
+        &mut self,
+        lanes: &mut Lanes<Dual<L, U>, M, Self::Kept, D>,
+        lane: usize,
+        _cycle: EndedCycle,
+    ) {
+        let Some(underway) = &mut lanes.kept[lane] else { return };
+        underway.cycles += 1;
+        if underway.cycles < self.in_lane[lane].cycles.count {
+            return;
+        }
+        let Underway { number, passing, .. } = lanes.take(lane);
+        let end = M::In::<Dual<L, U>>::point(&lanes.motion.state);
+        let end = std::array::from_fn(|i| one(&end[i], lane));
+        self.found[number] = Ok(told(end, passing, f64::INFINITY));
+    }
+
+    #[inline(always)]
+    fn give_up(&mut self, lanes: &mut Lanes<Dual<L, U>, M, Self::Kept, D>, lane: usize) {
+        let why = lanes.breakdown(lane).map_or(Reason::TooManySteps, Reason::from);
+        self.found[lanes.take(lane).number] = Err(why);
     }
 }
 
@@ -205,34 +229,23 @@ fn begun<L: Lane, M: System<D>, const D: usize, const U: usize>(
     Motion::begun(system, Dual::splat(0.0), M::In::<Dual<L, U>>::state(from))
 }
 
-impl<E: Event, const U: usize> Occupant<E, U> {
-    /// Takes note of what the motion in a lane passes in a step.
-    #[inline(always)]
-    fn see<L: Lane, S>(
-        &mut self,
-        system: &S,
-        step: &Step<Dual<L, U>, S>,
-        (changes, lane): (&SignChanges<L::Plain, Dual<f64, U>>, usize),
-    ) where
-        S: Switched<Dual<L, U>, Event = E>,
-    {
-        let seen = (step.length.lane(lane), E::from_code(step.event.lane(lane)));
-        if let Some((coordinate, surface)) = system.touching(&step.jet) {
-            let at = |time: f64| {
-                let terms = if time == 0.0 { 1 } else { coordinate.len() };
-                let mut own = series::zero();
-                for (own, lanes) in own.iter_mut().zip(&coordinate[..terms]) {
-                    *own = one(lanes, lane);
-                }
-                value_at(&own, time)
-            };
-            self.passing.turn((changes, lane), seen, at, || one(&surface, lane));
-        }
-        self.passing.see(seen);
+/// The value of a series in a lane at a time, its first term at the start.
+#[inline(always)]
+fn value_in_lane<L: Lane, const U: usize>(
+    series: &Series<Dual<L, U>>,
+    lane: usize,
+    time: f64,
+) -> Dual<f64, U> {
+    let terms = if time == 0.0 { 1 } else { series.len() };
+    let mut own = series::zero();
+    for (own, lanes) in own.iter_mut().zip(&series[..terms]) {
+        *own = one(lanes, lane);
     }
+    value_at(&own, time)
 }
 
 /// The number that a lane holds, with its derivatives.
+#[inline(always)]
 fn one<L: Lane, const U: usize>(lanes: &Dual<L, U>, lane: usize) -> Dual<f64, U> {
     let gradient = std::array::from_fn(|i| lanes.gradient[i].lane(lane));
     Dual { value: lanes.value.lane(lane), gradient }

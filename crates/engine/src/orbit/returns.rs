@@ -4,9 +4,10 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::flow::{Event, Motion, Reason, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
-use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
+use crate::flow::{Event, Motion, Reason, Stroboscopic, System};
+use crate::lane::{Instructions, Lane, SideBySide, Work};
 
+use super::lanes::{EndedCycle, Lanes, Task};
 use super::passage::{PlainRequest, PlainReturn, PlainReturns};
 use super::{Case, Machine};
 
@@ -94,90 +95,109 @@ struct Crowd<'a, M: System<D>, const D: usize> {
     tolerance: f64,
 }
 
-/// A case in a lane: its index, the cycles met, the steps of the next, and the points and events noted.
-struct Occupant<E, const D: usize> {
+/// A case in a lane, and what has been noted of it.
+struct Followed<E, const D: usize> {
     index: usize,
     cycles: usize,
-    steps: u64,
     points: Vec<[f64; D]>,
     events: Vec<E>,
 }
 
 /// The index of a case, its section points, and its events where they are noted.
-type Followed<E, const D: usize> = (usize, Returns<D>, Vec<E>);
+type Told<E, const D: usize> = (usize, Returns<D>, Vec<E>);
 
-impl<M: System<D>, const D: usize> Crowd<'_, M, D> {
-    /// The next case.
-    fn next(&self) -> Option<(usize, &Case<M, D>)> {
-        let index = self.taken.fetch_add(1, Ordering::Relaxed);
-        Some((index, self.cases.get(index)?))
+impl<E, const D: usize> Followed<E, D> {
+    fn tell(self, failure: Option<Reason>) -> Told<E, D> {
+        (self.index, Returns { points: self.points, failure }, self.events)
     }
 }
 
 impl<M: System<D>, const D: usize> Work for Crowd<'_, M, D> {
-    type Output = Vec<Followed<M::Event, D>>;
+    type Output = Vec<Told<M::Event, D>>;
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Self::Output {
-        let mut done = Vec::new();
-        let Some(first) = self.cases.first() else { return done };
+        let Some(first) = self.cases.first() else { return Vec::new() };
         let system = first.system.single();
-        let mut motion = Motion::<L, M::In<L>>::splat(&Motion::new(&system, 0.0, first.start));
-        let mut system = M::In::<L>::splat(&system);
-        let mut lanes: Vec<Option<Occupant<M::Event, D>>> = (0..L::WIDTH).map(|_| None).collect();
-        let refill = |lane: usize, system: &mut M::In<L>, motion: &mut Motion<L, M::In<L>>| {
-            let (index, case) = self.next()?;
-            assert!(case.system.is_alike(&first.system), "cases side by side are alike");
-            let one = case.system.single();
-            system.put(lane, &one);
-            motion.put(lane, &Motion::new(&one, case.begins, case.start));
+        let motion = Motion::<L, M::In<L>>::splat(&Motion::new(&system, 0.0, first.start));
+        let mut lanes = Lanes::new(M::In::<L>::splat(&system), motion, self.tolerance);
+        let mut task = Following { crowd: self, done: Vec::new() };
+        lanes.follow(&mut task);
+        task.done
+    }
+}
+
+/// Follows the cases, and tells what is noted of those that are done.
+struct Following<'a, M: System<D>, const D: usize> {
+    crowd: Crowd<'a, M, D>,
+    done: Vec<Told<M::Event, D>>,
+}
+
+impl<M: System<D>, const D: usize> Following<'_, M, D> {
+    /// The next case.
+    fn next(&self) -> Option<(usize, &Case<M, D>)> {
+        let Crowd { cases, taken, .. } = self.crowd;
+        if taken.load(Ordering::Relaxed) >= cases.len() {
+            return None;
+        }
+        let index = taken.fetch_add(1, Ordering::Relaxed);
+        Some((index, cases.get(index)?))
+    }
+}
+
+impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Following<'_, M, D> {
+    type Kept = Followed<M::Event, D>;
+
+    #[inline(always)]
+    fn fill(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>) -> bool {
+        while lanes.count() < self.crowd.share
+            && let Some(lane) = lanes.free().next()
+            && let Some((index, case)) = self.next()
+        {
+            let alike = case.system.is_alike(&self.crowd.cases[0].system);
+            assert!(alike, "cases side by side are alike");
+            let system = case.system.single();
+            let motion = Motion::new(&system, case.begins, case.start);
             let (points, events) = (Vec::new(), Vec::new());
-            Some(Occupant { index, cycles: 0, steps: 0, points, events })
-        };
-        for (lane, occupant) in lanes.iter_mut().enumerate().take(self.share) {
-            *occupant = refill(lane, &mut system, &mut motion);
+            lanes.put(lane, &system, &motion, Followed { index, cycles: 0, points, events });
         }
-        let mut periods = system.period();
-        let mut step = Step::default();
-        while lanes.iter().any(Option::is_some) {
-            motion.step(&system, periods, self.tolerance, &mut step);
-            let broken = motion.broken(&system);
-            let (arrived, broken) = (step.arrives.bits(), broken.bits());
-            if step.arrives.any() {
-                motion.begin_cycle(step.arrives);
-            }
-            for (lane, place) in lanes.iter_mut().enumerate() {
-                let Some(occupant) = place else { continue };
-                occupant.steps += 1;
-                if self.events {
-                    occupant.events.extend(M::Event::from_code(step.event.lane(lane)));
-                }
-                let slow = occupant.steps >= STEPS_PER_CYCLE;
-                if broken >> lane & 1 != 0 || slow {
-                    let why = motion.breakdown(&system, lane);
-                    let failure = Some(why.map_or(Reason::TooManySteps, Reason::from));
-                    let points = std::mem::take(&mut occupant.points);
-                    done.push((occupant.index, Returns { points, failure }, Vec::new()));
-                } else if arrived >> lane & 1 != 0 {
-                    occupant.steps = 0;
-                    occupant.cycles += 1;
-                    let waited = self.waited[occupant.index];
-                    if occupant.cycles > waited {
-                        occupant.points.push(M::Single::point(&motion.state.lane(lane)));
-                    }
-                    if occupant.cycles < waited + self.kept {
-                        continue;
-                    }
-                    let points = std::mem::take(&mut occupant.points);
-                    let events = std::mem::take(&mut occupant.events);
-                    done.push((occupant.index, Returns { points, failure: None }, events));
-                } else {
-                    continue;
-                }
-                *place = refill(lane, &mut system, &mut motion);
-                periods = system.period();
+        lanes.count() > 0
+    }
+
+    #[inline(always)]
+    fn see(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>) {
+        if !self.crowd.events {
+            return;
+        }
+        for (lane, followed) in lanes.kept.iter_mut().enumerate() {
+            let event = M::Event::from_code(lanes.step.event.lane(lane));
+            if let Some(followed) = followed {
+                followed.events.extend(event);
             }
         }
-        done
+    }
+
+    #[inline(always)]
+    fn end_cycle(
+        &mut self,
+        lanes: &mut Lanes<L, M, Self::Kept, D>,
+        lane: usize,
+        _cycle: EndedCycle,
+    ) {
+        let Some(followed) = &mut lanes.kept[lane] else { return };
+        followed.cycles += 1;
+        let waited = self.crowd.waited[followed.index];
+        if followed.cycles > waited {
+            followed.points.push(M::Single::point(&lanes.motion.state.lane(lane)));
+        }
+        if followed.cycles >= waited + self.crowd.kept {
+            self.done.push(lanes.take(lane).tell(None));
+        }
+    }
+
+    #[inline(always)]
+    fn give_up(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>, lane: usize) {
+        let why = lanes.breakdown(lane).map_or(Reason::TooManySteps, Reason::from);
+        self.done.push(lanes.take(lane).tell(Some(why)));
     }
 }

@@ -3,13 +3,14 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::flow::{Motion, STEPS_PER_CYCLE, Step, Stroboscopic, Switched, System};
-use crate::lane::{Instructions, Lane, Mask, SideBySide, Work};
+use crate::flow::{Motion, Stroboscopic, System};
+use crate::lane::{Instructions, Lane, SideBySide, Work};
 
-use super::aperiodic::follow_aperiodic_side_by_side;
+use super::aperiodic::follow_aperiodic;
 use super::batch::Batch;
 use super::case_end::End;
 use super::known_orbits::KnownOrbits;
+use super::lanes::{EndedCycle, Lanes, Task};
 use super::measure::Found;
 use super::passage::Integrator;
 use super::settling::Settling;
@@ -44,20 +45,10 @@ pub fn settle_side_by_side<M: System<D>, const D: usize>(
 ) -> Vec<Underway<M, D>> {
     let halves = instructions.lanes_of_a_vector() > 1;
     let least = if halves { HALF } else { WORTHWHILE };
-    let supply = Supply {
-        instructions,
-        protocol,
-        queue,
-        aperiodic: Vec::new(),
-        concluding: Batch::new(instructions),
-        ready: VecDeque::new(),
-        least,
-    };
-    let mut left = instructions.run(supply);
+    let left = Left { moving: Vec::new(), aperiodic: Vec::new(), queue };
+    let mut left = instructions.run(Supply::new(instructions, protocol, left, least));
     if halves {
-        let Left { moving, aperiodic, queue } = left;
-        let (concluding, least, ready) = (Batch::new(instructions), WORTHWHILE, moving.into());
-        let supply = Supply { instructions, protocol, queue, aperiodic, concluding, ready, least };
+        let supply = Supply::new(instructions, protocol, left, WORTHWHILE);
         left = instructions.run_on_a_vector(supply);
     }
     left.moving.extend(left.aperiodic);
@@ -87,6 +78,10 @@ struct Supply<'a, M: System<D>, const D: usize> {
     ready: VecDeque<Underway<M, D>>,
     /// With no more than one lane in so many at work, the lanes are left.
     least: usize,
+    /// A system that all are like.
+    like: Option<M>,
+    /// Whether a lane has become free, or a case ready, since there was none to put into a lane.
+    asks: bool,
 }
 
 impl<'a, M: System<D>, const D: usize> Work for Supply<'a, M, D> {
@@ -94,43 +89,78 @@ impl<'a, M: System<D>, const D: usize> Work for Supply<'a, M, D> {
 
     #[inline(always)]
     fn run<L: Lane>(mut self) -> Self::Output {
-        let cases: Vec<_> = (0..L::WIDTH).map(|_| self.next(None)).collect();
-        let Some(first) = cases.iter().flatten().next() else {
-            return self.left(Vec::new());
-        };
-        let spare = Underway::new(0, first.case.clone(), self.protocol, None);
-        let mut lanes = Lanes::<L, M, D>::new(spare, self);
-        for (lane, case) in cases.into_iter().enumerate() {
-            lanes.fill_lane(lane, case);
-        }
-        let mut step = Step::default();
-        let least = lanes.cases.least;
-        loop {
-            let worthwhile = |cases: usize| cases * least > L::WIDTH;
-            let occupied = lanes.occupied.count_ones() as usize;
-            let (aperiodic, concluding) =
-                (lanes.cases.aperiodic.len(), lanes.cases.concluding.waiting());
-            let moving = worthwhile(occupied);
-            // Of twice as many as a vector holds some are alike long; lanes that stay empty do not wait for them.
-            let vector = lanes.cases.instructions.lanes_of_a_vector();
-            let enough = if occupied < L::WIDTH { vector } else { 2 * vector };
-            if aperiodic >= L::WIDTH || (!moving && worthwhile(aperiodic)) {
-                lanes.cases.follow_aperiodic_cases();
-                lanes.fill();
-            } else if concluding >= enough || (!moving && concluding > 0) {
-                lanes.cases.conclude_some();
-                lanes.fill();
-            } else if moving {
-                lanes.advance(&mut step);
-                lanes.attend(step.arrives);
-            } else {
-                return lanes.left();
-            }
-        }
+        let Some(first) = self.next(None) else { return self.left(Vec::new()) };
+        let system = M::In::<L>::splat(&first.system);
+        let motion = Motion::<L, M::In<L>>::splat(&first.motion);
+        let mut lanes = Lanes::new(system, motion, self.protocol.tolerance);
+        self.ready.push_front(first);
+        lanes.follow(&mut self);
+        let moving = (0..L::WIDTH).filter(|&lane| lanes.kept[lane].is_some());
+        let moving: Vec<_> = moving.collect();
+        let moving = moving.into_iter().map(|lane| taken_from(&mut lanes, lane)).collect();
+        self.left(moving)
     }
 }
 
+/// Takes a case out of its lane as it is.
+fn taken_from<L: Lane, M: System<D>, const D: usize>(
+    lanes: &mut Lanes<L, M, Underway<M, D>, D>,
+    lane: usize,
+) -> Underway<M, D> {
+    let (motion, steps) = (lanes.motion.lane(lane), lanes.steps(lane));
+    let case = lanes.take(lane);
+    let progress = Progress { steps, ..case.progress };
+    Underway { motion, progress, ..case }
+}
+
 impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
+    /// Where cases that are left go on, and those of the queue begin.
+    fn new(
+        instructions: Instructions,
+        protocol: &'a Protocol,
+        left: Left<'a, M, D>,
+        least: usize,
+    ) -> Self {
+        Supply {
+            instructions,
+            protocol,
+            queue: left.queue,
+            aperiodic: left.aperiodic,
+            concluding: Batch::new(instructions),
+            ready: left.moving.into(),
+            least,
+            like: None,
+            asks: true,
+        }
+    }
+
+    /// Whether it is worth to follow so many cases side by side.
+    fn is_worthwhile<L: Lane>(&self, cases: usize) -> bool {
+        cases * self.least > L::WIDTH
+    }
+
+    /// Puts cases into the free lanes, as far as there are any.
+    #[inline(always)]
+    fn fill_lanes<L: Lane>(&mut self, lanes: &mut Lanes<L, M, Underway<M, D>, D>) {
+        while self.asks
+            && let Some(lane) = lanes.free().next()
+        {
+            let Some(case) = self.next(None) else {
+                self.asks = false;
+                return;
+            };
+            let like = self.like.get_or_insert_with(|| case.case.system.clone());
+            assert!(case.case.system.is_alike(like), "cases side by side are alike");
+            // A case that goes on has taken some steps of its cycle, and of those that it may take.
+            let Progress { steps, .. } = case.progress;
+            let most = case.progress.deadline(self.protocol.max_steps) - steps;
+            let (system, motion) = (case.case.system.single(), case.motion);
+            lanes.put(lane, &system, &motion, case);
+            lanes.has_taken(lane, steps);
+            lanes.allow(lane, most);
+        }
+    }
+
     /// What is left, with the cases that are `moving`.
     fn left(self, mut moving: Vec<Underway<M, D>>) -> Left<'a, M, D> {
         moving.extend(self.ready);
@@ -151,14 +181,8 @@ impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
     fn follow_aperiodic_cases(&mut self) {
         let cases = std::mem::take(&mut self.aperiodic);
         let max_steps = self.protocol.max_steps;
-        let motions: Vec<_> = cases
-            .iter()
-            .map(|it| {
-                let start = M::Single::point(&it.motion.state);
-                (&it.case.system, start, it.progress.steps_left(max_steps))
-            })
-            .collect();
-        let followed = follow_aperiodic_side_by_side(self.instructions, &motions, self.protocol);
+        let departures: Vec<_> = cases.iter().map(|it| it.departure(max_steps)).collect();
+        let followed = follow_aperiodic(self.instructions, &departures, self.protocol);
         for (case, followed) in cases.into_iter().zip(followed) {
             self.conclude(case, move |trajectory, _| {
                 let followed = followed.map(|it| End::Found(Found::Followed(it)));
@@ -179,12 +203,14 @@ impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
         let case = Box::new(case);
         let conclude =
             move |integrator: &dyn Integrator<M, D>| case.conclude(&protocol, found, integrator);
+        self.asks = true;
         let done = self.concluding.begin(conclude);
         self.pass_on(done);
     }
 
     /// Goes on with cases that are being concluded, side by side.
     fn conclude_some(&mut self) {
+        self.asks = true;
         let done = self.concluding.advance();
         self.pass_on(done);
     }
@@ -201,175 +227,56 @@ impl<'a, M: System<D>, const D: usize> Supply<'a, M, D> {
     }
 }
 
-/// The lanes and the cases in them.
-struct Lanes<'a, L: Lane, M: System<D>, const D: usize> {
-    cases: Supply<'a, M, D>,
-    /// What moves to no purpose in an empty lane.
-    spare: Underway<M, D>,
-    system: M::In<L>,
-    motion: Motion<L, M::In<L>>,
-    periods: L,
-    occupants: Vec<Option<Underway<M, D>>>,
-    /// The lanes with a case, as bits.
-    occupied: u64,
-    /// Steps taken, and how many had been when the cycle of each lane began, from a number on that no cycle has taken.
-    steps: u64,
-    cycle_began: Vec<u64>,
-    /// No case has taken too many steps before so many are taken.
-    deadline: u64,
-}
+impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Supply<'_, M, D> {
+    type Kept = Underway<M, D>;
 
-impl<'a, L: Lane, M: System<D>, const D: usize> Lanes<'a, L, M, D> {
-    /// Empty lanes.
-    fn new(spare: Underway<M, D>, cases: Supply<'a, M, D>) -> Self {
-        Lanes {
-            cases,
-            motion: Motion::splat(&spare.motion),
-            system: M::In::<L>::splat(&spare.system),
-            periods: L::splat(spare.system.period()),
-            spare,
-            occupants: (0..L::WIDTH).map(|_| None).collect(),
-            occupied: 0,
-            steps: STEPS_PER_CYCLE,
-            cycle_began: vec![0; L::WIDTH],
-            deadline: 0,
-        }
-    }
-
-    /// Moves every lane by a step.
+    /// Fills the lanes unless what waits is worth more; nothing is left to follow in lanes when too few would be taken.
     #[inline(always)]
-    fn advance(&mut self, step: &mut Step<L, M::In<L>>) {
-        let tolerance = self.cases.protocol.tolerance;
-        self.motion.step(&self.system, self.periods, tolerance, step);
-        self.steps += 1;
-    }
-
-    /// Looks after the lanes whose case cannot go on or whose cycle has ended.
-    #[inline(always)]
-    fn attend(&mut self, ended: L::Mask) {
-        let mut broken = self.motion.broken(&self.system).bits() & self.occupied;
-        let mut at_end = ended.bits() & self.occupied & !broken;
-        while let Some(lane) = take_lowest(&mut broken) {
-            self.give_up(lane);
-        }
-        if ended.any() {
-            let durations = self.motion.time;
-            self.motion.begin_cycle(ended);
-            while let Some(lane) = take_lowest(&mut at_end) {
-                let state = self.motion.state.lane(lane);
-                self.end_cycle(lane, &state, durations.lane(lane));
+    fn fill(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>) -> bool {
+        loop {
+            self.fill_lanes(lanes);
+            let moving = self.is_worthwhile::<L>(lanes.count());
+            // Of twice as many as a vector holds some are alike long; lanes that stay empty do not wait for them.
+            let vector = self.instructions.lanes_of_a_vector();
+            let enough = if lanes.count() < L::WIDTH { vector } else { 2 * vector };
+            let (aperiodic, concluding) = (self.aperiodic.len(), self.concluding.waiting());
+            if aperiodic >= L::WIDTH || (!moving && self.is_worthwhile::<L>(aperiodic)) {
+                self.follow_aperiodic_cases();
+            } else if concluding >= enough || (!moving && concluding > 0) {
+                self.conclude_some();
+            } else {
+                return moving;
             }
         }
-        if self.steps >= self.deadline {
-            self.give_up_the_slow();
-        }
     }
 
-    /// Takes note of the section point that the case in `lane` has reached.
-    fn end_cycle(&mut self, lane: usize, state: &M::State<f64>, duration: f64) {
-        let case = self.occupants[lane].as_mut().expect("the lane is occupied");
-        case.progress.steps = self.steps - self.cycle_began[lane];
-        case.progress.count(duration);
-        self.cycle_began[lane] = self.steps;
-        let exhausted = case.progress.cycles >= self.cases.protocol.max_cycles;
-        let end = End::of(case.settling.meet(M::Single::point(state)), exhausted);
-        if let Some(end) = end {
-            self.replace(lane, move |_, _| Ok(end));
-        } else if exhausted {
-            let case = self.take(lane).expect("the lane is occupied");
-            self.cases.aperiodic.push(case);
-            let next = self.cases.next(None);
-            self.fill_lane(lane, next);
-        }
-    }
-
-    /// Concludes the case in `lane`, which cannot go on.
-    fn give_up(&mut self, lane: usize) {
-        self.replace(lane, |trajectory, _| Err(trajectory.stuck()));
-    }
-
-    /// Concludes the cases whose cycle has taken too many steps, or that have none left.
-    fn give_up_the_slow(&mut self) {
-        let mut occupied = self.occupied;
-        let max_steps = self.cases.protocol.max_steps;
-        self.deadline = u64::MAX;
-        while let Some(lane) = take_lowest(&mut occupied) {
-            let deadline = |it: &Self| {
-                let case = it.occupants[lane].as_ref()?;
-                Some(it.cycle_began[lane].saturating_add(case.progress.deadline(max_steps)))
-            };
-            if deadline(self).is_some_and(|deadline| self.steps >= deadline) {
-                self.give_up(lane);
-            }
-            self.deadline = self.deadline.min(deadline(self).unwrap_or(u64::MAX));
-        }
-    }
-
-    /// Concludes the case in `lane` as `found` says, and puts the next one there.
-    fn replace(
+    /// Takes note of the section point that the case has reached.
+    fn end_cycle(
         &mut self,
+        lanes: &mut Lanes<L, M, Self::Kept, D>,
         lane: usize,
-        found: impl FnOnce(&mut Trajectory<'_, M::Single, D>, &mut Settling<D>) -> Finding<M, D>
-        + 'static,
+        cycle: EndedCycle,
     ) {
-        let case = self.take(lane).expect("the lane is occupied");
-        self.cases.conclude(case, found);
-        let next = self.cases.next(None);
-        self.fill_lane(lane, next);
-    }
-
-    /// Puts a case into `lane`, or leaves the lane empty.
-    fn fill_lane(&mut self, lane: usize, case: Option<Underway<M, D>>) {
-        let spare = &self.spare;
-        let Underway { system, motion, case: Case { system: parameters, .. }, .. } =
-            case.as_ref().unwrap_or(spare);
-        assert!(parameters.is_alike(&spare.case.system), "cases side by side are alike");
-        self.system.put(lane, system);
-        self.motion.put(lane, motion);
-        self.periods = self.periods.with_lane(lane, system.period());
-        // A case that goes on has taken some steps of its cycle, and of those that it may take.
-        let Progress { steps, steps_before, .. } =
-            case.as_ref().map_or_else(Progress::default, |case| case.progress);
-        self.cycle_began[lane] = self.steps - steps;
-        self.deadline = if steps + steps_before > 0 { 0 } else { self.deadline };
-        self.occupied &= !(1 << lane);
-        self.occupied |= u64::from(case.is_some()) << lane;
-        self.occupants[lane] = case;
-    }
-
-    /// Takes the case out of `lane`, as it is.
-    fn take(&mut self, lane: usize) -> Option<Underway<M, D>> {
-        let motion = self.motion.lane(lane);
-        let steps = self.steps - self.cycle_began[lane];
-        let case = self.occupants[lane].take()?;
-        let progress = Progress { steps, ..case.progress };
-        Some(Underway { motion, progress, ..case })
-    }
-
-    /// Puts cases into the empty lanes, as far as there are any.
-    fn fill(&mut self) {
-        for lane in 0..L::WIDTH {
-            if self.occupied >> lane & 1 == 0 {
-                let next = self.cases.next(None);
-                self.fill_lane(lane, next);
-            }
+        let point = M::Single::point(&lanes.motion.state.lane(lane));
+        let Some(case) = &mut lanes.kept[lane] else { return };
+        case.progress.steps = cycle.steps;
+        case.progress.count(cycle.duration);
+        let exhausted = case.progress.cycles >= self.protocol.max_cycles;
+        let end = End::of(case.settling.meet(point), exhausted);
+        if let Some(end) = end {
+            let case = taken_from(lanes, lane);
+            self.conclude(case, move |_, _| Ok(end));
+        } else if exhausted {
+            self.aperiodic.push(taken_from(lanes, lane));
+            self.asks = true;
+        } else {
+            let most = case.progress.deadline(self.protocol.max_steps);
+            lanes.allow(lane, most);
         }
     }
 
-    /// The cases that have not settled yet.
-    fn left(mut self) -> Left<'a, M, D> {
-        let moving: Vec<_> = (0..L::WIDTH).filter_map(|lane| self.take(lane)).collect();
-        self.cases.left(moving)
+    fn give_up(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>, lane: usize) {
+        let case = taken_from(lanes, lane);
+        self.conclude(case, |trajectory, _| Err(trajectory.stuck()));
     }
-}
-
-/// The lowest bit that is set, which is cleared.
-#[inline(always)]
-fn take_lowest(bits: &mut u64) -> Option<usize> {
-    if *bits == 0 {
-        return None;
-    }
-    let lowest = bits.trailing_zeros() as usize;
-    *bits &= *bits - 1;
-    Some(lowest)
 }

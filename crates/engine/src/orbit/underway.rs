@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::flow::{Motion, Stroboscopic, System};
 
+use super::aperiodic::Departure;
 use super::case_end::{End, find_period};
 use super::known_orbits::KnownOrbits;
 use super::measure::{ClosedOrbit, Found, Told, conclude, told};
@@ -62,6 +63,15 @@ impl<M: System<D>, const D: usize> Underway<M, D> {
     /// The number that its owner knows it by.
     pub fn number(&self) -> usize {
         self.number
+    }
+
+    /// Where its linearised flow is followed from, of a case that may take so many steps in all.
+    pub(super) fn departure(&self, max_steps: u64) -> Departure<'_, M, D> {
+        Departure {
+            system: &self.case.system,
+            point: M::Single::point(&self.motion.state),
+            max_steps: self.progress.steps_left(max_steps),
+        }
     }
 
     /// Follows the case by itself until it settles, and measures it.

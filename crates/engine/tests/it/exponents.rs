@@ -8,7 +8,7 @@ use capsulemap_engine::flow::{
 use capsulemap_engine::lane::{
     Dual, Instructions, Lane, Mask, ORDER, Series, SideBySide, elementary::sin_cos, series,
 };
-use capsulemap_engine::orbit::aperiodic::{follow_aperiodic_side_by_side, irregularity};
+use capsulemap_engine::orbit::aperiodic::{Departure, follow_aperiodic, irregularity};
 use capsulemap_engine::orbit::exponent::stretching;
 use capsulemap_engine::orbit::return_map::Cycles;
 use capsulemap_engine::orbit::{Outcome, Protocol, Trajectory};
@@ -234,15 +234,22 @@ fn chaotic(count: usize) -> Vec<(Case, [f64; 3])> {
         .collect()
 }
 
+/// Where systems depart from their points, with no limit of steps.
+fn departures<'a>(
+    starts: impl Iterator<Item = (&'a CapsuleSystem<Filippov>, [f64; 3])>,
+) -> Vec<Departure<'a, CapsuleSystem<Filippov>, 3>> {
+    starts.map(|(system, point)| Departure { system, point, max_steps: u64::MAX }).collect()
+}
+
 #[test]
 fn neighbouring_trajectories_part_at_the_rate_of_the_exponent() {
     let cases = chaotic(6);
     let systems: Vec<CapsuleSystem<Filippov>> =
         cases.iter().map(|(case, _)| case.read().system).collect();
-    let capsules: Vec<_> =
-        cases.iter().zip(&systems).map(|((_, start), system)| (system, *start, u64::MAX)).collect();
+    let starts = cases.iter().map(|(_, start)| *start);
+    let capsules = departures(systems.iter().zip(starts));
     let protocol = Protocol::default();
-    let followed = follow_aperiodic_side_by_side(Instructions::widest(), &capsules, &protocol);
+    let followed = follow_aperiodic(Instructions::widest(), &capsules, &protocol);
     for ((case, start), followed) in cases.iter().zip(followed) {
         let exponent = followed.expect("the integration continues").exponent;
         let (rate, spread) = parting(case, *start, 3000);
@@ -258,11 +265,11 @@ fn an_exponent_is_as_exact_as_the_study_wants_it() {
     let cases = chaotic(3);
     let systems: Vec<CapsuleSystem<Filippov>> =
         cases.iter().map(|(case, _)| case.read().system).collect();
-    let capsules: Vec<_> =
-        cases.iter().zip(&systems).map(|((_, start), system)| (system, *start, u64::MAX)).collect();
+    let starts = cases.iter().map(|(_, start)| *start);
+    let capsules = departures(systems.iter().zip(starts));
     let with = |exponent_error: f64| {
         let protocol = Protocol { exponent_error, exponent_cycles: 100_000, ..Protocol::default() };
-        let all = follow_aperiodic_side_by_side(Instructions::widest(), &capsules, &protocol);
+        let all = follow_aperiodic(Instructions::widest(), &capsules, &protocol);
         all.into_iter().map(|it| it.expect("the integration continues")).collect::<Vec<_>>()
     };
     let (coarse, fine) = (with(0.1), with(0.015));
@@ -351,12 +358,11 @@ fn a_stretch_has_the_same_bits_by_any_instructions() {
         cases.iter().map(|case| case.read().system).collect();
     let start =
         |case: &Case| [case.start.capsule().r, case.start.capsule().y1, case.start.capsule().y2];
-    let capsules: Vec<_> =
-        cases.iter().zip(&systems).map(|(case, system)| (system, start(case), u64::MAX)).collect();
+    let capsules = departures(systems.iter().zip(cases.iter().map(start)));
     let protocol = Protocol { exponent_cycles: 200, ..Protocol::default() };
-    let alone = follow_aperiodic_side_by_side(Instructions::Scalar, &capsules, &protocol);
+    let alone = follow_aperiodic(Instructions::Scalar, &capsules, &protocol);
     for instructions in Instructions::available() {
-        let among = follow_aperiodic_side_by_side(instructions, &capsules, &protocol);
+        let among = follow_aperiodic(instructions, &capsules, &protocol);
         assert_eq!(format!("{alone:?}"), format!("{among:?}"), "{}", instructions.name());
     }
 }
