@@ -87,6 +87,9 @@
 //!         fn at(&self, jet: &Taylor<L, 2>, h: L) -> [L; 2] {
 //!             jet.at(h)
 //!         }
+//!         fn motion(&self, jet: &Taylor<L, 2>, h: L) -> ([L; 2], [L; 2]) {
+//!             jet.motion(h)
+//!         }
 //!         fn lost(&self, state: &[L; 2]) -> L::Mask {
 //!             not_finite(state[0] + state[1])
 //!         }
@@ -106,9 +109,6 @@
 //!     type Coordinates = [f64; 2];
 //!     fn coordinates(state: &[f64; 2]) -> [f64; 2] {
 //!         *state
-//!     }
-//!     fn motion(&self, jet: &Taylor<f64, 2>, h: f64) -> ([f64; 2], [f64; 2]) {
-//!         jet.motion(h)
 //!     }
 //!     fn rates(&self, _: &(), time: f64, [x, v]: &[f64; 2]) -> [f64; 2] {
 //!         [*v, (self.w * time).cos() - x - self.c * v]

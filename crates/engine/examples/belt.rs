@@ -151,6 +151,10 @@ in_lanes! {
             jet.at(h)
         }
 
+        fn motion(&self, jet: &Taylor<L, 4>, h: L) -> ([L; 2], [L; 2]) {
+            jet.motion(h)
+        }
+
         fn switch(
             &self,
             which: usize,
@@ -199,9 +203,6 @@ impl Field for Belt<f64> {
     type Coordinates = [f64; 2];
     fn coordinates(state: &[f64; 2]) -> [f64; 2] {
         *state
-    }
-    fn motion(&self, jet: &Taylor<f64, 4>, h: f64) -> ([f64; 2], [f64; 2]) {
-        jet.motion(h)
     }
     fn rates(&self, slip: &Slip<f64>, _: f64, [x, v]: &[f64; 2]) -> [f64; 2] {
         if slip.0 == 0.0 {

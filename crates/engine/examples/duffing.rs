@@ -62,6 +62,10 @@ in_lanes! {
             jet.at(h)
         }
 
+        fn motion(&self, jet: &Taylor<L, 3>, h: L) -> ([L; 2], [L; 2]) {
+            jet.motion(h)
+        }
+
         fn lost(&self, [x, v]: &[L; 2]) -> L::Mask {
             not_finite(*x + *v)
         }
@@ -84,10 +88,6 @@ impl Field for Duffing<f64> {
 
     fn coordinates(state: &[f64; 2]) -> [f64; 2] {
         *state
-    }
-
-    fn motion(&self, jet: &Taylor<f64, 3>, h: f64) -> ([f64; 2], [f64; 2]) {
-        jet.motion(h)
     }
 
     fn rates(&self, _: &(), time: f64, [x, v]: &[f64; 2]) -> [f64; 2] {

@@ -90,6 +90,10 @@ in_lanes! {
             jet.at(h)
         }
 
+        fn motion(&self, jet: &Taylor<L, 2>, h: L) -> ([L; 2], [L; 2]) {
+            jet.motion(h)
+        }
+
         /// The mass is put on the wall, which the guard is told: it leaves from zero, with a rate.
         fn switch(
             &self,
@@ -132,10 +136,6 @@ impl Field for Impactor<f64> {
 
     fn coordinates(state: &[f64; 2]) -> [f64; 2] {
         *state
-    }
-
-    fn motion(&self, jet: &Taylor<f64, 2>, h: f64) -> ([f64; 2], [f64; 2]) {
-        jet.motion(h)
     }
 
     fn rates(&self, _: &(), time: f64, [x, v]: &[f64; 2]) -> [f64; 2] {

@@ -97,6 +97,10 @@ in_lanes! {
             jet.at(h)
         }
 
+        fn motion(&self, jet: &Taylor<L, 4>, h: L) -> ([L; 3], [L; 3]) {
+            jet.motion(h)
+        }
+
         fn switch(
             &self,
             _: usize,
@@ -149,9 +153,6 @@ impl<const MAXIMA: bool> Field for Valve<f64, MAXIMA> {
     type Coordinates = [f64; 3];
     fn coordinates(state: &[f64; 3]) -> [f64; 3] {
         *state
-    }
-    fn motion(&self, jet: &Taylor<f64, 4>, h: f64) -> ([f64; 3], [f64; 3]) {
-        jet.motion(h)
     }
     fn rates(&self, _: &(), _: f64, [y1, y2, y3]: &[f64; 3]) -> [f64; 3] {
         let force = y3 - y1 - self.delta - self.kappa * y2;

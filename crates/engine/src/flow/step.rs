@@ -67,11 +67,22 @@ impl<S: Switched<f64>> Step<f64, S> {
         T::Mode: SideBySide<One = S::Mode>,
         T::Jet: SideBySide<One = S::Jet>,
     {
-        self.start = lanes.start.lane(index);
-        self.length = lanes.length.lane(index);
-        self.mode = lanes.mode.lane(index);
+        self.take_times(index, lanes);
         self.jet = lanes.jet.lane(index);
         self.event = lanes.event.lane(index);
         self.arrives = lanes.arrives.lane(index);
+    }
+
+    /// The same of its time, its length and its mode only.
+    #[inline(always)]
+    pub(super) fn take_times<L, T>(&mut self, index: usize, lanes: &Step<L, T>)
+    where
+        L: Lane,
+        T: Switched<L>,
+        T::Mode: SideBySide<One = S::Mode>,
+    {
+        self.start = lanes.start.lane(index);
+        self.length = lanes.length.lane(index);
+        self.mode = lanes.mode.lane(index);
     }
 }

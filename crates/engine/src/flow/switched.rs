@@ -131,6 +131,26 @@ pub trait Switched<L: Lane> {
     /// The state `h` after the start of the step.
     fn at(&self, jet: &Self::Jet, h: L) -> Self::State;
 
+    /// The same with the slopes of the series there.
+    fn motion(&self, jet: &Self::Jet, h: L) -> (Self::State, Self::State);
+
+    /// The state at the start of the step.
+    #[inline(always)]
+    fn beginning(&self, jet: &Self::Jet) -> Self::State {
+        self.at(jet, L::splat(0.0))
+    }
+
+    /// The coordinate near whose turning points a term of the field may rise and vanish again within a step, and where
+    /// `mode` has such a term; none where no mode has.
+    #[inline(always)]
+    fn layered<'a>(
+        &self,
+        _mode: &Self::Mode,
+        _jet: &'a Self::Jet,
+    ) -> Option<(&'a Series<L>, L::Mask)> {
+        None
+    }
+
     /// Obeys guard `which` where `due`: sets the next mode, moves the state onto the surface (or
     /// resets it), says which guards of the next mode start at zero, and returns the event
     /// as a number, zero where none is due.
@@ -185,14 +205,6 @@ pub trait Field: Switched<f64> {
     /// All coordinates of a state, or of its rates.
     fn coordinates(state: &Self::State) -> Self::Coordinates;
 
-    /// The state `h` after the start of a step, and the slopes of its series there.
-    fn motion(&self, jet: &Self::Jet, h: f64) -> (Self::State, Self::State);
-
-    /// The state at the start of a step.
-    fn beginning(&self, jet: &Self::Jet) -> Self::State {
-        self.at(jet, 0.0)
-    }
-
     /// The rates of the coordinates in `mode` at `time` since the start of the cycle [s].
     ///
     /// They are written as the equations are, with the elementary functions of a library: what the series
@@ -201,10 +213,4 @@ pub trait Field: Switched<f64> {
 
     /// What the coordinates are multiplied with to be compared.
     fn weights(&self) -> Self::Coordinates;
-
-    /// The coordinate near whose turning points a term of the field may rise and vanish again within a step,
-    /// if `mode` has such a term.
-    fn layered<'a>(&self, _mode: &Self::Mode, _jet: &'a Self::Jet) -> Option<&'a Series<f64>> {
-        None
-    }
 }

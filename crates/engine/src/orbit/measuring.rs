@@ -2,7 +2,7 @@
 
 use crate::flow::defect::defect;
 use crate::flow::metric::greater;
-use crate::flow::{Field, Metric, Motion, Observer, Step, Stroboscopic, System};
+use crate::flow::{Metric, Motion, Observer, Stroboscopic, Switched, System};
 
 use super::trajectory::Progress;
 use super::{Failure, Trajectory};
@@ -80,15 +80,11 @@ impl<const D: usize> Kept<D> {
         self.here = here;
     }
 
-    /// Takes note of a step.
-    pub fn see<S>(&mut self, system: &S, metric: &Metric<D>, step: &Step<f64, S>)
-    where
-        S: Field + Stroboscopic<f64, D>,
-    {
-        self.defect = greater(self.defect, defect(system, step));
-        let begins = S::point(&system.beginning(&step.jet));
-        self.swing = self.swing.max(metric.size(&begins));
-        self.excursion = self.excursion.max(metric.distance(&begins, &self.here));
+    /// Takes note of a step by the point at which it begins and its defect.
+    pub fn see(&mut self, metric: &Metric<D>, begins: &[f64; D], defect: f64) {
+        self.defect = greater(self.defect, defect);
+        self.swing = self.swing.max(metric.size(begins));
+        self.excursion = self.excursion.max(metric.distance(begins, &self.here));
     }
 }
 
@@ -117,7 +113,8 @@ pub fn measured_alone<M: System<D>, const D: usize>(
         kept.begin_cycle(&metric, trajectory.section());
         let followed = trajectory.cycle(|step| {
             observed.see(&moving, step);
-            kept.see(&moving, &metric, step);
+            let begins = M::Single::point(&moving.beginning(&step.jet));
+            kept.see(&metric, &begins, defect(&moving, step));
         });
         if let Err(why) = followed {
             failure = Some(why);

@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use crate::flow::defect::DefectInLanes;
 use crate::flow::{Metric, Motion, Observer, Step, Stroboscopic, Switched, System};
 use crate::lane::{Instructions, Lane, SideBySide, Work};
 
@@ -69,7 +70,7 @@ fn together<L: Lane, M: System<D>, const D: usize>(
         waiting,
         found: requests.iter().map(|_| None).collect(),
         requests: requests.into_iter().map(Some).collect(),
-        one: Step::default(),
+        own: Step::default(),
     };
     lanes.follow(&mut task);
     task.found.into_iter().map(|it| it.expect("each has been measured")).collect()
@@ -83,8 +84,8 @@ struct Measuring<L: Lane, M: System<D>, const D: usize> {
     waiting: Vec<usize>,
     observed: M::Observers<L>,
     found: Vec<Option<Measured<M, D>>>,
-    /// The step in one lane.
-    one: Step<f64, M::Single>,
+    /// Room for the step of one lane.
+    own: Step<f64, M::Single>,
 }
 
 /// A motion in a lane.
@@ -148,11 +149,14 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Measuring<L, M, D>
 
     #[inline(always)]
     fn see(&mut self, lanes: &mut Lanes<L, M, Self::Kept, D>) {
-        self.observed.see(&lanes.system, &lanes.step);
-        for (lane, underway) in lanes.kept.iter_mut().enumerate() {
+        let Lanes { system, step, kept, .. } = lanes;
+        self.observed.see(system, step);
+        let defect = DefectInLanes::of(system, step);
+        let begins = M::In::<L>::point(&system.beginning(&step.jet));
+        for (lane, underway) in kept.iter_mut().enumerate() {
             let Some(Underway { system, metric, kept, .. }) = underway else { continue };
-            self.one.take_lane(lane, &lanes.step);
-            kept.see(system, metric, &self.one);
+            let defect = defect.one(lane, step, system, &mut self.own);
+            kept.see(metric, &begins.lane(lane), defect);
         }
     }
 

@@ -156,6 +156,11 @@ impl<L: Lane> Switched<L> for DryFriction<L> {
     }
 
     #[inline(always)]
+    fn motion(&self, jet: &Taylor<L, 3>, h: L) -> ([L; 2], [L; 2]) {
+        jet.motion(h)
+    }
+
+    #[inline(always)]
     fn switch(
         &self,
         which: usize,
@@ -188,10 +193,6 @@ impl Field for DryFriction<f64> {
 
     fn coordinates(state: &[f64; 2]) -> [f64; 2] {
         *state
-    }
-
-    fn motion(&self, jet: &Taylor<f64, 3>, h: f64) -> ([f64; 2], [f64; 2]) {
-        jet.motion(h)
     }
 
     fn rates(&self, slip: &Slip<f64>, time: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {

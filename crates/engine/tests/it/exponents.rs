@@ -85,6 +85,11 @@ impl<L: Lane> Switched<L> for Duffing {
     }
 
     #[inline(always)]
+    fn motion(&self, jet: &Taylor<L, 3>, h: L) -> ([L; 2], [L; 2]) {
+        jet.motion(h)
+    }
+
+    #[inline(always)]
     fn switch(
         &self,
         _which: usize,
@@ -117,10 +122,6 @@ impl Field for Duffing {
 
     fn coordinates(state: &[f64; 2]) -> [f64; 2] {
         *state
-    }
-
-    fn motion(&self, jet: &Taylor<f64, 3>, h: f64) -> ([f64; 2], [f64; 2]) {
-        jet.motion(h)
     }
 
     fn rates(&self, _mode: &(), time: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {

@@ -100,6 +100,11 @@ impl<L: Lane> Switched<L> for Impact<L> {
     }
 
     #[inline(always)]
+    fn motion(&self, jet: &Taylor<L, 2>, h: L) -> ([L; 2], [L; 2]) {
+        jet.motion(h)
+    }
+
+    #[inline(always)]
     fn switch(
         &self,
         _which: usize,
@@ -143,10 +148,6 @@ impl Field for Impact<f64> {
 
     fn coordinates(state: &[f64; 2]) -> [f64; 2] {
         *state
-    }
-
-    fn motion(&self, jet: &Taylor<f64, 2>, h: f64) -> ([f64; 2], [f64; 2]) {
-        jet.motion(h)
     }
 
     fn rates(&self, _mode: &(), time: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {

@@ -74,6 +74,14 @@ impl<L: Lane> Switched<L> for Unbounded<L> {
         self.0.at(jet, h)
     }
 
+    fn motion(&self, jet: &Jet<L>, h: L) -> (State<L>, State<L>) {
+        jet.motion(h)
+    }
+
+    fn layered<'a>(&self, mode: &Self::Mode, jet: &'a Jet<L>) -> Option<(&'a Series<L>, L::Mask)> {
+        self.0.layered(mode, jet)
+    }
+
     fn switch(
         &self,
         which: usize,
@@ -112,20 +120,12 @@ impl Field for Unbounded<f64> {
         state.coordinates()
     }
 
-    fn motion(&self, jet: &Jet<f64>, h: f64) -> (State<f64>, State<f64>) {
-        jet.motion(h)
-    }
-
     fn rates(&self, mode: &Self::Mode, time: f64, state: &State<f64>) -> State<f64> {
         self.0.rates(mode, time, state)
     }
 
     fn weights(&self) -> [f64; 4] {
         self.0.weights()
-    }
-
-    fn layered<'a>(&self, mode: &Self::Mode, jet: &'a Jet<f64>) -> Option<&'a Series<f64>> {
-        self.0.layered(mode, jet)
     }
 }
 

@@ -159,6 +159,15 @@ impl<L: Lane> Drag<L> {
             Resistance::Coulomb | Resistance::Medium => L::splat(0.0),
         }
     }
+
+    /// Where there is a layer around rest, in which the resistance changes with the speed; none where the law has none.
+    #[inline(always)]
+    pub fn layer(&self) -> Option<L::Mask> {
+        match self.law {
+            Resistance::CoulombStribeck => Some(L::splat(0.0).lt(self.dynamic)),
+            Resistance::Coulomb | Resistance::Medium => None,
+        }
+    }
 }
 
 impl Drag<f64> {
@@ -171,10 +180,5 @@ impl Drag<f64> {
             Resistance::Coulomb => slip * self.dynamic,
             Resistance::Medium => self.linear * y2 + self.quadratic * slip * y2 * y2,
         }
-    }
-
-    /// Whether the law has a layer around rest, in which the resistance changes with the speed.
-    pub fn has_layer(&self) -> bool {
-        self.law == Resistance::CoulombStribeck && self.dynamic > 0.0
     }
 }

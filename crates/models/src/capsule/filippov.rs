@@ -201,6 +201,22 @@ impl<L: Lane> Switched<L> for Capsule<L> {
     }
 
     #[inline(always)]
+    fn motion(&self, jet: &Jet<L>, h: L) -> (State<L>, State<L>) {
+        jet.motion(h)
+    }
+
+    #[inline(always)]
+    fn beginning(&self, jet: &Jet<L>) -> State<L> {
+        jet.beginning()
+    }
+
+    #[inline(always)]
+    fn layered<'a>(&self, mode: &Mode<L>, jet: &'a Jet<L>) -> Option<(&'a Series<L>, L::Mask)> {
+        let slides = L::splat(0.0).lt(mode.slip * mode.slip);
+        Some((&jet.y2, slides & self.drag.layer()?))
+    }
+
+    #[inline(always)]
     fn switch(
         &self,
         which: usize,
@@ -280,14 +296,6 @@ impl Field for Capsule<f64> {
         state.coordinates()
     }
 
-    fn motion(&self, jet: &Jet<f64>, h: f64) -> (State<f64>, State<f64>) {
-        jet.motion(h)
-    }
-
-    fn beginning(&self, jet: &Jet<f64>) -> State<f64> {
-        jet.beginning()
-    }
-
     fn rates(&self, mode: &Mode<f64>, time: f64, state: &State<f64>) -> State<f64> {
         let State { y1, y2, .. } = *state;
         let force = self.force(mode, state);
@@ -302,10 +310,6 @@ impl Field for Capsule<f64> {
     /// A displacement r or x2 counts as the velocity omega r.
     fn weights(&self) -> [f64; 4] {
         [self.drive.omega, 1.0, self.drive.omega, 1.0]
-    }
-
-    fn layered<'a>(&self, mode: &Mode<f64>, jet: &'a Jet<f64>) -> Option<&'a Series<f64>> {
-        (mode.slip != 0.0 && self.drag.has_layer()).then_some(&jet.y2)
     }
 }
 

@@ -255,6 +255,26 @@ impl<L: Lane> Switched<L> for PrintedCapsule<L> {
     }
 
     #[inline(always)]
+    fn motion(&self, jet: &PrintedJet<L>, h: L) -> (State<L>, State<L>) {
+        jet.motion.motion(h)
+    }
+
+    #[inline(always)]
+    fn beginning(&self, jet: &PrintedJet<L>) -> State<L> {
+        jet.motion.beginning()
+    }
+
+    #[inline(always)]
+    fn layered<'a>(
+        &self,
+        mode: &PrintedMode<L>,
+        jet: &'a PrintedJet<L>,
+    ) -> Option<(&'a Series<L>, L::Mask)> {
+        let slides = L::splat(0.0).lt(mode.slip * mode.slip);
+        Some((&jet.motion.y2, slides & self.drag.layer()?))
+    }
+
+    #[inline(always)]
     fn switch(
         &self,
         which: usize,
@@ -327,14 +347,6 @@ impl Field for PrintedCapsule<f64> {
         state.coordinates()
     }
 
-    fn motion(&self, jet: &PrintedJet<f64>, h: f64) -> (State<f64>, State<f64>) {
-        jet.motion.motion(h)
-    }
-
-    fn beginning(&self, jet: &PrintedJet<f64>) -> State<f64> {
-        jet.motion.beginning()
-    }
-
     fn rates(&self, mode: &PrintedMode<f64>, time: f64, state: &State<f64>) -> State<f64> {
         let State { y1, y2, .. } = *state;
         let force = self.force(mode.closed, state);
@@ -356,14 +368,6 @@ impl Field for PrintedCapsule<f64> {
     /// A displacement r or x2 counts as the velocity omega r.
     fn weights(&self) -> [f64; 4] {
         [self.drive.omega, 1.0, self.drive.omega, 1.0]
-    }
-
-    fn layered<'a>(
-        &self,
-        mode: &PrintedMode<f64>,
-        jet: &'a PrintedJet<f64>,
-    ) -> Option<&'a Series<f64>> {
-        (mode.slip != 0.0 && self.drag.has_layer()).then_some(&jet.motion.y2)
     }
 }
 

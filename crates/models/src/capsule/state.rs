@@ -51,6 +51,12 @@ impl fmt::Display for State<f64> {
 }
 
 impl<L: Lane> State<L> {
+    /// The state with these r, y1, x2 and y2.
+    #[inline(always)]
+    pub fn of([r, y1, x2, y2]: [L; 4]) -> Self {
+        State { r, y1, x2, y2 }
+    }
+
     /// The state of each lane.
     pub fn from_fn(mut state: impl FnMut(usize) -> State<f64>) -> Self {
         State {
@@ -151,28 +157,25 @@ impl<L: Lane> Jet<L> {
             y2: series::value(&self.y2, h),
         }
     }
-}
 
-impl Jet<f64> {
     /// The state at the start of the step.
-    #[inline]
-    pub fn beginning(&self) -> State<f64> {
+    #[inline(always)]
+    pub fn beginning(&self) -> State<L> {
         State { r: self.r[0], y1: self.y1[0], x2: self.x2[0], y2: self.y2[0] }
     }
 
     /// The state `h` after the start of the step, and the slopes of the series there; side by side, as they
     /// do not wait for each other.
-    #[inline]
-    pub fn motion(&self, h: f64) -> (State<f64>, State<f64>) {
+    #[inline(always)]
+    pub fn motion(&self, h: L) -> (State<L>, State<L>) {
         let series = [&self.r, &self.y1, &self.x2, &self.y2];
-        let (mut values, mut slopes) = ([0.0; 4], [0.0; 4]);
-        for k in (0..=series::ORDER).rev() {
+        let (mut values, mut slopes) = ([L::splat(0.0); 4], [L::splat(0.0); 4]);
+        for k in (0..series::ORDER + 1).rev() {
             for i in 0..4 {
                 slopes[i] = slopes[i] * h + values[i];
                 values[i] = values[i] * h + series[i][k];
             }
         }
-        let state = |[r, y1, x2, y2]: [f64; 4]| State { r, y1, x2, y2 };
-        (state(values), state(slopes))
+        (State::of(values), State::of(slopes))
     }
 }
