@@ -23,6 +23,11 @@ const WORTHWHILE: usize = 4;
 /// With no more than one lane in so many at work, half of the lanes are as fast.
 const HALF: usize = 2;
 
+/// So many times as many aperiodic cases as lanes are followed together, so that few lanes are empty while the last end.
+const APERIODIC: usize = 3;
+/// Cases that wait to be concluded for each lane of a vector, while all lanes are taken: among many are some of equal length.
+const CONCLUDING: usize = 8;
+
 /// Where cases come from and where they go when they have settled.
 pub trait Queue<M: System<D>, const D: usize> {
     /// Takes the case of a number that has been `done`, if one has, and yields one to follow in its place.
@@ -236,11 +241,13 @@ impl<L: Lane, M: System<D>, const D: usize> Task<L, M, D> for Supply<'_, M, D> {
         loop {
             self.fill_lanes(lanes);
             let moving = self.is_worthwhile::<L>(lanes.count());
-            // Of twice as many as a vector holds some are alike long; lanes that stay empty do not wait for them.
+            // Lanes that stay empty wait for no more than it takes to fill a vector.
             let vector = self.instructions.lanes_of_a_vector();
-            let enough = if lanes.count() < L::WIDTH { vector } else { 2 * vector };
+            let all_taken = lanes.count() == L::WIDTH;
+            let enough = if all_taken { CONCLUDING * vector } else { vector };
+            let many = if all_taken { APERIODIC * L::WIDTH } else { L::WIDTH };
             let (aperiodic, concluding) = (self.aperiodic.len(), self.concluding.waiting());
-            if aperiodic >= L::WIDTH || (!moving && self.is_worthwhile::<L>(aperiodic)) {
+            if aperiodic >= many || (!moving && self.is_worthwhile::<L>(aperiodic)) {
                 self.follow_aperiodic_cases();
             } else if concluding >= enough || (!moving && concluding > 0) {
                 self.conclude_some();
