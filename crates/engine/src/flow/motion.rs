@@ -198,40 +198,71 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             }
             let takes_part = none.lt(chosen);
             if !takes_part.any() {
-                return end;
+                break;
             }
             step.choose(chosen);
-            let mut plain = series::zero();
-            for (term, of_chosen) in plain.iter_mut().zip(&step.chosen) {
-                *term = of_chosen.plain();
-            }
-            end.unknown = end.unknown | (takes_part & !series::is_finite(&plain));
-            let fall = first_fall(&mut plain, end.length, takes_part);
+            end.unknown = end.unknown | (takes_part & !series::is_finite(&step.chosen));
+            let fall = first_fall(&mut step.chosen, end.length, takes_part);
             let sooner = fall.length.lt(end.length);
             end.guard = L::Plain::select(sooner, none, end.guard);
             end.guard = L::Plain::select(fall.falls, chosen, end.guard);
-            end.root = L::select(fall.falls, L::root(fall.length, &step.chosen), end.root);
             end.length = fall.length;
             for (which, open) in open.iter_mut().enumerate() {
                 *open = *open & chosen.lt(L::Plain::splat(which as f64));
             }
         }
+        end.root = L::from_plain(end.length);
+        if const { L::PARTS > 1 } {
+            for which in 0..Step::<L, S>::GUARDS {
+                let due = end.is_due(which);
+                if due.any() {
+                    self.write_guard(system, step, which);
+                    let root = L::root(end.length, &step.guards[which]);
+                    end.root = L::select(due, root, end.root);
+                }
+            }
+        }
+        end
     }
 
-    /// Gives the function of the section the sign by which it falls through zero next.
+    /// Writes a guard with its derivatives, its known zeros divided out.
+    #[inline(always)]
+    fn write_guard(&self, system: &S, step: &mut Step<L, S>, which: usize) {
+        let guard = &mut step.guards[which];
+        if S::AUTONOMOUS && which == S::GUARDS {
+            system.section(&step.jet, guard);
+            guard.iter_mut().for_each(|term| *term = self.side * *term);
+        } else {
+            system.guard(which, &self.mode, &step.jet, guard);
+        }
+        self.divide_by_zeros(which, guard);
+    }
+
+    /// Divides the known zeros out of a guard.
+    #[inline(always)]
+    fn divide_by_zeros<P: Lane<Mask = L::Mask>>(&self, which: usize, guard: &mut Series<P>) {
+        for vanished in [0.5, 1.5] {
+            let drop = L::splat(vanished).lt(self.zeros[which]);
+            if drop.any() {
+                divide_by_time(guard, drop);
+            }
+        }
+    }
+
+    /// Notes the sign by which the function of the section falls through zero next.
     ///
     /// An event that moves the state may take it across the section, which is no return to it: a value that is below
     /// zero by more than rounding, of the size of what the function changes by in a step, tells so.
     #[inline(always)]
-    fn turn_to_section(&mut self, section: &mut Series<L>, length: L::Plain) {
+    fn turn_to_section(&mut self, section: &Series<L>, length: L::Plain) {
         let [value, slope, bend] = [0, 1, 2].map(|k| (self.side * section[k]).plain());
         let change = (slope * length).abs().max((bend * length * length).abs());
         let is_across = value.lt(-(change * L::Plain::splat(ACROSS)));
         self.side = L::select(is_across, -self.side, self.side);
-        section.iter_mut().for_each(|term| *term = self.side * *term);
     }
 
-    /// Writes the guards, with their known zeros divided out; where each of them might fall within `length`.
+    /// Writes the guards without their derivatives, with their known zeros divided out; where each of them might fall within
+    /// `length`.
     #[inline(always)]
     fn open_guards(
         &mut self,
@@ -249,19 +280,21 @@ impl<L: Lane, S: Switched<L>> Motion<L, S> {
             if !watched.any() {
                 continue;
             }
-            let guard = &mut step.guards[which];
-            if is_section {
-                system.section(&step.jet, guard);
+            let Step { jet, guards, plain_guards, .. } = step;
+            let (guard, plain) = (&mut guards[which], &mut plain_guards[which]);
+            let guard = if is_section {
+                system.section(jet, guard);
                 self.turn_to_section(guard, length);
+                guard.iter_mut().for_each(|term| *term = self.side * *term);
+                L::plain_series(guard, plain)
+            } else if const { L::PARTS > 1 } {
+                system.plain_guard(which, &self.mode, jet, guard, plain);
+                plain
             } else {
-                system.guard(which, &self.mode, &step.jet, guard);
-            }
-            for vanished in [0.5, 1.5] {
-                let drop = L::splat(vanished).lt(self.zeros[which]);
-                if drop.any() {
-                    divide_by_time(guard, drop);
-                }
-            }
+                system.guard(which, &self.mode, jet, guard);
+                L::plain_series(guard, plain)
+            };
+            self.divide_by_zeros(which, guard);
             *open = watched & !stays_positive(guard, length);
         }
         open

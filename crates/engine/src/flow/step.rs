@@ -20,21 +20,32 @@ pub struct Step<L: Lane, S: Switched<L>> {
     /// Whether a cycle ends with it.
     pub arrives: L::Mask,
     pub(super) guards: [Series<L>; MAX_GUARDS],
-    pub(super) chosen: Series<L>,
+    /// The same without derivatives, where they have any.
+    pub(super) plain_guards: [Series<L::Plain>; MAX_GUARDS],
+    pub(super) chosen: Series<L::Plain>,
 }
 
 impl<L: Lane, S: Switched<L>> Step<L, S> {
     /// The guards of the system, and the section of an autonomous one.
     pub(super) const GUARDS: usize = S::GUARDS + if S::AUTONOMOUS { 1 } else { 0 };
 
+    /// A coefficient of a guard without its derivatives.
+    #[inline(always)]
+    fn plain_term(&self, which: usize, k: usize) -> L::Plain {
+        match const { L::PARTS == 1 } {
+            true => self.guards[which][k].plain(),
+            false => self.plain_guards[which][k],
+        }
+    }
+
     /// Copies the guard that each lane has `chosen`, by its number.
     #[inline(always)]
     pub(super) fn choose(&mut self, chosen: L::Plain) {
         for k in 0..ORDER + 1 {
-            let mut term = self.guards[0][k];
+            let mut term = self.plain_term(0, k);
             for which in 1..Self::GUARDS {
                 let taken = L::Plain::splat(which as f64).le(chosen);
-                term = L::select(taken, self.guards[which][k], term);
+                term = L::Plain::select(taken, self.plain_term(which, k), term);
             }
             self.chosen[k] = term;
         }
@@ -52,6 +63,7 @@ impl<L: Lane, S: Switched<L>> Default for Step<L, S> {
             event: zero,
             arrives: L::Mask::splat(false),
             guards: [series::zero(); MAX_GUARDS],
+            plain_guards: [series::zero(); MAX_GUARDS],
             chosen: series::zero(),
         }
     }

@@ -3,7 +3,7 @@
 
 use std::fmt::Debug;
 
-use crate::lane::{Lane, Mask, Series};
+use crate::lane::{Lane, Mask, Series, series};
 
 /// The most guards a system may have, the section of an autonomous one included.
 pub const MAX_GUARDS: usize = 4;
@@ -127,6 +127,23 @@ pub trait Switched<L: Lane> {
     /// ([`Breakdown::NotFinite`](super::Breakdown::NotFinite)): where the guard falls is then unknown.
     #[inline(always)]
     fn guard(&self, _which: usize, _mode: &Self::Mode, _jet: &Self::Jet, _guard: &mut Series<L>) {}
+
+    /// The same without derivatives, of numbers that have some; `room` may be written over.
+    ///
+    /// Where a guard falls is decided by its value alone. A system may write it in fewer operations than the guard with its
+    /// derivatives takes, with the same bits.
+    #[inline(always)]
+    fn plain_guard(
+        &self,
+        which: usize,
+        mode: &Self::Mode,
+        jet: &Self::Jet,
+        room: &mut Series<L>,
+        guard: &mut Series<L::Plain>,
+    ) {
+        self.guard(which, mode, jet, room);
+        *guard = series::plain(room);
+    }
 
     /// The state `h` after the start of the step.
     fn at(&self, jet: &Self::Jet, h: L) -> Self::State;

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Differentiable, Lane, Series, series};
+use super::{Differentiable, Lane, ORDER, Series, series};
 
 /// A number per lane with its derivatives along `N` directions.
 ///
@@ -207,9 +207,71 @@ impl<L: Lane, const N: usize> Lane for Dual<L, N> {
         for (of_value, term) in values.iter_mut().zip(polynomial) {
             *of_value = term.value;
         }
-        let at = Dual::constant(L::root(value, &values));
-        let (there, slope) = series::value_and_slope(polynomial, at);
-        let inverse = L::splat(-1.0) / slope.value;
-        Dual::with_gradient(at.value, |i| there.gradient[i] * inverse)
+        let at = L::root(value, &values);
+        let (there, slope) = value_and_slope(polynomial, at);
+        let inverse = L::splat(-1.0) / slope;
+        Dual::with_gradient(at, |i| there.gradient[i] * inverse)
     }
+    #[inline(always)]
+    fn scaled(self, by: L::Plain) -> Self {
+        Dual::with_gradient(self.value.scaled(by), |i| self.gradient[i].scaled(by))
+    }
+    /// The derivatives are those of the polynomial at a time without any, and its slope times those of the time.
+    #[inline(always)]
+    fn value_at(polynomial: &Series<Self>, h: Self) -> Self {
+        let (there, slope) = value_and_slope(polynomial, h.value);
+        Dual::with_gradient(there.value, |i| there.gradient[i] + slope * h.gradient[i])
+    }
+    #[inline(always)]
+    fn exp_next(
+        e: &Series<Self>,
+        b: &Series<Self>,
+        factor: Self,
+        a: &Series<Self>,
+        k: usize,
+    ) -> Self {
+        let mut product = e[0].value * b[k].value;
+        for j in 1..k + 1 {
+            product = product + e[j].value * b[k - j].value;
+        }
+        let value = (factor.value * product) * L::splat(series::INVERSE[k + 1]);
+        // The derivative of e is e times that of a, with the term of e that is computed here.
+        let mut gradient = a[0].gradient;
+        for derivative in &mut gradient {
+            *derivative = *derivative * value;
+        }
+        for j in 0..k + 1 {
+            for (derivative, of_a) in gradient.iter_mut().zip(&a[k + 1 - j].gradient) {
+                *derivative = *derivative + e[j].value * *of_a;
+            }
+        }
+        Dual { value, gradient }
+    }
+    #[inline(always)]
+    fn plain_series<'a>(
+        series: &'a mut Series<Self>,
+        room: &'a mut Series<L::Plain>,
+    ) -> &'a mut Series<L::Plain> {
+        for (plain, term) in room.iter_mut().zip(series) {
+            *plain = term.plain();
+        }
+        room
+    }
+}
+
+/// A polynomial at a time, with its derivatives along the directions, and its slope there.
+#[inline(always)]
+fn value_and_slope<L: Lane, const N: usize>(
+    polynomial: &Series<Dual<L, N>>,
+    time: L,
+) -> (Dual<L, N>, L) {
+    let (mut sum, mut slope) = (polynomial[ORDER], L::splat(0.0));
+    for k in (0..ORDER).rev() {
+        slope = slope * time + sum.value;
+        sum.value = sum.value * time + polynomial[k].value;
+        for (sum, term) in sum.gradient.iter_mut().zip(&polynomial[k].gradient) {
+            *sum = *sum * time + *term;
+        }
+    }
+    (sum, slope)
 }

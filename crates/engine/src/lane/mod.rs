@@ -139,6 +139,27 @@ pub trait Lane:
     fn from_plain(value: Self::Plain) -> Self;
     /// A known root of `polynomial`, with the derivatives that those of the polynomial give it.
     fn root(value: Self::Plain, polynomial: &Series<Self>) -> Self;
+    /// Times a number without derivatives.
+    fn scaled(self, by: Self::Plain) -> Self;
+    /// The value of `polynomial` at time `h`, by Horner's rule.
+    fn value_at(polynomial: &Series<Self>, h: Self) -> Self;
+    /// Coefficient `k + 1` of the exponential `e` of a series `a`, where `a' = factor b`.
+    ///
+    /// Method: `e_(k+1) = (factor/(k + 1)) sum_{j=0..k} e_j b_(k-j)`, from `e' = a' e`; the derivatives are those of `a`
+    /// times `e`, one product for each, where a product of numbers with derivatives takes two. Of numbers without derivatives
+    /// `a` is not read.
+    fn exp_next(
+        e: &Series<Self>,
+        b: &Series<Self>,
+        factor: Self,
+        a: &Series<Self>,
+        k: usize,
+    ) -> Self;
+    /// A series without its derivatives: itself where it has none, or copied to `room`.
+    fn plain_series<'a>(
+        series: &'a mut Series<Self>,
+        room: &'a mut Series<Self::Plain>,
+    ) -> &'a mut Series<Self::Plain>;
     /// The same with what another has in lane `index`, derivatives included.
     #[inline(always)]
     fn with_lane_of(self, index: usize, other: Self) -> Self {
@@ -202,6 +223,36 @@ macro_rules! plain {
         #[inline(always)]
         fn root(value: Self, _polynomial: &$crate::lane::Series<Self>) -> Self {
             value
+        }
+        #[inline(always)]
+        fn scaled(self, by: Self) -> Self {
+            self * by
+        }
+        #[inline(always)]
+        fn value_at(polynomial: &$crate::lane::Series<Self>, h: Self) -> Self {
+            let mut sum = polynomial[$crate::lane::ORDER];
+            for k in (0..$crate::lane::ORDER).rev() {
+                sum = sum * h + polynomial[k];
+            }
+            sum
+        }
+        #[inline(always)]
+        fn exp_next(
+            e: &$crate::lane::Series<Self>,
+            b: &$crate::lane::Series<Self>,
+            factor: Self,
+            _a: &$crate::lane::Series<Self>,
+            k: usize,
+        ) -> Self {
+            let product = $crate::lane::series::product_term(e, b, k);
+            (factor * product) * Self::splat($crate::lane::series::INVERSE[k + 1])
+        }
+        #[inline(always)]
+        fn plain_series<'a>(
+            series: &'a mut $crate::lane::Series<Self>,
+            _room: &'a mut $crate::lane::Series<Self>,
+        ) -> &'a mut $crate::lane::Series<Self> {
+            series
         }
         #[inline(always)]
         fn apply<F: $crate::lane::Differentiable<COUNT>, const COUNT: usize>(

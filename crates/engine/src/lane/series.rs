@@ -39,11 +39,7 @@ pub fn is_finite<L: Lane>(series: &Series<L>) -> L::Mask {
 /// The polynomial at time `h`.
 #[inline(always)]
 pub fn value<L: Lane>(series: &Series<L>, h: L) -> L {
-    let mut sum = series[ORDER];
-    for k in (0..ORDER).rev() {
-        sum = sum * h + series[k];
-    }
-    sum
+    L::value_at(series, h)
 }
 
 /// What the polynomial changes by until time `h`; its first coefficient takes no part, so that no digit is lost to it.

@@ -6,6 +6,7 @@ use capsulemap_engine::lane::{
 
 use super::parameter::Parameter;
 use super::resistance::Resistance;
+use super::state::Jet;
 
 /// Far from rest a step may at least change |y2|/v_s by this much.
 const NARROWEST: f64 = 2.0;
@@ -84,10 +85,11 @@ impl<L: Lane> Drag<L> {
         match self.law {
             Resistance::CoulombStribeck | Resistance::Coulomb => {
                 let unit = if k == 0 { decay[0] + L::splat(1.0) } else { decay[k] };
-                slip * self.dynamic * unit
+                self.dynamic.scaled(slip.plain()) * unit
             }
             Resistance::Medium => {
-                self.linear * y2[k] + self.quadratic * (slip * series::product_term(y2, y2, k))
+                let square = series::product_term(y2, y2, k).scaled(slip.plain());
+                self.linear * y2[k] + self.quadratic * square
             }
         }
     }
@@ -148,13 +150,23 @@ impl<L: Lane> Drag<L> {
         L::Plain::select(cuts, low, length)
     }
 
+    /// A coefficient of the series of -|y2|/v_s, from that of y2; not computed of numbers without derivatives, which have no
+    /// use for it.
+    #[inline(always)]
+    pub fn exponent_term(&self, slip: L, y2: L) -> L {
+        match const { L::PARTS > 1 } {
+            true => -(y2.scaled(slip.plain()) * self.inverse_stribeck),
+            false => L::splat(0.0),
+        }
+    }
+
     /// Coefficient `k + 1` of exp(-|y2|/v_s), from `e' = -(slip/v_s) e y2'`.
     #[inline(always)]
-    pub fn decay_term(&self, slip: L, decay: &Series<L>, acceleration: &Series<L>, k: usize) -> L {
+    pub fn decay_term(&self, slip: L, jet: &Jet<L>, k: usize) -> L {
         match self.law {
             Resistance::CoulombStribeck => {
-                let product = series::product_term(decay, acceleration, k);
-                -(slip * self.inverse_stribeck * product) * L::splat(series::INVERSE[k + 1])
+                let factor = -(self.inverse_stribeck.scaled(slip.plain()));
+                L::exp_next(&jet.decay, &jet.acceleration, factor, &jet.exponent, k)
             }
             Resistance::Coulomb | Resistance::Medium => L::splat(0.0),
         }

@@ -37,7 +37,7 @@ impl<L: Lane> Drive<L> {
         let mut s = sin * self.cos_phase + cos * self.sin_phase;
         c[0] = cos * self.cos_phase - sin * self.sin_phase;
         for k in 0..series::ORDER {
-            let rate = self.omega * L::splat(series::INVERSE[k + 1]);
+            let rate = self.omega.scaled(L::Plain::splat(series::INVERSE[k + 1]));
             c[k + 1] = -(rate * s);
             s = rate * c[k];
         }

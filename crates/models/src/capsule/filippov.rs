@@ -86,6 +86,35 @@ impl<L: Lane> Capsule<L> {
         let contact = self.contact_stiffness(mode) * (state.r - self.delta);
         self.k1 * state.r + contact + self.c * (state.y1 - state.y2)
     }
+
+    /// Writes guard `which` in numbers of another kind, `of` those here.
+    #[inline(always)]
+    fn write_guard<G: Lane<Mask = L::Mask, Plain = L::Plain>>(
+        &self,
+        which: usize,
+        mode: &Mode<L>,
+        jet: &Jet<L>,
+        of: impl Fn(L) -> G,
+        guard: &mut Series<G>,
+    ) {
+        let (zero, one) = (L::Plain::splat(0.0), L::Plain::splat(1.0));
+        if which == CONTACT {
+            let side = L::Plain::select(mode.closed, one, -one);
+            for (term, r) in guard.iter_mut().zip(&jet.r) {
+                *term = of(*r).scaled(side);
+            }
+            guard[0] = (of(jet.r[0]) - of(self.delta)).scaled(side);
+            return;
+        }
+        let side = if which == FORWARD { -one } else { one };
+        let slip = mode.slip.plain();
+        let resting = (slip * slip).lt(L::Plain::splat(0.5));
+        let factor = L::Plain::select(resting, side, slip);
+        for (term, (force, y2)) in guard.iter_mut().zip(jet.force.iter().zip(&jet.y2)) {
+            *term = G::select(resting, of(*force), of(*y2)).scaled(factor);
+        }
+        guard[0] = guard[0] + G::select(resting, of(self.drag.break_away), G::from_plain(zero));
+    }
 }
 
 impl<L: Lane> Switched<L> for Capsule<L> {
@@ -127,23 +156,24 @@ impl<L: Lane> Switched<L> for Capsule<L> {
         (jet.r[0], jet.y1[0], jet.x2[0], jet.y2[0]) = (state.r, state.y1, state.x2, state.y2);
         jet.force[0] = self.force(mode, state);
         jet.decay[0] = if any_slides { self.drag.decay_start(state.y2) } else { zero };
+        jet.exponent[0] = self.drag.exponent_term(mode.slip, state.y2);
         for k in 0..ORDER {
-            let per = L::splat(series::INVERSE[k + 1]);
+            let per = L::Plain::splat(series::INVERSE[k + 1]);
             let relative = jet.y1[k] - jet.y2[k];
             if k > 0 {
                 jet.force[k] = stiffness * jet.r[k] + self.c * relative;
             }
             let drive = self.drive.amplitude * jet.cos[k];
-            jet.r[k + 1] = relative * per;
-            jet.y1[k + 1] = (drive - jet.force[k]) * self.inverse_m1 * per;
+            jet.r[k + 1] = relative.scaled(per);
+            jet.y1[k + 1] = ((drive - jet.force[k]) * self.inverse_m1).scaled(per);
             if any_slides {
                 let friction = self.drag.force_term(mode.slip, &jet.decay, &jet.y2, k);
                 let push = (jet.force[k] - friction) * self.inverse_m2;
                 jet.acceleration[k] = L::select(slides, push, zero);
-                jet.y2[k + 1] = jet.acceleration[k] * per;
-                jet.x2[k + 1] = jet.y2[k] * per;
-                jet.decay[k + 1] =
-                    self.drag.decay_term(mode.slip, &jet.decay, &jet.acceleration, k);
+                jet.y2[k + 1] = jet.acceleration[k].scaled(per);
+                jet.x2[k + 1] = jet.y2[k].scaled(per);
+                jet.exponent[k + 1] = self.drag.exponent_term(mode.slip, jet.y2[k + 1]);
+                jet.decay[k + 1] = self.drag.decay_term(mode.slip, jet, k);
             } else {
                 jet.acceleration[k] = zero;
                 (jet.y2[k + 1], jet.x2[k + 1], jet.decay[k + 1]) = (zero, zero, zero);
@@ -178,21 +208,19 @@ impl<L: Lane> Switched<L> for Capsule<L> {
 
     #[inline(always)]
     fn guard(&self, which: usize, mode: &Mode<L>, jet: &Jet<L>, guard: &mut Series<L>) {
-        let one = L::splat(1.0);
-        if which == CONTACT {
-            let side = L::select(mode.closed, one, -one);
-            for (term, r) in guard.iter_mut().zip(&jet.r) {
-                *term = side * *r;
-            }
-            guard[0] = side * (jet.r[0] - self.delta);
-            return;
-        }
-        let side = if which == FORWARD { -one } else { one };
-        let resting = (mode.slip * mode.slip).lt(L::splat(0.5));
-        for (term, (force, y2)) in guard.iter_mut().zip(jet.force.iter().zip(&jet.y2)) {
-            *term = L::select(resting, side * *force, mode.slip * *y2);
-        }
-        guard[0] = guard[0] + L::select(resting, self.drag.break_away, L::splat(0.0));
+        self.write_guard(which, mode, jet, |term| term, guard);
+    }
+
+    #[inline(always)]
+    fn plain_guard(
+        &self,
+        which: usize,
+        mode: &Mode<L>,
+        jet: &Jet<L>,
+        _room: &mut Series<L>,
+        guard: &mut Series<L::Plain>,
+    ) {
+        self.write_guard(which, mode, jet, L::plain, guard);
     }
 
     #[inline(always)]

@@ -83,7 +83,7 @@ impl<L: Lane> PrintedCapsule<L> {
         let mut full = series::zero(); // acceleration of the moving field
         let mut excess = series::zero(); // frozen minus moving rate of F
         for k in 0..ORDER {
-            let per = L::splat(series::INVERSE[k + 1]);
+            let per = L::Plain::splat(series::INVERSE[k + 1]);
             if k > 0 {
                 let force = stiffness * jet.r[k] + self.c * (jet.y1[k] - jet.y2[k]);
                 jet.force[k] = L::select(creeps, zero, force);
@@ -109,12 +109,13 @@ impl<L: Lane> PrintedCapsule<L> {
                 advance = L::select(creeps, series::product_term(share, &jet.y2, k), advance);
             }
             jet.acceleration[k] = acceleration;
-            jet.y1[k + 1] = push * per;
-            jet.y2[k + 1] = acceleration * per;
-            jet.x2[k + 1] = advance * per;
-            jet.r[k + 1] = (jet.y1[k] - advance) * per;
+            jet.y1[k + 1] = push.scaled(per);
+            jet.y2[k + 1] = acceleration.scaled(per);
+            jet.x2[k + 1] = advance.scaled(per);
+            jet.r[k + 1] = (jet.y1[k] - advance).scaled(per);
             if slides.any() {
-                let decay = self.drag.decay_term(mode.slip, &jet.decay, &jet.acceleration, k);
+                jet.exponent[k + 1] = self.drag.exponent_term(mode.slip, jet.y2[k + 1]);
+                let decay = self.drag.decay_term(mode.slip, jet, k);
                 jet.decay[k + 1] = L::select(slides, decay, zero);
             }
         }
@@ -179,6 +180,7 @@ impl<L: Lane> Switched<L> for PrintedCapsule<L> {
         let limit = mode.side * self.drag.static_limit;
         jet.force[0] = L::select(mode.is(Regime::Creeping), limit, force);
         jet.decay[0] = self.drag.decay_start(state.y2);
+        jet.exponent[0] = self.drag.exponent_term(mode.slip, state.y2);
         self.advance(mode, jet, share);
     }
 

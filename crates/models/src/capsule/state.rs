@@ -121,13 +121,15 @@ pub struct Jet<L> {
     pub force: Series<L>,
     /// `exp(-|y2|/v_s)`, or zero where the law of resistance has no such term [-].
     pub decay: Series<L>,
+    /// The exponent `-|y2|/v_s` of numbers with derivatives, else zero [-].
+    pub exponent: Series<L>,
     /// `cos` of the phase of the drive [-].
     pub cos: Series<L>,
     /// Acceleration of the capsule, known to one order less [m/s^2].
     pub acceleration: Series<L>,
 }
 
-side_by_side!(Jet {} with { r, y1, x2, y2, force, decay, cos, acceleration });
+side_by_side!(Jet {} with { r, y1, x2, y2, force, decay, exponent, cos, acceleration });
 
 impl<L: Lane> Default for Jet<L> {
     #[inline(always)]
@@ -140,6 +142,7 @@ impl<L: Lane> Default for Jet<L> {
             y2: zero,
             force: zero,
             decay: zero,
+            exponent: zero,
             cos: zero,
             acceleration: zero,
         }
