@@ -23,9 +23,9 @@ impl View<'_> {
             let note = format!("{name} = {taken}{unit} is taken for {wanted}{unit}, the nearest");
             differs.then_some(note)
         };
-        let held = self.held.iter();
+        let held = self.held.places.iter();
         let one = held.filter_map(|(name, at)| Some((name, *at, *self.drawing.at.get(name)?)));
-        let several = self.drawing.panels.iter().zip(&self.panelled).flat_map(
+        let several = self.drawing.panels.iter().zip(&self.held.panelled).flat_map(
             |((name, wanted), (_, taken))| {
                 wanted.iter().zip(taken).map(move |it| (name, *it.1, *it.0))
             },
@@ -52,8 +52,8 @@ impl View<'_> {
     /// Where an axis is held, as "name = value unit", with several values where panels differ in it.
     fn held_values(&self, name: &str) -> String {
         let (values, quantity) = (self.coordinate_values(name), self.quantity(name));
-        let several = self.panelled.iter().find(|it| it.0 == name).map(|it| it.1.clone());
-        let held = several.unwrap_or_else(|| vec![self.held_index(name)]);
+        let several = self.held.panelled.iter().find(|it| it.0 == name).map(|it| it.1.clone());
+        let held = several.unwrap_or_else(|| vec![self.held.place(name)]);
         let flags = self.dataset.coordinate(name).map_or(&[][..], |it| &it.flags);
         let value = |index: usize| {
             let value = values.get(index).copied().unwrap_or(f64::NAN);
@@ -75,7 +75,7 @@ impl View<'_> {
             |name: &&str| *name == DIRECTION.name && self.drawing.sweep == Some(Sweep::Difference);
         let ours = self.axes().into_iter().filter(|name| !free.contains(name)).filter(several);
         let ours = ours.filter(|name| !is_both(name));
-        ours.map(|name| self.value_note(name, self.held_index(name)))
+        ours.map(|name| self.value_note(name, self.held.place(name)))
             .reduce(|note, next| note.then(Text::plain(", ")).then(next))
     }
 

@@ -1,13 +1,15 @@
 //! The part of the results that one figure shows: which axes are free and where the others are held.
 
-use ndarray::{ArrayD, Axis, IxDyn};
-
 use std::collections::BTreeMap;
 use std::rc::Rc;
+
+use ndarray::ArrayD;
 
 use super::chosen::Chosen;
 use super::cloud;
 use super::error::FigureError;
+use super::held::Held;
+use super::numbers::Numbers;
 use super::quantity::Quantity;
 use super::shown::{Measured, Shown};
 use super::style::POINTS_PER_MM;
@@ -20,14 +22,6 @@ use crate::store::dataset::{Dataset, Variable};
 use crate::study::axis::{is_within, range};
 use crate::study::{Direction, Drawing};
 
-/// Whether a dimension lies within a case or beside the cases, and is no axis of the study.
-fn is_inner(dimension: &str) -> bool {
-    catalogue::is_dimension(dimension)
-}
-
-/// Panels along one axis that stand side by side at most.
-const COLUMNS: usize = 4;
-
 /// The results as one figure sees them.
 #[derive(Clone)]
 pub struct View<'a> {
@@ -39,10 +33,8 @@ pub struct View<'a> {
     pub measured: Option<&'a Measured>,
     /// The request.
     pub drawing: &'a Drawing,
-    /// Index at which each axis named by `at` is held.
-    pub held: Vec<(String, usize)>,
-    /// Indices of the panels along each axis that is held at several values.
-    pub panelled: Vec<(String, Vec<usize>)>,
+    /// Where axes are held.
+    pub held: Held,
     /// What is set of quantities, by their names.
     pub chosen: Rc<BTreeMap<String, Rc<Chosen>>>,
 }
@@ -51,40 +43,56 @@ impl<'a> View<'a> {
     /// Checks the axes that `drawing` names against the results in `shown`.
     pub fn new(shown: Shown<'a>, drawing: &'a Drawing) -> Result<View<'a>, FigureError> {
         let Shown { dataset, refined, measured } = shown;
-        let (held, panelled, chosen) = (Vec::new(), Vec::new(), Rc::default());
-        let mut view = View { dataset, refined, measured, drawing, held, panelled, chosen };
+        let (held, chosen) = (Held::default(), Rc::default());
+        let mut view = View { dataset, refined, measured, drawing, held, chosen };
+        view.check_drawn_axes()?;
+        view.held = view.asked_places()?;
+        view.chosen = Rc::new(view.asked_settings()?);
+        Ok(view)
+    }
+
+    /// Checks that the axes that the request draws are there and not held.
+    fn check_drawn_axes(&self) -> Result<(), FigureError> {
+        let drawing = self.drawing;
         for name in drawing.x.iter().chain(&drawing.y) {
-            if !varied(dataset).contains(&name.as_str()) {
-                view.check_axis(name)?;
+            if !varied(self.dataset).contains(&name.as_str()) {
+                self.check_axis(name)?;
             }
             if drawing.at.contains_key(name) || drawing.panels.iter().any(|it| it.0 == *name) {
-                return Err(view.unfit(format!("the axis `{name}` is both drawn and held by `at`")));
+                return Err(self.unfit(format!("the axis `{name}` is both drawn and held by `at`")));
             }
         }
-        for (name, wanted) in &drawing.at {
-            let index = view.nearest(name, *wanted)?;
-            view.held.push((name.clone(), index));
+        Ok(())
+    }
+
+    /// Where the request holds axes.
+    fn asked_places(&self) -> Result<Held, FigureError> {
+        let mut held = Held::default();
+        for (name, wanted) in &self.drawing.at {
+            held.hold(name, self.nearest(name, *wanted)?);
         }
-        for (name, wanted) in &drawing.panels {
-            let indices = wanted.iter().map(|it| view.nearest(name, *it));
-            let indices = indices.collect::<Result<Vec<usize>, FigureError>>()?;
-            view.held.extend(indices.first().map(|first| (name.clone(), *first)));
-            view.panelled.push((name.clone(), indices));
+        for (name, wanted) in &self.drawing.panels {
+            let places = wanted.iter().map(|it| self.nearest(name, *it));
+            held.hold_at_each(name, places.collect::<Result<Vec<usize>, FigureError>>()?);
         }
-        if let Some(sweep) = drawing.sweep {
+        if let Some(sweep) = self.drawing.sweep {
             let [first, _] = sweep.directions();
-            let index = view.direction(first)?;
-            view.held.push((DIRECTION.name.to_owned(), index));
+            held.hold(DIRECTION.name, self.direction(first)?);
         }
+        Ok(held)
+    }
+
+    /// What the request sets of quantities, with the units that it names.
+    fn asked_settings(&self) -> Result<BTreeMap<String, Rc<Chosen>>, FigureError> {
         let mut chosen = BTreeMap::new();
-        for (name, set) in &drawing.settings {
-            let unit =
-                |unit| ShownUnit::of((name, view.model()), unit, || view.natural_frequency());
-            let unit = set.unit.map(unit).transpose().map_err(|why| view.unfit(why))?;
+        for (name, set) in &self.drawing.settings {
+            let unit = set
+                .unit
+                .map(|unit| ShownUnit::of((name, self.model()), unit, || self.natural_frequency()));
+            let unit = unit.transpose().map_err(|why| self.unfit(why))?;
             chosen.insert(name.clone(), Rc::new(Chosen::new(set.clone(), unit)));
         }
-        view.chosen = Rc::new(chosen);
-        Ok(view)
+        Ok(chosen)
     }
 
     /// The model of the results.
@@ -94,21 +102,23 @@ impl<'a> View<'a> {
 
     /// The natural frequency of the mass on its spring alone [rad/s], where it is the same for all cases.
     fn natural_frequency(&self) -> Option<f64> {
-        let one = |parameter: Parameter| {
-            let values = self.parameter(parameter.symbol(), &[]).ok()?;
-            let varies = self.coordinate_values(parameter.symbol()).len() > 1;
-            values.first().copied().filter(|_| !varies)
-        };
         let [stiffness, mass] = self.model().natural()?;
-        Some((one(stiffness)? / one(mass)?).sqrt())
+        Some((self.common_value(stiffness)? / self.common_value(mass)?).sqrt())
+    }
+
+    /// The value of a parameter [SI], where it is the same for all cases.
+    fn common_value(&self, parameter: Parameter) -> Option<f64> {
+        let values = self.parameter(parameter.symbol(), &[]).ok()?;
+        let varies = self.coordinate_values(parameter.symbol()).len() > 1;
+        values.first().copied().filter(|_| !varies)
     }
 
     /// The first fault of what is set.
     pub fn fault_of_settings(&self) -> Option<FigureError> {
-        let fault = |(name, chosen): (&String, &Rc<Chosen>)| {
-            chosen.fault().map(|fault| self.unfit(format!("`scale` of {name}: {fault}")))
-        };
-        self.chosen.iter().find_map(fault)
+        self.chosen.iter().find_map(|(name, chosen)| {
+            let fault = chosen.fault()?;
+            Some(self.unfit(format!("`scale` of {name}: {fault}")))
+        })
     }
 
     /// The index of a direction in which starts were inherited.
@@ -124,65 +134,25 @@ impl<'a> View<'a> {
 
     /// The same for the cases whose starts were inherited in another direction.
     pub fn swept(&self, direction: Direction) -> Result<View<'a>, FigureError> {
-        let index = self.direction(direction)?;
-        let others = self.held.iter().filter(|(name, _)| name != DIRECTION.name).cloned();
-        let held = others.chain([(DIRECTION.name.to_owned(), index)]).collect();
-        let View { dataset, refined, measured, drawing, .. } = *self;
-        Ok(View {
-            dataset,
-            refined,
-            measured,
-            drawing,
-            held,
-            panelled: Vec::new(),
-            chosen: self.chosen.clone(),
-        })
+        let place = self.direction(direction)?;
+        Ok(View { held: self.held.moved(DIRECTION.name, place), ..self.clone() })
     }
 
-    /// What each panel shows, row by row: those of the first axis that is held at several values, those of the second side by side.
+    /// What each panel shows, row by row.
     pub fn panels(&self) -> Vec<Vec<View<'a>>> {
-        let [rows, columns] = [0, 1].map(|axis| {
-            let one = || vec![None];
-            let each = |(name, indices): &(String, Vec<usize>)| {
-                indices.iter().map(|index| Some((name.clone(), *index))).collect()
-            };
-            self.panelled.get(axis).map_or_else(one, each)
-        });
-        let at = |row: &Option<(String, usize)>, column: &Option<(String, usize)>| {
-            let is_moved = |name: &String| self.panelled.iter().any(|it| it.0 == *name);
-            let held = self.held.iter().filter(|(name, _)| !is_moved(name)).cloned();
-            let View { dataset, refined, measured, drawing, .. } = *self;
-            let held = held.chain(row.clone()).chain(column.clone()).collect();
-            View {
-                dataset,
-                refined,
-                measured,
-                drawing,
-                held,
-                panelled: Vec::new(),
-                chosen: self.chosen.clone(),
-            }
-        };
-        let row = |row: &Option<(String, usize)>| columns.iter().map(|it| at(row, it)).collect();
-        let all: Vec<Vec<View<'a>>> = rows.iter().map(row).collect();
-        if self.panelled.len() != 1 {
-            return all;
+        let mut panels = Vec::new();
+        for row in self.held.panels() {
+            panels.push(row.into_iter().map(|held| View { held, ..self.clone() }).collect());
         }
-        // The panels along one axis are read like lines of text.
-        let mut all = all.into_iter().flatten().peekable();
-        let mut wrapped = Vec::new();
-        while all.peek().is_some() {
-            wrapped.push(all.by_ref().take(COLUMNS).collect());
-        }
-        wrapped
+        panels
     }
 
     /// The index of the value of an axis that is nearest to one within its range.
     fn nearest(&self, name: &str, wanted: f64) -> Result<usize, FigureError> {
         let values = self.axis_values(name)?;
-        let away = |index: &usize| (values[*index] - wanted).abs();
-        let nearest = (0..values.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
-        let index = nearest.ok_or_else(|| self.unfit(format!("axis `{name}` is empty")))?;
+        let away = values.iter().map(|value| (value - wanted).abs()).enumerate();
+        let nearest = away.min_by(|a, b| a.1.total_cmp(&b.1));
+        let (index, _) = nearest.ok_or_else(|| self.unfit(format!("axis `{name}` is empty")))?;
         if is_within(wanted, &values) {
             return Ok(index);
         }
@@ -214,13 +184,12 @@ impl<'a> View<'a> {
     /// Names of the study's axes, in its order.
     pub fn axes(&self) -> Vec<&'a str> {
         let names = self.dataset.coordinates.iter().map(|(name, _)| name.as_str());
-        names.filter(|name| !is_inner(name)).collect()
+        names.filter(|name| !catalogue::is_dimension(name)).collect()
     }
 
     /// Names of the axes that `at` does not hold.
     pub fn free_axes(&self) -> Vec<&'a str> {
-        let is_held = |name: &str| self.held.iter().any(|(other, _)| other == name);
-        self.axes().into_iter().filter(|name| !is_held(name)).collect()
+        self.axes().into_iter().filter(|name| !self.held.has(name)).collect()
     }
 
     /// The axes a diagram runs along by default: those that are free and not the direction of a sweep.
@@ -275,57 +244,44 @@ impl<'a> View<'a> {
             let outputs: Vec<Output> = self.model().outputs().collect();
             let drawable = kind.can_show(self.model(), &outputs).into_iter().map(str::to_owned);
             let present: Vec<String> = drawable.filter(|it| variables.contains_key(it)).collect();
-            let all = || variables.keys().cloned().collect();
-            self.missing("variable", name, if present.is_empty() { all() } else { present })
+            let present = match present.is_empty() {
+                true => variables.keys().cloned().collect(),
+                false => present,
+            };
+            self.missing("variable", name, present)
         })
     }
 
     /// The numbers of a variable over the axes `free`, in that order, then over its inner
     /// dimensions; every other axis is where `at` holds it, or at its first value.
-    pub fn take<'n>(&'n self, name: &str, free: &[&'n str]) -> Result<ArrayD<f64>, FigureError> {
+    pub fn take(&self, name: &str, free: &[&str]) -> Result<ArrayD<f64>, FigureError> {
         let variable = self.variable(name)?;
-        let mut array = variable.values.to_real();
-        let mut left: Vec<&str> = variable.dimensions.iter().map(String::as_str).collect();
-        if array.ndim() != left.len() {
+        let Some(mut numbers) = Numbers::of(variable) else {
             return Err(self.unfit(format!("variable `{name}` does not have its dimensions")));
-        }
-        for dimension in &variable.dimensions {
-            if free.contains(&dimension.as_str()) || is_inner(dimension) {
+        };
+        for dimension in variable.dimensions.iter().map(String::as_str) {
+            if free.contains(&dimension) || catalogue::is_dimension(dimension) {
                 continue;
             }
-            let index = self.held_index(dimension);
-            let at = left.iter().position(|axis| axis == dimension).unwrap_or(0);
-            if index >= array.shape()[at] {
+            let Some(held) = numbers.held(dimension, self.held.place(dimension)) else {
                 return Err(self.unfit(format!("variable `{name}` is empty along `{dimension}`")));
-            }
-            array = array.index_axis_move(Axis(at), index);
-            left.remove(at);
+            };
+            numbers = held;
         }
-        self.arrange(name, array, left, free)
+        self.over(name, numbers, free)
     }
 
-    /// Puts the axes `free` first, repeating the numbers along those the variable does not have.
-    fn arrange<'n>(
+    /// The numbers of what is called `name` over the axes `free`, then over those that they have beside.
+    fn over<'n>(
         &self,
         name: &str,
-        mut array: ArrayD<f64>,
-        mut left: Vec<&'n str>,
+        numbers: Numbers<'n>,
         free: &[&'n str],
     ) -> Result<ArrayD<f64>, FigureError> {
-        for axis in free.iter().rev().filter(|axis| !left.contains(axis)).collect::<Vec<_>>() {
-            left.insert(0, axis);
-            array = array.insert_axis(Axis(0));
-        }
-        let mut order: Vec<usize> =
-            free.iter().filter_map(|axis| left.iter().position(|it| it == axis)).collect();
-        order.extend((0..left.len()).filter(|at| !free.contains(&left[*at])));
-        let array = array.permuted_axes(IxDyn(&order));
-        let mut shape: Vec<usize> = array.shape().to_vec();
-        for (at, axis) in free.iter().enumerate() {
-            shape[at] = self.coordinate_values(axis).len();
-        }
-        let whole = array.broadcast(IxDyn(&shape)).map(|view| view.to_owned());
-        whole.ok_or_else(|| self.unfit(format!("variable `{name}` does not fit its coordinates")))
+        let lengths: Vec<usize> =
+            free.iter().map(|axis| self.coordinate_values(axis).len()).collect();
+        let fitting = numbers.over(free, &lengths);
+        fitting.ok_or_else(|| self.unfit(format!("variable `{name}` does not fit its coordinates")))
     }
 
     /// The numbers of a variable in the units of the figure.
@@ -355,33 +311,20 @@ impl<'a> View<'a> {
     }
 
     /// A parameter over the axis `free`, in SI: the axis of that name, or the variable.
-    pub fn parameter<'n>(
-        &self,
-        name: &'n str,
-        free: &[&'n str],
-    ) -> Result<ArrayD<f64>, FigureError> {
-        let axes = self.axes();
-        if !axes.contains(&name) {
+    pub fn parameter(&self, name: &str, free: &[&str]) -> Result<ArrayD<f64>, FigureError> {
+        if !self.axes().contains(&name) {
             return self.take(name, free);
         }
-        let values = self.coordinate_values(name);
-        if free.contains(&name) {
-            let array = ArrayD::from_shape_vec(IxDyn(&[values.len()]), values)
-                .map_err(|error| self.unfit(error.to_string()))?;
-            return self.arrange(name, array, vec![name], free);
-        }
-        let value = values.get(self.held_index(name)).copied().unwrap_or(f64::NAN);
-        self.arrange(name, ArrayD::from_elem(IxDyn(&[]), value), Vec::new(), free)
+        let numbers = match free.contains(&name) {
+            true => Numbers::along(name, self.coordinate_values(name)),
+            false => Numbers::constant(self.held_value(name).unwrap_or(f64::NAN)),
+        };
+        self.over(name, numbers, free)
     }
 
     /// The value at which an axis that is not drawn is held, in SI.
     pub fn held_value(&self, name: &str) -> Option<f64> {
-        self.coordinate_values(name).get(self.held_index(name)).copied()
-    }
-
-    /// Index at which an axis that is not drawn is held.
-    pub fn held_index(&self, name: &str) -> usize {
-        self.held.iter().find(|(axis, _)| axis == name).map_or(0, |(_, index)| *index)
+        self.coordinate_values(name).get(self.held.place(name)).copied()
     }
 
     /// The index along `axis` of each case by its number over the axes `free`.
