@@ -1,7 +1,8 @@
 //! A map as the colours and numbers of its cells, for a screen that draws it itself.
 
-use super::basin;
+use super::basin_colours;
 use super::cells::Cells;
+use super::colour::Colours;
 use super::error::FigureError;
 use super::map;
 use super::over_map::channels;
@@ -71,20 +72,22 @@ pub fn coloured_map<'a>(
 ) -> Result<ColouredMap, FigureError> {
     let view = View::new(shown.into(), drawing)?;
     let plane = Plane::of(&view, "a map")?;
-    let paint = map::paint((&view, std::slice::from_ref(&view)), &plane)?;
-    let (columns, count) = (plane.x.count(), plane.count());
+    let paint = map::paint(&view, std::slice::from_ref(&view), &plane)?;
+    let count = plane.count();
     let (mut colours, mut values) = (Vec::with_capacity(4 * count), Vec::with_capacity(count));
     for row in 0..plane.y.count() {
-        for column in 0..columns {
-            let case = plane.y.place(row) * columns + plane.x.place(column);
+        for column in 0..plane.x.count() {
+            let case = plane.case(column, row);
             let colour = paint.colour(case).map_or([0; 4], |it| [it.0, it.1, it.2, u8::MAX]);
             colours.extend(colour);
             values.push(paint.number(case));
         }
     }
-    let axis = |name: &str, cells: &Cells| axis(view.quantity(name), cells);
     Ok(ColouredMap {
-        axes: [axis(plane.x_name, &plane.x), axis(plane.y_name, &plane.y)],
+        axes: [
+            axis(view.quantity(plane.x_name), &plane.x),
+            axis(view.quantity(plane.y_name), &plane.y),
+        ],
         colours,
         values,
         told: paint.told(),
@@ -107,28 +110,30 @@ fn axis(quantity: Quantity, cells: &Cells) -> MapAxis {
 
 fn key(paint: &Paint) -> MapColours {
     match paint {
-        Paint::Numbers(Some(colours), ..) => {
-            let Scale { spacing, low, high } = colours.scale();
-            let value = |step: usize| colours.scale().value(step as f64 / (STEPS - 1) as f64);
-            let bar = (0..STEPS).map(|step| channels(colours.of(value(step)))).collect();
-            let (spread, width) = match spacing {
-                Spacing::Linear => ("linear", 0.0),
-                Spacing::Log => ("log", 0.0),
-                Spacing::Symmetric(width) => ("symlog", width),
-            };
-            MapColours::Bar([low, high], spread, width, bar)
-        }
+        Paint::Numbers(Some(colours), ..) => bar(colours),
         Paint::Numbers(None, ..) => MapColours::Kinds(Vec::new()),
         Paint::Kinds(kinds) => {
-            let kind = |it: &super::category::Kind| (it.name.clone(), it.colour.map(channels));
-            MapColours::Kinds(kinds.kinds.iter().map(kind).collect())
+            let kinds = kinds.kinds.iter().map(|it| (it.name.clone(), it.colour.map(channels)));
+            MapColours::Kinds(kinds.collect())
         }
     }
 }
 
+fn bar(colours: &Colours) -> MapColours {
+    let scale = colours.scale();
+    let values = (0..STEPS).map(|step| scale.value(step as f64 / (STEPS - 1) as f64));
+    let bar = values.map(|value| channels(colours.of(value))).collect();
+    let (spread, width) = match scale.spacing {
+        Spacing::Linear => ("linear", 0.0),
+        Spacing::Log => ("log", 0.0),
+        Spacing::Symmetric(width) => ("symlog", width),
+    };
+    MapColours::Bar([scale.low, scale.high], spread, width, bar)
+}
+
 /// The colour of a start in figures of basins: that of the attractor of this number, or of starts whose attractor is not known.
 pub fn label_colour(attractor: Option<u32>) -> [u8; 3] {
-    channels(attractor.map_or(UNDECIDED, |number| basin::band(number as usize)))
+    channels(attractor.map_or(UNDECIDED, |number| basin_colours::band(number as usize)))
 }
 
 /// How figures show a quantity.

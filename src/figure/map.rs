@@ -1,19 +1,20 @@
 //! One output over two axes, in colours.
 
 use super::axis::AxisRequest;
-use super::canvas::Drawn;
+use super::canvas::{Canvas, Drawn};
 use super::category;
-use super::curves;
+use super::curves::{self, Curve};
 use super::error::FigureError;
 use super::geometry::Rect;
-use super::header::{Header, Mark};
+use super::header::{self, Header, Mark};
 use super::inferred;
 use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::paint::Paint;
 use super::panel::{Panel, Pointing};
-use super::plane::{Plane, contour};
+use super::plane::{Heights, Plane, contour};
+use super::quantity::Quantity;
 use super::raster::Fill;
 use super::style::{ONE_COLUMN, TWO_COLUMNS};
 use super::text::Text;
@@ -45,52 +46,24 @@ fn reads(drawing: &Drawing, model: &'static Description) -> Names {
 
 /// Draws the map that `view` asks for, or one for each of several values of other axes.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let plane = Plane::of(view, "a map")?;
-    let names = [plane.x_name, plane.y_name];
-    let output = output(view.drawing, view.model());
-    let rows = view.panels();
-    let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
-    let views: Vec<View<'_>> = rows.into_iter().flatten().collect();
-    let mut paint = paint((view, &views), &plane)?;
-    let seen = plane.seen(view);
-    let is_seen = |case: usize| seen[case % plane.count()];
-    let (levels, no_line) = levels(view, &output, &paint, is_seen);
-    paint.list(is_seen);
-    let legend =
-        paint.legend(is_seen).into_iter().chain(told(&views, &plane)?).chain(plane.legend());
-    let legend = legend.chain(contours(view, &output, &levels));
-    let over = match view.drawing.curves {
-        true => curves::curves(view, &names.map(str::to_owned)),
-        false => Vec::new(),
-    };
-    let legend = legend.chain(curves::legend(&over));
-    let mut page = page(view, (&plane, &views, &lengths), legend.collect());
-    // A list of kinds that is longer than the frames makes them higher.
-    let least = paint.least_height() / page.heights.len() as f64;
-    page.heights.iter_mut().for_each(|height| *height = height.max(least));
-    let room = |height: f64| paint.room(height);
-    let (mut canvas, panels) = PageRequest { right_room: &room, ..page }.lay_out();
+    let map = Map::of(view)?;
+    let page = PageRequest { right_room: &|height| map.paint.room(height), ..map.request(view) };
+    let (mut canvas, panels) = page.lay_out();
     let all: Vec<&Panel> = panels.iter().flatten().collect();
     for (number, panel) in all.iter().enumerate() {
-        let first = number * plane.count();
-        plane.draw(&mut canvas, panel, |case| Fill::of(paint.colour(first + case)));
-        plane.record(&mut canvas, panel, (&paint.told(), |case| paint.value(first + case)));
-        if let Paint::Numbers(_, values, _) = &paint {
-            let of_panel = &values[first..first + plane.count()];
-            let noise = view.quantity(&output).noise;
-            plane.draw_contours(&mut canvas, panel, (of_panel, noise), &levels);
-        }
-        curves::draw_curves(&mut canvas, panel, &over);
+        map.draw(&mut canvas, panel, number);
         panel.finish(&mut canvas);
     }
     if let (Some(first), Some(last)) = (all.first(), all.last()) {
         let right = all.iter().map(|panel| panel.frame.right).fold(f64::MIN, f64::max);
-        paint.explain(&mut canvas, Rect { right, bottom: last.frame.bottom, ..first.frame });
+        map.paint.explain(&mut canvas, Rect { right, bottom: last.frame.bottom, ..first.frame });
     }
+    let names = map.plane.names();
     let [x, y] = names;
-    let without = (view.drawing.curves && over.is_empty())
+    let without = (view.drawing.curves && map.curves.is_empty())
         .then(|| format!("there are no curves in {x} and {y}; `capsulemap continue` finds them"));
-    Ok(canvas.finish(&view.about(&[output], &names)).noting(without).noting(no_line))
+    let about = view.about(&[map.output], &names);
+    Ok(canvas.finish(&about).noting(without).noting(map.contours.note()))
 }
 
 /// The output shown: the speed, unless another is asked for.
@@ -100,7 +73,8 @@ fn output(drawing: &Drawing, model: &'static Description) -> String {
 
 /// The colours of the cases of all panels over a plane.
 pub(super) fn paint(
-    (view, panels): (&View<'_>, &[View<'_>]),
+    view: &View<'_>,
+    panels: &[View<'_>],
     plane: &Plane<'_>,
 ) -> Result<Paint, FigureError> {
     let (output, free) = (&output(view.drawing, view.model()), plane.free());
@@ -117,87 +91,165 @@ pub(super) fn paint(
     }
 }
 
-/// The values at which there are contour lines among the cases that are seen, in the unit shown, and a note on those at which
-/// there are none.
-fn levels(
-    view: &View<'_>,
-    output: &str,
-    paint: &Paint,
-    is_seen: impl Fn(usize) -> bool,
-) -> (Vec<f64>, Option<String>) {
-    let quantity = view.quantity(output);
-    let Paint::Numbers(_, values, _) = paint else { return (Vec::new(), None) };
-    let asked = quantity.chosen.contours().iter().map(|it| it * quantity.factor);
-    let seen = || values.iter().enumerate().filter(|(case, _)| is_seen(*case)).map(|it| *it.1);
-    let is_crossed = |level: &f64| seen().any(|it| it <= *level) && seen().any(|it| it >= *level);
-    let (levels, without): (Vec<f64>, Vec<f64>) = asked.partition(is_crossed);
-    let numbers: Vec<String> = without.iter().map(ToString::to_string).collect();
-    let unit = quantity.unit().content();
-    let note = format!("no contour at {} {unit}: all values lie on one side", numbers.join(", "));
-    (levels, (!without.is_empty()).then_some(note))
+/// What a map shows, in one panel or several.
+struct Map<'a> {
+    plane: Plane<'a>,
+    /// The output shown.
+    output: String,
+    /// What each panel shows, row by row.
+    panels: Vec<View<'a>>,
+    /// How many panels each row has.
+    lengths: Vec<usize>,
+    /// The colours of the cases of one panel after the other.
+    paint: Paint,
+    /// Whether each of these cases is seen.
+    seen: Vec<bool>,
+    contours: Contours,
+    /// The curves of special points.
+    curves: Vec<Curve>,
+    /// Which part of the cases is inferred, if any is, and how well.
+    inferred: Vec<String>,
 }
 
-/// What the contour lines mean.
-fn contours(view: &View<'_>, output: &str, levels: &[f64]) -> Vec<(Mark, Text)> {
-    let quantity = view.quantity(output);
-    let unit = Text::plain("\u{a0}").then(quantity.unit());
-    let unit = if quantity.unit().is_empty() { Text::default() } else { unit };
-    let entry = |(place, level): (usize, &f64)| {
-        (Mark::Line(contour(place)), Text::markup(&short(*level)).then(unit.clone()))
-    };
-    levels.iter().enumerate().map(entry).collect()
+impl<'a> Map<'a> {
+    /// What the figure shows of the results.
+    fn of(view: &View<'a>) -> Result<Map<'a>, FigureError> {
+        let plane = Plane::of(view, "a map")?;
+        let output = output(view.drawing, view.model());
+        let rows = view.panels();
+        let lengths = rows.iter().map(Vec::len).collect();
+        let panels: Vec<View<'a>> = rows.into_iter().flatten().collect();
+        let mut paint = paint(view, &panels, &plane)?;
+        let seen = plane.seen(view).repeat(panels.len());
+        let contours = Contours::of(view.quantity(&output), &paint, &seen);
+        paint.list(|case| seen[case]);
+        let inferred = told_of_inferred(&panels, &plane)?;
+        let curves = match view.drawing.curves {
+            true => curves::curves(view, &plane.names().map(str::to_owned)),
+            false => Vec::new(),
+        };
+        Ok(Map { plane, output, panels, lengths, paint, seen, contours, curves, inferred })
+    }
+
+    /// The page of the panels, the numbers of whose axes stand where no panel lies beyond.
+    fn request<'d>(&self, view: &View<'d>) -> PageRequest<'d> {
+        let columns = self.lengths.iter().copied().max().unwrap_or(1);
+        let mut panels = (0..self.panels.len()).map(|number| self.panel(number, columns));
+        let rows: Vec<Vec<PanelRequest>> =
+            self.lengths.iter().map(|length| panels.by_ref().take(*length).collect()).collect();
+        let usual = if self.panels.len() == 1 { HEIGHT } else { HEIGHT_OF_SEVERAL };
+        // A list of kinds that is longer than the frames makes them higher.
+        let height = usual.max(self.paint.least_height() / rows.len() as f64);
+        PageRequest {
+            drawing: view.drawing,
+            width_mm: if columns > 2 { TWO_COLUMNS } else { ONE_COLUMN },
+            heights: vec![height; rows.len()],
+            rows,
+            column_room: NO_ROOM,
+            right_room: NO_ROOM,
+            bottom_room: 0.0,
+            pointing: Pointing::Outward,
+        }
+    }
+
+    /// A panel by its number, on a page of so many columns.
+    fn panel(&self, number: usize, columns: usize) -> PanelRequest {
+        let (view, count) = (&self.panels[number], self.panels.len());
+        let (is_lowest, is_first) = (number + columns >= count, number.is_multiple_of(columns));
+        let x = AxisRequest::new(view.quantity(self.plane.x_name), self.plane.x.scale);
+        let y = AxisRequest::new(view.quantity(self.plane.y_name), self.plane.y.scale);
+        PanelRequest {
+            x: AxisRequest { labelled: is_lowest, numbered: is_lowest, ..x },
+            y: AxisRequest { labelled: is_first, numbered: is_first, ..y },
+            header: Header {
+                letter: letter(number, count),
+                note: view.held_note(&self.plane.names()),
+                legend: if number == 0 { self.legend() } else { Vec::new() },
+            },
+        }
+    }
+
+    /// What the colours and the lines mean, beside the bar or the list of kinds.
+    fn legend(&self) -> Vec<header::Entry> {
+        let mut legend = self.paint.legend(|case| self.seen[case]);
+        legend.extend(self.inferred.iter().map(|it| (Mark::Nothing, Text::plain(it))));
+        legend.extend(self.plane.legend());
+        legend.extend(self.contours.legend());
+        legend.extend(curves::legend(&self.curves));
+        legend
+    }
+
+    /// Draws the cells of a panel, by its number, and the lines over them.
+    fn draw(&self, canvas: &mut Canvas, panel: &Panel, number: usize) {
+        let (plane, paint) = (&self.plane, &self.paint);
+        let first = number * plane.count();
+        plane.draw(canvas, panel, |case| Fill::of(paint.colour(first + case)));
+        plane.record(canvas, panel, &paint.told(), |case| paint.value(first + case));
+        if let Paint::Numbers(_, values, _) = paint {
+            let values = &values[first..first + plane.count()];
+            let heights = Heights { values, noise: self.contours.quantity.noise };
+            plane.draw_contours(canvas, panel, &heights, &self.contours.levels);
+        }
+        curves::draw_curves(canvas, panel, &self.curves);
+    }
 }
 
 /// What is inferred of the cases of all panels.
-fn told(views: &[View<'_>], plane: &Plane<'_>) -> Result<Vec<(Mark, Text)>, FigureError> {
+fn told_of_inferred(panels: &[View<'_>], plane: &Plane<'_>) -> Result<Vec<String>, FigureError> {
     let mut all = Vec::new();
-    for view in views {
+    for view in panels {
         all.extend(inferred::inferred(&Outcomes::over(view, &plane.free())?, plane.count()));
     }
-    let told = views.first().map_or(Vec::new(), |it| inferred::told(it, &all, "cases", "differ"));
-    Ok(told.iter().map(|it| (Mark::Nothing, Text::plain(it))).collect())
+    Ok(panels.first().map_or(Vec::new(), |it| inferred::told(it, &all, "cases", "differ")))
 }
 
-/// The page of some panels in rows of these lengths.
-fn page<'a>(
-    view: &View<'a>,
-    (plane, views, lengths): (&Plane<'_>, &[View<'_>], &[usize]),
-    legend: Vec<(Mark, Text)>,
-) -> PageRequest<'a> {
-    let names = [plane.x_name, plane.y_name];
-    let columns = lengths.iter().copied().max().unwrap_or(1);
-    let is_alone = views.len() == 1;
-    let mut number = 0;
-    let mut rows = Vec::new();
-    for length in lengths {
-        let mut row = Vec::new();
-        for column in 0..*length {
-            // Numbers stand where no panel lies beyond.
-            let (is_lowest, is_first) = (number + columns >= views.len(), column == 0);
-            let x = AxisRequest::new(view.quantity(names[0]), plane.x.scale);
-            let y = AxisRequest::new(view.quantity(names[1]), plane.y.scale);
-            row.push(PanelRequest {
-                x: AxisRequest { labelled: is_lowest, numbered: is_lowest, ..x },
-                y: AxisRequest { labelled: is_first, numbered: is_first, ..y },
-                header: Header {
-                    letter: letter(number, views.len()),
-                    note: views[number].held_note(&names),
-                    legend: if number == 0 { legend.clone() } else { Vec::new() },
-                },
-            });
-            number += 1;
+/// The contour lines of an output.
+struct Contours {
+    quantity: Quantity,
+    /// The values at which there are lines among the cases that are seen, in the unit shown.
+    levels: Vec<f64>,
+    /// Those that are asked for and at which there are none.
+    without: Vec<f64>,
+}
+
+impl Contours {
+    /// Those that the request sets, where cases have numbers.
+    fn of(quantity: Quantity, paint: &Paint, seen: &[bool]) -> Contours {
+        let mut contours = Contours { quantity, levels: Vec::new(), without: Vec::new() };
+        let Paint::Numbers(_, values, _) = paint else { return contours };
+        let seen: Vec<f64> =
+            values.iter().zip(seen).filter(|(_, seen)| **seen).map(|(value, _)| *value).collect();
+        for level in contours.quantity.chosen.contours() {
+            let level = level * contours.quantity.factor;
+            let is_crossed =
+                seen.iter().any(|it| *it <= level) && seen.iter().any(|it| *it >= level);
+            match is_crossed {
+                true => contours.levels.push(level),
+                false => contours.without.push(level),
+            }
         }
-        rows.push(row);
+        contours
     }
-    let width = if columns > 2 { TWO_COLUMNS } else { ONE_COLUMN };
-    PageRequest {
-        drawing: view.drawing,
-        width_mm: width,
-        heights: vec![if is_alone { HEIGHT } else { HEIGHT_OF_SEVERAL }; lengths.len()],
-        rows,
-        column_room: NO_ROOM,
-        right_room: NO_ROOM,
-        bottom_room: 0.0,
-        pointing: Pointing::Outward,
+
+    /// What the lines mean.
+    fn legend(&self) -> Vec<header::Entry> {
+        let unit = match self.quantity.unit().is_empty() {
+            true => Text::default(),
+            false => Text::plain("\u{a0}").then(self.quantity.unit()),
+        };
+        let mut legend = Vec::new();
+        for (place, level) in self.levels.iter().enumerate() {
+            let value = Text::markup(&short(*level)).then(unit.clone());
+            legend.push((Mark::Line(contour(place)), value));
+        }
+        legend
+    }
+
+    /// Which of them there are not, if any.
+    fn note(&self) -> Option<String> {
+        let numbers: Vec<String> = self.without.iter().map(ToString::to_string).collect();
+        let unit = self.quantity.unit().content();
+        let numbers = (!numbers.is_empty()).then(|| numbers.join(", "))?;
+        Some(format!("no contour at {numbers} {unit}: all values lie on one side"))
     }
 }

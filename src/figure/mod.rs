@@ -1,9 +1,11 @@
 //! Shown: draws stored records.
 
 mod attractor_diagram;
+mod attractor_table;
 mod attractors;
 mod axis;
 mod basin;
+mod basin_colours;
 mod bifurcation;
 mod canvas;
 mod category;
@@ -50,6 +52,7 @@ mod raster;
 mod registry;
 mod scale;
 mod section;
+mod section_points;
 mod settling;
 mod shares;
 mod shown;

@@ -5,13 +5,14 @@ use super::cells::Cells;
 use super::contour::Field;
 use super::data::Value;
 use super::error::FigureError;
-use super::geometry::Rect;
+use super::geometry::{Point, Rect};
 use super::header::Mark;
 use super::panel::Panel;
 use super::raster::{Fill, Raster};
 use super::style::{CURVE_WIDTH, FRAME_WIDTH, INK, PAPER};
 use super::text::Text;
 use super::view::View;
+use crate::store::catalogue::starts;
 
 /// Length of the mark of a value of an uneven axis [pt].
 const VALUE_MARK: f64 = 3.0;
@@ -25,6 +26,14 @@ const DASHES: [Dash; 6] =
 /// The line of the contour at a level, by its place among the levels.
 pub fn contour(place: usize) -> Stroke {
     Stroke { dash: DASHES[place % DASHES.len()], ..CONTOUR }
+}
+
+/// What contours are drawn of.
+pub struct Heights<'v> {
+    /// The value of each case over the free axes.
+    pub values: &'v [f64],
+    /// Differences up to this are none.
+    pub noise: f64,
 }
 
 /// Two axes with their cells.
@@ -46,6 +55,24 @@ impl<'a> Plane<'a> {
         Ok(Plane { x_name, y_name, x: cells(view, x_name)?, y: cells(view, y_name)? })
     }
 
+    /// The same where both are coordinates of a start; `lies` says of the figure that it must lie over such.
+    pub fn of_starts(view: &View<'a>, what: &str, lies: &str) -> Result<Plane<'a>, FigureError> {
+        let plane = Plane::of(view, what)?;
+        let of_starts: Vec<&str> =
+            starts(view.model()).into_iter().map(|entry| entry.name).collect();
+        if let Some(name) = plane.names().into_iter().find(|name| !of_starts.contains(name)) {
+            let allowed = of_starts.join(", ");
+            let why = format!("{lies} over two of {allowed}, and `{name}` is none of these");
+            return Err(view.unfit(why));
+        }
+        Ok(plane)
+    }
+
+    /// The axes along the abscissa and the ordinate.
+    pub fn names(&self) -> [&'a str; 2] {
+        [self.x_name, self.y_name]
+    }
+
     /// The axes over which cases are taken, the slower first.
     pub fn free(&self) -> [&'a str; 2] {
         [self.y_name, self.x_name]
@@ -56,10 +83,15 @@ impl<'a> Plane<'a> {
         self.x.count() * self.y.count()
     }
 
+    /// The case of a cell over the free axes.
+    pub fn case(&self, column: usize, row: usize) -> usize {
+        self.y.place(row) * self.x.count() + self.x.place(column)
+    }
+
     /// Whether a part of the cell of each case over the free axes lies within the limits that are set.
     pub fn seen(&self, view: &View<'_>) -> Vec<bool> {
-        let within = |cells: &Cells, name: &str| cells.within(view.quantity(name).limits());
-        let (x, y) = (within(&self.x, self.x_name), within(&self.y, self.y_name));
+        let [x, y] = [(&self.x, self.x_name), (&self.y, self.y_name)]
+            .map(|(cells, name)| cells.within(view.quantity(name).limits()));
         y.iter().flat_map(|row| x.iter().map(move |column| *row && *column)).collect()
     }
 
@@ -67,36 +99,50 @@ impl<'a> Plane<'a> {
     /// axes at the upper and the right side of the frame.
     pub fn draw(&self, canvas: &mut Canvas, panel: &Panel, fill: impl Fn(usize) -> Fill) {
         let columns = self.x.count();
-        // The limits of the axes may be others than those of the cells.
-        let frame = panel.frame;
-        let [left, bottom] = <[f64; 2]>::from(panel.place(self.x.scale.low, self.y.scale.low));
-        let [right, top] = <[f64; 2]>::from(panel.place(self.x.scale.high, self.y.scale.high));
-        let across = |at: f64| at.clamp(frame.left, frame.right);
-        let down = |at: f64| at.clamp(frame.top, frame.bottom);
-        let area =
-            Rect { left: across(left), right: across(right), top: down(top), bottom: down(bottom) };
+        let (frame, area) = (panel.frame, self.area(panel));
         if area.width() > 0.0 && area.height() > 0.0 {
-            let x = |share: f64| (area.left + share * area.width() - frame.left) / frame.width();
-            let y = |share: f64| (frame.bottom - area.top - share * area.height()) / frame.height();
             let raster = Raster::cells(
                 area,
-                |share| self.x.under(&panel.x.scale, x(share)),
-                |share| self.y.under(&panel.y.scale, y(share)),
+                |share| {
+                    let x = area.left + share * area.width() - frame.left;
+                    self.x.under(&panel.x.scale, x / frame.width())
+                },
+                |share| {
+                    let y = frame.bottom - area.top - share * area.height();
+                    self.y.under(&panel.y.scale, y / frame.height())
+                },
                 |column, row| fill(row * columns + column),
             );
             canvas.image(area, &raster);
         }
-        let up = |&value: &f64| {
-            let (place, _) = panel.place(value, panel.y.scale.high);
-            ((place, frame.top), (place, frame.top - VALUE_MARK))
-        };
-        let right = |&value: &f64| {
-            let (_, place) = panel.place(panel.x.scale.high, value);
-            ((frame.right, place), (frame.right + VALUE_MARK, place))
-        };
-        let above = self.x.uneven.iter().filter(|it| panel.x.scale.holds(**it)).map(up);
-        let beside = self.y.uneven.iter().filter(|it| panel.y.scale.holds(**it)).map(right);
-        let marks: Vec<_> = above.chain(beside).collect();
+        self.mark_uneven(canvas, panel);
+    }
+
+    /// The part of the frame that the cells take: the limits of its axes may be others than theirs.
+    fn area(&self, panel: &Panel) -> Rect {
+        let frame = panel.frame;
+        let (left, bottom) = panel.place(self.x.scale.low, self.y.scale.low);
+        let (right, top) = panel.place(self.x.scale.high, self.y.scale.high);
+        Rect {
+            left: left.clamp(frame.left, frame.right),
+            right: right.clamp(frame.left, frame.right),
+            top: top.clamp(frame.top, frame.bottom),
+            bottom: bottom.clamp(frame.top, frame.bottom),
+        }
+    }
+
+    /// Marks the values of uneven axes outside the frame.
+    fn mark_uneven(&self, canvas: &mut Canvas, panel: &Panel) {
+        let frame = panel.frame;
+        let mut marks = Vec::new();
+        for &value in self.x.uneven.iter().filter(|it| panel.x.scale.holds(**it)) {
+            let (x, _) = panel.place(value, panel.y.scale.high);
+            marks.push(((x, frame.top), (x, frame.top - VALUE_MARK)));
+        }
+        for &value in self.y.uneven.iter().filter(|it| panel.y.scale.holds(**it)) {
+            let (_, y) = panel.place(panel.x.scale.high, value);
+            marks.push(((frame.right, y), (frame.right + VALUE_MARK, y)));
+        }
         canvas.segments(&marks, Stroke::solid(INK, FRAME_WIDTH));
     }
 
@@ -105,45 +151,29 @@ impl<'a> Plane<'a> {
         &self,
         canvas: &mut Canvas,
         panel: &Panel,
-        (series, value): (&str, impl Fn(usize) -> Value),
+        series: &str,
+        value: impl Fn(usize) -> Value,
     ) {
-        let columns = self.x.count();
         let (x, y): (Vec<f64>, Vec<f64>) = (self.x.values().collect(), self.y.values().collect());
-        let cells = (0..y.len()).flat_map(|row| (0..x.len()).map(move |column| (row, column)));
-        let cell = |(row, column): (usize, usize)| {
-            let case = self.y.place(row) * columns + self.x.place(column);
-            ((x[column], y[row]), value(case))
-        };
-        panel.record_values(canvas, series, cells.map(cell));
+        let cells = (0..y.len()).flat_map(|row| (0..x.len()).map(move |column| (column, row)));
+        let rows = cells.map(|(column, row)| ((x[column], y[row]), value(self.case(column, row))));
+        panel.record_values(canvas, series, rows);
     }
 
-    /// Draws the lines along which the values of the cases over the free axes have these levels, and both edges of where they
-    /// keep one; differences up to `noise` are none.
+    /// Draws the lines along which the cases over the free axes have these levels, and both edges of where they keep one.
     pub fn draw_contours(
         &self,
         canvas: &mut Canvas,
         panel: &Panel,
-        (values, noise): (&[f64], f64),
+        heights: &Heights<'_>,
         levels: &[f64],
     ) {
-        let columns = self.x.count();
-        let x: Vec<f64> = self.x.values().map(|x| panel.place(x, panel.y.scale.low).0).collect();
-        let y: Vec<f64> = self.y.values().map(|y| panel.place(panel.x.scale.low, y).1).collect();
-        let value =
-            |column: usize, row: usize| values[self.y.place(row) * columns + self.x.place(column)];
-        for (place, level) in levels.iter().enumerate() {
-            let lines = |kept: f64| {
-                let value = |column: usize, row: usize| {
-                    let value = value(column, row);
-                    if (value - level).abs() <= noise { kept } else { value }
-                };
-                Field { x: &x, y: &y, value: &value }.lines(*level)
-            };
+        for (place, &level) in levels.iter().enumerate() {
             // Values that keep the level count as above it, then as below it.
-            let mut both = lines(*level);
-            let below = lines(level.next_down());
-            let others: Vec<_> = below.into_iter().filter(|it| !both.contains(it)).collect();
-            both.extend(others);
+            let mut both = self.lines(panel, heights, level, level);
+            let mut below = self.lines(panel, heights, level, level.next_down());
+            below.retain(|it| !both.contains(it));
+            both.extend(below);
             canvas.clipped(panel.frame, |canvas| {
                 for line in &both {
                     canvas.line(line, Stroke::solid(PAPER, 2.2 * CONTOUR.width));
@@ -151,6 +181,27 @@ impl<'a> Plane<'a> {
                 }
             });
         }
+    }
+
+    /// The lines along which the cases have a level, on the page; values that keep it count as `kept`.
+    fn lines(
+        &self,
+        panel: &Panel,
+        heights: &Heights<'_>,
+        level: f64,
+        kept: f64,
+    ) -> Vec<Vec<Point>> {
+        let x: Vec<f64> = self.x.values().map(|x| panel.place(x, panel.y.scale.low).0).collect();
+        let y: Vec<f64> = self.y.values().map(|y| panel.place(panel.x.scale.low, y).1).collect();
+        let field = Field {
+            x: &x,
+            y: &y,
+            value: &|column, row| {
+                let value = heights.values[self.case(column, row)];
+                if (value - level).abs() <= heights.noise { kept } else { value }
+            },
+        };
+        field.lines(level)
     }
 
     /// What the marks of uneven axes mean.
@@ -173,10 +224,10 @@ pub(super) fn cells(view: &View<'_>, name: &str) -> Result<Cells, FigureError> {
 /// The axes along the abscissa and the ordinate.
 fn axes<'a>(view: &View<'a>, what: &str) -> Result<(&'a str, &'a str), FigureError> {
     let free = view.drawable_axes();
-    let named = |name: &Option<String>| {
-        name.as_ref().and_then(|name| view.axes().into_iter().find(|axis| axis == name))
-    };
-    let (x, y) = (named(&view.drawing.x), named(&view.drawing.y));
+    let [x, y] = [&view.drawing.x, &view.drawing.y].map(|name| {
+        let name = name.as_ref()?;
+        view.axes().into_iter().find(|axis| axis == name)
+    });
     let x = x.or_else(|| free.iter().copied().find(|name| Some(*name) != y));
     let y = y.or_else(|| free.iter().copied().find(|name| Some(*name) != x));
     match (x, y) {

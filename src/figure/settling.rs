@@ -1,24 +1,25 @@
 //! For how many cycles each start is followed until its attractor is decided, over two coordinates of the start.
 
 use super::axis::AxisRequest;
-use super::basin::{mark_points, section_points};
-use super::canvas::Drawn;
+use super::canvas::{Canvas, Drawn};
 use super::colour::Colours;
 use super::data::Value;
 use super::error::FigureError;
-use super::header::{Header, Mark};
+use super::header::{self, Header, Mark};
+use super::inferred::{self, inferred};
 use super::kind::{Kind, Names, Needs};
 use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
-use super::panel::Pointing;
+use super::panel::{Panel, Pointing};
 use super::plane::Plane;
 use super::raster::Fill;
+use super::section_points::{self, RADIUS, SectionPoint, draw_section_points, section_points};
 use super::style::{INFERRED, INK};
 use super::text::Text;
 use super::view::View;
 use crate::description::Description;
-use crate::store::catalogue::{CYCLES, Entry, Place, section, starts};
-use crate::study::{Coordinate, Drawing};
+use crate::store::catalogue::CYCLES;
+use crate::study::Drawing;
 
 /// Height of the frame [pt].
 const HEIGHT: f64 = 170.0;
@@ -28,80 +29,114 @@ pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 
 /// What the figure reads: the cycles of each case, and the section points of the attractors.
 fn reads(_: &Drawing, model: &'static Description) -> Names {
-    let phases = Coordinate::phases(model).map(Entry::of_coordinate);
-    Names::of(outcome::READS)
-        .and([CYCLES])
-        .and(section(model).into_iter().map(|entry| Place::Attractor.of(entry)))
-        .and(phases)
+    Names::of(outcome::READS).and([CYCLES]).and_all(section_points::reads(model))
 }
 
 /// Draws the cycles that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let plane = Plane::of(view, "a figure of settling")?;
-    let of_starts: Vec<&str> = starts(view.model()).into_iter().map(|entry| entry.name).collect();
-    for name in [plane.x_name, plane.y_name] {
-        if !of_starts.contains(&name) {
-            let allowed = of_starts.join(", ");
-            let why = format!("it lies over two of {allowed}, and `{name}` is none of these");
-            return Err(view.unfit(why));
-        }
-    }
-    let free = plane.free();
-    let mut cycles: Vec<f64> = view.shown(CYCLES.name, &free)?.into_iter().collect();
-    let outcomes = Outcomes::over(view, &free)?;
-    let named =
-        |case: usize, names: &[&str]| outcomes.name(case).is_some_and(|it| names.contains(&it));
-    let inferred: Vec<bool> = (0..cycles.len()).map(|case| named(case, &["inferred"])).collect();
-    for (case, cycles) in cycles.iter_mut().enumerate() {
-        if named(case, &["inferred", "failed", "missing"]) {
-            *cycles = f64::NAN;
-        }
-    }
-    let colours = Colours::for_values(&cycles, view.quantity(CYCLES.name));
-    let points = match view.shows("section-points") {
-        true => section_points(view, &plane),
-        false => Vec::new(),
-    };
-    let mut legend = Vec::new();
-    if !points.is_empty() {
-        let text = "section points of the attractors";
-        legend.push((Mark::Disc(INK, super::basin::RADIUS), Text::plain(text)));
-    }
-    if inferred.contains(&true) {
-        legend.push((Mark::Patch(INFERRED), Text::plain("inferred, not followed")));
-    }
-    if cycles.iter().zip(&inferred).any(|(cycles, inferred)| cycles.is_nan() && !inferred) {
-        legend.push((Mark::Filled(Fill::NO_VALUE), Text::plain("no result")));
-    }
-    legend.extend(plane.legend());
-    let panel = PanelRequest {
-        x: AxisRequest::new(view.quantity(plane.x_name), plane.x.scale),
-        y: AxisRequest::new(view.quantity(plane.y_name), plane.y.scale),
-        header: Header { note: view.held_note(&free), legend, letter: None },
-    };
-    let room = |height: f64| colours.as_ref().map_or(0.0, |it| it.room(height));
+    let settling = Settling::of(view)?;
+    let panel = settling.request(view);
     let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Outward);
+    let room = |height: f64| settling.colours.as_ref().map_or(0.0, |it| it.room(height));
     let (mut canvas, panels) = PageRequest { right_room: &room, ..page }.lay_out();
-    let fill = |case: usize| match &colours {
-        _ if inferred[case] => Fill::Plain(INFERRED),
-        Some(colours) if !cycles[case].is_nan() && colours.has(cycles[case]) => {
-            Fill::Plain(colours.of(cycles[case]))
-        }
-        _ => Fill::NO_VALUE,
-    };
     for panel in panels.iter().flatten() {
-        plane.draw(&mut canvas, panel, fill);
-        let told = colours.as_ref().map_or(String::new(), Colours::told);
-        plane.record(&mut canvas, panel, (&told, |case| Value::Number(cycles[case])));
-        mark_points(&mut canvas, panel, &points);
-        panel.finish(&mut canvas);
-        if let Some(colours) = &colours {
-            colours.draw_bar(&mut canvas, panel.frame);
+        settling.draw(&mut canvas, panel);
+    }
+    Ok(canvas.finish(&settling.about(view)))
+}
+
+/// The cycles of each case over a plane, and the section points over them.
+struct Settling<'a> {
+    plane: Plane<'a>,
+    /// The cycles of each case over the axes of the plane; NaN where it was not followed to an end.
+    cycles: Vec<f64>,
+    /// Whether a case is inferred.
+    inferred: Vec<bool>,
+    /// The colours of the cycles; none where no case has any.
+    colours: Option<Colours>,
+    /// The section points of the attractors.
+    points: Vec<SectionPoint>,
+}
+
+impl<'a> Settling<'a> {
+    /// What the figure shows of the results.
+    fn of(view: &View<'a>) -> Result<Settling<'a>, FigureError> {
+        let plane = Plane::of_starts(view, "a figure of settling", "it lies")?;
+        let free = plane.free();
+        let mut cycles: Vec<f64> = view.shown(CYCLES.name, &free)?.into_iter().collect();
+        let outcomes = Outcomes::over(view, &free)?;
+        let inferred = inferred(&outcomes, cycles.len());
+        for (case, cycles) in cycles.iter_mut().enumerate() {
+            if matches!(outcomes.name(case), Some(inferred::NAME | "failed" | "missing")) {
+                *cycles = f64::NAN;
+            }
+        }
+        let colours = Colours::for_values(&cycles, view.quantity(CYCLES.name));
+        let points = match view.shows("section-points") {
+            true => section_points(view, &plane),
+            false => Vec::new(),
+        };
+        Ok(Settling { plane, cycles, inferred, colours, points })
+    }
+
+    /// The panel with what its fills and marks mean.
+    fn request(&self, view: &View<'_>) -> PanelRequest {
+        let Plane { x_name, y_name, x, y } = &self.plane;
+        let legend = self.legend();
+        PanelRequest {
+            x: AxisRequest::new(view.quantity(x_name), x.scale),
+            y: AxisRequest::new(view.quantity(y_name), y.scale),
+            header: Header { note: view.held_note(&self.plane.free()), legend, letter: None },
         }
     }
-    let about = view.about(&[CYCLES.name.to_owned()], &[plane.x_name, plane.y_name]);
-    let skipped = inferred.iter().filter(|it| **it).count();
-    let skipped =
-        if skipped > 0 { format!("; {skipped} inferred, not followed") } else { String::new() };
-    Ok(canvas.finish(&format!("{about}{skipped}")))
+
+    fn legend(&self) -> Vec<header::Entry> {
+        let mut legend = Vec::new();
+        if !self.points.is_empty() {
+            let text = "section points of the attractors";
+            legend.push((Mark::Disc(INK, RADIUS), Text::plain(text)));
+        }
+        if self.inferred.contains(&true) {
+            legend.push((Mark::Patch(INFERRED), Text::plain("inferred, not followed")));
+        }
+        let mut cases = self.cycles.iter().zip(&self.inferred);
+        if cases.any(|(cycles, inferred)| cycles.is_nan() && !inferred) {
+            legend.push((Mark::Filled(Fill::NO_VALUE), Text::plain("no result")));
+        }
+        legend.extend(self.plane.legend());
+        legend
+    }
+
+    /// How a cell is filled.
+    fn fill(&self, case: usize) -> Fill {
+        let cycles = self.cycles[case];
+        match &self.colours {
+            _ if self.inferred[case] => Fill::Plain(INFERRED),
+            Some(colours) if !cycles.is_nan() && colours.has(cycles) => {
+                Fill::Plain(colours.of(cycles))
+            }
+            _ => Fill::NO_VALUE,
+        }
+    }
+
+    /// Draws the cells, the section points over them and the bar beside them.
+    fn draw(&self, canvas: &mut Canvas, panel: &Panel) {
+        self.plane.draw(canvas, panel, |case| self.fill(case));
+        let told = self.colours.as_ref().map_or(String::new(), Colours::told);
+        self.plane.record(canvas, panel, &told, |case| Value::Number(self.cycles[case]));
+        draw_section_points(canvas, panel, &self.points);
+        panel.finish(canvas);
+        if let Some(colours) = &self.colours {
+            colours.draw_bar(canvas, panel.frame);
+        }
+    }
+
+    /// What the figure shows, and how many cases are inferred.
+    fn about(&self, view: &View<'_>) -> String {
+        let about = view.about(&[CYCLES.name.to_owned()], &self.plane.names());
+        match self.inferred.iter().filter(|it| **it).count() {
+            0 => about,
+            count => format!("{about}; {count} inferred, not followed"),
+        }
+    }
 }

@@ -5,12 +5,13 @@ use std::collections::BTreeSet;
 use ndarray::ArrayD;
 use plotters::style::RGBColor;
 
+use super::attractor_table::{AttractorTable, millimetres};
 use super::axis::AxisRequest;
-use super::basin::{band, colour, millimetres, motion, undecided};
+use super::basin_colours::{band, colour};
 use super::canvas::{Canvas, Drawn, Stroke};
 use super::cells::Cells;
 use super::error::FigureError;
-use super::header::{Header, Mark};
+use super::header::{self, Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
@@ -18,7 +19,7 @@ use super::plane::cells;
 use super::quantity::Quantity;
 use super::raster::{Fill, Raster};
 use super::scale::{Scale, finite_range};
-use super::style::{CURVE_WIDTH, INK};
+use super::style::{CURVE_WIDTH, INK, UNDECIDED};
 use super::text::Text;
 use super::ticks::significant;
 use super::view::View;
@@ -52,47 +53,48 @@ fn reads(_: &Drawing, model: &'static Description) -> Names {
 
 /// Draws the bands that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let axis = view.dataset.attributes.get(ATTRACTOR_AXIS).map(String::as_str);
-    let of_starts =
-        [&starts(view.model())[..], &[Entry::of_coordinate(Coordinate::StartPhase)]].concat();
-    let is_start = |name: &&str| of_starts.iter().any(|entry| entry.name == *name);
-    let along = axis.filter(|axis| {
-        let mut others = view.axes().into_iter().filter(|name| name != axis).peekable();
-        others.peek().is_some() && others.all(|name| is_start(&name))
-    });
-    let Some(along) = along else {
+    let Some(along) = parameter(view) else {
         let why = "shares lie along the one parameter of a study whose other axes are starts";
         return Err(view.unfit(why));
     };
     let bands = Bands::of(view, along)?;
-    let cells = cells(view, along)?;
     let room = Room::of(view, along)?;
     let panels = if room.is_some() { 2 } else { 1 };
-    let x = AxisRequest::new(view.quantity(along), cells.scale);
+    let x = AxisRequest::new(view.quantity(along), bands.cells.scale);
     let upper = PanelRequest {
         x: AxisRequest { labelled: panels == 1, numbered: panels == 1, ..x.clone() },
         y: AxisRequest::new(view.quantity(ATTRACTOR_SHARE.name), Scale::of_axis(&[0.0, 100.0])),
         header: Header {
             note: Some(bands.note()),
-            legend: bands.legend(view),
+            legend: bands.legend(),
             letter: letter(0, panels),
         },
     };
-    let page = PageRequest::of_one(view.drawing, upper, HEIGHT, Pointing::Outward);
-    let PageRequest { mut rows, mut heights, .. } = page;
+    let mut page = PageRequest::of_one(view.drawing, upper, HEIGHT, Pointing::Outward);
     if let Some(room) = &room {
-        rows.push(vec![room.request(view, x, letter(1, panels))]);
-        heights.push(ROOM_HEIGHT);
+        page.rows.push(vec![room.request(view, x, letter(1, panels))]);
+        page.heights.push(ROOM_HEIGHT);
     }
-    let (mut canvas, panels) = PageRequest { rows, heights, ..page }.lay_out();
+    let (mut canvas, panels) = page.lay_out();
     for (row, panel) in panels.iter().flatten().enumerate() {
         match &room {
             Some(room) if row == 1 => room.draw(&mut canvas, panel),
-            _ => bands.draw(&mut canvas, panel, &cells),
+            _ => bands.draw(&mut canvas, panel),
         }
         panel.finish(&mut canvas);
     }
     Ok(canvas.finish(&view.about(&[ATTRACTOR_SHARE.name.to_owned()], &[along])))
+}
+
+/// The parameter along which attractors are numbered, where all other axes are coordinates of the start.
+fn parameter<'a>(view: &View<'a>) -> Option<&'a str> {
+    let along = view.dataset.attributes.get(ATTRACTOR_AXIS)?.as_str();
+    let start_phase = Entry::of_coordinate(Coordinate::StartPhase);
+    let mut of_starts = starts(view.model());
+    of_starts.push(start_phase);
+    let others: Vec<&str> = view.axes().into_iter().filter(|name| *name != along).collect();
+    let is_start = others.iter().all(|name| of_starts.iter().any(|entry| entry.name == *name));
+    (is_start && !others.is_empty()).then_some(along)
 }
 
 /// How much room the basins have along the parameter.
@@ -156,53 +158,86 @@ fn stroke(colour: RGBColor, dashed: bool) -> Stroke {
 /// The columns of a table.
 fn columns(table: &ArrayD<f64>) -> Vec<Vec<f64>> {
     let width = table.shape().last().copied().unwrap_or(0);
-    let column = |at: usize| table.iter().copied().skip(at).step_by(width).collect();
-    (0..width).map(column).collect()
+    (0..width).map(|at| table.iter().copied().skip(at).step_by(width).collect()).collect()
 }
 
-/// The range of the speeds of all cases that lead to an attractor, where the results have them.
-fn speeds(view: &View<'_>, number: usize) -> Option<String> {
-    if !view.model().has_trade_off() {
-        return None;
+/// The rows of a table over the values of the parameter; empty ones where no start leads to a known attractor.
+fn rows(view: &View<'_>, name: &str, along: &str) -> Result<Vec<Vec<f64>>, FigureError> {
+    if view.dataset.variable(name).is_none() {
+        return Ok(vec![Vec::new(); view.coordinate_values(along).len()]);
     }
-    let (labels, speeds) =
-        (view.column(ATTRACTOR), view.column(Entry::of_output(view.model().speed())));
-    let ours = labels.iter().zip(&speeds).filter(|(label, _)| **label == number as f64);
-    let (low, high) = finite_range(ours.map(|(_, speed)| *speed))?;
-    let (low, high) = (millimetres(low), millimetres(high));
-    Some(if low == high { format!("{low} mm/s") } else { format!("{low} to {high} mm/s") })
+    let numbers = view.take(name, &[along])?;
+    let width = numbers.shape().last().copied().unwrap_or(1).max(1);
+    let numbers: Vec<f64> = numbers.into_iter().collect();
+    Ok(numbers.chunks(width).map(<[f64]>::to_vec).collect())
+}
+
+/// The speeds of cases, with the numbers of the attractors that they lead to.
+struct Speeds {
+    attractors: Vec<f64>,
+    speeds: Vec<f64>,
+}
+
+impl Speeds {
+    /// Those of the results; empty where the model has no speed.
+    fn of(view: &View<'_>) -> Speeds {
+        match view.model().has_trade_off() {
+            true => Speeds {
+                attractors: view.column(ATTRACTOR),
+                speeds: view.column(Entry::of_output(view.model().speed())),
+            },
+            false => Speeds { attractors: Vec::new(), speeds: Vec::new() },
+        }
+    }
+
+    /// The range of the speeds of all cases that lead to an attractor, if it is known.
+    fn told(&self, number: usize) -> Option<String> {
+        let cases = self.attractors.iter().zip(&self.speeds);
+        let ours = cases.filter(|(attractor, _)| **attractor == number as f64);
+        let (low, high) = finite_range(ours.map(|(_, speed)| *speed))?;
+        let (low, high) = (millimetres(low), millimetres(high));
+        Some(if low == high { format!("{low} mm/s") } else { format!("{low} to {high} mm/s") })
+    }
 }
 
 /// The shares at each value of the parameter.
-struct Bands {
+struct Bands<'a> {
+    /// The cells along the parameter.
+    cells: Cells,
     /// One row for each value, an element for each attractor.
     shares: Vec<Vec<f64>>,
     /// The largest standard error.
     error: f64,
     /// Values of the axis at which starts are missing.
     incomplete: usize,
+    /// What the results tell of the attractors: a row for each value, as the shares.
+    table: AttractorTable<'a>,
+    speeds: Speeds,
 }
 
-impl Bands {
-    fn of(view: &View<'_>, along: &str) -> Result<Bands, FigureError> {
-        let rows = |name: &str| -> Result<Vec<Vec<f64>>, FigureError> {
-            if view.dataset.variable(name).is_none() {
-                // No start leads to a known attractor.
-                return Ok(vec![Vec::new(); view.coordinate_values(along).len()]);
-            }
-            let numbers = view.take(name, &[along])?;
-            let width = numbers.shape().last().copied().unwrap_or(1).max(1);
-            let numbers: Vec<f64> = numbers.into_iter().collect();
-            Ok(numbers.chunks(width).map(<[f64]>::to_vec).collect())
-        };
-        let errors = rows(ATTRACTOR_SHARE_ERROR.name)?;
-        let shares = rows(ATTRACTOR_SHARE.name)?;
-        let is_incomplete = |(shares, errors): &(&Vec<f64>, &Vec<f64>)| {
+impl<'a> Bands<'a> {
+    /// Those of the results along a parameter.
+    fn of(view: &View<'a>, along: &str) -> Result<Bands<'a>, FigureError> {
+        let errors = rows(view, ATTRACTOR_SHARE_ERROR.name, along)?;
+        let shares = rows(view, ATTRACTOR_SHARE.name, along)?;
+        let incomplete = shares.iter().zip(&errors).filter(|(shares, errors)| {
             shares.iter().zip(*errors).any(|(share, error)| share.is_finite() && error.is_nan())
-        };
-        let incomplete = shares.iter().zip(&errors).filter(is_incomplete).count();
+        });
+        let incomplete = incomplete.count();
         let error = errors.into_iter().flatten().filter(|it| it.is_finite()).fold(0.0, f64::max);
-        Ok(Bands { shares, error, incomplete })
+        Ok(Bands {
+            cells: cells(view, along)?,
+            shares,
+            error,
+            incomplete,
+            table: AttractorTable::of(view),
+            speeds: Speeds::of(view),
+        })
+    }
+
+    /// How many attractors there are.
+    fn count(&self) -> usize {
+        self.shares.first().map_or(0, Vec::len)
     }
 
     /// How well the shares are known.
@@ -216,51 +251,53 @@ impl Bands {
     }
 
     /// The attractors with what they are, and starts that lead to none.
-    fn legend(&self, view: &View<'_>) -> Vec<(Mark, Text)> {
-        let count = self.shares.first().map_or(0, Vec::len);
-        let (kinds, periods) = (view.column(ATTRACTOR_KIND), view.column(ATTRACTOR_PERIOD));
-        let entry = |number: usize| {
-            // What it is where starts lead to it.
-            let there = |(at, shares): (usize, &Vec<f64>)| {
-                (shares[number] > 0.0).then_some(at * count + number)
-            };
-            let places = self.shares.iter().enumerate().filter_map(there);
-            let of = |column: &[f64], place: usize| column.get(place).copied();
-            let told = places.map(|place| motion(view, of(&kinds, place), of(&periods, place)));
-            let told = told.collect::<BTreeSet<_>>().into_iter().chain(speeds(view, number));
-            let told: Vec<String> = told.collect();
-            let text = format!("attractor {}: {}", number + 1, told.join(", "));
-            (Mark::Patch(band(number)), Text::plain(&text))
-        };
-        let mut legend: Vec<_> = (0..count).map(entry).collect();
+    fn legend(&self) -> Vec<header::Entry> {
+        let mut legend = Vec::new();
+        for number in 0..self.count() {
+            let text = format!("attractor {}: {}", number + 1, self.told(number).join(", "));
+            legend.push((Mark::Patch(band(number)), Text::plain(&text)));
+        }
         if self.shares.iter().any(|shares| 1.0 - shares.iter().sum::<f64>() > NOTHING) {
-            legend.push((Mark::Patch(undecided()), Text::plain("attractor unknown")));
+            legend.push((Mark::Patch(UNDECIDED), Text::plain("attractor unknown")));
         }
         legend
     }
 
-    /// Fills the cell of each value from below, attractor by attractor, and what is left as unknown.
-    fn draw(&self, canvas: &mut Canvas, panel: &Panel, cells: &Cells) {
-        let colour = |value: usize, row: usize| {
-            let height = 1.0 - (row as f64 + 0.5) / ROWS as f64;
-            let mut below = 0.0;
-            let reaches = |share: &f64| {
-                below += share;
-                height < below
-            };
-            Fill::Plain(self.shares[value].iter().position(reaches).map_or(undecided(), band))
-        };
-        let row = |share: f64| (share * ROWS as f64) as usize;
-        let values: Vec<(usize, f64)> =
-            (0..cells.count()).map(|it| cells.place(it)).zip(cells.values()).collect();
-        for number in 0..self.shares.first().map_or(0, Vec::len) {
-            let share =
-                |(place, value): &(usize, f64)| (*value, 100.0 * self.shares[*place][number]);
-            let series = format!("attractor {}", number + 1);
-            panel.record(canvas, &series, values.iter().map(share));
+    /// What an attractor is where starts lead to it, and the range of its speeds.
+    fn told(&self, number: usize) -> Vec<String> {
+        let rows = self.shares.iter().enumerate().filter(|(_, shares)| shares[number] > 0.0);
+        let motions = rows.map(|(row, _)| self.table.motion(row * self.count() + number));
+        motions.collect::<BTreeSet<_>>().into_iter().chain(self.speeds.told(number)).collect()
+    }
+
+    /// The colour at a height of the column of a value, from below attractor by attractor, and then what is left as unknown.
+    fn colour(&self, value: usize, height: f64) -> RGBColor {
+        let mut below = 0.0;
+        for (number, share) in self.shares[value].iter().enumerate() {
+            below += share;
+            if height < below {
+                return band(number);
+            }
         }
-        let column = |share: f64| cells.under(&panel.x.scale, share);
-        canvas.image(panel.frame, &Raster::cells(panel.frame, column, row, colour));
+        UNDECIDED
+    }
+
+    /// Fills the cell of each value.
+    fn draw(&self, canvas: &mut Canvas, panel: &Panel) {
+        for number in 0..self.count() {
+            let values =
+                self.cells.values().enumerate().map(|(cell, value)| {
+                    (value, 100.0 * self.shares[self.cells.place(cell)][number])
+                });
+            panel.record(canvas, &format!("attractor {}", number + 1), values);
+        }
+        let raster = Raster::cells(
+            panel.frame,
+            |share| self.cells.under(&panel.x.scale, share),
+            |share| (share * ROWS as f64) as usize,
+            |value, row| Fill::Plain(self.colour(value, 1.0 - (row as f64 + 0.5) / ROWS as f64)),
+        );
+        canvas.image(panel.frame, &raster);
     }
 }
 

@@ -84,7 +84,7 @@ fn cells(plane: &Plane<'_>) -> Vec<usize> {
     let mut cells = vec![0; plane.count()];
     for row in 0..plane.y.count() {
         for column in 0..columns {
-            cells[plane.y.place(row) * columns + plane.x.place(column)] = row * columns + column;
+            cells[plane.case(column, row)] = row * columns + column;
         }
     }
     cells

@@ -115,7 +115,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         };
         plane.draw(&mut canvas, panel, colour);
         let told = colours.as_ref().map_or(String::new(), Colours::told);
-        plane.record(&mut canvas, panel, (&told, |case: usize| Value::Number(values[case])));
+        plane.record(&mut canvas, panel, &told, |case| Value::Number(values[case]));
         path.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
         if let Some(colours) = colours {
