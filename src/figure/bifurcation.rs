@@ -4,22 +4,16 @@ use plotters::style::RGBColor;
 
 use super::attractor_diagram;
 use super::attractors::Attractors;
-use super::axis::AxisRequest;
-use super::branch_lines::{BranchLines, faded};
+use super::branch_lines::faded;
 use super::canvas::Drawn;
-use super::cloud::{self, Dot};
-use super::diagram::{
-    Shown, explain, has_points, nothing_within, paint, request, seen, span, told,
-    with_branch_lines, with_paint,
-};
+use super::cloud::Dot;
+use super::diagram::{Cases, Contents, Diagram, PointStyle, Sort, has_points, paint};
 use super::error::FigureError;
-use super::header::Mark;
+use super::header::{self, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::measured::MeasuredPoints;
 use super::outcome::{self, Outcomes};
-use super::page::{PageRequest, PanelRequest};
-use super::paint::Paint;
-use super::style::{BLUE, INK, UNDECIDED_DOT, VERMILION};
+use super::style::{BLUE, INK, VERMILION};
 use super::text::Text;
 use super::varied::along;
 use super::view::View;
@@ -48,6 +42,12 @@ impl Branch {
     fn step_back(&mut self) {
         self.colour = faded(self.colour);
         self.size *= 0.8;
+    }
+
+    /// How its points are drawn.
+    fn sort(&self) -> Sort {
+        let name = if self.name.is_empty() { "cases" } else { &self.name };
+        Sort { name: name.to_owned(), size: self.size }
     }
 }
 
@@ -90,89 +90,65 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     match Attractors::along(view, x_name)? {
         // By direction, both sweeps are drawn, where they find the same attractor too.
         Some(attractors) if by != Some(DIRECTION.name) => {
-            return attractor_diagram::draw(view, x_name, &attractors);
+            attractor_diagram::draw(view, x_name, &attractors)
         }
-        Some(_) => {}
         None if by == Some(ATTRACTOR.name) => {
-            let why = "`colour_by`: the results tell no attractors";
-            return Err(view.unfit(why));
+            Err(view.unfit("`colour_by`: the results tell no attractors"))
         }
-        None => {}
+        _ => draw_branches(view, x_name),
     }
+}
+
+/// Draws the diagram by directions, or in one colour.
+fn draw_branches(view: &View<'_>, x_name: &str) -> Result<Drawn, FigureError> {
     let mut branches = branches(view, x_name);
-    let mut free = vec![x_name];
-    if branches.len() > 1 {
-        free.push(DIRECTION.name);
-    }
+    let contents = contents(view, x_name, &mut branches)?;
+    // Without cases there are only the lines of branches to explain.
+    let is_told = contents.cases.values.is_empty() || contents.paint.is_some();
+    let legend = if is_told { Vec::new() } else { legend(&branches) };
+    let diagram = Diagram::of(view, contents);
+    let style = PointStyle {
+        drawing: view.drawing,
+        sorts: branches.iter().map(Branch::sort).collect(),
+        beside_lines: 1.0,
+    };
+    Ok(diagram.draw(view, &style, legend, |canvas, panel, output| {
+        if !has_points(view, output) {
+            panel.mark_zero(canvas);
+        }
+    }))
+}
+
+/// What the diagram shows; `branches` of cases make room for lines of branches of orbits.
+fn contents<'a>(
+    view: &View<'_>,
+    x_name: &'a str,
+    branches: &mut [Branch],
+) -> Result<Contents<'a>, FigureError> {
+    let factor = view.quantity(x_name).factor;
+    let values = view.coordinate_values(x_name).iter().map(|value| value * factor).collect();
+    let (free, per_value) = match branches.len() > 1 {
+        true => (vec![x_name, DIRECTION.name], view.coordinate_values(DIRECTION.name).len()),
+        false => (vec![x_name], 1),
+    };
+    let cases = Cases { axis: x_name, free, values, per_value };
     let outputs = match view.drawing.of.is_empty() {
         true => usual_panels(view.model()).iter().map(|entry| entry.name.to_owned()).collect(),
         false => view.drawing.of.clone(),
     };
-    let quantity = view.quantity(x_name);
-    let values: Vec<f64> =
-        view.coordinate_values(x_name).iter().map(|value| value * quantity.factor).collect();
-    let lines: Vec<BranchLines> =
-        outputs.iter().map(|output| BranchLines::shown(view, x_name, output)).collect();
-    if lines.iter().any(|lines| !lines.is_empty()) {
+    let mut contents = Contents::of_branches(view, cases, outputs);
+    if contents.lines.iter().any(|lines| !lines.is_empty()) {
         branches.iter_mut().for_each(Branch::step_back);
     }
     // Directions have colours of their own.
-    let mut paint = match by == Some(DIRECTION.name) && free.len() > 1 {
-        true => None,
-        false => paint(view, &free, values.len())?,
-    };
-    let clouds = outputs
-        .iter()
-        .map(|output| points(view, output, &values, (&free, paint.as_ref()), &branches))
-        .collect::<Result<Vec<_>, _>>()?;
-    let measured = MeasuredPoints::over(view, x_name, &outputs)?;
-    let of_branches = lines.iter().flat_map(BranchLines::places).map(|at| at.0);
-    let reached: Vec<f64> = of_branches.chain(measured.abscissae()).collect();
-    let abscissa = AxisRequest::new(quantity, span(&values, &reached));
-    let is_seen = seen(
-        &abscissa,
-        &values,
-        free[1..].iter().map(|it| view.coordinate_values(it).len()).product(),
-    );
-    if let Some(paint) = &mut paint {
-        paint.list(&is_seen);
+    let is_by_direction = view.drawing.colour_by.as_deref() == Some(DIRECTION.name);
+    if !(is_by_direction && branches.len() > 1) {
+        contents.paint = paint(view, &contents.cases)?;
     }
-    let left_out =
-        track::elsewhere(view, &[x_name]).or(nothing_within(&abscissa, &values, &reached));
-    let note = view.note(&free, &left_out);
-    let page = request(
-        view,
-        &outputs,
-        &Shown { clouds: &clouds, lines: &lines, symbols: &[], measured: &measured },
-        abscissa,
-        note,
-    );
-    // Without cases there are only the lines of branches to explain.
-    let shown = if values.is_empty() || paint.is_some() { &[][..] } else { &branches[..] };
-    let rows = with_legend(page.rows, shown);
-    let rows = with_paint(with_branch_lines(rows, &clouds, &lines), (paint.as_ref(), &is_seen));
-    let rows = measured.with_legend(rows, &clouds);
-    let room = |height: f64| paint.as_ref().map_or(0.0, |it| it.room(height));
-    let (mut canvas, panels) = PageRequest { rows, right_room: &room, ..page }.lay_out();
-    let shown = clouds.iter().zip(&lines).zip(&outputs);
-    for (index, (panel, ((cloud, lines), output))) in panels.iter().flatten().zip(shown).enumerate()
-    {
-        if !has_points(view, output) {
-            panel.mark_zero(&mut canvas);
-        }
-        let radius = view.radius(cloud::count(panel, cloud));
-        for (dots, branch) in cloud.iter().zip(&branches) {
-            cloud::draw(&mut canvas, panel, dots, radius * branch.size);
-            let name = if branch.name.is_empty() { "cases" } else { &branch.name };
-            panel.record_values(&mut canvas, name, told(dots, paint.as_ref()));
-        }
-        lines.draw(&mut canvas, panel);
-        measured.draw(&mut canvas, panel, index);
-        panel.finish(&mut canvas);
-    }
-    explain(&mut canvas, &panels, paint.as_ref());
-    let outside = measured.left_out(&panels);
-    Ok(canvas.finish(&view.about(&outputs, &free)).noting(left_out).noting(outside))
+    let clouds = contents.outputs.iter().map(|output| points(view, output, &contents, branches));
+    contents.clouds = clouds.collect::<Result<_, _>>()?;
+    contents.measured = MeasuredPoints::over(view, x_name, &contents.outputs)?;
+    Ok(contents)
 }
 
 /// The branches of the diagram; one without a name where the starts were not inherited in both directions.
@@ -184,63 +160,48 @@ fn branches(view: &View<'_>, x_name: &str) -> Vec<Branch> {
     let codes = view.coordinate_values(DIRECTION.name);
     let flags = view.dataset.coordinate(DIRECTION.name).map_or(&[][..], |it| &it.flags);
     let looks = [(BLUE, 1.7), (VERMILION, 0.75), (INK, 0.4)];
-    let branch = |(index, (colour, size)): (usize, (RGBColor, f64))| {
+    let mut branches = Vec::new();
+    for (index, (colour, size)) in looks.into_iter().enumerate().take(count) {
         let code = codes[index] as i64;
         let flag = flags.iter().find(|(value, _)| *value == code);
         let name = flag.map_or(format!("direction {code}"), |(_, name)| name.clone());
         let name = view.direction_name(&name, x_name);
-        Branch { index, name, colour, size }
-    };
-    looks.into_iter().enumerate().take(count).map(branch).collect()
+        branches.push(Branch { index, name, colour, size });
+    }
+    branches
 }
 
 /// The points of `output` on each branch; cases that failed have none.
 fn points(
     view: &View<'_>,
     output: &str,
-    x_values: &[f64],
-    (free, paint): (&[&str], Option<&Paint>),
+    contents: &Contents<'_>,
     branches: &[Branch],
 ) -> Result<Vec<Vec<Dot>>, FigureError> {
+    let Cases { free, values, per_value, .. } = &contents.cases;
     // Orbits may have been continued alone, or along what is no axis.
     let is_continued = view.dataset.variable(&Place::Branch.name(output)).is_some();
-    if is_continued && (x_values.is_empty() || view.dataset.variable(output).is_none()) {
+    if is_continued && (values.is_empty() || view.dataset.variable(output).is_none()) {
         return Ok(branches.iter().map(|_| Vec::new()).collect());
     }
-    let array = view.shown(output, free)?;
+    let numbers: Vec<f64> = view.shown(output, free)?.iter().copied().collect();
     let outcomes = Outcomes::over(view, free)?;
-    let directions = if free.len() > 1 { array.shape()[1] } else { 1 };
-    let cases = x_values.len() * directions;
-    let per_case = array.len().checked_div(cases).unwrap_or(0);
-    let values: Vec<f64> = array.iter().copied().collect();
-    let of_branch = |branch: &Branch| {
-        let mut dots = Vec::new();
-        for (at, x) in x_values.iter().enumerate() {
-            let case = at * directions + branch.index;
-            if outcomes.failed(case) {
-                continue;
-            }
-            let shown = &values[case * per_case..(case + 1) * per_case];
-            let finite: Vec<f64> = shown.iter().copied().filter(|it| it.is_finite()).collect();
-            let crowding = (finite.len() * x_values.len()) as f64;
-            let own = paint.map(|it| it.colour(case).unwrap_or(UNDECIDED_DOT));
-            let colour = own.unwrap_or(branch.colour);
-            let dot = |y| Dot { at: (*x, y), colour, crowding, case };
-            dots.extend(finite.into_iter().map(dot));
-        }
-        dots
-    };
-    Ok(branches.iter().map(of_branch).collect())
+    let mut clouds = Vec::new();
+    for branch in branches {
+        let cases = (0..values.len()).map(|at| at * per_value + branch.index);
+        let known = cases.filter(|case| !outcomes.failed(*case));
+        clouds.push(known.flat_map(|it| contents.dots(it, &numbers, branch.colour)).collect());
+    }
+    Ok(clouds)
 }
 
-/// The rows with a legend of the branches above the first.
-fn with_legend(mut rows: Vec<Vec<PanelRequest>>, branches: &[Branch]) -> Vec<Vec<PanelRequest>> {
-    if let (true, Some(first)) = (branches.len() > 1, rows.first_mut().and_then(|r| r.first_mut()))
-    {
-        let entry = |branch: &Branch| {
-            (Mark::Disc(branch.colour, 1.6 * branch.size), Text::plain(&branch.name))
-        };
-        first.header.legend = branches.iter().map(entry).collect();
+/// The branches in their colours, where there are several.
+fn legend(branches: &[Branch]) -> Vec<header::Entry> {
+    let mut legend = Vec::new();
+    if branches.len() > 1 {
+        for Branch { name, colour, size, .. } in branches {
+            legend.push((Mark::Disc(*colour, 1.6 * size), Text::plain(name)));
+        }
     }
-    rows
+    legend
 }

@@ -6,7 +6,8 @@ use super::canvas::Canvas;
 use super::geometry::Point;
 use super::panel::Panel;
 use super::raster::Raster;
-use super::style::CLOUD_LIMIT;
+use super::style::{CLOUD_LIMIT, POINTS_PER_MM};
+use crate::study::Drawing;
 
 /// A point in the units of the panel's axes.
 pub struct Dot {
@@ -25,8 +26,11 @@ pub fn count(panel: &Panel, dots: &[Vec<Dot>]) -> usize {
     dots.iter().flatten().filter(|dot| panel.holds(dot.at.0, dot.at.1)).count()
 }
 
-/// The radius at which `count` points can be distinguished [pt].
-pub fn radius(count: usize) -> f64 {
+/// The radius of `count` points [pt]: that which the request sets, or at which they can be distinguished.
+pub fn radius(drawing: &Drawing, count: usize) -> f64 {
+    if let Some(diameter) = drawing.marker_mm {
+        return diameter / 2.0 * POINTS_PER_MM;
+    }
     match count {
         0..=60 => 1.6,
         61..=400 => 0.9,

@@ -1,13 +1,15 @@
 //! The page of a diagram over one axis: a row for each output, as far as cases and branches reach.
 
+use plotters::style::RGBColor;
+
 use super::axis::AxisRequest;
 use super::branch_lines::BranchLines;
-use super::canvas::Canvas;
-use super::cloud::Dot;
+use super::canvas::{Canvas, Drawn};
+use super::cloud::{self, Dot};
 use super::data::Value;
 use super::error::FigureError;
-use super::geometry::Rect;
-use super::header::{Header, Mark};
+use super::geometry::{Point, Rect};
+use super::header::{self, Header, Mark};
 use super::measured::MeasuredPoints;
 use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
 use super::paint::Paint;
@@ -16,31 +18,263 @@ use super::scale::{Scale, Spacing, finite_range};
 use super::style::{ONE_COLUMN, UNDECIDED_DOT};
 use super::symbol::Symbol;
 use super::text::Text;
+use super::track::elsewhere;
 use super::view::View;
 use crate::store::catalogue::{ATTRACTOR, Place};
+use crate::study::Drawing;
 
 /// Height of the frames of section coordinates [pt].
 const SECTION_HEIGHT: f64 = 125.0;
 /// Height of the frames of outputs with one value per case [pt].
 const OUTPUT_HEIGHT: f64 = 80.0;
+/// Symbols of one kind nearer than this would hide each other [pt].
+const SYMBOL_SPACING: f64 = 2.6;
 
 /// A symbol with its place, in the units of the axes.
 pub type Placed = (Symbol, f64, f64);
 
-/// What a diagram shows, by output.
-pub struct Shown<'a> {
-    /// The points, by sort.
-    pub clouds: &'a [Vec<Vec<Dot>>],
-    /// The lines of branches.
-    pub lines: &'a [BranchLines],
-    /// The symbols of events; empty where there are none.
-    pub symbols: &'a [Vec<Placed>],
+/// The cases that a diagram shows.
+pub struct Cases<'a> {
+    /// The name of the axis along the abscissa.
+    pub axis: &'a str,
+    /// The axes over which the cases are taken, that of the abscissa first.
+    pub free: Vec<&'a str>,
+    /// The values of the abscissa, in the unit of the figure.
+    pub values: Vec<f64>,
+    /// Cases at each value.
+    pub per_value: usize,
+}
+
+impl Cases<'_> {
+    /// How many cases there are.
+    pub fn count(&self) -> usize {
+        self.values.len() * self.per_value
+    }
+}
+
+/// What a diagram shows of the results.
+pub struct Contents<'a> {
+    /// The cases.
+    pub cases: Cases<'a>,
+    /// What is shown of them, a panel each.
+    pub outputs: Vec<String>,
+    /// The lines of branches, by output.
+    pub lines: Vec<BranchLines>,
+    /// The colours of the cases, where the request names what tells them.
+    pub paint: Option<Paint>,
+    /// The points, by output and by sort.
+    pub clouds: Vec<Vec<Vec<Dot>>>,
+    /// The symbols of events, by output; empty where there are none.
+    pub symbols: Vec<Vec<Placed>>,
     /// The measured points.
-    pub measured: &'a MeasuredPoints,
+    pub measured: MeasuredPoints,
+}
+
+impl<'a> Contents<'a> {
+    /// The branches along the axis of the cases; of the cases themselves nothing yet.
+    pub fn of_branches(view: &View<'_>, cases: Cases<'a>, outputs: Vec<String>) -> Contents<'a> {
+        let lines =
+            outputs.iter().map(|output| BranchLines::shown(view, cases.axis, output)).collect();
+        let measured = MeasuredPoints::none(&outputs);
+        let (clouds, symbols) = (Vec::new(), Vec::new());
+        Contents { cases, outputs, lines, paint: None, clouds, symbols, measured }
+    }
+
+    /// The points of a case, which has a part of the `numbers` of all; `usual` is their colour where the request names none.
+    pub fn dots(&self, case: usize, numbers: &[f64], usual: RGBColor) -> Vec<Dot> {
+        let Cases { values, per_value, .. } = &self.cases;
+        let per_case = numbers.len().checked_div(self.cases.count()).unwrap_or(0);
+        let own = &numbers[case * per_case..(case + 1) * per_case];
+        let finite: Vec<f64> = own.iter().copied().filter(|it| it.is_finite()).collect();
+        let crowding = (finite.len() * values.len()) as f64;
+        let painted = self.paint.as_ref().map(|it| it.colour(case).unwrap_or(UNDECIDED_DOT));
+        let (x, colour) = (values[case / per_value], painted.unwrap_or(usual));
+        finite.into_iter().map(|y| Dot { at: (x, y), colour, crowding, case }).collect()
+    }
+
+    /// What the colour of a case tells.
+    fn value(&self, case: usize) -> Value {
+        self.paint.as_ref().map_or(Value::None, |paint| paint.value(case))
+    }
+
+    /// All that stands along the ordinate of an output, by its place among them.
+    fn ordinates(&self, index: usize) -> Vec<f64> {
+        let dots = self.clouds[index].iter().flatten().map(|dot| dot.at.1);
+        dots.chain(self.lines[index].places().map(|at| at.1))
+            .chain(self.symbols.get(index).into_iter().flatten().map(|it| it.2))
+            .chain(self.measured.ordinates(index))
+            .collect()
+    }
+
+    /// How far branches and measured points reach along the abscissa.
+    fn reached(&self) -> Vec<f64> {
+        let of_branches = self.lines.iter().flat_map(BranchLines::places).map(|at| at.0);
+        of_branches.chain(self.measured.abscissae()).collect()
+    }
+}
+
+/// How the points of a sort are drawn.
+pub struct Sort {
+    /// What they are, in the data behind the figure.
+    pub name: String,
+    /// Their radius, relative to the usual one.
+    pub size: f64,
+}
+
+/// How the points are drawn.
+pub struct PointStyle<'a> {
+    /// The request, which may set their size.
+    pub drawing: &'a Drawing,
+    /// The sorts, in the order in which they are drawn.
+    pub sorts: Vec<Sort>,
+    /// By what factor they are larger on a panel with lines of branches.
+    pub beside_lines: f64,
+}
+
+/// A diagram with its abscissa.
+pub struct Diagram<'a> {
+    /// What it shows.
+    pub contents: Contents<'a>,
+    /// Its abscissa.
+    pub abscissa: AxisRequest,
+    /// Whether each value of the abscissa lies within its limits.
+    within: Vec<bool>,
+    /// What lies elsewhere, in words.
+    left_out: Option<String>,
+}
+
+impl<'a> Diagram<'a> {
+    /// The diagram of all that is found; kinds of which no case is seen are not listed.
+    pub fn of(view: &View<'_>, contents: Contents<'a>) -> Diagram<'a> {
+        let Cases { axis, ref values, .. } = contents.cases;
+        let reached = contents.reached();
+        let abscissa = AxisRequest::new(view.quantity(axis), span(values, &reached));
+        let within = values.iter().map(|x| abscissa.scale.holds(*x)).collect();
+        let nothing = nothing_within(&abscissa, values, &reached);
+        let left_out = elsewhere(view, &[axis]).or(nothing);
+        let mut diagram = Diagram { contents, abscissa, within, left_out };
+        if let Some(mut paint) = diagram.contents.paint.take() {
+            paint.list(|case| diagram.is_seen(case));
+            diagram.contents.paint = Some(paint);
+        }
+        diagram
+    }
+
+    /// Whether a case lies within the limits of the abscissa.
+    pub fn is_seen(&self, case: usize) -> bool {
+        let value = case / self.contents.cases.per_value.max(1);
+        self.within.get(value).copied().unwrap_or(false)
+    }
+
+    /// Draws the diagram with a `legend` of its points; what lies `below` all else is drawn first, for each output.
+    pub fn draw(
+        &self,
+        view: &View<'_>,
+        style: &PointStyle<'_>,
+        legend: Vec<header::Entry>,
+        below: impl Fn(&mut Canvas, &Panel, &str),
+    ) -> Drawn {
+        let Contents { cases, outputs, lines, paint, measured, .. } = &self.contents;
+        let legend = self.with_others(legend);
+        let page = PageRequest {
+            right_room: &|height| paint.as_ref().map_or(0.0, |it| it.room(height)),
+            ..self.request(view, legend)
+        };
+        let (mut canvas, panels) = page.lay_out();
+        for (index, panel) in panels.iter().flatten().enumerate() {
+            below(&mut canvas, panel, &outputs[index]);
+            self.draw_points(&mut canvas, panel, index, style);
+            lines[index].draw(&mut canvas, panel);
+            measured.draw(&mut canvas, panel, index);
+            panel.finish(&mut canvas);
+        }
+        explain(&mut canvas, &panels, paint.as_ref());
+        let outside = measured.left_out(&panels);
+        let about = view.about(outputs, &cases.free);
+        canvas.finish(&about).noting(self.left_out.clone()).noting(outside)
+    }
+
+    /// Draws the points and symbols of a panel.
+    fn draw_points(
+        &self,
+        canvas: &mut Canvas,
+        panel: &Panel,
+        index: usize,
+        style: &PointStyle<'_>,
+    ) {
+        let Contents { clouds, lines, symbols, .. } = &self.contents;
+        let cloud = &clouds[index];
+        let wider = if lines[index].is_empty() { 1.0 } else { style.beside_lines };
+        let radius = wider * cloud::radius(style.drawing, cloud::count(panel, cloud));
+        for (dots, sort) in cloud.iter().zip(&style.sorts) {
+            cloud::draw(canvas, panel, dots, radius * sort.size);
+            let told = dots.iter().map(|dot| (dot.at, self.contents.value(dot.case)));
+            panel.record_values(canvas, &sort.name, told);
+        }
+        if let Some(symbols) = symbols.get(index) {
+            draw_symbols(canvas, panel, symbols);
+        }
+    }
+
+    /// The page with a row for each output, and the legend above the first.
+    fn request<'d>(&self, view: &View<'d>, legend: Vec<header::Entry>) -> PageRequest<'d> {
+        let Contents { cases, outputs, .. } = &self.contents;
+        let mut rows = Vec::new();
+        let mut heights = Vec::new();
+        for (index, output) in outputs.iter().enumerate() {
+            let ordinates = self.contents.ordinates(index);
+            let y = AxisRequest::around(view.quantity(output), &ordinates, 0.06);
+            let last = index + 1 == outputs.len();
+            let x = AxisRequest { labelled: last, numbered: last, ..self.abscissa.clone() };
+            let letter = letter(index, outputs.len());
+            rows.push(vec![PanelRequest { x, y, header: Header { letter, ..Header::default() } }]);
+            heights.push(if has_points(view, output) { SECTION_HEIGHT } else { OUTPUT_HEIGHT });
+        }
+        let note = view.note(&cases.free, &self.left_out);
+        if let Some(first) = rows.first_mut().and_then(|row| row.first_mut()) {
+            first.header = Header { note, legend, ..first.header.clone() };
+        }
+        PageRequest {
+            drawing: view.drawing,
+            width_mm: ONE_COLUMN,
+            heights,
+            rows,
+            column_room: NO_ROOM,
+            right_room: NO_ROOM,
+            bottom_room: 0.0,
+            pointing: Pointing::Inward,
+        }
+    }
+
+    /// The legend of the points with what the lines of branches, the colours and the measured points mean.
+    fn with_others(&self, mut legend: Vec<header::Entry>) -> Vec<header::Entry> {
+        let Contents { clouds, lines, paint, measured, .. } = &self.contents;
+        let first = clouds.iter().flatten().flatten().next();
+        let of_lines = lines.iter().map(BranchLines::legend).max_by_key(Vec::len);
+        let of_lines = of_lines.unwrap_or_default();
+        if let (true, false, Some(dot)) = (legend.is_empty(), of_lines.is_empty(), first) {
+            legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("settled")));
+        }
+        // What the sweep and the branches both have is named once.
+        let known: Vec<Mark> = legend.iter().map(|(mark, _)| *mark).collect();
+        legend.extend(of_lines.into_iter().filter(|(mark, _)| !known.contains(mark)));
+        for (mark, words) in paint.iter().flat_map(|it| it.legend(|case| self.is_seen(case))) {
+            let is_filled = matches!(mark, Mark::Filled(_));
+            let mark = if is_filled { Mark::Disc(UNDECIDED_DOT, 1.6) } else { mark };
+            legend.push((mark, words));
+        }
+        if !measured.is_empty() {
+            if let (true, Some(dot)) = (legend.is_empty(), first) {
+                legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("simulated")));
+            }
+            legend.push(MeasuredPoints::legend());
+        }
+        legend
+    }
 }
 
 /// The abscissa, with room for points that stand at its ends, and as far as orbits were continued.
-pub fn span(values: &[f64], reached: &[f64]) -> Scale {
+fn span(values: &[f64], reached: &[f64]) -> Scale {
     let axis = Scale::of_axis(values);
     let plain = match finite_range(reached.iter().copied()) {
         Some((low, high)) if values.is_empty() => Scale::around([low, high], 0.02),
@@ -63,127 +297,52 @@ pub fn span(values: &[f64], reached: &[f64]) -> Scale {
 /// Whether an output has several values per case.
 pub fn has_points(view: &View<'_>, output: &str) -> bool {
     let axes = view.axes();
-    let is_inner = |name: &String| !axes.contains(&name.as_str());
-    let stored = view.dataset.variable(output);
-    let stored = stored.filter(|variable| variable.dimensions.iter().any(is_inner));
-    let stored_on_branch = view.dataset.variable(&Place::Branch.name(output));
-    stored.is_some() || stored_on_branch.is_some_and(|variable| variable.dimensions.len() > 1)
+    let of_cases = view.dataset.variable(output).is_some_and(|variable| {
+        variable.dimensions.iter().any(|name| !axes.contains(&name.as_str()))
+    });
+    let on_branches = view.dataset.variable(&Place::Branch.name(output));
+    of_cases || on_branches.is_some_and(|variable| variable.dimensions.len() > 1)
 }
 
-/// The page with a row for each output.
-pub fn request<'a>(
-    view: &View<'a>,
-    outputs: &[String],
-    shown: &Shown<'_>,
-    abscissa: AxisRequest,
-    header: Option<Text>,
-) -> PageRequest<'a> {
-    let Shown { clouds, lines, symbols, measured } = *shown;
-    let mut rows = Vec::new();
-    let mut heights = Vec::new();
-    for (index, (output, cloud)) in outputs.iter().zip(clouds).enumerate() {
-        let dots = cloud.iter().flatten().map(|dot| dot.at.1);
-        let of_symbols = symbols.get(index).into_iter().flatten().map(|it| it.2);
-        let values: Vec<f64> = dots
-            .chain(lines[index].places().map(|at| at.1))
-            .chain(of_symbols)
-            .chain(measured.ordinates(index))
-            .collect();
-        let y = AxisRequest::around(view.quantity(output), &values, 0.06);
-        let last = index + 1 == outputs.len();
-        let x = AxisRequest { labelled: last, numbered: last, ..abscissa.clone() };
-        let note = header.clone().filter(|_| index == 0);
-        let header = Header { letter: letter(index, outputs.len()), note, legend: Vec::new() };
-        rows.push(vec![PanelRequest { x, y, header }]);
-        heights.push(if has_points(view, output) { SECTION_HEIGHT } else { OUTPUT_HEIGHT });
-    }
-    PageRequest {
-        drawing: view.drawing,
-        width_mm: ONE_COLUMN,
-        heights,
-        rows,
-        column_room: NO_ROOM,
-        right_room: NO_ROOM,
-        bottom_room: 0.0,
-        pointing: Pointing::Inward,
-    }
-}
-
-/// The rows with what the lines of branches and their symbols mean in the first legend.
-pub fn with_branch_lines(
-    mut rows: Vec<Vec<PanelRequest>>,
-    clouds: &[Vec<Vec<Dot>>],
-    lines: &[BranchLines],
-) -> Vec<Vec<PanelRequest>> {
-    let entries = lines.iter().map(BranchLines::legend).max_by_key(Vec::len).unwrap_or_default();
-    let first = rows.first_mut().and_then(|row| row.first_mut());
-    let Some(first) = first.filter(|_| !entries.is_empty()) else { return rows };
-    let legend = &mut first.header.legend;
-    let dots = clouds.iter().flatten().flatten().next();
-    if let (true, Some(dot)) = (legend.is_empty(), dots) {
-        legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("settled")));
-    }
-    // What the sweep and the branches both have is named once.
-    let known: Vec<Mark> = legend.iter().map(|(mark, _)| *mark).collect();
-    legend.extend(entries.into_iter().filter(|(mark, _)| !known.contains(mark)));
-    rows
-}
-
-/// The colours of the cases over the axes `free`, where the request names what tells them; attractors have colours of their own.
-pub fn paint(view: &View<'_>, free: &[&str], values: usize) -> Result<Option<Paint>, FigureError> {
-    let by = view.drawing.colour_by.as_deref().filter(|by| *by != ATTRACTOR.name && values > 0);
+/// The colours of the cases, where the request names what tells them; attractors have colours of their own.
+pub fn paint(view: &View<'_>, cases: &Cases<'_>) -> Result<Option<Paint>, FigureError> {
+    let by = view.drawing.colour_by.as_deref();
+    let by = by.filter(|by| *by != ATTRACTOR.name && !cases.values.is_empty());
     let Some(by) = by else { return Ok(None) };
-    let lengths = free.iter().map(|axis| view.coordinate_values(axis).len());
-    let cases = lengths.product();
-    Paint::of((view, std::slice::from_ref(view)), by, (free, cases)).map(Some)
-}
-
-/// Which cases lie within the limits of the abscissa, of which each of its `values` has so many.
-pub fn seen(
-    abscissa: &AxisRequest,
-    values: &[f64],
-    per_value: usize,
-) -> impl Fn(usize) -> bool + use<> {
-    let within: Vec<bool> = values.iter().map(|x| abscissa.scale.holds(*x)).collect();
-    move |case| within.get(case / per_value.max(1)).copied().unwrap_or(false)
+    let lengths = cases.free.iter().map(|axis| view.coordinate_values(axis).len());
+    let count = lengths.product();
+    Paint::of((view, std::slice::from_ref(view)), by, (&cases.free, count)).map(Some)
 }
 
 /// A note where no case and no orbit lies within the limits of the abscissa.
-pub fn nothing_within(abscissa: &AxisRequest, values: &[f64], reached: &[f64]) -> Option<String> {
+fn nothing_within(abscissa: &AxisRequest, values: &[f64], reached: &[f64]) -> Option<String> {
     let mut all = values.iter().chain(reached).peekable();
     let is_any = all.peek().is_some();
     let is_empty = is_any && !all.any(|x| abscissa.scale.holds(*x));
     is_empty.then(|| format!("no case lies within the limits of {}", abscissa.quantity.key))
 }
 
-/// The points of a diagram with what their colours tell, for the data behind it.
-pub fn told<'a>(
-    dots: &'a [Dot],
-    paint: Option<&'a Paint>,
-) -> impl Iterator<Item = ((f64, f64), Value)> + 'a {
-    dots.iter().map(move |dot| (dot.at, paint.map_or(Value::None, |it| it.value(dot.case))))
-}
-
-/// The rows with what colours do not explain in the first legend.
-pub fn with_paint(
-    mut rows: Vec<Vec<PanelRequest>>,
-    (paint, is_seen): (Option<&Paint>, &dyn Fn(usize) -> bool),
-) -> Vec<Vec<PanelRequest>> {
-    let first = rows.first_mut().and_then(|row| row.first_mut());
-    if let (Some(first), Some(paint)) = (first, paint) {
-        let mark = |(mark, words): (Mark, Text)| match mark {
-            Mark::Filled(_) => (Mark::Disc(UNDECIDED_DOT, 1.6), words),
-            mark => (mark, words),
-        };
-        first.header.legend.extend(paint.legend(is_seen).into_iter().map(mark));
+/// Draws symbols, without those that would hide an earlier one of their kind.
+fn draw_symbols(canvas: &mut Canvas, panel: &Panel, symbols: &[Placed]) {
+    let mut drawn: Vec<(Symbol, Point)> = Vec::new();
+    for (symbol, x, y) in symbols {
+        let at = panel.place(*x, *y);
+        let is_hiding = drawn.iter().any(|(other, there)| {
+            other == symbol && (at.0 - there.0).hypot(at.1 - there.1) < SYMBOL_SPACING
+        });
+        if panel.holds(*x, *y) && !is_hiding {
+            symbol.draw(canvas, at);
+            panel.record(canvas, symbol.words, [(*x, *y)]);
+            drawn.push((*symbol, at));
+        }
     }
-    rows
 }
 
 /// Draws the bar or the list that explains the colours beside all panels.
-pub fn explain(canvas: &mut Canvas, panels: &[Vec<Panel>], paint: Option<&Paint>) {
-    let all = || panels.iter().flatten();
-    if let (Some(first), Some(last), Some(paint)) = (all().next(), all().last(), paint) {
+fn explain(canvas: &mut Canvas, panels: &[Vec<Panel>], paint: Option<&Paint>) {
+    let mut all = panels.iter().flatten();
+    if let (Some(first), Some(paint)) = (all.next(), paint) {
+        let last = all.last().unwrap_or(first);
         paint.explain(canvas, Rect { bottom: last.frame.bottom, ..first.frame });
     }
 }

@@ -1,10 +1,8 @@
 //! Points of an experiment over a diagram of the same quantities.
 
 use super::canvas::Canvas;
-use super::cloud::Dot;
 use super::error::FigureError;
-use super::header::Mark;
-use super::page::PanelRequest;
+use super::header::{Entry, Mark};
 use super::panel::Panel;
 use super::symbol::MEASURED;
 use super::text::Text;
@@ -16,6 +14,16 @@ pub struct MeasuredPoints {
 }
 
 impl MeasuredPoints {
+    /// No points of any of the `outputs`.
+    pub fn none(outputs: &[String]) -> MeasuredPoints {
+        MeasuredPoints { panels: vec![Vec::new(); outputs.len()] }
+    }
+
+    /// Whether there are no points at all.
+    pub fn is_empty(&self) -> bool {
+        self.panels.iter().all(Vec::is_empty)
+    }
+
     /// The points of each of the `outputs` over the axis `x`; none where nothing was measured.
     ///
     /// Fails where the axis was not measured, or none of the outputs.
@@ -24,9 +32,7 @@ impl MeasuredPoints {
         x: &str,
         outputs: &[String],
     ) -> Result<MeasuredPoints, FigureError> {
-        let Some(measured) = view.measured else {
-            return Ok(MeasuredPoints { panels: outputs.iter().map(|_| Vec::new()).collect() });
-        };
+        let Some(measured) = view.measured else { return Ok(MeasuredPoints::none(outputs)) };
         let names: Vec<&str> = measured.columns.iter().map(|it| it.0.as_str()).collect();
         let names = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
         let Some(abscissae) = measured.column(x) else {
@@ -41,12 +47,13 @@ impl MeasuredPoints {
             return Err(view.unfit(why));
         }
         let x_factor = view.quantity(x).factor;
-        let of = |output: &String| {
+        let mut panels = Vec::new();
+        for output in outputs {
             let factor = view.quantity(output).factor;
-            let values = measured.column(output).unwrap_or(&[]);
-            abscissae.iter().zip(values).map(|(x, y)| (x * x_factor, y * factor)).collect()
-        };
-        Ok(MeasuredPoints { panels: outputs.iter().map(of).collect() })
+            let both = abscissae.iter().zip(measured.column(output).unwrap_or(&[]));
+            panels.push(both.map(|(x, y)| (x * x_factor, y * factor)).collect());
+        }
+        Ok(MeasuredPoints { panels })
     }
 
     /// The abscissae of all points.
@@ -59,22 +66,9 @@ impl MeasuredPoints {
         self.panels.get(panel).into_iter().flatten().map(|at| at.1)
     }
 
-    /// The rows with what the points are in the legend of the first; `dots` are those of the simulation.
-    pub fn with_legend(
-        &self,
-        mut rows: Vec<Vec<PanelRequest>>,
-        dots: &[Vec<Vec<Dot>>],
-    ) -> Vec<Vec<PanelRequest>> {
-        let first = rows.first_mut().and_then(|row| row.first_mut());
-        if let (Some(first), true) = (first, self.abscissae().next().is_some()) {
-            let legend = &mut first.header.legend;
-            let dot = dots.iter().flatten().flatten().next();
-            if let (true, Some(dot)) = (legend.is_empty(), dot) {
-                legend.push((Mark::Disc(dot.colour, 1.3), Text::plain("simulated")));
-            }
-            legend.push((Mark::Symbol(MEASURED), Text::plain(MEASURED.words)));
-        }
-        rows
+    /// What the points are.
+    pub fn legend() -> Entry {
+        (Mark::Symbol(MEASURED), Text::plain(MEASURED.words))
     }
 
     /// Draws the points of a panel.
@@ -89,11 +83,11 @@ impl MeasuredPoints {
 
     /// How many points lie outside the limits of their panels, in words.
     pub fn left_out(&self, panels: &[Vec<Panel>]) -> Option<String> {
-        let all = self.panels.iter().zip(panels.iter().flatten());
-        let outside = |(points, panel): (&Vec<(f64, f64)>, &Panel)| {
-            points.iter().filter(|(x, y)| !panel.holds(*x, *y)).count()
-        };
-        match all.map(outside).sum() {
+        let mut outside = 0;
+        for (points, panel) in self.panels.iter().zip(panels.iter().flatten()) {
+            outside += points.iter().filter(|(x, y)| !panel.holds(*x, *y)).count();
+        }
+        match outside {
             0 => None,
             1 => Some("1 measured point lies outside the limits".to_owned()),
             count => Some(format!("{count} measured points lie outside the limits")),

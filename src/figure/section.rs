@@ -97,7 +97,7 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let crowding = section.points.len() as f64;
         let dot = |at: &[f64; 2]| Dot { at: (at[0], at[1]), colour: INK, crowding, case: 0 };
         let dots: Vec<Dot> = section.points.iter().map(dot).collect();
-        cloud::draw(&mut canvas, panel, &dots, view.radius(dots.len()));
+        cloud::draw(&mut canvas, panel, &dots, cloud::radius(view.drawing, dots.len()));
         panel.record(&mut canvas, section.name, dots.iter().map(|dot| dot.at));
         panel.finish(&mut canvas);
     }

@@ -97,7 +97,7 @@ impl TradeOff<'_, '_> {
     /// The radius of the points of cases [pt].
     fn radius(&self, count: usize) -> f64 {
         let usual = if self.view.drawing.marker_mm.is_some() { 1.0 } else { 1.4 };
-        usual * self.view.radius(count)
+        usual * cloud::radius(self.view.drawing, count)
     }
 
     fn draw(&self, canvas: &mut Canvas, panel: &Panel) {

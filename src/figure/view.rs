@@ -6,13 +6,11 @@ use std::rc::Rc;
 use ndarray::ArrayD;
 
 use super::chosen::Chosen;
-use super::cloud;
 use super::error::FigureError;
 use super::held::Held;
 use super::numbers::Numbers;
 use super::quantity::Quantity;
 use super::shown::{Measured, Shown};
-use super::style::POINTS_PER_MM;
 use super::unit::ShownUnit;
 use super::varied::varied;
 use crate::campaign::KeptFront;
@@ -302,12 +300,6 @@ impl<'a> View<'a> {
     /// Whether a mark is shown.
     pub fn shows(&self, mark: &str) -> bool {
         !self.drawing.hide.iter().any(|hidden| hidden == mark)
-    }
-
-    /// The radius of `count` points of cases [pt].
-    pub fn radius(&self, count: usize) -> f64 {
-        let set = self.drawing.marker_mm.map(|diameter| diameter / 2.0 * POINTS_PER_MM);
-        set.unwrap_or_else(|| cloud::radius(count))
     }
 
     /// A parameter over the axis `free`, in SI: the axis of that name, or the variable.
