@@ -12,21 +12,17 @@ const MOST_CASES: usize = 12;
 pub struct CasePanel<'a> {
     /// The results with its axes held, but for the one over which it stands.
     pub view: View<'a>,
-    axis: Option<&'a str>,
+    /// That axis, if there is one.
+    pub free: Vec<&'a str>,
     /// Its place along that axis.
     pub case: usize,
 }
 
 impl<'a> CasePanel<'a> {
-    /// The axis over which it stands, if any.
-    pub fn free(&self) -> Vec<&'a str> {
-        self.axis.into_iter().collect()
-    }
-
     /// Which case it is, for the heading of its panel.
     pub fn note(&self) -> Option<Text> {
-        let own = self.axis.map(|name| self.view.value_note(name, self.case));
-        let held = self.view.held_note(&self.free()).filter(|note| !note.is_empty());
+        let own = self.free.first().map(|name| self.view.value_note(name, self.case));
+        let held = self.view.held_note(&self.free).filter(|note| !note.is_empty());
         let both = own.into_iter().chain(held);
         both.reduce(|note, next| note.then(Text::plain(", ")).then(next))
     }
@@ -50,8 +46,10 @@ pub fn case_panels<'a>(view: &View<'a>) -> Result<Vec<CasePanel<'a>>, FigureErro
                  at one or several of them with `at`"
             )));
         }
-        let held = |case: usize| CasePanel { view: view.clone(), axis, case };
-        panels.extend((0..count).map(held));
+        for case in 0..count {
+            let free = axis.into_iter().collect();
+            panels.push(CasePanel { view: view.clone(), free, case });
+        }
     }
     Ok(panels)
 }

@@ -8,7 +8,7 @@ use crate::description::{Description, Parameters, SignalKind, Source, State};
 use crate::motion::{Case, Stretch};
 use crate::of::model_of;
 use crate::store::catalogue::{Entry, HISTORY_TIME, histories, impacts, section};
-use crate::study::Coordinate;
+use crate::study::{Coordinate, Drawing};
 
 /// Points of a motion that is computed again between its samples, at most: in all, in a cycle of the drive, and from a
 /// sample to the next.
@@ -37,6 +37,28 @@ pub fn sources_of_arcs(model: &'static Description) -> Vec<Entry> {
     let parameters = model.parameters().map(Entry::of_parameter);
     let phases = Coordinate::phases(model).map(Entry::of_coordinate);
     parameters.chain(phases).chain(histories(model)).collect()
+}
+
+/// The cycles of a motion that a figure shows.
+#[derive(Debug, Clone, Copy)]
+pub struct ShownCycles {
+    /// The first.
+    pub first: f64,
+    /// The last.
+    pub last: f64,
+}
+
+impl ShownCycles {
+    /// Those that the request names, or all.
+    pub fn of(drawing: &Drawing) -> ShownCycles {
+        let [first, last] = drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        ShownCycles { first, last }
+    }
+
+    /// Whether a time, in cycles, is among them.
+    pub fn has(self, cycle: f64) -> bool {
+        (self.first - 1e-9..=self.last + 1e-9).contains(&cycle)
+    }
 }
 
 /// A case of a figure, by its place among those over the axes `free`.
@@ -155,9 +177,13 @@ impl<'v, 'a> Motion<'v, 'a> {
         let model = self.view.model();
         let Some(at_impact) = model.motion.at_impact else { return Ok(Vec::new()) };
         // Where the surface is not known, neither is the coordinate that meets it.
-        let surface = model.impact_surface().and_then(|it| self.number(it.symbol()).ok());
-        let surface = surface.unwrap_or(f64::NAN);
+        let surface = self.surface().unwrap_or(f64::NAN);
         self.at_points(name, &impacts(model), |told| at_impact(surface, told))
+    }
+
+    /// Where impacts happen [SI], if that is known.
+    pub fn surface(&self) -> Option<f64> {
+        self.number(self.view.model().impact_surface()?.symbol()).ok()
     }
 
     /// The values of a coordinate at points that have these numbers, of which the states follow.
@@ -170,21 +196,22 @@ impl<'v, 'a> Motion<'v, 'a> {
         let signal = self.view.model().signal(name);
         let signal = signal.filter(|it| it.kind == SignalKind::Coordinate);
         let Some(signal) = signal else { return Ok(Vec::new()) };
-        let has = |it: &Entry| self.view.dataset.variable(it.name).is_some();
-        let row = |it: &Entry| if has(it) { self.row(it.name) } else { Ok(Vec::new()) };
-        let rows = numbers.iter().map(row).collect::<Result<Vec<_>, FigureError>>()?;
-        let count = rows.iter().map(Vec::len).max().unwrap_or(0);
-        // What does not depend on a number that is not there is known all the same.
-        let number = |row: &Vec<f64>, place: usize| row.get(place).copied().unwrap_or(f64::NAN);
-        let value = |place: usize| {
-            let point: Vec<f64> = rows.iter().map(|row| number(row, place)).collect();
-            signal.in_state(&state(&point))
-        };
-        Ok((0..count).filter_map(value).collect())
+        let rows = numbers.iter().map(|it| self.row(it.name));
+        let rows = rows.collect::<Result<Vec<_>, FigureError>>()?;
+        let mut values = Vec::new();
+        for place in 0..rows.iter().map(Vec::len).max().unwrap_or(0) {
+            // What does not depend on a number that is not there is known all the same.
+            let numbers = rows.iter().map(|row| row.get(place).copied().unwrap_or(f64::NAN));
+            values.extend(signal.in_state(&state(&numbers.collect::<Vec<f64>>())));
+        }
+        Ok(values)
     }
 
-    /// The numbers of the case along the last dimension of a variable.
+    /// The numbers of the case along the last dimension of a variable; none where it is not kept.
     fn row(&self, name: &str) -> Result<Vec<f64>, FigureError> {
+        if self.view.dataset.variable(name).is_none() {
+            return Ok(Vec::new());
+        }
         let all = self.view.take(name, self.free)?;
         let count = all.shape().last().copied().unwrap_or(0);
         Ok(all.iter().skip(self.case * count).take(count).copied().collect())
@@ -218,39 +245,26 @@ impl<'v, 'a> Motion<'v, 'a> {
     /// The motion between the samples, from each to the next, where these are few; none where it does not lead
     /// from each to the next, so that the history is not one of what is known of the case.
     fn computed(&self) -> Option<Points> {
+        let shown = ShownCycles::of(self.view.drawing);
+        let samples = self.samples_between(shown)?;
+        let phase = self.phase(&samples)?;
+        samples.followed(phase, shown)
+    }
+
+    /// The samples, if the time between those that are shown is cut into parts.
+    fn samples_between(&self, shown: ShownCycles) -> Option<Samples> {
         let cycles = self.cycles().ok()?;
-        let [first, last] = self.view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-        let is_shown = |cycle: f64| (first - 1e-9..=last + 1e-9).contains(&cycle);
-        let shown = cycles.iter().filter(|cycle| is_shown(**cycle)).count();
+        let count = cycles.iter().filter(|cycle| shown.has(**cycle)).count();
         let step = cycles.get(1)? - cycles[0];
         let wanted = (MOST_IN_A_CYCLE * step) as usize;
-        let count = (MOST_POINTS / shown.max(1)).min(MOST_BETWEEN).min(wanted) as u32;
+        let count = (MOST_POINTS / count.max(1)).min(MOST_BETWEEN).min(wanted) as u32;
         if count < 2 {
             return None;
         }
         let histories = self.histories(usize::MAX).ok()?;
-        let largest = |most: f64, value: &f64| most.max(value.abs());
-        let sizes = histories.iter().map(|column| column.iter().fold(0.0, largest)).collect();
+        let sizes = histories.iter().map(|column| largest(column)).collect();
         let parameters = self.parameters().ok()?;
-        let samples = Samples { parameters, cycles, histories, sizes, count };
-        let phase = self.phase(&samples)?;
-        let mut points =
-            Points { cycles: Vec::new(), histories: vec![Vec::new(); samples.histories.len()] };
-        for place in 0..samples.cycles.len() {
-            points.put(samples.cycles[place], &samples.histories, place);
-            let Some(next) = samples.cycles.get(place + 1) else { break };
-            let begins = samples.cycles[place];
-            if !(is_shown(begins) && is_shown(*next)) {
-                continue;
-            }
-            let arc = samples.arc(place, phase)?;
-            let end = arc.times.len() - 1;
-            for between in 1..end {
-                let share = arc.times[between] / arc.times[end];
-                points.put(begins + share * (next - begins), &arc.histories, between);
-            }
-        }
-        Some(points)
+        Some(Samples { parameters, cycles, histories, sizes, count })
     }
 
     /// The phase of the drive at the first sample, that of the section or of the start; none if neither leads to the second.
@@ -263,7 +277,33 @@ impl<'v, 'a> Motion<'v, 'a> {
     }
 }
 
+/// The largest magnitude.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+}
+
 impl Samples {
+    /// The samples with the motion between those that are shown, where the drive is at `phase` at the first [rad]; none where it does
+    /// not lead from each to the next.
+    fn followed(&self, phase: f64, shown: ShownCycles) -> Option<Points> {
+        let mut points =
+            Points { cycles: Vec::new(), histories: vec![Vec::new(); self.histories.len()] };
+        for (place, &begins) in self.cycles.iter().enumerate() {
+            points.put(begins, &self.histories, place);
+            let Some(&next) = self.cycles.get(place + 1) else { break };
+            if !(shown.has(begins) && shown.has(next)) {
+                continue;
+            }
+            let arc = self.arc(place, phase)?;
+            let end = arc.times.len() - 1;
+            for between in 1..end {
+                let share = arc.times[between] / arc.times[end];
+                points.put(begins + share * (next - begins), &arc.histories, between);
+            }
+        }
+        Some(points)
+    }
+
     /// The motion from a sample to the next, where the drive is at `phase` at the first [rad]; none where it does not lead there.
     fn arc(&self, place: usize, phase: f64) -> Option<Stretch> {
         let model = self.parameters.model();
@@ -276,14 +316,17 @@ impl Samples {
             section_phase,
         };
         let arc = model_of(&self.parameters).arc(&case, self.count, TOLERANCE).ok()?;
+        (0..self.sizes.len()).all(|column| self.meets(&arc, column, place)).then_some(arc)
+    }
+
+    /// Whether what is kept in a column leads from a sample to the next along `arc`; it may drift.
+    fn meets(&self, arc: &Stretch, column: usize, place: usize) -> bool {
+        let (samples, most) = (&self.histories[column], MISSED * self.sizes[column]);
+        let arc_column = &arc.histories[column];
+        let begins_at_sample = (arc_column[0] - samples[place]).abs() <= most;
         let end = arc.times.len() - 1;
-        let meets = |column: usize| {
-            let ends = [(0, place), (end, place + 1)].map(|(at, sample)| {
-                (arc.histories[column][at] - self.histories[column][sample]).abs()
-            });
-            Some(column) == model.drift || ends.iter().all(|it| *it <= MISSED * self.sizes[column])
-        };
-        (0..self.sizes.len()).all(meets).then_some(arc)
+        let ends_at_next = (arc_column[end] - samples[place + 1]).abs() <= most;
+        Some(column) == self.parameters.model().drift || (begins_at_sample && ends_at_next)
     }
 }
 

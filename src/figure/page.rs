@@ -11,6 +11,7 @@ use super::panel::{Panel, Pointing, tick_room};
 use super::quantity::Quantity;
 use super::style::{
     BORDER, LABEL_GAP, LABEL_SIZE, ONE_COLUMN, PANEL_GAP, POINTS_PER_MM, SMALL_SIZE, TITLE_SIZE,
+    TWO_COLUMNS,
 };
 use super::text::Text;
 use crate::study::{Drawing, Size};
@@ -70,6 +71,18 @@ struct LeftRoom {
     label: f64,
 }
 
+/// Panels side by side in rows of so many; a last row may be shorter.
+pub fn in_rows(panels: Vec<PanelRequest>, columns: usize) -> Vec<Vec<PanelRequest>> {
+    let mut rows: Vec<Vec<PanelRequest>> = Vec::new();
+    for panel in panels {
+        match rows.last_mut().filter(|row| row.len() < columns) {
+            Some(row) => row.push(panel),
+            None => rows.push(vec![panel]),
+        }
+    }
+    rows
+}
+
 /// Distance between lines of the heading [pt].
 const TITLE_LINE: f64 = 1.25 * TITLE_SIZE;
 /// Room for a label, from its baseline to the border [pt].
@@ -97,6 +110,25 @@ impl<'a> PageRequest<'a> {
             right_room: NO_ROOM,
             bottom_room: 0.0,
             pointing,
+        }
+    }
+
+    /// A page of panels in rows, whose frames have this height [pt]; of the width of a column where none stand side by side,
+    /// unless the request says another.
+    pub fn of_rows(
+        drawing: &'a Drawing,
+        rows: Vec<Vec<PanelRequest>>,
+        height: f64,
+    ) -> PageRequest<'a> {
+        PageRequest {
+            drawing,
+            width_mm: if rows.iter().any(|row| row.len() > 1) { TWO_COLUMNS } else { ONE_COLUMN },
+            heights: vec![height; rows.len()],
+            rows,
+            column_room: NO_ROOM,
+            right_room: NO_ROOM,
+            bottom_room: 0.0,
+            pointing: Pointing::Inward,
         }
     }
 

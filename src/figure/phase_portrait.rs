@@ -7,12 +7,10 @@ use super::error::FigureError;
 use super::geometry::Rect;
 use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
-use super::motion::{Motion, sources, sources_of_arcs};
-use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
-use super::panel::{Panel, Pointing};
-use super::style::{
-    BLUE, CONTACT, CURVE_WIDTH, FAINT_INK, INK, ONE_COLUMN, REFERENCE_WIDTH, TWO_COLUMNS, VERMILION,
-};
+use super::motion::{Motion, ShownCycles, sources, sources_of_arcs};
+use super::page::{PageRequest, PanelRequest, in_rows, letter};
+use super::panel::Panel;
+use super::style::{BLUE, CONTACT, CURVE_WIDTH, FAINT_INK, INK, REFERENCE_WIDTH, VERMILION};
 use super::text::Text;
 use super::view::View;
 use crate::description::Description;
@@ -54,102 +52,119 @@ fn reads(drawing: &Drawing, model: &'static Description) -> Names {
 
 /// Draws the phase portraits that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let names: [&str; 2] = match (&view.drawing.of[..], view.model().motion.portrait) {
-        ([x, y], _) => [x, y],
-        ([], Some(names)) => names,
-        ([], None) => return Err(view.without_histories()),
-        _ => return Err(view.unfit("`of` names the coordinates of both axes of a phase portrait")),
-    };
-    let cases = case_panels(view)?;
-    let count = cases.len();
-    let portraits = cases.iter().map(|panel| portrait(panel, names));
-    let portraits = portraits.collect::<Result<Vec<Portrait>, FigureError>>()?;
-    let columns = match count {
-        1 => 1,
-        2 | 4 => 2,
-        _ => 3,
-    };
-    // What the marks mean stands above the panels of the first row, a part of it above each.
-    let legend = legend(view, &portraits);
-    let part = legend.len().div_ceil(columns).max(1);
-    let legend: Vec<Vec<(Mark, Text)>> = legend.chunks(part).map(<[_]>::to_vec).collect();
-    let request = |(case, portrait): (usize, &Portrait)| {
-        let all = || portrait.orbit.iter().chain(&portrait.sections).chain(&portrait.impacts);
-        let x: Vec<f64> = all().map(|point| point.0).chain(portrait.gap[0]).collect();
-        let y: Vec<f64> = all().map(|point| point.1).chain(portrait.gap[1]).collect();
-        let x = AxisRequest::around(view.quantity(names[0]), &x, 0.06);
-        let y = AxisRequest::around(view.quantity(names[1]), &y, 0.06);
-        PanelRequest {
-            x: AxisRequest { labelled: case + columns >= count, ..x },
-            y: AxisRequest { labelled: case.is_multiple_of(columns), ..y },
-            header: Header {
-                letter: letter(case, count),
-                note: cases[case].note(),
-                legend: legend.get(case).cloned().unwrap_or_default(),
-            },
-        }
-    };
-    let mut panels: Vec<PanelRequest> = portraits.iter().enumerate().map(request).collect();
-    let mut rows = Vec::new();
-    while !panels.is_empty() {
-        let rest = panels.split_off(columns.min(panels.len()));
-        rows.push(std::mem::replace(&mut panels, rest));
-    }
-    let page = PageRequest {
-        drawing: view.drawing,
-        width_mm: if columns > 1 { TWO_COLUMNS } else { ONE_COLUMN },
-        heights: vec![if count > 1 { HEIGHT_OF_SEVERAL } else { HEIGHT }; rows.len()],
-        rows,
-        column_room: NO_ROOM,
-        right_room: NO_ROOM,
-        bottom_room: 0.0,
-        pointing: Pointing::Inward,
-    };
-    let (mut canvas, panels) = page.lay_out();
-    for (panel, portrait) in panels.iter().flatten().zip(&portraits) {
+    let portraits = Portraits::of(view)?;
+    let Portraits { names, cases, .. } = &portraits;
+    let height = if cases.len() > 1 { HEIGHT_OF_SEVERAL } else { HEIGHT };
+    let rows = in_rows(portraits.panels(view), portraits.columns());
+    let (mut canvas, panels) = PageRequest::of_rows(view.drawing, rows, height).lay_out();
+    for (panel, portrait) in panels.iter().flatten().zip(&portraits.portraits) {
         draw_portrait(&mut canvas, panel, portrait);
     }
-    Ok(canvas.finish(&view.about(&names.map(str::to_owned), &cases[0].free())))
+    Ok(canvas.finish(&view.about(&names.map(str::to_owned), &cases[0].free)))
 }
 
-/// One coordinate over another, for a case.
-fn portrait(panel: &CasePanel<'_>, names: [&str; 2]) -> Result<Portrait, FigureError> {
-    let (view, case) = (&panel.view, panel.case);
-    let free: &[&str] = &panel.free();
-    let motion = Motion::drawn(view, free, case);
-    let [first, last] = view.drawing.cycles.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-    let samples = motion.shown(names[0])?.into_iter().zip(motion.shown(names[1])?);
-    let orbit: Vec<_> = motion
-        .cycles()?
-        .into_iter()
-        .zip(samples)
-        .filter(|(cycle, _)| (first - 1e-9..=last + 1e-9).contains(cycle))
-        .map(|(_, place)| place)
-        .collect();
-    if orbit.is_empty() {
-        return Err(view.unfit(format!("no sample lies in cycles {first} to {last}")));
+/// What a figure of phase portraits shows: one for each case.
+struct Portraits<'a> {
+    /// The coordinates along the abscissa and the ordinate.
+    names: [&'a str; 2],
+    cases: Vec<CasePanel<'a>>,
+    portraits: Vec<Portrait>,
+}
+
+impl<'a> Portraits<'a> {
+    /// What the figure shows of the results.
+    fn of(view: &View<'a>) -> Result<Portraits<'a>, FigureError> {
+        let names: [&str; 2] = match (&view.drawing.of[..], view.model().motion.portrait) {
+            ([x, y], _) => [x, y],
+            ([], Some(names)) => names,
+            ([], None) => return Err(view.without_histories()),
+            _ => {
+                let why = "`of` names the coordinates of both axes of a phase portrait";
+                return Err(view.unfit(why));
+            }
+        };
+        let cases = case_panels(view)?;
+        let portraits = cases.iter().map(|panel| Portrait::of(panel, names));
+        let portraits = portraits.collect::<Result<_, FigureError>>()?;
+        Ok(Portraits { names, cases, portraits })
     }
-    let gap = view
-        .model()
-        .impact_surface()
-        .and_then(|delta| view.parameter(delta.symbol(), free).ok()?.iter().nth(case).copied());
-    let factors = names.map(|name| view.quantity(name).factor);
-    let both = |x: Vec<f64>, y: Vec<f64>| -> Vec<(f64, f64)> {
-        let places = x.into_iter().zip(y).map(|(x, y)| (x * factors[0], y * factors[1]));
-        places.filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
-    };
-    let sections = match view.shows("stroboscopic") {
-        true => both(motion.at_sections(names[0])?, motion.at_sections(names[1])?),
-        false => Vec::new(),
-    };
-    let impacts = match view.shows("impacts") {
-        true => both(motion.at_impacts(names[0])?, motion.at_impacts(names[1])?),
-        false => Vec::new(),
-    };
-    let shown = gap.filter(|_| view.shows("contact"));
-    let met = view.model().signal_of_coordinate(0).map(|it| it.name());
-    let reached = |at: usize| shown.filter(|_| met == Some(names[at])).map(|it| it * factors[at]);
-    Ok(Portrait { orbit, sections, impacts, gap: [reached(0), reached(1)] })
+
+    /// How many panels stand side by side.
+    fn columns(&self) -> usize {
+        match self.cases.len() {
+            1 => 1,
+            2 | 4 => 2,
+            _ => 3,
+        }
+    }
+
+    /// The panel of each case.
+    fn panels(&self, view: &View<'_>) -> Vec<PanelRequest> {
+        let (count, columns) = (self.cases.len(), self.columns());
+        // What the marks mean stands above the panels of the first row, a part of it above each.
+        let legend = legend(view, &self.portraits);
+        let part = legend.len().div_ceil(columns).max(1);
+        let mut parts = legend.chunks(part);
+        let mut panels = Vec::new();
+        for (case, portrait) in self.portraits.iter().enumerate() {
+            let legend = parts.next().map_or(Vec::new(), <[_]>::to_vec);
+            let (x, y): (Vec<f64>, Vec<f64>) = portrait.places().unzip();
+            let x = x.into_iter().chain(portrait.gap[0]).collect::<Vec<f64>>();
+            let y = y.into_iter().chain(portrait.gap[1]).collect::<Vec<f64>>();
+            let x = AxisRequest::around(view.quantity(self.names[0]), &x, 0.06);
+            let y = AxisRequest::around(view.quantity(self.names[1]), &y, 0.06);
+            let (letter, note) = (letter(case, count), self.cases[case].note());
+            panels.push(PanelRequest {
+                x: AxisRequest { labelled: case + columns >= count, ..x },
+                y: AxisRequest { labelled: case.is_multiple_of(columns), ..y },
+                header: Header { letter, note, legend },
+            });
+        }
+        panels
+    }
+}
+
+impl Portrait {
+    /// One coordinate over another, for a case.
+    fn of(panel: &CasePanel<'_>, names: [&str; 2]) -> Result<Portrait, FigureError> {
+        let view = &panel.view;
+        let motion = Motion::drawn(view, &panel.free, panel.case);
+        let shown = ShownCycles::of(view.drawing);
+        let samples = motion.shown(names[0])?.into_iter().zip(motion.shown(names[1])?);
+        let samples = motion.cycles()?.into_iter().zip(samples);
+        let orbit: Vec<_> =
+            samples.filter(|(cycle, _)| shown.has(*cycle)).map(|(_, place)| place).collect();
+        if orbit.is_empty() {
+            let ShownCycles { first, last } = shown;
+            return Err(view.unfit(format!("no sample lies in cycles {first} to {last}")));
+        }
+        let factors = names.map(|name| view.quantity(name).factor);
+        let sections = match view.shows("stroboscopic") {
+            true => places([motion.at_sections(names[0])?, motion.at_sections(names[1])?], factors),
+            false => Vec::new(),
+        };
+        let impacts = match view.shows("impacts") {
+            true => places([motion.at_impacts(names[0])?, motion.at_impacts(names[1])?], factors),
+            false => Vec::new(),
+        };
+        let surface = motion.surface().filter(|_| view.shows("contact"));
+        let met = view.model().signal_of_coordinate(0).map(|it| it.name());
+        let gap = [0, 1]
+            .map(|axis| surface.filter(|_| met == Some(names[axis])).map(|it| it * factors[axis]));
+        Ok(Portrait { orbit, sections, impacts, gap })
+    }
+
+    /// All places that it shows.
+    fn places(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.orbit.iter().chain(&self.sections).chain(&self.impacts).copied()
+    }
+}
+
+/// Points with these coordinates [SI] in the units of the figure, without those that have none.
+fn places(coordinates: [Vec<f64>; 2], factors: [f64; 2]) -> Vec<(f64, f64)> {
+    let [x, y] = coordinates;
+    let places = x.into_iter().zip(y).map(|(x, y)| (x * factors[0], y * factors[1]));
+    places.filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
 }
 
 /// What the marks mean that any of `portraits` has.

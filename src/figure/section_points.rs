@@ -55,8 +55,8 @@ pub fn saddles(view: &View<'_>, plane: &Plane<'_>) -> Vec<(f64, f64)> {
     places.into_iter().filter(|at| is_finite(*at)).collect()
 }
 
-fn is_finite((x, y): (f64, f64)) -> bool {
-    x.is_finite() && y.is_finite()
+fn is_finite(at: (f64, f64)) -> bool {
+    at.0.is_finite() && at.1.is_finite()
 }
 
 /// Section points with these coordinates in the plane of the starts, in the units of the figure; none where the section is at

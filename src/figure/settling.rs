@@ -37,8 +37,11 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let settling = Settling::of(view)?;
     let panel = settling.request(view);
     let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Outward);
-    let room = |height: f64| settling.colours.as_ref().map_or(0.0, |it| it.room(height));
-    let (mut canvas, panels) = PageRequest { right_room: &room, ..page }.lay_out();
+    let page = PageRequest {
+        right_room: &|height| settling.colours.as_ref().map_or(0.0, |it| it.room(height)),
+        ..page
+    };
+    let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         settling.draw(&mut canvas, panel);
     }

@@ -6,16 +6,16 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use super::axis::AxisRequest;
-use super::canvas::{Drawn, Stroke};
+use super::canvas::{Canvas, Drawn, Stroke};
 use super::case_panels::{CasePanel, case_panels};
 use super::error::FigureError;
 use super::header::{Header, Mark};
 use super::kind::{Kind, Names, Needs};
 use super::motion::{Motion, sources};
-use super::page::{NO_ROOM, PageRequest, PanelRequest, letter};
-use super::panel::Pointing;
+use super::page::{PageRequest, PanelRequest, in_rows, letter};
+use super::panel::Panel;
 use super::scale::{Scale, Spacing};
-use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, ONE_COLUMN, REFERENCE_WIDTH, TWO_COLUMNS};
+use super::style::{BLUE, CURVE_WIDTH, FAINT_INK, REFERENCE_WIDTH};
 use super::text::Text;
 use super::view::View;
 use crate::description::{Description, SignalKind};
@@ -59,63 +59,57 @@ struct Spectrum {
     cycles: usize,
 }
 
+/// What a figure of spectra shows.
+struct Spectra<'a> {
+    cases: Vec<CasePanel<'a>>,
+    outputs: Vec<String>,
+    /// One for each case, quantity by quantity.
+    spectra: Vec<Spectrum>,
+}
+
 /// Draws the spectra that `view` asks for: a row for each quantity, a column for each case.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let cases = case_panels(view)?;
-    let outputs = outputs(view.drawing, view.model());
-    let mut spectra = Vec::new();
-    for output in &outputs {
-        for panel in &cases {
-            spectra.push(spectrum(panel, output)?);
-        }
-    }
+    let Spectra { cases, outputs, spectra } = Spectra::of(view)?;
+    let columns = if outputs.len() == 1 { cases.len().min(3) } else { cases.len() };
     let frequencies = frequencies(&spectra);
-    let notes: Vec<Option<Text>> = cases.iter().map(CasePanel::note).collect();
-    let cases = cases.len();
-    let columns = if outputs.len() == 1 { cases.min(3) } else { cases };
-    let mut rows: Vec<Vec<PanelRequest>> = Vec::new();
+    let mut requests = Vec::new();
     for (index, spectrum) in spectra.iter().enumerate() {
-        let is_lowest = index + columns >= spectra.len();
         let x = AxisRequest::new(view.quantity(SPECTRUM_FREQUENCY.name), frequencies);
         let y = view.quantity(&spectrum.output).preceded_by("Amplitude of");
         let y = AxisRequest::new(y, spectrum.amplitudes());
         let legend = if index == 0 { legend(view, spectrum) } else { Vec::new() };
-        let panel = PanelRequest {
-            x: AxisRequest { labelled: is_lowest, ..x },
+        requests.push(PanelRequest {
+            x: AxisRequest { labelled: index + columns >= spectra.len(), ..x },
             y: AxisRequest { empty: spectrum.lines.is_empty(), ..y },
             header: Header {
                 letter: letter(index, spectra.len()),
-                note: notes.get(index).cloned().flatten(),
+                note: cases.get(index).and_then(CasePanel::note),
                 legend,
             },
-        };
-        match rows.last_mut().filter(|row| row.len() < columns) {
-            Some(row) => row.push(panel),
-            None => rows.push(vec![panel]),
-        }
+        });
     }
-    let page = PageRequest {
-        drawing: view.drawing,
-        width_mm: if columns > 1 { TWO_COLUMNS } else { ONE_COLUMN },
-        heights: vec![HEIGHT; rows.len()],
-        rows,
-        column_room: NO_ROOM,
-        right_room: NO_ROOM,
-        bottom_room: 0.0,
-        pointing: Pointing::Inward,
-    };
-    let (mut canvas, panels) = page.lay_out();
+    let rows = in_rows(requests, columns);
+    let (mut canvas, panels) = PageRequest::of_rows(view.drawing, rows, HEIGHT).lay_out();
     for (panel, spectrum) in panels.iter().flatten().zip(&spectra) {
-        let drive = [(spectrum.drive, panel.y.scale.low), (spectrum.drive, panel.y.scale.high)];
-        if view.shows("drive") {
-            panel.curve(&mut canvas, &drive, DRIVE);
-        }
-        panel.curve(&mut canvas, &spectrum.lines, Stroke::solid(BLUE, CURVE_WIDTH));
-        panel.record(&mut canvas, &spectrum.output, spectrum.lines.iter().copied());
-        panel.finish(&mut canvas);
+        spectrum.draw(&mut canvas, panel, view.shows("drive"));
     }
     let about = view.about(&outputs, &[]);
     Ok(canvas.finish(&format!("{about}: amplitudes of the spectrum, with a Hann window")))
+}
+
+impl<'a> Spectra<'a> {
+    /// What the figure shows of the results.
+    fn of(view: &View<'a>) -> Result<Spectra<'a>, FigureError> {
+        let cases = case_panels(view)?;
+        let outputs = outputs(view.drawing, view.model());
+        let mut spectra = Vec::new();
+        for output in &outputs {
+            for panel in &cases {
+                spectra.push(Spectrum::of(panel, output)?);
+            }
+        }
+        Ok(Spectra { cases, outputs, spectra })
+    }
 }
 
 /// The line at the frequency of the drive.
@@ -129,6 +123,43 @@ fn legend(view: &View<'_>, spectrum: &Spectrum) -> Vec<(Mark, Text)> {
 }
 
 impl Spectrum {
+    /// The spectrum of a quantity over as many whole cycles as its history has.
+    fn of(panel: &CasePanel<'_>, output: &str) -> Result<Spectrum, FigureError> {
+        let view = &panel.view;
+        let motion = Motion::sampled(view, &panel.free, panel.case);
+        let times = motion.cycles()?;
+        let values = motion.shown(output)?;
+        let step = times.get(1).map_or(f64::NAN, |second| second - times[0]);
+        let last = (times.len() - 1) as f64 * step;
+        // Rounding makes no history shorter.
+        let cycles = (last + 1e-9).floor();
+        let count = (cycles / step).round() as usize;
+        if !(cycles >= 1.0 && count < times.len()) {
+            return Err(view.unfit("a spectrum needs the history of a whole cycle"));
+        }
+        let omega = motion.frequency()?;
+        let drive = omega * view.quantity(SPECTRUM_FREQUENCY.name).factor;
+        let kind = view.model().signal(output).map(|it| it.kind);
+        let goes_on = kind == Some(SignalKind::Drifting);
+        // A case that failed has no motion.
+        let lines = match values.iter().all(|value| value.is_finite()) {
+            true => amplitudes(&level(&values, count, goes_on), cycles, drive),
+            false => Vec::new(),
+        };
+        Ok(Spectrum { output: output.to_owned(), lines, drive, cycles: cycles as usize })
+    }
+
+    /// Draws the amplitudes, and a line at the frequency of the drive if it is shown.
+    fn draw(&self, canvas: &mut Canvas, panel: &Panel, shows_drive: bool) {
+        if shows_drive {
+            let drive = [(self.drive, panel.y.scale.low), (self.drive, panel.y.scale.high)];
+            panel.curve(canvas, &drive, DRIVE);
+        }
+        panel.curve(canvas, &self.lines, Stroke::solid(BLUE, CURVE_WIDTH));
+        panel.record(canvas, &self.output, self.lines.iter().copied());
+        panel.finish(canvas);
+    }
+
     fn largest(&self) -> f64 {
         self.lines.iter().map(|line| line.1).fold(0.0, f64::max)
     }
@@ -156,47 +187,28 @@ fn frequencies(spectra: &[Spectrum]) -> Scale {
     Scale::around([0.0, spectra.iter().map(Spectrum::last).fold(0.0, f64::max)], 0.0)
 }
 
-/// The amplitudes of a quantity over as many whole cycles as its history has.
+/// The first `count` samples, without the mean advance to the next of what goes on.
+fn level(samples: &[f64], count: usize, goes_on: bool) -> Vec<f64> {
+    let advance = if goes_on { (samples[count] - samples[0]) / count as f64 } else { 0.0 };
+    let whole_cycles = samples[..count].iter().enumerate();
+    whole_cycles.map(|(at, value)| value - advance * at as f64).collect()
+}
+
+/// Frequencies with the amplitudes of samples over whole cycles, where the drive has the frequency `drive`.
 ///
-/// Method: the mean is taken off, and from displacements, which go on, their mean advance; a Hann window; amplitudes are those of
-/// sinusoids that fit the cycles, which also show with half their amplitude on both sides.
-fn spectrum(panel: &CasePanel<'_>, output: &str) -> Result<Spectrum, FigureError> {
-    let (view, case) = (&panel.view, panel.case);
-    let free: &[&str] = &panel.free();
-    let motion = Motion::sampled(view, free, case);
-    let times = motion.cycles()?;
-    let values = motion.shown(output)?;
-    let step = times.get(1).map_or(f64::NAN, |second| second - times[0]);
-    let last = (times.len() - 1) as f64 * step;
-    // Rounding makes no history shorter.
-    let cycles = (last + 1e-9).floor();
-    let count = (cycles / step).round() as usize;
-    if !(cycles >= 1.0 && count < times.len()) {
-        return Err(view.unfit("a spectrum needs the history of a whole cycle"));
+/// Method: the mean is taken off; a Hann window; amplitudes are those of sinusoids that fit the cycles, which also show with half
+/// their amplitude on both sides.
+fn amplitudes(samples: &[f64], cycles: f64, drive: f64) -> Vec<(f64, f64)> {
+    let count = samples.len();
+    let mean = samples.iter().sum::<f64>() / count as f64;
+    let mut windowed = Vec::with_capacity(count);
+    for (at, value) in samples.iter().enumerate() {
+        let window = 0.5 - 0.5 * (TAU * at as f64 / count as f64).cos();
+        windowed.push(Complex::new((value - mean) * window, 0.0));
     }
-    let omega = motion.frequency()?;
-    let drive = omega * view.quantity(SPECTRUM_FREQUENCY.name).factor;
-    let found = |lines: Vec<(f64, f64)>| Spectrum {
-        output: output.to_owned(),
-        lines,
-        drive,
-        cycles: cycles as usize,
-    };
-    // A case that failed has no motion.
-    if values.iter().any(|value| !value.is_finite()) {
-        return Ok(found(Vec::new()));
-    }
-    let kind = view.model().signal(output).map(|it| it.kind);
-    let goes_on = kind == Some(SignalKind::Drifting);
-    let advance = if goes_on { (values[count] - values[0]) / count as f64 } else { 0.0 };
-    let level: Vec<f64> =
-        values[..count].iter().enumerate().map(|(at, value)| value - advance * at as f64).collect();
-    let mean = level.iter().sum::<f64>() / count as f64;
-    let window = |at: usize| 0.5 - 0.5 * (TAU * at as f64 / count as f64).cos();
-    let sample = |(at, value): (usize, &f64)| Complex::new((value - mean) * window(at), 0.0);
-    let mut samples: Vec<Complex<f64>> = level.iter().enumerate().map(sample).collect();
-    FftPlanner::new().plan_fft_forward(count).process(&mut samples);
+    FftPlanner::new().plan_fft_forward(count).process(&mut windowed);
     // The window's mean is a half, and a sinusoid has half its amplitude at a positive frequency.
-    let line = |at: usize| (at as f64 / cycles * drive, 4.0 * samples[at].norm() / count as f64);
-    Ok(found((1..count.div_ceil(2)).map(line).collect()))
+    (1..count.div_ceil(2))
+        .map(|at| (at as f64 / cycles * drive, 4.0 * windowed[at].norm() / count as f64))
+        .collect()
 }
