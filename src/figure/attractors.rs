@@ -67,9 +67,9 @@ impl<'a> Attractors<'a> {
             return Ok(None);
         }
         let starts: Vec<&str> = starts(view.model()).into_iter().map(|entry| entry.name).collect();
-        let joins = |name: &&str| starts.contains(name) || *name == DIRECTION.name;
-        let free: Vec<&str> =
-            std::iter::once(x).chain(view.free_axes().into_iter().filter(joins)).collect();
+        let mut free = view.free_axes();
+        free.retain(|name| starts.contains(name) || *name == DIRECTION.name);
+        free.insert(0, x);
         let numbers: Vec<i64> =
             view.take(ATTRACTOR.name, &free)?.iter().map(|it| *it as i64).collect();
         let outcomes = Outcomes::over(view, &free)?;
@@ -106,10 +106,12 @@ impl<'a> Attractors<'a> {
             let at = case / self.per_value;
             extents.entry(*number).or_insert([at, at])[1] = at;
         }
-        let exist = |at: usize| {
-            extents.values().filter(|[first, last]| (*first..=*last).contains(&at)).count()
-        };
-        (0..self.values).map(|at| exist(at) > 1).collect()
+        let mut coexist = vec![false; self.values];
+        for (at, coexist) in coexist.iter_mut().enumerate() {
+            let here = extents.values().filter(|[first, last]| (*first..=*last).contains(&at));
+            *coexist = here.count() > 1;
+        }
+        coexist
     }
 
     /// The looks of the cases that are seen.

@@ -39,6 +39,12 @@ pub struct Kind {
     pub colour: Option<RGBColor>,
 }
 
+impl Kind {
+    fn coloured(name: &str, colour: RGBColor) -> Kind {
+        Kind { name: name.to_owned(), colour: Some(colour) }
+    }
+}
+
 /// The kind of every case, as places in a list of those that occur.
 pub struct Kinds {
     /// The kinds that occur, in the order of the legend.
@@ -54,7 +60,8 @@ pub struct Kinds {
 impl Kinds {
     /// Sorts the cases of one panel after the other by the variable `name`, which holds periods or has named values.
     pub fn of(
-        (view, panels): (&View<'_>, &[View<'_>]),
+        view: &View<'_>,
+        panels: &[View<'_>],
         name: &str,
         free: &[&str],
     ) -> Result<Kinds, FigureError> {
@@ -71,13 +78,10 @@ impl Kinds {
         name: &str,
         free: &[&str],
     ) -> Result<Kinds, FigureError> {
-        let both = kinds(first, name, free)?.into_iter().zip(kinds(second, name, free)?);
-        let kind = |(a, b): ((usize, Kind), (usize, Kind))| {
-            let words = if a == b { "upward and downward alike" } else { "different" };
-            let colour = if a == b { PAPER } else { PERIODS[4] };
-            (usize::from(a != b), Kind { name: words.to_owned(), colour: Some(colour) })
-        };
-        Ok(Kinds::sorted(both.map(kind).collect(), first.quantity(name).short_name()))
+        let (of_first, of_second) = (kinds(first, name, free)?, kinds(second, name, free)?);
+        let both = of_first.iter().zip(&of_second);
+        let compared = both.map(|(first, second)| alike(first == second)).collect();
+        Ok(Kinds::sorted(compared, first.quantity(name).short_name()))
     }
 
     /// The kinds of cases that occur in the order of their places in the legend.
@@ -96,8 +100,10 @@ impl Kinds {
             let (a, b) = (&present[a], &present[b]);
             a.0.cmp(&b.0).then_with(|| a.1.name.cmp(&b.1.name))
         });
-        let place = |shown: u16| order.iter().position(|&it| it == usize::from(shown)).unwrap_or(0);
-        let places: Vec<u16> = (0..present.len() as u16).map(|it| place(it) as u16).collect();
+        let mut places = vec![0; present.len()];
+        for (place, &shown) in order.iter().enumerate() {
+            places[shown] = place as u16;
+        }
         of_case.iter_mut().for_each(|it| *it = places[usize::from(*it)]);
         let kinds: Vec<Kind> = order.iter().map(|&it| present[it].1.clone()).collect();
         let listed = vec![true; kinds.len()];
@@ -173,26 +179,35 @@ fn kinds(view: &View<'_>, name: &str, free: &[&str]) -> Result<Vec<(usize, Kind)
     let codes = view.parameter(name, free)?;
     let (flags, outcomes) = (view.flags(name), Outcomes::over(view, free)?);
     let resting = resting(view, free)?;
-    let kind = |(case, code): (usize, &f64)| match name {
-        _ if name == ATTRACTOR.name => by_attractor(*code),
-        _ if name != PERIOD.name => by_flag(*code, flags),
-        _ if resting.get(case) == Some(&true) => rest(),
-        _ => by_period(*code, outcomes.name(case)),
-    };
-    Ok(codes.iter().enumerate().map(kind).collect())
+    let mut kinds = Vec::new();
+    for (case, code) in codes.iter().enumerate() {
+        kinds.push(match name {
+            _ if name == ATTRACTOR.name => by_attractor(*code),
+            _ if name != PERIOD.name => by_flag(*code, flags),
+            _ if resting.get(case) == Some(&true) => rest(),
+            _ => by_period(*code, outcomes.name(case)),
+        });
+    }
+    Ok(kinds)
+}
+
+/// The kind of a case that is of one kind in both sweeps, or of two.
+fn alike(is_alike: bool) -> (usize, Kind) {
+    match is_alike {
+        true => (0, Kind::coloured("upward and downward alike", PAPER)),
+        false => (1, Kind::coloured("different", PERIODS[4])),
+    }
 }
 
 /// The kind of a case that leads to an attractor, by its number.
 fn by_attractor(number: f64) -> (usize, Kind) {
     let place = match number {
         number if number >= 0.0 => number as usize,
-        _ => return (98, Kind { name: "no attractor known".to_owned(), colour: Some(UNDECIDED) }),
+        _ => return (98, Kind::coloured("no attractor known", UNDECIDED)),
     };
     match ATTRACTORS.get(place) {
-        Some(colour) => {
-            (place, Kind { name: format!("attractor {}", place + 1), colour: Some(*colour) })
-        }
-        None => (97, Kind { name: "further attractors".to_owned(), colour: Some(OTHER_ATTRACTOR) }),
+        Some(colour) => (place, Kind::coloured(&format!("attractor {}", place + 1), *colour)),
+        None => (97, Kind::coloured("further attractors", OTHER_ATTRACTOR)),
     }
 }
 
@@ -219,15 +234,17 @@ fn resting(view: &View<'_>, free: &[&str]) -> Result<Vec<bool>, FigureError> {
     };
     let outcomes = Outcomes::over(view, free)?;
     let shares = view.take(rest_share, free)?;
-    let repeats =
-        |case: usize| outcomes.periodic(case) || outcomes.name(case) == Some(inferred::NAME);
-    let rests = |(case, share): (usize, &f64)| *share >= 1.0 && repeats(case);
-    Ok(shares.iter().enumerate().map(rests).collect())
+    let cases = shares.iter().enumerate();
+    let resting = cases.map(|(case, share)| {
+        let repeats = outcomes.periodic(case) || outcomes.name(case) == Some(inferred::NAME);
+        *share >= 1.0 && repeats
+    });
+    Ok(resting.collect())
 }
 
 /// The mass moves and the capsule does not, whatever the period.
 fn rest() -> (usize, Kind) {
-    (0, Kind { name: "capsule at rest".to_string(), colour: Some(PAPER) })
+    (0, Kind::coloured("capsule at rest", PAPER))
 }
 
 fn no_value() -> (usize, Kind) {
@@ -236,20 +253,17 @@ fn no_value() -> (usize, Kind) {
 
 fn by_period(period: f64, outcome: Option<&str>) -> (usize, Kind) {
     // Only what repeats is inferred in a map, with its period.
-    let repeats = |name: &str| name == "periodic" || (name == inferred::NAME && period >= 1.0);
-    if let Some(found) = outcome.filter(|name| !repeats(name)).and_then(by_name) {
+    let repeats = outcome == Some("periodic") || (outcome == Some(inferred::NAME) && period >= 1.0);
+    if let Some(found) = outcome.filter(|_| !repeats).and_then(by_name) {
         return found;
     }
-    match period {
-        period if period >= 1.0 => {
-            let place = period as usize;
-            let kind = |name: String, colour| Kind { name, colour: Some(colour) };
-            match PERIODS.get(place - 1) {
-                Some(colour) => (place, kind(place.to_string(), *colour)),
-                None => (9, kind(format!("{} or more", PERIODS.len() + 1), LONG_PERIOD)),
-            }
-        }
-        _ => no_value(),
+    if period.is_nan() || period < 1.0 {
+        return no_value();
+    }
+    let place = period as usize;
+    match PERIODS.get(place - 1) {
+        Some(colour) => (place, Kind::coloured(&place.to_string(), *colour)),
+        None => (9, Kind::coloured(&format!("{} or more", PERIODS.len() + 1), LONG_PERIOD)),
     }
 }
 
@@ -258,8 +272,5 @@ fn by_flag(code: f64, flags: &[(i64, String)]) -> (usize, Kind) {
         return no_value();
     };
     let name = &flags[place].1;
-    by_name(name).unwrap_or_else(|| {
-        let colour = PERIODS[place % PERIODS.len()];
-        (place, Kind { name: name.clone(), colour: Some(colour) })
-    })
+    by_name(name).unwrap_or_else(|| (place, Kind::coloured(name, PERIODS[place % PERIODS.len()])))
 }

@@ -25,8 +25,9 @@ impl Cells {
         order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
         let sorted: Vec<f64> = order.iter().map(|index| values[*index]).collect();
         let scale = Scale::of_axis(&sorted);
-        let middle = |pair: &[f64]| (scale.share(pair[0]) + scale.share(pair[1])) / 2.0;
-        let ends: Vec<f64> = sorted.windows(2).map(middle).collect();
+        let ends =
+            sorted.windows(2).map(|pair| (scale.share(pair[0]) + scale.share(pair[1])) / 2.0);
+        let ends: Vec<f64> = ends.collect();
         let steps = sorted.windows(2).map(|pair| scale.share(pair[1]) - scale.share(pair[0]));
         let (least, most) = finite_range(steps).unwrap_or((1.0, 1.0));
         let uneven = if most > UNEVEN * least { sorted.clone() } else { Vec::new() };

@@ -87,13 +87,15 @@ impl Chosen {
         self.fault.borrow().clone()
     }
 
+    /// Whether a setting is set and has no effect.
+    fn is_unused(&self, setting: Setting) -> bool {
+        let is_set = self.set.parts(setting, |value| value.to_string()).is_some();
+        is_set && !self.used.borrow().contains(&setting)
+    }
+
     /// What of it has no effect in the figure or leaves values out, a sentence each, for the quantity called `name`.
     pub fn notes(&self, name: &str) -> Vec<String> {
-        let is_unused = |setting: &Setting| {
-            let is_set = self.set.parts(*setting, |value| value.to_string()).is_some();
-            is_set && !self.used.borrow().contains(setting)
-        };
-        let unused = Setting::NAMES.into_iter().filter(|(_, setting)| is_unused(setting));
+        let unused = Setting::NAMES.into_iter().filter(|(_, setting)| self.is_unused(*setting));
         let reason = match KINDS.iter().any(|kind| kind.name == name) {
             true => ": kinds have fixed colours, and those that occur are shown",
             false => "",

@@ -58,7 +58,6 @@ impl Data {
     /// The rows as CSV below comments that tell what they are; a value that is missing has an empty field.
     pub fn text(&self, about: &str) -> String {
         let mut text = String::new();
-        let on_line = |words: &str| words.replace(['\n', '\r'], " ");
         // Writing to a String cannot fail.
         let _ = writeln!(text, "# {}", on_line(about));
         for (number, (heading, [x, y])) in self.panels.iter().enumerate() {
@@ -86,9 +85,14 @@ fn field(number: f64) -> String {
     if number.is_nan() { String::new() } else { number.to_string() }
 }
 
+/// A text without breaks of lines.
+fn on_line(text: &str) -> String {
+    text.replace(['\n', '\r'], " ")
+}
+
 /// A text as a field.
 fn quoted(text: &str) -> String {
-    let text = text.replace(['\n', '\r'], " ");
+    let text = on_line(text);
     match text.contains([',', '"']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text,

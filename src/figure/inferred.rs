@@ -1,11 +1,9 @@
 //! What a figure says of the cases of a refined grid that are inferred.
 
-use crate::store::Variable;
-use crate::store::catalogue::{Entry, INFERRED_ELSEWHERE, INFERRED_SAMPLE, OUTCOME};
-
 use super::outcome::Outcomes;
 use super::ticks::significant;
 use super::view::View;
+use crate::store::catalogue::{Entry, INFERRED_ELSEWHERE, INFERRED_SAMPLE, OUTCOME};
 
 /// The name of the outcome of an inferred case.
 pub const NAME: &str = "inferred";
@@ -15,8 +13,8 @@ pub const READS: [Entry; 2] = [INFERRED_SAMPLE, INFERRED_ELSEWHERE];
 
 /// Whether the results are those of a refined grid.
 pub fn has_inferred(view: &View<'_>) -> bool {
-    let named = |variable: &Variable| variable.flags.iter().any(|(_, name)| name == NAME);
-    view.dataset.variable(OUTCOME.name).is_some_and(named)
+    let outcome = view.dataset.variable(OUTCOME.name);
+    outcome.is_some_and(|variable| variable.flags.iter().any(|(_, name)| name == NAME))
 }
 
 /// Whether each of so many cases is inferred.

@@ -204,29 +204,46 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
     if !is_stem {
         return Err(view.unfit("the name of a figure must be the stem of a file name"));
     }
+    check_words(view)?;
+    check_keys(view)?;
+    check_others(view)?;
+    check_sizes(view)
+}
+
+/// Checks the words that are written in TeX.
+fn check_words(view: &View<'_>) -> Result<(), FigureError> {
     let drawing = view.drawing;
     let labels = drawing.settings.values().filter_map(|it| it.label.as_ref());
     let words = drawing.title.iter().chain(drawing.texts.keys()).chain(labels);
-    if let Some(fault) = words.into_iter().find_map(|it| Text::tex_fault(it)) {
-        return Err(view.unfit(fault));
+    match words.into_iter().find_map(|it| Text::tex_fault(it)) {
+        Some(fault) => Err(view.unfit(fault)),
+        None => Ok(()),
     }
-    let (kind, of) = (view.drawing.kind, &view.drawing.of);
-    let most = kind.keys().most;
-    if of.len() > most && most > 0 {
-        let (kind, of) = (kind.name(), of.join(", "));
-        let most = if most == 1 { "one".to_owned() } else { most.to_string() };
+}
+
+/// Checks that keys do not ask for more than the kind of figure has.
+fn check_keys(view: &View<'_>) -> Result<(), FigureError> {
+    let (drawing, kind) = (view.drawing, view.drawing.kind);
+    let keys = kind.keys();
+    if drawing.of.len() > keys.most && keys.most > 0 {
+        let (kind, of) = (kind.name(), drawing.of.join(", "));
+        let most = if keys.most == 1 { "one".to_owned() } else { keys.most.to_string() };
         return Err(view.unfit(format!("a {kind} shows {most} at most, and `of` names {of}")));
     }
-    let drawing = view.drawing;
-    if drawing.colour_by.is_some() && !kind.keys().coloured {
+    if drawing.colour_by.is_some() && !keys.coloured {
         return Err(view.unfit(format!("`colour_by` does not go with a {}", kind.name())));
     }
-    let marks = kind.keys().marks;
-    if let Some(mark) = drawing.hide.iter().find(|mark| !marks.contains(&mark.as_str())) {
-        let marks = marks.join(", ");
+    if let Some(mark) = drawing.hide.iter().find(|mark| !keys.marks.contains(&mark.as_str())) {
+        let marks = keys.marks.join(", ");
         let why = format!("`hide`: a {} has no mark {mark} (it has: {marks})", kind.name());
         return Err(view.unfit(why));
     }
+    Ok(())
+}
+
+/// Checks what goes with one kind of figure only, and that a refined grid is shown by one that tells what is inferred.
+fn check_others(view: &View<'_>) -> Result<(), FigureError> {
+    let (drawing, kind) = (view.drawing, view.drawing.kind);
     if view.measured.is_some() && kind != DrawingKind::Bifurcation {
         return Err(view.unfit("measured points stand over a bifurcation diagram"));
     }
@@ -241,6 +258,12 @@ fn check_request(view: &View<'_>) -> Result<(), FigureError> {
         let why = "shows computed cases, and most of a refined grid are inferred; draw a map";
         return Err(view.unfit(format!("a {} {why}, or compute all", kind.name())));
     }
+    Ok(())
+}
+
+/// Checks the sizes that are set.
+fn check_sizes(view: &View<'_>) -> Result<(), FigureError> {
+    let drawing = view.drawing;
     let sizes = [
         ("width", drawing.width_mm, Size::Width),
         ("height", drawing.height_mm, Size::Height),

@@ -21,11 +21,11 @@ pub struct Origin {
 impl Origin {
     /// That of a figure of these results.
     pub fn of(dataset: &Dataset) -> Origin {
-        let attribute = |key: &str| dataset.attributes.get(key).cloned();
+        let created = dataset.attributes.get(provenance::CREATED);
         Origin {
-            program: concat!("capsulemap ", env!("CARGO_PKG_VERSION")).to_owned(),
-            study: attribute(FINGERPRINT),
-            time: provenance::fixed_time().or_else(|| attribute(provenance::CREATED)),
+            study: dataset.attributes.get(FINGERPRINT).cloned(),
+            time: provenance::fixed_time().or_else(|| created.cloned()),
+            ..Origin::of_recordings()
         }
     }
 

@@ -25,11 +25,12 @@ impl<'a> Outcomes<'a> {
             return Ok(Outcomes { flags: &[], places: Vec::new() });
         }
         let flags = view.flags(OUTCOME.name);
-        let place = |code: &f64| {
-            let place = flags.iter().position(|(value, _)| *value as f64 == *code);
-            place.and_then(|place| u8::try_from(place).ok()).unwrap_or(UNKNOWN)
-        };
-        Ok(Outcomes { flags, places: view.take(OUTCOME.name, free)?.iter().map(place).collect() })
+        let mut places = Vec::new();
+        for code in view.take(OUTCOME.name, free)? {
+            let place = flags.iter().position(|(value, _)| *value as f64 == code);
+            places.push(place.and_then(|place| u8::try_from(place).ok()).unwrap_or(UNKNOWN));
+        }
+        Ok(Outcomes { flags, places })
     }
 
     /// The outcome of a case, if it is known.

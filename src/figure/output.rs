@@ -138,15 +138,15 @@ impl Figure<'_> {
     fn png(&self, tree: &Tree) -> Result<Vec<u8>, FigureError> {
         // A length of 96 in the tree is an inch.
         let scale = (self.dpi / 96.0) as f32;
-        let pixels = |length: f32| (length * scale).round() as u32;
-        let pixmap = Pixmap::new(pixels(tree.size().width()), pixels(tree.size().height()));
+        let [width, height] =
+            [tree.size().width(), tree.size().height()].map(|it| (it * scale).round() as u32);
+        let pixmap = Pixmap::new(width, height);
         let mut pixmap = pixmap.ok_or_else(|| self.render("it is too large".to_string()))?;
         pixmap.fill(Color::WHITE);
         resvg::render(tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
         let pixels: Vec<u8> =
             pixmap.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
-        let size = [pixmap.width(), pixmap.height()];
-        encode((size, self.dpi), &pixels, &self.texts())
+        encode([width, height], self.dpi, &pixels, &self.texts())
             .map_err(|error| self.render(error.to_string()))
     }
 
@@ -164,9 +164,8 @@ impl Figure<'_> {
     fn pdf(&self, tree: &Tree) -> Result<Vec<u8>, FigureError> {
         // A point is 1/72 inch, a length in the tree 1/96.
         let (width, height) = (tree.size().width() * 0.75, tree.size().height() * 0.75);
-        let empty = || self.render("it has no size".to_string());
-        let settings = PageSettings::from_wh(width, height).ok_or_else(empty)?;
-        let size = Size::from_wh(width, height).ok_or_else(empty)?;
+        let both = PageSettings::from_wh(width, height).zip(Size::from_wh(width, height));
+        let (settings, size) = both.ok_or_else(|| self.render("it has no size".to_string()))?;
         let mut document = Document::new();
         let metadata =
             Metadata::new().title(self.name.to_string()).description(self.about.to_string());
@@ -204,7 +203,8 @@ impl Figure<'_> {
 
 /// An RGB image as PNG with its resolution and what it says of itself.
 fn encode(
-    ([width, height], dpi): ([u32; 2], f64),
+    [width, height]: [u32; 2],
+    dpi: f64,
     rgb: &[u8],
     texts: &[(&str, String)],
 ) -> Result<Vec<u8>, png::EncodingError> {

@@ -88,13 +88,37 @@ struct Branches<'v, 'a> {
     factors: [f64; 2],
     /// The values of the requests, by axis.
     asked: [Rows; 2],
+    /// The points of the branches.
+    points: Orbits,
+    /// The special points of the branches.
+    specials: Orbits,
+}
+
+/// Orbits of branches.
+struct Orbits {
+    /// The number of the branch of each.
+    branch: Rows,
+    /// Where they are [SI], by axis.
+    columns: [Rows; 2],
+}
+
+impl Orbits {
+    fn new(view: &View<'_>, place: Place, own: &OrbitColumns, axes: [&str; 2]) -> Orbits {
+        let columns = axes.map(|name| Rows::new(view.dataset, &place.name(name)));
+        Orbits { branch: Rows::new(view.dataset, own.branch.name), columns }
+    }
 }
 
 impl<'v, 'a> Branches<'v, 'a> {
     fn new(view: &'v View<'a>, axes: [&'a str; 2]) -> Self {
-        let factors = axes.map(|name| view.quantity(name).factor);
-        let asked = axes.map(|name| Rows::new(view.dataset, &Place::Request.name(name)));
-        Branches { view, axes, factors, asked }
+        Branches {
+            view,
+            axes,
+            factors: axes.map(|name| view.quantity(name).factor),
+            asked: axes.map(|name| Rows::new(view.dataset, &Place::Request.name(name))),
+            points: Orbits::new(view, Place::Branch, &AT_BRANCH_POINTS, axes),
+            specials: Orbits::new(view, Place::Special, &AT_SPECIAL_POINTS, axes),
+        }
     }
 
     /// Adds the branches that lie at the values of the axes that are held, and their special points.
@@ -102,49 +126,46 @@ impl<'v, 'a> Branches<'v, 'a> {
         let dataset = self.view.dataset;
         let fits = in_view(self.view, &self.axes);
         let request = Rows::new(dataset, INDEX_REQUEST.name);
-        let points = self.places((Place::Branch, &AT_BRANCH_POINTS));
-        let specials = self.places((Place::Special, &AT_SPECIAL_POINTS));
         let kind = Rows::new(dataset, SPECIAL_KIND.name);
-        let flags = dataset.variable(SPECIAL_KIND.name).map_or(&[][..], |it| &it.flags);
-        let symbol = |at: usize| {
-            let flag = flags.iter().find(|(code, _)| *code as f64 == kind.one(at))?;
-            Symbol::named(&flag.1)
-        };
+        let flags = self.view.flags(SPECIAL_KIND.name);
         for number in 0..request.count() {
             let of = request.one(number) as usize;
             if !fits.get(of).copied().unwrap_or(false) {
                 continue;
             }
-            let line: Vec<[f64; 2]> = points(number, of).into_iter().map(|(_, at)| at).collect();
-            if line.len() > 1 {
+            let points = self.places(&self.points, number, of);
+            if points.len() > 1 {
                 let words = "branch of orbits".to_owned();
-                over.lines.push(MapLine { words, colour: None, is_dashed: false, points: line });
+                let points = points.into_iter().map(|(_, at)| at).collect();
+                over.lines.push(MapLine { words, colour: None, is_dashed: false, points });
             }
-            over.points.extend(specials(number, of).into_iter().filter_map(|(place, at)| {
-                let symbol = symbol(place)?;
-                Some(MapPoint { words: symbol.words, colour: channels(symbol.colour), at })
-            }));
+            for (place, at) in self.places(&self.specials, number, of) {
+                let flag = flags.iter().find(|(code, _)| *code as f64 == kind.one(place));
+                let symbol = flag.and_then(|(_, name)| Symbol::named(name));
+                over.points.extend(symbol.map(|symbol| MapPoint {
+                    words: symbol.words,
+                    colour: channels(symbol.colour),
+                    at,
+                }));
+            }
         }
     }
 
-    /// The rows of a branch, by its number and that of its request, with where they are in the units of the axes.
-    fn places(
-        &self,
-        (place, own): (Place, &OrbitColumns),
-    ) -> impl Fn(usize, usize) -> Vec<(usize, [f64; 2])> {
-        let columns = self.axes.map(|name| Rows::new(self.view.dataset, &place.name(name)));
-        let branch = Rows::new(self.view.dataset, own.branch.name);
-        move |number, of| {
-            // What the branch does not vary has the value of its request.
-            let value = |axis: usize, at: usize| {
-                let own = columns[axis].one(at);
-                let in_si = if own.is_finite() { own } else { self.asked[axis].one(of) };
+    /// The rows of the orbits of a branch, by its number and that of its request, with where they are in the units of the axes.
+    fn places(&self, orbits: &Orbits, number: usize, request: usize) -> Vec<(usize, [f64; 2])> {
+        let mut places = Vec::new();
+        for row in orbits.branch.places(number) {
+            let at = [0, 1].map(|axis| {
+                // What the branch does not vary has the value of its request.
+                let own = orbits.columns[axis].one(row);
+                let in_si = if own.is_finite() { own } else { self.asked[axis].one(request) };
                 in_si * self.factors[axis]
-            };
-            let all = branch.places(number).into_iter();
-            let placed = all.map(|at| (at, [value(0, at), value(1, at)]));
-            placed.filter(|(_, at)| at.iter().all(|it| it.is_finite())).collect()
+            });
+            if at.iter().all(|it| it.is_finite()) {
+                places.push((row, at));
+            }
         }
+        places
     }
 }
 

@@ -36,7 +36,7 @@ impl Paint {
         (free, cases): (&[&str], usize),
     ) -> Result<Paint, FigureError> {
         if category::is_sorted(view, name) {
-            return Ok(Paint::Kinds(Kinds::of((view, panels), name, free)?));
+            return Ok(Paint::Kinds(Kinds::of(view, panels, name, free)?));
         }
         let (mut all, mut all_inferred) = (Vec::new(), Vec::new());
         for panel in panels {

@@ -1,14 +1,14 @@
 //! Poincaré sections of one case: the stroboscopic one, and the one at the impacts.
 
 use super::axis::AxisRequest;
-use super::canvas::Drawn;
+use super::canvas::{Canvas, Drawn};
 use super::cloud::{self, Dot};
 use super::error::FigureError;
 use super::header::Header;
 use super::kind::{Kind, Names, Needs};
 use super::motion::Motion;
-use super::page::{PageRequest, PanelRequest, letter};
-use super::panel::Pointing;
+use super::page::{PageRequest, PanelRequest, in_rows, letter};
+use super::panel::{Panel, Pointing};
 use super::quantity::Quantity;
 use super::style::{INK, TWO_COLUMNS};
 use super::text::Text;
@@ -44,10 +44,52 @@ impl Section {
         let count = self.points.len();
         format!("{count} {}{}", self.name, if count == 1 { "" } else { "s" })
     }
+
+    /// Its panel with this letter; `held` says where the axes are held, where the panel is the one that says it.
+    fn request(&self, letter: Option<char>, held: Option<Text>) -> PanelRequest {
+        let [x, y] = self.quantities.clone();
+        let [of_x, of_y] = [0, 1].map(|i| self.points.iter().map(|it| it[i]).collect::<Vec<f64>>());
+        let told = Text::plain(&self.told());
+        let note = match held {
+            Some(held) => told.then(Text::plain(" of the case at ")).then(held),
+            None => told,
+        };
+        PanelRequest {
+            x: AxisRequest::around(x, &of_x, 0.05),
+            y: AxisRequest::around(y, &of_y, 0.05),
+            header: Header { letter, note: Some(note), legend: Vec::new() },
+        }
+    }
+
+    /// Draws its points.
+    fn draw(&self, canvas: &mut Canvas, panel: &Panel, drawing: &Drawing) {
+        let crowding = self.points.len() as f64;
+        let mut dots = Vec::new();
+        for [x, y] in &self.points {
+            dots.push(Dot { at: (*x, *y), colour: INK, crowding, case: 0 });
+        }
+        cloud::draw(canvas, panel, &dots, cloud::radius(drawing, dots.len()));
+        panel.record(canvas, self.name, dots.iter().map(|dot| dot.at));
+    }
 }
 
 /// Draws the sections that `view` asks for, those of which the study keeps points.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
+    let sections = sections(view)?;
+    let page = page(view, &sections);
+    let (mut canvas, panels) = page.lay_out();
+    for (panel, section) in panels.iter().flatten().zip(&sections) {
+        section.draw(&mut canvas, panel, view.drawing);
+        panel.finish(&mut canvas);
+    }
+    let told: Vec<String> = sections.iter().map(Section::told).collect();
+    let held = view.held_record(&[]);
+    let at = if held.is_empty() { held } else { format!(" at {held}") };
+    Ok(canvas.finish(&format!("section{at}: {}", told.join(", "))))
+}
+
+/// What the figure shows of the results: at least one section.
+fn sections(view: &View<'_>) -> Result<Vec<Section>, FigureError> {
     let sections: Vec<Section> =
         [stroboscopic(view)?, at_impacts(view)?].into_iter().flatten().collect();
     if section(view.model()).len() < 2 {
@@ -58,53 +100,28 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
         let why = "there are no section points; `points` of [protocol] says how many are kept";
         return Err(view.unfit(why));
     }
+    Ok(sections)
+}
+
+/// The sections beside each other, or below each other in a narrow figure.
+fn page<'a>(view: &View<'a>, sections: &[Section]) -> PageRequest<'a> {
     let count = sections.len();
-    let panel = |(index, section): (usize, &Section)| {
-        let values = |i: usize| section.points.iter().map(|it| it[i]).collect::<Vec<f64>>();
-        let [x, y] = section.quantities.clone();
+    let first = sections[0].request(letter(0, count), view.held_note(&[]));
+    let first = PageRequest::of_one(view.drawing, first, HEIGHT, Pointing::Inward);
+    let mut panels = Vec::new();
+    for (index, section) in sections.iter().enumerate() {
         // The values at which the axes are held are named once.
         let held = view.held_note(&[]).filter(|_| index == 0);
-        let told = Text::plain(&section.told());
-        let note = match held {
-            Some(held) => told.then(Text::plain(" of the case at ")).then(held),
-            None => told,
-        };
-        PanelRequest {
-            x: AxisRequest::around(x, &values(0), 0.05),
-            y: AxisRequest::around(y, &values(1), 0.05),
-            header: Header { letter: letter(index, count), note: Some(note), legend: Vec::new() },
-        }
-    };
-    let first =
-        PageRequest::of_one(view.drawing, panel((0, &sections[0])), HEIGHT, Pointing::Inward);
-    // In a narrow figure the sections stand below each other.
-    let columns = if view.drawing.width_mm.is_some_and(|it| it < NARROW) { 1 } else { 2 };
-    let mut rows: Vec<Vec<PanelRequest>> = Vec::new();
-    for request in sections.iter().enumerate().map(panel) {
-        match rows.last_mut().filter(|row| row.len() < columns) {
-            Some(row) => row.push(request),
-            None => rows.push(vec![request]),
-        }
+        panels.push(section.request(letter(index, count), held));
     }
-    let page = PageRequest {
+    let columns = if view.drawing.width_mm.is_some_and(|it| it < NARROW) { 1 } else { 2 };
+    let rows = in_rows(panels, columns);
+    PageRequest {
         width_mm: if count > 1 { TWO_COLUMNS } else { first.width_mm },
         heights: vec![HEIGHT; rows.len()],
         rows,
         ..first
-    };
-    let (mut canvas, panels) = page.lay_out();
-    for (panel, section) in panels.iter().flatten().zip(&sections) {
-        let crowding = section.points.len() as f64;
-        let dot = |at: &[f64; 2]| Dot { at: (at[0], at[1]), colour: INK, crowding, case: 0 };
-        let dots: Vec<Dot> = section.points.iter().map(dot).collect();
-        cloud::draw(&mut canvas, panel, &dots, cloud::radius(view.drawing, dots.len()));
-        panel.record(&mut canvas, section.name, dots.iter().map(|dot| dot.at));
-        panel.finish(&mut canvas);
     }
-    let told: Vec<String> = sections.iter().map(Section::told).collect();
-    let held = view.held_record(&[]);
-    let at = if held.is_empty() { held } else { format!(" at {held}") };
-    Ok(canvas.finish(&format!("section{at}: {}", told.join(", "))))
 }
 
 fn stroboscopic(view: &View<'_>) -> Result<Option<Section>, FigureError> {
