@@ -178,7 +178,7 @@ pub fn is_sorted(view: &View<'_>, name: &str) -> bool {
 fn kinds(view: &View<'_>, name: &str, free: &[&str]) -> Result<Vec<(usize, Kind)>, FigureError> {
     let codes = view.parameter(name, free)?;
     let (flags, outcomes) = (view.flags(name), Outcomes::over(view, free)?);
-    let resting = resting(view, free)?;
+    let resting = resting(view, free, &outcomes)?;
     let mut kinds = Vec::new();
     for (case, code) in codes.iter().enumerate() {
         kinds.push(match name {
@@ -227,12 +227,15 @@ fn by_name(name: &str) -> Option<(usize, Kind)> {
 }
 
 /// Whether each periodic case is one in which the capsule never slides; empty where the results do not say.
-fn resting(view: &View<'_>, free: &[&str]) -> Result<Vec<bool>, FigureError> {
+fn resting(
+    view: &View<'_>,
+    free: &[&str],
+    outcomes: &Outcomes<'_>,
+) -> Result<Vec<bool>, FigureError> {
     let rest_share = view.model().rest_share().map(Output::name);
     let Some(rest_share) = rest_share.filter(|name| view.dataset.variable(name).is_some()) else {
         return Ok(Vec::new());
     };
-    let outcomes = Outcomes::over(view, free)?;
     let shares = view.take(rest_share, free)?;
     let cases = shares.iter().enumerate();
     let resting = cases.map(|(case, share)| {

@@ -26,7 +26,7 @@ pub struct Kind {
     pub needs: Needs,
     /// The variables whose numbers a figure of this kind reads, those that are there of them.
     pub reads: fn(&Drawing, &'static Description) -> Names,
-    /// Draws a figure of this kind.
+    /// Fetches what a figure of this kind shows, once, into a struct of its file, and then draws it.
     pub draw: fn(&View<'_>) -> Result<Drawn, FigureError>,
 }
 

@@ -1,5 +1,6 @@
 //! Shown: draws stored records.
 
+mod asked;
 mod attractor_diagram;
 mod attractor_table;
 mod attractors;
