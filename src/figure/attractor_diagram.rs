@@ -47,7 +47,6 @@ pub fn draw(
     }
     legend.extend(marks.legend().map(|(symbol, words)| (Mark::Symbol(symbol), words)));
     let style = PointStyle {
-        drawing: view.drawing,
         sorts: looks.into_iter().map(sort).collect(),
         // Points stand out on both sides of the lines through them.
         beside_lines: 1.4,

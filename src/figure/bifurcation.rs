@@ -107,11 +107,8 @@ fn draw_branches(view: &View<'_>, x_name: &str) -> Result<Drawn, FigureError> {
     let is_told = contents.cases.values.is_empty() || contents.paint.is_some();
     let legend = if is_told { Vec::new() } else { legend(&branches) };
     let diagram = Diagram::of(view, contents);
-    let style = PointStyle {
-        drawing: view.drawing,
-        sorts: branches.iter().map(Branch::sort).collect(),
-        beside_lines: 1.0,
-    };
+    let style =
+        PointStyle { sorts: branches.iter().map(Branch::sort).collect(), beside_lines: 1.0 };
     Ok(diagram.draw(view, &style, legend, |canvas, panel, output| {
         if !has_points(view, output) {
             panel.mark_zero(canvas);

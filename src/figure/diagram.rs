@@ -122,9 +122,7 @@ pub struct Sort {
 }
 
 /// How the points are drawn.
-pub struct PointStyle<'a> {
-    /// The request, which may set their size.
-    pub drawing: &'a Drawing,
+pub struct PointStyle {
     /// The sorts, in the order in which they are drawn.
     pub sorts: Vec<Sort>,
     /// By what factor they are larger on a panel with lines of branches.
@@ -170,7 +168,7 @@ impl<'a> Diagram<'a> {
     pub fn draw(
         &self,
         view: &View<'_>,
-        style: &PointStyle<'_>,
+        style: &PointStyle,
         legend: Vec<header::Entry>,
         below: impl Fn(&mut Canvas, &Panel, &str),
     ) -> Drawn {
@@ -183,7 +181,7 @@ impl<'a> Diagram<'a> {
         let (mut canvas, panels) = page.lay_out();
         for (index, panel) in panels.iter().flatten().enumerate() {
             below(&mut canvas, panel, &outputs[index]);
-            self.draw_points(&mut canvas, panel, index, style);
+            self.draw_points(&mut canvas, panel, index, view.drawing, style);
             lines[index].draw(&mut canvas, panel);
             measured.draw(&mut canvas, panel, index);
             panel.finish(&mut canvas);
@@ -200,12 +198,13 @@ impl<'a> Diagram<'a> {
         canvas: &mut Canvas,
         panel: &Panel,
         index: usize,
-        style: &PointStyle<'_>,
+        drawing: &Drawing,
+        style: &PointStyle,
     ) {
         let Contents { clouds, lines, symbols, .. } = &self.contents;
         let cloud = &clouds[index];
         let wider = if lines[index].is_empty() { 1.0 } else { style.beside_lines };
-        let radius = wider * cloud::radius(style.drawing, cloud::count(panel, cloud));
+        let radius = wider * cloud::radius(drawing, cloud::count(panel, cloud));
         for (dots, sort) in cloud.iter().zip(&style.sorts) {
             cloud::draw(canvas, panel, dots, radius * sort.size);
             let told = dots.iter().map(|dot| (dot.at, self.contents.value(dot.case)));
@@ -232,7 +231,8 @@ impl<'a> Diagram<'a> {
         }
         let note = view.note(&cases.free, &self.left_out);
         if let Some(first) = rows.first_mut().and_then(|row| row.first_mut()) {
-            first.header = Header { note, legend, ..first.header.clone() };
+            first.header.note = note;
+            first.header.legend = legend;
         }
         PageRequest {
             drawing: view.drawing,
