@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use super::attractor_table::{self, AttractorTable};
 use super::axis::AxisRequest;
 use super::basin_colours::{band, colour, tinted};
 use super::canvas::{Canvas, Drawn, Stroke};
@@ -11,6 +10,7 @@ use super::error::FigureError;
 use super::header::{self, Header, Mark};
 use super::inferred;
 use super::kind::{Kind, Names, Needs};
+use super::known_attractors::{self, KnownAttractors};
 use super::outcome::{self, Outcomes};
 use super::page::{PageRequest, PanelRequest};
 use super::panel::{Panel, Pointing};
@@ -40,7 +40,7 @@ pub const KIND: Kind = Kind { needs: Needs::Cases, reads, draw };
 fn reads(_: &Drawing, model: &'static Description) -> Names {
     Names::of(outcome::READS)
         .and([ATTRACTOR])
-        .and(attractor_table::READS)
+        .and(known_attractors::READS)
         .and_all(section_points::reads(model))
         .and(edges(model))
         .and(inferred::READS)
@@ -69,7 +69,7 @@ struct Basins<'a> {
     /// Whether a case has no result.
     without: Vec<bool>,
     /// What the results tell of the attractors.
-    table: AttractorTable<'a>,
+    attractors: KnownAttractors<'a>,
     /// Whether each attractor of the table is chaotic or quasi-periodic.
     irregular: Vec<bool>,
     /// Which part of the starts is inferred, if any is, and how well.
@@ -99,12 +99,12 @@ impl<'a> Basins<'a> {
             .map(|case| matches!(outcomes.name(case), Some("failed" | "missing")))
             .collect();
         let inferred = inferred::inferred(&outcomes, plane.count());
-        let table = AttractorTable::of(view);
+        let attractors = KnownAttractors::of(view);
         Ok(Basins {
             numbers,
             without,
-            irregular: table.irregular(),
-            table,
+            irregular: attractors.irregular(),
+            attractors,
             inferred: inferred::told(view, &inferred, "starts", "lead elsewhere"),
             points: match view.shows("section-points") {
                 true => section_points(view, &plane),
@@ -136,7 +136,7 @@ impl<'a> Basins<'a> {
         let mut legend = Vec::new();
         for &number in present.iter().take(NAMED) {
             let fill = Mark::Filled(self.of_attractor(number));
-            legend.push((fill, Text::plain(&self.table.told(number))));
+            legend.push((fill, Text::plain(&self.attractors.told(number))));
         }
         if present.len() > NAMED {
             let others = format!("{} other attractors", present.len() - NAMED);
@@ -188,7 +188,7 @@ impl<'a> Basins<'a> {
     /// What the figure shows, with the attractors that occur.
     fn about(&self, view: &View<'_>) -> String {
         let about = view.about(&[ATTRACTOR.name.to_owned()], &self.plane.names());
-        let attractors = self.present().into_iter().map(|number| self.table.told(number));
+        let attractors = self.present().into_iter().map(|number| self.attractors.told(number));
         let saddles = (!self.saddles.is_empty()).then(|| "saddles on the boundary".to_owned());
         let told: Vec<String> =
             attractors.chain(self.inferred.iter().cloned()).chain(saddles).collect();

@@ -1,10 +1,9 @@
 //! Shown: draws stored records.
 
-mod asked;
 mod attractor_diagram;
-mod attractor_table;
 mod attractors;
 mod axis;
+mod axis_numbers;
 mod basin;
 mod basin_colours;
 mod bifurcation;
@@ -31,12 +30,12 @@ mod held;
 mod history;
 mod inferred;
 mod kind;
+mod known_attractors;
 mod map;
 mod mark;
 mod measured;
 mod motion;
 mod notes;
-mod numbers;
 mod optima_table;
 mod origin;
 mod outcome;
@@ -51,6 +50,7 @@ pub mod plot;
 mod quantity;
 mod raster;
 mod registry;
+mod requested;
 mod scale;
 mod section;
 mod section_points;

@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use ndarray::ArrayD;
 use plotters::style::RGBColor;
 
-use super::attractor_table::{AttractorTable, millimetres};
 use super::axis::AxisRequest;
 use super::basin_colours::{band, colour};
 use super::canvas::{Canvas, Drawn, Stroke};
@@ -13,6 +12,7 @@ use super::cells::Cells;
 use super::error::FigureError;
 use super::header::{self, Header, Mark};
 use super::kind::{Kind, Names, Needs};
+use super::known_attractors::{KnownAttractors, millimetres};
 use super::page::{PageRequest, PanelRequest, letter};
 use super::panel::{Panel, Pointing};
 use super::plane::cells;
@@ -211,7 +211,7 @@ struct Bands<'a> {
     /// Values of the axis at which starts are missing.
     incomplete: usize,
     /// What the results tell of the attractors: a row for each value, as the shares.
-    table: AttractorTable<'a>,
+    attractors: KnownAttractors<'a>,
     speeds: Speeds,
 }
 
@@ -230,7 +230,7 @@ impl<'a> Bands<'a> {
             shares,
             error,
             incomplete,
-            table: AttractorTable::of(view),
+            attractors: KnownAttractors::of(view),
             speeds: Speeds::of(view),
         })
     }
@@ -266,7 +266,7 @@ impl<'a> Bands<'a> {
     /// What an attractor is where starts lead to it, and the range of its speeds.
     fn told(&self, number: usize) -> Vec<String> {
         let rows = self.shares.iter().enumerate().filter(|(_, shares)| shares[number] > 0.0);
-        let motions = rows.map(|(row, _)| self.table.motion(row * self.count() + number));
+        let motions = rows.map(|(row, _)| self.attractors.motion(row * self.count() + number));
         motions.collect::<BTreeSet<_>>().into_iter().chain(self.speeds.told(number)).collect()
     }
 

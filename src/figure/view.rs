@@ -5,10 +5,10 @@ use std::rc::Rc;
 
 use ndarray::ArrayD;
 
+use super::axis_numbers::Numbers;
 use super::chosen::Chosen;
 use super::error::FigureError;
 use super::held::Held;
-use super::numbers::Numbers;
 use super::quantity::Quantity;
 use super::shown::Measured;
 use crate::campaign::KeptFront;

@@ -12,7 +12,7 @@ pub const READS: [Entry; 4] =
     [ATTRACTOR_KIND, ATTRACTOR_PERIOD, ATTRACTOR_SHARE, ATTRACTOR_SHARE_ERROR];
 
 /// The columns of the table, each empty where the results do not have it.
-pub struct AttractorTable<'a> {
+pub struct KnownAttractors<'a> {
     /// The names of the kinds of motion.
     kinds: &'a [(i64, String)],
     /// The code of each attractor's kind.
@@ -25,13 +25,13 @@ pub struct AttractorTable<'a> {
     errors: Vec<f64>,
 }
 
-impl<'a> AttractorTable<'a> {
+impl<'a> KnownAttractors<'a> {
     /// The table of the results.
-    pub fn of(view: &View<'a>) -> AttractorTable<'a> {
+    pub fn of(view: &View<'a>) -> KnownAttractors<'a> {
         let model = view.model();
         let speed = model.has_trade_off().then(|| Entry::of_output(model.speed()));
         let of_attractors = speed.map(|entry| view.column(Place::Attractor.of(entry)));
-        AttractorTable {
+        KnownAttractors {
             kinds: view.flags(ATTRACTOR_KIND.name),
             codes: view.column(ATTRACTOR_KIND),
             periods: view.column(ATTRACTOR_PERIOD),
