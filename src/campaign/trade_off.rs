@@ -187,7 +187,7 @@ impl TradeOff<'_> {
         ];
         let within = |most| ("fastest_within_budget", best.fastest_within(all, most));
         named.extend(self.budget.map(within));
-        let least = |least| ("least_for_speed", best.least_for(all, (self.direction, least)));
+        let least = |least| ("least_for_speed", best.least_for(all, self.direction, least));
         named.extend(self.speed.map(least));
         named
     }
@@ -231,7 +231,7 @@ impl TradeOff<'_> {
         let at_rest = fronts[0].0.at_rest;
         let fronts = fronts.map(|(optima, candidates)| optima.points(candidates, self.direction));
         let dearest = fronts.iter().flatten().fold(0.0, |most: f64, it| most.max(it.0));
-        fronts.map(|front| hypervolume(&front, (dearest, at_rest)))
+        fronts.map(|front| hypervolume(&front, dearest, at_rest))
     }
 
     fn fault(&self, fault: String) -> CampaignError {

@@ -32,9 +32,11 @@ impl<'a> Beyond<'a> {
         if at.events == trial.events {
             return;
         }
-        let apart = |it: &OperatingPoint| it.apart(at);
-        let is_nearer = |it: &OperatingPoint| it.events == trial.events && apart(it) < apart(trial);
-        let nearest = self.orbits.iter().find(|it| is_nearer(it)).unwrap_or(trial).clone();
+        let nearer = self
+            .orbits
+            .iter()
+            .find(|it| it.events == trial.events && it.apart(at) < trial.apart(at));
+        let nearest = nearer.unwrap_or(trial).clone();
         self.orbits.retain(|it| it.events != at.events && it.events != trial.events);
         self.orbits.extend([at.clone(), nearest]);
         let excess = self.orbits.len().saturating_sub(KEPT);
@@ -43,16 +45,16 @@ impl<'a> Beyond<'a> {
 
     /// The nearest surfaces within reach of an orbit, each located by an orbit just beyond it, and none where the events
     /// straight towards it stay the same.
-    pub fn located(&mut self, at: &OperatingPoint, here: &Measured, trust: f64) -> Vec<Surface> {
-        for surface in self.near(at, here, trust) {
+    pub fn located(&mut self, here: &Measured, trust: f64) -> Vec<Surface> {
+        for surface in self.near(here, trust) {
             if !surface.is_located() {
-                match self.just_beyond(at, &surface) {
-                    Some(beyond) => self.remember(at, &beyond),
-                    None => self.orbits.retain(|it| it.events != surface.beyond.events),
+                match self.just_beyond(&here.orbit, &surface) {
+                    Some(beyond) => self.remember(&here.orbit, &beyond),
+                    None => self.orbits.retain(|it| it.events != surface.beyond.orbit.events),
                 }
             }
         }
-        self.near(at, here, trust)
+        self.near(here, trust)
     }
 
     /// The first orbit with the events beyond a surface, straight towards it; none within its reach.
@@ -60,7 +62,7 @@ impl<'a> Beyond<'a> {
         let mut far = surface.just_beyond();
         while far < surface.reach {
             let probe = self.moved_along(at, surface, far)?;
-            if probe.events == surface.beyond.events {
+            if probe.events == surface.beyond.orbit.events {
                 return Some(probe);
             }
             // As long as the events are the same, the surface is farther than it seems.
@@ -88,14 +90,13 @@ impl<'a> Beyond<'a> {
     }
 
     /// The nearest surfaces within reach of an orbit.
-    pub fn near(&self, at: &OperatingPoint, here: &Measured, trust: f64) -> Vec<Surface> {
+    pub fn near(&self, here: &Measured, trust: f64) -> Vec<Surface> {
         let reach = (REACH[0] * trust).max(REACH[1]);
-        let is_near = |it: &&OperatingPoint| it.events != at.events && it.apart(at) <= reach;
-        let between = |there: &OperatingPoint| {
-            Surface::between((at, here), (there, &self.objective.measured(there)))
-        };
-        let near = self.orbits.iter().filter(is_near);
-        let mut surfaces: Vec<Surface> = near.filter_map(between).collect();
+        let at = &here.orbit;
+        let near = self.orbits.iter().filter(|it| it.events != at.events && it.apart(at) <= reach);
+        let mut surfaces: Vec<Surface> = near
+            .filter_map(|there| Surface::between(here, self.objective.measured(there.clone())))
+            .collect();
         surfaces.sort_by(|a, b| a.distance.total_cmp(&b.distance));
         surfaces.truncate(SURFACES);
         surfaces

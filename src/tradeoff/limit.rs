@@ -16,8 +16,8 @@ pub struct Limit {
 
 impl Limit {
     /// A budget: the most of an output.
-    pub fn budget((output, value): (Output, f64)) -> Limit {
-        Limit { output, side: Side::Upper, value }
+    pub fn budget(output: Output, most: f64) -> Limit {
+        Limit { output, side: Side::Upper, value: most }
     }
 
     /// By how much a value of the output exceeds it (SI).

@@ -5,15 +5,17 @@ mod beyond;
 mod front;
 mod goal;
 mod hold;
+mod lagrange_model;
 mod limit;
 mod operating_point;
 mod optima;
 mod quadratic;
 mod slope;
+mod stationarity;
 mod surface;
 
 pub use crate::capsule::{Sensitivity, sensitivity};
-pub use ascent::{Best, STATIONARY, best, left};
+pub use ascent::{Best, best, left};
 pub use front::{NOISE, front, speed_at_rest};
 pub use goal::Goal;
 pub use hold::{Hold, Side};
@@ -21,6 +23,7 @@ pub use limit::Limit;
 pub use operating_point::{Family, OperatingPoint};
 pub use optima::{Candidate, Direction, Optima, fastest_first, hypervolume, optima};
 pub use quadratic::MOST as MOST_FREE;
+pub use stationarity::STATIONARY;
 
 /// Limits of outputs that a search takes beside a budget, at most.
 pub const MOST_LIMITS: usize = quadratic::LIMITS - 1;

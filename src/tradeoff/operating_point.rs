@@ -118,12 +118,11 @@ impl Family {
     /// The stable orbit at other shares, sought where that at `from` leads along its tangent.
     pub fn moved(&self, from: &OperatingPoint, shares: &Vector) -> Option<OperatingPoint> {
         let slopes = &from.section_slopes[..self.free.len()];
-        let coordinate = |coordinate: usize| {
+        let guess = (0..from.section.len()).map(|coordinate| {
             let along = slopes.iter().zip(shares.iter().zip(&from.shares));
             let moved: f64 = along.map(|(slope, (to, at))| slope[coordinate] * (to - at)).sum();
             from.section[coordinate] + moved
-        };
-        let guess = (0..from.section.len()).map(coordinate).collect();
-        self.orbit(shares, &guess)
+        });
+        self.orbit(shares, &guess.collect())
     }
 }

@@ -29,6 +29,13 @@ pub enum Direction {
     Either,
 }
 
+impl Candidate {
+    /// Whether its speed and its price are known.
+    fn is_known(&self) -> bool {
+        self.speed.is_finite() && self.price.is_finite()
+    }
+}
+
 impl Direction {
     /// Each by its name.
     pub const NAMES: [(&'static str, Direction); 3] = [
@@ -79,8 +86,8 @@ pub struct Optima {
 impl Optima {
     /// The front as prices and speeds in a direction, both rising.
     pub fn points(&self, candidates: &[Candidate], direction: Direction) -> Vec<(f64, f64)> {
-        let point = |&at: &usize| (candidates[at].price, direction.of(candidates[at].speed));
-        self.front.iter().map(point).collect()
+        let front = self.front.iter().map(|&at| &candidates[at]);
+        front.map(|it| (it.price, direction.of(it.speed))).collect()
     }
 
     /// The fastest for no more than a price.
@@ -93,7 +100,8 @@ impl Optima {
     pub fn least_for(
         &self,
         candidates: &[Candidate],
-        (direction, least): (Direction, f64),
+        direction: Direction,
+        least: f64,
     ) -> Option<usize> {
         let mut front = self.front.iter().copied();
         front.find(|&at| direction.of(candidates[at].speed) >= least)
@@ -102,9 +110,9 @@ impl Optima {
 
 /// The motions that are not at rest, the fastest in a direction first.
 pub fn fastest_first(candidates: &[Candidate], direction: Direction, at_rest: f64) -> Vec<usize> {
-    let speed = |at: usize| direction.of(candidates[at].speed);
-    let mut moving: Vec<usize> = (0..candidates.len()).filter(|&at| speed(at) > at_rest).collect();
-    moving.sort_by(|&a, &b| speed(b).total_cmp(&speed(a)));
+    let speeds: Vec<f64> = candidates.iter().map(|it| direction.of(it.speed)).collect();
+    let mut moving: Vec<usize> = (0..speeds.len()).filter(|&at| speeds[at] > at_rest).collect();
+    moving.sort_by(|&a, &b| speeds[b].total_cmp(&speeds[a]));
     moving
 }
 
@@ -121,44 +129,43 @@ pub fn fastest_first(candidates: &[Candidate], direction: Direction, at_rest: f6
 /// The knee depends on the ends of the front, and so on what the study covers.
 pub fn optima(candidates: &[Candidate], direction: Direction, at_rest: Option<f64>) -> Optima {
     let at_rest = at_rest.unwrap_or_else(|| speed_at_rest(candidates.iter().map(|it| it.speed)));
-    let known = |it: &Candidate| it.speed.is_finite() && it.price.is_finite();
-    let moves = |it: &Candidate| known(it) && direction.of(it.speed) > at_rest;
-    let moving: Vec<usize> = (0..candidates.len()).filter(|&at| moves(&candidates[at])).collect();
+    let moving: Vec<usize> = (0..candidates.len())
+        .filter(|&at| candidates[at].is_known() && direction.of(candidates[at].speed) > at_rest)
+        .collect();
     let (prices, speeds): (Vec<f64>, Vec<f64>) =
         moving.iter().map(|&at| (candidates[at].price, direction.of(candidates[at].speed))).unzip();
     let front = without_rounding(front(&prices, &speeds), &prices);
     let points: Vec<(f64, f64)> = front.iter().map(|&at| (prices[at], speeds[at])).collect();
-    let least = |of: &dyn Fn(&Candidate) -> f64| {
-        let finite = moving.iter().copied().filter(|&at| of(&candidates[at]).is_finite());
-        finite.min_by(|&a, &b| of(&candidates[a]).total_cmp(&of(&candidates[b])))
-    };
+    let costs: Vec<f64> = candidates.iter().map(|it| it.energy_per_metre).collect();
+    let with_cost = moving.iter().copied().filter(|&at| costs[at].is_finite());
     Optima {
         at_rest,
         knee: knee(&points).map(|at| moving[front[at]]),
         fastest: front.last().map(|&at| moving[at]),
-        lowest_cost_of_transport: least(&|it| it.energy_per_metre),
+        lowest_cost_of_transport: with_cost.min_by(|&a, &b| costs[a].total_cmp(&costs[b])),
         front: front.into_iter().map(|at| moving[at]).collect(),
     }
 }
 
 /// A front by rising price without motions that another is faster than and no dearer but for rounding.
 fn without_rounding(front: Vec<usize>, prices: &[f64]) -> Vec<usize> {
-    let counts = |place: usize| {
+    let counting = (0..front.len()).filter(|&place| {
         let next = front.get(place + 1).map(|&at| prices[at]);
         next.is_none_or(|next| next > prices[front[place]] * (1.0 + SAME_PRICE))
-    };
-    (0..front.len()).filter(|place| counts(*place)).map(|place| front[place]).collect()
+    });
+    counting.map(|place| front[place]).collect()
 }
 
 /// The place of the knee of a front of prices and speeds, both rising.
 fn knee(front: &[(f64, f64)]) -> Option<usize> {
     let [(cheapest, slowest), .., (dearest, fastest)] = front else { return None };
-    let above = |(price, speed): &(f64, f64)| {
+    let heights = front.iter().map(|(price, speed)| {
         (speed - slowest) / (fastest - slowest) - (price - cheapest) / (dearest - cheapest)
-    };
+    });
+    let heights: Vec<f64> = heights.collect();
     let inner = 1..front.len() - 1;
     // Of those equally far the cheapest, which the last of equal ones is in reverse.
-    inner.rev().max_by(|&a, &b| above(&front[a]).total_cmp(&above(&front[b])))
+    inner.rev().max_by(|&a, &b| heights[a].total_cmp(&heights[b]))
 }
 
 /// The area of prices and speeds that a front dominates up to a dearest price, above a least speed.
@@ -166,7 +173,7 @@ fn knee(front: &[(f64, f64)]) -> Option<usize> {
 /// # Method
 ///
 /// The sum of the rectangles below the stairs of the front; motions dearer than `dearest` or slower than `slowest` have none.
-pub fn hypervolume(front: &[(f64, f64)], (dearest, slowest): (f64, f64)) -> f64 {
+pub fn hypervolume(front: &[(f64, f64)], dearest: f64, slowest: f64) -> f64 {
     let inside: Vec<(f64, f64)> =
         front.iter().copied().filter(|it| it.0 < dearest && it.1 > slowest).collect();
     let ends = inside.iter().skip(1).map(|it| it.0).chain([dearest]);

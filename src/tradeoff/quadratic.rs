@@ -57,17 +57,35 @@ impl Quadratic {
         let mut best: Option<Least> = None;
         for face in 0..faces {
             for held in 0..1_usize << self.planes.len() {
-                let found = self.stationary(face, held);
-                let is_better = |it: &Least| best.is_none_or(|best| it.value < best.value);
-                best = found.filter(is_better).or(best);
+                let Some(found) = self.stationary(face, held) else { continue };
+                if best.is_none_or(|best| found.value < best.value) {
+                    best = Some(found);
+                }
             }
         }
         best
     }
 
-    /// The stationary point of a face, whose digits to base three say which parameters are free or at which bound, within the
-    /// planes that the bits of `held` name.
+    /// The stationary point of a face within the planes that the bits of `held` name; none outside the box or above a plane.
     fn stationary(&self, face: usize, held: usize) -> Option<Least> {
+        let solution = self.solution(face, held)?;
+        let step: Vector = std::array::from_fn(|i| solution[i]);
+        if !self.allows(&step) {
+            return None;
+        }
+        let step: Vector = std::array::from_fn(|i| match i < self.count {
+            true => step[i].clamp(self.bounds[0][i], self.bounds[1][i]),
+            false => 0.0,
+        });
+        let bent: Vector = std::array::from_fn(|i| dot(&self.hessian[i], &step));
+        let value = dot(&self.gradient, &step) + 0.5 * dot(&bent, &step);
+        let multipliers = std::array::from_fn(|place| solution[MOST + place]);
+        Some(Least { step, value, multipliers })
+    }
+
+    /// The step and the multipliers of the planes that solve the equations of a face, whose digits to base three say which
+    /// parameters are free or at which bound, within the planes that the bits of `held` name.
+    fn solution(&self, face: usize, held: usize) -> Option<[f64; UNKNOWNS]> {
         let (mut rows, mut right) = ([[0.0; UNKNOWNS]; UNKNOWNS], [0.0; UNKNOWNS]);
         let mut digits = face;
         for i in 0..MOST {
@@ -93,26 +111,19 @@ impl Quadratic {
                 None => rows[MOST + place][MOST + place] = 1.0,
             }
         }
-        let solution = solve(rows, right)?;
-        let step: Vector = std::array::from_fn(|i| solution[i]);
+        solve(rows, right)
+    }
+
+    /// Whether a step is in the box and below the planes, but for rounding.
+    fn allows(&self, step: &Vector) -> bool {
         let inside = (0..self.count).all(|i| {
             step[i] >= self.bounds[0][i] - ROUNDING && step[i] <= self.bounds[1][i] + ROUNDING
         });
-        let below = self
-            .planes
-            .iter()
-            .all(|(normal, height)| dot(normal, &step) <= height + ROUNDING * (1.0 + height.abs()));
-        if !inside || !below {
-            return None;
-        }
-        let step: Vector = std::array::from_fn(|i| match i < self.count {
-            true => step[i].clamp(self.bounds[0][i], self.bounds[1][i]),
-            false => 0.0,
-        });
-        let bent: Vector = std::array::from_fn(|i| dot(&self.hessian[i], &step));
-        let value = dot(&self.gradient, &step) + 0.5 * dot(&bent, &step);
-        let multipliers = std::array::from_fn(|place| solution[MOST + place]);
-        Some(Least { step, value, multipliers })
+        let mut planes = self.planes.iter();
+        inside
+            && planes.all(|(normal, height)| {
+                dot(normal, step) <= height + ROUNDING * (1.0 + height.abs())
+            })
     }
 }
 

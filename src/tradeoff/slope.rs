@@ -16,72 +16,106 @@ const ROUNDING: f64 = 1e-15;
 ///
 /// The active sets of Lawson and Hanson (Solving Least Squares Problems, 1974, chapter 23).
 pub fn left(gradient: &Vector, normals: &[Vector]) -> (Vector, Vec<f64>) {
-    let mut multipliers = vec![0.0; normals.len()];
-    let mut holds = vec![false; normals.len()];
-    // Those that rounding alone would let in.
-    let mut refused = vec![false; normals.len()];
-    let with = |multipliers: &[f64]| -> Vector {
-        std::array::from_fn(|i| {
-            gradient[i] + normals.iter().zip(multipliers).map(|(a, m)| a[i] * m).sum::<f64>()
-        })
-    };
+    let mut set = ActiveSet::empty(gradient, normals);
     // A set that has been left does not come back, so that there are fewer steps than sets.
     for _ in 0..1_usize << HOLDING {
-        let slope = with(&multipliers);
-        let gain = |place: usize| -dot(&slope, &normals[place]);
-        let least = ROUNDING * norm(gradient);
-        let next = (0..normals.len())
-            .filter(|&place| {
-                !holds[place] && !refused[place] && gain(place) > least * norm(&normals[place])
-            })
-            .max_by(|&a, &b| gain(a).total_cmp(&gain(b)));
-        let Some(next) = next else { break };
-        holds[next] = true;
-        loop {
-            let Some(wanted) = stationary(gradient, normals, &holds) else {
-                (holds[next], refused[next]) = (false, true);
-                break;
-            };
-            let stops = (0..normals.len()).filter(|&i| holds[i] && wanted[i] <= 0.0);
-            let share = |i: usize| multipliers[i] / (multipliers[i] - wanted[i]);
-            let Some(first) = stops.min_by(|&a, &b| share(a).total_cmp(&share(b))) else {
-                multipliers = wanted;
-                break;
-            };
-            let by = share(first);
-            for i in 0..normals.len() {
-                multipliers[i] += by * (wanted[i] - multipliers[i]);
-            }
-            multipliers[first] = 0.0;
-            holds[first] = false;
-            if first == next {
-                refused[next] = true;
-                break;
-            }
-        }
+        let Some(next) = set.entering() else { break };
+        set.enter(next);
     }
-    (with(&multipliers), multipliers)
+    (set.slope(), set.multipliers)
 }
 
-/// The multipliers of those that hold which leave the least slope, whatever their signs.
-fn stationary(gradient: &Vector, normals: &[Vector], holds: &[bool]) -> Option<Vec<f64>> {
-    let held: Vec<usize> = (0..normals.len()).filter(|&place| holds[place]).collect();
-    let (mut rows, mut right) = ([[0.0; HOLDING]; HOLDING], [0.0; HOLDING]);
-    for (i, row) in rows.iter_mut().enumerate() {
-        row[i] = 1.0;
+/// The constraints that hold, on the way to those that leave the least slope.
+struct ActiveSet<'a> {
+    gradient: &'a Vector,
+    normals: &'a [Vector],
+    /// The multiplier of each constraint, zero of one that does not hold.
+    multipliers: Vec<f64>,
+    /// Which constraints hold.
+    holds: Vec<bool>,
+    /// Those that rounding alone would let in.
+    refused: Vec<bool>,
+}
+
+impl<'a> ActiveSet<'a> {
+    /// None yet of the constraints with these normals.
+    fn empty(gradient: &'a Vector, normals: &'a [Vector]) -> Self {
+        let count = normals.len();
+        let (holds, refused) = (vec![false; count], vec![false; count]);
+        ActiveSet { gradient, normals, multipliers: vec![0.0; count], holds, refused }
     }
-    for (i, &a) in held.iter().enumerate() {
-        for (j, &b) in held.iter().enumerate() {
-            rows[i][j] = dot(&normals[a], &normals[b]);
+
+    /// The slope that is left.
+    fn slope(&self) -> Vector {
+        std::array::from_fn(|i| {
+            let held = self.normals.iter().zip(&self.multipliers);
+            self.gradient[i] + held.map(|(a, m)| a[i] * m).sum::<f64>()
+        })
+    }
+
+    /// The constraint that takes most off the slope; none where none takes any.
+    fn entering(&self) -> Option<usize> {
+        let slope = self.slope();
+        let gains: Vec<f64> = self.normals.iter().map(|normal| -dot(&slope, normal)).collect();
+        let least = ROUNDING * norm(self.gradient);
+        (0..gains.len())
+            .filter(|&place| {
+                let is_out = !self.holds[place] && !self.refused[place];
+                is_out && gains[place] > least * norm(&self.normals[place])
+            })
+            .max_by(|&a, &b| gains[a].total_cmp(&gains[b]))
+    }
+
+    /// Lets a constraint in, and those out that then would pull instead of push.
+    fn enter(&mut self, next: usize) {
+        self.holds[next] = true;
+        loop {
+            let Some(wanted) = self.stationary() else {
+                (self.holds[next], self.refused[next]) = (false, true);
+                return;
+            };
+            let stops = (0..wanted.len()).filter(|&i| self.holds[i] && wanted[i] <= 0.0);
+            let shares = stops.map(|i| {
+                let from = self.multipliers[i];
+                (i, from / (from - wanted[i]))
+            });
+            let Some((first, by)) = shares.min_by(|a, b| a.1.total_cmp(&b.1)) else {
+                self.multipliers = wanted;
+                return;
+            };
+            for (multiplier, wanted) in self.multipliers.iter_mut().zip(&wanted) {
+                *multiplier += by * (wanted - *multiplier);
+            }
+            self.multipliers[first] = 0.0;
+            self.holds[first] = false;
+            if first == next {
+                self.refused[next] = true;
+                return;
+            }
         }
-        right[i] = -dot(&normals[a], gradient);
     }
-    let solution = solve(rows, right)?;
-    let mut wanted = vec![0.0; normals.len()];
-    for (value, place) in solution.iter().zip(held) {
-        wanted[place] = *value;
+
+    /// The multipliers of those that hold which leave the least slope, whatever their signs.
+    fn stationary(&self) -> Option<Vec<f64>> {
+        let normals = self.normals;
+        let held: Vec<usize> = (0..normals.len()).filter(|&place| self.holds[place]).collect();
+        let (mut rows, mut right) = ([[0.0; HOLDING]; HOLDING], [0.0; HOLDING]);
+        for (i, row) in rows.iter_mut().enumerate() {
+            row[i] = 1.0;
+        }
+        for (i, &a) in held.iter().enumerate() {
+            for (j, &b) in held.iter().enumerate() {
+                rows[i][j] = dot(&normals[a], &normals[b]);
+            }
+            right[i] = -dot(&normals[a], self.gradient);
+        }
+        let solution = solve(rows, right)?;
+        let mut wanted = vec![0.0; normals.len()];
+        for (value, place) in solution.iter().zip(held) {
+            wanted[place] = *value;
+        }
+        Some(wanted)
     }
-    Some(wanted)
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! A surface in the parameters on which the sequence of events changes: there the outputs have a kink.
 
-use super::goal::{Measured, Multipliers};
+use super::goal::{FirstOrder, Measured, Multipliers};
 use super::hold::Hold;
-use super::operating_point::OperatingPoint;
 use super::quadratic::Vector;
 use crate::orbit::matrix::{dot, norm};
 
@@ -28,9 +27,7 @@ pub struct Surface {
     /// What it holds motions by.
     pub hold: Hold,
     /// The orbit beyond it that tells of it.
-    pub beyond: OperatingPoint,
-    /// Value and limits there.
-    of_beyond: Measured,
+    pub beyond: Measured,
 }
 
 impl Surface {
@@ -40,34 +37,26 @@ impl Surface {
     ///
     /// Outputs are continuous there and their gradients are not. So the difference of the first orders of an output from the
     /// one orbit and from the other vanishes on the surface, to second order in how far the orbits are apart.
-    pub fn between(
-        (here, of_here): (&OperatingPoint, &Measured),
-        (there, of_there): (&OperatingPoint, &Measured),
-    ) -> Option<Self> {
-        let apart: Vector = std::array::from_fn(|i| there.shares[i] - here.shares[i]);
-        let jump = |here: (f64, Vector), there: (f64, Vector)| {
-            let gradient: Vector = std::array::from_fn(|i| there.1[i] - here.1[i]);
-            (norm(&gradient), there.0 - dot(&there.1, &apart) - here.0, gradient)
-        };
-        let of_value = jump((of_here.value, of_here.gradient), (of_there.value, of_there.gradient));
-        let of_limits = of_here.excess.iter().zip(&of_there.excess);
-        let of_limits = of_limits.map(|(here, there)| jump(*here, *there));
-        let jumps = std::iter::once(of_value).chain(of_limits);
-        let (steep, jump, gradient) = jumps.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    pub fn between(here: &Measured, there: Measured) -> Option<Self> {
+        let apart: Vector = std::array::from_fn(|i| there.orbit.shares[i] - here.orbit.shares[i]);
+        let of_goal = Jump::between(&here.goal, &there.goal, &apart);
+        let of_limits = here.limits.iter().zip(&there.limits);
+        let of_limits = of_limits.map(|(here, there)| Jump::between(here, there, &apart));
+        let jumps = std::iter::once(of_goal).chain(of_limits);
+        let Jump { value, gradient, steep } = jumps.max_by(|a, b| a.steep.total_cmp(&b.steep))?;
         let towards = dot(&gradient, &apart);
         let unit = towards.signum() / steep;
         let normal = gradient.map(|part| part * unit);
-        let (distance, reach) = (-jump * unit, towards * unit);
+        let (distance, reach) = (-value * unit, towards * unit);
         let is_between = (-SLACK * reach..=(1.0 + SLACK) * reach).contains(&distance);
-        let has_same_impacts = here.impacts == there.impacts;
+        let has_same_impacts = here.orbit.impacts == there.orbit.impacts;
         let hold = if has_same_impacts { Hold::EventSequence } else { Hold::Grazing };
         (steep > KINK && is_between).then(|| Surface {
             normal,
             distance: distance.clamp(0.0, reach),
             reach,
             hold,
-            beyond: there.clone(),
-            of_beyond: of_there.clone(),
+            beyond: there,
         })
     }
 
@@ -84,14 +73,33 @@ impl Surface {
 
     /// Whether the Lagrange function with these multipliers of the limits falls beyond it, so that it does not hold.
     pub fn lets_pass(&self, multipliers: &Multipliers) -> bool {
-        dot(&self.of_beyond.lagrange(multipliers), &self.normal) < 0.0
+        dot(&self.beyond.lagrange(multipliers), &self.normal) < 0.0
     }
 
     /// The share of the far side in a convex combination of the two gradients of the Lagrange function that has no slope
     /// across the surface, from the gradient of this side.
     pub fn share(&self, here: &Measured, multipliers: &Multipliers) -> f64 {
         let [near, far] =
-            [here, &self.of_beyond].map(|it| dot(&it.lagrange(multipliers), &self.normal));
+            [here, &self.beyond].map(|it| dot(&it.lagrange(multipliers), &self.normal));
         if near < 0.0 && far > 0.0 { near / (near - far) } else { 0.0 }
+    }
+}
+
+/// By how much the first order of an output from one side of a surface differs from that from the other, at the orbit of the one.
+struct Jump {
+    /// The difference of the values.
+    value: f64,
+    /// The difference of the gradients.
+    gradient: Vector,
+    /// Its length.
+    steep: f64,
+}
+
+impl Jump {
+    /// The jump between two orbits whose shares differ by so much.
+    fn between(here: &FirstOrder, there: &FirstOrder, apart: &Vector) -> Jump {
+        let gradient: Vector = std::array::from_fn(|i| there.gradient[i] - here.gradient[i]);
+        let value = there.value - dot(&there.gradient, apart) - here.value;
+        Jump { value, steep: norm(&gradient), gradient }
     }
 }

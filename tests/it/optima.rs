@@ -143,7 +143,7 @@ fn the_knee_is_farthest_from_the_line_between_the_ends_and_the_hypervolume_an_ar
     assert_eq!(knee.case, (count - 1) / 2);
     let points: Vec<(f64, f64)> =
         best.front.iter().map(|&at| (all[at].price, all[at].speed)).collect();
-    let area = hypervolume(&points, (1.0, 1e-3));
+    let area = hypervolume(&points, 1.0, 1e-3);
     assert!((area - std::f64::consts::FRAC_PI_4).abs() < 1e-4, "{area}");
     assert!(best.front.is_sorted_by(|&a, &b| all[a].price < all[b].price));
     assert!(optima(&all, Direction::Backward, None).front.is_empty());

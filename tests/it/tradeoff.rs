@@ -141,7 +141,7 @@ fn motions_without_numbers_and_equal_ones_are_no_trouble() {
 }
 
 /// The hypervolume that moocore, a public implementation, finds; none where it is not installed.
-fn by_moocore(front: &[(f64, f64)], (dearest, slowest): (f64, f64)) -> Option<f64> {
+fn by_moocore(front: &[(f64, f64)], dearest: f64, slowest: f64) -> Option<f64> {
     let python = std::env::var("CAPSULEMAP_PYTHON").unwrap_or_else(|_| "python3".into());
     let script = format!(
         "import sys, numpy, moocore\n\
@@ -168,9 +168,9 @@ fn by_moocore(front: &[(f64, f64)], (dearest, slowest): (f64, f64)) -> Option<f6
 fn the_hypervolume_is_that_of_a_public_implementation() {
     for number in [1, 2, 3] {
         let (_, on_front) = found(&zdt(number));
-        for reference in [(1.1, -0.5), (0.7, 0.9), (2.0, -3.0)] {
-            let own = hypervolume(&on_front, reference);
-            let Some(other) = by_moocore(&on_front, reference) else {
+        for (dearest, slowest) in [(1.1, -0.5), (0.7, 0.9), (2.0, -3.0)] {
+            let own = hypervolume(&on_front, dearest, slowest);
+            let Some(other) = by_moocore(&on_front, dearest, slowest) else {
                 say("SKIPPED: Python cannot import moocore");
                 return;
             };
