@@ -86,35 +86,44 @@ fn orbit_json(orbit: &Orbit) -> Value {
 
 /// What the numbers of an orbit do not say by themselves.
 pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
-    let mut remarks = Vec::new();
-    if let Some(direction) = orbit.certificate.neutral {
-        let parts = direction.iter().map(|x| ((x * 1e4).round() / 1e4 + 0.0).to_string());
-        let parts = parts.collect::<Vec<_>>().join(", ");
-        let names = parameters.model().compared_as.join(", ");
-        let rest_share = orbit.outputs.model().rest_share();
-        let moves = rest_share.is_some_and(|share| orbit.outputs[share] < 1.0);
-        let speed = if moves { ", and with it the speed" } else { "" };
-        remarks.push(format!(
-            "neutral: as far as rounding tells (a multiplier within 1e-7 of one) this is one of a family of \
-             periodic orbits along ({names}) = ({parts}); the start decides which{speed}"
-        ));
-    }
+    let mut remarks = Vec::from_iter(neutral_remark(orbit));
     remarks.extend(model_of(parameters).remarks(parameters, orbit));
+    remarks.extend(outcome_remark(parameters, orbit));
+    remarks
+}
+
+/// That a periodic orbit is one of a family of them, and along what.
+fn neutral_remark(orbit: &Orbit) -> Option<String> {
+    let direction = orbit.certificate.neutral?;
+    let parts = direction.iter().map(|x| ((x * 1e4).round() / 1e4 + 0.0).to_string());
+    let parts = parts.collect::<Vec<_>>().join(", ");
+    let model = orbit.outputs.model();
+    let names = model.compared_as.join(", ");
+    let moves = model.rest_share().is_some_and(|share| orbit.outputs[share] < 1.0);
+    let speed = if moves { ", and with it the speed" } else { "" };
+    Some(format!(
+        "neutral: as far as rounding tells (a multiplier within 1e-7 of one) this is one of a family of \
+         periodic orbits along ({names}) = ({parts}); the start decides which{speed}"
+    ))
+}
+
+/// What an outcome rests on, or what it would take to decide.
+fn outcome_remark(parameters: &Parameters, orbit: &Orbit) -> Option<String> {
     let model = parameters.model();
     let [exponent, uncertainty, excluded, defect] =
         [model.exponent(), model.exponent_error(), model.excluded_period(), model.defect()]
             .map(|output| orbit.outputs[output]);
     match orbit.outcome {
         Outcome::QuasiPeriodic => {
-            remarks.push(format!("no period up to {excluded} cycles, as far as the section shows"));
+            Some(format!("no period up to {excluded} cycles, as far as the section shows"))
         }
         Outcome::Undecided if excluded.is_nan() => {
             let residual = orbit.outputs[model.section_residual()];
-            remarks.push(format!(
+            Some(format!(
                 "undecided: what was found is not certified; its largest defect is {defect:.1e} (allowed: \
                  10 000 tolerances), and integrated without derivatives it closes to {residual:.1e} (allowed: \
                  100 000 tolerances)"
-            ));
+            ))
         }
         Outcome::Undecided if exponent.is_finite() && exponent + 5.0 * uncertainty < 0.0 => {
             let enough = parameters.period_of_drive().map_or(String::new(), |period| {
@@ -122,15 +131,14 @@ pub fn remarks(parameters: &Parameters, orbit: &Orbit) -> Vec<String> {
                 format!("; at that rate some {cycles:.0} cycles would do (--max-cycles), and more if it slows down")
             });
             let time = -1.0 / exponent;
-            remarks.push(format!(
+            Some(format!(
                 "undecided: the motion approaches an orbit too slowly for the cycles given, by e in {time:.3} s{enough}"
-            ));
+            ))
         }
-        Outcome::Undecided => remarks.push(
+        Outcome::Undecided => Some(
             "undecided: too few cycles to tell whether neighbouring motions separate (--max-cycles)"
                 .to_owned(),
         ),
-        Outcome::Periodic | Outcome::Chaotic | Outcome::Failed => {}
+        Outcome::Periodic | Outcome::Chaotic | Outcome::Failed => None,
     }
-    remarks
 }

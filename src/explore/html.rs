@@ -64,9 +64,6 @@ impl Page {
 
     /// A table with a line of headings; the first column is text.
     pub fn table(&mut self, headings: &[String], rows: &[Vec<String>]) {
-        let cells = |cells: &[String], kind: &str| -> String {
-            cells.iter().map(|it| format!("<{kind}>{}</{kind}>", escaped(it))).collect()
-        };
         let _ =
             writeln!(self.body, "<div class=\"wide\"><table>\n<tr>{}</tr>", cells(headings, "th"));
         for row in rows {
@@ -106,6 +103,11 @@ impl Page {
             self.body
         )
     }
+}
+
+/// The cells of a line of a table, each in an element of this kind.
+fn cells(cells: &[String], kind: &str) -> String {
+    cells.iter().map(|it| format!("<{kind}>{}</{kind}>", escaped(it))).collect()
 }
 
 /// Text with the characters that HTML reads otherwise replaced.

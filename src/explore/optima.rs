@@ -15,7 +15,9 @@ use crate::tradeoff::Direction;
 /// conditions.
 pub fn write_optima(
     page: &mut Page,
-    (request, study, front): (&Request<'_>, &Study, Option<&KeptFront>),
+    request: &Request<'_>,
+    study: &Study,
+    front: Option<&KeptFront>,
     direction: Direction,
 ) -> Result<(), CampaignError> {
     let Request { archive, file, of } = *request;
@@ -38,34 +40,48 @@ pub fn write_optima(
         margins: true,
         threads: None,
     };
-    let answer = match trade_off.answer(&silent) {
+    match trade_off.answer(&silent) {
         Err(CampaignError::TradeOff { faults, .. }) => {
             page.text(&format!("No optima: {}.", faults.join("; ")));
-            return Ok(());
+            Ok(())
         }
-        answer => answer?,
-    };
-    if answer.front.is_empty() {
-        page.text("No motion.");
-        return Ok(());
+        Err(error) => Err(error),
+        Ok(answer) if answer.front.is_empty() => {
+            page.text("No motion.");
+            Ok(())
+        }
+        Ok(answer) => write_answer(page, study, &answer, &format!("{}{under}", direction.name())),
     }
-    page.text(&front_in_words(&answer));
-    let row = |Named { name, row }: &'_ Named| Some((name.replace('_', " "), row.clone()?));
-    let named: Vec<(String, Row)> = answer.named.iter().filter_map(row).collect();
-    write_table(page, &named, of);
-    write_sensitivities(page, &named, of);
+}
+
+/// Writes the optima that were found; `moving` tells their direction and condition.
+fn write_answer(
+    page: &mut Page,
+    study: &Study,
+    answer: &Answer,
+    moving: &str,
+) -> Result<(), CampaignError> {
+    page.text(&front_in_words(answer));
+    let rows = answer
+        .named
+        .iter()
+        .filter_map(|Named { name, row }| Some((name.replace('_', " "), row.clone()?)));
+    let named: Vec<(String, Row)> = rows.collect();
+    write_table(page, &named, answer.of);
+    write_sensitivities(page, &named, answer.of);
     write_margins(page, &named, study.base.model());
     let replays: Vec<&str> = named.iter().map(|(_, row)| row.replay.as_str()).collect();
     page.text("To compute them again:");
     page.verbatim(&replays.join("\n"));
-    write_motions(page, &named, (study, &format!("{}{under}", direction.name())))
+    write_motions(page, &named, study, moving)
 }
 
 /// Draws the motions of the optima.
 fn write_motions(
     page: &mut Page,
     named: &[(String, Row)],
-    (study, moving): (&Study, &str),
+    study: &Study,
+    moving: &str,
 ) -> Result<(), CampaignError> {
     for (name, row) in named {
         match drawings(row, study) {
@@ -132,8 +148,11 @@ fn write_table(page: &mut Page, named: &[(String, Row)], of: Output) {
     }));
     for (place, (coordinate, _, varies)) in first.coordinates.iter().enumerate() {
         let label = format!("{} [{}]", coordinate.name(), unit(*coordinate));
-        let value = |row: &Row| row.coordinates.get(place).map_or(String::new(), |it| number(it.1));
-        rows.extend(varies.then(|| line(&label, named, value)));
+        if *varies {
+            rows.push(line(&label, named, |row| {
+                row.coordinates.get(place).map_or(String::new(), |it| number(it.1))
+            }));
+        }
     }
     rows.push(line("case", named, |row| {
         row.case.map_or("between cases".to_owned(), |it| it.to_string())
@@ -154,21 +173,23 @@ fn write_sensitivities(page: &mut Page, named: &[(String, Row)], of: Output) {
     let Some((_, first)) = known.first() else { return };
     let outputs = ["speed", of.name()];
     let columns = known.iter().flat_map(|(name, _)| outputs.map(|it| format!("{it}, {name}")));
-    let row = |(parameter, _): &(Parameter, [f64; 2])| -> Vec<String> {
-        let of_row = |(_, row): &&(String, Row)| {
-            let known = row.slopes.sensitivity.iter().find(|(other, _)| other == parameter);
-            known.map_or([f64::NAN; 2], |(_, both)| *both).map(percent)
-        };
-        let cells = known.iter().flat_map(of_row);
+    let rows = first.slopes.sensitivity.iter().map(|(parameter, _)| {
+        let cells = known.iter().flat_map(|(_, row)| sensitivity(row, *parameter).map(percent));
         [parameter.symbol().to_owned()].into_iter().chain(cells).collect()
-    };
-    let rows: Vec<Vec<String>> = first.slopes.sensitivity.iter().map(row).collect();
+    });
+    let rows: Vec<Vec<String>> = rows.collect();
     page.text(
         "Change in percent per percent of each parameter. At a kink the change is another on its other side; that told is of the \
          sequence of events of the motion:",
     );
     let headings: Vec<String> = [String::new()].into_iter().chain(columns).collect();
     page.table(&headings, &rows);
+}
+
+/// By how many percent speed and price of a motion change per percent of a parameter; NaN where that is not known.
+fn sensitivity(row: &Row, parameter: Parameter) -> [f64; 2] {
+    let known = row.slopes.sensitivity.iter().find(|(other, _)| *other == parameter);
+    known.map_or([f64::NAN; 2], |(_, both)| *both)
 }
 
 /// How far the parameters of the optima may change before these end.
@@ -178,15 +199,8 @@ fn write_margins(page: &mut Page, named: &[(String, Row)], model: &'static Descr
     if known.is_empty() {
         return;
     }
-    let line = |parameter: Parameter| -> Option<Vec<String>> {
-        let along =
-            |row: &Row| row.margins.iter().find(|it| it.parameter == parameter).map(Margins::ends);
-        let ends: Vec<Option<[String; 2]>> = known.iter().map(|(_, row)| along(row)).collect();
-        let is_known = ends.iter().any(Option::is_some);
-        let cells = ends.into_iter().flat_map(Option::unwrap_or_default);
-        is_known.then(|| [parameter.symbol().to_owned()].into_iter().chain(cells).collect())
-    };
-    let rows: Vec<Vec<String>> = model.parameters().filter_map(line).collect();
+    let rows: Vec<Vec<String>> =
+        model.parameters().filter_map(|parameter| margin_line(&known, parameter)).collect();
     let columns =
         known.iter().flat_map(|(name, _)| ["falling", "rising"].map(|it| format!("{name}, {it}")));
     let headings: Vec<String> = [String::new()].into_iter().chain(columns).collect();
@@ -195,6 +209,16 @@ fn write_margins(page: &mut Page, named: &[(String, Row)], model: &'static Descr
          tells the changes of events on the way, too:",
     );
     page.table(&headings, &rows);
+}
+
+/// The line of a parameter: where each motion ends along it; none where that is known of no motion.
+fn margin_line(motions: &[&(String, Row)], parameter: Parameter) -> Option<Vec<String>> {
+    let margins =
+        motions.iter().map(|(_, row)| row.margins.iter().find(|it| it.parameter == parameter));
+    let ends: Vec<Option<[String; 2]>> = margins.map(|it| it.map(Margins::ends)).collect();
+    let is_known = ends.iter().any(Option::is_some);
+    let cells = ends.into_iter().flat_map(Option::unwrap_or_default);
+    is_known.then(|| [parameter.symbol().to_owned()].into_iter().chain(cells).collect())
 }
 
 /// A line of a table: its name, and a cell for each optimum.

@@ -32,8 +32,8 @@ pub fn drawings(row: &Row, of: &Study) -> Result<Option<Drawings>, Undrawn> {
     let study = study(row, of, cycles as u32);
     let records = run_sample(&study, Machine::single(), &[0], || ()).map_err(Undrawn::Run)?;
     let results = dataset(&study, &records);
-    let drawn = |kind: DrawingKind| picture(&results, &drawing(kind));
-    let pictures = [DrawingKind::History, DrawingKind::PhasePortrait].map(drawn);
+    let pictures = [DrawingKind::History, DrawingKind::PhasePortrait]
+        .map(|kind| picture(&results, &drawing(kind)));
     let pictures: Result<Vec<Picture>, FigureError> = pictures.into_iter().collect();
     Ok(Some(Drawings { pictures: pictures.map_err(Undrawn::Figure)?, cycles }))
 }

@@ -5,7 +5,6 @@ use super::numbers::{number, unit};
 use super::optima::write_optima;
 use super::request::Request;
 use crate::campaign::{CampaignError, KeptFront, KeptSearches, quoted, study_of};
-use crate::description::Parameter;
 use crate::figure::{FigureError, Picture, Shown, picture, variables};
 use crate::store::catalogue::{OUTCOME, STUDY_TEXT};
 use crate::store::{CaseTable, provenance};
@@ -42,11 +41,11 @@ pub fn report(request: &Request<'_>) -> Result<String, CampaignError> {
     page.part("Optima");
     let without = fronts.iter().find(|front| front.conditions.is_empty());
     for direction in DIRECTIONS {
-        write_optima(&mut page, (request, &study, without), direction)?;
+        write_optima(&mut page, request, &study, without, direction)?;
     }
     for front in fronts.iter().filter(|front| !front.conditions.is_empty()) {
         for direction in DIRECTIONS.into_iter().filter(|it| front.has_sought(*it)) {
-            write_optima(&mut page, (request, &study, Some(front)), direction)?;
+            write_optima(&mut page, request, &study, Some(front), direction)?;
         }
     }
     report.write_cases(&mut page)?;
@@ -74,8 +73,9 @@ impl Report<'_> {
         };
         page.text(&format!("{} holds {} cases.", file.display(), table.cases()));
         if let Some(outcomes) = table.column(OUTCOME.name)? {
-            let count = |code: i64| outcomes.values.iter().filter(|it| **it == code as f64).count();
-            let counts = outcomes.flags.iter().map(|(code, name)| (name.clone(), count(*code)));
+            let counts = outcomes.flags.iter().map(|(code, name)| {
+                (name.clone(), outcomes.values.iter().filter(|it| **it == *code as f64).count())
+            });
             let present = counts.filter(|(_, count)| *count > 0);
             let rows: Vec<_> = present.map(|(name, count)| vec![name, count.to_string()]).collect();
             page.table(&[OUTCOME.name, "cases"].map(str::to_owned), &rows);
@@ -86,21 +86,21 @@ impl Report<'_> {
     /// What varies among the cases, and what is held.
     fn write_parameters(&self, page: &mut Page) {
         let varied = self.study.case_set.varied();
-        let ends = |coordinate: &Coordinate| {
+        page.heading("What varies");
+        let rows = varied.iter().filter_map(|coordinate| {
             let [low, high] = self.study.case_set.ends(*coordinate)?.map(number);
             Some(vec![coordinate.name().to_owned(), low, high, unit(*coordinate).to_owned()])
-        };
-        page.heading("What varies");
-        let rows: Vec<_> = varied.iter().filter_map(ends).collect();
+        });
+        let rows: Vec<_> = rows.collect();
         page.table(&["", "from", "to", "unit"].map(str::to_owned), &rows);
-        let is_held = |it: &(Parameter, f64)| !varied.contains(&Coordinate::Parameter(it.0));
-        let row = |(it, value): (Parameter, f64)| {
-            vec![it.symbol().to_owned(), number(value), unit(Coordinate::Parameter(it)).to_owned()]
-        };
         page.heading("What is held");
-        let rows: Vec<_> = self.study.base.each().filter(is_held).map(row).collect();
-        page.table(&["", "value", "unit"].map(str::to_owned), &rows);
         let base = &self.study.base;
+        let all = base.each().map(|(it, value)| (Coordinate::Parameter(it), value));
+        let held = all.filter(|(it, _)| !varied.contains(it));
+        let rows: Vec<_> = held
+            .map(|(it, value)| vec![it.name().to_owned(), number(value), unit(it).to_owned()])
+            .collect();
+        page.table(&["", "value", "unit"].map(str::to_owned), &rows);
         let described = base.model().choices.iter().zip(base.choices());
         let choices =
             described.map(|(choice, (_, chosen))| format!("{}: {chosen}. ", choice.title));

@@ -58,8 +58,8 @@ impl Access {
             let status = StatusCode::METHOD_NOT_ALLOWED;
             return Err(Refusal::with(status, "only GET and HEAD are answered"));
         }
-        let is_empty = |it: &HeaderValue| it.as_bytes() == b"0";
-        let has_length = headers.get(header::CONTENT_LENGTH).is_some_and(|it| !is_empty(it));
+        let length = headers.get(header::CONTENT_LENGTH);
+        let has_length = length.is_some_and(|it| it.as_bytes() != b"0");
         if has_length || headers.contains_key(header::TRANSFER_ENCODING) {
             let status = StatusCode::PAYLOAD_TOO_LARGE;
             return Err(Refusal::with(status, "a request has no body here"));
@@ -104,8 +104,7 @@ impl Access {
             ));
         }
         let cookie = format!("{}={}; Path=/; HttpOnly; SameSite=Strict", self.cookie, self.secret);
-        let cookie =
-            HeaderValue::from_str(&cookie).map_err(|it| Refusal::failed(it.to_string()))?;
+        let cookie = HeaderValue::from_str(&cookie).map_err(Refusal::failed)?;
         let mut answer = Redirect::to("/").into_response();
         answer.headers_mut().insert(header::SET_COOKIE, cookie);
         Ok(answer)
@@ -123,11 +122,10 @@ pub fn with_policy(mut answer: Response) -> Response {
 /// The only value of a header, if it is there.
 fn one<'h>(headers: &'h HeaderMap, name: &str) -> Result<Option<&'h str>, Refusal> {
     let mut all = headers.get_all(name).iter();
-    let unfit = || Refusal::unfit(format!("the header {name} cannot be read"));
-    match (all.next(), all.next()) {
-        (None, _) => Ok(None),
-        (Some(it), None) => it.to_str().map(Some).map_err(|_| unfit()),
-        _ => Err(unfit()),
+    let Some(first) = all.next() else { return Ok(None) };
+    match (first.to_str(), all.next()) {
+        (Ok(text), None) => Ok(Some(text)),
+        _ => Err(Refusal::unfit(format!("the header {name} cannot be read"))),
     }
 }
 

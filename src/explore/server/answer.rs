@@ -74,7 +74,7 @@ impl Refusal {
     pub fn unread(error: &StoreError) -> Refusal {
         match error {
             StoreError::ChangedSince { path } => Refusal::changed(path),
-            error => Refusal::failed(error.to_string()),
+            error => Refusal::failed(error),
         }
     }
 
@@ -89,8 +89,8 @@ impl Refusal {
     }
 
     /// A fault of the machine or of the file.
-    pub fn failed(why: impl Into<String>) -> Refusal {
-        Refusal { status: StatusCode::INTERNAL_SERVER_ERROR, why: why.into() }
+    pub fn failed(why: impl ToString) -> Refusal {
+        Refusal { status: StatusCode::INTERNAL_SERVER_ERROR, why: why.to_string() }
     }
 }
 

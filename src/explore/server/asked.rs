@@ -49,8 +49,21 @@ impl Asked {
         &self,
         model: &'static Description,
     ) -> Result<Vec<(Coordinate, f64)>, Refusal> {
-        let given = |it: Coordinate| Ok(self.number(it.name())?.map(|value| (it, value)));
-        Coordinate::all(model).filter_map(|it| given(it).transpose()).collect()
+        self.coordinates_after("", model)
+    }
+
+    /// Those that are given with a prefix before their names.
+    pub fn coordinates_after(
+        &self,
+        prefix: &str,
+        model: &'static Description,
+    ) -> Result<Vec<(Coordinate, f64)>, Refusal> {
+        let mut given = Vec::new();
+        for coordinate in Coordinate::all(model) {
+            let value = self.number(&format!("{prefix}{}", coordinate.name()))?;
+            given.extend(value.map(|value| (coordinate, value)));
+        }
+        Ok(given)
     }
 
     /// The direction in which the starts of a case were inherited, if it is given.
@@ -64,14 +77,12 @@ impl Asked {
 
     /// Fails if there is a parameter that is neither a coordinate nor `known`.
     pub fn only(&self, model: &'static Description, known: &[&str]) -> Result<(), Refusal> {
-        let is_coordinate = |name: &str| Coordinate::all(model).any(|it| it.name() == name);
-        match self
-            .0
-            .iter()
-            .find(|(name, _)| !known.contains(&name.as_str()) && !is_coordinate(name))
-        {
-            Some(_) => Err(Refusal::unfit("a parameter of the request is not known")),
-            None => Ok(()),
+        let is_known = self.0.iter().all(|(name, _)| {
+            known.contains(&name.as_str()) || Coordinate::all(model).any(|it| it.name() == name)
+        });
+        match is_known {
+            true => Ok(()),
+            false => Err(Refusal::unfit("a parameter of the request is not known")),
         }
     }
 }

@@ -52,8 +52,7 @@ const ASSETS: &[(&str, &[u8])] = assets![
 
 /// What the page loads by this name; files of folders by their own names.
 pub fn asset(name: &str) -> Option<Response> {
-    let own = |path: &str| path.rsplit('/').next() == Some(name);
-    let (path, content) = ASSETS.iter().find(|it| own(it.0))?;
+    let (path, content) = ASSETS.iter().find(|it| it.0.rsplit('/').next() == Some(name))?;
     Some(bytes(content.to_vec(), kind(path)))
 }
 

@@ -8,10 +8,10 @@ use super::computations::BUDGET;
 use super::explored::Explored;
 use super::motion::{followed, shown};
 use crate::attractor::{Attractor, Label};
-use crate::description::{Description, Parameter, Section, State};
+use crate::description::{Description, Section, State};
 use crate::figure::{label_colour, shown_quantity};
 use crate::flow::stop;
-use crate::motion::Case;
+use crate::motion::{Case, Orbit};
 use crate::of::settle_case;
 use crate::orbit::{Machine, Outcome};
 use crate::quantity::Dimension;
@@ -61,8 +61,8 @@ impl Basin {
         let known = ends.iter().flatten().map(String::as_str).chain(["sweep", "kind", "format"]);
         asked.only(explored.model(), &known.collect::<Vec<_>>())?;
         let given = asked.coordinates(explored.model())?;
-        let is_parameter = |it: &(Coordinate, f64)| !it.0.is_start();
-        let at: Vec<(Coordinate, f64)> = given.iter().copied().filter(is_parameter).collect();
+        let at = given.iter().copied().filter(|it| !it.0.is_start());
+        let at: Vec<(Coordinate, f64)> = at.collect();
         let case = explored.near(&at, asked.sweep()?)?.case;
         let mut axes = axes(asked, starts, around(explored, &case))?;
         let told = [0, 1].map(|axis| axis_json(explored, &axes[axis]));
@@ -152,12 +152,11 @@ impl Basin {
     /// What the starts share beside the coordinates of the plane: the others of the section, and the phase.
     fn held(&self) -> Vec<Value> {
         let others = self.study.base.model().start_coordinates().skip(self.axes.len());
-        let told = |name: &str, value: f64, unit: &str| json!({ "name": name, "value": value, "unit": unit });
         let start = &self.study.start;
         let mut held: Vec<Value> =
-            others.map(|it| told(it.name(), start[it], it.start().dimension.unit())).collect();
+            others.map(|it| held_json(it.name(), start[it], it.start().dimension.unit())).collect();
         let phase = self.study.base.model().has_drive().then_some(self.study.start_phase);
-        held.extend(phase.map(|phase| told("phase", phase, Dimension::Angle.unit())));
+        held.extend(phase.map(|phase| held_json("phase", phase, Dimension::Angle.unit())));
         held
     }
 
@@ -168,11 +167,11 @@ impl Basin {
         if stop::is_asked() {
             return None;
         }
-        let label = |case: usize| match found.label(case, &motions) {
+        let labels = coarse(step).map(|case| match found.label(case, &motions) {
             Label::Attractor(number) => i64::from(number),
             _ => UNKNOWN,
-        };
-        let labels: Vec<i64> = coarse(step).map(label).collect();
+        });
+        let labels: Vec<i64> = labels.collect();
         Some(json!({
             "step": step,
             "computed": records.len(),
@@ -186,29 +185,40 @@ impl Basin {
     /// The attractors with what the first of their cases settled to, and their section points where those lie in the plane of the
     /// starts.
     fn attractors(&self, found: &Attractors, records: &[Record]) -> Vec<Value> {
-        let is_in_plane = self.study.start_phase == self.study.section_phase;
+        let attractors = found.of_starts.iter().enumerate().filter_map(|(number, attractor)| {
+            let record = records.iter().find(|record| record.index == attractor.case)?;
+            Some(self.attractor_json(number, attractor, &record.orbit))
+        });
+        attractors.collect()
+    }
+
+    /// An attractor by its number, with the orbit that the first of its cases settled to.
+    fn attractor_json(&self, number: usize, it: &Attractor<Section>, orbit: &Orbit) -> Value {
         let model = self.study.base.model();
         let main = model.main_output();
-        let in_plane = |point: &Section| {
-            let state = State::at_section(model, point);
-            model.start_coordinates().take(2).map(|it| state[it]).collect::<Vec<f64>>()
-        };
-        let told = |(number, attractor): (usize, &Attractor<Section>)| {
-            let record = records.iter().find(|record| record.index == attractor.case)?;
-            let orbit = &record.orbit;
-            let is_periodic = orbit.outcome == Outcome::Periodic;
-            let points = attractor.points.iter().filter(|_| is_periodic && is_in_plane);
-            Some(json!({
-                "label": number,
-                (OUTCOME.name): orbit.outcome.name(),
-                (PERIOD.name): is_periodic.then_some(orbit.period),
-                (main.name()): orbit.outputs[main],
-                "colour": label_colour(Some(number as u32)),
-                "points": points.map(in_plane).collect::<Vec<_>>(),
-            }))
-        };
-        found.of_starts.iter().enumerate().filter_map(told).collect()
+        let is_in_plane = self.study.start_phase == self.study.section_phase;
+        let is_periodic = orbit.outcome == Outcome::Periodic;
+        let points = it.points.iter().filter(|_| is_periodic && is_in_plane);
+        json!({
+            "label": number,
+            (OUTCOME.name): orbit.outcome.name(),
+            (PERIOD.name): is_periodic.then_some(orbit.period),
+            (main.name()): orbit.outputs[main],
+            "colour": label_colour(Some(number as u32)),
+            "points": points.map(|point| in_plane(model, point)).collect::<Vec<_>>(),
+        })
     }
+}
+
+/// A section point in the plane of the starts.
+fn in_plane(model: &'static Description, point: &Section) -> Vec<f64> {
+    let state = State::at_section(model, point);
+    model.start_coordinates().take(2).map(|it| state[it]).collect()
+}
+
+/// A value that all starts share.
+fn held_json(name: &str, value: f64, unit: &str) -> Value {
+    json!({ "name": name, "value": value, "unit": unit })
 }
 
 /// The axes that a request asks for, the faster first; `usual` are their ends where it does not.
@@ -217,19 +227,18 @@ fn axes(
     starts: [Coordinate; 2],
     usual: [[f64; 2]; 2],
 ) -> Result<Vec<Axis>, Refusal> {
-    let axis = |axis: usize| {
-        let [low, high] = ends(starts[axis]);
-        let from = asked.number(&low)?.unwrap_or(usual[axis][0]);
-        let to = asked.number(&high)?.unwrap_or(usual[axis][1]);
-        match from < to {
-            true => Ok(Axis {
-                coordinate: starts[axis],
-                values: Spacing::Linear.values(from, to, SIDE),
-            }),
-            false => Err(Refusal::unfit(format!("{low} must be less than {high}"))),
-        }
-    };
-    (0..starts.len()).map(axis).collect()
+    starts.into_iter().zip(usual).map(|(start, usual)| axis(asked, start, usual)).collect()
+}
+
+/// The axis of a coordinate that a request asks for; `usual` are its ends where it does not.
+fn axis(asked: &Asked, coordinate: Coordinate, usual: [f64; 2]) -> Result<Axis, Refusal> {
+    let [low, high] = ends(coordinate);
+    let from = asked.number(&low)?.unwrap_or(usual[0]);
+    let to = asked.number(&high)?.unwrap_or(usual[1]);
+    match from < to {
+        true => Ok(Axis { coordinate, values: Spacing::Linear.values(from, to, SIDE) }),
+        false => Err(Refusal::unfit(format!("{low} must be less than {high}"))),
+    }
 }
 
 /// An axis of starts, its ends in the unit shown.
@@ -242,8 +251,9 @@ fn axis_json(explored: &Explored, axis: &Axis) -> Value {
 
 /// The cases of the grid of every so many starts, row by row from the least y1.
 fn coarse(step: usize) -> impl Iterator<Item = usize> {
-    let along = move || (0..SIDE).step_by(step);
-    along().flat_map(move |row| along().map(move |column| row * SIDE + column))
+    (0..SIDE)
+        .step_by(step)
+        .flat_map(move |row| (0..SIDE).step_by(step).map(move |column| row * SIDE + column))
 }
 
 /// Ends of the axes about the motion that a case settles to, to three digits; about the gap where there is none.
@@ -255,23 +265,25 @@ fn around(explored: &Explored, case: &Case) -> [[f64; 2]; 2] {
     let parameters = &case.parameters;
     let model = parameters.model();
     let stiffness = model.natural().map_or(1.0, |[stiffness, _]| parameters[stiffness]);
-    let of_drive = |it: Option<Parameter>| it.map_or(1.0, |it| parameters[it]);
-    let usual = of_drive(model.drive_amplitude()) / stiffness;
-    let omega = of_drive(model.drive_frequency());
-    let widest = |place: usize, usual: f64| {
-        let column = stretch.as_ref().map(|it| &it.histories[place]);
-        let values = column.into_iter().flatten();
-        let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| {
-            [low.min(*it), high.max(*it)]
-        });
-        let half = WIDER * 0.5 * (high - low);
-        let middle = 0.5 * (high + low);
-        let is_wide = half.is_finite() && half > 0.0;
-        if is_wide { [middle - half, middle + half] } else { [-usual, usual] }.map(rounded)
-    };
+    let [amplitude, omega] = [model.drive_amplitude(), model.drive_frequency()]
+        .map(|it| it.map_or(1.0, |it| parameters[it]));
+    let usual = amplitude / stiffness;
     let mut places = (0..model.coordinates.len()).filter(|place| Some(*place) != model.drift);
-    [usual, usual * omega]
-        .map(|usual| places.next().map_or([-usual, usual], |at| widest(at, usual)))
+    [usual, usual * omega].map(|usual| {
+        let Some(place) = places.next() else { return [-usual, usual] };
+        let history = stretch.as_ref().map_or(&[][..], |it| &it.histories[place]);
+        wider(history).unwrap_or([-usual, usual]).map(rounded)
+    })
+}
+
+/// Ends about some values, which leave room beside them; none of values that do not differ.
+fn wider(values: &[f64]) -> Option<[f64; 2]> {
+    let [low, high] = values
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| [low.min(*it), high.max(*it)]);
+    let half = WIDER * 0.5 * (high - low);
+    let middle = 0.5 * (high + low);
+    (half.is_finite() && half > 0.0).then_some([middle - half, middle + half])
 }
 
 /// A number to three digits.

@@ -155,8 +155,7 @@ impl Places {
             compute();
             drop(place);
         });
-        let failed = |said| Refusal::failed(format!("no thread can be started: {said}"));
-        begun.map(drop).map_err(failed)
+        begun.map(drop).map_err(|said| Refusal::failed(format!("no thread can be started: {said}")))
     }
 }
 

@@ -3,46 +3,27 @@
 use serde_json::{Value, json};
 
 use super::explored::Explored;
-use crate::description::{Chart, Description, Output, Parameter};
+use crate::description::{Chart, Description, Output};
 use crate::figure::shown_quantity;
 use crate::store::catalogue::{ATTRACTOR, DIRECTION, OUTCOME, PERIOD, STUDY_TEXT, section};
 use crate::store::{has_branches, provenance};
-use crate::study::Coordinate;
+use crate::study::{Axis, Coordinate};
 
 /// The file in one object; values of axes in SI; `running` tells how far its run is.
 pub fn described(explored: &Explored, running: Value) -> Value {
     let Explored { archive, file, study, .. } = explored;
     let frame = archive.frame();
-    let shown = |name: &str| shown_json(explored, name);
-    let axis = |name: &str, values: Vec<f64>| {
-        let mut axis = shown(name);
-        axis["values"] = json!(values);
-        axis
-    };
-    let of_axis = |it: &crate::study::Axis| axis(it.coordinate.name(), it.values.clone());
     let directions = frame.coordinate(DIRECTION.name).map(|it| &it.flags);
     let directions = directions.into_iter().flatten().map(|(_, name)| name.clone());
-    let kinds = [OUTCOME, PERIOD, ATTRACTOR].map(|it| it.name);
-    let model = study.base.model();
-    let outputs = model.outputs().map(|it| it.name()).chain(kinds);
-    let outputs = outputs.filter(|name| archive.unit(name).is_some()).map(shown);
-    let varied = study.case_set.varied();
-    let is_held =
-        |it: &Parameter| !varied.contains(&Coordinate::Parameter(*it)) && study.has_effect(*it);
-    let constant = |it: Parameter| {
-        let mut constant = shown(it.symbol());
-        constant["value"] = json!(study.base[it]);
-        constant
-    };
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     json!({
         "title": if study.title.is_empty() { stem.as_ref() } else { study.title.as_str() },
         "file": file.display().to_string(),
         "cases": study.cases(),
-        "axes": study.axes().iter().map(of_axis).collect::<Vec<_>>(),
+        "axes": study.axes().iter().map(|it| axis_json(explored, it)).collect::<Vec<_>>(),
         "directions": directions.collect::<Vec<_>>(),
-        "outputs": outputs.collect::<Vec<_>>(),
-        "constants": model.parameters().filter(is_held).map(constant).collect::<Vec<_>>(),
+        "outputs": outputs_json(explored),
+        "constants": constants_json(explored),
         "has_curves": has_branches(frame),
         "model": model_json(explored),
         "running": running,
@@ -50,6 +31,37 @@ pub fn described(explored: &Explored, running: Value) -> Value {
         "program": provenance::program(&frame.attributes),
         "study": frame.texts.get(STUDY_TEXT).map_or("", String::as_str),
     })
+}
+
+/// An axis of the study, with its values.
+fn axis_json(explored: &Explored, axis: &Axis) -> Value {
+    let mut told = shown_json(explored, axis.coordinate.name());
+    told["values"] = json!(axis.values);
+    told
+}
+
+/// What the file has of its cases.
+fn outputs_json(explored: &Explored) -> Vec<Value> {
+    let kinds = [OUTCOME, PERIOD, ATTRACTOR].map(|it| it.name);
+    let all = explored.model().outputs().map(|it| it.name()).chain(kinds);
+    let kept = all.filter(|name| explored.archive.unit(name).is_some());
+    kept.map(|name| shown_json(explored, name)).collect()
+}
+
+/// The parameters that have an effect and do not vary, each with its value.
+fn constants_json(explored: &Explored) -> Vec<Value> {
+    let study = &explored.study;
+    let varied = study.case_set.varied();
+    let held = explored
+        .model()
+        .parameters()
+        .filter(|it| !varied.contains(&Coordinate::Parameter(*it)) && study.has_effect(*it));
+    let constants = held.map(|it| {
+        let mut constant = shown_json(explored, it.symbol());
+        constant["value"] = json!(study.base[it]);
+        constant
+    });
+    constants.collect()
 }
 
 /// How figures show the quantity of this name.
@@ -61,33 +73,37 @@ fn shown_json(explored: &Explored, name: &str) -> Value {
 /// What the page has to know of the model: its starts, sections, states, histories and key numbers, as figures show them.
 fn model_json(explored: &Explored) -> Value {
     let model: &'static Description = explored.model();
-    let shown = |name: &str| shown_json(explored, name);
     let starts = Coordinate::starts(model).chain(Coordinate::phases(model).take(1));
-    let surface = model.impact_surface().map(|it| shown(it.symbol()));
     json!({
-        "starts": starts.map(|it| shown(it.name())).collect::<Vec<_>>(),
-        "section": section(model).iter().map(|it| shown(it.name)).collect::<Vec<_>>(),
+        "starts": all_shown_json(explored, starts.map(Coordinate::name)),
+        "section": all_shown_json(explored, section(model).iter().map(|it| it.name)),
         "state": (0..model.coordinates.len()).map(|at| state_json(explored, at)).collect::<Vec<_>>(),
         "charts": model.motion.charts.iter().map(|it| chart_json(explored, it)).collect::<Vec<_>>(),
-        "portrait": model.motion.portrait.map(|names| names.map(shown)),
+        "portrait": model.motion.portrait.map(|names| all_shown_json(explored, names)),
         "keeps_histories": model.keeps_histories(),
-        "surface": surface,
+        "surface": model.impact_surface().map(|it| shown_json(explored, it.symbol())),
         "meets_surface": model.signal_of_coordinate(0).map(|it| it.name()),
-        "costs": costs(explored).into_iter().map(|it| shown(it.name())).collect::<Vec<_>>(),
-        "key_outputs": model.key_outputs().map(|it| shown(it.name())).collect::<Vec<_>>(),
-        "main_output": shown(model.main_output().name()),
+        "costs": all_shown_json(explored, costs(explored).into_iter().map(Output::name)),
+        "key_outputs": all_shown_json(explored, model.key_outputs().map(Output::name)),
+        "main_output": shown_json(explored, model.main_output().name()),
     })
+}
+
+/// How figures show the quantities of these names.
+fn all_shown_json<'a>(explored: &Explored, names: impl IntoIterator<Item = &'a str>) -> Vec<Value> {
+    names.into_iter().map(|name| shown_json(explored, name)).collect()
 }
 
 /// What motions cost, as far as the file has it or, of the power, what it follows from; none where it does not have what they gain.
 fn costs(explored: &Explored) -> Vec<Output> {
     let model: &'static Description = explored.model();
-    let has = |it: Output| explored.archive.unit(it.name()).is_some();
-    if !model.has_trade_off() || !has(model.speed()) {
+    if !model.has_trade_off() || !explored.has(model.speed()) {
         return Vec::new();
     }
-    let is_known = |it: &Output| has(*it) || (*it == model.power() && has(model.work()));
-    model.costs().filter(is_known).collect()
+    let known = model
+        .costs()
+        .filter(|it| explored.has(*it) || (*it == model.power() && explored.has(model.work())));
+    known.collect()
 }
 
 /// A coordinate of the state, by its name, in the unit of its history.
@@ -108,10 +124,10 @@ fn chart_json(explored: &Explored, chart: &Chart) -> Value {
     let unit = signals.first().and_then(|it| it["unit"].as_str()).unwrap_or_default().to_owned();
     let in_unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
     let label = format!("{}{in_unit}", chart.title);
-    let named = |mut signal: Value| {
+    let named = signals.into_iter().map(|mut signal| {
         let words = signal["label"].as_str().unwrap_or_default();
         signal["label"] = json!(words.strip_suffix(&in_unit).unwrap_or(words));
         signal
-    };
-    json!({ "label": label, "signals": signals.into_iter().map(named).collect::<Vec<_>>() })
+    });
+    json!({ "label": label, "signals": named.collect::<Vec<_>>() })
 }

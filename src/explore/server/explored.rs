@@ -12,7 +12,7 @@ use crate::motion::Case;
 use crate::orbit::Protocol;
 use crate::store::{Archive, Dataset};
 use crate::study::axis::{is_within, set};
-use crate::study::{Coordinate, Direction, Drawing, Study};
+use crate::study::{Axis, Coordinate, Direction, Drawing, Study};
 
 /// Which part of the results is wanted: the names of variables, and the places along axes at which cases are held.
 type Part = (BTreeSet<String>, BTreeMap<String, usize>);
@@ -57,10 +57,14 @@ impl Explored {
         &self,
         answer: impl FnOnce(&Explored) -> Result<T, Refusal>,
     ) -> Result<T, Refusal> {
-        let check = || self.archive.check().map_err(|error| Refusal::unread(&error));
-        check()?;
+        self.check()?;
         let told = answer(self);
-        check().and(told)
+        self.check().and(told)
+    }
+
+    /// Fails if the file has changed since it was opened.
+    fn check(&self) -> Result<(), Refusal> {
+        self.archive.check().map_err(|error| Refusal::unread(&error))
     }
 
     /// What a figure is drawn from.
@@ -93,27 +97,26 @@ impl Explored {
     /// Fails if an axis is held where it has no value.
     fn held(&self, drawing: &Drawing) -> Result<BTreeMap<String, usize>, Refusal> {
         let (Some(x), Some(y)) = (&drawing.x, &drawing.y) else { return Ok(BTreeMap::new()) };
-        let others = self.study.axes().iter().map(|axis| (axis.coordinate.name(), &axis.values));
-        let others = others.filter(|(name, _)| name != x && name != y);
-        let place = |(name, values): (&str, &Vec<f64>)| {
-            let Some(&wanted) = drawing.at.get(name) else { return Ok((name.to_owned(), 0)) };
-            let place = nearest(values, wanted);
-            match is_within(wanted, &values[place..=place]) {
-                true => Ok((name.to_owned(), place)),
-                false => {
-                    let near = values[place];
-                    let why =
-                        format!("{name}: its axis has no value {wanted}; the nearest is {near}");
-                    Err(Refusal::unfit(why))
-                }
+        let mut held = BTreeMap::new();
+        for axis in self.study.axes() {
+            let name = axis.coordinate.name();
+            if name != x && name != y {
+                let wanted = drawing.at.get(name);
+                let place = wanted.map_or(Ok(0), |wanted| place_along(axis, *wanted))?;
+                held.insert(name.to_owned(), place);
             }
-        };
-        others.map(place).collect()
+        }
+        Ok(held)
     }
 
     /// The model of its results.
     pub fn model(&self) -> &'static Description {
         self.study.base.model()
+    }
+
+    /// Whether the file has an output of its cases.
+    pub fn has(&self, output: Output) -> bool {
+        self.archive.unit(output.name()).is_some()
     }
 
     /// How cases are integrated and judged here: with the tolerance and the budget of the study, which are what the command of
@@ -158,33 +161,36 @@ impl Explored {
         if !faults.is_empty() {
             return Err(Refusal::unfit(faults.join("; ")));
         }
-        let mut start = "as the study says".to_owned();
-        if given.iter().any(|(it, _)| it.is_start()) {
-            start = "where it was asked to".to_owned();
-        } else if self.study.inherit().is_some() {
-            let kept = self.archive.section_point(&position);
-            match kept.map_err(|error| Refusal::unread(&error))? {
-                Some(point) => {
-                    case.start = State::at_section(self.study.base.model(), &point);
-                    case.start_phase = case.section_phase;
-                    start = format!("at the motion of case {index}");
-                }
-                None => start = "as the study says: the nearest case has no motion".to_owned(),
-            }
-        }
+        let start = if given.iter().any(|(it, _)| it.is_start()) {
+            "where it was asked to".to_owned()
+        } else if self.study.inherit().is_none() {
+            "as the study says".to_owned()
+        } else if self.start_at_motion(&mut case, &position)? {
+            format!("at the motion of case {index}")
+        } else {
+            "as the study says: the nearest case has no motion".to_owned()
+        };
         Ok(Near { case, index, position, is_exact, start })
+    }
+
+    /// Lets a case start at a section point of the motion of the case at a place; says whether that has one.
+    fn start_at_motion(&self, case: &mut Case, position: &[usize]) -> Result<bool, Refusal> {
+        let kept = self.archive.section_point(position);
+        let Some(point) = kept.map_err(|error| Refusal::unread(&error))? else {
+            return Ok(false);
+        };
+        case.start = State::at_section(self.model(), &point);
+        case.start_phase = case.section_phase;
+        Ok(true)
     }
 
     /// Where the nearest case is along each dimension of the results.
     fn nearest(&self, given: &[(Coordinate, f64)]) -> Vec<usize> {
-        let axes = self.study.axes();
-        let place = |dimension: usize| {
-            let Some(axis) = axes.get(dimension) else { return 0 };
-            let wanted = given.iter().find(|it| it.0 == axis.coordinate).map(|it| it.1);
-            let Some(wanted) = wanted else { return 0 };
-            nearest(&axis.values, wanted)
-        };
-        (0..self.study.shape().len()).map(place).collect()
+        let along_axes = self.study.axes().iter().map(|axis| {
+            let wanted = given.iter().find(|it| it.0 == axis.coordinate);
+            wanted.map_or(0, |(_, wanted)| nearest(&axis.values, *wanted))
+        });
+        along_axes.chain(std::iter::repeat(0)).take(self.study.shape().len()).collect()
     }
 
     /// What the file has of an output for the case at a place, if it has it.
@@ -194,8 +200,20 @@ impl Explored {
     }
 }
 
+/// The place of a value along an axis.
+///
+/// Fails if the axis does not have it.
+fn place_along(axis: &Axis, wanted: f64) -> Result<usize, Refusal> {
+    let place = nearest(&axis.values, wanted);
+    if is_within(wanted, &axis.values[place..=place]) {
+        return Ok(place);
+    }
+    let (name, near) = (axis.coordinate.name(), axis.values[place]);
+    Err(Refusal::unfit(format!("{name}: its axis has no value {wanted}; the nearest is {near}")))
+}
+
 /// The place of the value that is nearest to a wanted one.
 fn nearest(values: &[f64], wanted: f64) -> usize {
-    let away = |place: &usize| (values[*place] - wanted).abs();
-    (0..values.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+    let distances = values.iter().map(|value| (value - wanted).abs()).enumerate();
+    distances.min_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(place, _)| place)
 }

@@ -40,14 +40,12 @@ pub const NO_STUDY: &str = "a study varies one coordinate along an axis, and thi
 pub const INSTEAD: &str =
     "the study of the line, which the page hands over, has no such limit: `capsulemap sweep`";
 
-/// A coordinate along the line, with its values.
-type Varied = (Coordinate, Vec<f64>);
-
 /// A line between two points of the plane of two coordinates.
 pub struct Line {
     /// The case at its beginning, with the values of all coordinates but those that vary.
     first: Case,
-    varied: Vec<Varied>,
+    /// What varies, one at least, with as many values each.
+    varied: Vec<Axis>,
     /// Whether each case starts where the one before it settled.
     inherits: bool,
     protocol: Protocol,
@@ -59,12 +57,7 @@ impl Line {
     ///
     /// Fails if they are not the same coordinates, or a parameter is out of its bounds along the line.
     pub fn of(explored: &Explored, asked: &Asked) -> Result<Line, Refusal> {
-        let end = |it: Coordinate| {
-            Ok::<_, Refusal>(asked.number(&format!("to_{}", it.name()))?.map(|to| (it, to)))
-        };
-        let to: Vec<(Coordinate, f64)> = Coordinate::all(explored.model())
-            .filter_map(|it| end(it).transpose())
-            .collect::<Result<_, _>>()?;
+        let to = asked.coordinates_after("to_", explored.model())?;
         let names: Vec<String> = to.iter().map(|(it, _)| format!("to_{}", it.name())).collect();
         asked.only(
             explored.model(),
@@ -77,20 +70,7 @@ impl Line {
             Some(_) => return Err(Refusal::unfit("start: inherit or afresh is expected")),
         };
         let count = asked.count("count", [LEAST, MOST], USUAL)?;
-        let begins = |it: Coordinate| from.iter().find(|given| given.0 == it).map(|given| given.1);
-        let mut varied = Vec::new();
-        for (coordinate, to) in to {
-            let from = begins(coordinate).ok_or_else(|| {
-                Refusal::unfit(format!("{}: a line needs both of its ends", coordinate.name()))
-            })?;
-            if from != to {
-                let spacing = spacing(asked, coordinate, [from, to])?;
-                varied.push((coordinate, spacing.values(from, to, count)));
-            }
-        }
-        if varied.is_empty() {
-            return Err(Refusal::unfit("a line needs two ends that differ"));
-        }
+        let varied = varied(asked, &from, &to, count)?;
         let mut first = explored.near(&from, asked.sweep()?)?.case;
         if !inherits {
             let as_asked = explored.study.case(0);
@@ -106,19 +86,18 @@ impl Line {
 
     /// The study of a line along one axis, with its diagram.
     pub fn study(&self) -> Option<Study> {
-        let [(coordinate, values)] = &self.varied[..] else { return None };
-        let axis = Axis { coordinate: *coordinate, values: values.clone() };
+        let [axis] = &self.varied[..] else { return None };
         let inherit =
             self.inherits.then(|| Inherit { axis: 0, directions: vec![Direction::Upward] });
         let mut diagram = Drawing::new("bifurcation", DrawingKind::Bifurcation);
-        diagram.x = Some(coordinate.name().to_owned());
+        diagram.x = Some(axis.coordinate.name().to_owned());
         let study = Study {
-            title: format!("Along {}", coordinate.name()),
+            title: format!("Along {}", axis.coordinate.name()),
             base: self.first.parameters.clone(),
             start: self.first.start.clone().without_drift(),
             start_phase: self.first.start_phase,
             section_phase: self.first.section_phase,
-            case_set: CaseSet::Grid(Grid { axes: vec![axis], inherit }),
+            case_set: CaseSet::Grid(Grid { axes: vec![axis.clone()], inherit }),
             protocol: self.protocol,
             drawings: vec![diagram],
             ..Study::of(self.first.parameters.model())
@@ -128,12 +107,12 @@ impl Line {
 
     /// The cases with the starts of the request.
     fn cases(&self) -> Vec<Case> {
-        let case = |number: usize| {
+        let cases = (0..self.varied[0].values.len()).map(|number| {
             let mut case = self.first.clone();
-            self.varied.iter().for_each(|(it, values)| set(&mut case, *it, values[number]));
+            self.varied.iter().for_each(|it| set(&mut case, it.coordinate, it.values[number]));
             case
-        };
-        (0..self.varied[0].1.len()).map(case).collect()
+        });
+        cases.collect()
     }
 
     /// Sends the study or why there is none, and what each case settles to, as long as somebody listens, and why it ends before
@@ -187,6 +166,32 @@ impl Line {
             }
             from = (orbit.outcome != Outcome::Failed).then(|| orbit.end.clone());
         }
+    }
+}
+
+/// The coordinates that differ between the two ends of a line, each with so many values.
+///
+/// Fails if one has no beginning, or none differs.
+fn varied(
+    asked: &Asked,
+    from: &[(Coordinate, f64)],
+    to: &[(Coordinate, f64)],
+    count: usize,
+) -> Result<Vec<Axis>, Refusal> {
+    let mut varied = Vec::new();
+    for &(coordinate, to) in to {
+        let Some(&(_, from)) = from.iter().find(|it| it.0 == coordinate) else {
+            let name = coordinate.name();
+            return Err(Refusal::unfit(format!("{name}: a line needs both of its ends")));
+        };
+        if from != to {
+            let values = spacing(asked, coordinate, [from, to])?.values(from, to, count);
+            varied.push(Axis { coordinate, values });
+        }
+    }
+    match varied.is_empty() {
+        true => Err(Refusal::unfit("a line needs two ends that differ")),
+        false => Ok(varied),
     }
 }
 

@@ -21,15 +21,14 @@ const KNOWN: [&str; 7] = ["of", "x", "y", "sweep", "curves", "kind", "format"];
 pub fn drawing(explored: &Explored, asked: &Asked, kind: DrawingKind) -> Result<Drawing, Refusal> {
     asked.only(explored.model(), &KNOWN)?;
     let [x, y, of] = ["x", "y", "of"].map(|name| asked.text(name).map(str::to_owned));
-    let is_drawn = |name: &str| x.as_deref() == Some(name) || y.as_deref() == Some(name);
-    let is_axis = |name: &str| explored.study.axes().iter().any(|it| it.coordinate.name() == name);
+    let axes: Vec<&str> = explored.study.axes().iter().map(|it| it.coordinate.name()).collect();
     let mut at = BTreeMap::new();
     for (coordinate, value) in asked.coordinates(explored.model())? {
         match coordinate.name() {
-            name if !is_axis(name) => {
+            name if !axes.contains(&name) => {
                 return Err(Refusal::unfit(format!("{name}: is no axis of these results")));
             }
-            name if is_drawn(name) => {
+            name if [x.as_deref(), y.as_deref()].contains(&Some(name)) => {
                 return Err(Refusal::unfit(format!("{name}: is drawn and cannot be held")));
             }
             name => at.insert(name.to_owned(), value),
@@ -60,11 +59,17 @@ pub fn curves(explored: &Explored, asked: &Asked) -> Result<Response, Refusal> {
     let dataset =
         explored.part(over_map_variables(&drawing, explored.archive.frame().model()), &drawing)?;
     let over = over_map(&*dataset, &drawing).map_err(Refusal::undrawn)?;
-    let line = |it: &MapLine| json!({ "words": it.words, "colour": it.colour, "dash": it.is_dashed, "points": it.points });
-    let point = |it: &MapPoint| json!({ "words": it.words, "colour": it.colour, "at": it.at });
-    let lines: Vec<Value> = over.lines.iter().map(line).collect();
-    let points: Vec<Value> = over.points.iter().map(point).collect();
+    let lines: Vec<Value> = over.lines.iter().map(line_json).collect();
+    let points: Vec<Value> = over.points.iter().map(point_json).collect();
     Ok(json_answer(&json!({ "lines": lines, "points": points, "left_out": over.left_out })))
+}
+
+fn line_json(line: &MapLine) -> Value {
+    json!({ "words": line.words, "colour": line.colour, "dash": line.is_dashed, "points": line.points })
+}
+
+fn point_json(point: &MapPoint) -> Value {
+    json!({ "words": point.words, "colour": point.colour, "at": point.at })
 }
 
 /// The trade-off of the cells of a map as one binary answer: prices, and speeds.
@@ -75,7 +80,6 @@ pub fn trade_off(explored: &Explored, asked: &Asked) -> Result<Response, Refusal
     let drawing = drawing(explored, asked, DrawingKind::TradeOff)?;
     let dataset = explored.dataset(&drawing)?;
     let cells = trade_off_cells(&*dataset, &drawing).map_err(Refusal::undrawn)?;
-    let axis = |it: &TradeOffAxis| json!({ "name": it.name, "label": it.label });
     let [price, speed] = &cells.axes;
     let fronts: Map<String, Value> = cells
         .fronts
@@ -84,9 +88,17 @@ pub fn trade_off(explored: &Explored, asked: &Asked) -> Result<Response, Refusal
         .collect();
     let left_out: Vec<(&String, &usize)> = cells.left_out.iter().collect();
     let head = json!({
-        "price": axis(price), "speed": axis(speed), "count": price.values.len(), "fronts": fronts, "left_out": left_out,
+        "price": price_or_speed_json(price),
+        "speed": price_or_speed_json(speed),
+        "count": price.values.len(),
+        "fronts": fronts,
+        "left_out": left_out,
     });
     Ok(packed(&head, &[], &[&price.values, &speed.values]))
+}
+
+fn price_or_speed_json(axis: &TradeOffAxis) -> Value {
+    json!({ "name": axis.name, "label": axis.label })
 }
 
 /// The length of a JSON object as four bytes, least first; the object; bytes; and columns of numbers of four bytes, least first.
@@ -106,17 +118,19 @@ fn packed(head: &Value, bytes_of_cells: &[u8], columns: &[&[f32]]) -> Response {
 }
 
 fn described(map: &ColouredMap) -> Value {
-    let axis = |it: &MapAxis| {
-        json!({
-            "name": it.name, "label": it.label, "factor": it.factor, "values": it.values, "ends": it.ends,
-            "range": it.range, "log": it.is_logarithmic,
-        })
-    };
     let key = match &map.key {
         MapColours::Bar(range, spread, width, colours) => {
             json!({ "range": range, "spread": spread, "width": width, "colours": colours })
         }
         MapColours::Kinds(kinds) => json!({ "kinds": kinds }),
     };
-    json!({ "x": axis(&map.axes[0]), "y": axis(&map.axes[1]), "told": map.told, "key": key })
+    let [x, y] = &map.axes;
+    json!({ "x": axis_json(x), "y": axis_json(y), "told": map.told, "key": key })
+}
+
+fn axis_json(axis: &MapAxis) -> Value {
+    json!({
+        "name": axis.name, "label": axis.label, "factor": axis.factor, "values": axis.values, "ends": axis.ends,
+        "range": axis.range, "log": axis.is_logarithmic,
+    })
 }

@@ -227,8 +227,8 @@ fn of_file(
 ) -> MethodRouter<Shared> {
     get(move |State(shared): State<Shared>, Query(pairs): Pairs| async move {
         let (asked, explored) = (Asked::new(pairs)?, shared.source.explored()?);
-        let answer = move || explored.answer(|it| answer(it, &asked));
-        places(&shared.computations).answer(answer).await
+        let places = places(&shared.computations);
+        places.answer(move || explored.answer(|it| answer(it, &asked))).await
     })
 }
 

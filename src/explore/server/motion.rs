@@ -11,7 +11,7 @@ use super::asked::Asked;
 use super::computations::{BUDGET, MOTION_BUDGET};
 use super::explored::{Explored, Near};
 use crate::campaign::command;
-use crate::description::{Section, Signal, State};
+use crate::description::{Section, State};
 use crate::explore::case_json::{case_json, remarks};
 use crate::flow::stop;
 use crate::motion::{Case, Orbit, Simulation, SimulationSize, Stretch};
@@ -111,11 +111,8 @@ fn on_portrait(case: &Case, points: &[Section]) -> Vec<[f64; 2]> {
     let model = case.parameters.model();
     let signals = model.motion.portrait.map(|names| names.map(|name| model.signal(name)));
     let Some([Some(x), Some(y)]) = signals else { return Vec::new() };
-    let place = |point: &Section| {
-        let state = State::at_section(model, point);
-        Some([x.in_state(&state)?, y.in_state(&state)?])
-    };
-    points.iter().filter_map(place).collect()
+    let states = points.iter().map(|point| State::at_section(model, point));
+    states.filter_map(|state| Some([x.in_state(&state)?, y.in_state(&state)?])).collect()
 }
 
 /// Where the simulation ends before its cycles do, and what has all of them.
@@ -186,16 +183,16 @@ fn history(case: &Case, orbit: &Orbit, tolerance: f64) -> Option<History> {
     let stretch = followed(case, from, cycles, tolerance).filter(|_| orbit.failure.is_none())?;
     let parameters = &case.parameters;
     let model = parameters.model();
-    let column = |it: &Signal| {
+    let present = model.motion.signals.iter().filter(|it| (it.missing)(parameters).is_none());
+    let signals = present.map(|it| {
         let values = it.values(parameters, &stretch.histories);
         (it.name(), values.into_iter().map(|value| value as f32).collect())
-    };
-    let signals = model.motion.signals.iter().filter(|it| (it.missing)(parameters).is_none());
+    });
     Some(History {
         cycles,
         period: parameters.period_of_drive(),
         surface: model.impact_surface().map(|it| parameters[it]),
-        signals: signals.map(column).collect(),
+        signals: signals.collect(),
         t: stretch.times,
     })
 }
@@ -225,15 +222,14 @@ pub fn followed(case: &Case, from: State, cycles: u64, tolerance: f64) -> Option
     // Under a drive the motion is followed by halves of a cycle, so that the phases of both ends differ.
     let half = parameters.period_of_drive().map(|period| 0.5 * period);
     let parts = if half.is_some() { 2 * cycles } else { cycles };
-    let turned = |halves: u64| match half {
-        Some(_) => case.section_phase + PI * (halves % 2) as f64,
-        None => 0.0,
-    };
     let count = ((4 * u64::from(POINTS) / parts.max(1)) as u32).clamp(LEAST_POINTS, POINTS);
     let mut stretch = Stretch::of(model);
     let (mut start, mut begins) = (from, 0.0);
     for number in 0..parts {
-        let [start_phase, section_phase] = [number, number + 1].map(turned);
+        let [start_phase, section_phase] = [number, number + 1].map(|halves| match half {
+            Some(_) => case.section_phase + PI * (halves % 2) as f64,
+            None => 0.0,
+        });
         let part = Case { parameters: parameters.clone(), start, start_phase, section_phase };
         let part = model_of(parameters).arc(&part, count, tolerance).ok()?;
         let last = part.times.len() - 1;

@@ -49,12 +49,11 @@ pub fn figure(explored: &Explored, asked: &Asked, place: &Path) -> Result<Respon
             return Err(Refusal::unfit(why));
         }
     };
-    let failed = |said: std::io::Error| Refusal::failed(said.to_string());
-    let folder = tempfile::tempdir_in(place).map_err(failed)?;
+    let folder = tempfile::tempdir_in(place).map_err(Refusal::failed)?;
     let place = Place { folder: folder.path(), formats: &[format], overwrite: false };
     let files = draw(&*results, &drawing, &place).map_err(Refusal::undrawn)?;
     let path = files.paths.first().ok_or_else(|| Refusal::failed("no file was drawn"))?;
-    let mut answer = bytes(std::fs::read(path).map_err(failed)?, content);
+    let mut answer = bytes(std::fs::read(path).map_err(Refusal::failed)?, content);
     let disposition = HeaderValue::from_static("attachment");
     answer.headers_mut().insert(header::CONTENT_DISPOSITION, disposition);
     Ok(answer)
@@ -84,15 +83,17 @@ fn computed(
 ) -> Result<(Arc<Dataset>, Drawing), Refusal> {
     let chains: Vec<usize> = (0..study.chains()).collect();
     let machine = Machine::default();
-    let failed = |why: String| Refusal::failed(why);
-    let in_time = || match stop::is_asked() {
+    let records = run_sample(study, machine, &chains, || ()).map_err(Refusal::failed)?;
+    check_time(instead)?;
+    let results = results_in_memory(study, &records, machine);
+    check_time(instead)?;
+    Ok((Arc::new(results.map_err(Refusal::failed)?), drawing))
+}
+
+/// Fails if a computation has taken too long; `instead` is what to do then.
+fn check_time(instead: &str) -> Result<(), Refusal> {
+    match stop::is_asked() {
         true => Err(Refusal::late(BUDGET, instead)),
         false => Ok(()),
-    };
-    let records =
-        run_sample(study, machine, &chains, || ()).map_err(|it| failed(it.to_string()))?;
-    in_time()?;
-    let results = results_in_memory(study, &records, machine);
-    in_time()?;
-    Ok((Arc::new(results.map_err(|it| failed(it.to_string()))?), drawing))
+    }
 }

@@ -96,8 +96,7 @@ impl Source {
     ///
     /// Fails where their file could not be opened anew.
     pub fn explored(&self) -> Result<Arc<Explored>, Refusal> {
-        let missing = || Refusal::changed(&self.file);
-        self.lock().explored.clone().ok_or_else(missing)
+        self.lock().explored.clone().ok_or_else(|| Refusal::changed(&self.file))
     }
 
     /// How far the run is; null where all is there.
