@@ -40,8 +40,7 @@ impl AxisRequest {
     /// An axis around `values`, without marks where none of them is finite.
     pub fn around(quantity: Quantity, values: &[f64], margin: f64) -> AxisRequest {
         let scale = quantity.scale(values, margin);
-        let has_place = |value: &f64| value.is_finite() && scale.can_hold(*value);
-        let empty = !values.iter().any(has_place);
+        let empty = !values.iter().any(|value| value.is_finite() && scale.can_hold(*value));
         quantity.note_left_out(&scale, values);
         AxisRequest { empty, numbered: !empty, ..AxisRequest::new(quantity, scale) }
     }
@@ -102,44 +101,51 @@ const A_DECADE: f64 = 10.0;
 
 /// The densest marks whose numbers do not touch; two at least, where the range has them.
 fn choose(request: &AxisRequest, along: Along, length: f64) -> Ticks {
-    let scale = &request.scale;
-    let decimals = request.quantity.decimals();
-    let steps = DIGITS.map(|digits| (digits, 1)).into_iter();
-    let steps = steps.chain((2..=40).map(|every| (DIGITS[DIGITS.len() - 1], every)));
-    let candidates: Vec<Ticks> = match scale.spacing {
-        // Less than a decade has its marks where a linear axis has them.
-        Spacing::Log if scale.high >= A_DECADE * scale.low => {
-            steps.map(|step| log_ticks(scale, step)).collect()
-        }
-        Spacing::Symmetric(width) => {
-            steps.map(|step| symmetric_ticks(scale, width, step)).collect()
-        }
-        Spacing::Linear | Spacing::Log => {
-            let start = ((scale.high - scale.low).log10().floor() as i32) - 2;
-            let start = if request.quantity.whole { start.max(0) } else { start };
-            let steps = (start..start + 5).flat_map(|power| [1, 2, 5].map(|digit| (digit, power)));
-            let mut candidates: Vec<_> =
-                steps.filter_map(|step| linear_ticks(scale, step, decimals)).collect();
-            if request.quantity.whole {
-                let whole = |value: &f64| (value - value.round()).abs() < 1e-6;
-                candidates.iter_mut().for_each(|ticks| ticks.minor.retain(whole));
-            }
-            candidates
-        }
-    };
+    let candidates = candidates(request);
     let usual = if along == Along::Across { 9 } else { 7 };
-    let roomy = |most: usize| {
-        candidates.iter().find(|it| it.major.len() <= most && has_room(it, scale, along, length))
-    };
+    let mut roomy = candidates
+        .iter()
+        .filter(|it| it.major.len() <= usual + MORE && has_room(it, &request.scale, along, length));
     // Where steps of a size that is usual leave few numbers, smaller ones give a few more than usual.
-    let few = |ticks: &&Ticks| ticks.major.len() < FEW;
-    let chosen = roomy(usual).filter(|it| !few(it)).or_else(|| roomy(usual + MORE));
+    let chosen = roomy.clone().find(|it| it.major.len() <= usual);
+    let chosen = chosen.filter(|it| it.major.len() >= FEW).or_else(|| roomy.next());
     match chosen {
         Some(ticks) if ticks.major.len() >= 2 => ticks.clone(),
         // Rather two numbers close together than an axis that cannot be read.
         _ => {
             let two = candidates.iter().rev().find(|ticks| ticks.major.len() >= 2);
             two.or(candidates.first()).cloned().unwrap_or_default()
+        }
+    }
+}
+
+/// Marks by the sizes of their steps, the densest first.
+fn candidates(request: &AxisRequest) -> Vec<Ticks> {
+    let scale = &request.scale;
+    let decimals = request.quantity.decimals();
+    let steps = DIGITS.map(|digits| (digits, 1)).into_iter();
+    let steps = steps.chain((2..=40).map(|every| (DIGITS[DIGITS.len() - 1], every)));
+    match scale.spacing {
+        // Less than a decade has its marks where a linear axis has them.
+        Spacing::Log if scale.high >= A_DECADE * scale.low => {
+            steps.map(|(digits, every)| log_ticks(scale, digits, every)).collect()
+        }
+        Spacing::Symmetric(width) => {
+            steps.map(|(digits, every)| symmetric_ticks(scale, width, digits, every)).collect()
+        }
+        Spacing::Linear | Spacing::Log => {
+            let start = ((scale.high - scale.low).log10().floor() as i32) - 2;
+            let start = if request.quantity.whole { start.max(0) } else { start };
+            let steps = (start..start + 5).flat_map(|power| [1, 2, 5].map(|digit| (digit, power)));
+            let mut candidates: Vec<Ticks> = steps
+                .filter_map(|(digit, power)| linear_ticks(scale, digit, power, decimals))
+                .collect();
+            if request.quantity.whole {
+                for ticks in &mut candidates {
+                    ticks.minor.retain(|value| (value - value.round()).abs() < 1e-6);
+                }
+            }
+            candidates
         }
     }
 }
@@ -151,14 +157,18 @@ const MORE: usize = 2;
 
 /// Whether the numbers stand clear of each other.
 fn has_room(ticks: &Ticks, scale: &Scale, along: Along, length: f64) -> bool {
-    let half = |label: &str| match along {
-        Along::Across => label_width(label) / 2.0 + 5.0,
-        Along::Up => SMALL_SIZE * 0.8,
-    };
     ticks.major.windows(2).all(|pair| {
         let distance = (scale.share(pair[1].value) - scale.share(pair[0].value)) * length;
-        distance >= half(&pair[0].label) + half(&pair[1].label)
+        distance >= clearance(&pair[0].label, along) + clearance(&pair[1].label, along)
     })
+}
+
+/// How far other numbers stay from the middle of a number [pt].
+fn clearance(label: &str, along: Along) -> f64 {
+    match along {
+        Along::Across => label_width(label) / 2.0 + 5.0,
+        Along::Up => SMALL_SIZE * 0.8,
+    }
 }
 
 fn label_width(label: &str) -> f64 {

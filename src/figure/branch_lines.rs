@@ -29,23 +29,23 @@ impl BranchLines {
             return branches;
         }
         let (along, own) = (view.quantity(x), view.quantity(output));
-        let factors = (along.factor, own.factor);
-        let scaled = |(x, y): (f64, f64)| (x * factors.0, y * factors.1);
         for track in tracks(view, x, output) {
-            branches.add(&track, scaled);
+            branches.add(&track, along.factor, own.factor);
         }
         let is_shown = view.shows("special-points");
-        let is_within = |(x, y): (f64, f64)| along.is_within(x) && own.is_within(y);
-        branches.specials.retain(|(_, place)| is_shown && is_within(*place));
+        branches
+            .specials
+            .retain(|(_, (x, y))| is_shown && along.is_within(*x) && own.is_within(*y));
         branches
     }
 
-    fn add(&mut self, track: &Track, scaled: impl Fn((f64, f64)) -> (f64, f64)) {
+    /// Adds a branch, whose parameter and output are shown times these factors.
+    fn add(&mut self, track: &Track, along: f64, own: f64) {
         for cycle in 0..track.width() {
             let mut line: Vec<(f64, f64)> = Vec::new();
             let mut stable = None;
             for stop in &track.stops {
-                let place = scaled((stop.x, stop.values[cycle]));
+                let place = (stop.x * along, stop.values[cycle] * own);
                 if let Some(now) = stop.stable {
                     if let Some(before) = stable.filter(|&before| before != now) {
                         // Both lines meet where the stability changes.
@@ -101,8 +101,10 @@ impl BranchLines {
         let lines = lines
             .filter(|(_, lines)| lines.iter().any(|line| line.len() > 1))
             .map(|((stroke, words), _)| (Mark::Line(*stroke), Text::plain(words)));
-        let occurs = |symbol: &Symbol| self.specials.iter().any(|(other, _)| other == symbol);
-        let symbols = SYMBOLS.into_iter().rev().filter(occurs);
+        let symbols = SYMBOLS
+            .into_iter()
+            .rev()
+            .filter(|symbol| self.specials.iter().any(|(other, _)| other == symbol));
         let symbols = symbols.map(|symbol| (Mark::Symbol(symbol), Text::plain(symbol.words)));
         lines.chain(symbols).collect()
     }
@@ -132,6 +134,7 @@ pub fn draw_symbols(
 
 /// A colour that steps back behind lines.
 pub fn faded(RGBColor(red, green, blue): RGBColor) -> RGBColor {
-    let fade = |part: u8| (255.0 - 0.42 * (255.0 - f64::from(part))).round() as u8;
-    RGBColor(fade(red), fade(green), fade(blue))
+    let [red, green, blue] =
+        [red, green, blue].map(|part| (255.0 - 0.42 * (255.0 - f64::from(part))).round() as u8);
+    RGBColor(red, green, blue)
 }

@@ -5,7 +5,7 @@ use plotters::style::RGBColor;
 
 use super::axis::{Along, Axis, AxisRequest};
 use super::canvas::{Anchor, Canvas, Stroke};
-use super::geometry::Rect;
+use super::geometry::{Point, Rect};
 use super::panel::draw_upward;
 use super::quantity::Quantity;
 use super::raster::{Fill, Raster};
@@ -59,7 +59,6 @@ impl Colours {
     /// The colours for `values`: centred on zero where both signs occur,
     /// and none where no value is finite.
     pub fn for_values(values: &[f64], quantity: Quantity) -> Option<Colours> {
-        let (centre, chosen) = (quantity.chosen.centre(), quantity.chosen.colour_map());
         let scale = quantity.scale(values, 0.0);
         quantity.note_left_out(&scale, values);
         let (low, high) = finite_range(values.iter().copied().filter(|it| scale.can_hold(*it)))?;
@@ -68,34 +67,27 @@ impl Colours {
         let has_both = low < -1e-3 * most && high > 1e-3 * most && most > quantity.noise;
         let is_log = scale.spacing == Spacing::Log;
         let usual = (has_both && !is_log && scale.holds(0.0)).then_some(0.0);
-        let centre = centre.map(|it| it * quantity.factor).or(usual);
+        let centre = quantity.chosen.centre().map(|it| it * quantity.factor).or(usual);
         let beyond =
             [low < scale.low && !scale.holds(low), high > scale.high && !scale.holds(high)];
-        Some(Colours::new((scale, centre), chosen, beyond, quantity))
+        Some(Colours::new(quantity, scale, centre, beyond))
     }
 
     /// The colours for the values of an axis.
     pub fn for_axis(values: &[f64], quantity: Quantity) -> Colours {
-        let (centre, chosen) = (quantity.chosen.centre(), quantity.chosen.colour_map());
         let scale = quantity.fitted(Scale::of_axis(values));
-        let centre = centre.map(|it| it * quantity.factor);
-        let beyond = |is_beyond: fn(&f64, &Scale) -> bool| {
-            values.iter().any(|it| is_beyond(it, &scale) && !scale.holds(*it))
-        };
-        let beyond = [beyond(|it, scale| *it < scale.low), beyond(|it, scale| *it > scale.high)];
-        Colours::new((scale, centre), chosen, beyond, quantity)
+        let centre = quantity.chosen.centre().map(|it| it * quantity.factor);
+        let outside: Vec<f64> = values.iter().copied().filter(|it| !scale.holds(*it)).collect();
+        let beyond =
+            [outside.iter().any(|it| *it < scale.low), outside.iter().any(|it| *it > scale.high)];
+        Colours::new(quantity, scale, centre, beyond)
     }
 
-    fn new(
-        (scale, centre): (Scale, Option<f64>),
-        chosen: Option<Colouring>,
-        beyond: [bool; 2],
-        quantity: Quantity,
-    ) -> Colours {
+    fn new(quantity: Quantity, scale: Scale, centre: Option<f64>, beyond: [bool; 2]) -> Colours {
         // Red for forward, blue for backward.
         let usual = if centre.is_some() { ColourMap::BlueRed } else { ColourMap::Viridis };
         let Colouring { map, reversed } =
-            chosen.unwrap_or(Colouring { map: usual, reversed: false });
+            quantity.chosen.colour_map().unwrap_or(Colouring { map: usual, reversed: false });
         let centre = centre.filter(|it| scale.can_hold(*it)).map(|it| scale.share(it));
         let centred = centre.map(|it| [it, it.max(1.0 - it)]);
         let (gradient, is_turned) = gradient(map);
@@ -157,32 +149,41 @@ impl Colours {
         let left = frame.right + BAR_GAP;
         let bar = Rect { left, right: left + BAR_WIDTH, ..frame };
         let steps = 512usize;
-        let row = |share: f64| (share * steps as f64) as usize;
-        let colour = |_, row: usize| {
-            Fill::Plain(self.of(self.scale.value(1.0 - (row as f64 + 0.5) / steps as f64)))
-        };
-        canvas.image(bar, &Raster::cells(bar, |_| 0, row, colour));
+        let raster = Raster::cells(
+            bar,
+            |_| 0,
+            |share| (share * steps as f64) as usize,
+            |_, row| {
+                Fill::Plain(self.of(self.scale.value(1.0 - (row as f64 + 0.5) / steps as f64)))
+            },
+        );
+        canvas.image(bar, &raster);
         canvas.frame(bar, Stroke::solid(INK, FRAME_WIDTH));
         self.draw_ends(canvas, bar);
         let axis = self.axis(frame.height());
-        let place = |value: f64| bar.bottom - axis.scale.share(value) * bar.height();
-        let tick = |value: f64, length: f64| {
-            ((bar.right, place(value)), (bar.right + length, place(value)))
-        };
-        let major: Vec<_> =
-            axis.ticks.major.iter().map(|it| tick(it.value, MAJOR_LENGTH - 1.0)).collect();
+        let major = tick_lines(bar, &axis.scale, &axis.ticks.numbered(), MAJOR_LENGTH - 1.0);
         canvas.segments(&major, Stroke::solid(INK, FRAME_WIDTH));
-        let minor: Vec<_> =
-            axis.ticks.minor.iter().map(|value| tick(*value, MINOR_LENGTH - 0.6)).collect();
+        let minor = tick_lines(bar, &axis.scale, &axis.ticks.minor, MINOR_LENGTH - 0.6);
         canvas.segments(&minor, Stroke::solid(INK, MINOR_WIDTH));
         let numbers = bar.right + NUMBER_GAP;
         for tick in &axis.ticks.major {
-            let at = (numbers, place(tick.value) + 0.32 * SMALL_SIZE);
+            let at = (numbers, place(bar, &axis.scale, tick.value) + 0.32 * SMALL_SIZE);
             canvas.text(&Text::markup(&tick.label), at, SMALL_SIZE, Anchor::Start);
         }
         let first = numbers + axis.widest + LABEL_GAP + 0.75 * LABEL_SIZE;
         draw_upward(canvas, &axis, frame, first);
     }
+}
+
+/// Where a value stands along a bar, from the upper side of the page [pt].
+fn place(bar: Rect, scale: &Scale, value: f64) -> f64 {
+    bar.bottom - scale.share(value) * bar.height()
+}
+
+/// Marks of these values on the right side of a bar.
+fn tick_lines(bar: Rect, scale: &Scale, values: &[f64], length: f64) -> Vec<(Point, Point)> {
+    let heights = values.iter().map(|value| place(bar, scale, *value));
+    heights.map(|at| ((bar.right, at), (bar.right + length, at))).collect()
 }
 
 #[cfg(test)]

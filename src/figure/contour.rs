@@ -5,7 +5,12 @@ use std::collections::BTreeMap;
 use super::geometry::Point;
 
 /// The side of a grid cell on which a line crosses: that from a grid point along its row, or along its column.
-type Crossing = (usize, usize, bool);
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Crossing {
+    column: usize,
+    row: usize,
+    along_row: bool,
+}
 
 /// Values on the points of a grid with their places.
 pub struct Field<'a> {
@@ -28,13 +33,13 @@ impl Field<'_> {
         let mut neighbours: BTreeMap<Crossing, Vec<Crossing>> = BTreeMap::new();
         for row in 1..self.y.len() {
             for column in 1..self.x.len() {
-                for [a, b] in self.segments((column - 1, row - 1), level) {
+                for [a, b] in self.segments(column - 1, row - 1, level) {
                     neighbours.entry(a).or_default().push(b);
                     neighbours.entry(b).or_default().push(a);
                 }
             }
         }
-        let mut lines = Vec::new();
+        let mut lines: Vec<Vec<Crossing>> = Vec::new();
         // Open lines from one of their ends, then those that are closed.
         let ends: Vec<Crossing> =
             neighbours.iter().filter(|it| it.1.len() == 1).map(|it| *it.0).collect();
@@ -44,48 +49,53 @@ impl Field<'_> {
         while let Some((&first, _)) = neighbours.first_key_value() {
             lines.extend(walk(&mut neighbours, first));
         }
-        let place =
-            |line: Vec<Crossing>| line.into_iter().map(|it| self.place(it, level)).collect();
-        lines.into_iter().map(place).collect()
+        let places =
+            lines.iter().map(|line| line.iter().map(|it| self.place(*it, level)).collect());
+        places.collect()
     }
 
     /// The segments of lines in the cell whose first corner is given.
-    fn segments(&self, (column, row): (usize, usize), level: f64) -> Vec<[Crossing; 2]> {
+    fn segments(&self, column: usize, row: usize, level: f64) -> Vec<[Crossing; 2]> {
         let corners = [(0, 0), (1, 0), (1, 1), (0, 1)];
         let values = corners.map(|(right, up)| (self.value)(column + right, row + up));
         if values.iter().any(|value| !value.is_finite()) {
             return Vec::new();
         }
         let is_above = values.map(|value| value >= level);
-        let sides: [Crossing; 4] = [
-            (column, row, true),
-            (column + 1, row, false),
-            (column, row + 1, true),
-            (column, row, false),
+        let sides = [
+            Crossing { column, row, along_row: true },
+            Crossing { column: column + 1, row, along_row: false },
+            Crossing { column, row: row + 1, along_row: true },
+            Crossing { column, row, along_row: false },
         ];
-        let crossed = |side: &usize| is_above[*side] != is_above[(side + 1) % 4];
-        let found: Vec<usize> = (0..4).filter(crossed).collect();
-        let segment = |a: usize, b: usize| [sides[found[a]], sides[found[b]]];
-        match found.len() {
-            2 => vec![segment(0, 1)],
+        let crossed = (0..4).filter(|side| is_above[*side] != is_above[(side + 1) % 4]);
+        let crossed: Vec<Crossing> = crossed.map(|side| sides[side]).collect();
+        match crossed[..] {
+            [a, b] => vec![[a, b]],
             // The corner between two sides is cut off unless the middle is on its side of the level.
-            4 if (values.iter().sum::<f64>() / 4.0 >= level) == is_above[0] => {
-                vec![segment(0, 1), segment(2, 3)]
+            [a, b, c, d] if (values.iter().sum::<f64>() / 4.0 >= level) == is_above[0] => {
+                vec![[a, b], [c, d]]
             }
-            4 => vec![segment(3, 0), segment(1, 2)],
+            [a, b, c, d] => vec![[d, a], [b, c]],
             _ => Vec::new(),
         }
     }
 
     /// Where a line crosses a side.
-    fn place(&self, (column, row, along_row): Crossing, level: f64) -> Point {
+    fn place(&self, crossing: Crossing, level: f64) -> Point {
+        let Crossing { column, row, along_row } = crossing;
         let (next_column, next_row) = if along_row { (column + 1, row) } else { (column, row + 1) };
         let (from, to) = ((self.value)(column, row), (self.value)(next_column, next_row));
         let share = (level - from) / (to - from);
-        let between =
-            |places: &[f64], a: usize, b: usize| places[a] + share * (places[b] - places[a]);
-        (between(self.x, column, next_column), between(self.y, row, next_row))
+        let x = between(self.x[column], self.x[next_column], share);
+        let y = between(self.y[row], self.y[next_row], share);
+        (x, y)
     }
+}
+
+/// The place at a share of the distance between two.
+fn between(from: f64, to: f64, share: f64) -> f64 {
+    from + share * (to - from)
 }
 
 /// Follows a line from a crossing, whose segments are taken away; none where there are none left.

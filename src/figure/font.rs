@@ -81,6 +81,6 @@ pub fn has_glyph(face: Face, character: char) -> bool {
 pub fn width(face: Face, content: &str) -> f64 {
     let Some(font) = &fonts().faces[face as usize] else { return 0.0 };
     let units = f64::from(font.units_per_em().unwrap_or(1000.0));
-    let advance = |c| f64::from(font.h_advance_unscaled(font.glyph_id(c)));
-    content.chars().map(advance).sum::<f64>() / units
+    let advances = content.chars().map(|c| f64::from(font.h_advance_unscaled(font.glyph_id(c))));
+    advances.sum::<f64>() / units
 }

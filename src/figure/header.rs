@@ -100,8 +100,8 @@ impl Header {
 
     /// The note in lines that fit beside the letter above a frame of `width` [pt].
     fn note_lines(&self, width: f64) -> Vec<Text> {
-        let fits = |note: &Text| note.wrapped(width - self.letter_width(), SMALL_SIZE);
-        self.note.as_ref().map_or(Vec::new(), fits)
+        let Some(note) = &self.note else { return Vec::new() };
+        note.wrapped(width - self.letter_width(), SMALL_SIZE)
     }
 
     /// Width of the panel letter and the note [pt].
@@ -120,8 +120,8 @@ impl Header {
         let mut lines = Vec::new();
         let mut rest = self.legend.as_slice();
         while !rest.is_empty() {
-            let fits = |count: &usize| legend_width(&rest[..*count]) <= width;
-            let count = (1..=rest.len()).rev().find(fits).unwrap_or(1);
+            let mut counts = (1..=rest.len()).rev();
+            let count = counts.find(|count| legend_width(&rest[..*count]) <= width).unwrap_or(1);
             lines.push(&rest[..count]);
             rest = &rest[count..];
         }
@@ -146,9 +146,9 @@ fn letter_text(letter: char) -> Text {
 
 /// Width of a legend in a row [pt].
 fn legend_width(legend: &[Entry]) -> f64 {
-    let width = |(mark, words): &Entry| mark.width() + MARK_GAP + words.width(SMALL_SIZE);
-    let entries: f64 = legend.iter().map(width).sum();
-    entries + legend.len().saturating_sub(1) as f64 * ENTRY_GAP
+    let entries =
+        legend.iter().map(|(mark, words)| mark.width() + MARK_GAP + words.width(SMALL_SIZE));
+    entries.sum::<f64>() + legend.len().saturating_sub(1) as f64 * ENTRY_GAP
 }
 
 /// A mark of a legend, from its left end at the height of its middle.
@@ -166,10 +166,11 @@ pub fn draw_mark(canvas: &mut Canvas, mark: Mark, at: Point) {
         Mark::Disc(colour, radius) => canvas.discs(&[(centre, colour)], radius),
         Mark::Discs(colours, radius) => {
             let step = mark.width() / colours.len() as f64;
-            let place = |place: usize| (left + (place as f64 + 0.5) * step, middle);
-            let discs: Vec<_> =
-                colours.iter().enumerate().map(|(i, colour)| (place(i), *colour)).collect();
-            canvas.discs(&discs, radius);
+            let discs = colours
+                .into_iter()
+                .enumerate()
+                .map(|(place, colour)| ((left + (place as f64 + 0.5) * step, middle), colour));
+            canvas.discs(&discs.collect::<Vec<_>>(), radius);
         }
         Mark::Ring(colour, radius) => {
             canvas.rings(&[centre], radius, Stroke::solid(colour, CURVE_WIDTH));

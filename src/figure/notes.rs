@@ -17,12 +17,6 @@ impl View<'_> {
 
     /// What `at` asks for and the axes do not have, with the value that was taken, for each.
     pub fn taken_for_another(&self) -> Vec<String> {
-        let note = |(name, index, wanted): (&String, usize, f64)| {
-            let (taken, unit) = (*self.coordinate_values(name).get(index)?, self.unit(name));
-            let differs = (taken - wanted).abs() > ROUNDING * taken.abs().max(wanted.abs());
-            let note = format!("{name} = {taken}{unit} is taken for {wanted}{unit}, the nearest");
-            differs.then_some(note)
-        };
         let held = self.held.places.iter();
         let one = held.filter_map(|(name, at)| Some((name, *at, *self.drawing.at.get(name)?)));
         let several = self.drawing.panels.iter().zip(&self.held.panelled).flat_map(
@@ -30,7 +24,15 @@ impl View<'_> {
                 wanted.iter().zip(taken).map(move |it| (name, *it.1, *it.0))
             },
         );
-        one.chain(several).filter_map(note).collect()
+        let notes = one.chain(several).map(|(name, at, wanted)| self.taken(name, at, wanted));
+        notes.flatten().collect()
+    }
+
+    /// That the value of an axis at a place is taken for the one that is wanted, where they differ.
+    fn taken(&self, name: &str, place: usize, wanted: f64) -> Option<String> {
+        let (taken, unit) = (*self.coordinate_values(name).get(place)?, self.unit(name));
+        let differs = (taken - wanted).abs() > ROUNDING * taken.abs().max(wanted.abs());
+        differs.then(|| format!("{name} = {taken}{unit} is taken for {wanted}{unit}, the nearest"))
     }
 
     /// What a figure shows, in a sentence kept inside its files.
@@ -55,26 +57,25 @@ impl View<'_> {
         let several = self.held.panelled.iter().find(|it| it.0 == name).map(|it| it.1.clone());
         let held = several.unwrap_or_else(|| vec![self.held.place(name)]);
         let flags = self.dataset.coordinate(name).map_or(&[][..], |it| &it.flags);
-        let value = |index: usize| {
+        let held = held.into_iter().map(|index| {
             let value = values.get(index).copied().unwrap_or(f64::NAN);
             let named = flags.iter().find(|(code, _)| *code as f64 == value);
             named.map_or_else(|| significant(value * quantity.factor), |it| it.1.clone())
-        };
-        let values: Vec<String> = held.into_iter().map(value).collect();
+        });
+        let held: Vec<String> = held.collect();
         let unit = quantity.unit().content();
         let unit = if unit.is_empty() { unit } else { format!(" {unit}") };
-        format!("{name} = {}{unit}", values.join(" and "))
+        format!("{name} = {}{unit}", held.join(" and "))
     }
 
     /// The part of the study that a figure shows, for those of its axes that have several values
     /// and are not among `free`.
     pub fn held_note(&self, free: &[&str]) -> Option<Text> {
-        let several = |name: &&str| self.coordinate_values(name).len() > 1;
+        let others = self.axes().into_iter().filter(|name| !free.contains(name));
+        let varying = others.filter(|name| self.coordinate_values(name).len() > 1);
         // What is told of the difference of two sweeps holds for both.
-        let is_both =
-            |name: &&str| *name == DIRECTION.name && self.drawing.sweep == Some(Sweep::Difference);
-        let ours = self.axes().into_iter().filter(|name| !free.contains(name)).filter(several);
-        let ours = ours.filter(|name| !is_both(name));
+        let is_of_both = self.drawing.sweep == Some(Sweep::Difference);
+        let ours = varying.filter(|name| !(is_of_both && *name == DIRECTION.name));
         ours.map(|name| self.value_note(name, self.held.place(name)))
             .reduce(|note, next| note.then(Text::plain(", ")).then(next))
     }

@@ -58,21 +58,20 @@ impl Table {
         let gap = GAP * scale + (width - needed * scale).max(0.0) / self.headings.len() as f64;
         let mut right = left + (MARK + names) * scale;
         let first = top + ABOVE + 0.8 * LINE;
-        let below = |lines: usize| first + lines as f64 * LINE;
         for (at, (headings, column)) in self.headings.iter().zip(&columns).enumerate() {
             right += gap + column * scale;
             for (line, heading) in headings.iter().enumerate() {
-                canvas.text(heading, (right, below(line)), size, Anchor::End);
+                canvas.text(heading, (right, below(first, line)), size, Anchor::End);
             }
             for (place, row) in self.rows.iter().enumerate() {
                 let cell = row.cells.get(at).cloned().unwrap_or_default();
-                canvas.text(&cell, (right, below(2 + place) + RULE), size, Anchor::End);
+                canvas.text(&cell, (right, below(first, 2 + place) + RULE), size, Anchor::End);
             }
         }
-        let rule = below(1) + RULE;
+        let rule = below(first, 1) + RULE;
         canvas.line(&[(left, rule), (right, rule)], Stroke::solid(INK, MINOR_WIDTH));
         for (place, row) in self.rows.iter().enumerate() {
-            let baseline = below(2 + place) + RULE;
+            let baseline = below(first, 2 + place) + RULE;
             draw_mark(canvas, row.mark, (left, baseline - 0.3 * size));
             canvas.text(&row.name, (left + MARK * scale, baseline), size, Anchor::Start);
         }
@@ -83,4 +82,9 @@ impl Table {
         let widths = self.headings[at].iter().chain(cells).map(|text| text.width(SMALL_SIZE));
         widths.fold(0.0, f64::max)
     }
+}
+
+/// The baseline so many lines below the first.
+fn below(first: f64, lines: usize) -> f64 {
+    first + lines as f64 * LINE
 }

@@ -139,8 +139,7 @@ impl Panel {
     }
 
     fn draw_ticks(&self, canvas: &mut Canvas) {
-        let majors = |axis: &Axis| axis.ticks.major.iter().map(|t| t.value).collect::<Vec<_>>();
-        let (x, y) = (majors(&self.x), majors(&self.y));
+        let (x, y) = (self.x.ticks.numbered(), self.y.ticks.numbered());
         let major = self.tick_lines(&x, &y, MAJOR_LENGTH);
         canvas.segments(&major, Stroke::solid(INK, FRAME_WIDTH));
         let minor = self.tick_lines(&self.x.ticks.minor, &self.y.ticks.minor, MINOR_LENGTH);
@@ -230,15 +229,13 @@ pub fn draw_upward(canvas: &mut Canvas, axis: &Axis, frame: Rect, first: f64) {
 /// `places` with at most four points in each column narrower than print can show: where the path
 /// enters it and leaves it, and its highest and lowest point.
 fn thinned(places: &[Point]) -> Vec<Point> {
-    let column = |place: &Point| (place.0 / 0.1).floor();
     let mut kept = Vec::new();
-    for group in places.chunk_by(|a, b| column(a) == column(b)) {
-        let by_height = |a: &&usize, b: &&usize| group[**a].1.total_cmp(&group[**b].1);
-        let indices: Vec<usize> = (0..group.len()).collect();
-        let ends = [0, group.len() - 1];
-        let extremes = [indices.iter().min_by(by_height), indices.iter().max_by(by_height)];
-        let mut chosen: Vec<usize> =
-            ends.into_iter().chain(extremes.into_iter().flatten().copied()).collect();
+    for group in places.chunk_by(|a, b| (a.0 / 0.1).floor() == (b.0 / 0.1).floor()) {
+        let all = 0..group.len();
+        let lowest = all.clone().min_by(|a, b| group[*a].1.total_cmp(&group[*b].1));
+        let highest = all.max_by(|a, b| group[*a].1.total_cmp(&group[*b].1));
+        let mut chosen = vec![0, group.len() - 1];
+        chosen.extend(lowest.into_iter().chain(highest));
         chosen.sort_unstable();
         chosen.dedup();
         kept.extend(chosen.into_iter().map(|index| group[index]));

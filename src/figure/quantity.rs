@@ -54,9 +54,8 @@ impl Quantity {
     /// The quantity called `name`, described by `dataset` where the catalogue has no form for it, and by its meaning where that does
     /// not hold it.
     pub fn named(name: &str, dataset: &Dataset) -> Quantity {
-        let on_branches = || dataset.variable(&Place::Branch.name(name));
         let stored = dataset.variable(name).or_else(|| dataset.coordinate(name));
-        let stored = stored.or_else(on_branches);
+        let stored = stored.or_else(|| dataset.variable(&Place::Branch.name(name)));
         let whole = stored.is_some_and(|it| matches!(it.values, Values::Integer(_)));
         let is_result = dataset.coordinate(name).is_none();
         let unit = stored.map_or("", |it| it.unit.as_str());
@@ -157,9 +156,10 @@ impl Quantity {
     /// request sets another.
     pub fn scale(&self, values: &[f64], margin: f64) -> Scale {
         let range = finite_range(values.iter().copied());
-        let has_many_decades = |(low, high): (f64, f64)| low > 0.0 && high / low > MANY_DECADES;
+        let has_many_decades =
+            range.is_some_and(|(low, high)| low > 0.0 && high / low > MANY_DECADES);
         let is_log = match self.chosen.scale() {
-            None => self.is_ratio && range.is_some_and(has_many_decades),
+            None => self.is_ratio && has_many_decades,
             Some(chosen) => chosen == ScaleChoice::Log,
         };
         self.fitted(match is_log {
@@ -201,8 +201,8 @@ impl Quantity {
 
     /// Notes how many of `values` have no place on a scale.
     pub fn note_left_out(&self, scale: &Scale, values: &[f64]) {
-        let has_none = |value: &&f64| value.is_finite() && !scale.can_hold(**value);
-        self.chosen.leave_out(values.iter().filter(has_none).count());
+        let without_place = values.iter().filter(|it| it.is_finite() && !scale.can_hold(**it));
+        self.chosen.leave_out(without_place.count());
     }
 
     /// Digits after the point of the numbers along its axis, if they are set.

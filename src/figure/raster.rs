@@ -1,5 +1,7 @@
 //! Pixels embedded in a vector figure: dense clouds of points and the cells of maps.
 
+use std::ops::Range;
+
 use plotters::style::RGBColor;
 
 use super::geometry::{Point, Rect};
@@ -45,8 +47,8 @@ pub struct Raster {
 impl Raster {
     /// A transparent raster of the size of `rect`, to be drawn over it.
     pub fn over(rect: Rect) -> Raster {
-        let count = |points: f64| ((points / 72.0 * DPI).round() as usize).max(1);
-        let (width, height) = (count(rect.width()), count(rect.height()));
+        let [width, height] = [rect.width(), rect.height()]
+            .map(|points| ((points / 72.0 * DPI).round() as usize).max(1));
         Raster { smooth: true, width, height, pixels: vec![[255, 255, 255, 0]; width * height] }
     }
 
@@ -59,10 +61,9 @@ impl Raster {
         K: Fn(usize, usize) -> Fill,
     {
         let mut raster = Raster { smooth: false, ..Raster::over(rect) };
-        let share = |at: usize, count: usize| (at as f64 + 0.5) / count as f64;
-        let columns: Vec<_> = (0..raster.width).map(|x| column(share(x, raster.width))).collect();
-        for y in 0..raster.height {
-            let cell_row = row(share(y, raster.height));
+        let columns: Vec<_> = middles(raster.width).map(column).collect();
+        for (y, middle) in middles(raster.height).enumerate() {
+            let cell_row = row(middle);
             for (x, cell_column) in columns.iter().enumerate() {
                 let RGBColor(red, green, blue) = of(*cell_column, cell_row).at(x, y);
                 raster.pixels[y * raster.width + x] = [red, green, blue, 255];
@@ -75,12 +76,8 @@ impl Raster {
     pub fn disc(&mut self, centre: Point, radius: f64, colour: RGBColor, opacity: f64) {
         let scale = DPI / 72.0;
         let (x, y, radius) = (centre.0 * scale, centre.1 * scale, radius * scale);
-        let span = |at: f64, end: usize| {
-            let first = (at - radius - 1.0).floor().max(0.0) as usize;
-            first..((at + radius + 1.0).ceil().max(0.0) as usize).min(end)
-        };
-        for row in span(y, self.height) {
-            for column in span(x, self.width) {
+        for row in covered(y, radius, self.height) {
+            for column in covered(x, radius, self.width) {
                 let away = (column as f64 + 0.5 - x).hypot(row as f64 + 0.5 - y);
                 let cover = (radius + 0.5 - away).clamp(0.0, 1.0) * opacity;
                 if cover > 0.0 {
@@ -107,6 +104,17 @@ impl Raster {
         writer.finish().map_err(|error| error.to_string())?;
         Ok(bytes)
     }
+}
+
+/// The middles of so many pixels, as shares of their length.
+fn middles(count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(move |at| (at as f64 + 0.5) / count as f64)
+}
+
+/// The pixels before `end` that a disc around a place may cover.
+fn covered(at: f64, radius: f64, end: usize) -> Range<usize> {
+    let first = (at - radius - 1.0).floor().max(0.0) as usize;
+    first..((at + radius + 1.0).ceil().max(0.0) as usize).min(end)
 }
 
 /// `colour` with opacity `cover` over `pixel` (the Porter-Duff operator "over").

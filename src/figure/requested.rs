@@ -64,7 +64,7 @@ impl<'a> View<'a> {
         for (name, set) in &self.drawing.settings {
             let unit = set
                 .unit
-                .map(|unit| ShownUnit::of((name, self.model()), unit, || self.natural_frequency()));
+                .map(|unit| ShownUnit::of(name, self.model(), unit, || self.natural_frequency()));
             let unit = unit.transpose().map_err(|why| self.unfit(why))?;
             chosen.insert(name.clone(), Rc::new(Chosen::new(set.clone(), unit)));
         }

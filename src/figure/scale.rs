@@ -77,8 +77,8 @@ impl Scale {
     /// below a thousandth of its largest magnitude.
     pub fn symmetric(self, width: Option<f64>) -> Scale {
         let size = self.low.abs().max(self.high.abs());
-        let usual = || 10f64.powf((1e-3 * size).log10().floor());
-        Scale { spacing: Spacing::Symmetric(width.unwrap_or_else(usual)), ..self }
+        let width = width.unwrap_or_else(|| 10f64.powf((1e-3 * size).log10().floor()));
+        Scale { spacing: Spacing::Symmetric(width), ..self }
     }
 
     /// Where `value` stands, as a share of the axis from its low end.
@@ -131,6 +131,6 @@ fn log_spaced(values: &[f64]) -> bool {
         return false;
     }
     let first = values[1] / values[0];
-    let even = |pair: &[f64]| (pair[1] / pair[0] / first - 1.0).abs() < 1e-6;
-    (first - 1.0).abs() > 1e-3 && values.windows(2).all(even)
+    let mut pairs = values.windows(2);
+    (first - 1.0).abs() > 1e-3 && pairs.all(|pair| (pair[1] / pair[0] / first - 1.0).abs() < 1e-6)
 }

@@ -155,10 +155,9 @@ impl Symbol {
     }
 
     fn fill(&self, canvas: &mut Canvas, (x, y): Point, corners: &[Point]) {
-        let around = |radius: f64| -> Vec<Point> {
-            corners.iter().map(|(dx, dy)| (x + dx * radius, y + dy * radius)).collect()
-        };
-        canvas.polygon(&around(RADIUS + 0.7), PAPER);
-        canvas.polygon(&around(RADIUS), INK);
+        for (radius, colour) in [(RADIUS + 0.7, PAPER), (RADIUS, INK)] {
+            let corners = corners.iter().map(|(dx, dy)| (x + dx * radius, y + dy * radius));
+            canvas.polygon(&corners.collect::<Vec<Point>>(), colour);
+        }
     }
 }

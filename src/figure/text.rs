@@ -134,13 +134,7 @@ impl Text {
         }
         let symbols = parts.iter().skip(1).step_by(2);
         let commands = symbols.flat_map(|part| part.split('\\').skip(1));
-        let is_known = |rest: &str| {
-            SYMBOLS.iter().any(|(name, _)| {
-                let after = rest.strip_prefix(name).and_then(|rest| rest.chars().next());
-                rest.starts_with(name) && !after.is_some_and(char::is_alphabetic)
-            })
-        };
-        let unknown = commands.into_iter().find(|rest| !is_known(rest))?;
+        let unknown = commands.into_iter().find(|rest| !begins_with_symbol(rest))?;
         let end = unknown.find(|it: char| !it.is_alphabetic()).unwrap_or(unknown.len());
         let known: Vec<String> = SYMBOLS.iter().map(|(name, _)| format!("\\{name}")).collect();
         let name = &unknown[..end];
@@ -247,8 +241,9 @@ impl Text {
 
     /// Width at `size` [pt].
     pub fn width(&self, size: f64) -> f64 {
-        let one = |run: &Run| font::width(run.face, &run.content) * run.script.size();
-        self.runs.iter().map(one).sum::<f64>() * size
+        let runs = self.runs.iter();
+        let widths = runs.map(|run| font::width(run.face, &run.content) * run.script.size());
+        widths.sum::<f64>() * size
     }
 
     /// Whether there is nothing to set.
@@ -258,8 +253,9 @@ impl Text {
 
     /// A character that the font lacks, if there is one.
     pub fn missing_glyph(&self) -> Option<char> {
-        let lacks = |run: &Run| run.content.chars().find(|c| !font::has_glyph(run.face, *c));
-        self.runs.iter().find_map(lacks)
+        self.runs
+            .iter()
+            .find_map(|run| run.content.chars().find(|c| !font::has_glyph(run.face, *c)))
     }
 
     /// The characters alone.
@@ -290,6 +286,14 @@ impl Text {
         }
         svg
     }
+}
+
+/// Whether a text begins with the whole name of a symbol.
+fn begins_with_symbol(text: &str) -> bool {
+    SYMBOLS.iter().any(|(name, _)| {
+        let rest = text.strip_prefix(name);
+        rest.is_some_and(|rest| !rest.chars().next().is_some_and(char::is_alphabetic))
+    })
 }
 
 /// The characters that XML reserves, written as entities.

@@ -24,6 +24,13 @@ pub struct Ticks {
     pub offset: String,
 }
 
+impl Ticks {
+    /// The values of the marks with numbers.
+    pub fn numbered(&self) -> Vec<f64> {
+        self.major.iter().map(|tick| tick.value).collect()
+    }
+}
+
 /// Whole multiples of `step` on the scale.
 fn multiples(scale: &Scale, step: f64) -> Vec<i64> {
     let first = (scale.low / step - 1e-6).ceil() as i64;
@@ -32,29 +39,12 @@ fn multiples(scale: &Scale, step: f64) -> Vec<i64> {
 }
 
 /// Linear marks whose numbers are `digit` times 10^`power` apart; with so many decimals, if they tell the numbers apart.
-pub fn linear_ticks(
-    scale: &Scale,
-    (digit, power): (i64, i32),
-    wanted: Option<usize>,
-) -> Option<Ticks> {
+pub fn linear_ticks(scale: &Scale, digit: i64, power: i32, wanted: Option<usize>) -> Option<Ticks> {
     let step = digit as f64 * 10f64.powi(power);
     if !step.is_normal() {
         return None;
     }
-    let size = scale.low.abs().max(scale.high.abs());
-    let minor_parts = if digit == 2 { 4 } else { 5 };
-    // A number with more than five digits that change little: the common part moves to the label.
-    let span = 10f64.powi((scale.high - scale.low).log10().floor() as i32 + 1);
-    let base = if size > 2e4 * (scale.high - scale.low) {
-        ((scale.low + scale.high) / 2.0 / span).round() * span
-    } else {
-        0.0
-    };
-    let largest = (scale.low - base).abs().max((scale.high - base).abs());
-    let magnitude = largest.log10().floor() as i32;
-    // Powers of ten go to the label where the numbers would be long without.
-    let short = (-3..=4).contains(&magnitude) && power >= -4;
-    let exponent = if short { 0 } else { magnitude.div_euclid(3) * 3 };
+    let Notation { base, exponent, offset } = Notation::of(scale, power);
     let needed = (exponent - power).max(0) as usize;
     if wanted.is_some_and(|wanted| wanted < needed) {
         return None;
@@ -69,34 +59,65 @@ pub fn linear_ticks(
             Tick { value, label: number(shown, decimals) }
         })
         .collect();
+    let minor_parts = if digit == 2 { 4 } else { 5 };
     let minor_step = step / f64::from(minor_parts);
     let minor = multiples(scale, minor_step)
         .into_iter()
         .filter(|count| count % i64::from(minor_parts) != 0)
         .map(|count| count as f64 * minor_step)
         .collect();
-    let offset_decimals = (-(span.log10().round() as i32)).max(0) as usize;
-    let offset = if base == 0.0 { String::new() } else { trimmed(&number(base, offset_decimals)) };
     Some(Ticks { major, minor, exponent, offset })
+}
+
+/// What the numbers of a linear axis leave out, and its label tells.
+struct Notation {
+    /// What is subtracted from them.
+    base: f64,
+    /// The power of ten that multiplies them.
+    exponent: i32,
+    /// The base as text; empty if it is zero.
+    offset: String,
+}
+
+impl Notation {
+    /// The notation that is shortest for numbers whose last digit counts 10^`power`.
+    fn of(scale: &Scale, power: i32) -> Notation {
+        let size = scale.low.abs().max(scale.high.abs());
+        // A number with more than five digits that change little: the common part moves to the label.
+        let span = 10f64.powi((scale.high - scale.low).log10().floor() as i32 + 1);
+        let base = if size > 2e4 * (scale.high - scale.low) {
+            ((scale.low + scale.high) / 2.0 / span).round() * span
+        } else {
+            0.0
+        };
+        let largest = (scale.low - base).abs().max((scale.high - base).abs());
+        let magnitude = largest.log10().floor() as i32;
+        // Powers of ten go to the label where the numbers would be long without.
+        let short = (-3..=4).contains(&magnitude) && power >= -4;
+        let exponent = if short { 0 } else { magnitude.div_euclid(3) * 3 };
+        let decimals = (-(span.log10().round() as i32)).max(0) as usize;
+        let offset = if base == 0.0 { String::new() } else { trimmed(&number(base, decimals)) };
+        Notation { base, exponent, offset }
+    }
 }
 
 /// Numbers of a decade that are marked, from many to few.
 pub const DIGITS: [&[i32]; 3] = [&[1, 2, 5], &[1, 3], &[1]];
 
 /// Logarithmic marks: numbers at these `digits` of every `every` decades, small marks at the others.
-pub fn log_ticks(scale: &Scale, (digits, every): (&[i32], i32)) -> Ticks {
+pub fn log_ticks(scale: &Scale, digits: &[i32], every: i32) -> Ticks {
     let (low, high) = (scale.low.log10(), scale.high.log10());
     let is_plain = low > -2.5 && high < 3.5;
     let mut ticks = Ticks::default();
     for decade in low.floor() as i32..=high.ceil() as i32 {
         let is_marked = decade.rem_euclid(every) == 0;
-        ticks.add_decade(scale, (decade, 1.0), if is_marked { digits } else { &[] }, is_plain);
+        ticks.add_decade(scale, decade, 1.0, if is_marked { digits } else { &[] }, is_plain);
     }
     ticks
 }
 
 /// Marks of a symmetrically logarithmic scale: zero, and decades on both sides from `width` on.
-pub fn symmetric_ticks(scale: &Scale, width: f64, (digits, every): (&[i32], i32)) -> Ticks {
+pub fn symmetric_ticks(scale: &Scale, width: f64, digits: &[i32], every: i32) -> Ticks {
     let size = scale.low.abs().max(scale.high.abs());
     let (first, last) = (width.log10().ceil() as i32, size.log10().floor() as i32);
     let is_plain = first >= -2 && last <= 3;
@@ -105,7 +126,7 @@ pub fn symmetric_ticks(scale: &Scale, width: f64, (digits, every): (&[i32], i32)
         // The largest decade is marked in any case.
         let digits = if (last - decade).rem_euclid(every) == 0 { digits } else { &[] };
         for sign in [-1.0, 1.0] {
-            ticks.add_decade(scale, (decade, sign), digits, is_plain);
+            ticks.add_decade(scale, decade, sign, digits, is_plain);
         }
     }
     if scale.holds(0.0) {
@@ -120,7 +141,8 @@ impl Ticks {
     fn add_decade(
         &mut self,
         scale: &Scale,
-        (decade, sign): (i32, f64),
+        decade: i32,
+        sign: f64,
         digits: &[i32],
         is_plain: bool,
     ) {

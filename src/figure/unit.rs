@@ -23,7 +23,8 @@ impl ShownUnit {
     ///
     /// Says what does not fit.
     pub fn of(
-        (name, model): (&str, &'static Description),
+        name: &str,
+        model: &'static Description,
         wanted: &str,
         natural: impl FnOnce() -> Option<f64>,
     ) -> Result<ShownUnit, String> {
