@@ -16,7 +16,7 @@ use super::varied::{along, varied};
 use super::view::View;
 use crate::description::Description;
 use crate::store::catalogue::{
-    CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH, DIRECTION, Entry, INDEX_REQUEST, Place,
+    CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH, DIRECTION, INDEX_REQUEST, Place,
     SPECIAL_BRANCH, SPECIAL_CURVE,
 };
 use crate::study::Drawing;
@@ -54,19 +54,15 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     if !view.shows("special-points") {
         curves.iter_mut().for_each(|curve| curve.specials.clear());
     }
-    let range = |of: fn(&(f64, f64)) -> f64| {
-        let places = curves.iter().flat_map(|curve| curve.points.iter().chain(&curve.specials));
-        places.map(of).collect::<Vec<f64>>()
-    };
-    let axis =
-        |name: &str, values: Vec<f64>| AxisRequest::around(view.quantity(name), &values, 0.03);
+    let places = curves.iter().flat_map(|curve| curve.points.iter().chain(&curve.specials));
+    let (x, y): (Vec<f64>, Vec<f64>) = places.copied().unzip();
     // Branches have no direction in which they were swept.
     let drawn = [axes[0].as_str(), axes[1].as_str()];
     let left_out = elsewhere(view, &drawn);
     let note = view.note(&[drawn[0], drawn[1], DIRECTION.name], &left_out);
     let panel = PanelRequest {
-        x: axis(&axes[0], range(|place| place.0)),
-        y: axis(&axes[1], range(|place| place.1)),
+        x: AxisRequest::around(view.quantity(&axes[0]), &x, 0.03),
+        y: AxisRequest::around(view.quantity(&axes[1]), &y, 0.03),
         header: Header { letter: None, note, legend: legend(&curves) },
     };
     let page = PageRequest::of_one(view.drawing, panel, HEIGHT, Pointing::Inward);
@@ -82,14 +78,12 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
 /// The parameters along the abscissa and the ordinate.
 fn axes(view: &View<'_>) -> Result<[String; 2], FigureError> {
     let varied = varied(view.dataset);
-    let known = |name: &&String| varied.contains(&name.as_str());
-    let first = || along(view.dataset).first().map(|name| name.to_string());
-    let x = view.drawing.x.as_ref().filter(known).cloned().or_else(first);
-    let other = || varied.iter().find(|name| x.as_deref() != Some(**name));
-    let y = view.drawing.y.as_ref().filter(known).cloned();
-    let y = y.or_else(|| other().map(|name| name.to_string()));
+    let [x, y] = [&view.drawing.x, &view.drawing.y]
+        .map(|asked| asked.as_deref().filter(|name| varied.contains(name)));
+    let x = x.or_else(|| along(view.dataset).first().copied());
+    let y = y.or_else(|| varied.iter().copied().find(|name| x != Some(*name)));
     match (x, y) {
-        (Some(x), Some(y)) if x != y => Ok([x, y]),
+        (Some(x), Some(y)) if x != y => Ok([x, y].map(str::to_owned)),
         _ => Err(view.unfit(
             "the results hold no curves in two parameters: give a branch of the study a `second` \
              parameter and run `capsulemap continue`",
@@ -99,44 +93,105 @@ fn axes(view: &View<'_>) -> Result<[String; 2], FigureError> {
 
 /// The curves over the two parameters `axes` that lie where `view` holds the others.
 pub fn curves(view: &View<'_>, axes: &[String; 2]) -> Vec<Curve> {
-    let dataset = view.dataset;
-    let rows = |entry: Entry| Rows::new(dataset, entry.name);
-    let at = |place: Place, name: &str| Rows::new(dataset, &place.name(name));
-    let fits = in_view(view, &[&axes[0], &axes[1]]);
-    let (number, through) = (rows(CURVE), rows(CURVE_THROUGH));
-    let (branch, request) = (rows(SPECIAL_BRANCH), rows(INDEX_REQUEST));
-    let (kind, period) = (rows(CURVE_KIND), rows(CURVE_PERIOD));
-    let values = [0, 1].map(|i| (at(Place::Curve, &axes[i]), view.quantity(&axes[i])));
-    let at_special =
-        [0, 1].map(|i| [Place::Special, Place::Request].map(|place| at(place, &axes[i])));
-    let on_curve = rows(SPECIAL_CURVE);
-    let flags = dataset.variable(CURVE_KIND.name).map_or(&[][..], |variable| &variable.flags);
-    let curve = |places: Vec<usize>| {
+    let columns = Columns::of(view, axes);
+    let all = (0..).map(|it| columns.number.places(it)).take_while(|places| !places.is_empty());
+    all.filter_map(|places| columns.curve(&places)).collect()
+}
+
+/// What a file has of the points of curves, and of the special points that they go through.
+struct Columns<'a> {
+    /// Whether each branch of the study lies where the view holds the other axes.
+    fits: Vec<bool>,
+    /// The number of the curve that a point is on.
+    number: Rows,
+    kind: Rows,
+    /// The names of the kinds.
+    kinds: &'a [(i64, String)],
+    period: Rows,
+    /// The special point that the curve goes through from which it was followed.
+    through: Rows,
+    /// The branch of a special point.
+    branch: Rows,
+    /// The place in the study of a branch.
+    request: Rows,
+    /// The curve that a special point is on.
+    of_special: Rows,
+    /// The two parameters.
+    axes: [AxisColumns; 2],
+}
+
+/// A parameter of curves, where they are and where the special points are.
+struct AxisColumns {
+    /// Value shown per value in SI.
+    factor: f64,
+    on_curve: Rows,
+    at_special: Rows,
+    /// What branches have that do not vary it.
+    asked: Rows,
+}
+
+impl AxisColumns {
+    fn of(view: &View<'_>, name: &str) -> AxisColumns {
+        let [on_curve, at_special, asked] = [Place::Curve, Place::Special, Place::Request]
+            .map(|place| Rows::new(view.dataset, &place.name(name)));
+        AxisColumns { factor: view.quantity(name).factor, on_curve, at_special, asked }
+    }
+
+    /// The value at a point of a curve, in the unit shown.
+    fn value(&self, point: usize) -> f64 {
+        self.on_curve.one(point) * self.factor
+    }
+
+    /// The value at a special point, in the unit shown; where it does not vary there that of the branch which was asked for.
+    fn special_value(&self, special: usize, asked: usize) -> f64 {
+        let [own, given] = [self.at_special.one(special), self.asked.one(asked)];
+        (if own.is_finite() { own } else { given }) * self.factor
+    }
+}
+
+impl<'a> Columns<'a> {
+    fn of(view: &View<'a>, axes: &[String; 2]) -> Columns<'a> {
+        let entries = [CURVE, CURVE_KIND, CURVE_PERIOD, CURVE_THROUGH, SPECIAL_BRANCH];
+        let [number, kind, period, through, branch] =
+            entries.map(|entry| Rows::new(view.dataset, entry.name));
+        let [request, of_special] =
+            [INDEX_REQUEST, SPECIAL_CURVE].map(|entry| Rows::new(view.dataset, entry.name));
+        Columns {
+            fits: in_view(view, &[&axes[0], &axes[1]]),
+            number,
+            kind,
+            kinds: view.dataset.variable(CURVE_KIND.name).map_or(&[][..], |it| &it.flags),
+            period,
+            through,
+            branch,
+            request,
+            of_special,
+            axes: axes.each_ref().map(|name| AxisColumns::of(view, name)),
+        }
+    }
+
+    /// The curve with these points; none where it is not shown.
+    fn curve(&self, places: &[usize]) -> Option<Curve> {
         let first = *places.first()?;
-        let asked = request.one(branch.one(through.one(first) as usize) as usize) as usize;
-        let name = flags.iter().find(|(code, _)| *code as f64 == kind.one(first));
-        let place = |at: usize| {
-            let [x, y] = [0, 1].map(|i| values[i].0.one(at) * values[i].1.factor);
-            (x, y)
-        };
-        let points: Vec<_> = places.into_iter().map(place).collect();
-        let within = fits.get(asked).copied().unwrap_or(false);
-        let drawn = within && points.iter().all(|(x, y)| x.is_finite() && y.is_finite());
-        // What does not vary at the special point has the value of the request.
-        let special = |special: usize| {
-            let [x, y] = [0, 1].map(|i| {
-                let [own, given] = [at_special[i][0].one(special), at_special[i][1].one(asked)];
-                (if own.is_finite() { own } else { given }) * values[i].1.factor
-            });
-            (x, y)
-        };
-        let specials = on_curve.places(number.one(first) as usize).into_iter().map(special);
-        let symbol = Symbol::named(&name?.1)?;
-        let period = period.one(first) as u64;
-        drawn.then(|| Curve { symbol, period, points, specials: specials.collect() })
-    };
-    let all = (0..).map(|it| number.places(it)).take_while(|places| !places.is_empty());
-    all.filter_map(curve).collect()
+        let branch = self.branch.one(self.through.one(first) as usize);
+        let asked = self.request.one(branch as usize) as usize;
+        let [x, y] = &self.axes;
+        let points: Vec<_> = places.iter().map(|at| (x.value(*at), y.value(*at))).collect();
+        let is_within = self.fits.get(asked).copied().unwrap_or(false);
+        if !is_within || points.iter().any(|(x, y)| !x.is_finite() || !y.is_finite()) {
+            return None;
+        }
+        let kind = self.kinds.iter().find(|(code, _)| *code as f64 == self.kind.one(first));
+        let specials = self.of_special.places(self.number.one(first) as usize).into_iter();
+        Some(Curve {
+            symbol: Symbol::named(&kind?.1)?,
+            period: self.period.one(first) as u64,
+            points,
+            specials: specials
+                .map(|it| (x.special_value(it, asked), y.special_value(it, asked)))
+                .collect(),
+        })
+    }
 }
 
 impl Curve {
@@ -162,8 +217,9 @@ pub fn legend(curves: &[Curve]) -> Vec<header::Entry> {
     let mut legend = Vec::new();
     for symbol in SYMBOLS.into_iter().rev() {
         for &period in &periods {
-            let is_ours = |curve: &&Curve| curve.symbol == symbol && curve.period == period;
-            let Some(curve) = curves.iter().find(is_ours) else { continue };
+            let mut curves = curves.iter();
+            let curve = curves.find(|curve| curve.symbol == symbol && curve.period == period);
+            let Some(curve) = curve else { continue };
             let words = match periods.len() {
                 1 => symbol.words.to_owned(),
                 _ => format!("{}, period {period}", symbol.words),

@@ -23,6 +23,8 @@ pub fn reads(model: &'static Description) -> Names {
 /// One event.
 struct Event {
     symbol: Symbol,
+    /// The attractor that it is of.
+    attractor: i64,
     period: i64,
     /// Value of the axis [SI].
     at: f64,
@@ -67,54 +69,31 @@ impl EventMarks {
     ) -> Result<EventMarks, FigureError> {
         let quantity = view.quantity(x);
         let factor = quantity.factor;
-        let (mut events, mut others) = (Vec::new(), 0);
-        if view.dataset.variable(EVENT_KIND.name).is_none() {
-            return Ok(EventMarks { events, factor, left_out: [0; 2] });
-        }
-        let column = |name: &str| -> Result<Vec<f64>, FigureError> {
-            Ok(view.take(name, &[])?.into_iter().collect())
-        };
-        let (kinds, numbers) = (column(EVENT_KIND.name)?, column(EVENT_ATTRACTOR.name)?);
-        let (places, periods) = (column(&Place::Event.name(x))?, column(EVENT_PERIOD.name)?);
-        let coordinates = section(view.model()).into_iter();
-        let coordinates: Vec<Vec<f64>> = coordinates
-            .map(|entry| column(&Place::Event.name(entry.name)))
-            .collect::<Result<_, _>>()?;
-        let on_line = on_line(view, x, kinds.len())?;
-        let flags = view.flags(EVENT_KIND.name);
-        for (i, kind) in kinds.iter().enumerate().filter(|(i, _)| on_line[*i]) {
-            let name = flags.iter().find(|(code, _)| *code as f64 == *kind);
-            let Some(symbol) = name.and_then(|(_, name)| Symbol::named(name)) else { continue };
-            if !quantity.is_within(places[i] * factor) {
-                continue;
-            }
-            if !attractors.own.contains(&(numbers[i] as i64)) {
-                others += 1;
-            } else {
-                events.push(Event {
-                    symbol,
-                    period: periods[i] as i64,
-                    at: places[i],
-                    section: coordinates.iter().map(|column| column[i]).collect(),
-                });
-            }
-        }
-        let count = |symbol: Symbol| events.iter().filter(|it| it.symbol == symbol).count();
-        let crowded: Vec<Symbol> = SYMBOLS.into_iter().filter(|it| count(*it) > MOST).collect();
-        let marked = events.len();
+        let mut events = events(view, x)?;
+        events.retain(|event| quantity.is_within(event.at * factor));
+        let all = events.len();
+        events.retain(|event| attractors.own.contains(&event.attractor));
+        let own = events.len();
+        let crowded = SYMBOLS
+            .into_iter()
+            .filter(|symbol| events.iter().filter(|event| event.symbol == *symbol).count() > MOST);
+        let crowded: Vec<Symbol> = crowded.collect();
         events.retain(|event| !crowded.contains(&event.symbol));
-        let left_out = [others, marked - events.len()];
+        let left_out = [all - own, own - events.len()];
         // Where symbols overlap, that of the shortest orbit is drawn first.
-        let layer = |symbol| SYMBOLS.iter().position(|it| *it == symbol);
-        events.sort_by_key(|event| (layer(event.symbol), event.period));
+        events.sort_by_key(|event| {
+            (SYMBOLS.iter().position(|symbol| *symbol == event.symbol), event.period)
+        });
         Ok(EventMarks { events, factor, left_out })
     }
 
     /// The symbols that occur, with their names.
     pub fn legend(&self) -> impl Iterator<Item = (Symbol, Text)> {
-        let occurs = |symbol: Symbol| self.events.iter().any(|event| event.symbol == symbol);
-        let kinds = SYMBOLS.into_iter().rev().filter(move |symbol| occurs(*symbol));
-        kinds.map(|symbol| (symbol, Text::plain(symbol.words)))
+        let occurring = SYMBOLS
+            .into_iter()
+            .rev()
+            .filter(|symbol| self.events.iter().any(|event| event.symbol == *symbol));
+        occurring.map(|symbol| (symbol, Text::plain(symbol.words)))
     }
 
     /// The symbols on the panel of a section coordinate, with their places in its units: each at the section point
@@ -125,11 +104,43 @@ impl EventMarks {
             return Vec::new();
         };
         let factor = view.quantity(output).factor;
-        let place =
-            |event: &Event| (event.symbol, event.at * self.factor, event.section[i] * factor);
-        let has_place = |event: &&Event| event.section[i].is_finite();
-        self.events.iter().filter(has_place).map(place).collect()
+        let with_place = self.events.iter().filter(|event| event.section[i].is_finite());
+        with_place
+            .map(|event| (event.symbol, event.at * self.factor, event.section[i] * factor))
+            .collect()
     }
+}
+
+/// The events of kinds with symbols, where the figure holds the axes other than `x`; none where the results hold no events.
+fn events(view: &View<'_>, x: &str) -> Result<Vec<Event>, FigureError> {
+    if view.dataset.variable(EVENT_KIND.name).is_none() {
+        return Ok(Vec::new());
+    }
+    let (kinds, attractors) = (column(view, EVENT_KIND.name)?, column(view, EVENT_ATTRACTOR.name)?);
+    let (places, periods) =
+        (column(view, &Place::Event.name(x))?, column(view, EVENT_PERIOD.name)?);
+    let coordinates = section(view.model()).into_iter();
+    let coordinates: Vec<Vec<f64>> = coordinates
+        .map(|entry| column(view, &Place::Event.name(entry.name)))
+        .collect::<Result<_, _>>()?;
+    let on_line = on_line(view, x, kinds.len())?;
+    let flags = view.flags(EVENT_KIND.name);
+    let events = (0..kinds.len()).filter(|i| on_line[*i]).filter_map(|i| {
+        let (_, name) = flags.iter().find(|(code, _)| *code as f64 == kinds[i])?;
+        Some(Event {
+            symbol: Symbol::named(name)?,
+            attractor: attractors[i] as i64,
+            period: periods[i] as i64,
+            at: places[i],
+            section: coordinates.iter().map(|column| column[i]).collect(),
+        })
+    });
+    Ok(events.collect())
+}
+
+/// A variable of the events, in SI.
+fn column(view: &View<'_>, name: &str) -> Result<Vec<f64>, FigureError> {
+    Ok(view.take(name, &[])?.into_iter().collect())
 }
 
 /// Whether each event lies where the figure holds the axes other than `x`.

@@ -1,6 +1,6 @@
 //! The page of a figure: panels in rows and columns, with exactly the room their labels need.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::axis::{Along, Axis, AxisRequest};
 use super::canvas::{Anchor, Canvas};
@@ -132,7 +132,7 @@ impl<'a> PageRequest<'a> {
         }
     }
 
-    /// Lays the page out: an empty canvas and the panels in their places.
+    /// Lays the page out: a canvas with the heading alone, and the panels in their places.
     pub fn lay_out(mut self) -> (Canvas, Vec<Vec<Panel>>) {
         if !self.drawing.legend {
             for request in self.rows.iter_mut().flatten() {
@@ -141,16 +141,7 @@ impl<'a> PageRequest<'a> {
             }
         }
         let wanted = self.drawing.height_mm.map(|height| height * POINTS_PER_MM);
-        let mut arrangement = self.arrange();
-        // Lower frames may need wider numbers and longer labels, so that their share is found in steps.
-        for _ in 0..STEPS_OF_HEIGHT {
-            let Some(wanted) = wanted else { break };
-            let frames: f64 = self.heights.iter().sum();
-            let factor = 1.0 + (wanted - arrangement.size[1]) / frames;
-            self.heights.iter_mut().for_each(|it| *it = (*it * factor).max(LEAST_FRAME));
-            arrangement = self.arrange();
-        }
-        let Arrangement { size: [width, height], title, frames } = arrangement;
+        let Arrangement { size: [width, height], title, frames } = self.arrange_within(wanted);
         let mut canvas = Canvas::new(width, wanted.unwrap_or(height));
         if wanted.is_some_and(|wanted| (wanted - height).abs() > 0.5) {
             let least = (height / POINTS_PER_MM).ceil();
@@ -160,26 +151,39 @@ impl<'a> PageRequest<'a> {
             let baseline = BORDER + (line as f64 + 0.8) * TITLE_LINE;
             canvas.text(words, (width / 2.0, baseline), TITLE_SIZE, Anchor::Middle);
         }
-        let rows = std::mem::take(&mut self.rows);
-        let mut number = 0;
-        let mut place = |(request, (frame, distance))| {
-            number += 1;
-            Panel { number, ..self.place(request, frame, distance) }
-        };
-        let row = |(row, frames): (Vec<PanelRequest>, Vec<(Rect, f64)>)| {
-            row.into_iter().zip(frames).map(&mut place).collect()
-        };
-        let mut panels: Vec<Vec<Panel>> = rows.into_iter().zip(frames).map(row).collect();
+        let mut panels = self.place_panels(frames);
         self.keep_texts_inside(&mut canvas, &mut panels);
-        if self.drawing.data {
-            let mut data = Data::default();
-            for Panel { x, y, header, .. } in panels.iter().flatten() {
-                let heading = header.note.as_ref().map(Text::content).unwrap_or_default();
-                data.add_panel(&heading, [x.name.clone(), y.name.clone()]);
-            }
-            canvas.data = Some(data);
-        }
+        canvas.data = self.drawing.data.then(|| data_of(&panels));
         (canvas, panels)
+    }
+
+    /// Finds a place for everything, with frames that fill a height, if one is wanted [pt].
+    fn arrange_within(&mut self, wanted: Option<f64>) -> Arrangement {
+        let mut arrangement = self.arrange();
+        // Lower frames may need wider numbers and longer labels, so that their share is found in steps.
+        for _ in 0..STEPS_OF_HEIGHT {
+            let Some(wanted) = wanted else { break };
+            let frames: f64 = self.heights.iter().sum();
+            let factor = 1.0 + (wanted - arrangement.size[1]) / frames;
+            self.heights.iter_mut().for_each(|it| *it = (*it * factor).max(LEAST_FRAME));
+            arrangement = self.arrange();
+        }
+        arrangement
+    }
+
+    /// The panels that were asked for, in their frames, numbered from 1.
+    fn place_panels(&mut self, frames: Vec<Vec<(Rect, f64)>>) -> Vec<Vec<Panel>> {
+        let mut number = 0;
+        let mut panels = Vec::new();
+        for (row, frames) in std::mem::take(&mut self.rows).into_iter().zip(frames) {
+            let mut placed = Vec::new();
+            for (request, (frame, distance)) in row.into_iter().zip(frames) {
+                number += 1;
+                placed.push(self.place(request, number, frame, distance));
+            }
+            panels.push(placed);
+        }
+        panels
     }
 
     /// Leaves out words whose place is in no panel, and says so.
@@ -264,11 +268,11 @@ impl<'a> PageRequest<'a> {
     /// Room for the part of the last number that reaches beyond the frame.
     fn right_ends(&self) -> f64 {
         let last = self.rows.iter().filter_map(|row| row.last());
-        let half = |request: &PanelRequest| {
+        let halves = last.map(|request| {
             let axis = Axis::new(&request.x, Along::Across, 150.0);
             if axis.numbered { axis.widest / 2.0 } else { 0.0 }
-        };
-        last.map(half).fold(2.0, f64::max)
+        });
+        halves.fold(2.0, f64::max)
     }
 
     /// Room below a frame of this width.
@@ -284,21 +288,37 @@ impl<'a> PageRequest<'a> {
 
     /// The words that stand in a panel with these quantities, with their places.
     fn texts(&self, x: &Quantity, y: &Quantity) -> Vec<(Text, (f64, f64))> {
-        let place = |(words, at): (&String, &BTreeMap<String, f64>)| {
-            let value = |of: &Quantity| Some(at.get(&of.key)? * of.factor);
-            Some((Text::tex(words), (value(x)?, value(y)?)))
-        };
-        self.drawing.texts.iter().filter_map(place).collect()
+        let texts = self.drawing.texts.iter().filter_map(|(words, at)| {
+            let [x, y] = [x, y].map(|of| Some(at.get(&of.key)? * of.factor));
+            Some((Text::tex(words), (x?, y?)))
+        });
+        texts.collect()
     }
 
-    fn place(&self, request: PanelRequest, frame: Rect, label_distance: f64) -> Panel {
+    fn place(
+        &self,
+        request: PanelRequest,
+        number: usize,
+        frame: Rect,
+        label_distance: f64,
+    ) -> Panel {
         let x = Axis::new(&request.x, Along::Across, frame.width());
         let y = Axis::new(&request.y, Along::Up, frame.height());
         let texts = self.texts(&request.x.quantity, &request.y.quantity);
         let PanelRequest { header, .. } = request;
         let pointing = self.pointing;
-        Panel { number: 0, frame, x, y, label_distance, pointing, header, texts }
+        Panel { number, frame, x, y, label_distance, pointing, header, texts }
     }
+}
+
+/// The data of a figure, with its panels and nothing in them yet.
+fn data_of(panels: &[Vec<Panel>]) -> Data {
+    let mut data = Data::default();
+    for Panel { x, y, header, .. } in panels.iter().flatten() {
+        let heading = header.note.as_ref().map(Text::content).unwrap_or_default();
+        data.add_panel(&heading, [x.name.clone(), y.name.clone()]);
+    }
+    data
 }
 
 /// The letter of panel number `index`, where there are `count` of them.

@@ -31,9 +31,11 @@ impl Paint {
     /// The colours of the cases of one panel after the other, of which each has so many over its axes `free`, by an output, by
     /// kinds, or by an axis.
     pub fn of(
-        (view, panels): (&View<'_>, &[View<'_>]),
+        view: &View<'_>,
+        panels: &[View<'_>],
         name: &str,
-        (free, cases): (&[&str], usize),
+        free: &[&str],
+        cases: usize,
     ) -> Result<Paint, FigureError> {
         if category::is_sorted(view, name) {
             return Ok(Paint::Kinds(Kinds::of(view, panels, name, free)?));
@@ -65,7 +67,8 @@ impl Paint {
     pub fn of_difference(
         [first, second]: [&View<'_>; 2],
         name: &str,
-        (free, cases): (&[&str], usize),
+        free: &[&str],
+        cases: usize,
     ) -> Result<Paint, FigureError> {
         if category::is_sorted(first, name) {
             return Ok(Paint::Kinds(Kinds::of_difference([first, second], name, free)?));
@@ -165,9 +168,10 @@ impl Paint {
             legend.push((Mark::Patch(INFERRED), Text::plain("not computed")));
         }
         let has_none = without.any(|(_, inferred)| !**inferred);
-        let has_no_place =
-            |colours: &Colours| cases.iter().any(|(it, _)| it.is_finite() && !colours.has(**it));
-        let words = match (has_none, colours.as_ref().is_some_and(has_no_place)) {
+        let some_have_no_place = colours.as_ref().is_some_and(|colours| {
+            cases.iter().any(|(it, _)| it.is_finite() && !colours.has(**it))
+        });
+        let words = match (has_none, some_have_no_place) {
             (true, true) => "no value, or not above zero",
             (false, true) => "not above zero",
             _ => "no value",
@@ -183,9 +187,10 @@ impl Paint {
 fn numbers(view: &View<'_>, name: &str, free: &[&str]) -> Result<Vec<f64>, FigureError> {
     let factor = view.quantity(name).factor;
     let outcomes = Outcomes::over(view, free)?;
-    let number = |(case, value): (usize, f64)| match outcomes.failed(case) {
+    let values = view.parameter(name, free)?.into_iter().enumerate();
+    let numbers = values.map(|(case, value)| match outcomes.failed(case) {
         true => f64::NAN,
         false => value * factor,
-    };
-    Ok(view.parameter(name, free)?.into_iter().enumerate().map(number).collect())
+    });
+    Ok(numbers.collect())
 }

@@ -108,27 +108,7 @@ pub struct Plot {
 pub fn draw_plot(plot: &Plot, place: &Place<'_>) -> Result<Files, FigureError> {
     // Only the size and what is common to all kinds is read of it.
     let drawing = Drawing { data: true, ..Drawing::new(plot.name.as_str(), DrawingKind::History) };
-    let count = plot.rows.iter().map(Vec::len).sum();
-    let mut index = 0;
-    let mut request = |panel: &PlotPanel| {
-        let request = panel_request(panel, letter(index, count));
-        index += 1;
-        request
-    };
-    let rows: Vec<Vec<PanelRequest>> =
-        plot.rows.iter().map(|row| row.iter().map(&mut request).collect()).collect();
-    let is_wide = rows.iter().any(|row| row.len() > 1);
-    let page = PageRequest {
-        drawing: &drawing,
-        width_mm: if is_wide { TWO_COLUMNS } else { ONE_COLUMN },
-        heights: vec![plot.height; rows.len()],
-        rows,
-        column_room: NO_ROOM,
-        right_room: NO_ROOM,
-        bottom_room: 0.0,
-        pointing: Pointing::Inward,
-    };
-    let (mut canvas, panels) = page.lay_out();
+    let (mut canvas, panels) = page(plot, &drawing).lay_out();
     for (panel, asked) in panels.iter().flatten().zip(plot.rows.iter().flatten()) {
         for series in &asked.series {
             draw_series(&mut canvas, panel, series);
@@ -155,9 +135,31 @@ pub fn draw_plot(plot: &Plot, place: &Place<'_>) -> Result<Files, FigureError> {
     Ok(Files { paths: written.write(place)?, notes: drawn.notes })
 }
 
+fn page<'d>(plot: &Plot, drawing: &'d Drawing) -> PageRequest<'d> {
+    let count = plot.rows.iter().map(Vec::len).sum();
+    let mut rows = Vec::new();
+    let mut index = 0;
+    for panels in &plot.rows {
+        let row = panels.iter().zip(index..);
+        rows.push(row.map(|(panel, index)| panel_request(panel, letter(index, count))).collect());
+        index += panels.len();
+    }
+    let is_wide = plot.rows.iter().any(|row| row.len() > 1);
+    PageRequest {
+        drawing,
+        width_mm: if is_wide { TWO_COLUMNS } else { ONE_COLUMN },
+        heights: vec![plot.height; rows.len()],
+        rows,
+        column_room: NO_ROOM,
+        right_room: NO_ROOM,
+        bottom_room: 0.0,
+        pointing: Pointing::Inward,
+    }
+}
+
 fn panel_request(panel: &PlotPanel, letter: Option<char>) -> PanelRequest {
-    let all = || panel.series.iter().flat_map(|it| it.points.iter().copied());
-    let (x, y): (Vec<f64>, Vec<f64>) = all().unzip();
+    let points = panel.series.iter().flat_map(|it| it.points.iter().copied());
+    let (x, y): (Vec<f64>, Vec<f64>) = points.unzip();
     let is_motion = panel.series.iter().all(|it| it.look != Look::Measured);
     let legend = panel.series.iter().filter(|it| !it.label.is_empty());
     PanelRequest {

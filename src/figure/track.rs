@@ -15,16 +15,25 @@ const SAME: f64 = 1e-6;
 
 /// What is read of the branches whose orbits are shown as their `outputs`.
 pub fn reads(outputs: &[String], model: &'static Description) -> Names {
-    let places = [(Place::Branch, &AT_BRANCH_POINTS), (Place::Special, &AT_SPECIAL_POINTS)];
-    let at = |(place, own): (Place, &OrbitColumns)| {
-        let of_orbits = [own.branch, own.period].into_iter().chain(place.parameters(model));
-        let sections = section(model).into_iter().map(move |entry| place.of(entry));
-        let outputs = outputs.iter().map(move |output| place.name(output));
-        Names::of(of_orbits.chain(sections)).and_named(outputs)
-    };
-    let names = places.into_iter().map(at).fold(Names::default(), Names::and_all);
-    let own = [INDEX_REQUEST, BRANCH_STABLE, SPECIAL_AFTER, SPECIAL_KIND];
-    names.and(own).and(Place::Request.parameters(model))
+    let at_points = orbit_names(Place::Branch, &AT_BRANCH_POINTS, outputs, model);
+    let at_specials = orbit_names(Place::Special, &AT_SPECIAL_POINTS, outputs, model);
+    at_points
+        .and_all(at_specials)
+        .and([INDEX_REQUEST, BRANCH_STABLE, SPECIAL_AFTER, SPECIAL_KIND])
+        .and(Place::Request.parameters(model))
+}
+
+/// What is read of the orbits at a place on the branches.
+fn orbit_names(
+    place: Place,
+    own: &OrbitColumns,
+    outputs: &[String],
+    model: &'static Description,
+) -> Names {
+    let of_orbits = [own.branch, own.period].into_iter().chain(place.parameters(model));
+    let sections = section(model).into_iter().map(|entry| place.of(entry));
+    let outputs = outputs.iter().map(|output| place.name(output));
+    Names::of(of_orbits.chain(sections)).and_named(outputs)
 }
 
 /// Whether each branch of the study lies where `view` holds the axes other than those that are `drawn`.
@@ -45,14 +54,15 @@ pub fn in_view(view: &View<'_>, drawn: &[&str]) -> Vec<bool> {
 /// none if all are shown.
 pub fn elsewhere(view: &View<'_>, drawn: &[&str]) -> Option<String> {
     let along = view.dataset.variable(REQUEST_ALONG.name).filter(|_| view.drawing.branches)?;
-    let is_drawn = |code: &f64| {
+    let branches = along.values.to_real().into_iter().zip(in_view(view, drawn));
+    let ours = branches.filter(|(code, _)| {
         let flag = along.flags.iter().find(|(value, _)| *value as f64 == *code);
         flag.is_some_and(|(_, name)| drawn.contains(&name.as_str()))
-    };
-    let ours: Vec<bool> = along.values.to_real().iter().map(is_drawn).collect();
-    let both = || ours.iter().zip(in_view(view, drawn)).filter(|(ours, _)| **ours);
-    let (all, shown) = (both().count(), both().filter(|(_, fits)| *fits).count());
-    (shown < all).then(|| format!("{} of {all} branches lie at other values", all - shown))
+    });
+    let (shown, hidden): (Vec<bool>, Vec<bool>) =
+        ours.map(|(_, fits)| fits).partition(|fits| *fits);
+    let all = shown.len() + hidden.len();
+    (!hidden.is_empty()).then(|| format!("{} of {all} branches lie at other values", hidden.len()))
 }
 
 /// A point of a branch, in SI.
@@ -116,8 +126,7 @@ impl Rows {
 
     /// The places at which the value is `wanted`.
     pub fn places(&self, wanted: usize) -> Vec<usize> {
-        let here = |place: &usize| self.one(*place) == wanted as f64;
-        (0..self.values.len()).filter(here).collect()
+        (0..self.values.len()).filter(|place| self.one(*place) == wanted as f64).collect()
     }
 }
 
@@ -131,12 +140,7 @@ struct Source {
 }
 
 impl Source {
-    fn new(
-        dataset: &Dataset,
-        (place, own): (Place, &OrbitColumns),
-        x: &str,
-        output: &str,
-    ) -> Source {
+    fn new(dataset: &Dataset, place: Place, own: &OrbitColumns, x: &str, output: &str) -> Source {
         let [branch, period] = [own.branch, own.period].map(|it| Rows::new(dataset, it.name));
         let [x, output] = [x, output].map(|name| Rows::new(dataset, &place.name(name)));
         let sections = section(dataset.model()).into_iter();
@@ -147,11 +151,11 @@ impl Source {
     /// The section points of the orbit at `place`.
     fn orbit(&self, place: usize) -> Vec<Section> {
         let cycles = self.period.one(place).max(0.0) as usize;
-        let point = |cycle: usize| {
-            let value = |rows: &Rows| rows.at(place).get(cycle).copied().unwrap_or(f64::NAN);
-            self.section.iter().map(value).collect()
-        };
-        (0..cycles).map(point).collect()
+        let points = (0..cycles).map(|cycle| {
+            let values = self.section.iter().map(|rows| rows.at(place).get(cycle).copied());
+            values.map(|value| value.unwrap_or(f64::NAN)).collect()
+        });
+        points.collect()
     }
 }
 
@@ -163,15 +167,15 @@ pub fn tracks(view: &View<'_>, x: &str, output: &str) -> Vec<Track> {
     }
     let fits = in_view(view, &[x]);
     let request = Rows::new(dataset, INDEX_REQUEST.name);
-    let points = Source::new(dataset, (Place::Branch, &AT_BRANCH_POINTS), x, output);
-    let specials = Source::new(dataset, (Place::Special, &AT_SPECIAL_POINTS), x, output);
-    let along_x = |branch: &usize| {
+    let points = Source::new(dataset, Place::Branch, &AT_BRANCH_POINTS, x, output);
+    let specials = Source::new(dataset, Place::Special, &AT_SPECIAL_POINTS, x, output);
+    let shown = (0..request.values.len())
+        .filter(|branch| fits.get(request.one(*branch) as usize).copied().unwrap_or(false));
+    let along_x = shown.filter(|branch| {
         let first = points.branch.places(*branch).first().copied();
         first.is_some_and(|place| points.x.one(place).is_finite())
-    };
-    let shown = |branch: &usize| fits.get(request.one(*branch) as usize).copied().unwrap_or(false);
-    let branches = (0..request.values.len()).filter(shown).filter(along_x);
-    branches.map(|branch| track(dataset, branch, &points, &specials)).collect()
+    });
+    along_x.map(|branch| track(dataset, branch, &points, &specials)).collect()
 }
 
 fn track(dataset: &Dataset, branch: usize, points: &Source, specials: &Source) -> Track {
@@ -179,10 +183,6 @@ fn track(dataset: &Dataset, branch: usize, points: &Source, specials: &Source) -
     let after = Rows::new(dataset, SPECIAL_AFTER.name);
     let kind = Rows::new(dataset, SPECIAL_KIND.name);
     let flags = dataset.variable(SPECIAL_KIND.name).map_or(&[][..], |variable| &variable.flags);
-    let symbol = |place: usize| {
-        let flag = flags.iter().find(|(code, _)| *code as f64 == kind.one(place));
-        flag.and_then(|(_, name)| Symbol::named(name))
-    };
     let mut turning = Turning::new(points, branch);
     let mut waiting = specials.branch.places(branch).into_iter().peekable();
     let mut stops = Vec::new();
@@ -193,7 +193,9 @@ fn track(dataset: &Dataset, branch: usize, points: &Source, specials: &Source) -
         while let Some(special) = waiting.next_if(|&special| after.one(special) <= place as f64) {
             let values = turning.values(specials, special);
             let x = specials.x.one(special);
-            stops.push(Stop { x, values, stable: None, symbol: symbol(special) });
+            let flag = flags.iter().find(|(code, _)| *code as f64 == kind.one(special));
+            let symbol = flag.and_then(|(_, name)| Symbol::named(name));
+            stops.push(Stop { x, values, stable: None, symbol });
         }
     }
     Track { stops }
@@ -210,13 +212,12 @@ impl Turning {
     fn new(points: &Source, branch: usize) -> Turning {
         let all: Vec<Section> =
             points.branch.places(branch).into_iter().flat_map(|at| points.orbit(at)).collect();
-        let extent = |i: usize| {
+        let extent = (0..points.section.len()).map(|i| {
             let low = all.iter().map(|point| point[i]).fold(f64::INFINITY, f64::min);
             let high = all.iter().map(|point| point[i]).fold(f64::NEG_INFINITY, f64::max);
             (high - low).max(f64::MIN_POSITIVE)
-        };
-        let extent = (0..points.section.len()).map(extent).collect();
-        Turning { extent, before: Vec::new() }
+        });
+        Turning { extent: extent.collect(), before: Vec::new() }
     }
 
     /// The output at `place`, its cycles turned to lie nearest those of the orbit before.
@@ -239,12 +240,12 @@ impl Turning {
 
     /// By how many cycles `orbit` is turned against the one before.
     fn nearest(&self, orbit: &[Section]) -> usize {
-        let away = |turn: usize| -> f64 {
+        let distances = (0..orbit.len()).map(|turn| {
             let turned = orbit.iter().cycle().skip(turn);
             let pairs = self.before.iter().zip(turned);
-            pairs.map(|(a, b)| self.apart(a, b)).sum()
-        };
-        (0..orbit.len()).min_by(|a, b| away(*a).total_cmp(&away(*b))).unwrap_or(0)
+            (turn, pairs.map(|(a, b)| self.apart(a, b)).sum::<f64>())
+        });
+        distances.min_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(turn, _)| turn)
     }
 
     /// Square of the distance of two section points, relative to the extent of the branch.

@@ -15,8 +15,8 @@ use super::paint::Paint;
 use super::panel::{Panel, Pointing};
 use super::style::{BLUE, FAINT_INK, ONE_COLUMN, UNDECIDED_DOT};
 use super::text::Text;
-use super::trade_off_fronts::{Front, marked};
-use super::trade_off_motions::{Best, Motions};
+use super::trade_off_fronts::{Factors, Front};
+use super::trade_off_motions::Motions;
 use super::trade_off_table::{BETWEEN, OPEN, table};
 use super::view::View;
 use crate::description::Description;
@@ -50,8 +50,7 @@ struct TradeOff<'v, 'a> {
     view: &'v View<'a>,
     /// The name of the output that should be small.
     price: &'v str,
-    /// Price and speed shown per SI unit.
-    factors: [f64; 2],
+    factors: Factors,
     free: &'v [&'a str],
     /// The fronts with the motions that they are among: that without conditions first.
     fronts: Vec<Front<'a>>,
@@ -65,11 +64,13 @@ fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
     let free = view.free_axes();
     let fronts = Front::all(view, price, &free)?;
     let paint = paint(view, &free)?;
-    let factors = [price, view.model().speed().name()].map(|name| view.quantity(name).factor);
+    let factors = Factors::of(view, price);
     let shown = TradeOff { view, price, factors, free: &free, fronts, paint };
-    let table = table((view, &free), price, &shown.fronts)?;
-    let bar = |height: f64| shown.paint.as_ref().map_or(0.0, |it| it.room(height));
-    let page = PageRequest { right_room: &bar, ..shown.request(&table) };
+    let table = table(view, price, &free, &shown.fronts)?;
+    let page = PageRequest {
+        right_room: &|height| shown.paint.as_ref().map_or(0.0, |it| it.room(height)),
+        ..shown.request(&table)
+    };
     let (mut canvas, panels) = page.lay_out();
     for panel in panels.iter().flatten() {
         shown.draw(&mut canvas, panel);
@@ -88,12 +89,6 @@ impl TradeOff<'_, '_> {
         &self.fronts[0].motions
     }
 
-    /// Price and speed of a motion in the units of the figure.
-    fn place(&self, (price, speed): (f64, f64)) -> (f64, f64) {
-        let [of_price, of_speed] = self.factors;
-        (price * of_price, speed * of_speed)
-    }
-
     /// The radius of the points of cases [pt].
     fn radius(&self, count: usize) -> f64 {
         let usual = if self.view.drawing.marker_mm.is_some() { 1.0 } else { 1.4 };
@@ -103,29 +98,35 @@ impl TradeOff<'_, '_> {
     fn draw(&self, canvas: &mut Canvas, panel: &Panel) {
         panel.mark_zero(canvas);
         let motions = self.motions();
-        let crowding = motions.cases().len() as f64;
-        let dot = |case: &Candidate| {
-            let own = |paint: &Paint| paint.colour(case.case).unwrap_or(UNDECIDED_DOT);
-            let colour = self.paint.as_ref().map_or(BLUE, own);
-            let colour = if motions.is_periodic(case) { colour } else { FAINT_INK };
-            Dot { at: self.place((case.price, case.speed)), colour, crowding, case: 0 }
-        };
         let (periodic, others): (Vec<&Candidate>, Vec<&Candidate>) =
             motions.cases().iter().partition(|case| motions.is_periodic(case));
-        let dots: Vec<_> = others.into_iter().chain(periodic).map(dot).collect();
+        let dots: Vec<Dot> = others.iter().chain(&periodic).map(|case| self.dot(case)).collect();
         cloud::draw(canvas, panel, &dots, self.radius(dots.len()));
-        let value = |case: &Candidate| {
-            self.paint.as_ref().map_or(Value::None, |paint| paint.value(case.case))
-        };
         let told = self.paint.as_ref().map_or(String::new(), |it| format!(", {}", it.told()));
-        for (periodic, name) in [(true, "periodic cases"), (false, "other cases")] {
-            let ours = motions.cases().iter().filter(|it| motions.is_periodic(it) == periodic);
-            let rows = ours.map(|it| (self.place((it.price, it.speed)), value(it)));
+        for (cases, name) in [(periodic, "periodic cases"), (others, "other cases")] {
+            let rows = cases.into_iter().map(|case| (self.factors.place(case), self.value(case)));
             panel.record_values(canvas, &format!("{name}{told}"), rows);
         }
         for front in &self.fronts {
-            front.draw(canvas, panel, |it| self.place(it));
+            front.draw(canvas, panel, self.factors);
         }
+    }
+
+    /// The point of a case, of a faint colour if it is not periodic.
+    fn dot(&self, case: &Candidate) -> Dot {
+        let motions = self.motions();
+        let colour = match &self.paint {
+            _ if !motions.is_periodic(case) => FAINT_INK,
+            Some(paint) => paint.colour(case.case).unwrap_or(UNDECIDED_DOT),
+            None => BLUE,
+        };
+        let crowding = motions.cases().len() as f64;
+        Dot { at: self.factors.place(case), colour, crowding, case: 0 }
+    }
+
+    /// What the colour of a case tells.
+    fn value(&self, case: &Candidate) -> Value {
+        self.paint.as_ref().map_or(Value::None, |paint| paint.value(case.case))
     }
 
     /// What the figure shows and leaves out, in a sentence kept inside its files.
@@ -158,36 +159,27 @@ impl TradeOff<'_, '_> {
     }
 
     /// What the marks mean, and how many cases are shown otherwise or not at all.
-    fn legend<'s>(&'s self) -> Vec<Entry> {
-        let mut legend = Vec::new();
+    fn legend(&self) -> Vec<Entry> {
         let motions = self.motions();
-        let said = |what: String| Text::plain(&what);
-        legend.extend(self.fronts.iter().flat_map(Front::legend));
-        let refined = |front: &'s Front<'_>, best: &'s Best| {
-            let optima = marked(&front.motions, best).into_iter();
-            optima.filter_map(|(_, motion)| front.motions.refined(motion)).collect::<Vec<_>>()
-        };
-        let all = self.fronts.iter().flat_map(|front| front.best.iter().map(move |it| (front, it)));
-        let between: Vec<_> = all.flat_map(|(front, best)| refined(front, best)).collect();
+        let mut legend: Vec<Entry> = self.fronts.iter().flat_map(Front::legend).collect();
         if self.fronts.iter().any(|front| front.motions.between() > 0) {
-            legend.push((
-                Mark::Nothing,
-                said(format!("{BETWEEN} between the cases, by local search")),
-            ));
+            let text = Text::plain(&format!("{BETWEEN} between the cases, by local search"));
+            legend.push((Mark::Nothing, text));
         }
-        if between.iter().any(|it| it.is_open()) {
-            legend.push((Mark::Nothing, said(format!("{OPEN} not converged"))));
+        if self.fronts.iter().any(Front::has_open_optima) {
+            legend.push((Mark::Nothing, Text::plain(&format!("{OPEN} not converged"))));
         }
         let [by_means, undecided] = motions.aperiodic();
         for (count, words) in
             [(by_means, "not periodic, by their means"), (undecided, "undecided, so on no front")]
         {
             if count > 0 {
-                legend.push((Mark::Disc(FAINT_INK, 1.4), said(format!("{words}: {count}"))));
+                let text = Text::plain(&format!("{words}: {count}"));
+                legend.push((Mark::Disc(FAINT_INK, 1.4), text));
             }
         }
         if motions.left_out > 0 {
-            let text = said(format!("without values, left out: {}", motions.left_out));
+            let text = Text::plain(&format!("without values, left out: {}", motions.left_out));
             legend.push((Mark::Nothing, text));
         }
         legend
@@ -196,10 +188,9 @@ impl TradeOff<'_, '_> {
     fn request(&self, table: &Table) -> PageRequest<'_> {
         let (view, motions) = (self.view, self.motions());
         let best = self.fronts.iter().flat_map(|front| &front.best);
-        let fronts = best.flat_map(|best| best.front.iter().copied());
-        let cases = motions.cases().iter().map(|it| (it.price, it.speed));
-        let (prices, speeds): (Vec<f64>, Vec<f64>) =
-            cases.chain(fronts).map(|it| self.place(it)).unzip();
+        let fronts = best.flat_map(|best| self.factors.places(&best.front));
+        let cases = motions.cases().iter().map(|case| self.factors.place(case));
+        let (prices, speeds): (Vec<f64>, Vec<f64>) = cases.chain(fronts).unzip();
         let legend = if prices.len() > 1 { self.legend() } else { Vec::new() };
         let panel = PanelRequest {
             x: AxisRequest::around(view.quantity(self.price), &prices, 0.04),
@@ -221,11 +212,12 @@ impl TradeOff<'_, '_> {
 
 /// The colours of the cases: by what the request names, else by the axis `x` or the first that varies.
 fn paint(view: &View<'_>, free: &[&str]) -> Result<Option<Paint>, FigureError> {
-    let long = |name: &&&str| **name != DRAW.name && view.coordinate_values(name).len() > 1;
+    let mut varying = free
+        .iter()
+        .copied()
+        .filter(|name| *name != DRAW.name && view.coordinate_values(name).len() > 1);
     let wanted = view.drawing.colour_by.as_deref().or(view.drawing.x.as_deref());
-    let Some(name) = wanted.or_else(|| free.iter().find(long).copied()) else {
-        return Ok(None);
-    };
+    let Some(name) = wanted.or_else(|| varying.next()) else { return Ok(None) };
     let cases = free.iter().map(|axis| view.coordinate_values(axis).len()).product();
-    Paint::of((view, std::slice::from_ref(view)), name, (free, cases)).map(Some)
+    Paint::of(view, std::slice::from_ref(view), name, free, cases).map(Some)
 }

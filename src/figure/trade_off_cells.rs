@@ -6,6 +6,7 @@ use super::error::FigureError;
 use super::plane::Plane;
 use super::shown::Shown;
 use super::trade_off::price;
+use super::trade_off_fronts::Factors;
 use super::trade_off_motions::{DIRECTIONS, Motions};
 use super::view::View;
 use crate::study::Drawing;
@@ -45,15 +46,14 @@ pub fn trade_off_cells<'a>(
     let plane = Plane::of(&view, "a map")?;
     let free = plane.free();
     let model = view.model();
-    let motions = Motions::of(&view, (price(drawing, model), &free), None)?;
+    let motions = Motions::of(&view, price(drawing, model), &free, None)?;
     let cells = cells(&plane);
     let mut left_out = BTreeMap::new();
     if motions.left_out > 0 {
         left_out.insert("without values".to_owned(), motions.left_out);
     }
     let mut values = [vec![f32::NAN; plane.count()], vec![f32::NAN; plane.count()]];
-    let factors =
-        [price(drawing, model), model.speed().name()].map(|name| view.quantity(name).factor);
+    let factors = Factors::of(&view, price(drawing, model));
     for motion in motions.cases() {
         if !motions.counts(motion) {
             let outcome = motions.outcome(motion).unwrap_or("without outcome");
@@ -61,21 +61,26 @@ pub fn trade_off_cells<'a>(
             continue;
         }
         let cell = cells[motion.case];
-        values[0][cell] = (motion.price * factors[0]) as f32;
-        values[1][cell] = (motion.speed * factors[1]) as f32;
+        let (price, speed) = factors.place(motion);
+        (values[0][cell], values[1][cell]) = (price as f32, speed as f32);
     }
-    let front = |direction: Direction| {
+    let fronts = DIRECTIONS.into_iter().map(|direction| {
         let best = motions.best(direction);
         (direction, best.of_all.front.iter().map(|at| cells[motions.at(*at).case]).collect())
-    };
-    let fronts = DIRECTIONS.into_iter().map(front).collect();
+    });
     let [prices, speeds] = values;
-    let axis = |name: &str, values: Vec<f32>| {
-        let label = view.quantity(name).told();
-        TradeOffAxis { name: name.to_owned(), label, values }
-    };
-    let axes = [axis(price(drawing, model), prices), axis(model.speed().name(), speeds)];
-    Ok(TradeOffCells { axes, fronts, left_out })
+    let axes = [
+        TradeOffAxis::of(&view, price(drawing, model), prices),
+        TradeOffAxis::of(&view, model.speed().name(), speeds),
+    ];
+    Ok(TradeOffCells { axes, fronts: fronts.collect(), left_out })
+}
+
+impl TradeOffAxis {
+    /// The quantity of this name, with these values.
+    fn of(view: &View<'_>, name: &str, values: Vec<f32>) -> TradeOffAxis {
+        TradeOffAxis { name: name.to_owned(), label: view.quantity(name).told(), values }
+    }
 }
 
 /// The cell of each case over the axes of a plane.

@@ -9,7 +9,7 @@ use super::symbol::{FASTEST, KNEE, LEAST, Symbol};
 use super::text::Text;
 use super::trade_off_motions::{Best, DIRECTIONS, Motions};
 use super::view::View;
-use crate::campaign::KeptFront;
+use crate::campaign::{KeptFront, RefinedMotion};
 use crate::tradeoff::Candidate;
 
 /// How fronts under conditions are drawn, one after the other.
@@ -27,6 +27,34 @@ pub struct Front<'a> {
     stroke: Stroke,
 }
 
+/// Price and speed shown per SI unit.
+#[derive(Debug, Clone, Copy)]
+pub struct Factors {
+    /// Of the output that should be small.
+    pub price: f64,
+    /// Of the speed.
+    pub speed: f64,
+}
+
+impl Factors {
+    /// Those of a view with the output `price`.
+    pub fn of(view: &View<'_>, price: &str) -> Factors {
+        let [price, speed] =
+            [price, view.model().speed().name()].map(|name| view.quantity(name).factor);
+        Factors { price, speed }
+    }
+
+    /// Price and speed of a motion in the units of the figure.
+    pub fn place(self, motion: &Candidate) -> (f64, f64) {
+        (motion.price * self.price, motion.speed * self.speed)
+    }
+
+    /// Prices and speeds (SI) in the units of the figure.
+    pub fn places(self, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+        points.iter().map(|(price, speed)| (price * self.price, speed * self.speed)).collect()
+    }
+}
+
 impl<'a> Front<'a> {
     /// The fronts of a view over the axes `free`, with the output `price`: that without conditions first.
     ///
@@ -36,7 +64,7 @@ impl<'a> Front<'a> {
         let refined = if is_whole { view.refined } else { &[] };
         let (alone, under): (Vec<&KeptFront>, Vec<&KeptFront>) =
             refined.iter().partition(|it| it.conditions.is_empty());
-        let first = Motions::of(view, (price, free), alone.first().copied())?;
+        let first = Motions::of(view, price, free, alone.first().copied())?;
         let mut fronts = vec![Front {
             best: DIRECTIONS.map(|direction| first.best(direction).shown(view)),
             motions: first,
@@ -44,7 +72,7 @@ impl<'a> Front<'a> {
             stroke: Stroke::solid(VERMILION, CURVE_WIDTH),
         }];
         for ((letter, place), sought) in ('a'..='z').zip(0..).zip(under) {
-            let motions = Motions::of(view, (price, free), Some(sought))?;
+            let motions = Motions::of(view, price, free, Some(sought))?;
             // In a direction in which nothing was sought there is nothing to tell.
             let best = DIRECTIONS.map(|direction| match sought.has_sought(direction) {
                 true => motions.best(direction).shown(view),
@@ -66,34 +94,26 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Draws both directions with their optima; `place` gives price and speed in the units of the figure.
-    pub fn draw(
-        &self,
-        canvas: &mut Canvas,
-        panel: &Panel,
-        place: impl Fn((f64, f64)) -> (f64, f64),
-    ) {
+    /// Draws both directions with their optima.
+    pub fn draw(&self, canvas: &mut Canvas, panel: &Panel, factors: Factors) {
         let of_cases = Stroke::solid(INK, MINOR_WIDTH);
         for best in &self.best {
             // That of all motions lies over that of the cases, which it is where no motion between them is better.
             let alone = Some((&best.front_of_cases, of_cases)).filter(|_| self.has_cases_alone());
             for (front, stroke) in alone.into_iter().chain([(&best.front, self.stroke)]) {
-                let line = stairs(&front.iter().map(|it| place(*it)).collect::<Vec<_>>());
+                let line = stairs(&factors.places(front));
                 if line.len() > 1 {
                     panel.curve(canvas, &line, stroke);
                 }
             }
         }
         for best in &self.best {
-            panel.record(
-                canvas,
-                &self.called("Pareto front", best),
-                best.front.iter().map(|it| place(*it)),
-            );
+            let all = self.called("Pareto front", best);
+            panel.record(canvas, &all, factors.places(&best.front));
             let alone = self.called("that of the cases alone", best);
-            panel.record(canvas, &alone, best.front_of_cases.iter().map(|it| place(*it)));
+            panel.record(canvas, &alone, factors.places(&best.front_of_cases));
             for (symbol, motion) in marked(&self.motions, best) {
-                let (x, y) = place((motion.price, motion.speed));
+                let (x, y) = factors.place(motion);
                 if panel.holds(x, y) {
                     panel.record(canvas, &self.called(symbol.words, best), [(x, y)]);
                     symbol.draw(canvas, panel.place(x, y));
@@ -105,6 +125,13 @@ impl<'a> Front<'a> {
     /// Whether the front of the cases alone has a line of its own: only that without conditions, so that lines stay few.
     fn has_cases_alone(&self) -> bool {
         self.letter.is_none() && self.motions.between() > 0
+    }
+
+    /// Whether the search for one of its optima has not converged.
+    pub fn has_open_optima(&self) -> bool {
+        let optima = self.best.iter().flat_map(|best| marked(&self.motions, best));
+        let mut between = optima.filter_map(|(_, motion)| self.motions.refined(motion));
+        between.any(RefinedMotion::is_open)
     }
 
     /// What its lines mean: the directions, and the conditions.

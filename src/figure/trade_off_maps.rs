@@ -17,7 +17,7 @@ use super::symbol::Symbol;
 use super::text::Text;
 use super::trade_off::{KIND as TRADE_OFF, price};
 use super::trade_off_fronts::marked;
-use super::trade_off_motions::{Best, DIRECTIONS, Motions, value_of};
+use super::trade_off_motions::{Best, DIRECTIONS, Motions};
 use super::view::View;
 use crate::campaign::KeptFront;
 use crate::study::Coordinate;
@@ -55,91 +55,206 @@ impl Path {
     }
 }
 
+/// A map: a quantity of the fastest motion of each cell.
+struct FastestMap {
+    colours: Option<Colours>,
+    /// The value of each cell in the unit shown; NaN where no motion takes part.
+    values: Vec<f64>,
+}
+
+impl FastestMap {
+    /// The map of the quantity of this name, from the values of the cells (SI).
+    fn of(view: &View<'_>, name: &str, values: impl Iterator<Item = Option<f64>>) -> FastestMap {
+        let quantity = view.quantity(name);
+        let values: Vec<f64> =
+            values.map(|value| value.map_or(f64::NAN, |it| it * quantity.factor)).collect();
+        FastestMap { colours: Colours::for_values(&values, quantity), values }
+    }
+
+    /// How a cell is filled.
+    fn fill(&self, cell: usize) -> Fill {
+        let value = self.values[cell];
+        let colours = self.colours.as_ref().filter(|it| value.is_finite() && it.has(value));
+        Fill::of(colours.map(|it| it.of(value)))
+    }
+
+    /// Room beside a frame of this height for the bar [pt].
+    fn room(&self, height: f64) -> f64 {
+        self.colours.as_ref().map_or(0.0, |it| it.room(height))
+    }
+
+    /// Draws the cells.
+    fn draw(&self, canvas: &mut Canvas, panel: &Panel, plane: &Plane<'_>) {
+        plane.draw(canvas, panel, |cell| self.fill(cell));
+        let told = self.colours.as_ref().map_or(String::new(), Colours::told);
+        plane.record(canvas, panel, &told, |cell| Value::Number(self.values[cell]));
+    }
+}
+
 /// Draws the maps that `view` asks for.
 fn draw(view: &View<'_>) -> Result<Drawn, FigureError> {
-    let plane = Plane::of(view, "maps of a trade-off")?;
-    let price = price(view.drawing, view.model());
-    let free = view.free_axes();
-    let under = |it: &&KeptFront| !it.conditions.is_empty();
-    let alone = view.refined.iter().find(|it| !under(it));
-    let motions = Motions::of(view, (price, &free), alone.filter(|_| is_whole(view, &free)))?;
-    let others: Vec<&KeptFront> = view.refined.iter().filter(under).collect();
-    let best = DIRECTIONS.map(|direction| motions.best(direction));
-    let axes = [plane.x_name, plane.y_name];
-    let [forward, backward] = [0, 1].map(|it| best[it].front.len());
-    let best = best.map(|best| best.shown(view));
-    let path = path(view, (&free, axes), (&motions, &best))?;
-    let fastest = fastest(view, (&free, &plane), &motions);
-    let speed = |motion: &Candidate| motion.speed;
-    let cost = |motion: &Candidate| motion.price;
-    let shown = [(view.model().speed().name(), speed as fn(&Candidate) -> f64), (price, cost)].map(
-        |(name, of)| {
-            let quantity = view.quantity(name);
-            let value =
-                |it: &Option<&Candidate>| it.map_or(f64::NAN, |it| of(it) * quantity.factor);
-            let values: Vec<f64> = fastest.iter().map(value).collect();
-            (Colours::for_values(&values, quantity), values)
-        },
-    );
-    let over: Vec<&str> = searched(view, (&free, axes));
-    let room = |height: f64| {
-        let rooms = shown.iter().filter_map(|(colours, _)| Some(colours.as_ref()?.room(height)));
-        rooms.fold(0.0, f64::max)
-    };
-    let legend = legend(view, &path, (fastest.iter().any(Option::is_none), &over));
-    let panel = |place: usize| PanelRequest {
-        x: AxisRequest::new(view.quantity(axes[0]), plane.x.scale),
-        y: AxisRequest::new(view.quantity(axes[1]), plane.y.scale),
-        header: Header {
-            letter: letter(place, shown.len()),
-            note: view.held_note(&free),
-            legend: if place == 0 { legend.clone() } else { Vec::new() },
-        },
-    };
+    let shown = Maps::of(view)?;
+    let path = shown.path()?;
+    let fastest = shown.fastest();
+    let speeds = fastest.iter().map(|it| it.map(|motion| motion.speed));
+    let prices = fastest.iter().map(|it| it.map(|motion| motion.price));
+    let maps = [
+        FastestMap::of(view, view.model().speed().name(), speeds),
+        FastestMap::of(view, shown.price, prices),
+    ];
+    let legend = shown.legend(&path, fastest.iter().any(Option::is_none));
     let page = PageRequest {
-        drawing: view.drawing,
-        width_mm: TWO_COLUMNS,
-        heights: vec![HEIGHT],
-        rows: vec![(0..shown.len()).map(panel).collect()],
-        column_room: &room,
-        right_room: NO_ROOM,
-        bottom_room: 0.0,
-        pointing: Pointing::Outward,
+        column_room: &|height| maps.iter().map(|it| it.room(height)).fold(0.0, f64::max),
+        ..shown.page(legend)
     };
     let (mut canvas, panels) = page.lay_out();
-    for (panel, (colours, values)) in panels.iter().flatten().zip(&shown) {
-        let colour = |case: usize| {
-            let value = values[case];
-            let colours = colours.as_ref().filter(|it| value.is_finite() && it.has(value));
-            Fill::of(colours.map(|it| it.of(values[case])))
-        };
-        plane.draw(&mut canvas, panel, colour);
-        let told = colours.as_ref().map_or(String::new(), Colours::told);
-        plane.record(&mut canvas, panel, &told, |case| Value::Number(values[case]));
+    for (panel, map) in panels.iter().flatten().zip(&maps) {
+        map.draw(&mut canvas, panel, &shown.plane);
         path.draw(&mut canvas, panel);
         panel.finish(&mut canvas);
-        if let Some(colours) = colours {
+        if let Some(colours) = &map.colours {
             colours.draw_bar(&mut canvas, panel.frame);
         }
     }
-    let about = view.about(&[view.model().speed().name().to_owned(), price.to_owned()], &free);
-    let among = if over.is_empty() { String::new() } else { format!(" over {}", over.join(", ")) };
-    Ok(canvas.finish(&format!(
-        "{about}; in each cell over {} the fastest motion{among}, aperiodic ones by their means; the fronts have {forward} \
-         motions forward and {backward} backward, {} periodic motions between the cases take part{}{}",
-        axes.join(", "),
-        motions.between(),
-        motions.searched().map_or(String::new(), |it| format!(
-            ", found by local search: {}; better ones may lie elsewhere",
-            it.in_words()
-        )),
-        not_shown(&others)
-    )))
+    Ok(canvas.finish(&shown.about()))
 }
 
-/// Whether no axis is held, along which motions between the cases may lie anywhere.
-fn is_whole(view: &View<'_>, free: &[&str]) -> bool {
-    free.len() == view.axes().len()
+/// What both maps show.
+struct Maps<'v, 'a> {
+    view: &'v View<'a>,
+    plane: Plane<'a>,
+    /// The name of the output that should be small.
+    price: &'v str,
+    free: Vec<&'a str>,
+    motions: Motions<'a>,
+    /// The best in each direction, without what the request hides.
+    best: [Best; 2],
+    /// How many motions the front has in each direction.
+    on_fronts: [usize; 2],
+    /// What was found between the cases under conditions, which the maps do not show.
+    under_conditions: Vec<&'a KeptFront>,
+}
+
+impl<'v, 'a> Maps<'v, 'a> {
+    fn of(view: &'v View<'a>) -> Result<Self, FigureError> {
+        let plane = Plane::of(view, "maps of a trade-off")?;
+        let price = price(view.drawing, view.model());
+        let free = view.free_axes();
+        let (alone, under_conditions): (Vec<&KeptFront>, Vec<&KeptFront>) =
+            view.refined.iter().partition(|it| it.conditions.is_empty());
+        // Where an axis is held, motions between the cases may lie anywhere along it.
+        let is_whole = free.len() == view.axes().len();
+        let sought = alone.first().copied().filter(|_| is_whole);
+        let motions = Motions::of(view, price, &free, sought)?;
+        let best = DIRECTIONS.map(|direction| motions.best(direction));
+        let on_fronts = best.each_ref().map(|best| best.front.len());
+        let best = best.map(|best| best.shown(view));
+        Ok(Maps { view, plane, price, free, motions, best, on_fronts, under_conditions })
+    }
+
+    /// Where the motions of the fronts, and the optima, are over the plane.
+    fn path(&self) -> Result<Path, FigureError> {
+        let x = MotionAxis::of(self.view, self.plane.x_name, &self.free)?;
+        let y = MotionAxis::of(self.view, self.plane.y_name, &self.free)?;
+        let fronts = self.best.iter().flat_map(|best| &best.of_all.front);
+        let fronts = fronts.map(|&at| self.motions.at(at));
+        let points = fronts.map(|it| (x.value(&self.motions, it), y.value(&self.motions, it)));
+        let optima = self.best.iter().flat_map(|best| marked(&self.motions, best));
+        let optima = optima
+            .map(|(symbol, it)| (symbol, (x.value(&self.motions, it), y.value(&self.motions, it))));
+        Ok(Path { points: points.collect(), optima: optima.collect() })
+    }
+
+    /// The fastest motion among the cases of each cell, by its magnitude; none where no case of a cell takes part.
+    fn fastest(&self) -> Vec<Option<&Candidate>> {
+        let Maps { view, plane, motions, .. } = self;
+        let mut fastest: Vec<Option<&Candidate>> = vec![None; plane.count()];
+        let [row, column] =
+            [plane.y_name, plane.x_name].map(|axis| view.places_along(axis, &self.free));
+        for motion in motions.cases().iter().filter(|it| motions.counts(it)) {
+            let cell = &mut fastest[row(motion.case) * plane.x.count() + column(motion.case)];
+            if cell.is_none_or(|known| motion.speed.abs() > known.speed.abs()) {
+                *cell = Some(motion);
+            }
+        }
+        fastest
+    }
+
+    /// The free axes with several values over which the fastest motion of a cell is taken.
+    fn searched(&self) -> Vec<&'a str> {
+        let axes = [self.plane.x_name, self.plane.y_name];
+        let others = self.free.iter().copied().filter(|name| !axes.contains(name));
+        others.filter(|name| self.view.coordinate_values(name).len() > 1).collect()
+    }
+
+    /// What the marks mean; cells without a motion are told where there are some.
+    fn legend(&self, path: &Path, has_gaps: bool) -> Vec<Entry> {
+        let mut legend = Vec::new();
+        let names = self.searched().into_iter().map(|name| self.view.quantity(name).short_name());
+        let names = names.reduce(|names, name| names.then(Text::plain(", ")).then(name));
+        legend
+            .extend(names.map(|it| (Mark::Nothing, Text::plain("fastest motion over ").then(it))));
+        if !path.points.is_empty() {
+            legend.push((Mark::Disc(INK, DOT[0]), Text::plain("Pareto fronts")));
+            for (symbol, _) in &path.optima {
+                let entry = (Mark::Symbol(*symbol), Text::plain(symbol.words));
+                if !legend.contains(&entry) {
+                    legend.push(entry);
+                }
+            }
+        }
+        if has_gaps {
+            let text = Text::plain("no motion that takes part");
+            legend.push((Mark::Filled(Fill::NO_VALUE), text));
+        }
+        legend
+    }
+
+    /// The page of both maps, the first under the legend.
+    fn page(&self, legend: Vec<Entry>) -> PageRequest<'_> {
+        let Maps { view, plane, .. } = self;
+        let row =
+            [legend, Vec::new()].into_iter().enumerate().map(|(place, legend)| PanelRequest {
+                x: AxisRequest::new(view.quantity(plane.x_name), plane.x.scale),
+                y: AxisRequest::new(view.quantity(plane.y_name), plane.y.scale),
+                header: Header {
+                    letter: letter(place, 2),
+                    note: view.held_note(&self.free),
+                    legend,
+                },
+            });
+        PageRequest {
+            drawing: view.drawing,
+            width_mm: TWO_COLUMNS,
+            heights: vec![HEIGHT],
+            rows: vec![row.collect()],
+            column_room: NO_ROOM,
+            right_room: NO_ROOM,
+            bottom_room: 0.0,
+            pointing: Pointing::Outward,
+        }
+    }
+
+    /// What the figure shows and leaves out, in a sentence kept inside its files.
+    fn about(&self) -> String {
+        let speed = self.view.model().speed().name();
+        let about = self.view.about(&[speed, self.price].map(str::to_owned), &self.free);
+        let over = self.searched();
+        let among =
+            if over.is_empty() { String::new() } else { format!(" over {}", over.join(", ")) };
+        let [forward, backward] = self.on_fronts;
+        format!(
+            "{about}; in each cell over {} the fastest motion{among}, aperiodic ones by their means; the fronts have {forward} \
+             motions forward and {backward} backward, {} periodic motions between the cases take part{}{}",
+            [self.plane.x_name, self.plane.y_name].join(", "),
+            self.motions.between(),
+            self.motions.searched().map_or(String::new(), |it| format!(
+                ", found by local search: {}; better ones may lie elsewhere",
+                it.in_words()
+            )),
+            not_shown(&self.under_conditions)
+        )
+    }
 }
 
 /// How many motions were found under conditions, which the maps do not show; nothing of none.
@@ -152,74 +267,27 @@ fn not_shown(others: &[&KeptFront]) -> String {
     }
 }
 
-/// Where the motions of the fronts, and the optima, are over two axes.
-fn path(
-    view: &View<'_>,
-    (free, axes): (&[&str], [&str; 2]),
-    (motions, best): (&Motions<'_>, &[Best]),
-) -> Result<Path, FigureError> {
-    let mut along = Vec::new();
-    for name in axes {
+/// An axis of the maps as a coordinate of motions.
+struct MotionAxis {
+    coordinate: Coordinate,
+    /// The value of each case (SI).
+    of_case: Vec<f64>,
+    /// Value shown per value in SI.
+    factor: f64,
+}
+
+impl MotionAxis {
+    /// Fails if the axis is no coordinate of a motion.
+    fn of(view: &View<'_>, name: &str, free: &[&str]) -> Result<MotionAxis, FigureError> {
         let coordinate = Coordinate::all(view.model()).find(|it| it.name() == name);
         let coordinate = coordinate
             .ok_or_else(|| view.unfit(format!("`{name}` is no parameter or start of a motion")))?;
-        let of_case: Vec<f64> = view.parameter(name, free)?.into_iter().collect();
-        along.push((coordinate, of_case, view.quantity(name).factor));
+        let of_case = view.parameter(name, free)?.into_iter().collect();
+        Ok(MotionAxis { coordinate, of_case, factor: view.quantity(name).factor })
     }
-    let place = |motion: &Candidate| {
-        let value = |(coordinate, of_case, factor): &(Coordinate, Vec<f64>, f64)| {
-            value_of((motion, motions.refined(motion)), *coordinate, of_case) * factor
-        };
-        (value(&along[0]), value(&along[1]))
-    };
-    let fronts = best.iter().flat_map(|best| &best.of_all.front);
-    let points = fronts.map(|&at| place(motions.at(at))).collect();
-    let optima = best.iter().flat_map(|best| marked(motions, best));
-    let optima = optima.map(|(symbol, motion)| (symbol, place(motion))).collect();
-    Ok(Path { points, optima })
-}
 
-/// The free axes with several values over which the fastest motion of a cell is taken.
-fn searched<'a>(view: &View<'a>, (free, axes): (&[&'a str], [&str; 2])) -> Vec<&'a str> {
-    let is_other = |name: &&&str| !axes.contains(*name) && view.coordinate_values(name).len() > 1;
-    free.iter().filter(is_other).copied().collect()
-}
-
-/// The fastest motion among the cases of each cell, by its magnitude; none where no case of a cell takes part.
-fn fastest<'m>(
-    view: &View<'_>,
-    (free, plane): (&[&str], &Plane<'_>),
-    motions: &'m Motions<'_>,
-) -> Vec<Option<&'m Candidate>> {
-    let mut fastest: Vec<Option<&Candidate>> = vec![None; plane.count()];
-    let [row, column] = [plane.y_name, plane.x_name].map(|axis| view.places_along(axis, free));
-    for motion in motions.cases().iter().filter(|it| motions.counts(it)) {
-        let cell = &mut fastest[row(motion.case) * plane.x.count() + column(motion.case)];
-        if cell.is_none_or(|known| motion.speed.abs() > known.speed.abs()) {
-            *cell = Some(motion);
-        }
+    /// Where a motion is along it, in the unit shown.
+    fn value(&self, motions: &Motions<'_>, motion: &Candidate) -> f64 {
+        motions.coordinate(motion, self.coordinate, &self.of_case) * self.factor
     }
-    fastest
-}
-
-/// What the marks mean.
-fn legend(view: &View<'_>, path: &Path, (has_gaps, over): (bool, &[&str])) -> Vec<Entry> {
-    let said = |what: &str| Text::plain(what);
-    let mut legend = Vec::new();
-    let names = over.iter().map(|name| view.quantity(name).short_name());
-    let names = names.reduce(|names, name| names.then(said(", ")).then(name));
-    legend.extend(names.map(|it| (Mark::Nothing, said("fastest motion over ").then(it))));
-    if !path.points.is_empty() {
-        legend.push((Mark::Disc(INK, DOT[0]), said("Pareto fronts")));
-        for (symbol, _) in &path.optima {
-            let entry = (Mark::Symbol(*symbol), said(symbol.words));
-            if !legend.contains(&entry) {
-                legend.push(entry);
-            }
-        }
-    }
-    if has_gaps {
-        legend.push((Mark::Filled(Fill::NO_VALUE), said("no motion that takes part")));
-    }
-    legend
 }

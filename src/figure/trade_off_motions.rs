@@ -72,7 +72,8 @@ impl<'a> Motions<'a> {
     /// without any; those between the cases only where no axis is held, as they may lie anywhere along it.
     pub fn of(
         view: &View<'a>,
-        (price, free): (&str, &[&str]),
+        price: &str,
+        free: &[&str],
         sought: Option<&'a KeptFront>,
     ) -> Result<Motions<'a>, FigureError> {
         let Some(output) = view.model().output(price) else {
@@ -84,14 +85,13 @@ impl<'a> Motions<'a> {
             return Err(view.unfit(format!("`{price}` does not have one value per case")));
         }
         let metres = energies_per_metre(view, output, free)?;
-        let candidate = |(case, (price, speed)): (usize, (&f64, &f64))| Candidate {
+        let all = prices.iter().zip(&speeds).enumerate().map(|(case, (price, speed))| Candidate {
             case,
             speed: *speed,
             price: *price,
             energy_per_metre: metres.get(case).copied().unwrap_or(price / speed.abs()),
-        };
+        });
         let count = speeds.len();
-        let all = prices.iter().zip(&speeds).enumerate().map(candidate);
         let mut all: Vec<Candidate> =
             all.filter(|it| it.price.is_finite() && it.speed.is_finite()).collect();
         let of_cases = all.len();
@@ -153,28 +153,37 @@ impl<'a> Motions<'a> {
 
     /// How many cases are shown that are not periodic: those whose means take part, and those that are undecided.
     pub fn aperiodic(&self) -> [usize; 2] {
-        let aperiodic = || self.cases().iter().filter(|it| !self.is_periodic(it));
-        let takes_part = aperiodic().filter(|it| self.outcome(it).is_none_or(takes_part)).count();
-        [takes_part, aperiodic().count() - takes_part]
+        let aperiodic = self.cases().iter().filter(|it| !self.is_periodic(it));
+        let (by_means, undecided): (Vec<&Candidate>, Vec<&Candidate>) =
+            aperiodic.partition(|it| self.outcome(it).is_none_or(takes_part));
+        [by_means.len(), undecided.len()]
     }
 
     /// The best in a direction; cases that are undecided or failed are not among them.
     pub fn best(&self, direction: Direction) -> Best {
         // What does not count is nowhere, so that places stay.
-        let nowhere = |it: &Candidate| match self.counts(it) {
+        let all = self.all.iter().map(|it| match self.counts(it) {
             true => *it,
             false => Candidate { speed: f64::NAN, ..*it },
-        };
-        let all: Vec<Candidate> = self.all.iter().map(nowhere).collect();
-        let best = |motions: &[Candidate]| {
-            let optima = optima(motions, direction, Some(self.at_rest));
-            let point = |&at: &usize| (motions[at].price, motions[at].speed);
-            (optima.front.iter().map(point).collect(), optima)
-        };
-        let (front, of_all) = best(&all);
-        let (front_of_cases, _) = best(&all[..self.of_cases]);
+        });
+        let all: Vec<Candidate> = all.collect();
+        let cases = &all[..self.of_cases];
+        let of_all = optima(&all, direction, Some(self.at_rest));
+        let of_cases = optima(cases, direction, Some(self.at_rest));
+        let (front, front_of_cases) = (points(&of_all, &all), points(&of_cases, cases));
         Best { direction, of_all, front_of_cases, front }
     }
+
+    /// A coordinate of a motion: of one between the cases its own, else from the values at the cases.
+    pub fn coordinate(&self, motion: &Candidate, coordinate: Coordinate, of_case: &[f64]) -> f64 {
+        let refined = self.refined(motion);
+        refined.map_or_else(|| of_case[motion.case], |it| it.coordinate(coordinate))
+    }
+}
+
+/// The front of some motions as prices and speeds (SI).
+fn points(optima: &Optima, motions: &[Candidate]) -> Vec<(f64, f64)> {
+    optima.front.iter().map(|&at| (motions[at].price, motions[at].speed)).collect()
 }
 
 /// The energy per metre of each case (SI), where the results have it and it is not the price over the speed.
@@ -193,21 +202,14 @@ fn energies_per_metre(
     }
 }
 
-/// A coordinate of a motion, which is a case unless it is `refined`, from its values at the cases.
-pub fn value_of(
-    (motion, refined): (&Candidate, Option<&RefinedMotion>),
-    coordinate: Coordinate,
-    of_case: &[f64],
-) -> f64 {
-    refined.map_or_else(|| of_case[motion.case], |it| it.coordinate(coordinate))
-}
-
 /// The coordinates that vary among the cases over the axes `free`.
 pub fn coordinates(view: &View<'_>, free: &[&str]) -> Vec<Coordinate> {
-    let is_long = |name: &str| free.contains(&name) && view.coordinate_values(name).len() > 1;
-    let is_drawn = |name: &str| {
-        let over = view.dataset.variable(name).map(|it| &it.dimensions[..]);
-        free.contains(&DRAW.name) && over.is_some_and(|it| it == [DRAW.name])
-    };
-    Coordinate::all(view.model()).filter(|it| is_long(it.name()) || is_drawn(it.name())).collect()
+    let varying = Coordinate::all(view.model()).filter(|coordinate| {
+        let name = coordinate.name();
+        let is_axis = free.contains(&name) && view.coordinate_values(name).len() > 1;
+        let variable = view.dataset.variable(name);
+        let is_drawn = variable.is_some_and(|it| it.dimensions == [DRAW.name]);
+        is_axis || is_drawn && free.contains(&DRAW.name)
+    });
+    varying.collect()
 }

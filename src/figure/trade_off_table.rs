@@ -7,7 +7,7 @@ use super::quantity::Quantity;
 use super::symbol::Symbol;
 use super::text::Text;
 use super::trade_off_fronts::{Front, marked};
-use super::trade_off_motions::{Best, Motions, coordinates, value_of};
+use super::trade_off_motions::{Best, Motions, coordinates};
 use super::view::View;
 use crate::campaign::RefinedMotion;
 use crate::store::catalogue::DIRECTION;
@@ -19,8 +19,8 @@ pub const BETWEEN: &str = "\u{2217}";
 /// Follows the name of an optimum whose search has not converged.
 pub const OPEN: &str = "\u{2020}";
 
-/// The text of a cell for a motion, which may lie between the cases.
-type Cell<'v> = Box<dyn Fn(&Candidate, Option<&RefinedMotion>) -> Text + 'v>;
+/// The text of a cell for one of some motions.
+type Cell<'v> = Box<dyn Fn(&Motions<'_>, &Candidate) -> Text + 'v>;
 
 /// A column of the table.
 struct Column<'v> {
@@ -31,8 +31,9 @@ struct Column<'v> {
 
 /// The optima of each front and direction with their speeds, their prices by the output `price`, and what varies over the axes `free`.
 pub fn table(
-    (view, free): (&View<'_>, &[&str]),
+    view: &View<'_>,
     price: &str,
+    free: &[&str],
     fronts: &[Front<'_>],
 ) -> Result<Table, FigureError> {
     let columns = columns(view, price, free)?;
@@ -41,10 +42,9 @@ pub fn table(
     for (front, best) in each {
         let motions = &front.motions;
         for (symbol, motion) in marked(motions, best).into_iter().rev() {
-            let refined = motions.refined(motion);
-            let cells = columns.iter().map(|column| (column.cell)(motion, refined)).collect();
+            let cells = columns.iter().map(|column| (column.cell)(motions, motion)).collect();
             let letter = front.letter.map_or(String::new(), |letter| format!(" ({letter})"));
-            let name = Text::plain(&(name(symbol, motions, (best, motion)) + &letter));
+            let name = Text::plain(&(name(symbol, motions, best, motion) + &letter));
             table.rows.push(Row { mark: Mark::Symbol(symbol), name, cells });
         }
     }
@@ -52,7 +52,7 @@ pub fn table(
     Ok(table)
 }
 
-fn name(symbol: Symbol, motions: &Motions<'_>, (best, motion): (&Best, &Candidate)) -> String {
+fn name(symbol: Symbol, motions: &Motions<'_>, best: &Best, motion: &Candidate) -> String {
     let refined = motions.refined(motion);
     let mean = if motions.is_periodic(motion) { "" } else { ", mean" };
     let between = if refined.is_some() { BETWEEN } else { "" };
@@ -82,24 +82,28 @@ fn columns<'v>(
 /// The column of an output.
 fn output<'v>(name: Text, quantity: Quantity, of: fn(&Candidate) -> f64) -> Column<'v> {
     let heading = [name, quantity.unit()];
-    Column { heading, cell: Box::new(move |motion, _| quantity.rounded(of(motion))) }
+    Column { heading, cell: Box::new(move |_, motion| quantity.rounded(of(motion))) }
 }
 
 /// The column of a coordinate that has these values at the cases.
 fn parameter<'v>(quantity: Quantity, coordinate: Coordinate, of_case: Vec<f64>) -> Column<'v> {
     let heading = [quantity.short_name(), quantity.unit()];
-    let cell = move |motion: &Candidate, refined: Option<&RefinedMotion>| {
-        quantity.rounded(value_of((motion, refined), coordinate, &of_case))
-    };
-    Column { heading, cell: Box::new(cell) }
+    Column {
+        heading,
+        cell: Box::new(move |motions, motion| {
+            quantity.rounded(motions.coordinate(motion, coordinate, &of_case))
+        }),
+    }
 }
 
 /// The column of the direction in which the starts of cases were inherited, which motions between them have none of.
 fn sweep<'v>(view: &'v View<'_>, free: &'v [&'v str]) -> Column<'v> {
     let place = view.places_along(DIRECTION.name, free);
-    let cell = move |motion: &Candidate, refined: Option<&RefinedMotion>| match refined {
-        Some(_) => Text::default(),
-        None => view.value_note(DIRECTION.name, place(motion.case)),
-    };
-    Column { heading: [Text::default(), Text::plain("sweep")], cell: Box::new(cell) }
+    Column {
+        heading: [Text::default(), Text::plain("sweep")],
+        cell: Box::new(move |motions, motion| match motions.refined(motion) {
+            Some(_) => Text::default(),
+            None => view.value_note(DIRECTION.name, place(motion.case)),
+        }),
+    }
 }
