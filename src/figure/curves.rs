@@ -217,9 +217,8 @@ pub fn legend(curves: &[Curve]) -> Vec<header::Entry> {
     let mut legend = Vec::new();
     for symbol in SYMBOLS.into_iter().rev() {
         for &period in &periods {
-            let mut curves = curves.iter();
-            let curve = curves.find(|curve| curve.symbol == symbol && curve.period == period);
-            let Some(curve) = curve else { continue };
+            let first = curves.iter().find(|it| it.symbol == symbol && it.period == period);
+            let Some(curve) = first else { continue };
             let words = match periods.len() {
                 1 => symbol.words.to_owned(),
                 _ => format!("{}, period {period}", symbol.words),

@@ -94,10 +94,11 @@ impl Places {
             // The client may have gone away.
             let _ = send.send(whole(compute(), budget));
         })?;
-        let late = |_| Err(Refusal::late(budget, INSTEAD));
-        let told = timeout(budget + GRACE, answer).await.map_or_else(late, |told| {
-            told.unwrap_or_else(|_| Err(Refusal::failed("the computation ended early")))
-        });
+        let told = match timeout(budget + GRACE, answer).await {
+            Ok(Ok(told)) => told,
+            Ok(Err(_)) => Err(Refusal::failed("the computation ended early")),
+            Err(_) => Err(Refusal::late(budget, INSTEAD)),
+        };
         // Until here, as a client that goes away drops it.
         drop(stopping);
         told

@@ -194,18 +194,20 @@ async fn asset(Path(name): Path<String>) -> Result<Response, Refusal> {
 
 async fn file(State(shared): State<Shared>) -> Result<Response, Refusal> {
     let source = shared.source.clone();
-    let told = move || {
-        let (running, explored) = (source.progress(), source.explored()?);
-        explored.answer(|it| Ok(json(&described::described(it, running))))
-    };
-    shared.computations.readings.answer(told).await
+    shared.computations.readings.answer(move || described_now(&source)).await
+}
+
+/// What the page is told of the file as it is now, and how far its run is.
+fn described_now(source: &Source) -> Result<Response, Refusal> {
+    let (running, explored) = (source.progress(), source.explored()?);
+    explored.answer(|it| Ok(json(&described::described(it, running))))
 }
 
 /// Opens the file anew, after another program has changed it.
 async fn anew(State(shared): State<Shared>) -> Result<Response, Refusal> {
     let source = shared.source.clone();
-    let open = move || source.open_anew().map(|()| json(&true));
-    shared.computations.readings.answer(open).await
+    let readings = &shared.computations.readings;
+    readings.answer(move || source.open_anew().map(|()| json(&true))).await
 }
 
 async fn progress(State(shared): State<Shared>) -> Response {
@@ -235,18 +237,18 @@ fn of_file(
 async fn figure(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
     let (asked, explored) = (Asked::new(pairs)?, shared.source.explored()?);
     let folder = shared.folder.clone();
-    let draw = move || explored.answer(|it| saved::figure(it, &asked, folder.path()));
-    shared.computations.heavy.answer(draw).await
+    let heavy = &shared.computations.heavy;
+    heavy.answer(move || explored.answer(|it| saved::figure(it, &asked, folder.path()))).await
 }
 
 async fn line(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
     let (asked, explored) = (Asked::new(pairs)?, shared.source.explored()?);
-    let prepare = move || explored.answer(|it| Line::of(it, &asked));
-    shared.computations.heavy.stream(prepare, Line::compute).await
+    let heavy = &shared.computations.heavy;
+    heavy.stream(move || explored.answer(|it| Line::of(it, &asked)), Line::compute).await
 }
 
 async fn basin(State(shared): State<Shared>, Query(pairs): Pairs) -> Result<Response, Refusal> {
     let (asked, explored) = (Asked::new(pairs)?, shared.source.explored()?);
-    let prepare = move || explored.answer(|it| Basin::of(it, &asked));
-    shared.computations.heavy.stream(prepare, Basin::compute).await
+    let heavy = &shared.computations.heavy;
+    heavy.stream(move || explored.answer(|it| Basin::of(it, &asked)), Basin::compute).await
 }
