@@ -138,11 +138,9 @@ impl Drawn {
 impl Canvas {
     /// An empty page [pt].
     pub fn new(width: f64, height: f64) -> Canvas {
-        {
-            let (missing, fault, unfit, data) = (None, None, None, None);
-            let (body, notes) = (String::new(), Vec::new());
-            Canvas { width, height, body, clips: 0, missing, fault, unfit, data, notes }
-        }
+        let (missing, fault, unfit, data) = (None, None, None, None);
+        let (body, notes) = (String::new(), Vec::new());
+        Canvas { width, height, body, clips: 0, missing, fault, unfit, data, notes }
     }
 
     /// Runs `draw` on a plotters area over the whole page; `attributes` hold for all its shapes.
